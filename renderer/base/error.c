@@ -1,0 +1,81 @@
+// Error values: filling, formatting, collecting.
+#include "renderer/base/error.h"
+
+#include "renderer/base/assert.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Copies the end of an over-long text, which is the part that tells files apart.
+static void copy_tail(char *to, size_t size_bytes, const char *from) {
+    const size_t length = from ? strlen(from) : 0;
+    const size_t skip = length >= size_bytes ? length - size_bytes + 1 : 0;
+    memcpy(to, from ? from + skip : "", length - skip + 1);
+}
+
+bool dip_error_set(DipError *err, DipErrorCode code, const char *file, int line, const char *key,
+                   const char *format, ...) {
+    if (!err) {
+        return false;
+    }
+    *err = (DipError){.code = code, .severity = DIP_SEVERITY_ERROR, .line = line};
+    copy_tail(err->file, sizeof err->file, file);
+    copy_tail(err->key, sizeof err->key, key);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(err->message, sizeof err->message, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+size_t dip_error_format(const DipError *err, char *buffer, size_t size_bytes) {
+    char place[288] = "";
+    if (err->file[0] && err->line > 0) {
+        snprintf(place, sizeof place, "%s:%d: ", err->file, err->line);
+    } else if (err->file[0]) {
+        snprintf(place, sizeof place, "%s: ", err->file);
+    }
+    const char *open = err->key[0] ? "[" : "";
+    const char *close = err->key[0] ? "] " : "";
+    const char *kind = err->severity == DIP_SEVERITY_WARNING ? "warning: " : "";
+    const int length = snprintf(buffer, size_bytes, "%s%s%s%s%s%s", place, kind, open, err->key,
+                                close, err->message);
+    return length < 0 ? 0 : (size_t)length;
+}
+
+const char *dip_error_code_name(DipErrorCode code) {
+    static const char *const names[] = {
+#define DIP_ERROR_NAME(name, text) #name,
+        DIP_ERROR_LIST(DIP_ERROR_NAME)
+#undef DIP_ERROR_NAME
+    };
+    return (size_t)code < DIP_ARRAY_COUNT(names) ? names[code] : "?";
+}
+
+void dip_error_list_add(DipErrorList *list, const DipError *err) {
+    list->error_count += err->severity == DIP_SEVERITY_ERROR;
+    if (list->count == list->capacity) {
+        const size_t capacity = list->capacity ? 2 * list->capacity : 8;
+        DipError *items = realloc(list->items, capacity * sizeof *items);
+        if (!items) {
+            return;
+        }
+        list->items = items;
+        list->capacity = capacity;
+    }
+    list->items[list->count++] = *err;
+}
+
+void dip_error_list_free(DipErrorList *list) {
+    free(list->items);
+    *list = (DipErrorList){0};
+}
+
+#if defined(DIP_ASSERTS) && DIP_ASSERTS
+void dip_assert_failed(const char *condition, const char *file, int line) {
+    fprintf(stderr, "%s:%d: assertion failed: %s\n", file, line, condition);
+    abort();
+}
+#endif

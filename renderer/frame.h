@@ -1,0 +1,77 @@
+// What drawing a frame yields: pixels, counters of work, times and the effects that ran.
+#ifndef DIP_RENDERER_FRAME_H
+#define DIP_RENDERER_FRAME_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// Work done, exact: the same for any thread count, SIMD width and machine.
+// X(name, "what it counts")
+#define DIP_COUNTER_LIST(X)                                                                        \
+    X(triangles_in, "triangles of the objects that are not culled whole")                          \
+    X(triangles_drawn, "triangles left after culling and clipping")                                \
+    X(tile_triangles, "triangles times the tiles they are binned to")                              \
+    X(blocks_tested, "8x8-pixel blocks tested against a triangle's edges")                         \
+    X(blocks_accepted, "of these, blocks wholly inside the triangle")                              \
+    X(fragments_clip_tested, "pixels of alpha-clipped surfaces whose clip map was read")           \
+    X(fragments_shaded, "fragments shaded: pixels times the surfaces seen in them")                \
+    X(pixels_resolved, "pixels whose samples show more than one surface")                          \
+    X(texture_probes, "filtered texture reads, trilinear or bilinear")                             \
+    X(texels_fetched, "texels read by these")
+
+typedef struct DipCounters {
+#define DIP_COUNTER_FIELD(name, text) uint64_t name;
+    DIP_COUNTER_LIST(DIP_COUNTER_FIELD)
+#undef DIP_COUNTER_FIELD
+} DipCounters;
+
+// Wall-clock time of a frame and its parts, milliseconds. The stages of a tile overlap on the
+// workers; their times are the workers' sums scaled to the wall time of the tile phase.
+// X(name, "Title")
+#define DIP_STAGE_LIST(X)                                                                          \
+    X(geometry, "transform, clip, set-up, bins")                                                   \
+    X(raster, "coverage and depth")                                                                \
+    X(shading, "fragments and textures")                                                           \
+    X(resolve, "samples to pixels")
+
+typedef struct DipStageTimes {
+#define DIP_STAGE_FIELD(name, text) double name##_ms;
+    DIP_STAGE_LIST(DIP_STAGE_FIELD)
+#undef DIP_STAGE_FIELD
+    double total_ms;
+} DipStageTimes;
+
+// Whether an effect ran in this frame, and why.
+// X(name, "Title")
+#define DIP_EFFECT_LIST(X)                                                                         \
+    X(alpha_clip, "alpha-clipped surfaces")                                                        \
+    X(light_map, "light map")
+
+typedef struct DipEffect {
+    bool run;
+    const char *why; // static storage
+} DipEffect;
+
+typedef struct DipEffects {
+#define DIP_EFFECT_FIELD(name, text) DipEffect name;
+    DIP_EFFECT_LIST(DIP_EFFECT_FIELD)
+#undef DIP_EFFECT_FIELD
+} DipEffects;
+
+// Owned by the renderer that drew it and valid until it draws, resizes or is destroyed.
+typedef struct DipFrame {
+    const uint8_t *rgba8; // sRGB, alpha 255, the top row first
+    size_t stride_bytes;
+    int width;
+    int height;
+    DipCounters counters;
+    DipStageTimes stages;
+    DipEffects effects;
+} DipFrame;
+
+// 128-bit hash of the frame's pixels (not of its padding or counters) as 32 hex digits. FNV-1a in
+// two lanes: guards determinism, is no protection against forgery.
+void dip_frame_hash(const DipFrame *frame, char hex[33]);
+
+#endif

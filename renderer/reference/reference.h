@@ -1,0 +1,33 @@
+// The reference path: the picture of docs/picture.md in double precision, plain and slow, one
+// sample at a time, no tiles, no SIMD. It reads the scene's description and shares no derived data
+// with the fast path. Single-threaded; give each thread its own.
+#ifndef DIP_RENDERER_REFERENCE_REFERENCE_H
+#define DIP_RENDERER_REFERENCE_REFERENCE_H
+
+#include "renderer/base/error.h"
+#include "renderer/pose.h"
+#include "renderer/quality.h"
+#include "renderer/scene.h"
+
+#include <stdint.h>
+
+typedef struct DipReference DipReference;
+
+// Builds its own decoded mip chains from *def, which is borrowed until destroy.
+DipReference *dip_reference_create(const DipSceneDef *def, DipError *err);
+void dip_reference_destroy(DipReference **reference);
+
+// What the fast path should draw with these settings. rgb_lin: width*height*3 doubles, linear
+// light, resolved but not encoded, the top row first.
+bool dip_reference_draw(const DipReference *reference, const DipQuality *quality,
+                        const DipPose *pose, int width, int height, double *rgb_lin, DipError *err);
+
+// The converged picture: sample_count (a square) jittered samples in a grid per pixel, each shaded
+// at its own place, alpha tested per sample, textures read bilinearly from level 0, positions not
+// rounded; the mean in linear light. seed chooses the jitter: two seeds give independent
+// pictures.
+bool dip_reference_converge(const DipReference *reference, const DipPose *pose, int width,
+                            int height, int sample_count, uint32_t seed, double *rgb_lin,
+                            DipError *err);
+
+#endif
