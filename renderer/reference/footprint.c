@@ -75,5 +75,5 @@ double dip_reference_level(double lambda, double bias, int min_level, int last_l
     const double biased = lambda + bias;
     // NaN fails the comparison and takes the smallest level.
     const double level = biased < last_level ? fmax(biased, first) : last_level;
-    return rint(level * 256.0) / 256.0;
+    return floor(level * 256.0 + 0.5) / 256.0;
 }

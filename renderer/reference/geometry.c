@@ -51,24 +51,38 @@ static double dot3(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The light of sky and sun on a normal of the mesh. Normals turn with the cofactors of the
-// object's matrix, which need no inverse; its sign keeps them outside when the object is mirrored.
-static double light_vertex(const float matrix[12], const float normal[3]) {
+// The matrix that turns an object's normals, and whether the object is mirrored.
+typedef struct Turn {
+    double rows[3][3];
+    bool mirrored;
+} Turn;
+
+// Normals turn with the inverse transpose, whose direction the cofactors have without a division;
+// the sign keeps normals outside when the object is mirrored.
+static Turn find_turn(const float matrix[12]) {
     const double r[3][3] = {{matrix[0], matrix[1], matrix[2]},
                             {matrix[4], matrix[5], matrix[6]},
                             {matrix[8], matrix[9], matrix[10]}};
-    double cofactors[3][3];
+    Turn turn;
     for (int i = 0; i < 3; i++) {
         const double *a = r[(i + 1) % 3];
         const double *b = r[(i + 2) % 3];
         for (int j = 0; j < 3; j++) {
-            cofactors[i][j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
+            turn.rows[i][j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
         }
     }
-    const double sign = dot3(r[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;
-    const double local[3] = {sign * normal[0], sign * normal[1], sign * normal[2]};
-    const double turned[3] = {dot3(cofactors[0], local), dot3(cofactors[1], local),
-                              dot3(cofactors[2], local)};
+    turn.mirrored = dot3(r[0], turn.rows[0]) < 0.0;
+    for (int i = 0; i < 9; i++) {
+        turn.rows[i / 3][i % 3] *= turn.mirrored ? -1.0 : 1.0;
+    }
+    return turn;
+}
+
+// The light of sky and sun on a normal of the mesh.
+static double light_vertex(const Turn *turn, const float normal[3]) {
+    const double local[3] = {normal[0], normal[1], normal[2]};
+    const double turned[3] = {dot3(turn->rows[0], local), dot3(turn->rows[1], local),
+                              dot3(turn->rows[2], local)};
     static const double sun[3] = {-0.42, 0.67, 0.61};
     const double length = sqrt(dot3(turned, turned));
     const double inv_length = length > 0.0 ? 1.0 / length : 0.0;
@@ -76,9 +90,9 @@ static double light_vertex(const float matrix[12], const float normal[3]) {
     return 0.35 + 0.15 * turned[1] * inv_length + 0.65 * fmax(0.0, to_sun);
 }
 
-static ClipVertex transform_vertex(const Camera *camera, const DipObjectDef *object,
-                                   const DipMeshDef *mesh, bool lit, uint32_t index) {
-    const float *m = object->transform;
+// turn NULL: no light from normals.
+static ClipVertex transform_vertex(const Camera *camera, const float m[12], const DipMeshDef *mesh,
+                                   const Turn *turn, uint32_t index) {
     const float *p = mesh->positions + 3 * (size_t)index;
     double from_camera[3];
     for (int i = 0; i < 3; i++) {
@@ -89,17 +103,17 @@ static ClipVertex transform_vertex(const Camera *camera, const DipObjectDef *obj
         .x = camera->scale_x * dot3(camera->rows[0], from_camera),
         .y = camera->scale_y * dot3(camera->rows[1], from_camera),
         .w = -dot3(camera->rows[2], from_camera),
-        .varyings = {0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0},
+        .varyings = {0.0},
     };
     for (int i = 0; i < 2; i++) {
         vertex.varyings[DIP_REF_U0 + i] = mesh->uv0 ? mesh->uv0[2 * (size_t)index + i] : 0.0;
         vertex.varyings[DIP_REF_U1 + i] = mesh->uv1 ? mesh->uv1[2 * (size_t)index + i] : 0.0;
     }
-    for (int i = 0; mesh->colours_lin && i < 3; i++) {
-        vertex.varyings[DIP_REF_RED + i] = mesh->colours_lin[3 * (size_t)index + i];
-    }
-    if (lit && mesh->normals) {
-        vertex.varyings[DIP_REF_LIGHT] = light_vertex(m, mesh->normals + 3 * (size_t)index);
+    const double light =
+        turn && mesh->normals ? light_vertex(turn, mesh->normals + 3 * (size_t)index) : 1.0;
+    for (int i = 0; i < 3; i++) {
+        vertex.varyings[DIP_REF_RED + i] =
+            mesh->colours_lin ? light * mesh->colours_lin[3 * (size_t)index + i] : light;
     }
     return vertex;
 }
@@ -201,11 +215,11 @@ static bool add_piece(const Camera *camera, const ClipVertex *a, const ClipVerte
     v[1] = project(camera, b);
     v[2] = project(camera, c);
     piece.area = find_area(v, camera->rounded);
-    const bool is_front = piece.area < 0.0;
+    const bool is_front = (piece.area < 0.0) != like->mirrored;
     if (piece.area == 0.0 || (!is_front && !piece.material->double_sided)) {
         return true;
     }
-    if (is_front) {
+    if (piece.area < 0.0) {
         const DipRefVertex swapped = v[1];
         v[1] = v[2];
         v[2] = swapped;
@@ -255,14 +269,16 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
 static bool add_object(const DipReference *reference, const Camera *camera,
                        const DipObjectDef *object, DipRefTriangles *triangles) {
     const DipMeshDef *mesh = &reference->def->meshes[object->mesh];
-    const DipRefTriangle like = describe_mesh(reference, mesh);
+    const Turn turn = find_turn(object->transform);
+    DipRefTriangle like = describe_mesh(reference, mesh);
+    like.mirrored = turn.mirrored;
     ClipVertex *vertices = malloc(((size_t)mesh->vertex_count + 1) * sizeof *vertices);
     if (!vertices) {
         return false;
     }
+    const bool lit = like.material->lit && !like.light_map;
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        vertices[i] =
-            transform_vertex(camera, object, mesh, like.material->lit && !like.light_map, i);
+        vertices[i] = transform_vertex(camera, object->transform, mesh, lit ? &turn : NULL, i);
     }
     const bool added = add_mesh(camera, mesh, vertices, &like, triangles);
     free(vertices);

@@ -18,10 +18,9 @@ enum {
     DIP_REF_V0,
     DIP_REF_U1,
     DIP_REF_V1,
-    DIP_REF_RED,
+    DIP_REF_RED, // vertex colour times vertex light
     DIP_REF_GREEN,
     DIP_REF_BLUE,
-    DIP_REF_LIGHT,
     DIP_REF_VARYINGS
 };
 
@@ -41,6 +40,7 @@ typedef struct DipRefTriangle {
     const DipMaterialDef *material;
     const DipRefTexture *colour;    // NULL: no colour texture, or no coordinates for it
     const DipRefTexture *light_map; // likewise
+    bool mirrored;                  // by its object's transform, which turns the winding around
     bool clipped;                   // by the alpha of `colour`
     int min_x, max_x;               // pixels of the frame that it may touch, inclusive
     int min_y, max_y;

@@ -75,8 +75,7 @@ void dip_reference_shade(const DipRefPlace *place, const DipRefFilter *filter, d
     Varyings varyings;
     interpolate(place, 0, DIP_REF_VARYINGS, filter != NULL, &varyings);
     double colour[4] = {1.0, 1.0, 1.0, 1.0};
-    double light[4] = {varyings.value[DIP_REF_LIGHT], varyings.value[DIP_REF_LIGHT],
-                       varyings.value[DIP_REF_LIGHT], 1.0};
+    double light[4] = {1.0, 1.0, 1.0, 1.0};
     double scale = 1.0;
     if (triangle->colour) {
         read_texture(triangle->colour, filter, &varyings, DIP_REF_U0, colour);
