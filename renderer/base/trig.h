@@ -1,4 +1,0 @@
-#ifndef T
-#define T
-double dip_sin(double);double dip_cos(double);
-#endif
