@@ -92,7 +92,7 @@ bool dip_campath_load(const char *file, DipCamPath **path, DipError *err);
 bool dip_campath_parse(const void *bytes, size_t size_bytes, const char *name, DipCamPath **path,
                        DipError *err);
 
-// Each replaces the file. Fails with IO; what was written is then removed.
+// Each replaces the file. Fails with IO; a file half written is then removed.
 bool dip_campath_save_pth(const DipCamPath *path, const char *file, DipError *err);
 bool dip_campath_save_bth(const DipCamPath *path, const char *file, DipError *err);
 

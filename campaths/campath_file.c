@@ -71,8 +71,12 @@ static bool save(const DipCamPath *path, const char *file,
     }
     write(path, stream);
     const bool failed = ferror(stream) != 0;
+    struct stat status;
+    const bool is_regular = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode);
     if (fclose(stream) != 0 || failed) {
-        remove(file);
+        if (is_regular) { // never a device
+            remove(file);
+        }
         return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written to its end");
     }
     return true;

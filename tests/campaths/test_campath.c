@@ -10,9 +10,11 @@
 
 #include <locale.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 static const double PI = 3.14159265358979323846;
@@ -355,8 +357,16 @@ static void files_that_cannot_be_read_or_written_are_named(void **context) {
     assert_false(dip_campath_save_bth(path, "no/such.bth", &err));
     assert_int_equal(err.code, DIP_ERROR_IO);
     assert_string_equal(err.file, "no/such.bth");
-    assert_false(dip_campath_save_pth(path, "/dev/full", &err));
+    // A disk that is full after ten bytes leaves nothing behind.
+    const struct rlimit ten = {10, RLIM_INFINITY};
+    const struct rlimit unlimited = {RLIM_INFINITY, RLIM_INFINITY};
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &ten), 0);
+    const bool saved = dip_campath_save_pth(path, "full.pth", &err);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &unlimited), 0);
+    assert_false(saved);
     assert_int_equal(err.code, DIP_ERROR_IO);
+    assert_int_equal(access("full.pth", F_OK), -1);
     FILE *stream = fopen("huge.pth", "wb"); // sparse: one byte over the limit
     assert_int_equal(fseek(stream, (long)DIP_CAMPATH_MAX_FILE_BYTES, SEEK_SET), 0);
     fputc('x', stream);
@@ -438,7 +448,8 @@ static void the_orbit_shows_the_whole_box(void **context) {
             assert_true(fabs(v[0]) < 2e-4 * -v[2] && fabs(v[1]) < 2e-4 * -v[2]);
             assert_true(pose.position_world[1] > middle[1]);
         }
-        if (!(widest < 1.0 && widest > 0.85)) {
+        // A long box is framed for the end that comes near, hence not tightly.
+        if (!(widest < 1.0 && widest > 0.75)) {
             fail_msg("case %zu: the box reaches to %.3f of the picture", c, widest);
         }
         dip_campath_destroy(&path);
