@@ -132,9 +132,8 @@ static void report(const char *name, const double *rgb_lin, const DipFrame *fram
 bool dip_image_check(const char *name, const double *rgb_lin, const DipFrame *frame,
                      const DipImageBounds *bounds) {
     const DipImageError error = dip_image_compare(rgb_lin, frame, bounds->pixel_lin);
-    const bool kept =
-        error.rms_lin <= bounds->rms_lin && error.max_lin <= bounds->over_max_lin &&
-        (double)error.over_count <= bounds->over_share * frame->width * frame->height;
+    const bool kept = error.rms_lin <= bounds->rms_lin && error.max_lin <= bounds->over_max_lin &&
+                      (double)error.over_count <= bounds->over_share * frame->width * frame->height;
     if (!kept) {
         report(name, rgb_lin, frame, bounds, &error);
     }

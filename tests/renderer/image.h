@@ -12,7 +12,7 @@ typedef struct DipImageError {
     double rms_lin;
     double mean_lin; // of the absolute differences
     double max_lin;
-    double psnr_db; // on sRGB codes; infinite for equal pictures
+    double psnr_db;    // on sRGB codes; infinite for equal pictures
     size_t over_count; // pixels with more than pixel_lin
     int first_x;       // of these, in reading order; -1 for none
     int first_y;

@@ -21,9 +21,8 @@ static void make_grazing_rolled(DipTestScene *scene) {
 
 // Six quads about the origin, facing out, with sides of 1.
 static void add_cube(DipTestScene *scene, int material, const float centre[3]) {
-    static const float axes[6][6] = {{0, 0, -1, 0, 1, 0}, {0, 0, 1, 0, 1, 0},
-                                     {1, 0, 0, 0, 0, -1}, {1, 0, 0, 0, 0, 1},
-                                     {1, 0, 0, 0, 1, 0},  {-1, 0, 0, 0, 1, 0}};
+    static const float axes[6][6] = {{0, 0, -1, 0, 1, 0}, {0, 0, 1, 0, 1, 0}, {1, 0, 0, 0, 0, -1},
+                                     {1, 0, 0, 0, 0, 1},  {1, 0, 0, 0, 1, 0}, {-1, 0, 0, 0, 1, 0}};
     const DipTestMesh mesh =
         dip_test_scene_add_mesh(scene, 24, 36, DIP_TEST_UV0 | DIP_TEST_NORMALS, material);
     for (int f = 0; f < 6; f++) {
@@ -85,9 +84,9 @@ static void make_fence(DipTestScene *scene) {
                             (const float[]){-5, 0, -2}, (const float[]){0, 1.7f, 0}, 4, 1);
 }
 
-static void random_colour(DipTestRandom *random, float rgb[3]) {
+static void random_rgb(Random *random, float rgb[3]) {
     for (int c = 0; c < 3; c++) {
-        rgb[c] = (float)dip_test_random_real(random, 0.0, 1.0);
+        rgb[c] = (float)random_real(random, 0.0, 1.0);
     }
 }
 
@@ -97,21 +96,20 @@ static void make_soup(DipTestScene *scene) {
     const int material = dip_test_scene_add_material(
         scene, dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 32, 32));
     scene->materials[material].double_sided = true;
-    const DipTestMesh mesh = dip_test_scene_add_mesh(
-        scene, 3 * TRIANGLES, 3 * TRIANGLES, DIP_TEST_UV0 | DIP_TEST_COLOURS, material);
-    DipTestRandom random = {7};
+    const DipTestMesh mesh = dip_test_scene_add_mesh(scene, 3 * TRIANGLES, 3 * TRIANGLES,
+                                                     DIP_TEST_UV0 | DIP_TEST_COLOURS, material);
+    Random random = {7};
     for (int t = 0; t < TRIANGLES; t++) {
-        const double depth = dip_test_random_real(&random, -9.0, -1.0);
-        const double centre[3] = {dip_test_random_real(&random, 0.8, -0.8) * depth,
-                                  dip_test_random_real(&random, 0.6, -0.6) * depth, depth};
+        const double depth = random_real(&random, -9.0, -1.0);
+        const double centre[3] = {random_real(&random, 0.8, -0.8) * depth,
+                                  random_real(&random, 0.6, -0.6) * depth, depth};
         for (int v = 3 * t; v < 3 * t + 3; v++) {
             for (int k = 0; k < 3; k++) {
-                mesh.positions[3 * v + k] =
-                    (float)(centre[k] + dip_test_random_real(&random, -0.6, 0.6));
+                mesh.positions[3 * v + k] = (float)(centre[k] + random_real(&random, -0.6, 0.6));
             }
-            mesh.uv0[2 * v] = (float)dip_test_random_real(&random, -1.0, 2.0);
-            mesh.uv0[2 * v + 1] = (float)dip_test_random_real(&random, -1.0, 2.0);
-            random_colour(&random, mesh.colours_lin + 3 * v);
+            mesh.uv0[2 * v] = (float)random_real(&random, -1.0, 2.0);
+            mesh.uv0[2 * v + 1] = (float)random_real(&random, -1.0, 2.0);
+            random_rgb(&random, mesh.colours_lin + 3 * v);
             mesh.indices[v] = (uint32_t)v;
         }
     }
@@ -125,14 +123,13 @@ static void make_slivers(DipTestScene *scene) {
     scene->materials[material].double_sided = true;
     const DipTestMesh mesh =
         dip_test_scene_add_mesh(scene, 3 * TRIANGLES, 3 * TRIANGLES, DIP_TEST_UV0, material);
-    DipTestRandom random = {11};
+    Random random = {11};
     for (int t = 0; t < TRIANGLES; t++) {
-        const double z = dip_test_random_real(&random, -6.0, -2.0);
-        const double angle = dip_test_random_real(&random, 0.0, 2.0 * pi);
-        const double width = pow(10.0, dip_test_random_real(&random, -5.0, -1.0));
+        const double z = random_real(&random, -6.0, -2.0);
+        const double angle = random_real(&random, 0.0, 2.0 * pi);
+        const double width = pow(10.0, random_real(&random, -5.0, -1.0));
         const double along[2] = {cos(angle) * 1.5, sin(angle) * 1.5};
-        const double from[2] = {dip_test_random_real(&random, -2.0, 2.0),
-                                dip_test_random_real(&random, -1.5, 1.5)};
+        const double from[2] = {random_real(&random, -2.0, 2.0), random_real(&random, -1.5, 1.5)};
         const double ends[3][2] = {{from[0], from[1]},
                                    {from[0] + along[0], from[1] + along[1]},
                                    {from[0] + along[0] * 0.4 - along[1] * width,
@@ -166,9 +163,9 @@ static void make_huge(DipTestScene *scene) {
     static const float uv[6] = {-8, 0, 9, 0, 0, 250};
     memcpy(mesh.positions, positions, sizeof positions);
     memcpy(mesh.uv0, uv, sizeof uv);
-    DipTestRandom random = {3};
+    Random random = {3};
     for (uint32_t v = 0; v < 3; v++) {
-        random_colour(&random, mesh.colours_lin + 3 * v);
+        random_rgb(&random, mesh.colours_lin + 3 * v);
         mesh.indices[v] = v;
     }
 }
@@ -240,9 +237,8 @@ static void make_lit_sphere(DipTestScene *scene) {
     scene->materials[material].lit = true;
     scene->materials[material].base_colour_lin[0] = 0.9f;
     scene->materials[material].base_colour_lin[1] = 0.6f;
-    const DipTestMesh mesh =
-        dip_test_scene_add_mesh(scene, (RINGS + 1) * (SECTORS + 1), 6 * RINGS * SECTORS,
-                                DIP_TEST_NORMALS, material);
+    const DipTestMesh mesh = dip_test_scene_add_mesh(
+        scene, (RINGS + 1) * (SECTORS + 1), 6 * RINGS * SECTORS, DIP_TEST_NORMALS, material);
     fill_sphere(&mesh);
     static const float transforms[4][12] = {
         {1, 0, 0, -1.3f, 0, 1, 0, 0.9f, 0, 0, 1, -4},

@@ -41,29 +41,28 @@ void dip_test_scene_begin(DipTestScene *scene) {
     scene->pose = (DipPose){.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
 }
 
-static uint8_t texel_of(DipTestTexture texture, DipTestRandom *random, int x, int y, int channel) {
+static uint8_t texel_of(DipTestTexture texture, Random *random, int x, int y, int channel) {
     if (texture == DIP_TEST_NOISE) {
-        return (uint8_t)dip_test_random_bits(random);
+        return (uint8_t)random_u64(random);
     }
     static const uint8_t light[3] = {250, 230, 190};
     static const uint8_t dark[3] = {20, 30, 60};
     return ((x / 8) ^ (y / 8)) & 1 ? light[channel] : dark[channel];
 }
 
-int dip_test_scene_add_texture(DipTestScene *scene, DipTestTexture texture, int width,
-                               int height) {
+int dip_test_scene_add_texture(DipTestScene *scene, DipTestTexture texture, int width, int height) {
     const size_t count = (size_t)width * (size_t)height;
     uint8_t *rgba8 = dip_test_scene_alloc(scene, count, 4);
-    DipTestRandom random = {(uint64_t)width * 8192 + (uint64_t)height};
+    Random random = {(uint64_t)width * 8192 + (uint64_t)height};
     for (size_t i = 0; i < count; i++) {
         for (int c = 0; c < 3; c++) {
-            rgba8[4 * i + (size_t)c] = texel_of(texture, &random, (int)(i % (size_t)width),
-                                                (int)(i / (size_t)width), c);
+            rgba8[4 * i + (size_t)c] =
+                texel_of(texture, &random, (int)(i % (size_t)width), (int)(i / (size_t)width), c);
         }
         rgba8[4 * i + 3] = 255;
     }
-    scene->textures[scene->def.texture_count] = (DipTextureDef){
-        .name = "test", .width = width, .height = height, .rgba8 = rgba8};
+    scene->textures[scene->def.texture_count] =
+        (DipTextureDef){.name = "test", .width = width, .height = height, .rgba8 = rgba8};
     return scene->def.texture_count++;
 }
 
@@ -122,8 +121,8 @@ DipTestMesh dip_test_scene_add_mesh(DipTestScene *scene, uint32_t vertex_count,
     return mesh;
 }
 
-void dip_test_scene_add_quad(DipTestScene *scene, int material, const float p[3],
-                             const float a[3], const float b[3], float u, float v) {
+void dip_test_scene_add_quad(DipTestScene *scene, int material, const float p[3], const float a[3],
+                             const float b[3], float u, float v) {
     const DipTestMesh mesh = dip_test_scene_add_mesh(scene, 4, 6, DIP_TEST_UV0, material);
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     memcpy(mesh.indices, indices, sizeof indices);
@@ -139,8 +138,8 @@ void dip_test_scene_add_quad(DipTestScene *scene, int material, const float p[3]
 }
 
 void dip_test_scene_add_ground(DipTestScene *scene, int material) {
-    dip_test_scene_add_quad(scene, material, (const float[]){-50, -1, 5}, (const float[]){100, 0, 0},
-                            (const float[]){0, 0, -200}, 100, 200);
+    dip_test_scene_add_quad(scene, material, (const float[]){-50, -1, 5},
+                            (const float[]){100, 0, 0}, (const float[]){0, 0, -200}, 100, 200);
 }
 
 void dip_test_scene_make_grazing(DipTestScene *scene, DipTestTexture texture, int size,

@@ -82,7 +82,7 @@ DipTestMesh dip_test_scene_add_mesh(DipTestScene *scene, uint32_t vertex_count,
                                     uint32_t index_count, int arrays, int material);
 
 // A quad of corner p and sides a and b, facing along a x b, uv0 (0,0)..(u,v) along a and b.
-void dip_test_scene_add_quad(DipTestScene *scene, int material, const float p[3],
-                             const float a[3], const float b[3], float u, float v);
+void dip_test_scene_add_quad(DipTestScene *scene, int material, const float p[3], const float a[3],
+                             const float b[3], float u, float v);
 
 #endif
