@@ -242,11 +242,12 @@ static void make_lit_sphere(DipTestScene *scene) {
     fill_sphere(&mesh);
     static const float transforms[4][12] = {
         {1, 0, 0, -1.3f, 0, 1, 0, 0.9f, 0, 0, 1, -4},
-        {1.2f, 0.3f, 0, 1.4f, 0, 0.4f, 0, 0.9f, 0, 0, 0.8f, -4}, // uneven, sheared
-        {-0.9f, 0, 0, -1.2f, 0, 0.9f, 0, -1.1f, 0, 0, 0.9f, -4}, // mirrored
-        {2e-4f, 0, 0, 0, 0, 2e-4f, 0, 0, 0, 0, 2e-4f, -0.102f},  // a speck before the eye
+        {1.2f, 0.3f, 0, 1.4f, 0, 0.4f, 0, 0.9f, 0, 0, 0.8f, -4},          // uneven, sheared
+        {-0.9f, 0, 0, -1.2f, 0, 0.9f, 0, -1.1f, 0, 0, 0.9f, -4},          // mirrored
+        {4e-4f, 0, 0, 1.2e-3f, 0, 4e-4f, 0, -1e-3f, 0, 0, 4e-4f, -4e-3f}, // tiny, at the eye
     };
     scene->def.object_count = 4;
+    scene->def.near_m = 0.001f;
     for (int i = 0; i < 4; i++) {
         scene->objects[i] = scene->objects[0];
         memcpy(scene->objects[i].transform, transforms[i], sizeof transforms[i]);
