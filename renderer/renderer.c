@@ -185,21 +185,39 @@ static void place(const double m[16], const float transform[12], float product[1
     }
 }
 
-// The cofactors of the transform's 3x3 part, which turn normals as the inverse transpose does.
-static void normal_matrix(const float t[12], float n[9]) {
+// The cofactors of the transform's 3x3 part, which turn normals as the inverse transpose does but
+// for length and, where the transform mirrors, sign.
+static void cofactors(const float t[12], double n[9]) {
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) {
             const float *a = t + 4 * ((r + 1) % 3);
             const float *b = t + 4 * ((r + 2) % 3);
-            n[3 * r + c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
+            n[3 * r + c] =
+                (double)a[(c + 1) % 3] * b[(c + 2) % 3] - (double)a[(c + 2) % 3] * b[(c + 1) % 3];
         }
     }
 }
 
 static bool mirrors(const float t[12]) {
-    float n[9];
-    normal_matrix(t, n);
-    return (t[0] * n[0] + t[1] * n[1]) + t[2] * n[2] < 0.0f;
+    double n[9];
+    cofactors(t, n);
+    return (t[0] * n[0] + t[1] * n[1]) + t[2] * n[2] < 0.0;
+}
+
+// Scaled to a greatest element of 1, so that the shader may normalise what it turns, however small
+// the object is.
+static void normal_matrix(const float t[12], float out[9]) {
+    double n[9];
+    cofactors(t, n);
+    double greatest = 0.0;
+    for (int i = 0; i < 9; i++) {
+        const double size = n[i] < 0.0 ? -n[i] : n[i];
+        greatest = size > greatest ? size : greatest;
+    }
+    const double scale = greatest > 0.0 ? (mirrors(t) ? -1.0 : 1.0) / greatest : 0.0;
+    for (int i = 0; i < 9; i++) {
+        out[i] = (float)(n[i] * scale);
+    }
 }
 
 static DipSampler colour_sampler(const DipRenderer *renderer, const DipTexture *texture) {

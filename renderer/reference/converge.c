@@ -1,0 +1,144 @@
+// The converged picture: planes of one jittered sample per pixel, each drawn whole, averaged.
+#include "renderer/reference/private.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { NOTHING = -1 };
+
+// One sample of every pixel.
+typedef struct Plane {
+    double *x; // the sample's place within the frame, 1/256 pixel
+    double *y;
+    double *depths;
+    int32_t *triangles;
+} Plane;
+
+typedef struct Converging {
+    const DipReference *reference;
+    DipRefTriangles triangles;
+    Plane plane;
+    int width;
+    int height;
+} Converging;
+
+// A bijection of 64-bit numbers whose output bits each depend on all input bits (splitmix64's
+// finaliser): consecutive inputs give unrelated outputs.
+static uint64_t mix(uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+// Places sample `index` of a side x side grid, jittered within its cell, in every pixel.
+static void start_plane(Converging *c, int index, int side, uint32_t seed) {
+    Plane *plane = &c->plane;
+    const uint64_t key = mix(((uint64_t)seed << 32) + (uint64_t)index + 0x9e3779b97f4a7c15u);
+    for (int y = 0; y < c->height; y++) {
+        for (int x = 0; x < c->width; x++) {
+            const size_t pixel = (size_t)y * (size_t)c->width + (size_t)x;
+            const uint64_t random = mix(key ^ mix(pixel + 1));
+            const double jitter_x = (double)(random >> 32) * 0x1p-32;
+            const double jitter_y = (double)(random & 0xffffffffu) * 0x1p-32;
+            plane->x[pixel] = 256.0 * (x + (index % side + jitter_x) / side);
+            plane->y[pixel] = 256.0 * (y + (index / side + jitter_y) / side);
+            plane->depths[pixel] = 0.0;
+            plane->triangles[pixel] = NOTHING;
+        }
+    }
+}
+
+static DipRefPlace place_at(const DipRefTriangle *triangle, double x, double y) {
+    const DipRefVertex *v = triangle->vertices;
+    return (DipRefPlace){triangle,
+                         {(v[2].x - v[1].x) * (y - v[1].y) - (v[2].y - v[1].y) * (x - v[1].x),
+                          (v[0].x - v[2].x) * (y - v[2].y) - (v[0].y - v[2].y) * (x - v[2].x),
+                          (v[1].x - v[0].x) * (y - v[0].y) - (v[1].y - v[0].y) * (x - v[0].x)}};
+}
+
+static void draw_in_pixel(Converging *c, int32_t index, size_t pixel) {
+    const DipRefTriangle *triangle = &c->triangles.items[index];
+    const DipRefPlace place = place_at(triangle, c->plane.x[pixel], c->plane.y[pixel]);
+    if (place.edges[0] < 0.0 || place.edges[1] < 0.0 || place.edges[2] < 0.0) {
+        return;
+    }
+    const double depth = dip_reference_depth(&place, c->reference->def->near_m);
+    if (depth <= c->plane.depths[pixel]) {
+        return;
+    }
+    if (triangle->clipped &&
+        dip_reference_alpha(&place, NULL) < (double)triangle->material->alpha_cutoff) {
+        return;
+    }
+    c->plane.depths[pixel] = depth;
+    c->plane.triangles[pixel] = index;
+}
+
+static void draw_plane(Converging *c) {
+    for (size_t t = 0; t < c->triangles.count; t++) {
+        const DipRefTriangle *triangle = &c->triangles.items[t];
+        for (int y = triangle->min_y; y <= triangle->max_y; y++) {
+            for (int x = triangle->min_x; x <= triangle->max_x; x++) {
+                draw_in_pixel(c, (int32_t)t, (size_t)y * (size_t)c->width + (size_t)x);
+            }
+        }
+    }
+}
+
+static void add_plane(const Converging *c, double weight, double *rgb_lin) {
+    const size_t pixel_count = (size_t)c->width * (size_t)c->height;
+    for (size_t pixel = 0; pixel < pixel_count; pixel++) {
+        const float *background = c->reference->def->background_lin;
+        double rgb[3] = {background[0], background[1], background[2]};
+        if (c->plane.triangles[pixel] != NOTHING) {
+            const DipRefPlace place = place_at(&c->triangles.items[c->plane.triangles[pixel]],
+                                               c->plane.x[pixel], c->plane.y[pixel]);
+            dip_reference_shade(&place, NULL, rgb);
+        }
+        for (size_t i = 0; i < 3; i++) {
+            rgb_lin[3 * pixel + i] += weight * rgb[i];
+        }
+    }
+}
+
+static bool make_plane(Converging *c, DipError *err) {
+    const size_t count = (size_t)c->width * (size_t)c->height;
+    Plane *plane = &c->plane;
+    plane->x = malloc(count * sizeof *plane->x);
+    plane->y = malloc(count * sizeof *plane->y);
+    plane->depths = malloc(count * sizeof *plane->depths);
+    plane->triangles = malloc(count * sizeof *plane->triangles);
+    return (plane->x && plane->y && plane->depths && plane->triangles) ||
+           dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for %zu samples", count);
+}
+
+bool dip_reference_converge(const DipReference *reference, const DipPose *pose, int width,
+                            int height, int sample_count, uint32_t seed, double *rgb_lin,
+                            DipError *err) {
+    const int side = sample_count > 0 ? (int)lround(sqrt(sample_count)) : 0;
+    if (sample_count < 1 || side * side != sample_count) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "samples",
+                             "%d per pixel, accepted squares", sample_count);
+    }
+    if (!dip_reference_check_size(width, height, err)) {
+        return false;
+    }
+    Converging c = {.reference = reference, .width = width, .height = height};
+    const bool converged =
+        make_plane(&c, err) &&
+        dip_reference_build_triangles(reference, pose, width, height, false, &c.triangles, err);
+    for (size_t i = 0; converged && i < (size_t)width * (size_t)height * 3; i++) {
+        rgb_lin[i] = 0.0;
+    }
+    for (int s = 0; converged && s < sample_count; s++) {
+        start_plane(&c, s, side, seed);
+        draw_plane(&c);
+        add_plane(&c, 1.0 / sample_count, rgb_lin);
+    }
+    dip_reference_triangles_free(&c.triangles);
+    free(c.plane.x);
+    free(c.plane.y);
+    free(c.plane.depths);
+    free(c.plane.triangles);
+    return converged;
+}

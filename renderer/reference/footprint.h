@@ -1,0 +1,23 @@
+// Private to the reference path (and its tests): level of detail and anisotropy of a footprint.
+#ifndef DIP_RENDERER_REFERENCE_FOOTPRINT_H
+#define DIP_RENDERER_REFERENCE_FOOTPRINT_H
+
+#include <stdbool.h>
+
+typedef struct DipFootprint {
+    double major_texels[2]; // the line that the probes lie on, its whole length, in level 0
+    double eta;             // anisotropy that is made up for by probes, 1..max
+    int probe_count;        // 1..max
+    double lambda;          // before bias and clamping; may be infinite or NaN
+} DipFootprint;
+
+// ddx and ddy: the Jacobian in texels of level 0 per pixel. max_anisotropy 1 is trilinear, for
+// which `advanced` has no meaning. For a Jacobian that is not finite: one probe, lambda NaN.
+DipFootprint dip_reference_footprint(const double ddx[2], const double ddy[2], int max_anisotropy,
+                                     bool advanced);
+
+// The level to read, in steps of 1/256 within [min_level, last_level]; last_level wins where the
+// chain is shorter than min_level.
+double dip_reference_level(double lambda, double bias, int min_level, int last_level);
+
+#endif

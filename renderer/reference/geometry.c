@@ -1,0 +1,305 @@
+// From the scene's meshes to screen triangles: transform, vertex light, near plane, facing.
+#include "renderer/reference/private.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+// A vertex before the division by w.
+typedef struct ClipVertex {
+    double x; // clip space
+    double y;
+    double w; // distance along the view axis, metres
+    double varyings[DIP_REF_VARYINGS];
+} ClipVertex;
+
+typedef struct Camera {
+    double position[3];
+    double rows[3][3]; // world to camera
+    double scale_x;    // clip.x = scale_x * x
+    double scale_y;
+    double width_px;
+    double height_px;
+    double near_m;
+    bool rounded;
+} Camera;
+
+static Camera make_camera(const DipPose *pose, int width, int height, double near_m, bool rounded) {
+    const double *q = pose->orientation;
+    const double s = 2.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    const double focal = 1.0 / tan(pose->fov_y_deg * (pi / 360.0));
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    // The transpose of the matrix that turns camera space into world space.
+    const Camera camera = {
+        .position = {pose->position_world[0], pose->position_world[1], pose->position_world[2]},
+        .rows = {{1.0 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)},
+                 {s * (x * y - z * w), 1.0 - s * (x * x + z * z), s * (y * z + x * w)},
+                 {s * (x * z + y * w), s * (y * z - x * w), 1.0 - s * (x * x + y * y)}},
+        .scale_x = focal * height / width,
+        .scale_y = focal,
+        .width_px = width,
+        .height_px = height,
+        .near_m = near_m,
+        .rounded = rounded,
+    };
+    return camera;
+}
+
+static double dot3(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// The matrix that turns an object's normals, and whether the object is mirrored.
+typedef struct Turn {
+    double rows[3][3];
+    bool mirrored;
+} Turn;
+
+// Normals turn with the inverse transpose, whose direction the cofactors have without a division;
+// the sign keeps normals outside when the object is mirrored.
+static Turn find_turn(const float matrix[12]) {
+    const double r[3][3] = {{matrix[0], matrix[1], matrix[2]},
+                            {matrix[4], matrix[5], matrix[6]},
+                            {matrix[8], matrix[9], matrix[10]}};
+    Turn turn;
+    for (int i = 0; i < 3; i++) {
+        const double *a = r[(i + 1) % 3];
+        const double *b = r[(i + 2) % 3];
+        for (int j = 0; j < 3; j++) {
+            turn.rows[i][j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
+        }
+    }
+    turn.mirrored = dot3(r[0], turn.rows[0]) < 0.0;
+    for (int i = 0; i < 9; i++) {
+        turn.rows[i / 3][i % 3] *= turn.mirrored ? -1.0 : 1.0;
+    }
+    return turn;
+}
+
+// The light of sky and sun on a normal of the mesh.
+static double light_vertex(const Turn *turn, const float normal[3]) {
+    const double local[3] = {normal[0], normal[1], normal[2]};
+    const double turned[3] = {dot3(turn->rows[0], local), dot3(turn->rows[1], local),
+                              dot3(turn->rows[2], local)};
+    static const double sun[3] = {-0.42, 0.67, 0.61};
+    const double length = sqrt(dot3(turned, turned));
+    const double inv_length = length > 0.0 ? 1.0 / length : 0.0;
+    const double to_sun = dot3(turned, sun) * inv_length / sqrt(dot3(sun, sun));
+    return 0.35 + 0.15 * turned[1] * inv_length + 0.65 * fmax(0.0, to_sun);
+}
+
+// turn NULL: no light from normals.
+static ClipVertex transform_vertex(const Camera *camera, const float m[12], const DipMeshDef *mesh,
+                                   const Turn *turn, uint32_t index) {
+    const float *p = mesh->positions + 3 * (size_t)index;
+    double from_camera[3];
+    for (int i = 0; i < 3; i++) {
+        from_camera[i] = (double)m[4 * i] * p[0] + (double)m[4 * i + 1] * p[1] +
+                         (double)m[4 * i + 2] * p[2] + m[4 * i + 3] - camera->position[i];
+    }
+    ClipVertex vertex = {
+        .x = camera->scale_x * dot3(camera->rows[0], from_camera),
+        .y = camera->scale_y * dot3(camera->rows[1], from_camera),
+        .w = -dot3(camera->rows[2], from_camera),
+        .varyings = {0.0},
+    };
+    for (int i = 0; i < 2; i++) {
+        vertex.varyings[DIP_REF_U0 + i] = mesh->uv0 ? mesh->uv0[2 * (size_t)index + i] : 0.0;
+        vertex.varyings[DIP_REF_U1 + i] = mesh->uv1 ? mesh->uv1[2 * (size_t)index + i] : 0.0;
+    }
+    const double light =
+        turn && mesh->normals ? light_vertex(turn, mesh->normals + 3 * (size_t)index) : 1.0;
+    for (int i = 0; i < 3; i++) {
+        vertex.varyings[DIP_REF_RED + i] =
+            mesh->colours_lin ? light * mesh->colours_lin[3 * (size_t)index + i] : light;
+    }
+    return vertex;
+}
+
+static bool is_finite(const ClipVertex *vertex) {
+    return isfinite(vertex->x) && isfinite(vertex->y) && isfinite(vertex->w);
+}
+
+// Where an edge that leaves through the near plane meets it.
+static ClipVertex cut_edge(const ClipVertex *inside, const ClipVertex *outside, double near_m) {
+    const double t = (inside->w - near_m) / (inside->w - outside->w);
+    ClipVertex cut = {.x = inside->x + (outside->x - inside->x) * t,
+                      .y = inside->y + (outside->y - inside->y) * t,
+                      .w = near_m};
+    for (int i = 0; i < DIP_REF_VARYINGS; i++) {
+        cut.varyings[i] = inside->varyings[i] + (outside->varyings[i] - inside->varyings[i]) * t;
+    }
+    return cut;
+}
+
+// Keeps what is at the near plane or beyond it; returns the number of corners, 0, 3 or 4.
+static int clip_near(const ClipVertex *const corners[3], double near_m, ClipVertex polygon[4]) {
+    int count = 0;
+    for (int i = 0; i < 3; i++) {
+        const ClipVertex *here = corners[i];
+        const ClipVertex *next = corners[(i + 1) % 3];
+        const bool here_inside = here->w >= near_m;
+        const bool next_inside = next->w >= near_m;
+        if (here_inside) {
+            polygon[count++] = *here;
+        }
+        if (here_inside != next_inside) {
+            polygon[count++] =
+                here_inside ? cut_edge(here, next, near_m) : cut_edge(next, here, near_m);
+        }
+    }
+    return count >= 3 ? count : 0;
+}
+
+// Positions stay below 2^40 steps, so that their products fit 128 bits and doubles hold them.
+static double to_steps(double px, bool rounded) {
+    const double steps = fmin(fmax(px * 256.0, -0x1p40), 0x1p40);
+    return rounded ? rint(steps) : steps;
+}
+
+static DipRefVertex project(const Camera *camera, const ClipVertex *vertex) {
+    DipRefVertex screen = {
+        .x = to_steps((vertex->x / vertex->w + 1.0) * camera->width_px * 0.5, camera->rounded),
+        .y = to_steps((1.0 - vertex->y / vertex->w) * camera->height_px * 0.5, camera->rounded),
+        .inv_w = 1.0 / vertex->w,
+    };
+    memcpy(screen.varyings, vertex->varyings, sizeof screen.varyings);
+    return screen;
+}
+
+__extension__ typedef __int128 Int128;
+
+// Twice the area, positive where the corners go clockwise to the eye (y points down). Exact for
+// rounded positions.
+static double find_area(const DipRefVertex v[3], bool rounded) {
+    const double x1 = v[1].x - v[0].x, y1 = v[1].y - v[0].y;
+    const double x2 = v[2].x - v[0].x, y2 = v[2].y - v[0].y;
+    if (!rounded) {
+        return x1 * y2 - y1 * x2;
+    }
+    return (double)((Int128)(int64_t)x1 * (int64_t)y2 - (Int128)(int64_t)y1 * (int64_t)x2);
+}
+
+// The pixels between two places in steps of 1/256 pixel, cut to the frame; one more at either
+// end, since samples may lie anywhere in a pixel.
+static bool find_pixels(double a, double b, double c, int size_px, int *first, int *last) {
+    const double from = floor(fmin(a, fmin(b, c)) / 256.0) - 1.0;
+    const double to = floor(fmax(a, fmax(b, c)) / 256.0) + 1.0;
+    *first = (int)fmin(fmax(from, 0.0), size_px);
+    *last = (int)fmin(fmax(to, -1.0), size_px - 1.0);
+    return *first <= *last;
+}
+
+static bool append(DipRefTriangles *triangles, const DipRefTriangle *triangle) {
+    if (triangles->count == triangles->capacity) {
+        const size_t capacity = triangles->capacity ? 2 * triangles->capacity : 1024;
+        DipRefTriangle *items = realloc(triangles->items, capacity * sizeof *items);
+        if (!items) {
+            return false;
+        }
+        triangles->items = items;
+        triangles->capacity = capacity;
+    }
+    triangles->items[triangles->count++] = *triangle;
+    return true;
+}
+
+// Adds a piece of a triangle if it can be seen. *like has what is common to its mesh.
+static bool add_piece(const Camera *camera, const ClipVertex *a, const ClipVertex *b,
+                      const ClipVertex *c, const DipRefTriangle *like, DipRefTriangles *triangles) {
+    DipRefTriangle piece = *like;
+    DipRefVertex *v = piece.vertices;
+    v[0] = project(camera, a);
+    v[1] = project(camera, b);
+    v[2] = project(camera, c);
+    piece.area = find_area(v, camera->rounded);
+    const bool is_front = (piece.area < 0.0) != like->mirrored;
+    if (piece.area == 0.0 || (!is_front && !piece.material->double_sided)) {
+        return true;
+    }
+    if (piece.area < 0.0) {
+        const DipRefVertex swapped = v[1];
+        v[1] = v[2];
+        v[2] = swapped;
+        piece.area = -piece.area;
+    }
+    if (!find_pixels(v[0].x, v[1].x, v[2].x, (int)camera->width_px, &piece.min_x, &piece.max_x) ||
+        !find_pixels(v[0].y, v[1].y, v[2].y, (int)camera->height_px, &piece.min_y, &piece.max_y)) {
+        return true;
+    }
+    return append(triangles, &piece);
+}
+
+static bool add_mesh(const Camera *camera, const DipMeshDef *mesh, const ClipVertex *vertices,
+                     const DipRefTriangle *like, DipRefTriangles *triangles) {
+    for (uint32_t i = 0; i < mesh->index_count; i += 3) {
+        const ClipVertex *corners[3] = {&vertices[mesh->indices[i]],
+                                        &vertices[mesh->indices[i + 1]],
+                                        &vertices[mesh->indices[i + 2]]};
+        if (!is_finite(corners[0]) || !is_finite(corners[1]) || !is_finite(corners[2])) {
+            continue;
+        }
+        ClipVertex polygon[4];
+        const int count = clip_near(corners, camera->near_m, polygon);
+        for (int k = 2; k < count; k++) {
+            if (!add_piece(camera, &polygon[0], &polygon[k - 1], &polygon[k], like, triangles)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// What all triangles of a mesh have in common.
+static DipRefTriangle describe_mesh(const DipReference *reference, const DipMeshDef *mesh) {
+    const DipMaterialDef *material = &reference->def->materials[mesh->material];
+    DipRefTriangle like = {.material = material};
+    if (material->colour_texture != DIP_NO_TEXTURE && mesh->uv0) {
+        like.colour = &reference->textures[material->colour_texture];
+    }
+    if (material->light_map != DIP_NO_TEXTURE && mesh->uv1) {
+        like.light_map = &reference->textures[material->light_map];
+    }
+    like.clipped = material->surface == DIP_SURFACE_CLIPPED && like.colour;
+    return like;
+}
+
+static bool add_object(const DipReference *reference, const Camera *camera,
+                       const DipObjectDef *object, DipRefTriangles *triangles) {
+    const DipMeshDef *mesh = &reference->def->meshes[object->mesh];
+    const Turn turn = find_turn(object->transform);
+    DipRefTriangle like = describe_mesh(reference, mesh);
+    like.mirrored = turn.mirrored;
+    ClipVertex *vertices = malloc(((size_t)mesh->vertex_count + 1) * sizeof *vertices);
+    if (!vertices) {
+        return false;
+    }
+    const bool lit = like.material->lit && !like.light_map;
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        vertices[i] = transform_vertex(camera, object->transform, mesh, lit ? &turn : NULL, i);
+    }
+    const bool added = add_mesh(camera, mesh, vertices, &like, triangles);
+    free(vertices);
+    return added;
+}
+
+bool dip_reference_build_triangles(const DipReference *reference, const DipPose *pose, int width,
+                                   int height, bool rounded, DipRefTriangles *triangles,
+                                   DipError *err) {
+    const Camera camera = make_camera(pose, width, height, reference->def->near_m, rounded);
+    *triangles = (DipRefTriangles){0};
+    for (int o = 0; o < reference->def->object_count; o++) {
+        if (!add_object(reference, &camera, &reference->def->objects[o], triangles)) {
+            dip_reference_triangles_free(triangles);
+            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for triangles");
+        }
+    }
+    return true;
+}
+
+void dip_reference_triangles_free(DipRefTriangles *triangles) {
+    free(triangles->items);
+    *triangles = (DipRefTriangles){0};
+}

@@ -1,0 +1,79 @@
+// Private to the reference path: its scene, its triangles and what they share.
+#ifndef DIP_RENDERER_REFERENCE_PRIVATE_H
+#define DIP_RENDERER_REFERENCE_PRIVATE_H
+
+#include "renderer/reference/reference.h"
+#include "renderer/reference/texture.h"
+
+#include <stddef.h>
+
+struct DipReference {
+    const DipSceneDef *def;  // borrowed
+    DipRefTexture *textures; // by the description's index; those that nothing shows have no levels
+};
+
+// What a vertex carries beside its place, interpolated perspective-correctly.
+enum {
+    DIP_REF_U0,
+    DIP_REF_V0,
+    DIP_REF_U1,
+    DIP_REF_V1,
+    DIP_REF_RED, // vertex colour times vertex light
+    DIP_REF_GREEN,
+    DIP_REF_BLUE,
+    DIP_REF_VARYINGS
+};
+
+enum { DIP_REF_COORDINATES = 4 }; // the first of them, which also need derivatives
+
+typedef struct DipRefVertex {
+    double x; // screen, 1/256 pixel, right
+    double y; // down
+    double inv_w;
+    double varyings[DIP_REF_VARYINGS];
+} DipRefVertex;
+
+// Clipped, seen from the side that shows, wound so that its area is positive with y down.
+typedef struct DipRefTriangle {
+    DipRefVertex vertices[3];
+    double area; // twice the area, in 1/256 pixel squared
+    const DipMaterialDef *material;
+    const DipRefTexture *colour;    // NULL: no colour texture, or no coordinates for it
+    const DipRefTexture *light_map; // likewise
+    bool mirrored;                  // by its object's transform, which turns the winding around
+    bool clipped;                   // by the alpha of `colour`
+    int min_x, max_x;               // pixels of the frame that it may touch, inclusive
+    int min_y, max_y;
+} DipRefTriangle;
+
+typedef struct DipRefTriangles {
+    DipRefTriangle *items;
+    size_t count;
+    size_t capacity;
+} DipRefTriangles;
+
+// All triangles that may be seen, in submission order. rounded: positions are rounded to whole
+// steps of 1/256 pixel before anything is decided on them.
+bool dip_reference_build_triangles(const DipReference *reference, const DipPose *pose, int width,
+                                   int height, bool rounded, DipRefTriangles *triangles,
+                                   DipError *err);
+void dip_reference_triangles_free(DipRefTriangles *triangles);
+
+// A triangle at one place: edge functions there (the weights of its vertices, up to a factor).
+typedef struct DipRefPlace {
+    const DipRefTriangle *triangle;
+    double edges[3];
+} DipRefPlace;
+
+double dip_reference_depth(const DipRefPlace *place, double near_m);
+
+// Alpha of a clipped surface. filter NULL: bilinear, level 0.
+double dip_reference_alpha(const DipRefPlace *place, const DipRefFilter *filter);
+
+// Linear light, 0..1. filter is the colour texture's; NULL: bilinear, level 0, for all textures.
+void dip_reference_shade(const DipRefPlace *place, const DipRefFilter *filter, double rgb[3]);
+
+// The size is one that a frame may have.
+bool dip_reference_check_size(int width, int height, DipError *err);
+
+#endif

@@ -1,0 +1,105 @@
+// The reference's scene: checks the description and decodes the textures that are shown.
+#include "renderer/reference/private.h"
+
+#include "renderer/renderer.h"
+
+#include <stdlib.h>
+
+static bool check_index(const char *name, const char *what, int index, int count, int least,
+                        DipError *err) {
+    return (index >= least && index < count) ||
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, name, "%s %d, accepted %d..%d", what, index,
+                         least, count - 1);
+}
+
+static bool check_mesh(const DipMeshDef *mesh, int material_count, DipError *err) {
+    if (!check_index(mesh->name, "material", mesh->material, material_count, 0, err)) {
+        return false;
+    }
+    if (mesh->index_count % 3 != 0) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, mesh->name,
+                             "%u indices, accepted multiples of 3", mesh->index_count);
+    }
+    for (uint32_t i = 0; i < mesh->index_count; i++) {
+        if (mesh->indices[i] >= mesh->vertex_count) {
+            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, mesh->name,
+                                 "index %u of %u vertices", mesh->indices[i], mesh->vertex_count);
+        }
+    }
+    return true;
+}
+
+static bool check_scene(const DipSceneDef *def, DipError *err) {
+    for (int m = 0; m < def->material_count; m++) {
+        const DipMaterialDef *material = &def->materials[m];
+        if (!check_index(material->name, "colour texture", material->colour_texture,
+                         def->texture_count, DIP_NO_TEXTURE, err) ||
+            !check_index(material->name, "light map", material->light_map, def->texture_count,
+                         DIP_NO_TEXTURE, err)) {
+            return false;
+        }
+    }
+    for (int m = 0; m < def->mesh_count; m++) {
+        if (!check_mesh(&def->meshes[m], def->material_count, err)) {
+            return false;
+        }
+    }
+    for (int o = 0; o < def->object_count; o++) {
+        if (!check_index(def->objects[o].name, "mesh", def->objects[o].mesh, def->mesh_count, 0,
+                         err)) {
+            return false;
+        }
+    }
+    return def->near_m > 0.0f || dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "near",
+                                               "%g m, accepted > 0", (double)def->near_m);
+}
+
+static bool load_texture(DipReference *reference, int index, DipError *err) {
+    return index == DIP_NO_TEXTURE || reference->textures[index].level_count > 0 ||
+           dip_reference_texture_init(&reference->textures[index], &reference->def->textures[index],
+                                      err);
+}
+
+DipReference *dip_reference_create(const DipSceneDef *def, DipError *err) {
+    if (!check_scene(def, err)) {
+        return NULL;
+    }
+    DipReference *reference = calloc(1, sizeof *reference);
+    if (!reference) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reference");
+        return NULL;
+    }
+    reference->def = def;
+    reference->textures = calloc((size_t)def->texture_count + 1, sizeof *reference->textures);
+    bool loaded = reference->textures != NULL;
+    if (!loaded) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reference");
+    }
+    for (int m = 0; loaded && m < def->material_count; m++) {
+        loaded = load_texture(reference, def->materials[m].colour_texture, err) &&
+                 load_texture(reference, def->materials[m].light_map, err);
+    }
+    if (!loaded) {
+        dip_reference_destroy(&reference);
+    }
+    return reference;
+}
+
+void dip_reference_destroy(DipReference **reference) {
+    if (!*reference) {
+        return;
+    }
+    for (int t = 0; (*reference)->textures && t < (*reference)->def->texture_count; t++) {
+        dip_reference_texture_free(&(*reference)->textures[t]);
+    }
+    free((*reference)->textures);
+    free(*reference);
+    *reference = NULL;
+}
+
+bool dip_reference_check_size(int width, int height, DipError *err) {
+    return (width >= 1 && width <= DIP_MAX_FRAME_SIZE && height >= 1 &&
+            height <= DIP_MAX_FRAME_SIZE) ||
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "size", "%dx%d, accepted 1..%d", width,
+                         height, DIP_MAX_FRAME_SIZE);
+}

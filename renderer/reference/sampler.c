@@ -1,0 +1,160 @@
+// Reading textures: wrap, bilinear, trilinear, anisotropic, mip colours.
+#include "renderer/reference/footprint.h"
+#include "renderer/reference/texture.h"
+
+#include <math.h>
+
+// The index of a texel beside the edge, as the axis' address mode has it. The texel is a whole
+// number in double, so that no coordinate is too large to convert.
+static int address(double texel, int size, DipWrap wrap) {
+    if (!isfinite(texel)) {
+        return 0;
+    }
+    if (wrap == DIP_WRAP_CLAMP) {
+        return (int)fmin(fmax(texel, 0.0), size - 1.0);
+    }
+    const double wrapped = fmod(texel, size); // exact
+    return (int)(wrapped < 0.0 ? wrapped + size : wrapped);
+}
+
+// The two texels that a coordinate lies between and how far it is from the first to the second.
+typedef struct Pair {
+    int index[2];
+    double fraction;
+} Pair;
+
+// grain: the coordinate is rounded down to 1/grain texel; 0: not at all.
+static Pair find_pair(double coordinate, int size, DipWrap wrap, double grain) {
+    double place = coordinate * size - 0.5;
+    if (grain > 0.0) {
+        place = floor(place * grain) / grain;
+    }
+    const double first = floor(place);
+    return (Pair){{address(first, size, wrap), address(first + 1.0, size, wrap)},
+                  isfinite(place) ? place - first : 0.0};
+}
+
+static void sample_bilinear(const DipRefTexture *texture, int level, const double uv[2],
+                            double grain, double rgba[4]) {
+    const Pair x = find_pair(uv[0], texture->widths[level], texture->def->wrap_u, grain);
+    const Pair y = find_pair(uv[1], texture->heights[level], texture->def->wrap_v, grain);
+    double corner[2][2][4];
+    for (int j = 0; j < 2; j++) {
+        for (int i = 0; i < 2; i++) {
+            dip_reference_texel(texture, level, x.index[i], y.index[j], corner[j][i]);
+        }
+    }
+    for (int c = 0; c < 4; c++) {
+        const double top = corner[0][0][c] + (corner[0][1][c] - corner[0][0][c]) * x.fraction;
+        const double bottom = corner[1][0][c] + (corner[1][1][c] - corner[1][0][c]) * x.fraction;
+        rgba[c] = top + (bottom - top) * y.fraction;
+    }
+}
+
+void dip_reference_sample_finest(const DipRefTexture *texture, const double uv[2], double rgba[4]) {
+    sample_bilinear(texture, 0, uv, 0.0, rgba);
+}
+
+static void sample_trilinear(const DipRefTexture *texture, double level, const double uv[2],
+                             double rgba[4]) {
+    const int finer = (int)level;
+    const double fraction = level - finer;
+    sample_bilinear(texture, finer, uv, 256.0, rgba);
+    if (fraction > 0.0) {
+        double coarser[4];
+        sample_bilinear(texture, finer + 1, uv, 256.0, coarser);
+        for (int c = 0; c < 4; c++) {
+            rgba[c] += (coarser[c] - rgba[c]) * fraction;
+        }
+    }
+}
+
+static void mip_colour(const DipRefTexture *texture, int level, double rgb[3]) {
+    static const struct {
+        int size;
+        double srgb8[3];
+    } colours[] = {
+        {1024, {0, 0, 0}},   {512, {128, 0, 0}}, {256, {255, 0, 0}}, {128, {255, 128, 0}},
+        {64, {255, 255, 0}}, {32, {0, 255, 0}},  {16, {0, 0, 255}},  {0, {128, 0, 128}},
+    };
+    const int width = texture->widths[level];
+    const int height = texture->heights[level];
+    const int size = width > height ? width : height;
+    int i = 0;
+    while (size < colours[i].size) {
+        i++;
+    }
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = dip_reference_decode_srgb(colours[i].srgb8[c] / 255.0);
+    }
+}
+
+// Replaces the colour of a sample, leaves its alpha.
+static void paint_mip_colour(const DipRefTexture *texture, double level, double rgba[4]) {
+    const int finer = (int)level;
+    const int last = texture->level_count - 1;
+    double coarse[3];
+    mip_colour(texture, finer, rgba);
+    mip_colour(texture, finer < last ? finer + 1 : last, coarse);
+    for (int c = 0; c < 3; c++) {
+        rgba[c] += (coarse[c] - rgba[c]) * (level - finer);
+    }
+}
+
+static int find_min_level(const DipRefTexture *texture, const DipRefFilter *filter) {
+    if (!filter->drop_levels) {
+        return 0;
+    }
+    return texture->widths[0] >= 1024 || texture->heights[0] >= 1024 ? 2 : 1;
+}
+
+void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filter,
+                          const double uv[2], const double duv_dx[2], const double duv_dy[2],
+                          double rgba[4]) {
+    const double width = texture->widths[0];
+    const double height = texture->heights[0];
+    const double ddx[2] = {duv_dx[0] * width, duv_dx[1] * height};
+    const double ddy[2] = {duv_dy[0] * width, duv_dy[1] * height};
+    const DipFootprint footprint =
+        dip_reference_footprint(ddx, ddy, filter->max_anisotropy, filter->advanced);
+    const double level = dip_reference_level(
+        footprint.lambda, filter->bias, find_min_level(texture, filter), texture->level_count - 1);
+    double sum[4] = {0};
+    for (int i = 0; i < footprint.probe_count; i++) {
+        const double t = (i + 0.5) / footprint.probe_count - 0.5;
+        const double place[2] = {uv[0] + t * footprint.major_texels[0] / width,
+                                 uv[1] + t * footprint.major_texels[1] / height};
+        double probe[4];
+        sample_trilinear(texture, level, place, probe);
+        for (int c = 0; c < 4; c++) {
+            sum[c] += probe[c];
+        }
+    }
+    for (int c = 0; c < 4; c++) {
+        rgba[c] = sum[c] / footprint.probe_count;
+    }
+    if (filter->mip_colours) {
+        paint_mip_colour(texture, level, rgba);
+    }
+}
+
+DipRefFilter dip_reference_colour_filter(const DipQuality *quality) {
+    static const double bias[] = {
+        [DIP_MIPLOD_HIGH_PERFORMANCE] = 1.5,
+        [DIP_MIPLOD_PERFORMANCE] = 1.0,
+        [DIP_MIPLOD_QUALITY] = 0.5,
+        [DIP_MIPLOD_HIGH_QUALITY] = 0.0,
+    };
+    const int miplod = quality->step[DIP_SETTING_MIPLOD];
+    return (DipRefFilter){
+        .max_anisotropy = dip_quality_max_anisotropy(quality),
+        .advanced = quality->step[DIP_SETTING_AAF] != 0,
+        .bias = bias[miplod],
+        .drop_levels = miplod == DIP_MIPLOD_HIGH_PERFORMANCE,
+        .mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0,
+    };
+}
+
+DipRefFilter dip_reference_light_map_filter(void) {
+    return (DipRefFilter){.max_anisotropy = 1};
+}

@@ -1,0 +1,94 @@
+// What a triangle looks like at a place: interpolation, derivatives, textures, light.
+#include "renderer/reference/private.h"
+
+#include <math.h>
+
+double dip_reference_depth(const DipRefPlace *place, double near_m) {
+    const DipRefTriangle *triangle = place->triangle;
+    double sum = 0.0;
+    for (int i = 0; i < 3; i++) {
+        sum += place->edges[i] * triangle->vertices[i].inv_w;
+    }
+    return near_m * sum / triangle->area;
+}
+
+// Varyings at a place, and the derivatives of the texture coordinates per pixel.
+typedef struct Varyings {
+    double value[DIP_REF_VARYINGS];
+    double ddx[DIP_REF_COORDINATES];
+    double ddy[DIP_REF_COORDINATES];
+} Varyings;
+
+// With U = u/w and Q = 1/w linear on the screen: u = U/Q and du/dx = (dU/dx - u dQ/dx) / Q. The
+// edge functions weigh the vertices; edge i, opposite vertex i, goes from vertex i+1 to i+2 and
+// changes by -dy per step in x and by +dx per step in y. Their common factor cancels out.
+static void interpolate(const DipRefPlace *place, int first, int count, bool derive,
+                        Varyings *out) {
+    const DipRefVertex *v = place->triangle->vertices;
+    double weights[3], weights_dx[3], weights_dy[3];
+    double q = 0.0, q_dx = 0.0, q_dy = 0.0;
+    for (int i = 0; i < 3; i++) {
+        const DipRefVertex *from = &v[(i + 1) % 3];
+        const DipRefVertex *to = &v[(i + 2) % 3];
+        const double steps_inv_w = 256.0 * v[i].inv_w; // derivatives are per pixel
+        weights[i] = place->edges[i] * v[i].inv_w;
+        weights_dx[i] = (from->y - to->y) * steps_inv_w;
+        weights_dy[i] = (to->x - from->x) * steps_inv_w;
+        q += weights[i];
+        q_dx += weights_dx[i];
+        q_dy += weights_dy[i];
+    }
+    for (int k = first; k < first + count; k++) {
+        const double a = v[0].varyings[k], b = v[1].varyings[k], c = v[2].varyings[k];
+        const double value = (weights[0] * a + weights[1] * b + weights[2] * c) / q;
+        out->value[k] = value;
+        if (derive && k < DIP_REF_COORDINATES) {
+            out->ddx[k] =
+                (weights_dx[0] * a + weights_dx[1] * b + weights_dx[2] * c - value * q_dx) / q;
+            out->ddy[k] =
+                (weights_dy[0] * a + weights_dy[1] * b + weights_dy[2] * c - value * q_dy) / q;
+        }
+    }
+}
+
+static void read_texture(const DipRefTexture *texture, const DipRefFilter *filter,
+                         const Varyings *varyings, int coordinate, double rgba[4]) {
+    if (filter) {
+        dip_reference_sample(texture, filter, &varyings->value[coordinate],
+                             &varyings->ddx[coordinate], &varyings->ddy[coordinate], rgba);
+    } else {
+        dip_reference_sample_finest(texture, &varyings->value[coordinate], rgba);
+    }
+}
+
+double dip_reference_alpha(const DipRefPlace *place, const DipRefFilter *filter) {
+    Varyings varyings;
+    double rgba[4];
+    interpolate(place, DIP_REF_U0, 2, filter != NULL, &varyings);
+    read_texture(place->triangle->colour, filter, &varyings, DIP_REF_U0, rgba);
+    return rgba[3];
+}
+
+void dip_reference_shade(const DipRefPlace *place, const DipRefFilter *filter, double rgb[3]) {
+    const DipRefTriangle *triangle = place->triangle;
+    const DipMaterialDef *material = triangle->material;
+    Varyings varyings;
+    interpolate(place, 0, DIP_REF_VARYINGS, filter != NULL, &varyings);
+    double colour[4] = {1.0, 1.0, 1.0, 1.0};
+    double light[4] = {1.0, 1.0, 1.0, 1.0};
+    double scale = 1.0;
+    if (triangle->colour) {
+        read_texture(triangle->colour, filter, &varyings, DIP_REF_U0, colour);
+    }
+    if (triangle->light_map) {
+        const DipRefFilter trilinear = dip_reference_light_map_filter();
+        read_texture(triangle->light_map, filter ? &trilinear : NULL, &varyings, DIP_REF_U1, light);
+        scale = material->light_map_scale;
+    }
+    const bool mip_colours = filter && filter->mip_colours && triangle->colour;
+    for (int c = 0; c < 3; c++) {
+        const double base = mip_colours ? 1.0 : material->base_colour_lin[c];
+        const double value = base * varyings.value[DIP_REF_RED + c] * colour[c] * light[c] * scale;
+        rgb[c] = fmin(fmax(value, 0.0), 1.0);
+    }
+}

@@ -1,0 +1,108 @@
+// sRGB, and mip chains by exact area weights.
+#include "renderer/reference/texture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+double dip_reference_decode_srgb(double code) {
+    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
+}
+
+double dip_reference_encode_srgb(double linear) {
+    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+void dip_reference_texel(const DipRefTexture *texture, int level, int x, int y, double rgba[4]) {
+    const size_t index = 4 * ((size_t)y * (size_t)texture->widths[level] + (size_t)x);
+    if (level > 0) {
+        memcpy(rgba, texture->levels[level] + index, 4 * sizeof *rgba);
+        return;
+    }
+    const uint8_t *bytes = texture->def->rgba8 + index;
+    for (int c = 0; c < 3; c++) {
+        rgba[c] = texture->decode[bytes[c]];
+    }
+    rgba[3] = bytes[3] / 255.0;
+}
+
+// The mean of a row's texels over [from, to), in texels: every texel weighs as much as the part of
+// it that is covered. Columns are averaged alike by the caller.
+static void average_box(const DipRefTexture *texture, int level, const double from[2],
+                        const double to[2], double rgba[4]) {
+    double sum[4] = {0};
+    for (int y = (int)floor(from[1]); y < to[1]; y++) {
+        const double weight_y = fmin(y + 1.0, to[1]) - fmax(y, from[1]);
+        for (int x = (int)floor(from[0]); x < to[0]; x++) {
+            const double weight = weight_y * (fmin(x + 1.0, to[0]) - fmax(x, from[0]));
+            double texel[4];
+            dip_reference_texel(texture, level, x, y, texel);
+            for (int c = 0; c < 4; c++) {
+                sum[c] += weight * texel[c];
+            }
+        }
+    }
+    const double area = (to[0] - from[0]) * (to[1] - from[1]);
+    for (int c = 0; c < 4; c++) {
+        rgba[c] = sum[c] / area;
+    }
+}
+
+static void fill_level(DipRefTexture *texture, int level) {
+    const int width = texture->widths[level];
+    const int height = texture->heights[level];
+    const int finer_width = texture->widths[level - 1];
+    const int finer_height = texture->heights[level - 1];
+    double *texel = texture->levels[level];
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++, texel += 4) {
+            // i * n / m is exact where it is whole, so that even sizes take whole texels.
+            const double from[2] = {(double)x * finer_width / width,
+                                    (double)y * finer_height / height};
+            const double to[2] = {(x + 1.0) * finer_width / width,
+                                  (y + 1.0) * finer_height / height};
+            average_box(texture, level - 1, from, to, texel);
+        }
+    }
+}
+
+bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def, DipError *err) {
+    memset(texture, 0, sizeof *texture);
+    texture->def = def;
+    if (!def->rgba8 || def->width < 1 || def->width > 8192 || def->height < 1 ||
+        def->height > 8192) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, def->name,
+                             "a texture of %dx%d, accepted 1..8192 with texels", def->width,
+                             def->height);
+    }
+    for (int i = 0; i < 256; i++) {
+        const double code = i / 255.0;
+        texture->decode[i] =
+            def->encoding == DIP_ENCODING_SRGB ? dip_reference_decode_srgb(code) : code;
+    }
+    texture->widths[0] = def->width;
+    texture->heights[0] = def->height;
+    texture->level_count = 1;
+    for (int l = 1; (def->width >> l) > 0 || (def->height >> l) > 0; l++) {
+        texture->widths[l] = def->width >> l > 1 ? def->width >> l : 1;
+        texture->heights[l] = def->height >> l > 1 ? def->height >> l : 1;
+        const size_t texels = (size_t)texture->widths[l] * (size_t)texture->heights[l];
+        texture->levels[l] = malloc(texels * 4 * sizeof(double));
+        if (!texture->levels[l]) {
+            dip_reference_texture_free(texture);
+            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, def->name,
+                                 "no memory for its mip chain");
+        }
+        texture->level_count = l + 1;
+        fill_level(texture, l);
+    }
+    return true;
+}
+
+void dip_reference_texture_free(DipRefTexture *texture) {
+    for (int l = 1; l < DIP_REF_MAX_LEVELS; l++) {
+        free(texture->levels[l]);
+        texture->levels[l] = NULL;
+    }
+    texture->level_count = 0;
+}

@@ -1,0 +1,53 @@
+// Private to the reference path (and its tests): decoded mip chains and how they are read.
+#ifndef DIP_RENDERER_REFERENCE_TEXTURE_H
+#define DIP_RENDERER_REFERENCE_TEXTURE_H
+
+#include "renderer/base/error.h"
+#include "renderer/quality.h"
+#include "renderer/scene.h"
+
+#include <stdbool.h>
+
+enum { DIP_REF_MAX_LEVELS = 14 }; // 8192 down to 1
+
+// Level 0 stays in the description's bytes and is decoded when read; the others are decoded means.
+typedef struct DipRefTexture {
+    const DipTextureDef *def;           // borrowed
+    double decode[256];                 // a colour byte to linear light
+    double *levels[DIP_REF_MAX_LEVELS]; // r, g, b, a per texel; levels[0] is NULL
+    int widths[DIP_REF_MAX_LEVELS];     // texels
+    int heights[DIP_REF_MAX_LEVELS];
+    int level_count;
+} DipRefTexture;
+
+// How textures are read.
+typedef struct DipRefFilter {
+    int max_anisotropy; // 1: trilinear
+    bool advanced;
+    double bias;
+    bool drop_levels; // the largest levels are left out, by size
+    bool mip_colours; // colour by level instead of the texels' own
+} DipRefFilter;
+
+// Inverse of the sRGB encoding: code 0..1 to linear light 0..1.
+double dip_reference_decode_srgb(double code);
+double dip_reference_encode_srgb(double linear);
+
+bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def, DipError *err);
+void dip_reference_texture_free(DipRefTexture *texture);
+
+// One texel, indices within the level; r, g, b in linear light, a.
+void dip_reference_texel(const DipRefTexture *texture, int level, int x, int y, double rgba[4]);
+
+DipRefFilter dip_reference_colour_filter(const DipQuality *quality);
+DipRefFilter dip_reference_light_map_filter(void);
+
+// Reads at (u, v) with the derivatives of (u, v) per pixel in x and y.
+void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filter,
+                          const double uv[2], const double duv_dx[2], const double duv_dy[2],
+                          double rgba[4]);
+
+// Bilinearly from level 0, the place not rounded: what the converged picture reads.
+void dip_reference_sample_finest(const DipRefTexture *texture, const double uv[2], double rgba[4]);
+
+#endif
