@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEPS(...) __VA_ARGS__
+#define STEPS(...)    __VA_ARGS__
 #define COUNT_OF(...) (sizeof((const char *[]){__VA_ARGS__}) / sizeof(const char *))
 
 static const DipSettingInfo infos[DIP_SETTING_COUNT] = {
@@ -72,8 +72,8 @@ static bool parse_assignment(const char *text, DipQuality *quality, unsigned *se
         char accepted[96];
         list_steps(&infos[s], ~0u, accepted, sizeof accepted);
         if (!equals) {
-            return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, key,
-                                 "no value, accepted %s=%s", key, accepted);
+            return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, key, "no value, accepted %s=%s",
+                                 key, accepted);
         }
         if (*seen >> s & 1) {
             return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, key, "is set twice");

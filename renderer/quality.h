@@ -33,8 +33,7 @@
     X(miplod, MIPLOD, "Mip level of detail", 3,                                                    \
       ("high-performance", "performance", "quality", "high-quality"), 0xf,                         \
       "bias towards smaller mip levels; high-performance also drops the largest levels")           \
-    X(gi, GI, "Geometry instancing", 1, ("off", "on"), 0x2,                                        \
-      "repeated objects share one mesh")                                                           \
+    X(gi, GI, "Geometry instancing", 1, ("off", "on"), 0x2, "repeated objects share one mesh")     \
     X(mipdebug, MIPDEBUG, "Mip colours", 0, ("off", "on"), 0x3,                                    \
       "colour textures show their mip levels as flat colours")
 

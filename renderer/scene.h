@@ -59,12 +59,12 @@ typedef struct DipMaterialDef {
 typedef struct DipMeshDef {
     const char *name;
     uint32_t vertex_count;
-    const float *positions; // x, y, z
-    const float *normals;   // x, y, z, unit
-    const float *uv0;       // u, v: colour textures
-    const float *uv1;       // u, v: light map
+    const float *positions;   // x, y, z
+    const float *normals;     // x, y, z, unit
+    const float *uv0;         // u, v: colour textures
+    const float *uv1;         // u, v: light map
     const float *colours_lin; // r, g, b, multiplies the base colour
-    uint32_t index_count; // a multiple of 3
+    uint32_t index_count;     // a multiple of 3
     const uint32_t *indices;
     int material;
 } DipMeshDef;

@@ -1,0 +1,54 @@
+# Shared by ./run and ./test: packages and builds. Sourced from the repository's top folder.
+
+TOP=$PWD
+PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libsdl2-ttf-dev libfontconfig-dev
+    fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcglm-dev libcjson-dev"
+PACKAGES_TEST="$PACKAGES_RUN clang clang-format libcmocka-dev xvfb xauth xdotool imagemagick"
+
+is_installed() {
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+# require_packages NAME...: installs what is missing, after showing the command.
+require_packages() {
+    if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+        [ -d "$TOP/build/release" ] || cat >&2 <<TEXT
+This system has no apt-get. Diptych needs, by their Debian names:
+    $*
+Install what your system calls them; the build goes on and says what is missing.
+TEXT
+        return 0
+    fi
+    missing=
+    for package in "$@"; do
+        is_installed "$package" || missing="$missing $package"
+    done
+    [ -n "$missing" ] || return 0
+    as_root=
+    if [ "$(id -u)" != 0 ]; then
+        if ! command -v sudo >/dev/null; then
+            echo "Missing packages, to be installed as root: apt-get install$missing" >&2
+            return 1
+        fi
+        as_root=sudo
+    fi
+    install="$as_root apt-get install -y --no-install-recommends$missing"
+    echo "Installing missing packages: $install" >&2
+    $as_root apt-get update -qq >&2 || true
+    DEBIAN_FRONTEND=noninteractive $install >&2
+}
+
+# build PRESET [TARGET]: configures once and builds; quiet unless something goes wrong.
+build() {
+    log="$TOP/build/$1.log"
+    mkdir -p "$TOP/build"
+    if [ ! -f "$TOP/build/$1/build.ninja" ]; then
+        echo "Configuring and building ($1); the first time takes a minute ..." >&2
+    fi
+    if ! (cd "$TOP" && cmake --preset "$1" && cmake --build --preset "$1" ${2:+--target "$2"}) \
+        >"$log" 2>&1; then
+        cat "$log" >&2
+        echo "The build failed; its output is in $log" >&2
+        return 1
+    fi
+}

@@ -1,0 +1,91 @@
+// Camera path files: opening, telling the formats apart, saving.
+#include "campaths/campath_private.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+bool dip_campath_parse(const void *bytes, size_t size_bytes, const char *name, DipCamPath **path,
+                       DipError *err) {
+    *path = NULL;
+    if (size_bytes == 0) {
+        return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL,
+                             "is empty, accepted a .pth or .bth camera path");
+    }
+    // No text begins with this byte, not even UTF-8.
+    if (*(const unsigned char *)bytes == dip_campath_magic[0]) {
+        return dip_campath_parse_binary(bytes, size_bytes, name, path, err);
+    }
+    return dip_campath_parse_text(bytes, size_bytes, name, path, err);
+}
+
+// The size of an open regular file within the limit, else false.
+static bool measure(FILE *stream, const char *file, size_t *size_bytes, DipError *err) {
+    struct stat status;
+    if (fstat(fileno(stream), &status) != 0 || !S_ISREG(status.st_mode)) {
+        return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL,
+                             "is no regular file, accepted a .pth or .bth camera path");
+    }
+    if ((uint64_t)status.st_size > DIP_CAMPATH_MAX_FILE_BYTES) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, file, 0, NULL,
+                             "a file of %lld bytes, accepted up to %zu", (long long)status.st_size,
+                             DIP_CAMPATH_MAX_FILE_BYTES);
+    }
+    *size_bytes = (size_t)status.st_size;
+    return true;
+}
+
+bool dip_campath_load(const char *file, DipCamPath **path, DipError *err) {
+    *path = NULL;
+    FILE *stream = fopen(file, "rb");
+    if (!stream) {
+        return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL,
+                             "cannot be opened (%s), accepted a .pth or .bth camera path",
+                             strerror(errno));
+    }
+    size_t size_bytes = 0;
+    bool loaded = measure(stream, file, &size_bytes, err);
+    if (loaded) {
+        unsigned char *bytes = malloc(size_bytes + 1);
+        if (!bytes) {
+            loaded = dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "no memory to read it");
+        } else if (fread(bytes, 1, size_bytes, stream) != size_bytes) {
+            loaded = dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be read to its end");
+        } else {
+            loaded = dip_campath_parse(bytes, size_bytes, file, path, err);
+        }
+        free(bytes);
+    }
+    fclose(stream);
+    return loaded;
+}
+
+static bool save(const DipCamPath *path, const char *file,
+                 void (*write)(const DipCamPath *, FILE *), DipError *err) {
+    FILE *stream = fopen(file, "wb");
+    if (!stream) {
+        return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written (%s)",
+                             strerror(errno));
+    }
+    write(path, stream);
+    const bool failed = ferror(stream) != 0;
+    struct stat status;
+    const bool is_regular = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode);
+    if (fclose(stream) != 0 || failed) {
+        if (is_regular) { // never a device
+            remove(file);
+        }
+        return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written to its end");
+    }
+    return true;
+}
+
+bool dip_campath_save_pth(const DipCamPath *path, const char *file, DipError *err) {
+    return save(path, file, dip_campath_write_text, err);
+}
+
+bool dip_campath_save_bth(const DipCamPath *path, const char *file, DipError *err) {
+    return save(path, file, dip_campath_write_binary, err);
+}

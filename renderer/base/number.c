@@ -1,0 +1,110 @@
+// Numbers from text and to text.
+#include "renderer/base/number.h"
+
+#include <limits.h>
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// strtod and printf take the decimal point from the thread's locale. glibc's "C" locale object is
+// static, so this allocates nothing there.
+static locale_t enter_c_locale(locale_t *made) {
+    *made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    return uselocale(*made); // (locale_t)0 changes nothing
+}
+
+static void leave_c_locale(locale_t previous, locale_t made) {
+    uselocale(previous);
+    if (made) {
+        freelocale(made);
+    }
+}
+
+static size_t count_digits(const char *text, const char *end) {
+    const char *at = text;
+    while (at < end && *at >= '0' && *at <= '9') {
+        at++;
+    }
+    return (size_t)(at - text);
+}
+
+static const char *skip_sign(const char *text, const char *end) {
+    return text < end && (*text == '+' || *text == '-') ? text + 1 : text;
+}
+
+static bool is_decimal(const char *text, size_t length) {
+    const char *end = text + length;
+    const char *at = skip_sign(text, end);
+    size_t digits = count_digits(at, end);
+    at += digits;
+    if (at < end && *at == '.') {
+        at++;
+        const size_t fraction = count_digits(at, end);
+        at += fraction;
+        digits += fraction;
+    }
+    if (digits == 0) {
+        return false;
+    }
+    if (at < end && (*at == 'e' || *at == 'E')) {
+        at = skip_sign(at + 1, end);
+        const size_t exponent = count_digits(at, end);
+        at += exponent;
+        if (exponent == 0) {
+            return false;
+        }
+    }
+    return at == end;
+}
+
+bool dip_number_parse(const char *text, size_t length, double *value) {
+    char copy[DIP_MAX_NUMBER_LENGTH + 1];
+    if (length > DIP_MAX_NUMBER_LENGTH || !is_decimal(text, length)) {
+        return false;
+    }
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    locale_t made;
+    const locale_t previous = enter_c_locale(&made);
+    char *end;
+    const double number = strtod(copy, &end);
+    leave_c_locale(previous, made);
+    if (*end != '\0' || !isfinite(number)) {
+        return false;
+    }
+    *value = number;
+    return true;
+}
+
+bool dip_integer_parse(const char *text, size_t length, int *value) {
+    const char *end = text + length;
+    const char *digits = skip_sign(text, end);
+    if (digits == end || digits + count_digits(digits, end) != end) {
+        return false;
+    }
+    long long number = 0;
+    for (const char *at = digits; at < end; at++) {
+        number = number * 10 + (*at - '0');
+        if (number > INT_MAX) {
+            return false;
+        }
+    }
+    *value = (int)(*text == '-' ? -number : number);
+    return true;
+}
+
+size_t dip_number_format(double value, char buffer[DIP_NUMBER_TEXT_SIZE]) {
+    locale_t made;
+    const locale_t previous = enter_c_locale(&made);
+    int length = 0;
+    for (int digits = 15; digits <= 17; digits++) {
+        length = snprintf(buffer, DIP_NUMBER_TEXT_SIZE, "%.*g", digits, value);
+        if (strtod(buffer, NULL) == value) {
+            break;
+        }
+    }
+    leave_c_locale(previous, made);
+    return (size_t)length;
+}

@@ -1,0 +1,178 @@
+// The worker pool: an atomic index hands out tasks; idle workers spin briefly, then sleep.
+#include "renderer/base/pool.h"
+
+#include "renderer/base/fp_mode.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+// How often an idle worker looks for work before it sleeps: some tens of microseconds, about the
+// pause between the phases of a frame.
+enum { SPIN_COUNT = 4000 };
+
+typedef struct Worker {
+    DipPool *pool;
+    int index;
+    pthread_t thread;
+} Worker;
+
+struct DipPool {
+    int thread_count;
+    Worker *workers; // thread_count - 1 of them; the caller is worker 0
+    int started;
+
+    // One run. Written by the caller before `generation` rises.
+    DipTask task;
+    void *context;
+    int count;
+    atomic_int next;        // index to hand out
+    atomic_int busy;        // workers that have not finished this run
+    atomic_uint generation; // rises with each run; workers wait for it
+    atomic_bool stop;
+
+    pthread_mutex_t mutex; // guards sleeping only
+    pthread_cond_t wake;
+    int sleeping;
+};
+
+static void pause_briefly(void) {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+}
+
+static void work(DipPool *pool, int worker) {
+    for (;;) {
+        const int index = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
+        if (index >= pool->count) {
+            return;
+        }
+        pool->task(pool->context, index, worker);
+    }
+}
+
+// Waits until a generation other than `seen` has begun and returns it.
+static unsigned await_run(DipPool *pool, unsigned seen) {
+    for (int i = 0; i < SPIN_COUNT; i++) {
+        const unsigned now = atomic_load_explicit(&pool->generation, memory_order_acquire);
+        if (now != seen) {
+            return now;
+        }
+        pause_briefly();
+    }
+    pthread_mutex_lock(&pool->mutex);
+    pool->sleeping++;
+    while (atomic_load_explicit(&pool->generation, memory_order_acquire) == seen) {
+        pthread_cond_wait(&pool->wake, &pool->mutex);
+    }
+    pool->sleeping--;
+    pthread_mutex_unlock(&pool->mutex);
+    return atomic_load_explicit(&pool->generation, memory_order_acquire);
+}
+
+static void *worker_main(void *argument) {
+    Worker *self = argument;
+    DipPool *pool = self->pool;
+    dip_fp_mode_set();
+    unsigned generation = 0;
+    for (;;) {
+        generation = await_run(pool, generation);
+        if (atomic_load_explicit(&pool->stop, memory_order_acquire)) {
+            return NULL;
+        }
+        work(pool, self->index);
+        atomic_fetch_sub_explicit(&pool->busy, 1, memory_order_release);
+    }
+}
+
+// Starts a new generation; the mutex closes the gap between a worker's check and its sleep.
+static void begin_generation(DipPool *pool) {
+    pthread_mutex_lock(&pool->mutex);
+    atomic_fetch_add_explicit(&pool->generation, 1, memory_order_release);
+    if (pool->sleeping) {
+        pthread_cond_broadcast(&pool->wake);
+    }
+    pthread_mutex_unlock(&pool->mutex);
+}
+
+static int processor_count(void) {
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online < 1 ? 1 : online > DIP_MAX_THREADS ? DIP_MAX_THREADS : (int)online;
+}
+
+DipPool *dip_pool_create(int thread_count, DipError *err) {
+    if (thread_count < 0 || thread_count > DIP_MAX_THREADS) {
+        dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "threads",
+                      "%d is out of range, accepted 1..%d, or 0 for all processors", thread_count,
+                      DIP_MAX_THREADS);
+        return NULL;
+    }
+    DipPool *pool = calloc(1, sizeof *pool);
+    if (!pool) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "threads", "out of memory");
+        return NULL;
+    }
+    pool->thread_count = thread_count ? thread_count : processor_count();
+    pthread_mutex_init(&pool->mutex, NULL);
+    pthread_cond_init(&pool->wake, NULL);
+    pool->workers = calloc((size_t)pool->thread_count, sizeof *pool->workers);
+    for (int i = 0; pool->workers && i < pool->thread_count - 1; i++) {
+        pool->workers[i] = (Worker){.pool = pool, .index = i + 1};
+        if (pthread_create(&pool->workers[i].thread, NULL, worker_main, &pool->workers[i]) != 0) {
+            break;
+        }
+        pool->started++;
+    }
+    if (pool->started != pool->thread_count - 1) {
+        dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "threads",
+                      "only %d of %d threads could be started", pool->started + 1,
+                      pool->thread_count);
+        dip_pool_destroy(&pool);
+    }
+    return pool;
+}
+
+void dip_pool_destroy(DipPool **pool_pointer) {
+    DipPool *pool = *pool_pointer;
+    if (!pool) {
+        return;
+    }
+    atomic_store_explicit(&pool->stop, true, memory_order_release);
+    begin_generation(pool);
+    for (int i = 0; i < pool->started; i++) {
+        pthread_join(pool->workers[i].thread, NULL);
+    }
+    pthread_cond_destroy(&pool->wake);
+    pthread_mutex_destroy(&pool->mutex);
+    free(pool->workers);
+    free(pool);
+    *pool_pointer = NULL;
+}
+
+int dip_pool_thread_count(const DipPool *pool) {
+    return pool->thread_count;
+}
+
+void dip_pool_run(DipPool *pool, int count, DipTask task, void *context) {
+    const DipFpMode saved = dip_fp_mode_set();
+    pool->task = task;
+    pool->context = context;
+    pool->count = count;
+    atomic_store_explicit(&pool->next, 0, memory_order_relaxed);
+    atomic_store_explicit(&pool->busy, pool->started, memory_order_relaxed);
+    if (pool->started) {
+        begin_generation(pool);
+    }
+    work(pool, 0);
+    for (int spins = 0; atomic_load_explicit(&pool->busy, memory_order_acquire); spins++) {
+        if (spins < SPIN_COUNT) {
+            pause_briefly();
+        } else {
+            sched_yield();
+        }
+    }
+    dip_fp_mode_restore(saved);
+}

@@ -1,0 +1,465 @@
+// The pipeline: runs the geometry jobs, then the tiles, and adds up what they did.
+#include "renderer/pipeline.h"
+
+#include "renderer/base/assert.h"
+#include "renderer/base/clock.h"
+#include "renderer/geometry/geometry.h"
+#include "renderer/raster/kernels.h"
+#include "renderer/resolve/resolve.h"
+#include "renderer/shading/tile_shading.h"
+#include "renderer/texture/srgb.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { CACHE_LINE = 64 };
+
+// The parts of a tile's work that are timed.
+typedef enum TileStage { STAGE_RASTER, STAGE_SHADING, STAGE_RESOLVE, STAGE_COUNT } TileStage;
+
+// What one tile did; added up in tile order after the phase.
+typedef struct TileWork {
+    DipSampleWork sampling;
+    uint64_t blocks_tested;
+    uint64_t blocks_accepted;
+    uint64_t clip_tested;
+    uint64_t fragments;
+    uint64_t mixed;
+    int64_t stage_ns[STAGE_COUNT];
+} TileWork;
+
+// Everything a worker writes while it runs jobs and tiles.
+typedef struct Worker {
+    DipPipeline *pipeline;
+    DipGeometryScratch geometry;
+    DipTile tile;
+    DipTileShading shading;
+    DipFragmentBatch batch;
+    DipFragmentBatch clip_batch;
+    DipFragmentList clip_list;
+    DipEncodedBatch encoded;
+    TileWork *work; // of the tile in hand
+} Worker;
+
+struct DipPipeline {
+    DipPool *pool;
+    const DipKernels *kernels;
+    int width;
+    int height;
+    int worker_count;
+    Worker **workers; // each allocated apart, so that they share no cache line
+    DipGeometry geometry;
+    TileWork *tile_work;
+    int draw_room; // lists per worker
+    DipSrgbEncodeTable *srgb;
+    const DipPass *pass;
+    uint32_t clear_rgba8;
+    int32_t clear_linear16[3];
+};
+
+static void *allocate_aligned(size_t size_bytes) {
+    void *memory =
+        aligned_alloc(CACHE_LINE, (size_bytes + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE);
+    if (memory) {
+        memset(memory, 0, size_bytes);
+    }
+    return memory;
+}
+
+// --- one tile ----------------------------------------------------------------------------------
+
+// Fills a list's tail with its last fragment, so that vectors read valid triangles.
+static void pad_list(DipFragmentList *list) {
+    const int last = list->count - 1;
+    for (int i = list->count; i % DIP_BATCH_ALIGN; i++) {
+        list->triangle[i] = list->triangle[last];
+        list->x[i] = list->x[last];
+        list->y[i] = list->y[last];
+    }
+}
+
+static void bind_batch(const Worker *worker, const DipDraw *draw, DipFragmentBatch *batch) {
+    batch->samplers = draw->samplers;
+    batch->uniforms = draw->uniforms;
+    batch->sample_colour = worker->pipeline->kernels->dip_kernel_sample_colour;
+    batch->sample_alpha = worker->pipeline->kernels->dip_kernel_sample_alpha;
+}
+
+static void flush_list(DipTileShading *shading, uint32_t draw_index) {
+    Worker *worker = shading->context;
+    const DipPipeline *pipeline = worker->pipeline;
+    const DipDraw *draw = &pipeline->pass->draws[draw_index];
+    DipFragmentList *list = &shading->lists[draw_index];
+    DipFragmentBatch *batch = &worker->batch;
+    pad_list(list);
+    pipeline->kernels->dip_kernel_interpolate(&shading->input, list, draw->slot_count, batch);
+    bind_batch(worker, draw, batch);
+    draw->fragment_shader(batch);
+    pipeline->kernels->dip_kernel_encode(batch, pipeline->srgb->code, &worker->encoded);
+    dip_store_fragments(shading, list, &worker->encoded);
+    shading->fragments += (uint64_t)list->count;
+    list->count = 0;
+}
+
+// The clip shader's verdict on a block's visible pixels of one triangle.
+static uint64_t clip_test(void *context, const DipTile *tile, const DipTriangle *triangle,
+                          int block, const DipBlockCoverage *coverage) {
+    Worker *worker = context;
+    const DipPipeline *pipeline = worker->pipeline;
+    const DipDraw *draw = &pipeline->pass->draws[triangle->draw];
+    const DipSamplePattern *pattern = tile->pattern;
+    DipFragmentList *list = &worker->clip_list;
+    uint64_t visible = 0;
+    uint64_t whole = ~(uint64_t)0;
+    for (int s = 0; s < pattern->count; s++) {
+        visible |= coverage->visible[s];
+        whole &= coverage->covered[s];
+    }
+    list->count = 0;
+    for (uint64_t left = visible; left; left &= left - 1) {
+        const int pixel = __builtin_ctzll(left);
+        int sub_x = 128;
+        int sub_y = 128;
+        for (int s = 0; s < pattern->count && !(whole >> pixel & 1); s++) {
+            if (coverage->covered[s] >> pixel & 1) {
+                sub_x = pattern->x[s];
+                sub_y = pattern->y[s];
+                break;
+            }
+        }
+        const int x = tile->x0 + block % DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_x(pixel);
+        const int y = tile->y0 + block / DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_y(pixel);
+        list->triangle[list->count] = (uint32_t)(triangle - pipeline->geometry.triangles);
+        list->x[list->count] = (float)x + (float)sub_x / 256.0f;
+        list->y[list->count] = (float)y + (float)sub_y / 256.0f;
+        list->count++;
+    }
+    pad_list(list);
+    DipFragmentBatch *batch = &worker->clip_batch;
+    pipeline->kernels->dip_kernel_interpolate(&worker->shading.input, list, draw->slot_count,
+                                              batch);
+    bind_batch(worker, draw, batch);
+    draw->clip_shader(batch);
+    worker->work->clip_tested += (uint64_t)list->count;
+    uint64_t keep = 0;
+    int i = 0;
+    for (uint64_t left = visible; left; left &= left - 1) {
+        keep |= (uint64_t)(batch->keep[i++] != 0) << __builtin_ctzll(left);
+    }
+    return keep;
+}
+
+static void draw_triangle(Worker *worker, uint32_t index) {
+    const DipPipeline *pipeline = worker->pipeline;
+    const DipTriangle *triangle = &pipeline->geometry.triangles[index];
+    const bool clipped = pipeline->pass->draws[triangle->draw].clip_shader != NULL;
+    pipeline->kernels->dip_kernel_draw_triangle(&worker->tile, triangle, index + 1,
+                                                clipped ? clip_test : NULL, worker);
+}
+
+static bool in_tile(const DipTriangle *triangle, const DipTile *tile) {
+    return triangle->x0 < tile->x0 + DIP_TILE && triangle->x1 >= tile->x0 &&
+           triangle->y0 < tile->y0 + DIP_TILE && triangle->y1 >= tile->y0;
+}
+
+// Draws one job's triangles of the tile: its bin and its wide triangles, merged by index, which is
+// submission order.
+static void draw_job(Worker *worker, const DipGeometryJob *job, const DipTileBin *bin) {
+    const DipGeometry *geometry = &worker->pipeline->geometry;
+    const DipBinEntry *entries =
+        geometry->entries + (size_t)job->first_triangle * DIP_MAX_BIN_TILES;
+    const uint32_t *wide = geometry->wide + job->first_triangle;
+    const uint32_t *wide_end = wide + job->wide_count;
+    uint32_t entry = bin->first;
+    while (entry != DIP_BIN_END || wide != wide_end) {
+        if (wide == wide_end || (entry != DIP_BIN_END && entries[entry].triangle < *wide)) {
+            draw_triangle(worker, entries[entry].triangle);
+            entry = entries[entry].next;
+        } else {
+            if (in_tile(&geometry->triangles[*wide], &worker->tile)) {
+                draw_triangle(worker, *wide);
+            }
+            wide++;
+        }
+    }
+}
+
+static void begin_tile(Worker *worker, int index) {
+    const DipPipeline *pipeline = worker->pipeline;
+    const DipGeometry *geometry = &pipeline->geometry;
+    const DipTarget *target = &pipeline->pass->target;
+    DipTile *tile = &worker->tile;
+    tile->x0 = index % geometry->tiles_x * DIP_TILE;
+    tile->y0 = index / geometry->tiles_x * DIP_TILE;
+    tile->pattern = geometry->pattern;
+    tile->touched = 0;
+    tile->blocks_tested = 0;
+    tile->blocks_accepted = 0;
+    DipTileShading *shading = &worker->shading;
+    shading->tile = tile;
+    shading->input = (DipShadingInput){geometry->triangles, geometry->surfaces};
+    shading->flush = flush_list;
+    shading->context = worker;
+    shading->width = target->width - tile->x0 < DIP_TILE ? target->width - tile->x0 : DIP_TILE;
+    shading->height = target->height - tile->y0 < DIP_TILE ? target->height - tile->y0 : DIP_TILE;
+    shading->stride = target->stride_bytes / 4;
+    shading->pixels =
+        (uint32_t *)(void *)target->rgba8 + (size_t)tile->y0 * shading->stride + (size_t)tile->x0;
+    shading->clear_rgba8 = pipeline->clear_rgba8;
+    memcpy(shading->clear_linear16, pipeline->clear_linear16, sizeof shading->clear_linear16);
+    shading->mixed_count = 0;
+    shading->fragments = 0;
+    worker->batch.work = (DipSampleWork){0};
+    worker->clip_batch.work = (DipSampleWork){0};
+}
+
+static void shade_tile(Worker *worker) {
+    DipTileShading *shading = &worker->shading;
+    worker->pipeline->kernels->dip_kernel_collect(shading);
+    for (int i = 0; i < shading->active_count; i++) {
+        const uint32_t draw = shading->active[i];
+        if (shading->lists[draw].count) {
+            flush_list(shading, draw);
+        }
+        shading->is_active[draw] = 0;
+    }
+    shading->active_count = 0;
+}
+
+static void run_tile(void *context, int index, int worker_index) {
+    DipPipeline *pipeline = context;
+    const DipGeometry *geometry = &pipeline->geometry;
+    Worker *worker = pipeline->workers[worker_index];
+    TileWork *work = &pipeline->tile_work[index];
+    const size_t tiles = (size_t)geometry->tiles_x * (size_t)geometry->tiles_y;
+    *work = (TileWork){0};
+    worker->work = work;
+    const int64_t begin = dip_clock_ns();
+    begin_tile(worker, index);
+    for (int j = 0; j < geometry->job_count; j++) {
+        draw_job(worker, &geometry->jobs[j], &geometry->bins[(size_t)j * tiles + (size_t)index]);
+    }
+    const int64_t covered = dip_clock_ns();
+    shade_tile(worker);
+    const int64_t shaded = dip_clock_ns();
+    dip_resolve_mixed(&worker->shading, pipeline->srgb->code);
+    const int64_t resolved = dip_clock_ns();
+    work->stage_ns[STAGE_RASTER] = covered - begin;
+    work->stage_ns[STAGE_SHADING] = shaded - covered;
+    work->stage_ns[STAGE_RESOLVE] = resolved - shaded;
+    work->blocks_tested = worker->tile.blocks_tested;
+    work->blocks_accepted = worker->tile.blocks_accepted;
+    work->fragments = worker->shading.fragments;
+    work->mixed = (uint64_t)worker->shading.mixed_count;
+    work->sampling.probes = worker->batch.work.probes + worker->clip_batch.work.probes;
+    work->sampling.texels = worker->batch.work.texels + worker->clip_batch.work.texels;
+}
+
+// --- one pass ----------------------------------------------------------------------------------
+
+static void run_job(void *context, int index, int worker_index) {
+    DipPipeline *pipeline = context;
+    dip_geometry_run_job(&pipeline->geometry, pipeline->kernels, index,
+                         &pipeline->workers[worker_index]->geometry);
+}
+
+static bool run_geometry(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
+    do {
+        if (!dip_geometry_begin(&pipeline->geometry, pass, err)) {
+            return false;
+        }
+        dip_pool_run(pipeline->pool, pipeline->geometry.job_count, run_job, pipeline);
+    } while (dip_geometry_grow_after_overflow(&pipeline->geometry));
+    return true;
+}
+
+static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
+    const DipGeometry *geometry = &pipeline->geometry;
+    for (int j = 0; j < geometry->job_count; j++) {
+        counters->triangles_in += geometry->jobs[j].triangles_in;
+        counters->triangles_drawn += geometry->jobs[j].triangle_count;
+        counters->tile_triangles += geometry->jobs[j].tile_triangles;
+    }
+    for (int t = 0; t < geometry->tiles_x * geometry->tiles_y; t++) {
+        const TileWork *work = &pipeline->tile_work[t];
+        counters->blocks_tested += work->blocks_tested;
+        counters->blocks_accepted += work->blocks_accepted;
+        counters->fragments_clip_tested += work->clip_tested;
+        counters->fragments_shaded += work->fragments;
+        counters->pixels_resolved += work->mixed;
+        counters->texture_probes += work->sampling.probes;
+        counters->texels_fetched += work->sampling.texels;
+    }
+}
+
+// The workers' stage sums share out the wall time of the tile phase.
+static void add_times(const DipPipeline *pipeline, int64_t geometry_ns, int64_t tiles_ns,
+                      DipStageTimes *times) {
+    int64_t stage_ns[STAGE_COUNT] = {0};
+    int64_t sum_ns = 0;
+    for (int t = 0; t < pipeline->geometry.tiles_x * pipeline->geometry.tiles_y; t++) {
+        for (int s = 0; s < STAGE_COUNT; s++) {
+            stage_ns[s] += pipeline->tile_work[t].stage_ns[s];
+            sum_ns += pipeline->tile_work[t].stage_ns[s];
+        }
+    }
+    const double scale = sum_ns ? 1e-6 * (double)tiles_ns / (double)sum_ns : 0.0;
+    times->geometry_ms += 1e-6 * (double)geometry_ns;
+    times->raster_ms += scale * (double)stage_ns[STAGE_RASTER];
+    times->shading_ms += scale * (double)stage_ns[STAGE_SHADING];
+    times->resolve_ms += scale * (double)stage_ns[STAGE_RESOLVE];
+    times->total_ms += 1e-6 * (double)(geometry_ns + tiles_ns);
+}
+
+static void set_clear(DipPipeline *pipeline, const float clear_lin[3]) {
+    pipeline->clear_rgba8 = 0xff000000u;
+    for (int c = 0; c < 3; c++) {
+        const float light =
+            clear_lin[c] > 0.0f ? (clear_lin[c] < 1.0f ? clear_lin[c] : 1.0f) : 0.0f;
+        pipeline->clear_linear16[c] = (int32_t)(light * 65535.0f + 0.5f);
+        pipeline->clear_rgba8 |= (uint32_t)pipeline->srgb->code[pipeline->clear_linear16[c]]
+                                 << (8 * c);
+    }
+}
+
+// Lists are kept per draw; more draws than ever before need more of them.
+static bool make_lists(DipPipeline *pipeline, int draw_count, DipError *err) {
+    if (draw_count <= pipeline->draw_room) {
+        return true;
+    }
+    pipeline->draw_room = 0;
+    for (int w = 0; w < pipeline->worker_count; w++) {
+        DipTileShading *shading = &pipeline->workers[w]->shading;
+        free(shading->lists);
+        free(shading->active);
+        free(shading->is_active);
+        shading->lists = calloc((size_t)draw_count, sizeof *shading->lists);
+        shading->active = calloc((size_t)draw_count, sizeof *shading->active);
+        shading->is_active = calloc((size_t)draw_count, sizeof *shading->is_active);
+        if (!shading->lists || !shading->active || !shading->is_active) {
+            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass", "no memory for %d draws",
+                                 draw_count);
+        }
+    }
+    pipeline->draw_room = draw_count;
+    return true;
+}
+
+bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
+                       DipStageTimes *times, DipError *err) {
+    DIP_ASSERT(pass->target.width == pipeline->width && pass->target.height == pipeline->height);
+    DIP_ASSERT(pass->target.stride_bytes % 4 == 0);
+    if (!make_lists(pipeline, pass->draw_count, err)) {
+        return false;
+    }
+    pipeline->pass = pass;
+    set_clear(pipeline, pass->clear_lin);
+    const int64_t begin = dip_clock_ns();
+    if (!run_geometry(pipeline, pass, err)) {
+        return false;
+    }
+    const int64_t middle = dip_clock_ns();
+    dip_pool_run(pipeline->pool, pipeline->geometry.tiles_x * pipeline->geometry.tiles_y, run_tile,
+                 pipeline);
+    const int64_t end = dip_clock_ns();
+    add_counters(pipeline, counters);
+    add_times(pipeline, middle - begin, end - middle, times);
+    return true;
+}
+
+// --- making and ending -------------------------------------------------------------------------
+
+static Worker *create_worker(DipPipeline *pipeline) {
+    Worker *worker = allocate_aligned(sizeof *worker);
+    if (!worker) {
+        return NULL;
+    }
+    const size_t samples = (size_t)DIP_TILE_PIXELS * DIP_MAX_SAMPLES;
+    worker->pipeline = pipeline;
+    worker->tile.depth = allocate_aligned(samples * sizeof *worker->tile.depth);
+    worker->tile.id = allocate_aligned(samples * sizeof *worker->tile.id);
+    worker->shading.sum = allocate_aligned(DIP_TILE_PIXELS * sizeof *worker->shading.sum);
+    worker->shading.mixed = allocate_aligned(DIP_TILE_PIXELS * sizeof *worker->shading.mixed);
+    return worker;
+}
+
+static bool worker_complete(const Worker *worker) {
+    return worker && worker->tile.depth && worker->tile.id && worker->shading.sum &&
+           worker->shading.mixed;
+}
+
+static void destroy_worker(Worker *worker) {
+    if (worker) {
+        free(worker->tile.depth);
+        free(worker->tile.id);
+        free(worker->shading.sum);
+        free(worker->shading.mixed);
+        free(worker->shading.lists);
+        free(worker->shading.active);
+        free(worker->shading.is_active);
+        free(worker);
+    }
+}
+
+static bool allocate_parts(DipPipeline *pipeline) {
+    const size_t tiles = (size_t)pipeline->geometry.tiles_x * (size_t)pipeline->geometry.tiles_y;
+    pipeline->tile_work = calloc(tiles, sizeof *pipeline->tile_work);
+    pipeline->srgb = malloc(sizeof *pipeline->srgb);
+    pipeline->workers = calloc((size_t)pipeline->worker_count, sizeof *pipeline->workers);
+    if (!pipeline->tile_work || !pipeline->srgb || !pipeline->workers) {
+        return false;
+    }
+    for (int w = 0; w < pipeline->worker_count; w++) {
+        pipeline->workers[w] = create_worker(pipeline);
+        if (!worker_complete(pipeline->workers[w])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height, DipError *err) {
+    if (width < 1 || height < 1 || width > DIP_MAX_TARGET_SIZE || height > DIP_MAX_TARGET_SIZE) {
+        dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "size", "%dx%d pixels, accepted 1x1 to %dx%d",
+                      width, height, DIP_MAX_TARGET_SIZE, DIP_MAX_TARGET_SIZE);
+        return NULL;
+    }
+    if (!dip_isa_available(isa)) {
+        dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "isa",
+                      "%s is not available on this machine", dip_isa_name(isa));
+        return NULL;
+    }
+    DipPipeline *pipeline = calloc(1, sizeof *pipeline);
+    if (pipeline) {
+        pipeline->pool = pool;
+        pipeline->kernels = dip_kernels(isa);
+        pipeline->width = width;
+        pipeline->height = height;
+        pipeline->worker_count = dip_pool_thread_count(pool);
+        pipeline->geometry.tiles_x = (width + DIP_TILE - 1) / DIP_TILE;
+        pipeline->geometry.tiles_y = (height + DIP_TILE - 1) / DIP_TILE;
+    }
+    if (!pipeline || !allocate_parts(pipeline)) {
+        dip_pipeline_destroy(&pipeline);
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pipeline", "out of memory");
+        return NULL;
+    }
+    dip_srgb_encode_table(pipeline->srgb);
+    return pipeline;
+}
+
+void dip_pipeline_destroy(DipPipeline **pipeline_pointer) {
+    DipPipeline *pipeline = *pipeline_pointer;
+    if (!pipeline) {
+        return;
+    }
+    for (int w = 0; pipeline->workers && w < pipeline->worker_count; w++) {
+        destroy_worker(pipeline->workers[w]);
+    }
+    dip_geometry_free(&pipeline->geometry);
+    free(pipeline->workers);
+    free(pipeline->tile_work);
+    free(pipeline->srgb);
+    free(pipeline);
+    *pipeline_pointer = NULL;
+}

@@ -1,0 +1,70 @@
+// The pipeline: draws a list of meshes with the caller's shaders into a target.
+//
+// One pipeline owns the scratch of one picture size; it is not thread-safe, but spreads its work
+// over the pool. Pictures are the same to the bit for any pool size and instruction set.
+#ifndef DIP_RENDERER_PIPELINE_H
+#define DIP_RENDERER_PIPELINE_H
+
+#include "renderer/base/error.h"
+#include "renderer/base/pool.h"
+#include "renderer/frame.h"
+#include "renderer/isa.h"
+#include "renderer/mesh.h"
+#include "renderer/shader.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum {
+    DIP_MAX_CLIP_PLANES = 6,
+    DIP_MAX_TARGET_SIZE = 8192, // width and height, pixels
+};
+
+typedef enum DipCull { DIP_CULL_NONE, DIP_CULL_BACK, DIP_CULL_FRONT } DipCull;
+
+// One mesh with its shaders. Everything pointed to is borrowed for the call.
+typedef struct DipDraw {
+    const DipMesh *mesh;
+    DipVertexShader *vertex_shader;
+    DipFragmentShader *fragment_shader;
+    DipFragmentShader *clip_shader; // NULL: opaque. Runs while coverage is decided
+    int slot_count;                 // 0..DIP_MAX_SLOTS
+    const void *uniforms;
+    const DipSampler *samplers; // up to DIP_MAX_SAMPLERS
+    // 4x4, row-major: takes mesh positions to clip space, only to cull chunks by their bounds;
+    // NULL: nothing is culled before the vertex shader.
+    const float *bounds_to_clip;
+    DipCull cull; // a front face winds counter-clockwise seen with +y up
+} DipDraw;
+
+// Where the picture goes: sRGB bytes R, G, B, 255; the top row first.
+typedef struct DipTarget {
+    uint8_t *rgba8;
+    size_t stride_bytes; // a multiple of 4, at least 4 * width
+    int width;           // as the pipeline's
+    int height;
+} DipTarget;
+
+typedef struct DipPass {
+    const DipDraw *draws; // in submission order: of coplanar surfaces the first stays
+    int draw_count;
+    int sample_count; // 1, 2, 4, 6 or 8
+    float clear_lin[3];
+    // User planes in clip space: seen where dot(plane, clip position) >= 0.
+    float clip_planes[DIP_MAX_CLIP_PLANES][4];
+    int clip_plane_count;
+    DipTarget target;
+} DipPass;
+
+typedef struct DipPipeline DipPipeline;
+
+// width and height: 1..8192 pixels. The pool is borrowed and must outlive the pipeline.
+DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height, DipError *err);
+void dip_pipeline_destroy(DipPipeline **pipeline);
+
+// Draws a pass and adds to *counters and *times. Fails only when memory for the pass' triangles
+// runs out; then the target's content is undefined.
+bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
+                       DipStageTimes *times, DipError *err);
+
+#endif

@@ -1,0 +1,15 @@
+// From shaded fragments to pixels: whole fragments at once, the others as sums over samples.
+#ifndef DIP_RENDERER_RESOLVE_RESOLVE_H
+#define DIP_RENDERER_RESOLVE_RESOLVE_H
+
+#include "renderer/shading/tile_shading.h"
+
+// Stores fragments that hold all their pixel's samples; adds the others to their pixel's sum.
+void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list,
+                         const DipEncodedBatch *encoded);
+
+// Pixels of several surfaces: the mean over the samples in linear light, then encoded.
+// srgb_code: see DipSrgbEncodeTable.
+void dip_resolve_mixed(DipTileShading *shading, const uint8_t *srgb_code);
+
+#endif

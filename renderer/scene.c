@@ -1,0 +1,337 @@
+// Making a scene from its description: checks, textures, vertex layouts, bounds.
+#include "renderer/scene_internal.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool check_index(int index, int count, const char *owner, const char *key, DipError *err) {
+    return (index >= DIP_NO_TEXTURE && index < count) ||
+           dip_error_set(err, DIP_ERROR_RANGE, owner, 0, key,
+                         "texture %d is out of range, accepted 0..%d, or -1 for none", index,
+                         count - 1);
+}
+
+static bool check_material(const DipSceneDef *def, const DipMaterialDef *material, DipError *err) {
+    return check_index(material->colour_texture, def->texture_count, material->name,
+                       "colour_texture", err) &&
+           check_index(material->light_map, def->texture_count, material->name, "light_map", err) &&
+           check_index(material->normal_map, def->texture_count, material->name, "normal_map", err);
+}
+
+static bool check_def(const DipSceneDef *def, DipError *err) {
+    if (!(def->near_m > 0.0f) || !isfinite(def->near_m)) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "near_m",
+                             "%g is out of range, accepted more than 0", (double)def->near_m);
+    }
+    for (int i = 0; i < def->material_count; i++) {
+        if (!check_material(def, &def->materials[i], err)) {
+            return false;
+        }
+    }
+    for (int i = 0; i < def->mesh_count; i++) {
+        const DipMeshDef *mesh = &def->meshes[i];
+        if (mesh->material < 0 || mesh->material >= def->material_count) {
+            return dip_error_set(err, DIP_ERROR_RANGE, mesh->name, 0, "material",
+                                 "%d is out of range, accepted 0..%d", mesh->material,
+                                 def->material_count - 1);
+        }
+    }
+    for (int i = 0; i < def->object_count; i++) {
+        const DipObjectDef *object = &def->objects[i];
+        if (object->mesh < 0 || object->mesh >= def->mesh_count) {
+            return dip_error_set(err, DIP_ERROR_RANGE, object->name, 0, "mesh",
+                                 "%d is out of range, accepted 0..%d", object->mesh,
+                                 def->mesh_count - 1);
+        }
+        for (int k = 0; k < 12; k++) {
+            if (!isfinite(object->transform[k])) {
+                return dip_error_set(err, DIP_ERROR_RANGE, object->name, 0, "transform",
+                                     "an element is not finite");
+            }
+        }
+    }
+    return true;
+}
+
+// --- meshes ------------------------------------------------------------------------------------
+
+// What a vertex of a mesh carries, in order; see DipSurfaceUniforms.
+typedef struct VertexLayout {
+    const float *source[5];
+    int size[5]; // floats
+    int count;
+    int attribute_count;
+} VertexLayout;
+
+static int add_source(VertexLayout *layout, const float *source, int size) {
+    const int first = layout->attribute_count;
+    layout->source[layout->count] = source;
+    layout->size[layout->count++] = size;
+    layout->attribute_count += size;
+    return first;
+}
+
+// Decides what the mesh's material needs of its vertices; nothing else is kept.
+static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *material,
+                            DipSceneMesh *out) {
+    VertexLayout layout = {.count = 0};
+    DipSurfaceUniforms *uniforms = &out->layout;
+    *uniforms = (DipSurfaceUniforms){
+        .normal_attribute = DIP_NO_SLOT,
+        .colour_attribute = DIP_NO_SLOT,
+        .light_slot = DIP_NO_SLOT,
+        .colour_slot = DIP_NO_SLOT,
+        .light_map_slot = DIP_NO_SLOT,
+        .light_map_scale = material->light_map_scale,
+        .alpha_cutoff = material->alpha_cutoff,
+    };
+    memcpy(uniforms->base_colour_lin, material->base_colour_lin, sizeof uniforms->base_colour_lin);
+    add_source(&layout, mesh->positions, 3);
+    if (material->colour_texture != DIP_NO_TEXTURE && mesh->uv0) {
+        uniforms->colour_slot = add_source(&layout, mesh->uv0, 2) - 3;
+    }
+    const bool light_mapped = material->light_map != DIP_NO_TEXTURE && mesh->uv1;
+    if (light_mapped) {
+        uniforms->light_map_slot = add_source(&layout, mesh->uv1, 2) - 3;
+    }
+    uniforms->pass_count = layout.attribute_count - 3;
+    out->slot_count = uniforms->pass_count;
+    if (!light_mapped && material->lit && mesh->normals) {
+        uniforms->normal_attribute = add_source(&layout, mesh->normals, 3);
+    }
+    if (mesh->colours_lin) {
+        uniforms->colour_attribute = add_source(&layout, mesh->colours_lin, 3);
+    }
+    if (uniforms->normal_attribute != DIP_NO_SLOT || uniforms->colour_attribute != DIP_NO_SLOT) {
+        uniforms->light_slot = out->slot_count;
+        out->slot_count += 3;
+    }
+    return layout;
+}
+
+static float *interleave(const VertexLayout *layout, uint32_t vertex_count) {
+    const size_t stride = (size_t)layout->attribute_count;
+    float *rows = malloc((stride * vertex_count + 1) * sizeof *rows);
+    for (uint32_t v = 0; rows && v < vertex_count; v++) {
+        float *row = rows + stride * v;
+        for (int i = 0; i < layout->count; i++) {
+            const size_t size = (size_t)layout->size[i];
+            memcpy(row, layout->source[i] + size * v, size * sizeof *row);
+            row += size;
+        }
+    }
+    return rows;
+}
+
+static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipError *err) {
+    const DipMeshDef *mesh = &def->meshes[index];
+    DipSceneMesh *out = &scene->meshes[index];
+    const VertexLayout layout = lay_out(mesh, &def->materials[mesh->material], out);
+    float *rows = interleave(&layout, mesh->vertex_count);
+    if (!rows) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, mesh->name, 0, "mesh", "out of memory");
+    }
+    const DipMeshData data = {
+        .name = mesh->name,
+        .attributes = rows,
+        .attribute_count = layout.attribute_count,
+        .vertex_count = mesh->vertex_count,
+        .indices = mesh->indices,
+        .index_count = mesh->index_count,
+    };
+    out->mesh = dip_mesh_create(&data, err);
+    out->material = mesh->material;
+    free(rows);
+    return out->mesh != NULL;
+}
+
+// --- textures, in parallel ---------------------------------------------------------------------
+
+typedef struct TextureJobs {
+    const DipSceneDef *def;
+    DipScene *scene;
+    DipError *errors; // per texture
+    bool *used;       // by a material as it is drawn; the others are not made
+} TextureJobs;
+
+static void create_texture(void *context, int index, int worker) {
+    (void)worker;
+    TextureJobs *jobs = context;
+    if (jobs->used[index]) {
+        jobs->scene->textures[index] =
+            dip_texture_create(&jobs->def->textures[index], &jobs->errors[index]);
+    }
+}
+
+static void mark_used_textures(const DipSceneDef *def, bool *used) {
+    for (int i = 0; i < def->material_count; i++) {
+        const int textures[] = {def->materials[i].colour_texture, def->materials[i].light_map};
+        for (int k = 0; k < 2; k++) {
+            if (textures[k] != DIP_NO_TEXTURE) {
+                used[textures[k]] = true;
+            }
+        }
+    }
+}
+
+static bool create_textures(const DipSceneDef *def, DipScene *scene, DipPool *pool, DipError *err) {
+    const size_t count = (size_t)def->texture_count;
+    TextureJobs jobs = {def, scene, calloc(count + 1, sizeof(DipError)),
+                        calloc(count + 1, sizeof(bool))};
+    bool made = jobs.errors && jobs.used;
+    if (!made) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "textures", "out of memory");
+    } else {
+        mark_used_textures(def, jobs.used);
+        if (pool) {
+            dip_pool_run(pool, def->texture_count, create_texture, &jobs);
+        } else {
+            for (int i = 0; i < def->texture_count; i++) {
+                create_texture(&jobs, i, 0);
+            }
+        }
+    }
+    for (int i = 0; made && i < def->texture_count; i++) {
+        if (jobs.used[i] && !scene->textures[i]) {
+            made = false;
+            if (err) {
+                *err = jobs.errors[i];
+            }
+        }
+    }
+    free(jobs.errors);
+    free(jobs.used);
+    return made;
+}
+
+// --- the scene ---------------------------------------------------------------------------------
+
+static void add_bounds(DipScene *scene, const DipSceneObject *object) {
+    const DipMesh *mesh = scene->meshes[object->mesh].mesh;
+    float low[3];
+    float high[3];
+    dip_mesh_bounds(mesh, low, high);
+    for (int corner = 0; corner < 8 && dip_mesh_triangle_count(mesh); corner++) {
+        const float p[3] = {corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
+                            corner & 4 ? high[2] : low[2]};
+        for (int axis = 0; axis < 3; axis++) {
+            const float *m = object->transform + 4 * axis;
+            const float at = m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
+            scene->min_world[axis] = fminf(scene->min_world[axis], at);
+            scene->max_world[axis] = fmaxf(scene->max_world[axis], at);
+        }
+    }
+}
+
+static void place_objects(const DipSceneDef *def, DipScene *scene) {
+    for (int axis = 0; axis < 3; axis++) {
+        scene->min_world[axis] = INFINITY;
+        scene->max_world[axis] = -INFINITY;
+    }
+    for (int i = 0; i < def->object_count; i++) {
+        DipSceneObject *object = &scene->objects[i];
+        object->mesh = def->objects[i].mesh;
+        memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
+        scene->triangle_count += dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
+        add_bounds(scene, object);
+    }
+    for (int axis = 0; axis < 3 && !scene->triangle_count; axis++) {
+        scene->min_world[axis] = scene->max_world[axis] = 0.0f;
+    }
+}
+
+static void copy_materials(const DipSceneDef *def, DipScene *scene) {
+    for (int i = 0; i < def->material_count; i++) {
+        const DipMaterialDef *material = &def->materials[i];
+        scene->materials[i] = (DipSceneMaterial){material->surface, material->colour_texture,
+                                                 material->light_map, material->double_sided};
+        scene->has_light_map |= material->light_map != DIP_NO_TEXTURE;
+        scene->has_clipped |= material->surface == DIP_SURFACE_CLIPPED;
+    }
+}
+
+static DipScene *allocate_scene(const DipSceneDef *def) {
+    static atomic_uint_fast64_t serial;
+    DipScene *scene = calloc(1, sizeof *scene);
+    if (!scene) {
+        return NULL;
+    }
+    scene->serial = atomic_fetch_add(&serial, 1) + 1;
+    scene->texture_count = def->texture_count;
+    scene->material_count = def->material_count;
+    scene->mesh_count = def->mesh_count;
+    scene->object_count = def->object_count;
+    scene->near_m = def->near_m;
+    memcpy(scene->background_lin, def->background_lin, sizeof scene->background_lin);
+    scene->textures = calloc((size_t)def->texture_count + 1, sizeof *scene->textures);
+    scene->materials = calloc((size_t)def->material_count + 1, sizeof *scene->materials);
+    scene->meshes = calloc((size_t)def->mesh_count + 1, sizeof *scene->meshes);
+    scene->objects = calloc((size_t)def->object_count + 1, sizeof *scene->objects);
+    if (!scene->textures || !scene->materials || !scene->meshes || !scene->objects) {
+        dip_scene_destroy(&scene);
+    }
+    return scene;
+}
+
+DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err) {
+    if (!check_def(def, err)) {
+        return NULL;
+    }
+    DipScene *scene = allocate_scene(def);
+    if (!scene) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
+        return NULL;
+    }
+    copy_materials(def, scene);
+    bool made = create_textures(def, scene, pool, err);
+    for (int i = 0; made && i < def->mesh_count; i++) {
+        made = create_mesh(def, i, scene, err);
+    }
+    if (!made) {
+        dip_scene_destroy(&scene);
+        return NULL;
+    }
+    place_objects(def, scene);
+    return scene;
+}
+
+void dip_scene_destroy(DipScene **scene_pointer) {
+    DipScene *scene = *scene_pointer;
+    if (!scene) {
+        return;
+    }
+    for (int i = 0; scene->textures && i < scene->texture_count; i++) {
+        dip_texture_destroy(&scene->textures[i]);
+    }
+    for (int i = 0; scene->meshes && i < scene->mesh_count; i++) {
+        dip_mesh_destroy(&scene->meshes[i].mesh);
+    }
+    free(scene->textures);
+    free(scene->materials);
+    free(scene->meshes);
+    free(scene->objects);
+    free(scene);
+    *scene_pointer = NULL;
+}
+
+void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]) {
+    memcpy(min_world, scene->min_world, sizeof scene->min_world);
+    memcpy(max_world, scene->max_world, sizeof scene->max_world);
+}
+
+uint64_t dip_scene_triangle_count(const DipScene *scene) {
+    return scene->triangle_count;
+}
+
+uint64_t dip_scene_texture_bytes(const DipScene *scene) {
+    uint64_t bytes = 0;
+    for (int i = 0; i < scene->texture_count; i++) {
+        const DipTexture *texture = scene->textures[i];
+        if (texture) {
+            bytes += texture->texel_count * (sizeof *texture->texels + (texture->alpha ? 1 : 0));
+        }
+    }
+    return bytes;
+}

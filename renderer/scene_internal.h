@@ -1,0 +1,48 @@
+// Inside of a scene, for the renderer: textures, meshes and materials as the pipeline takes them.
+#ifndef DIP_RENDERER_SCENE_INTERNAL_H
+#define DIP_RENDERER_SCENE_INTERNAL_H
+
+#include "renderer/mesh.h"
+#include "renderer/scene.h"
+#include "renderer/shading/surface.h"
+#include "renderer/texture/texture.h"
+
+typedef struct DipSceneMesh {
+    DipMesh *mesh;
+    int material;
+    DipSurfaceUniforms layout; // attributes, slots and material; matrices are filled in per frame
+    int slot_count;
+} DipSceneMesh;
+
+typedef struct DipSceneObject {
+    int mesh;
+    float transform[12];
+} DipSceneObject;
+
+typedef struct DipSceneMaterial {
+    DipSurface surface;
+    int colour_texture; // index or DIP_NO_TEXTURE
+    int light_map;
+    bool double_sided;
+} DipSceneMaterial;
+
+struct DipScene {
+    uint64_t serial; // different for every scene made, so that a renderer sees a change
+    int texture_count;
+    int material_count;
+    int mesh_count;
+    int object_count;
+    DipTexture **textures; // NULL where nothing that is drawn uses it
+    DipSceneMaterial *materials;
+    DipSceneMesh *meshes;
+    DipSceneObject *objects;
+    float background_lin[3];
+    float near_m;
+    float min_world[3];
+    float max_world[3];
+    uint64_t triangle_count;
+    bool has_light_map;
+    bool has_clipped;
+};
+
+#endif

@@ -1,0 +1,346 @@
+// One vector of DIP_LANES 32-bit lanes and its operations, for the kernels (*_simd.c) only.
+//
+// Built on the compilers' vector extensions, so + - * / & | ^ << >> and comparisons of the element
+// types work as written; intrinsics stand where an extension has no operator. Every operation is
+// exact IEEE or integer arithmetic, so all widths give the same bits. A condition is a Mask: a
+// bit per lane with AVX-512, a vector of 0 / -1 elsewhere.
+#ifndef DIP_RENDERER_SIMD_VEC_H
+#define DIP_RENDERER_SIMD_VEC_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+#if !defined(DIP_LANES) || !defined(DIP_ISA_SUFFIX)
+#error "kernels are compiled once per instruction set, with DIP_LANES and DIP_ISA_SUFFIX"
+#endif
+#if defined(DIP_EXPECT_AVX512) && !defined(__AVX512VL__)
+#error "the avx512 kernels need -mavx512f -mavx512vl -mavx512dq -mavx512bw"
+#elif defined(DIP_EXPECT_AVX2) && !defined(__AVX2__)
+#error "the avx2 kernels need -mavx2"
+#endif
+
+#if DIP_LANES == 16 && defined(__AVX512F__)
+#define VEC_AVX512 1
+#include <immintrin.h>
+#elif DIP_LANES == 8 && defined(__AVX2__)
+#define VEC_AVX2 1
+#include <immintrin.h>
+#elif DIP_LANES == 4 && defined(__SSE2__)
+#define VEC_SSE2 1
+#include <emmintrin.h>
+#endif
+
+// dip_kernel_name -> dip_kernel_name_avx2: the exported name of this instruction set's version.
+#define VEC_JOIN_(a, b)  a##_##b
+#define VEC_JOIN(a, b)   VEC_JOIN_(a, b)
+#define DIP_KERNEL(name) VEC_JOIN(name, DIP_ISA_SUFFIX)
+
+typedef float Vf __attribute__((vector_size(4 * DIP_LANES)));
+typedef int32_t Vi __attribute__((vector_size(4 * DIP_LANES)));
+typedef uint32_t Vu __attribute__((vector_size(4 * DIP_LANES)));
+
+#define VEC_INLINE static inline __attribute__((always_inline))
+
+VEC_INLINE Vf vf_load(const float *p) {
+    Vf v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+VEC_INLINE void vf_store(float *p, Vf v) {
+    memcpy(p, &v, sizeof v);
+}
+
+VEC_INLINE Vi vi_load(const int32_t *p) {
+    Vi v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+VEC_INLINE void vi_store(int32_t *p, Vi v) {
+    memcpy(p, &v, sizeof v);
+}
+
+VEC_INLINE Vu vu_load(const uint32_t *p) {
+    Vu v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+VEC_INLINE void vu_store(uint32_t *p, Vu v) {
+    memcpy(p, &v, sizeof v);
+}
+
+VEC_INLINE Vf vf_splat(float x) {
+    return x - (Vf){0};
+}
+
+VEC_INLINE Vi vi_splat(int32_t x) {
+    return x - (Vi){0};
+}
+
+VEC_INLINE Vu vu_splat(uint32_t x) {
+    return x - (Vu){0};
+}
+
+VEC_INLINE Vf vf_from_int(Vi v) {
+    return __builtin_convertvector(v, Vf);
+}
+
+// Towards zero; every lane must be within the range of int32.
+VEC_INLINE Vi vi_from_float(Vf v) {
+    return __builtin_convertvector(v, Vi);
+}
+
+VEC_INLINE Vi vi_bits(Vf v) {
+    return (Vi)v;
+}
+
+VEC_INLINE Vf vf_bits(Vi v) {
+    return (Vf)v;
+}
+
+// --- masks -------------------------------------------------------------------------------------
+
+#if VEC_AVX512
+typedef __mmask16 Mask;
+
+VEC_INLINE Mask vf_lt(Vf a, Vf b) {
+    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ);
+}
+
+VEC_INLINE Mask vf_ge(Vf a, Vf b) {
+    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GE_OQ);
+}
+
+VEC_INLINE Mask vi_lt(Vi a, Vi b) {
+    return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
+}
+
+VEC_INLINE Mask vi_eq(Vi a, Vi b) {
+    return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b);
+}
+
+// Lanes whose sign bit is clear.
+VEC_INLINE Mask vi_not_negative(Vi a) {
+    return (Mask)~_mm512_movepi32_mask((__m512i)a);
+}
+
+VEC_INLINE unsigned mask_bits(Mask m) {
+    return m;
+}
+
+VEC_INLINE Mask mask_from_bits(unsigned bits) {
+    return (Mask)bits;
+}
+
+VEC_INLINE Vf vf_select(Mask m, Vf a, Vf b) {
+    return (Vf)_mm512_mask_blend_ps(m, (__m512)b, (__m512)a);
+}
+
+VEC_INLINE Vi vi_select(Mask m, Vi a, Vi b) {
+    return (Vi)_mm512_mask_blend_epi32(m, (__m512i)b, (__m512i)a);
+}
+#else
+typedef Vi Mask;
+
+VEC_INLINE Mask vf_lt(Vf a, Vf b) {
+    return a < b;
+}
+
+VEC_INLINE Mask vf_ge(Vf a, Vf b) {
+    return a >= b;
+}
+
+VEC_INLINE Mask vi_lt(Vi a, Vi b) {
+    return a < b;
+}
+
+VEC_INLINE Mask vi_eq(Vi a, Vi b) {
+    return a == b;
+}
+
+VEC_INLINE Mask vi_not_negative(Vi a) {
+    return a >= 0;
+}
+
+VEC_INLINE unsigned mask_bits(Mask m) {
+#if VEC_AVX2
+    return (unsigned)_mm256_movemask_ps((__m256)m);
+#elif VEC_SSE2
+    return (unsigned)_mm_movemask_ps((__m128)m);
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < DIP_LANES; i++) {
+        bits |= (unsigned)(m[i] & 1) << i;
+    }
+    return bits;
+#endif
+}
+
+VEC_INLINE Mask mask_from_bits(unsigned bits) {
+    Vi lane_bit;
+    for (int i = 0; i < DIP_LANES; i++) {
+        lane_bit[i] = 1 << i;
+    }
+    return (vi_splat((int32_t)bits) & lane_bit) != 0;
+}
+
+VEC_INLINE Vf vf_select(Mask m, Vf a, Vf b) {
+#if VEC_AVX2
+    return (Vf)_mm256_blendv_ps((__m256)b, (__m256)a, (__m256)m);
+#else
+    return (Vf)(((Vi)a & m) | ((Vi)b & ~m));
+#endif
+}
+
+VEC_INLINE Vi vi_select(Mask m, Vi a, Vi b) {
+#if VEC_AVX2
+    return (Vi)_mm256_blendv_ps((__m256)b, (__m256)a, (__m256)m);
+#else
+    return (a & m) | (b & ~m);
+#endif
+}
+#endif
+
+VEC_INLINE bool mask_any(Mask m) {
+    return mask_bits(m) != 0;
+}
+
+#define VEC_ALL_LANES ((1u << (DIP_LANES - 1) << 1) - 1u)
+
+VEC_INLINE bool mask_all(Mask m) {
+    return mask_bits(m) == VEC_ALL_LANES;
+}
+
+// --- min, max, sqrt, floor ---------------------------------------------------------------------
+
+// a < b ? a : b, so b where either is NaN.
+VEC_INLINE Vf vf_min(Vf a, Vf b) {
+#if VEC_AVX512
+    return (Vf)_mm512_min_ps((__m512)a, (__m512)b);
+#elif VEC_AVX2
+    return (Vf)_mm256_min_ps((__m256)a, (__m256)b);
+#elif VEC_SSE2
+    return (Vf)_mm_min_ps((__m128)a, (__m128)b);
+#else
+    return vf_select(a < b, a, b);
+#endif
+}
+
+// a > b ? a : b, so b where either is NaN.
+VEC_INLINE Vf vf_max(Vf a, Vf b) {
+#if VEC_AVX512
+    return (Vf)_mm512_max_ps((__m512)a, (__m512)b);
+#elif VEC_AVX2
+    return (Vf)_mm256_max_ps((__m256)a, (__m256)b);
+#elif VEC_SSE2
+    return (Vf)_mm_max_ps((__m128)a, (__m128)b);
+#else
+    return vf_select(a > b, a, b);
+#endif
+}
+
+VEC_INLINE Vi vi_min(Vi a, Vi b) {
+    return vi_select(vi_lt(a, b), a, b);
+}
+
+VEC_INLINE Vi vi_max(Vi a, Vi b) {
+    return vi_select(vi_lt(b, a), a, b);
+}
+
+VEC_INLINE Vf vf_sqrt(Vf a) {
+#if VEC_AVX512
+    return (Vf)_mm512_sqrt_ps((__m512)a);
+#elif VEC_AVX2
+    return (Vf)_mm256_sqrt_ps((__m256)a);
+#elif VEC_SSE2
+    return (Vf)_mm_sqrt_ps((__m128)a);
+#else
+    Vf root;
+    for (int i = 0; i < DIP_LANES; i++) {
+        root[i] = __builtin_sqrtf(a[i]);
+    }
+    return root;
+#endif
+}
+
+VEC_INLINE Vf vf_abs(Vf a) {
+    return vf_bits(vi_bits(a) & 0x7fffffff);
+}
+
+// Values of 2^23 and more, infinities and NaN come back as they are.
+VEC_INLINE Vf vf_floor(Vf a) {
+    const Mask small = vf_lt(vf_abs(a), vf_splat(8388608.0f));
+    const Vf inside = vf_select(small, a, vf_splat(0.0f));
+    const Vf whole = vf_from_int(vi_from_float(inside));
+    const Vf lower = vf_select(vf_lt(inside, whole), whole - 1.0f, whole);
+    return vf_select(small, lower, a);
+}
+
+// --- memory ------------------------------------------------------------------------------------
+
+// base[index[i]] per lane.
+VEC_INLINE Vf vf_gather(const float *base, Vi index) {
+#if VEC_AVX512
+    return (Vf)_mm512_i32gather_ps((__m512i)index, base, 4);
+#elif VEC_AVX2
+    return (Vf)_mm256_i32gather_ps(base, (__m256i)index, 4);
+#else
+    Vf v;
+    for (int i = 0; i < DIP_LANES; i++) {
+        v[i] = base[index[i]];
+    }
+    return v;
+#endif
+}
+
+VEC_INLINE Vi vi_gather(const int32_t *base, Vi index) {
+#if VEC_AVX512
+    return (Vi)_mm512_i32gather_epi32((__m512i)index, base, 4);
+#elif VEC_AVX2
+    return (Vi)_mm256_i32gather_epi32(base, (__m256i)index, 4);
+#else
+    Vi v;
+    for (int i = 0; i < DIP_LANES; i++) {
+        v[i] = base[index[i]];
+    }
+    return v;
+#endif
+}
+
+VEC_INLINE Vu vu_gather(const uint32_t *base, Vi index) {
+    return (Vu)vi_gather((const int32_t *)base, index);
+}
+
+// The four bytes from base[index[i]] on, little-endian, at any address.
+VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
+#if VEC_AVX512
+    return (Vu)_mm512_i32gather_epi32((__m512i)index, base, 1);
+#elif VEC_AVX2
+    return (Vu)_mm256_i32gather_epi32((const int *)base, (__m256i)index, 1);
+#else
+    Vu v;
+    for (int i = 0; i < DIP_LANES; i++) {
+        const uint8_t *p = base + index[i];
+        v[i] = (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+    }
+    return v;
+#endif
+}
+
+// True when every lane holds the same value.
+VEC_INLINE bool vi_uniform(Vi v) {
+    return mask_all(vi_eq(v, vi_splat(v[0])));
+}
+
+VEC_INLINE Vi vi_iota(void) {
+    Vi v;
+    for (int i = 0; i < DIP_LANES; i++) {
+        v[i] = i;
+    }
+    return v;
+}
+
+#endif

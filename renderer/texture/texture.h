@@ -1,0 +1,54 @@
+// Textures as the fast path stores them: mip chains in linear light, packed for filtering.
+//
+// A texel is 32 bits: square roots of linear light, red in bits 21..31, green 10..20 (11 bits
+// each), blue 0..9. The square root spreads the codes as the eye does, and squaring is exact in a
+// filter; the error is below 0.06 sRGB codes (blue 0.12). Alpha is a separate plane of bytes,
+// kept only when some texel is not opaque.
+//
+// Every level has one column and one row more than its size, which repeat the first (DIP_WRAP_
+// REPEAT) or the last (DIP_WRAP_CLAMP), so the four texels of a bilinear read are always at
+// offset, +1, +stride, +stride+1.
+#ifndef DIP_RENDERER_TEXTURE_TEXTURE_H
+#define DIP_RENDERER_TEXTURE_TEXTURE_H
+
+#include "renderer/scene.h"
+
+#include <stdint.h>
+
+enum { DIP_MAX_LEVELS = 14 }; // 8192 has 14
+
+#define DIP_TEXEL_RED_SHIFT   21
+#define DIP_TEXEL_GREEN_SHIFT 10
+#define DIP_TEXEL_RED_MAX     2047
+#define DIP_TEXEL_GREEN_MAX   2047
+#define DIP_TEXEL_BLUE_MAX    1023
+
+typedef struct DipTexture {
+    int width; // of level 0, texels
+    int height;
+    int level_count;
+    DipWrap wrap_u;
+    DipWrap wrap_v;
+    // Per level, as int32 so that a kernel can gather them.
+    int32_t level_offset[DIP_MAX_LEVELS]; // of the level's first texel, in texels
+    int32_t level_width[DIP_MAX_LEVELS];
+    int32_t level_height[DIP_MAX_LEVELS];
+    int32_t level_stride[DIP_MAX_LEVELS]; // texels per row, padding included
+    uint32_t *texels;
+    uint8_t *alpha;     // the same layout; NULL when all texels are opaque
+    size_t texel_count; // padding included
+} DipTexture;
+
+// Builds the whole mip chain. def is only read. The pool may be NULL.
+DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err);
+
+// A texture whose levels are given pictures of any size instead of a chain (mip debugging):
+// 1..DIP_MAX_LEVELS of them.
+DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
+                                           DipError *err);
+void dip_texture_destroy(DipTexture **texture);
+
+// Linear light 0..1 to a packed texel, rounded.
+uint32_t dip_texel_pack(const double rgb_lin[3]);
+
+#endif

@@ -1,0 +1,235 @@
+// Every kernel of every instruction set against the scalar one, bit for bit, on random input with
+// the values that break things: zeros, infinities, NaN, huge and tiny numbers.
+#include "renderer/base/assert.h"
+#include "renderer/raster/kernels.h"
+#include "renderer/shading/surface.h"
+#include "renderer/texture/srgb.h"
+#include "renderer/texture/texture.h"
+#include "tests/renderer/random.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { ROUNDS = 300, SEED = 20261 };
+
+// A number of any size, now and then one of the awkward ones.
+static float awkward(Random *random, double magnitude) {
+    static const float specials[] = {0.0f, -0.0f,  1.0f,   -1.0f, INFINITY, -INFINITY,
+                                     NAN,  1e-38f, 1e-45f, 3e38f, -3e38f,   0.5f};
+    if (random_int(random, 0, 15) == 0) {
+        return specials[random_int(random, 0, (int)DIP_ARRAY_COUNT(specials) - 1)];
+    }
+    return (float)random_real(random, -magnitude, magnitude);
+}
+
+typedef void CompareIsa(const DipKernels *scalar, const DipKernels *other, Random *random);
+
+static void compare_all(CompareIsa *compare) {
+    int compared = 0;
+    for (int isa = DIP_ISA_SCALAR + 1; isa < DIP_ISA_COUNT; isa++) {
+        if (!dip_isa_available((DipIsa)isa)) {
+            continue;
+        }
+        Random random = {SEED};
+        for (int round = 0; round < ROUNDS; round++) {
+            compare(dip_kernels(DIP_ISA_SCALAR), dip_kernels((DipIsa)isa), &random);
+        }
+        compared++;
+    }
+    if (!compared) {
+        skip();
+    }
+}
+
+// --- projection --------------------------------------------------------------------------------
+
+static void compare_project(const DipKernels *scalar, const DipKernels *other, Random *random) {
+    static float clip[4][DIP_VERTEX_BATCH];
+    static DipScreenBatch expected;
+    static DipScreenBatch found;
+    for (int i = 0; i < DIP_VERTEX_BATCH; i++) {
+        for (int c = 0; c < 4; c++) {
+            clip[c][i] = awkward(random, c == 3 ? 10.0 : 30.0);
+        }
+    }
+    const DipScreenMapping map = {
+        .half_width = (float)random_int(random, 1, 4096),
+        .half_height = (float)random_int(random, 1, 4096),
+        .guard_left = 20.0f,
+        .guard_right = 18.0f,
+        .guard_top = 20.0f,
+        .guard_bottom = 18.0f,
+        .clip_planes = {{0.1f, 0.9f, -0.3f, 0.2f}},
+        .clip_plane_count = 1,
+    };
+    float *const rows[4] = {clip[0], clip[1], clip[2], clip[3]};
+    const int count = random_int(random, 1, DIP_VERTEX_BATCH);
+    scalar->dip_kernel_project(&map, count, rows, &expected);
+    other->dip_kernel_project(&map, count, rows, &found);
+    const size_t n = (size_t)count;
+    for (size_t i = 0; i < n; i++) {
+        assert_int_equal(found.code[i], expected.code[i]);
+        if (expected.code[i] & (DIP_CLIP_INVALID | DIP_CLIP_NEEDED)) {
+            continue; // nothing of use
+        }
+        assert_int_equal(found.x[i], expected.x[i]);
+        assert_int_equal(found.y[i], expected.y[i]);
+        assert_memory_equal(&found.z[i], &expected.z[i], sizeof(float));
+        assert_memory_equal(&found.rw[i], &expected.rw[i], sizeof(float));
+    }
+}
+
+static void project_is_the_same_for_every_isa(void **state) {
+    (void)state;
+    compare_all(compare_project);
+}
+
+// --- textures ----------------------------------------------------------------------------------
+
+static DipTexture *random_texture(Random *random) {
+    static uint8_t rgba8[64 * 64 * 4];
+    const int sizes[] = {1, 2, 5, 7, 16, 64};
+    for (size_t i = 0; i < sizeof rgba8; i++) {
+        rgba8[i] = (uint8_t)random_u64(random);
+    }
+    const DipTextureDef def = {
+        .name = "random",
+        .width = sizes[random_int(random, 0, 5)],
+        .height = sizes[random_int(random, 0, 5)],
+        .rgba8 = rgba8,
+        .wrap_u = random_int(random, 0, 1) ? DIP_WRAP_REPEAT : DIP_WRAP_CLAMP,
+        .wrap_v = random_int(random, 0, 1) ? DIP_WRAP_REPEAT : DIP_WRAP_CLAMP,
+    };
+    DipTexture *texture = dip_texture_create(&def, NULL);
+    assert_non_null(texture);
+    return texture;
+}
+
+static void random_coordinates(DipFragmentBatch *batch, Random *random) {
+    const double spread = pow(10.0, random_real(random, -5.0, 2.0));
+    batch->count = random_int(random, 1, DIP_FRAGMENT_BATCH);
+    for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
+        for (int s = 0; s < 2; s++) {
+            batch->slot[s][i] = awkward(random, 3.0);
+            batch->slot_dx[s][i] = awkward(random, spread);
+            batch->slot_dy[s][i] = awkward(random, spread);
+        }
+    }
+    batch->work = (DipSampleWork){0};
+}
+
+static void compare_sampling(const DipKernels *scalar, const DipKernels *other, Random *random) {
+    static DipFragmentBatch batch;
+    float expected[3][DIP_FRAGMENT_BATCH];
+    float found[3][DIP_FRAGMENT_BATCH];
+    DipTexture *texture = random_texture(random);
+    const DipSampler sampler = {
+        .texture = texture,
+        .max_anisotropy = 1 << random_int(random, 0, 4),
+        .advanced = random_int(random, 0, 1) != 0,
+        .bias_lod8 = random_int(random, -256, 512),
+        .min_lod8 = 256 * random_int(random, 0, 2),
+    };
+    random_coordinates(&batch, random);
+    scalar->dip_kernel_sample_colour(&batch, &sampler, 0, expected);
+    const DipSampleWork work = batch.work;
+    batch.work = (DipSampleWork){0};
+    other->dip_kernel_sample_colour(&batch, &sampler, 0, found);
+    assert_int_equal(batch.work.probes, work.probes);
+    assert_int_equal(batch.work.texels, work.texels);
+    const size_t bytes = (size_t)batch.count * sizeof(float);
+    for (int c = 0; c < 3; c++) {
+        assert_memory_equal(found[c], expected[c], bytes);
+        for (int i = 0; i < batch.count; i++) {
+            assert_true(expected[c][i] >= 0.0f && expected[c][i] <= 1.0001f);
+        }
+    }
+    scalar->dip_kernel_sample_alpha(&batch, &sampler, 0, expected[0]);
+    other->dip_kernel_sample_alpha(&batch, &sampler, 0, found[0]);
+    assert_memory_equal(found[0], expected[0], bytes);
+    dip_texture_destroy(&texture);
+}
+
+static void sampling_is_the_same_for_every_isa(void **state) {
+    (void)state;
+    compare_all(compare_sampling);
+}
+
+// --- fragments ---------------------------------------------------------------------------------
+
+enum { TRIANGLES = 40, SLOTS = 5 };
+
+static void compare_fragments(const DipKernels *scalar, const DipKernels *other, Random *random) {
+    static DipTriangle triangles[TRIANGLES];
+    static float surfaces[TRIANGLES * (DIP_SURFACE_SLOTS + 3 * SLOTS)];
+    static DipFragmentBatch expected;
+    static DipFragmentBatch found;
+    static DipSrgbEncodeTable srgb;
+    static DipFragmentList list;
+    if (!srgb.code[DIP_LINEAR16_MAX]) {
+        dip_srgb_encode_table(&srgb);
+    }
+    for (size_t i = 0; i < DIP_ARRAY_COUNT(surfaces); i++) {
+        surfaces[i] = awkward(random, 2.0);
+    }
+    for (int t = 0; t < TRIANGLES; t++) {
+        triangles[t].surface = (uint32_t)(t * dip_surface_floats(SLOTS));
+    }
+    list.count = random_int(random, 1, DIP_FRAGMENT_BATCH);
+    const bool one_triangle = random_int(random, 0, 1);
+    for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
+        list.triangle[i] = one_triangle ? 3 : (uint32_t)random_int(random, 0, TRIANGLES - 1);
+        list.x[i] = (float)random_real(random, 0.0, 640.0);
+        list.y[i] = (float)random_real(random, 0.0, 480.0);
+    }
+    const DipShadingInput input = {triangles, surfaces};
+    scalar->dip_kernel_interpolate(&input, &list, SLOTS, &expected);
+    other->dip_kernel_interpolate(&input, &list, SLOTS, &found);
+    for (int s = 0; s < SLOTS; s++) {
+        for (int i = 0; i < list.count; i++) {
+            // Any NaN equals any NaN: its bits depend on the instruction's operand order.
+            const float *pairs[3][2] = {{&found.slot[s][i], &expected.slot[s][i]},
+                                        {&found.slot_dx[s][i], &expected.slot_dx[s][i]},
+                                        {&found.slot_dy[s][i], &expected.slot_dy[s][i]}};
+            for (int k = 0; k < 3; k++) {
+                if (!isnan(*pairs[k][0]) || !isnan(*pairs[k][1])) {
+                    assert_memory_equal(pairs[k][0], pairs[k][1], sizeof(float));
+                }
+            }
+        }
+    }
+    DipEncodedBatch expected_code;
+    DipEncodedBatch found_code;
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
+            expected.colour[c][i] = awkward(random, 1.5);
+        }
+    }
+    scalar->dip_kernel_encode(&expected, srgb.code, &expected_code);
+    other->dip_kernel_encode(&expected, srgb.code, &found_code);
+    const size_t n = (size_t)list.count;
+    assert_memory_equal(found_code.rgba8, expected_code.rgba8, n * sizeof(uint32_t));
+    for (int c = 0; c < 3; c++) {
+        assert_memory_equal(found_code.linear16[c], expected_code.linear16[c], n * sizeof(int32_t));
+    }
+}
+
+static void fragments_are_the_same_for_every_isa(void **state) {
+    (void)state;
+    compare_all(compare_fragments);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(project_is_the_same_for_every_isa),
+        cmocka_unit_test(sampling_is_the_same_for_every_isa),
+        cmocka_unit_test(fragments_are_the_same_for_every_isa),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,77 @@
+// The worker pool: every index runs exactly once, whatever the threads, again and again.
+#include "renderer/base/pool.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+enum { MAX_COUNT = 1000, RUNS = 200 };
+
+typedef struct Tally {
+    atomic_int runs[MAX_COUNT];
+    int thread_count;
+    atomic_int bad_worker;
+    int64_t plain[MAX_COUNT]; // written without atomics: the pool must order it
+} Tally;
+
+static void tally(void *context, int index, int worker) {
+    Tally *all = context;
+    atomic_fetch_add(&all->runs[index], 1);
+    all->plain[index] += index;
+    if (worker < 0 || worker >= all->thread_count) {
+        atomic_store(&all->bad_worker, 1);
+    }
+}
+
+static void sleep_ms(long ms) {
+    const struct timespec pause = {0, ms * 1000000};
+    nanosleep(&pause, NULL);
+}
+
+static void every_index_runs_once(void **state) {
+    (void)state;
+    for (int threads = 1; threads <= 5; threads++) {
+        static Tally all;
+        all = (Tally){.thread_count = threads};
+        DipPool *pool = dip_pool_create(threads, NULL);
+        assert_non_null(pool);
+        assert_int_equal(dip_pool_thread_count(pool), threads);
+        for (int run = 0; run < RUNS; run++) {
+            dip_pool_run(pool, run * 5, tally, &all);
+            if (run % 50 == 0) {
+                sleep_ms(5); // long enough that workers fall asleep
+            }
+        }
+        for (int i = 0; i < MAX_COUNT; i++) {
+            const int expected = RUNS - 1 - i / 5;
+            assert_int_equal(all.runs[i], expected > 0 ? expected : 0);
+            assert_int_equal(all.plain[i], (int64_t)i * (expected > 0 ? expected : 0));
+        }
+        assert_int_equal(all.bad_worker, 0);
+        dip_pool_destroy(&pool);
+        assert_null(pool);
+    }
+}
+
+static void refuses_impossible_thread_counts(void **state) {
+    (void)state;
+    DipError err = {0};
+    assert_null(dip_pool_create(-1, &err));
+    assert_int_equal(err.code, DIP_ERROR_RANGE);
+    assert_string_equal(err.key, "threads");
+    assert_null(dip_pool_create(DIP_MAX_THREADS + 1, &err));
+    assert_int_equal(err.code, DIP_ERROR_RANGE);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_index_runs_once),
+        cmocka_unit_test(refuses_impossible_thread_counts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
