@@ -38,8 +38,8 @@ static bool make_folder(const char *folder, DipError *err) {
 static bool write_picture(const char *folder, int index, int pane, const DipFrame *frame,
                           DipError *err) {
     char file[PATH_MAX];
-    const int length = snprintf(file, sizeof file, "%s/%s_%04d.png", folder, dip_pane_names[pane],
-                                index);
+    const int length =
+        snprintf(file, sizeof file, "%s/%s_%04d.png", folder, dip_pane_names[pane], index);
     if (length < 0 || (size_t)length >= sizeof file) {
         return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
     }
@@ -52,8 +52,8 @@ static void show_progress(const DipOptions *options, int done, int total) {
     }
 }
 
-static bool dump_frame(DipSession *session, const DipOptions *options, int index,
-                       DipRecord *record, DipError *err) {
+static bool dump_frame(DipSession *session, const DipOptions *options, int index, DipRecord *record,
+                       DipError *err) {
     const int64_t time_ns = index * INT64_C(1000000000000) / options->fps_milli;
     DipPose pose;
     DipFrame frames[DIP_PANE_COUNT];

@@ -51,7 +51,8 @@ static int run(const DipOptions *options) {
     case DIP_COMMAND_PATH_CONVERT:
         return run_on_path(options, dip_path_convert_run);
     default:
-        return run_with_session(options, dip_preview_run);
+        dip_options_print_help(options, false, stderr);
+        return EXIT_BAD_INPUT;
     }
 }
 

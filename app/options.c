@@ -256,8 +256,8 @@ static bool parse_option(int argc, char *const *argv, int *index, DipOptions *op
     const char *argument = argv[*index];
     const char *equals = strchr(argument, '=');
     const size_t length = equals ? (size_t)(equals - argument) : strlen(argument);
-    const OptionRow *row = strcmp(argument, "-h") == 0 ? find_row("--help", 6)
-                                                       : find_row(argument, length);
+    const OptionRow *row =
+        strcmp(argument, "-h") == 0 ? find_row("--help", 6) : find_row(argument, length);
     if (!row) {
         return unknown_option(argument, err);
     }
@@ -288,8 +288,7 @@ static bool parse_command(int argc, char *const *argv, int *index, DipOptions *o
     if (strcmp(argv[1], "path") == 0) {
         const char *word = argc > 2 ? argv[2] : "";
         if (strcmp(word, "info") == 0 || strcmp(word, "convert") == 0) {
-            options->command =
-                *word == 'i' ? DIP_COMMAND_PATH_INFO : DIP_COMMAND_PATH_CONVERT;
+            options->command = *word == 'i' ? DIP_COMMAND_PATH_INFO : DIP_COMMAND_PATH_CONVERT;
             *index = 3;
             return true;
         }
@@ -334,8 +333,7 @@ static bool check_complete(const DipOptions *options, DipError *err) {
     if (options->help || options->version) {
         return true;
     }
-    if (options->command == DIP_COMMAND_DUMP && !options->out && !options->json &&
-        !options->hash) {
+    if (options->command == DIP_COMMAND_DUMP && !options->out && !options->json && !options->hash) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "dump",
                              "nothing to make, accepted at least one of --out DIR, --json FILE, "
                              "--hash");
@@ -382,8 +380,10 @@ static void print_settings(FILE *out) {
         char steps[128] = "";
         for (int i = 0; i < info->step_count; i++) {
             const bool available = info->available_mask >> i & 1;
-            strcat(strcat(strcat(steps, i ? "|" : ""), info->steps[i]),
-                   i == info->default_step ? "*" : available ? "" : "(later)");
+            strcat(strcat(strcat(steps, i ? "|" : ""), info->steps[i]), i == info->default_step
+                                                                            ? "*"
+                                                                        : available ? ""
+                                                                                    : "(later)");
         }
         fprintf(out, "  %-8s %s\n           %s\n", info->key, steps, info->text);
     }

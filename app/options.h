@@ -54,7 +54,7 @@ typedef struct DipOptions {
     int first_frame; // first_frame, first_frame + frame_step, ... below end_frame
     int end_frame;
     int frame_step;
-    int64_t fps_milli; // frames per 1000 seconds
+    int64_t fps_milli;                      // frames per 1000 seconds
     const char *operands[DIP_MAX_OPERANDS]; // files of the path commands
     int operand_count;
 } DipOptions;

@@ -45,8 +45,8 @@ static uint8_t *packed_rgb(const DipFrame *frame) {
 bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
     Buffer buffer = {0};
     uint8_t *rgb = packed_rgb(frame);
-    const bool made = rgb && stbi_write_png_to_func(append, &buffer, frame->width, frame->height,
-                                                    3, rgb, frame->width * 3);
+    const bool made = rgb && stbi_write_png_to_func(append, &buffer, frame->width, frame->height, 3,
+                                                    rgb, frame->width * 3);
     free(rgb);
     const bool written =
         made && !buffer.failed

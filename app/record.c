@@ -108,8 +108,9 @@ bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *
 
 bool dip_record_write(const DipRecord *record, const char *file, DipError *err) {
     char *text = cJSON_Print(record->root);
-    const bool written = text ? dip_whole_file_write(file, text, strlen(text), err)
-                              : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    const bool written = text
+                             ? dip_whole_file_write(file, text, strlen(text), err)
+                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     cJSON_free(text);
     return written;
 }

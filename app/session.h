@@ -17,11 +17,11 @@ typedef struct DipSession {
     DipPool *pool;
     DipIsa isa;
     DipScene *scene;
-    DipCamTrack track;    // slots are the ini's categories
-    DipCamPath **paths;   // loaded once each, by file
+    DipCamTrack track;  // slots are the ini's categories
+    DipCamPath **paths; // loaded once each, by file
     int path_count;
     DipRenderer *renderers[DIP_PANE_COUNT];
-    bool orbiting;        // a model of the user's own, without a path
+    bool orbiting; // a model of the user's own, without a path
 } DipSession;
 
 // Loads everything the options and the ini name. Every fault goes to *faults with file and line;

@@ -1,4 +1,4 @@
-// Pictures (PNG, JPEG, BMP, TGA) to 8-bit RGBA texels. Private to assets/.
+// Pictures (PNG, JPEG, BMP, TGA) to 8-bit RGBA texels.
 #ifndef DIP_ASSETS_PICTURE_H
 #define DIP_ASSETS_PICTURE_H
 
