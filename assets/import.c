@@ -17,10 +17,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// Not aiProcess_JoinIdenticalVertices: in 5.2 it joins vertices that differ in their second texture
-// coordinates alone, which breaks light maps.
-static const unsigned process_flags = aiProcess_Triangulate | aiProcess_GenSmoothNormals |
-                                      aiProcess_FlipUVs | aiProcess_SortByPType;
+// Not aiProcess_JoinIdenticalVertices: it merges vertices that differ in their second texture
+// coordinates alone, which tears light maps. mesh.c joins on all attributes.
+static const unsigned process_flags =
+    aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_FlipUVs | aiProcess_SortByPType;
 
 // Faces that meet at a greater angle keep an edge.
 static const float smoothing_angle_deg = 60.0f;

@@ -79,6 +79,7 @@ typedef struct DipMeshKey {
     unsigned source;
     int material;
     bool mirrored;
+    const uint32_t *remap; // the file's vertex index to the joined one
 } DipMeshKey;
 
 typedef struct DipModelFile {

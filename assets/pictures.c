@@ -116,7 +116,7 @@ static int add_picture(DipModel *model, const DipPictureEntry *entry) {
 
 static int embedded_picture(DipModel *model, int file, const char *path,
                             const struct aiTexture *texture) {
-    const int known = find_picture(model, NULL, texture->pcData);
+    const int known = find_picture(model, "", texture->pcData);
     if (known >= 0) {
         return known;
     }

@@ -207,6 +207,21 @@ static void glb_with_embedded_picture(void **state) {
     dip_model_destroy(&model);
 }
 
+// Two triangles with a chart each on the light map: the corners they share differ there alone.
+static void light_map_seams_stay(void **state) {
+    (void)state;
+    static const float uv1[6][2] = {{0.125f, 0.25f}, {0.25f, 0.25f},  {0.25f, 0.125f},
+                                    {0.625f, 0.75f}, {0.75f, 0.625f}, {0.625f, 0.625f}};
+    DipModel *model = load(fixture_data("seam.gltf"), NULL, NULL);
+    const DipMeshDef *mesh = mesh_of(dip_model_scene_def(model), 0);
+    assert_int_equal(mesh->vertex_count, 6);
+    for (uint32_t corner = 0; corner < 6; ++corner) {
+        const float *at = mesh->uv1 + 2 * (size_t)mesh->indices[corner];
+        assert_true(at[0] == uv1[corner][0] && at[1] == uv1[corner][1]);
+    }
+    dip_model_destroy(&model);
+}
+
 static void nodes_become_objects(void **state) {
     (void)state;
     DipModel *model = load(fixture_data("instances.gltf"), NULL, NULL);
@@ -343,6 +358,7 @@ int main(void) {
         cmocka_unit_test(courtyard_arrives_whole),
         cmocka_unit_test(gltf_with_embedded_picture),
         cmocka_unit_test(glb_with_embedded_picture),
+        cmocka_unit_test(light_map_seams_stay),
         cmocka_unit_test(nodes_become_objects),
         cmocka_unit_test(tags_choose_surfaces),
         cmocka_unit_test(obj_with_opacity_map),
