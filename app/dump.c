@@ -1,0 +1,111 @@
+// `diptych dump`: frames without a display.
+#include "app/commands.h"
+
+#include "app/png.h"
+#include "app/record.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+// Makes the folder and those above it, as far as they are missing.
+static bool make_folder(const char *folder, DipError *err) {
+    char part[PATH_MAX];
+    const size_t length = strlen(folder);
+    if (length >= sizeof part) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+    }
+    for (size_t i = 1; i <= length; i++) {
+        if (folder[i] == '/' || folder[i] == '\0') {
+            memcpy(part, folder, i);
+            part[i] = '\0';
+            if (mkdir(part, 0777) != 0 && errno != EEXIST) {
+                return dip_error_set(err, DIP_ERROR_IO, part, 0, "--out",
+                                     "the folder cannot be made: %s", strerror(errno));
+            }
+        }
+    }
+    struct stat status;
+    if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode)) {
+        return dip_error_set(err, DIP_ERROR_IO, folder, 0, "--out", "is no folder");
+    }
+    return true;
+}
+
+static bool write_picture(const char *folder, int index, int pane, const DipFrame *frame,
+                          DipError *err) {
+    char file[PATH_MAX];
+    const int length =
+        snprintf(file, sizeof file, "%s/%s_%04d.png", folder, dip_pane_names[pane], index);
+    if (length < 0 || (size_t)length >= sizeof file) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+    }
+    return dip_png_write(file, frame, err);
+}
+
+static void show_progress(const DipOptions *options, int done, int total) {
+    if (isatty(STDERR_FILENO) && (options->out || options->json || !isatty(STDOUT_FILENO))) {
+        fprintf(stderr, "\r%d of %d frames%s", done, total, done == total ? "\n" : "");
+    }
+}
+
+static bool dump_frame(DipSession *session, const DipOptions *options, int index, DipRecord *record,
+                       DipError *err) {
+    const int64_t time_ns = index * INT64_C(1000000000000) / options->fps_milli;
+    DipPose pose;
+    DipFrame frames[DIP_PANE_COUNT];
+    char hashes[DIP_PANE_COUNT][33];
+    DipQuality qualities[DIP_PANE_COUNT];
+    DipRecordPane panes[DIP_PANE_COUNT];
+    if (!dip_session_draw(session, time_ns, &pose, frames, err)) {
+        return false;
+    }
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        dip_frame_hash(&frames[p], hashes[p]);
+        qualities[p] = dip_renderer_quality(session->renderers[p]);
+        panes[p] = (DipRecordPane){&qualities[p], &frames[p], hashes[p]};
+        if (options->hash) {
+            printf("%04d %s %s\n", index, dip_pane_names[p], hashes[p]);
+        }
+        if (options->out && !write_picture(options->out, index, p, &frames[p], err)) {
+            return false;
+        }
+    }
+    return !record || dip_record_add(record, index, 1e-9 * (double)time_ns, &pose, panes, err);
+}
+
+static bool write_records(const DipRecord *record, const DipOptions *options, DipError *err) {
+    if (options->out) {
+        char file[PATH_MAX];
+        snprintf(file, sizeof file, "%s/frames.json", options->out);
+        if (!dip_record_write(record, file, err)) {
+            return false;
+        }
+    }
+    return !options->json || dip_record_write(record, options->json, err);
+}
+
+bool dip_dump_run(DipSession *session, const DipOptions *options, DipError *err) {
+    if (options->out && !make_folder(options->out, err)) {
+        return false;
+    }
+    DipRecord *record = options->out || options->json ? dip_record_create(err) : NULL;
+    bool done = record || (!options->out && !options->json);
+    const int total =
+        (options->end_frame - options->first_frame + options->frame_step - 1) / options->frame_step;
+    for (int i = 0; done && i < total; i++) {
+        done = dump_frame(session, options, options->first_frame + i * options->frame_step, record,
+                          err);
+        show_progress(options, i + 1, total);
+    }
+    done = done && (!record || write_records(record, options, err));
+    dip_record_destroy(&record);
+    if (done && options->hash && fflush(stdout) != 0) {
+        done = dip_error_set(err, DIP_ERROR_IO, NULL, 0, "--hash", "standard output: %s",
+                             strerror(errno));
+    }
+    return done;
+}

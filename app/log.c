@@ -1,0 +1,37 @@
+// Printing errors.
+#include "app/log.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+static FILE *log_file;
+
+bool dip_log_open(const char *file, DipError *err) {
+    log_file = fopen(file, "a");
+    return log_file || dip_error_set(err, DIP_ERROR_IO, file, 0, "log", "cannot be written: %s",
+                                     strerror(errno));
+}
+
+void dip_log_close(void) {
+    if (log_file) {
+        fclose(log_file);
+        log_file = NULL;
+    }
+}
+
+void dip_log_error(const DipError *err) {
+    char text[1024];
+    dip_error_format(err, text, sizeof text);
+    fprintf(stderr, "diptych: %s\n", text);
+    if (log_file) {
+        fprintf(log_file, "%s\n", text);
+        fflush(log_file);
+    }
+}
+
+void dip_log_errors(const DipErrorList *list) {
+    for (size_t i = 0; i < list->count; i++) {
+        dip_log_error(&list->items[i]);
+    }
+}

@@ -1,0 +1,79 @@
+// The program: reads the command line, runs a command, says what went wrong.
+#include "app/commands.h"
+#include "app/log.h"
+#include "app/options.h"
+#include "app/session.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_BAD_INPUT = 2 };
+
+static int fail(const DipError *err, int code) {
+    dip_log_error(err);
+    return code;
+}
+
+// Opens what the command draws with, runs it and closes it.
+static int run_with_session(const DipOptions *options,
+                            bool (*command)(DipSession *, const DipOptions *, DipError *)) {
+    DipSession session;
+    DipErrorList faults = {0};
+    DipError err = {0};
+    const bool opened = dip_session_open(&session, options, &faults);
+    dip_log_errors(&faults);
+    dip_error_list_free(&faults);
+    if (!opened) {
+        return EXIT_BAD_INPUT;
+    }
+    const bool done = command(&session, options, &err);
+    dip_session_close(&session);
+    return done ? EXIT_DONE : fail(&err, EXIT_FAILED);
+}
+
+// The path commands' own files are their input; only what they write can fail while running.
+static int run_on_path(const DipOptions *options, bool (*command)(const DipOptions *, DipError *)) {
+    DipError err = {0};
+    if (command(options, &err)) {
+        return EXIT_DONE;
+    }
+    const bool output = options->operand_count > 1 && err.code == DIP_ERROR_IO &&
+                        strcmp(err.file, options->operands[1]) == 0;
+    return fail(&err, output ? EXIT_FAILED : EXIT_BAD_INPUT);
+}
+
+static int run(const DipOptions *options) {
+    switch (options->command) {
+    case DIP_COMMAND_DUMP:
+        return run_with_session(options, dip_dump_run);
+    case DIP_COMMAND_PATH_INFO:
+        return run_on_path(options, dip_path_info_run);
+    case DIP_COMMAND_PATH_CONVERT:
+        return run_on_path(options, dip_path_convert_run);
+    default:
+        dip_options_print_help(options, false, stderr);
+        return EXIT_BAD_INPUT;
+    }
+}
+
+int main(int argc, char **argv) {
+    DipOptions options;
+    DipError err = {0};
+    if (!dip_options_parse(argc, argv, &options, &err)) {
+        return fail(&err, EXIT_BAD_INPUT);
+    }
+    if (options.help) {
+        dip_options_print_help(&options, argc > 2, stdout);
+        return EXIT_DONE;
+    }
+    if (options.version) {
+        printf("diptych %s\n", DIP_VERSION);
+        return EXIT_DONE;
+    }
+    if (options.log && !dip_log_open(options.log, &err)) {
+        return fail(&err, EXIT_BAD_INPUT);
+    }
+    const int code = run(&options);
+    dip_log_close();
+    return code;
+}

@@ -1,0 +1,54 @@
+// Loading the pictures that stand for mip levels.
+#include "app/mip_pictures.h"
+
+#include "assets/picture.h"
+
+typedef struct MipPictures {
+    DipPicture pictures[DIP_MIP_LEVEL_COUNT];
+    DipTextureDef defs[DIP_MIP_LEVEL_COUNT];
+    const DipTextureDef *given[DIP_MIP_LEVEL_COUNT]; // NULL: keeps its colour
+    bool any;
+} MipPictures;
+
+static bool read_pictures(const DipSession *session, MipPictures *all, DipErrorList *faults) {
+    bool read = true;
+    for (int level = 0; level < DIP_MIP_LEVEL_COUNT; level++) {
+        const DipConfigFile *file = &session->config.mip_picture[level];
+        DipError err;
+        if (!file->path) {
+            continue;
+        }
+        if (!dip_picture_read_file(file->path, &all->pictures[level], &err)) {
+            DipError placed;
+            dip_config_file_fault(&session->config, file, err.code, &placed, "%s: %s", err.file,
+                                  err.message);
+            dip_error_list_add(faults, &placed);
+            read = false;
+            continue;
+        }
+        all->defs[level] = (DipTextureDef){.name = file->path,
+                                           .width = all->pictures[level].width,
+                                           .height = all->pictures[level].height,
+                                           .rgba8 = all->pictures[level].rgba8,
+                                           .encoding = DIP_ENCODING_SRGB};
+        all->given[level] = &all->defs[level];
+        all->any = true;
+    }
+    return read;
+}
+
+bool dip_mip_pictures_load(DipSession *session, DipErrorList *faults) {
+    MipPictures all = {.any = false};
+    bool loaded = read_pictures(session, &all, faults);
+    for (int p = 0; loaded && all.any && p < DIP_PANE_COUNT; p++) {
+        DipError err;
+        if (!dip_renderer_set_mip_pictures(session->renderers[p], all.given, &err)) {
+            dip_error_list_add(faults, &err);
+            loaded = false;
+        }
+    }
+    for (int level = 0; level < DIP_MIP_LEVEL_COUNT; level++) {
+        dip_picture_free(&all.pictures[level]);
+    }
+    return loaded;
+}

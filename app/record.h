@@ -1,0 +1,33 @@
+// The record of drawn frames as JSON: what each pane drew, what it cost and which effects ran.
+//
+// {"frames":[{"index":0,"time_s":0,"pose":{"position":[x,y,z],"orientation":[x,y,z,w],
+// "fov_y_deg":45},"current":{"settings":"aa=..","hash":"..","ms":1.5,"stages_ms":{..},
+// "counters":{..},"effects":{"light_map":{"run":true,"why":".."},..}},"requested":{..}},..]}
+#ifndef DIP_APP_RECORD_H
+#define DIP_APP_RECORD_H
+
+#include "renderer/base/error.h"
+#include "renderer/frame.h"
+#include "renderer/pose.h"
+#include "renderer/quality.h"
+
+typedef struct DipRecord DipRecord;
+
+// One pane of a frame.
+typedef struct DipRecordPane {
+    const DipQuality *quality;
+    const DipFrame *frame;
+    const char *hash;
+} DipRecordPane;
+
+DipRecord *dip_record_create(DipError *err);
+void dip_record_destroy(DipRecord **record);
+
+// panes: current, requested.
+bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *pose,
+                    const DipRecordPane panes[2], DipError *err);
+
+// Writes the file whole or not at all.
+bool dip_record_write(const DipRecord *record, const char *file, DipError *err);
+
+#endif

@@ -1,0 +1,306 @@
+// Opening a session: ini, models, scene, paths, renderers; every fault is reported.
+#include "app/session.h"
+
+#include "app/mip_pictures.h"
+#include "assets/model.h"
+#include "renderer/texture/srgb.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+const char *const dip_pane_names[DIP_PANE_COUNT] = {"current", "requested"};
+
+static bool add_fault(DipErrorList *faults, const DipError *err) {
+    dip_error_list_add(faults, err);
+    return false;
+}
+
+// --- the ini -----------------------------------------------------------------------------------
+
+// The shipped ini: beside the build's folders, or in the share folder of an installed program.
+static bool find_shipped_config(char *file, size_t size_bytes) {
+    static const char *const places[] = {"../../config/courtyard.ini",
+                                         "../share/diptych/config/courtyard.ini"};
+    char program[PATH_MAX];
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length < 0) {
+        return false;
+    }
+    program[length] = '\0';
+    *strrchr(program, '/') = '\0';
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const int needed = snprintf(file, size_bytes, "%s/%s", program, places[i]);
+        if (needed > 0 && (size_t)needed < size_bytes && access(file, R_OK) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool load_config(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    char shipped[PATH_MAX];
+    const char *file = options->config;
+    if (!file) {
+        if (!find_shipped_config(shipped, sizeof shipped)) {
+            DipError err;
+            dip_error_set(&err, DIP_ERROR_MISSING, NULL, 0, "--config",
+                          "the shipped config/courtyard.ini is not where the program was "
+                          "installed, accepted --config FILE");
+            return add_fault(faults, &err);
+        }
+        file = shipped;
+    }
+    return dip_config_load(file, &session->config, faults);
+}
+
+// --- models ------------------------------------------------------------------------------------
+
+// Errors of a model that the ini names are placed in the ini.
+static bool place_in_config(DipSession *session, const DipConfigFile *file, DipErrorList *faults,
+                            const DipError *err) {
+    DipError placed;
+    dip_config_file_fault(&session->config, file, err->code, &placed, "%s: %s", err->file,
+                          err->message);
+    placed.severity = err->severity;
+    return add_fault(faults, &placed);
+}
+
+static void set_surroundings(const DipSession *session, const DipOptions *options,
+                             DipSceneDef *def) {
+    for (int c = 0; c < 3; c++) {
+        def->background_lin[c] = (float)dip_srgb_decode(session->config.background.rgb[c] / 255.0);
+    }
+    if (!options->model_count) {
+        def->near_m = (float)session->config.near_m;
+    }
+}
+
+static bool load_scene(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    const char *files[DIP_MAX_OPTION_MODELS];
+    int count = options->model_count;
+    for (int i = 0; i < count; i++) {
+        files[i] = options->models[i];
+    }
+    const DipConfigFiles *named = &session->config.xfile;
+    for (size_t i = 0; !options->model_count && i < named->count; i++) {
+        files[count++] = named->items[i].path;
+    }
+    DipError err = {0};
+    DipModel *model = dip_model_load(files, count, session->pool, faults, &err);
+    if (model) {
+        DipSceneDef def = *dip_model_scene_def(model);
+        set_surroundings(session, options, &def);
+        session->scene = dip_scene_create(&def, session->pool, &err);
+        dip_model_destroy(&model);
+    }
+    if (session->scene) {
+        return true;
+    }
+    for (size_t i = 0; !options->model_count && i < named->count; i++) {
+        if (strcmp(err.file, named->items[i].path) == 0) {
+            return place_in_config(session, &named->items[i], faults, &err);
+        }
+    }
+    return add_fault(faults, &err);
+}
+
+// --- camera paths ------------------------------------------------------------------------------
+
+// Takes a path over and plays it in a slot.
+static void keep_path(DipSession *session, DipCamPath *path, int slot, double fov_y_deg) {
+    session->paths[session->path_count++] = path;
+    dip_camtrack_set(&session->track, slot, path, fov_y_deg);
+}
+
+// One of the ini's paths; a file that another category named is not loaded again.
+static bool load_category(DipSession *session, int category, DipErrorList *faults) {
+    const DipConfigCamera *camera = &session->config.camera[category];
+    if (!camera->file.path) {
+        return true;
+    }
+    for (int other = 0; other < category; other++) {
+        const DipConfigFile *file = &session->config.camera[other].file;
+        if (file->path && dip_config_same_file(file, &camera->file) &&
+            session->track.slots[other].path) {
+            dip_camtrack_set(&session->track, category, session->track.slots[other].path,
+                             camera->fov_y_deg);
+            return true;
+        }
+    }
+    DipCamPath *path;
+    DipError err;
+    if (!dip_campath_load(camera->file.path, &path, &err)) {
+        if (err.line) {
+            return add_fault(faults, &err); // a place in the path file says more
+        }
+        return place_in_config(session, &camera->file, faults, &err);
+    }
+    keep_path(session, path, category, camera->fov_y_deg);
+    return true;
+}
+
+static bool load_own_path(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    DipCamPath *path;
+    DipError err;
+    if (!dip_campath_load(options->path, &path, &err)) {
+        return add_fault(faults, &err);
+    }
+    keep_path(session, path, 0, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
+    return true;
+}
+
+static bool make_orbit(DipSession *session, DipErrorList *faults) {
+    float low[3];
+    float high[3];
+    dip_scene_bounds(session->scene, low, high);
+    DipCamOrbitDef def = dip_campath_default_orbit();
+    for (int axis = 0; axis < 3; axis++) {
+        def.min_world[axis] = low[axis];
+        def.max_world[axis] = high[axis];
+    }
+    DipCamPath *path;
+    DipError err;
+    if (!dip_campath_orbit(&def, &path, &err)) {
+        return add_fault(faults, &err);
+    }
+    keep_path(session, path, 0, def.fov_y_deg);
+    session->orbiting = true;
+    return true;
+}
+
+// "DEFAULT", "AA", ...: the key less its "CAMPATH_".
+static const char *category_name(int category) {
+    return dip_config_key_name((DipConfigKey)(DIP_KEY_CAMPATH_DEFAULT + 2 * category)) +
+           strlen("CAMPATH_");
+}
+
+static bool choose_category(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    if (!options->category) {
+        return true;
+    }
+    char known[160] = "";
+    for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
+        const char *name = category_name(c);
+        if (strcasecmp(name, options->category) == 0) {
+            session->track.active = c;
+            return true;
+        }
+        strcat(strcat(known, c ? "|" : ""), name);
+    }
+    DipError err;
+    dip_error_set(&err, DIP_ERROR_UNKNOWN, NULL, 0, "--category", "'%s', accepted %s",
+                  options->category, known);
+    return add_fault(faults, &err);
+}
+
+static bool load_paths(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    session->track = dip_camtrack_make(session->config.campath_reset_on_switch);
+    session->paths = calloc(DIP_CATEGORY_COUNT, sizeof(DipCamPath *));
+    if (!session->paths) {
+        DipError err;
+        dip_error_set(&err, DIP_ERROR_MEMORY, NULL, 0, "paths", "out of memory");
+        return add_fault(faults, &err);
+    }
+    if (options->path) {
+        return load_own_path(session, options, faults);
+    }
+    if (options->model_count) {
+        return !session->scene || make_orbit(session, faults);
+    }
+    bool loaded = true;
+    for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
+        loaded = load_category(session, c, faults) && loaded;
+    }
+    return choose_category(session, options, faults) && loaded;
+}
+
+// --- renderers ---------------------------------------------------------------------------------
+
+static DipQuality pane_quality(const DipSession *session, const DipOptions *options, int pane) {
+    DipQuality quality;
+    if (pane == DIP_PANE_CURRENT) {
+        quality = options->has_current ? options->current : session->config.current;
+    } else {
+        quality = options->has_requested ? options->requested : session->config.requested;
+    }
+    const bool given = pane == DIP_PANE_CURRENT ? options->has_current : options->has_requested;
+    if (session->config.mipdebug && !given) {
+        quality.step[DIP_SETTING_MIPDEBUG] = 1;
+    }
+    return quality;
+}
+
+static bool make_renderers(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    DipError err;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const DipRendererDef def = {
+            .pool = session->pool,
+            .isa = session->isa,
+            .width = options->has_size ? options->width : session->config.res.width,
+            .height = options->has_size ? options->height : session->config.res.height,
+            .quality = pane_quality(session, options, p),
+        };
+        session->renderers[p] = dip_renderer_create(&def, &err);
+        if (!session->renderers[p]) {
+            return add_fault(faults, &err);
+        }
+    }
+    return dip_mip_pictures_load(session, faults);
+}
+
+static bool make_pool(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    DipError err;
+    session->isa = options->has_isa                             ? options->isa
+                   : session->config.isa == DIP_CONFIG_ISA_AUTO ? dip_isa_best()
+                                                                : (DipIsa)session->config.isa;
+    session->pool =
+        dip_pool_create(options->has_threads ? options->threads : session->config.threads, &err);
+    return session->pool || add_fault(faults, &err);
+}
+
+bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    *session = (DipSession){.isa = DIP_ISA_SCALAR};
+    bool opened = load_config(session, options, faults) && make_pool(session, options, faults);
+    if (opened) {
+        // Model and paths both, so that one run shows the faults of all.
+        const bool scene = load_scene(session, options, faults);
+        const bool paths = load_paths(session, options, faults);
+        opened = scene && paths && make_renderers(session, options, faults);
+    }
+    if (!opened) {
+        dip_session_close(session);
+    }
+    return opened;
+}
+
+void dip_session_close(DipSession *session) {
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        dip_renderer_destroy(&session->renderers[p]);
+    }
+    for (int i = 0; i < session->path_count; i++) {
+        dip_campath_destroy(&session->paths[i]);
+    }
+    free(session->paths);
+    dip_scene_destroy(&session->scene);
+    dip_pool_destroy(&session->pool);
+    dip_config_free(&session->config);
+    *session = (DipSession){.isa = DIP_ISA_SCALAR};
+}
+
+bool dip_session_draw(DipSession *session, int64_t play_ns, DipPose *pose,
+                      DipFrame frames[DIP_PANE_COUNT], DipError *err) {
+    if (!dip_camtrack_pose(&session->track, play_ns, pose)) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
+    }
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        if (!dip_renderer_draw(session->renderers[p], session->scene, pose, play_ns, &frames[p],
+                               err)) {
+            return false;
+        }
+    }
+    return true;
+}

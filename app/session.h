@@ -1,0 +1,36 @@
+// What a command that draws works with: the ini, the scene, the camera track, both renderers.
+#ifndef DIP_APP_SESSION_H
+#define DIP_APP_SESSION_H
+
+#include "app/options.h"
+#include "campaths/camtrack.h"
+#include "config/config.h"
+#include "renderer/renderer.h"
+
+enum { DIP_PANE_CURRENT, DIP_PANE_REQUESTED, DIP_PANE_COUNT };
+
+extern const char *const dip_pane_names[DIP_PANE_COUNT]; // "current", "requested"
+
+typedef struct DipSession {
+    DipConfig config;
+    bool has_config;
+    DipPool *pool;
+    DipIsa isa;
+    DipScene *scene;
+    DipCamTrack track;  // slots are the ini's categories
+    DipCamPath **paths; // loaded once each, by file
+    int path_count;
+    DipRenderer *renderers[DIP_PANE_COUNT];
+    bool orbiting; // a model of the user's own, without a path
+} DipSession;
+
+// Loads everything the options and the ini name. Every fault goes to *faults with file and line;
+// warnings too. Returns false when one of them is an error; then the session is empty.
+bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorList *faults);
+void dip_session_close(DipSession *session);
+
+// Draws both panes at a time on the active path.
+bool dip_session_draw(DipSession *session, int64_t play_ns, DipPose *pose,
+                      DipFrame frames[DIP_PANE_COUNT], DipError *err);
+
+#endif

@@ -1,0 +1,287 @@
+// Model files through assimp, checked before and after its processing.
+//
+// assimp's processing steps trust indices and counts, so a file is imported bare, checked, and only
+// then processed. Its readers recurse as deep as the file nests, so they get a stack of their own
+// (see also precheck.c).
+#include "assets/model_parts.h"
+
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+// Not aiProcess_JoinIdenticalVertices: it merges vertices that differ in their second texture
+// coordinates alone, which tears light maps. mesh.c joins on all attributes.
+static const unsigned process_flags =
+    aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_FlipUVs | aiProcess_SortByPType;
+
+// Faces that meet at a greater angle keep an edge.
+static const float smoothing_angle_deg = 60.0f;
+
+static const size_t import_stack_bytes = (size_t)256 << 20; // address space; touched as needed
+
+enum {
+    MAX_NODE_DEPTH = 512,
+    MAX_LOG_WARNINGS = 8,
+};
+
+static bool check_file(const char *path, DipError *err) {
+    struct stat info = {0};
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        const bool missing = errno == ENOENT || errno == ENOTDIR;
+        return dip_error_set(err, missing ? DIP_ERROR_MISSING : DIP_ERROR_IO, path, 0, NULL,
+                             "cannot open model: %s", strerror(errno));
+    }
+    const bool known = fstat(fileno(file), &info) == 0;
+    fclose(file);
+    if (!known || !S_ISREG(info.st_mode)) {
+        return dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "model is not a file");
+    }
+    if (info.st_size == 0) {
+        return dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, NULL, "model file is empty");
+    }
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash ? slash : path, '.');
+    if (!dot || !aiIsExtensionSupported(dot)) {
+        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL,
+                             "\"%s\" is no model format that can be read, accepted .gltf, .glb, "
+                             ".obj, .x, .ply, .stl, .md2, .dae and others",
+                             dot ? dot : "no extension");
+    }
+    return true;
+}
+
+static bool check_mesh(const char *path, const struct aiMesh *mesh, bool processed, DipError *err) {
+    const char *name = mesh->mName.data;
+    const bool triangles = processed && dip_mesh_is_triangles(mesh);
+    if ((mesh->mNumVertices > 0 && !mesh->mVertices) || (mesh->mNumFaces > 0 && !mesh->mFaces)) {
+        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, name, "mesh lacks its vertices");
+    }
+    for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
+        const struct aiVector3D v = mesh->mVertices[i];
+        if (!isfinite(v.x) || !isfinite(v.y) || !isfinite(v.z)) {
+            return dip_error_set(err, DIP_ERROR_RANGE, path, 0, name,
+                                 "position of vertex %u is not finite", i);
+        }
+    }
+    unsigned polygons = 0;
+    for (unsigned f = 0; f < mesh->mNumFaces; ++f) {
+        const struct aiFace *face = &mesh->mFaces[f];
+        polygons += face->mNumIndices > 3;
+        if (face->mNumIndices == 0) {
+            return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, name, "face %u has no vertices",
+                                 f);
+        }
+        if (triangles && face->mNumIndices != 3) {
+            return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, name, "face %u is no triangle", f);
+        }
+        for (unsigned k = 0; k < face->mNumIndices; ++k) {
+            if (face->mIndices[k] >= mesh->mNumVertices) {
+                return dip_error_set(err, DIP_ERROR_RANGE, path, 0, name,
+                                     "face %u uses vertex %u of %u", f, face->mIndices[k],
+                                     mesh->mNumVertices);
+            }
+        }
+    }
+    // assimp stops the whole program when a mesh that calls itself polygons has none.
+    if ((mesh->mPrimitiveTypes & aiPrimitiveType_POLYGON) && polygons == 0) {
+        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, name, "mesh lacks its polygons");
+    }
+    return true;
+}
+
+static bool check_node(const char *path, const struct aiScene *scene, const struct aiNode *node,
+                       int depth, DipError *err) {
+    const char *name = node->mName.data;
+    if (depth > MAX_NODE_DEPTH) {
+        return dip_error_set(err, DIP_ERROR_RANGE, path, 0, name,
+                             "nodes are nested more than %d deep", MAX_NODE_DEPTH);
+    }
+    for (unsigned i = 0; i < node->mNumMeshes; ++i) {
+        if (node->mMeshes[i] >= scene->mNumMeshes) {
+            return dip_error_set(err, DIP_ERROR_RANGE, path, 0, name, "node uses mesh %u of %u",
+                                 node->mMeshes[i], scene->mNumMeshes);
+        }
+    }
+    for (unsigned i = 0; i < node->mNumChildren; ++i) {
+        if (!check_node(path, scene, node->mChildren[i], depth + 1, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool check_scene(const char *path, const struct aiScene *scene, bool processed,
+                        DipError *err) {
+    if (scene->mNumMeshes == 0) {
+        return dip_error_set(err, DIP_ERROR_MISSING, path, 0, NULL, "model has no triangles");
+    }
+    if (!scene->mRootNode || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)) {
+        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL, "file holds no scene");
+    }
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+        if (!check_mesh(path, scene->mMeshes[i], processed, err)) {
+            return false;
+        }
+        if (scene->mMeshes[i]->mMaterialIndex >= scene->mNumMaterials) {
+            return dip_error_set(err, DIP_ERROR_RANGE, path, 0, scene->mMeshes[i]->mName.data,
+                                 "mesh uses material %u of %u", scene->mMeshes[i]->mMaterialIndex,
+                                 scene->mNumMaterials);
+        }
+    }
+    return check_node(path, scene, scene->mRootNode, 0, err);
+}
+
+static bool is_gltf(const struct aiScene *scene) {
+    const struct aiMetadata *meta = scene->mMetaData;
+    for (unsigned i = 0; meta && i < meta->mNumProperties; ++i) {
+        if (strcmp(meta->mKeys[i].data, "SourceAsset_Format") == 0 &&
+            meta->mValues[i].mType == AI_AISTRING) {
+            const struct aiString *format = meta->mValues[i].mData;
+            return strncmp(format->data, "glTF", 4) == 0;
+        }
+    }
+    return false;
+}
+
+// Control characters of other people's messages would break our lines.
+static void make_one_line(char *text) {
+    for (char *c = text; *c; ++c) {
+        *c = (unsigned char)*c < ' ' ? ' ' : *c;
+    }
+    for (size_t end = strlen(text); end > 0 && text[end - 1] == ' '; --end) {
+        text[end - 1] = '\0';
+    }
+}
+
+static bool import_error(const char *path, DipError *err) {
+    char reason[200] = "";
+    snprintf(reason, sizeof reason, "%s", aiGetErrorString());
+    make_one_line(reason);
+    return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL, "model cannot be read: %s",
+                         reason[0] ? reason : "no reason known");
+}
+
+static void count_left_out(DipModel *model, const char *path, const struct aiScene *scene) {
+    unsigned left_out = 0;
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+        const struct aiMesh *mesh = scene->mMeshes[i];
+        left_out += dip_mesh_is_triangles(mesh) ? 0 : mesh->mNumFaces;
+    }
+    if (left_out > 0) {
+        dip_model_warn(model, path, NULL, "%u points and lines are left out", left_out);
+    }
+}
+
+// What assimp logs while it reads a file.
+typedef struct ImportLog {
+    DipModel *model;
+    const char *path;
+    int warning_count;
+    bool indices_dropped;
+} ImportLog;
+
+// Lines look like "Warn,  T0: text". That faces with wild indices were dropped is only said here.
+static void take_log_line(const char *line, char *user) {
+    ImportLog *log = (ImportLog *)(void *)user;
+    const bool worth_telling = strncmp(line, "Warn", 4) == 0 || strncmp(line, "Error", 5) == 0;
+    const char *text = strstr(line, ": ");
+    if (!worth_telling || !text) {
+        return;
+    }
+    log->indices_dropped = log->indices_dropped || strstr(text, "out-of-range indices");
+    char copy[200] = "";
+    snprintf(copy, sizeof copy, "%s", text + 2);
+    make_one_line(copy);
+    if (log->warning_count++ < MAX_LOG_WARNINGS) {
+        dip_model_warn(log->model, log->path, NULL, "%s", copy);
+    }
+}
+
+static bool import_bare(DipModel *model, DipModelFile *file, DipError *err) {
+    struct aiPropertyStore *properties = aiCreatePropertyStore();
+    if (!properties) {
+        return dip_model_out_of_memory(err, file->path);
+    }
+    aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, smoothing_angle_deg);
+    ImportLog log = {.model = model, .path = file->path};
+    const size_t warnings_before = model->warnings ? model->warnings->count : 0;
+    const struct aiLogStream stream = {take_log_line, (char *)(void *)&log};
+    aiAttachLogStream(&stream);
+    file->scene = aiImportFileExWithProperties(file->path, 0, NULL, properties);
+    aiDetachLogStream(&stream);
+    aiReleasePropertyStore(properties);
+    if ((!file->scene || log.indices_dropped) && model->warnings) {
+        model->warnings->count = warnings_before; // the error says it once
+    }
+    if (!file->scene) {
+        return import_error(file->path, err);
+    }
+    return !log.indices_dropped || dip_error_set(err, DIP_ERROR_RANGE, file->path, 0, NULL,
+                                                 "a face uses a vertex that is not there");
+}
+
+static bool import_and_check(DipModel *model, DipModelFile *file, DipError *err) {
+    if (!import_bare(model, file, err) || !check_scene(file->path, file->scene, false, err)) {
+        return false;
+    }
+    const struct aiScene *processed = aiApplyPostProcessing(file->scene, process_flags);
+    if (!processed) {
+        file->scene = NULL; // freed by assimp
+        return import_error(file->path, err);
+    }
+    file->scene = processed;
+    file->linear_colours = is_gltf(processed);
+    count_left_out(model, file->path, processed);
+    return check_scene(file->path, processed, true, err);
+}
+
+typedef struct ImportTask {
+    DipModel *model;
+    DipModelFile *file;
+    DipError *err;
+    bool ok;
+} ImportTask;
+
+// assimp's last error and log are the whole process's, so imports take turns.
+static void *import_thread(void *context) {
+    static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+    ImportTask *task = context;
+    pthread_mutex_lock(&turn);
+    task->ok = import_and_check(task->model, task->file, task->err);
+    if (!task->ok && task->file->scene) {
+        aiReleaseImport(task->file->scene);
+        task->file->scene = NULL;
+    }
+    pthread_mutex_unlock(&turn);
+    return NULL;
+}
+
+bool dip_model_import(DipModel *model, DipModelFile *file, DipError *err) {
+    if (!check_file(file->path, err) || !dip_model_precheck(file->path, err)) {
+        return false;
+    }
+    ImportTask task = {.model = model, .file = file, .err = err};
+    pthread_attr_t attributes;
+    pthread_t thread;
+    if (pthread_attr_init(&attributes) != 0) {
+        return dip_model_out_of_memory(err, file->path);
+    }
+    const bool started = pthread_attr_setstacksize(&attributes, import_stack_bytes) == 0 &&
+                         pthread_create(&thread, &attributes, import_thread, &task) == 0;
+    pthread_attr_destroy(&attributes);
+    if (!started) {
+        return dip_error_set(err, DIP_ERROR_RUNTIME, file->path, 0, NULL,
+                             "cannot start a thread to read the model");
+    }
+    pthread_join(thread, NULL);
+    return task.ok;
+}

@@ -1,0 +1,307 @@
+// Materials: what assimp says of a surface to the scene's few kinds.
+#include "assets/model_parts.h"
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/material.h>
+#include <assimp/mesh.h>
+#include <assimp/scene.h>
+
+#include <math.h>
+#include <string.h>
+
+static const float default_cutoff = 0.5f;
+static const float light_map_scale = 2.0f; // of object-tagged light maps: stored as light / 2
+
+float dip_model_colour_to_linear(float value, bool linear) {
+    const double x = value > 0.0f ? (value < 1.0f ? (double)value : 1.0) : 0.0; // NaN: 0
+    if (linear) {
+        return (float)x;
+    }
+    return (float)(x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4));
+}
+
+static DipWrap wrap_of(DipModel *model, const char *path, const char *name, int mode) {
+    if (mode == aiTextureMapMode_Mirror) {
+        dip_model_warn(model, path, name, "mirrored wrapping is drawn as repeat");
+    }
+    const bool clamp = mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal;
+    return clamp ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT;
+}
+
+static void warn_of_transform(DipModel *model, const char *path, const char *name,
+                              const struct aiMaterial *material, enum aiTextureType type) {
+    struct aiUVTransform t;
+    if (aiGetMaterialUVTransform(material, AI_MATKEY_UVTRANSFORM(type, 0), &t) != AI_SUCCESS) {
+        return;
+    }
+    const bool moves = t.mTranslation.x != 0.0f || t.mTranslation.y != 0.0f || t.mRotation != 0.0f;
+    if (moves || t.mScaling.x != 1.0f || t.mScaling.y != 1.0f) {
+        dip_model_warn(model, path, name, "the texture's offset, scale and turn are left out");
+    }
+}
+
+// The first of the kinds that the material has a picture of and the mesh has coordinates for.
+static DipTextureUse texture_use(DipModel *model, int file, const char *name,
+                                 const struct aiMesh *mesh, const enum aiTextureType *types,
+                                 size_t type_count) {
+    DipTextureUse use = {.picture = DIP_NO_TEXTURE};
+    const struct aiScene *scene = model->files[file].scene;
+    const struct aiMaterial *material = scene->mMaterials[mesh->mMaterialIndex];
+    const char *path = model->files[file].path;
+    struct aiString without_coordinates = {0};
+    for (size_t i = 0; i < type_count; ++i) {
+        struct aiString texture = {0};
+        unsigned channel = 0;
+        enum aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap,
+                                          aiTextureMapMode_Wrap};
+        if (aiGetMaterialTexture(material, types[i], 0, &texture, NULL, &channel, NULL, NULL, modes,
+                                 NULL) != AI_SUCCESS ||
+            texture.length == 0) {
+            continue;
+        }
+        if (channel >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !mesh->mTextureCoords[channel]) {
+            without_coordinates = texture;
+            continue;
+        }
+        warn_of_transform(model, path, name, material, types[i]);
+        use.picture = dip_model_picture(model, file, texture.data);
+        use.uv_channel = (int)channel;
+        use.wrap_u = wrap_of(model, path, name, (int)modes[0]);
+        use.wrap_v = wrap_of(model, path, name, (int)modes[1]);
+        return use;
+    }
+    if (without_coordinates.length > 0) {
+        dip_model_warn(model, path, name, "mesh \"%s\" has no coordinates for picture %s",
+                       mesh->mName.data, without_coordinates.data);
+    }
+    return use;
+}
+
+static float float_property(const struct aiMaterial *material, const char *key, unsigned type,
+                            unsigned index, float otherwise) {
+    ai_real value = 0.0f;
+    const bool found =
+        aiGetMaterialFloatArray(material, key, type, index, &value, NULL) == AI_SUCCESS;
+    return found && isfinite(value) ? value : otherwise;
+}
+
+// Returns the colour's alpha.
+static float read_base_colour(const DipModelFile *file, const struct aiMaterial *material,
+                              bool textured, float base_lin[3]) {
+    struct aiColor4D colour = {1.0f, 1.0f, 1.0f, 1.0f};
+    if (aiGetMaterialColor(material, AI_MATKEY_BASE_COLOR, &colour) != AI_SUCCESS) {
+        aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &colour);
+    }
+    base_lin[0] = dip_model_colour_to_linear(colour.r, file->linear_colours);
+    base_lin[1] = dip_model_colour_to_linear(colour.g, file->linear_colours);
+    base_lin[2] = dip_model_colour_to_linear(colour.b, file->linear_colours);
+    const bool black = base_lin[0] == 0.0f && base_lin[1] == 0.0f && base_lin[2] == 0.0f;
+    if (black && textured && !file->linear_colours) {
+        base_lin[0] = base_lin[1] = base_lin[2] = 1.0f;
+    }
+    return colour.a;
+}
+
+// Alpha-clipped or not, and at which alpha. base_alpha multiplies every texel's alpha.
+static void read_alpha(DipModel *model, const DipModelFile *file, const struct aiMaterial *material,
+                       float base_alpha, DipMaterialPlan *plan, DipMaterialDef *def) {
+    struct aiString mode = {0};
+    const bool has_mode =
+        aiGetMaterialString(material, AI_MATKEY_GLTF_ALPHAMODE, &mode) == AI_SUCCESS;
+    const bool masked = has_mode && strcmp(mode.data, "MASK") == 0;
+    const bool blended = has_mode && strcmp(mode.data, "BLEND") == 0;
+    def->alpha_cutoff = default_cutoff;
+    if (masked) {
+        const float cutoff = float_property(material, AI_MATKEY_GLTF_ALPHACUTOFF, default_cutoff);
+        plan->invisible = base_alpha < cutoff;
+        const float scaled = base_alpha > 0.0f ? cutoff / base_alpha : 1.0f;
+        def->alpha_cutoff = fminf(fmaxf(scaled, 0.0f), 1.0f);
+    } else if (blended) {
+        dip_model_warn(
+            model, file->path, def->name,
+            "blended surfaces are drawn solid where their picture's alpha is 0.5 or more");
+    }
+    if (!file->linear_colours && float_property(material, AI_MATKEY_OPACITY, 1.0f) < 1.0f &&
+        plan->opacity.picture < 0) {
+        dip_model_warn(model, file->path, def->name, "a see-through surface is drawn solid");
+    }
+    if (masked || blended || plan->opacity.picture >= 0 || plan->tag == DIP_TAG_MASK) {
+        def->surface = DIP_SURFACE_CLIPPED;
+    }
+}
+
+static void read_pictures(DipModel *model, int file, const char *name, const struct aiMesh *mesh,
+                          DipMaterialPlan *plan) {
+    static const enum aiTextureType colour[] = {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE};
+    static const enum aiTextureType opacity[] = {aiTextureType_OPACITY};
+    static const enum aiTextureType light[] = {aiTextureType_LIGHTMAP};
+    static const enum aiTextureType normal[] = {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA};
+    plan->colour = texture_use(model, file, name, mesh, colour, 2);
+    plan->opacity = texture_use(model, file, name, mesh, opacity, 1);
+    plan->normal = texture_use(model, file, name, mesh, normal, 2);
+    plan->light = (DipTextureUse){.picture = DIP_NO_TEXTURE};
+    // glTF's occlusion picture is a light map only where the object says so.
+    if (plan->light_mapped || !model->files[file].linear_colours) {
+        plan->light = texture_use(model, file, name, mesh, light, 1);
+    }
+    plan->has_uv1 = plan->light.picture >= 0;
+    plan->has_uv0 =
+        plan->colour.picture >= 0 || plan->opacity.picture >= 0 || plan->normal.picture >= 0;
+}
+
+static void fill_material(DipModel *model, int file_index, const struct aiMesh *mesh,
+                          DipMaterialPlan *plan, DipMaterialDef *def) {
+    const DipModelFile *file = &model->files[file_index];
+    const struct aiMaterial *material = file->scene->mMaterials[mesh->mMaterialIndex];
+    read_pictures(model, file_index, def->name, mesh, plan);
+    const bool textured = plan->colour.picture >= 0;
+    const float base_alpha = read_base_colour(file, material, textured, def->base_colour_lin);
+    read_alpha(model, file, material, base_alpha, plan, def);
+    if (plan->tag == DIP_TAG_WATER) {
+        def->surface = DIP_SURFACE_WATER;
+    } else if (plan->tag == DIP_TAG_SKY) {
+        def->surface = DIP_SURFACE_SKY;
+    }
+    int two_sided = 0;
+    const bool says =
+        aiGetMaterialIntegerArray(material, AI_MATKEY_TWOSIDED, &two_sided, NULL) == AI_SUCCESS;
+    def->double_sided = says ? two_sided != 0 : !file->linear_colours;
+    def->light_map_scale = plan->light_mapped ? light_map_scale : 1.0f;
+    def->colour_texture = def->light_map = def->normal_map = DIP_NO_TEXTURE;
+}
+
+// A mesh that lacks coordinates cannot share the material of one that has them.
+static unsigned coordinate_mask(const struct aiMesh *mesh) {
+    unsigned mask = 0;
+    for (unsigned i = 0; i < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++i) {
+        mask |= mesh->mTextureCoords[i] ? 1u << i : 0u;
+    }
+    return mask;
+}
+
+int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, DipTag tag,
+                       bool light_mapped, DipError *err) {
+    DipMaterialPlan plan = {.file = file,
+                            .source = mesh->mMaterialIndex,
+                            .coordinates = coordinate_mask(mesh),
+                            .tag = tag,
+                            .light_mapped = light_mapped};
+    const int count = model->def.material_count;
+    for (int i = 0; i < count; ++i) {
+        const DipMaterialPlan *other = &model->plans[i];
+        if (other->file == file && other->source == plan.source && other->tag == tag &&
+            other->light_mapped == light_mapped && other->coordinates == plan.coordinates) {
+            return i;
+        }
+    }
+    struct aiString name = {0};
+    aiGetMaterialString(model->files[file].scene->mMaterials[plan.source], AI_MATKEY_NAME, &name);
+    DipMaterialDef def = {.name = dip_model_copy_text(model, name.data)};
+    DipMaterialDef *materials = dip_array_grow(model->materials, count, sizeof *materials);
+    model->materials = materials ? materials : model->materials;
+    DipMaterialPlan *plans = dip_array_grow(model->plans, count, sizeof *plans);
+    model->plans = plans ? plans : model->plans;
+    if (!def.name || !materials || !plans) {
+        dip_model_out_of_memory(err, model->files[file].path);
+        return DIP_NOT_FOUND;
+    }
+    fill_material(model, file, mesh, &plan, &def);
+    materials[count] = def;
+    plans[count] = plan;
+    return model->def.material_count++;
+}
+
+static const DipPicture *decoded(const DipModel *model, int picture) {
+    const bool usable = picture >= 0 && model->pictures[picture].error.code == DIP_ERROR_NONE;
+    return usable ? &model->pictures[picture].picture : NULL;
+}
+
+// The picture a texture shows: the colour picture, or it with the opacity picture's alpha.
+static const DipPicture *merged_picture(DipModel *model, const DipTextureKey *key) {
+    const DipPicture *colour = decoded(model, key->picture);
+    const DipPicture *opacity = decoded(model, key->opacity_picture);
+    if (!opacity || (opacity == colour && colour->has_alpha)) {
+        return colour;
+    }
+    DipPicture *merged = dip_array_grow(model->merged, model->merged_count, sizeof *merged);
+    if (!merged) {
+        return NULL;
+    }
+    model->merged = merged;
+    DipPicture *to = &merged[model->merged_count];
+    model->merged_count += dip_picture_with_opacity(colour, opacity, to);
+    return to->rgba8 ? to : NULL;
+}
+
+static int add_texture(DipModel *model, const DipTextureKey *key, const DipTextureDef *wanted) {
+    const int count = model->def.texture_count;
+    for (int i = 0; i < count; ++i) {
+        const DipTextureDef *other = &model->textures[i];
+        const DipTextureKey *other_key = &model->texture_keys[i];
+        if (other_key->picture == key->picture &&
+            other_key->opacity_picture == key->opacity_picture &&
+            other->encoding == wanted->encoding && other->wrap_u == wanted->wrap_u &&
+            other->wrap_v == wanted->wrap_v) {
+            return i;
+        }
+    }
+    const DipPicture *picture = merged_picture(model, key);
+    DipTextureDef *textures = dip_array_grow(model->textures, count, sizeof *textures);
+    model->textures = textures ? textures : model->textures;
+    DipTextureKey *keys = dip_array_grow(model->texture_keys, count, sizeof *keys);
+    model->texture_keys = keys ? keys : model->texture_keys;
+    if (!picture || !textures || !keys) {
+        return DIP_NOT_FOUND;
+    }
+    textures[count] = *wanted;
+    textures[count].width = picture->width;
+    textures[count].height = picture->height;
+    textures[count].rgba8 = picture->rgba8;
+    keys[count] = *key;
+    keys[count].has_alpha = picture->has_alpha;
+    return model->def.texture_count++;
+}
+
+// DIP_NO_TEXTURE when there is no picture to show; *ok is false when memory runs out.
+static int texture_of(DipModel *model, const DipTextureUse *use, const DipTextureUse *opacity,
+                      DipEncoding encoding, bool *ok) {
+    const DipTextureKey key = {
+        .picture = decoded(model, use->picture) ? use->picture : DIP_NO_TEXTURE,
+        .opacity_picture =
+            opacity && decoded(model, opacity->picture) ? opacity->picture : DIP_NO_TEXTURE};
+    const int named = key.picture >= 0 ? key.picture : key.opacity_picture;
+    if (named < 0) {
+        return DIP_NO_TEXTURE;
+    }
+    const DipTextureUse *wraps = key.picture >= 0 ? use : opacity;
+    const DipTextureDef wanted = {.name = model->pictures[named].name,
+                                  .encoding = encoding,
+                                  .wrap_u = wraps->wrap_u,
+                                  .wrap_v = wraps->wrap_v};
+    const int index = add_texture(model, &key, &wanted);
+    *ok = *ok && index >= 0;
+    return index;
+}
+
+bool dip_model_finish_materials(DipModel *model, DipError *err) {
+    bool ok = true;
+    for (int i = 0; i < model->def.material_count; ++i) {
+        const DipMaterialPlan *plan = &model->plans[i];
+        DipMaterialDef *def = &model->materials[i];
+        def->colour_texture =
+            texture_of(model, &plan->colour, &plan->opacity, DIP_ENCODING_SRGB, &ok);
+        def->light_map = texture_of(model, &plan->light, NULL, DIP_ENCODING_SRGB, &ok);
+        def->normal_map = texture_of(model, &plan->normal, NULL, DIP_ENCODING_LINEAR, &ok);
+        if (!ok) {
+            return dip_model_out_of_memory(err, model->files[plan->file].path);
+        }
+        const int colour = def->colour_texture;
+        if (def->surface == DIP_SURFACE_CLIPPED &&
+            (colour < 0 || !model->texture_keys[colour].has_alpha)) {
+            def->surface = DIP_SURFACE_OPAQUE;
+        }
+        const bool solid = plan->tag == DIP_TAG_SOLID || plan->tag == DIP_TAG_MASK;
+        def->lit = solid && def->light_map < 0;
+    }
+    return true;
+}

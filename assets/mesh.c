@@ -1,0 +1,237 @@
+// Meshes: assimp's arrays of structures to the scene's packed arrays.
+#include "assets/model_parts.h"
+
+#include <assimp/mesh.h>
+#include <assimp/scene.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool dip_mesh_is_triangles(const struct aiMesh *mesh) {
+    const unsigned kinds = aiPrimitiveType_POINT | aiPrimitiveType_LINE | aiPrimitiveType_TRIANGLE |
+                           aiPrimitiveType_POLYGON; // the other bits say where triangles come from
+    return (mesh->mPrimitiveTypes & kinds) == aiPrimitiveType_TRIANGLE;
+}
+
+static float *pack_positions(DipModel *model, const struct aiMesh *mesh) {
+    float *to = dip_model_alloc(model, mesh->mNumVertices, 3 * sizeof *to);
+    for (unsigned i = 0; to && i < mesh->mNumVertices; ++i) {
+        to[3 * i + 0] = mesh->mVertices[i].x;
+        to[3 * i + 1] = mesh->mVertices[i].y;
+        to[3 * i + 2] = mesh->mVertices[i].z;
+    }
+    return to;
+}
+
+// Normals come out unit; one that is zero or not finite (of a face without area) points up.
+static float *pack_normals(DipModel *model, const struct aiMesh *mesh) {
+    float *to = dip_model_alloc(model, mesh->mNumVertices, 3 * sizeof *to);
+    for (unsigned i = 0; to && i < mesh->mNumVertices; ++i) {
+        const struct aiVector3D n = mesh->mNormals[i];
+        const double length = sqrt((double)n.x * n.x + (double)n.y * n.y + (double)n.z * n.z);
+        const bool usable = isfinite(length) && length > 1e-20;
+        to[3 * i + 0] = usable ? (float)(n.x / length) : 0.0f;
+        to[3 * i + 1] = usable ? (float)(n.y / length) : 1.0f;
+        to[3 * i + 2] = usable ? (float)(n.z / length) : 0.0f;
+    }
+    return to;
+}
+
+static float *pack_uv(DipModel *model, const struct aiMesh *mesh, int channel) {
+    const struct aiVector3D *from = mesh->mTextureCoords[channel];
+    float *to = dip_model_alloc(model, mesh->mNumVertices, 2 * sizeof *to);
+    for (unsigned i = 0; to && i < mesh->mNumVertices; ++i) {
+        to[2 * i + 0] = isfinite(from[i].x) ? from[i].x : 0.0f;
+        to[2 * i + 1] = isfinite(from[i].y) ? from[i].y : 0.0f;
+    }
+    return to;
+}
+
+static float *pack_colours(DipModel *model, const struct aiMesh *mesh, bool linear) {
+    float *to = dip_model_alloc(model, mesh->mNumVertices, 3 * sizeof *to);
+    for (unsigned i = 0; to && i < mesh->mNumVertices; ++i) {
+        to[3 * i + 0] = dip_model_colour_to_linear(mesh->mColors[0][i].r, linear);
+        to[3 * i + 1] = dip_model_colour_to_linear(mesh->mColors[0][i].g, linear);
+        to[3 * i + 2] = dip_model_colour_to_linear(mesh->mColors[0][i].b, linear);
+    }
+    return to;
+}
+
+enum { ATTRIBUTE_COUNT = 5 };
+
+// The arrays that make up a mesh's vertices; NULL where it has none of a kind.
+typedef struct VertexArrays {
+    float *values[ATTRIBUTE_COUNT];
+} VertexArrays;
+
+static const size_t attribute_width[ATTRIBUTE_COUNT] = {3, 3, 2, 2, 3};
+
+// FNV-1a over the values' bits.
+static uint32_t hash_vertex(const VertexArrays *arrays, size_t vertex) {
+    uint32_t hash = 2166136261u;
+    for (int a = 0; a < ATTRIBUTE_COUNT; ++a) {
+        for (size_t k = 0; arrays->values[a] && k < attribute_width[a]; ++k) {
+            uint32_t bits = 0;
+            memcpy(&bits, &arrays->values[a][attribute_width[a] * vertex + k], sizeof bits);
+            hash = (hash ^ bits) * 16777619u;
+            hash ^= hash >> 15;
+        }
+    }
+    return hash;
+}
+
+static bool same_vertex(const VertexArrays *arrays, size_t one, size_t other) {
+    for (int a = 0; a < ATTRIBUTE_COUNT; ++a) {
+        const size_t width = attribute_width[a];
+        const float *values = arrays->values[a];
+        if (values &&
+            memcmp(values + width * one, values + width * other, width * sizeof *values) != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void move_vertex(const VertexArrays *arrays, size_t to, size_t from) {
+    for (int a = 0; a < ATTRIBUTE_COUNT; ++a) {
+        const size_t width = attribute_width[a];
+        float *values = arrays->values[a];
+        if (values) {
+            memmove(values + width * to, values + width * from, width * sizeof *values);
+        }
+    }
+}
+
+// Joins vertices that are equal in every bit of every attribute and closes the gaps. Fills remap
+// (old index to new); returns the count that is left, 0 when memory runs out.
+static uint32_t join_vertices(const VertexArrays *arrays, uint32_t count, uint32_t *remap) {
+    size_t slots = 16;
+    while (slots < 2 * (size_t)count) {
+        slots *= 2;
+    }
+    uint32_t *table = malloc(slots * sizeof *table);
+    if (!table) {
+        return 0;
+    }
+    memset(table, 0xff, slots * sizeof *table); // UINT32_MAX: free
+    uint32_t kept = 0;
+    for (uint32_t vertex = 0; vertex < count; ++vertex) {
+        size_t slot = hash_vertex(arrays, vertex) & (slots - 1);
+        while (table[slot] != UINT32_MAX && !same_vertex(arrays, table[slot], vertex)) {
+            slot = (slot + 1) & (slots - 1);
+        }
+        if (table[slot] == UINT32_MAX) {
+            move_vertex(arrays, kept, vertex);
+            table[slot] = kept++;
+        }
+        remap[vertex] = table[slot];
+    }
+    free(table);
+    return kept;
+}
+
+// A mirroring transform turns the winding round; reversing it here turns it back.
+static uint32_t *pack_indices(DipModel *model, const struct aiMesh *mesh, const uint32_t *remap,
+                              bool mirrored) {
+    uint32_t *to = dip_model_alloc(model, mesh->mNumFaces, 3 * sizeof *to);
+    for (unsigned f = 0; to && f < mesh->mNumFaces; ++f) {
+        const unsigned *from = mesh->mFaces[f].mIndices;
+        to[3 * f + 0] = remap[from[0]];
+        to[3 * f + 1] = remap[from[mirrored ? 2 : 1]];
+        to[3 * f + 2] = remap[from[mirrored ? 1 : 2]];
+    }
+    return to;
+}
+
+static int find_mesh(const DipModel *model, const DipMeshKey *key, bool any_mirroring) {
+    for (int i = 0; i < model->def.mesh_count; ++i) {
+        const DipMeshKey *other = &model->mesh_keys[i];
+        if (other->file == key->file && other->source == key->source &&
+            other->material == key->material &&
+            (any_mirroring || other->mirrored == key->mirrored)) {
+            return i;
+        }
+    }
+    return DIP_NOT_FOUND;
+}
+
+static bool fill_vertices(DipModel *model, const struct aiMesh *mesh, DipMeshKey *key,
+                          DipMeshDef *def) {
+    const DipMaterialPlan *plan = &model->plans[key->material];
+    const bool linear = model->files[key->file].linear_colours;
+    const int uv0 = plan->colour.picture >= 0    ? plan->colour.uv_channel
+                    : plan->opacity.picture >= 0 ? plan->opacity.uv_channel
+                                                 : plan->normal.uv_channel;
+    float *positions = pack_positions(model, mesh);
+    float *normals = mesh->mNormals ? pack_normals(model, mesh) : NULL;
+    float *uvs0 = plan->has_uv0 ? pack_uv(model, mesh, uv0) : NULL;
+    float *uvs1 = plan->has_uv1 ? pack_uv(model, mesh, plan->light.uv_channel) : NULL;
+    float *colours = mesh->mColors[0] ? pack_colours(model, mesh, linear) : NULL;
+    uint32_t *remap = dip_model_alloc(model, mesh->mNumVertices, sizeof *remap);
+    if (!positions || !remap || (mesh->mNormals && !normals) || (plan->has_uv0 && !uvs0) ||
+        (plan->has_uv1 && !uvs1) || (mesh->mColors[0] && !colours)) {
+        return false;
+    }
+    const VertexArrays arrays = {{positions, normals, uvs0, uvs1, colours}};
+    def->vertex_count = join_vertices(&arrays, mesh->mNumVertices, remap);
+    def->positions = positions;
+    def->normals = normals;
+    def->uv0 = uvs0;
+    def->uv1 = uvs1;
+    def->colours_lin = colours;
+    key->remap = remap;
+    return def->vertex_count > 0;
+}
+
+static bool add_room(DipModel *model) {
+    DipMeshDef *meshes =
+        dip_array_grow(model->meshes, model->def.mesh_count, sizeof *model->meshes);
+    if (!meshes) {
+        return false;
+    }
+    model->meshes = meshes;
+    DipMeshKey *keys =
+        dip_array_grow(model->mesh_keys, model->def.mesh_count, sizeof *model->mesh_keys);
+    if (!keys) {
+        return false;
+    }
+    model->mesh_keys = keys;
+    return true;
+}
+
+int dip_model_mesh(DipModel *model, int file, unsigned source, int material, bool mirrored,
+                   DipError *err) {
+    DipMeshKey key = {file, source, material, mirrored, NULL};
+    const int known = find_mesh(model, &key, false);
+    if (known >= 0) {
+        return known;
+    }
+    const struct aiMesh *mesh = model->files[file].scene->mMeshes[source];
+    const char *path = model->files[file].path;
+    if (mesh->mNumFaces > UINT32_MAX / 3) {
+        dip_error_set(err, DIP_ERROR_RANGE, path, 0, mesh->mName.data, "mesh has %u triangles",
+                      mesh->mNumFaces);
+        return DIP_NOT_FOUND;
+    }
+    DipMeshDef def = {0};
+    const int twin = find_mesh(model, &key, true);
+    bool ok = add_room(model);
+    if (twin >= 0) {
+        def = model->meshes[twin];
+        key.remap = model->mesh_keys[twin].remap;
+    } else {
+        def.name = dip_model_copy_text(model, mesh->mName.data);
+        def.index_count = 3 * mesh->mNumFaces;
+        def.material = material;
+        ok = ok && def.name && fill_vertices(model, mesh, &key, &def);
+    }
+    ok = ok && (def.indices = pack_indices(model, mesh, key.remap, mirrored)) != NULL;
+    if (!ok) {
+        dip_model_out_of_memory(err, path);
+        return DIP_NOT_FOUND;
+    }
+    model->meshes[model->def.mesh_count] = def;
+    model->mesh_keys[model->def.mesh_count] = key;
+    return model->def.mesh_count++;
+}

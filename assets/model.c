@@ -1,0 +1,349 @@
+// Loading a model: files to objects, then pictures, then the finished description.
+#include "assets/model.h"
+
+#include "assets/model_parts.h"
+
+#include <assimp/cimport.h>
+#include <assimp/scene.h>
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_OBJECTS = 1 << 20 };
+
+// A dark slate behind models that bring no sky.
+static const float background_lin[3] = {0.022f, 0.026f, 0.034f};
+
+// The near plane's distance as a part of the model's diagonal. Depth is reversed and has no far
+// plane, so a small distance costs no precision.
+static const double near_part = 1e-4;
+
+// What a node hands down to its children.
+typedef struct NodeState {
+    double world[12]; // rows of a 3x4 matrix
+    DipTag tag;
+    bool light_mapped;
+} NodeState;
+
+void *dip_array_grow(void *items, int count, size_t item_bytes) {
+    const bool full = count == 0 || (count & (count - 1)) == 0;
+    if (!full) {
+        return items;
+    }
+    const size_t capacity = count == 0 ? 1 : 2 * (size_t)count;
+    return count > (1 << 29) ? NULL : realloc(items, capacity * item_bytes);
+}
+
+void *dip_model_alloc(DipModel *model, size_t count, size_t item_bytes) {
+    if (item_bytes > 0 && count > SIZE_MAX / 2 / item_bytes) {
+        return NULL;
+    }
+    void **blocks = dip_array_grow(model->blocks, model->block_count, sizeof *blocks);
+    if (!blocks) {
+        return NULL;
+    }
+    model->blocks = blocks;
+    void *block = calloc(1, count * item_bytes + 1);
+    if (block) {
+        blocks[model->block_count++] = block;
+    }
+    return block;
+}
+
+char *dip_model_copy_text(DipModel *model, const char *text) {
+    const size_t size_bytes = strlen(text) + 1;
+    char *copy = dip_model_alloc(model, size_bytes, 1);
+    return copy ? memcpy(copy, text, size_bytes) : NULL;
+}
+
+void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...) {
+    if (!model->warnings) {
+        return;
+    }
+    char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    DipError warning;
+    dip_error_set(&warning, DIP_ERROR_UNSUPPORTED, file, 0, key, "%s", text);
+    warning.severity = DIP_SEVERITY_WARNING;
+    dip_error_list_add(model->warnings, &warning);
+}
+
+bool dip_model_out_of_memory(DipError *err, const char *file) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+}
+
+static const struct aiMetadataEntry *find_metadata(const struct aiNode *node, const char *key) {
+    for (unsigned i = 0; node->mMetaData && i < node->mMetaData->mNumProperties; ++i) {
+        if (strcmp(node->mMetaData->mKeys[i].data, key) == 0) {
+            return &node->mMetaData->mValues[i];
+        }
+    }
+    return NULL;
+}
+
+static bool metadata_is_true(const struct aiMetadataEntry *entry) {
+    switch (entry->mType) {
+    case AI_BOOL:
+        return *(const bool *)entry->mData;
+    case AI_INT32:
+        return *(const int32_t *)entry->mData != 0;
+    case AI_UINT64:
+        return *(const uint64_t *)entry->mData != 0;
+    case AI_FLOAT:
+        return *(const float *)entry->mData != 0.0f;
+    case AI_DOUBLE:
+        return *(const double *)entry->mData != 0.0;
+    default:
+        return false;
+    }
+}
+
+static void read_tags(DipModel *model, const char *path, const struct aiNode *node,
+                      NodeState *state) {
+    static const char *const names[] = {"solid", "mask", "glass", "water", "sky"};
+    const struct aiMetadataEntry *light_mapped = find_metadata(node, "lightmapped");
+    if (light_mapped) {
+        state->light_mapped = metadata_is_true(light_mapped);
+    }
+    const struct aiMetadataEntry *surface = find_metadata(node, "surface");
+    if (!surface || surface->mType != AI_AISTRING) {
+        return;
+    }
+    const char *name = ((const struct aiString *)surface->mData)->data;
+    for (int i = 0; i <= DIP_TAG_SKY; ++i) {
+        if (strcmp(name, names[i]) == 0) {
+            state->tag = (DipTag)i;
+            return;
+        }
+    }
+    dip_model_warn(model, path, node->mName.data,
+                   "surface \"%s\" is not known, accepted solid, mask, glass, water or sky", name);
+}
+
+static void multiply(const double a[12], const struct aiMatrix4x4 *b, double to[12]) {
+    const double m[3][4] = {
+        {b->a1, b->a2, b->a3, b->a4}, {b->b1, b->b2, b->b3, b->b4}, {b->c1, b->c2, b->c3, b->c4}};
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            double sum = column == 3 ? a[4 * row + 3] : 0.0;
+            for (int k = 0; k < 3; ++k) {
+                sum += a[4 * row + k] * m[k][column];
+            }
+            to[4 * row + column] = sum;
+        }
+    }
+}
+
+static double determinant(const double m[12]) {
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+           m[2] * (m[4] * m[9] - m[5] * m[8]);
+}
+
+static bool add_object(DipModel *model, int file, const struct aiNode *node, unsigned source,
+                       const NodeState *state, DipError *err) {
+    const struct aiMesh *mesh = model->files[file].scene->mMeshes[source];
+    if (!dip_mesh_is_triangles(mesh) || mesh->mNumFaces == 0) {
+        return true;
+    }
+    const int material =
+        dip_model_material(model, file, mesh, state->tag, state->light_mapped, err);
+    if (material < 0) {
+        return false;
+    }
+    if (model->plans[material].invisible) {
+        return true;
+    }
+    const char *path = model->files[file].path;
+    if (model->def.object_count == MAX_OBJECTS) {
+        return dip_error_set(err, DIP_ERROR_RANGE, path, 0, NULL, "model has more than %d objects",
+                             MAX_OBJECTS);
+    }
+    const bool mirrored = determinant(state->world) < 0.0;
+    DipObjectDef object = {.mesh = dip_model_mesh(model, file, source, material, mirrored, err)};
+    if (object.mesh < 0) {
+        return false;
+    }
+    for (int i = 0; i < 12; ++i) {
+        object.transform[i] = (float)state->world[i];
+    }
+    object.name = dip_model_copy_text(model, node->mName.data);
+    DipObjectDef *objects =
+        dip_array_grow(model->objects, model->def.object_count, sizeof *objects);
+    if (!object.name || !objects) {
+        return dip_model_out_of_memory(err, path);
+    }
+    model->objects = objects;
+    objects[model->def.object_count++] = object;
+    return true;
+}
+
+// Depth is bounded: the import has checked it.
+static bool walk(DipModel *model, int file, const struct aiNode *node, const NodeState *parent,
+                 DipError *err) {
+    NodeState state = *parent;
+    multiply(parent->world, &node->mTransformation, state.world);
+    for (int i = 0; i < 12; ++i) {
+        if (!isfinite((float)state.world[i])) {
+            return dip_error_set(err, DIP_ERROR_RANGE, model->files[file].path, 0, node->mName.data,
+                                 "node's transform is not finite");
+        }
+    }
+    read_tags(model, model->files[file].path, node, &state);
+    for (unsigned i = 0; i < node->mNumMeshes; ++i) {
+        if (!add_object(model, file, node, node->mMeshes[i], &state, err)) {
+            return false;
+        }
+    }
+    for (unsigned i = 0; i < node->mNumChildren; ++i) {
+        if (!walk(model, file, node->mChildren[i], &state, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool load_file(DipModel *model, int index, const char *path, DipError *err) {
+    DipModelFile *file = &model->files[index];
+    file->path = dip_model_copy_text(model, path);
+    if (!file->path) {
+        return dip_model_out_of_memory(err, path);
+    }
+    model->file_count = index + 1;
+    if (!dip_model_import(model, file, err)) {
+        return false;
+    }
+    const NodeState root = {.world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    const int objects_before = model->def.object_count;
+    if (!walk(model, index, file->scene->mRootNode, &root, err)) {
+        return false;
+    }
+    if (model->def.object_count == objects_before) {
+        return dip_error_set(err, DIP_ERROR_MISSING, path, 0, NULL, "model has no triangles");
+    }
+    return true;
+}
+
+static void extend_bounds(double low[3], double high[3], const DipMeshDef *mesh,
+                          const float transform[12]) {
+    float mesh_low[3] = {INFINITY, INFINITY, INFINITY};
+    float mesh_high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const float p = mesh->positions[3 * (size_t)i + (size_t)axis];
+            mesh_low[axis] = fminf(mesh_low[axis], p);
+            mesh_high[axis] = fmaxf(mesh_high[axis], p);
+        }
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+        for (int axis = 0; axis < 3; ++axis) {
+            double p = transform[4 * axis + 3];
+            for (int k = 0; k < 3; ++k) {
+                p += (double)transform[4 * axis + k] *
+                     ((corner >> k & 1) ? mesh_high[k] : mesh_low[k]);
+            }
+            low[axis] = fmin(low[axis], p);
+            high[axis] = fmax(high[axis], p);
+        }
+    }
+}
+
+// The sky is left out: it stands wherever the author put it.
+static float near_distance(const DipModel *model) {
+    double low[3] = {INFINITY, INFINITY, INFINITY};
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int i = 0; i < model->def.object_count; ++i) {
+        const DipMeshDef *mesh = &model->meshes[model->objects[i].mesh];
+        if (model->materials[mesh->material].surface != DIP_SURFACE_SKY) {
+            extend_bounds(low, high, mesh, model->objects[i].transform);
+        }
+    }
+    double square = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        square += (high[axis] - low[axis]) * (high[axis] - low[axis]);
+    }
+    const double near_m = near_part * sqrt(square);
+    return isfinite(near_m) ? (float)fmin(fmax(near_m, 1e-9), 1e9) : 0.01f;
+}
+
+static void release_scenes(DipModel *model) {
+    for (int i = 0; i < model->file_count; ++i) {
+        if (model->files[i].scene) {
+            aiReleaseImport(model->files[i].scene);
+            model->files[i].scene = NULL;
+        }
+    }
+}
+
+static void finish(DipModel *model) {
+    release_scenes(model);
+    model->warnings = NULL;
+    model->def.textures = model->textures;
+    model->def.materials = model->materials;
+    model->def.meshes = model->meshes;
+    model->def.objects = model->objects;
+    memcpy(model->def.background_lin, background_lin, sizeof background_lin);
+    model->def.near_m = near_distance(model);
+}
+
+DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
+                         DipErrorList *warnings, DipError *err) {
+    if (file_count < 1 || file_count > DIP_MAX_MODEL_FILES) {
+        dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL, "%d model files, accepted 1..%d",
+                      file_count, DIP_MAX_MODEL_FILES);
+        return NULL;
+    }
+    DipModel *model = calloc(1, sizeof *model);
+    if (!model) {
+        dip_model_out_of_memory(err, files[0]);
+        return NULL;
+    }
+    model->warnings = warnings;
+    model->files = calloc((size_t)file_count, sizeof *model->files);
+    bool ok = model->files || dip_model_out_of_memory(err, files[0]);
+    for (int i = 0; ok && i < file_count; ++i) {
+        ok = load_file(model, i, files[i], err);
+    }
+    ok =
+        ok && dip_model_decode_pictures(model, pool, err) && dip_model_finish_materials(model, err);
+    if (!ok) {
+        dip_model_destroy(&model);
+        return NULL;
+    }
+    finish(model);
+    return model;
+}
+
+void dip_model_destroy(DipModel **model_pointer) {
+    DipModel *model = *model_pointer;
+    if (!model) {
+        return;
+    }
+    *model_pointer = NULL;
+    release_scenes(model);
+    for (int i = 0; i < model->picture_count; ++i) {
+        dip_picture_free(&model->pictures[i].picture);
+    }
+    for (int i = 0; i < model->merged_count; ++i) {
+        dip_picture_free(&model->merged[i]);
+    }
+    for (int i = 0; i < model->block_count; ++i) {
+        free(model->blocks[i]);
+    }
+    void *const arrays[] = {model->textures, model->texture_keys, model->materials, model->plans,
+                            model->meshes,   model->mesh_keys,    model->objects,   model->pictures,
+                            model->merged,   model->blocks,       model->files};
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; ++i) {
+        free(arrays[i]);
+    }
+    free(model);
+}
+
+const DipSceneDef *dip_model_scene_def(const DipModel *model) {
+    return &model->def;
+}

@@ -1,0 +1,207 @@
+// Pictures through stb_image, with the checks it leaves out: size limits and truncated files.
+#include "assets/picture.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define STBI_NO_STDIO
+#include <stb/stb_image.h>
+
+static const size_t max_file_bytes = (size_t)512 << 20;
+
+// stb_image takes bytes beyond the end of TGA, BMP and JPEG data for zeros, so the source watches
+// whether the end was passed.
+typedef struct Source {
+    const uint8_t *bytes;
+    size_t size_bytes;
+    size_t position;
+    bool passed_end;
+} Source;
+
+enum { STB_REFILL_BYTES = 128 }; // stb_image's own buffer: only these reads may fall short
+
+static int source_read(void *user, char *data, int size) {
+    Source *source = user;
+    const size_t left = source->size_bytes - source->position;
+    const size_t wanted = size > 0 ? (size_t)size : 0;
+    const size_t count = wanted < left ? wanted : left;
+    if (count < wanted && (count == 0 || wanted != STB_REFILL_BYTES)) {
+        source->passed_end = true;
+    }
+    memcpy(data, source->bytes + source->position, count);
+    source->position += count;
+    return (int)count;
+}
+
+static void source_skip(void *user, int count) {
+    Source *source = user;
+    if (count < 0) {
+        const size_t back = (size_t)(-(long long)count);
+        source->position -= back < source->position ? back : source->position;
+        return;
+    }
+    const size_t left = source->size_bytes - source->position;
+    if ((size_t)count > left) {
+        source->passed_end = true;
+    }
+    source->position += (size_t)count < left ? (size_t)count : left;
+}
+
+static int source_at_end(void *user) {
+    const Source *source = user;
+    return source->position >= source->size_bytes;
+}
+
+static bool check_size(long long width, long long height, const char *name, DipError *err) {
+    if (width < 1 || height < 1 || width > DIP_MAX_PICTURE_SIZE || height > DIP_MAX_PICTURE_SIZE) {
+        return dip_error_set(err, DIP_ERROR_RANGE, name, 0, NULL,
+                             "picture is %lld x %lld pixels, accepted 1..%d in each direction",
+                             width, height, DIP_MAX_PICTURE_SIZE);
+    }
+    return true;
+}
+
+static bool any_alpha(const DipPicture *picture) {
+    const size_t count = (size_t)picture->width * (size_t)picture->height;
+    for (size_t i = 0; i < count; ++i) {
+        if (picture->rgba8[4 * i + 3] < 255) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
+                        DipPicture *picture, DipError *err) {
+    static const stbi_io_callbacks callbacks = {source_read, source_skip, source_at_end};
+    *picture = (DipPicture){0};
+    if (size_bytes == 0) {
+        return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL, "picture file is empty");
+    }
+    Source source = {.bytes = bytes, .size_bytes = size_bytes};
+    int channels = 0;
+    if (!stbi_info_from_callbacks(&callbacks, &source, &picture->width, &picture->height,
+                                  &channels)) {
+        return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL,
+                             "not a picture that can be read, accepted PNG, JPEG, BMP or TGA");
+    }
+    if (!check_size(picture->width, picture->height, name, err)) {
+        return false;
+    }
+    source = (Source){.bytes = bytes, .size_bytes = size_bytes};
+    picture->rgba8 = stbi_load_from_callbacks(&callbacks, &source, &picture->width,
+                                              &picture->height, &channels, 4);
+    if (!picture->rgba8 || source.passed_end) {
+        const char *reason = picture->rgba8 ? NULL : stbi_failure_reason();
+        dip_picture_free(picture);
+        if (source.passed_end) {
+            return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL,
+                                 "picture file ends too early");
+        }
+        return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL, "picture cannot be read: %s",
+                             reason ? reason : "no reason known");
+    }
+    picture->has_alpha = any_alpha(picture);
+    return true;
+}
+
+static uint8_t *read_bytes(const char *path, size_t *size_bytes, DipError *err) {
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        const bool missing = errno == ENOENT || errno == ENOTDIR;
+        dip_error_set(err, missing ? DIP_ERROR_MISSING : DIP_ERROR_IO, path, 0, NULL,
+                      "cannot open picture: %s", strerror(errno));
+        return NULL;
+    }
+    struct stat info = {0};
+    uint8_t *bytes = NULL;
+    if (fstat(fileno(file), &info) != 0 || !S_ISREG(info.st_mode)) {
+        dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "is not a file");
+    } else if (info.st_size < 0 || (size_t)info.st_size > max_file_bytes) {
+        dip_error_set(err, DIP_ERROR_OVERSIZED, path, 0, NULL,
+                      "picture file has %lld bytes, accepted at most %zu", (long long)info.st_size,
+                      max_file_bytes);
+    } else if (!(bytes = malloc((size_t)info.st_size + 1))) {
+        dip_error_set(err, DIP_ERROR_MEMORY, path, 0, NULL, "out of memory");
+    } else {
+        *size_bytes = fread(bytes, 1, (size_t)info.st_size, file);
+        if (*size_bytes != (size_t)info.st_size) {
+            dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "picture file cannot be read whole");
+            free(bytes);
+            bytes = NULL;
+        }
+    }
+    fclose(file);
+    return bytes;
+}
+
+bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err) {
+    *picture = (DipPicture){0};
+    size_t size_bytes = 0;
+    uint8_t *bytes = read_bytes(path, &size_bytes, err);
+    if (!bytes) {
+        return false;
+    }
+    const bool ok = dip_picture_decode(bytes, size_bytes, path, picture, err);
+    free(bytes);
+    return ok;
+}
+
+static bool allocate(DipPicture *picture, int width, int height) {
+    *picture = (DipPicture){.width = width, .height = height};
+    picture->rgba8 = malloc(4 * (size_t)width * (size_t)height);
+    return picture->rgba8 != NULL;
+}
+
+bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_t height, const char *name,
+                           DipPicture *picture, DipError *err) {
+    *picture = (DipPicture){0};
+    if (!check_size(width, height, name, err)) {
+        return false;
+    }
+    if (!allocate(picture, (int)width, (int)height)) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, name, 0, NULL, "out of memory");
+    }
+    const size_t count = (size_t)width * height;
+    for (size_t i = 0; i < count; ++i) {
+        picture->rgba8[4 * i + 0] = bgra8[4 * i + 2];
+        picture->rgba8[4 * i + 1] = bgra8[4 * i + 1];
+        picture->rgba8[4 * i + 2] = bgra8[4 * i + 0];
+        picture->rgba8[4 * i + 3] = bgra8[4 * i + 3];
+    }
+    picture->has_alpha = any_alpha(picture);
+    return true;
+}
+
+bool dip_picture_with_opacity(const DipPicture *colour, const DipPicture *opacity,
+                              DipPicture *picture) {
+    const DipPicture *size_of = colour ? colour : opacity;
+    const int width = size_of->width;
+    const int height = size_of->height;
+    if (!allocate(picture, width, height)) {
+        return false;
+    }
+    for (int y = 0; y < height; ++y) {
+        const int from_y = (int)((long long)y * opacity->height / height);
+        for (int x = 0; x < width; ++x) {
+            const int from_x = (int)((long long)x * opacity->width / width);
+            const size_t to = 4 * ((size_t)y * (size_t)width + (size_t)x);
+            const uint8_t *from =
+                opacity->rgba8 + 4 * ((size_t)from_y * (size_t)opacity->width + (size_t)from_x);
+            static const uint8_t white[3] = {255, 255, 255};
+            memcpy(picture->rgba8 + to, colour ? colour->rgba8 + to : white, 3);
+            picture->rgba8[to + 3] =
+                opacity->has_alpha ? from[3] : (uint8_t)((from[0] + from[1] + from[2]) / 3);
+        }
+    }
+    picture->has_alpha = any_alpha(picture);
+    return true;
+}
+
+void dip_picture_free(DipPicture *picture) {
+    free(picture->rgba8);
+    *picture = (DipPicture){0};
+}

@@ -1,0 +1,191 @@
+// The pictures of a model: found, each loaded once, decoded side by side.
+#include "assets/model_parts.h"
+
+#include <assimp/scene.h>
+#include <assimp/texture.h>
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *base_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+// "*3" names the fourth embedded picture; else one is named by its file's last part.
+static const struct aiTexture *find_embedded(const struct aiScene *scene, const char *path) {
+    if (path[0] == '*') {
+        char *end = NULL;
+        const unsigned long index = strtoul(path + 1, &end, 10);
+        const bool usable = end != path + 1 && *end == '\0' && index < scene->mNumTextures;
+        return usable ? scene->mTextures[index] : NULL;
+    }
+    for (unsigned i = 0; i < scene->mNumTextures; ++i) {
+        const char *name = scene->mTextures[i]->mFilename.data;
+        if (name[0] && strcmp(base_name(name), base_name(path)) == 0) {
+            return scene->mTextures[i];
+        }
+    }
+    return NULL;
+}
+
+static bool exists(const char *path) {
+    FILE *file = fopen(path, "rb");
+    if (file) {
+        fclose(file);
+    }
+    return file != NULL;
+}
+
+static void use_forward_slashes(char *path) {
+    for (; *path; ++path) {
+        *path = *path == '\\' ? '/' : *path;
+    }
+}
+
+// "%20" to " ", as glTF's addresses have it.
+static void decode_percent(char *path) {
+    char *to = path;
+    for (const char *from = path; *from; ++to) {
+        if (from[0] == '%' && isxdigit((unsigned char)from[1]) &&
+            isxdigit((unsigned char)from[2])) {
+            const char digits[3] = {from[1], from[2], '\0'};
+            const int value = (int)strtol(digits, NULL, 16);
+            *to = value ? (char)value : '%';
+            from += 3;
+        } else {
+            *to = *from++;
+        }
+    }
+    *to = '\0';
+}
+
+// Where the picture is: at its path, taken from the model's folder, or beside the model, which
+// finds pictures that were named by another machine's absolute path. The first candidate stands
+// for messages when there is none. Newly allocated.
+static char *find_file(const char *model_path, const char *picture_path) {
+    const size_t folder_length = (size_t)(base_name(model_path) - model_path);
+    const size_t size_bytes = folder_length + strlen(picture_path) + 1;
+    char *name = strdup(picture_path);
+    char *path = malloc(size_bytes);
+    char *first = NULL;
+    for (int attempt = 0; name && path && attempt < 4; ++attempt) {
+        if (attempt == 2) {
+            decode_percent(name);
+        } else if (attempt == 0) {
+            use_forward_slashes(name);
+        }
+        const char *relative = attempt % 2 == 0 ? name : base_name(name);
+        const int folder = relative[0] == '/' ? 0 : (int)folder_length;
+        snprintf(path, size_bytes, "%.*s%s", folder, model_path, relative);
+        if (exists(path)) {
+            free(name);
+            free(first);
+            return path;
+        }
+        first = first ? first : strdup(path);
+    }
+    free(name);
+    free(path);
+    return first;
+}
+
+static int find_picture(const DipModel *model, const char *name, const void *bytes) {
+    for (int i = 0; i < model->picture_count; ++i) {
+        const DipPictureEntry *entry = &model->pictures[i];
+        const bool by_name = !bytes && !entry->bytes && name && entry->name;
+        if (by_name ? strcmp(entry->name, name) == 0 : bytes && entry->bytes == bytes) {
+            return i;
+        }
+    }
+    return DIP_NOT_FOUND;
+}
+
+static int add_picture(DipModel *model, const DipPictureEntry *entry) {
+    DipPictureEntry *pictures =
+        dip_array_grow(model->pictures, model->picture_count, sizeof *model->pictures);
+    if (!pictures) {
+        return DIP_NO_TEXTURE;
+    }
+    model->pictures = pictures;
+    pictures[model->picture_count] = *entry;
+    return model->picture_count++;
+}
+
+static int embedded_picture(DipModel *model, int file, const char *path,
+                            const struct aiTexture *texture) {
+    const int known = find_picture(model, "", texture->pcData);
+    if (known >= 0) {
+        return known;
+    }
+    char name[sizeof(struct aiString) + 256]; // an over-long path is cut
+    const char *own_name = texture->mFilename.data[0] ? texture->mFilename.data : path;
+    snprintf(name, sizeof name, "%.250s:%s", model->files[file].path, own_name);
+    const bool compressed = texture->mHeight == 0;
+    const DipPictureEntry entry = {
+        .name = dip_model_copy_text(model, name),
+        .file = file,
+        .bytes = (const uint8_t *)texture->pcData,
+        .size_bytes = compressed ? texture->mWidth : 0,
+        .raw_width = compressed ? 0 : texture->mWidth,
+        .raw_height = texture->mHeight,
+    };
+    return entry.name ? add_picture(model, &entry) : DIP_NO_TEXTURE;
+}
+
+int dip_model_picture(DipModel *model, int file, const char *path) {
+    const struct aiTexture *texture = find_embedded(model->files[file].scene, path);
+    if (texture && texture->pcData) {
+        return embedded_picture(model, file, path, texture);
+    }
+    char *found = find_file(model->files[file].path, path);
+    const int known = found ? find_picture(model, found, NULL) : DIP_NOT_FOUND;
+    int index = known;
+    if (found && known < 0) {
+        const DipPictureEntry entry = {.name = dip_model_copy_text(model, found), .file = file};
+        index = entry.name ? add_picture(model, &entry) : DIP_NO_TEXTURE;
+    }
+    free(found);
+    return index;
+}
+
+static void decode_task(void *context, int index, int worker) {
+    (void)worker;
+    DipModel *model = context;
+    DipPictureEntry *entry = &model->pictures[index];
+    if (!entry->bytes) {
+        dip_picture_read_file(entry->name, &entry->picture, &entry->error);
+    } else if (entry->raw_height > 0) {
+        dip_picture_from_bgra(entry->bytes, entry->raw_width, entry->raw_height, entry->name,
+                              &entry->picture, &entry->error);
+    } else {
+        dip_picture_decode(entry->bytes, entry->size_bytes, entry->name, &entry->picture,
+                           &entry->error);
+    }
+}
+
+bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
+    if (pool) {
+        dip_pool_run(pool, model->picture_count, decode_task, model);
+    } else {
+        for (int i = 0; i < model->picture_count; ++i) {
+            decode_task(model, i, 0);
+        }
+    }
+    for (int i = 0; i < model->picture_count; ++i) {
+        const DipPictureEntry *entry = &model->pictures[i];
+        if (entry->error.code == DIP_ERROR_MISSING) {
+            dip_model_warn(model, model->files[entry->file].path, NULL,
+                           "picture %s is missing, surfaces are drawn in their base colour",
+                           entry->name);
+        } else if (entry->error.code != DIP_ERROR_NONE) {
+            if (err) {
+                *err = entry->error;
+            }
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,219 @@
+// Values: text to a typed field, with what was found and what is accepted when it does not fit.
+#include "config/config_private.h"
+
+#include "renderer/base/number.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool refuse(DipConfigKey key, DipErrorCode code, const char *text, const char *fault,
+                   DipError *err) {
+    char accepted[128];
+    dip_config_describe(key, accepted, sizeof accepted);
+    return dip_error_set(err, code, NULL, 0, dip_config_key_name(key), "'%s' %s, accepted %s", text,
+                         fault, accepted);
+}
+
+static bool refuse_type(DipConfigKey key, const char *text, DipError *err) {
+    return refuse(key, DIP_ERROR_TYPE, text, "is of another type", err);
+}
+
+static bool refuse_range(DipConfigKey key, const char *text, DipError *err) {
+    return refuse(key, DIP_ERROR_RANGE, text, "is out of range", err);
+}
+
+// Reads exactly `count` whole numbers with `separator` between them.
+static bool read_integers(DipConfigKey key, const char *text, char separator, int count,
+                          int *values, DipError *err) {
+    const DipConfigKeyInfo *info = dip_config_key_info(key);
+    const char *at = text;
+    bool in_range = true;
+    for (int i = 0; i < count; i++) {
+        const char *end = i + 1 < count ? strchr(at, separator) : at + strlen(at);
+        double number; // as a double too, so that a number beyond int is out of range, not of type
+        if (!end || !dip_number_parse(at, (size_t)(end - at), &number) ||
+            strcspn(at, ".eE") < (size_t)(end - at)) {
+            return refuse_type(key, text, err);
+        }
+        if (number < info->low || number > info->high) {
+            in_range = false;
+        } else {
+            values[i] = (int)number;
+        }
+        at = end + 1;
+    }
+    return in_range || refuse_range(key, text, err);
+}
+
+static bool set_size(DipConfigKey key, const char *text, DipConfigSize *size, DipError *err) {
+    int values[2];
+    if (!read_integers(key, text, 'x', 2, values, err)) {
+        return false;
+    }
+    *size = (DipConfigSize){values[0], values[1]};
+    return true;
+}
+
+static bool set_color(DipConfigKey key, const char *text, DipConfigColor *color, DipError *err) {
+    int values[3];
+    if (!read_integers(key, text, ',', 3, values, err)) {
+        return false;
+    }
+    for (int i = 0; i < 3; i++) {
+        color->rgb[i] = (uint8_t)values[i];
+    }
+    return true;
+}
+
+static bool set_number(DipConfigKey key, const char *text, double *number, DipError *err) {
+    const DipConfigKeyInfo *info = dip_config_key_info(key);
+    double value;
+    if (!dip_number_parse(text, strlen(text), &value)) {
+        return refuse_type(key, text, err);
+    }
+    if (value < info->low || value > info->high) {
+        return refuse_range(key, text, err);
+    }
+    *number = value;
+    return true;
+}
+
+static bool set_flag(DipConfigKey key, const char *text, bool *flag, DipError *err) {
+    const bool is_true = strcmp(text, "true") == 0;
+    if (!is_true && strcmp(text, "false") != 0) {
+        return refuse_type(key, text, err);
+    }
+    *flag = is_true;
+    return true;
+}
+
+static bool set_isa(DipConfigKey key, const char *text, int *isa, DipError *err) {
+    static const char *const names[] = {
+#define ISA_NAME(name, NAME, lanes) #name,
+        DIP_ISA_LIST(ISA_NAME)
+#undef ISA_NAME
+    };
+    for (int i = 0; i < DIP_ISA_COUNT; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            *isa = i;
+            return true;
+        }
+    }
+    if (strcmp(text, "auto") != 0) {
+        return refuse(key, DIP_ERROR_UNKNOWN, text, "is no instruction set", err);
+    }
+    *isa = DIP_CONFIG_ISA_AUTO;
+    return true;
+}
+
+// The vocabulary's own message, with the setting's name before it.
+static bool set_settings(DipConfigKey key, const char *text, DipQuality *quality, DipError *err) {
+    DipError inner = {0};
+    if (dip_quality_parse(text, quality, &inner)) {
+        return true;
+    }
+    return dip_error_set(err, inner.code, NULL, 0, dip_config_key_name(key), "%s: %s", inner.key,
+                         inner.message);
+}
+
+static void free_file(DipConfigFile *file) {
+    free(file->path);
+    free(file->text);
+    *file = (DipConfigFile){0};
+}
+
+// Copies a name and joins it to the ini's folder.
+static bool make_file(const DipConfig *config, DipConfigKey key, const char *text, int line,
+                      DipConfigFile *file, DipError *err) {
+    const char *slash = strrchr(config->file, '/');
+    const size_t folder = slash && text[0] != '/' ? (size_t)(slash - config->file) + 1 : 0;
+    const size_t length = strlen(text);
+    *file = (DipConfigFile){
+        .path = malloc(folder + length + 1), .text = malloc(length + 1), .key = key, .line = line};
+    if (!file->path || !file->text) {
+        free_file(file);
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, dip_config_key_name(key),
+                             "no memory for a name");
+    }
+    memcpy(file->path, config->file, folder);
+    memcpy(file->path + folder, text, length + 1);
+    memcpy(file->text, text, length + 1);
+    return true;
+}
+
+static bool set_file(const DipConfig *config, DipConfigKey key, const char *text, int line,
+                     DipConfigFile *field, DipError *err) {
+    DipConfigFile file = {.key = key};
+    if (text[0] && !make_file(config, key, text, line, &file, err)) {
+        return false;
+    }
+    free_file(field);
+    *field = file;
+    return true;
+}
+
+static bool add_file(const DipConfig *config, DipConfigKey key, const char *text, int line,
+                     DipConfigFiles *files, DipError *err) {
+    if (files->count == DIP_CONFIG_MAX_MODELS) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, dip_config_key_name(key),
+                             "one file more than %d, accepted up to %d", DIP_CONFIG_MAX_MODELS,
+                             DIP_CONFIG_MAX_MODELS);
+    }
+    DipConfigFile *items = realloc(files->items, (files->count + 1) * sizeof *items);
+    if (!items) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, dip_config_key_name(key),
+                             "no memory for a name");
+    }
+    files->items = items;
+    if (!make_file(config, key, text, line, &items[files->count], err)) {
+        return false;
+    }
+    files->count++;
+    return true;
+}
+
+bool dip_config_set_value(DipConfig *config, DipConfigKey key, const char *text, int line,
+                          DipError *err) {
+    const DipConfigKeyInfo *info = dip_config_key_info(key);
+    void *field = (char *)config + info->offset;
+    switch (info->type) {
+    case DIP_TYPE_SIZE:
+        return set_size(key, text, field, err);
+    case DIP_TYPE_NUMBER:
+        return set_number(key, text, field, err);
+    case DIP_TYPE_INTEGER:
+        return read_integers(key, text, '\0', 1, field, err);
+    case DIP_TYPE_FLAG:
+        return set_flag(key, text, field, err);
+    case DIP_TYPE_FILE:
+        return set_file(config, key, text, line, field, err);
+    case DIP_TYPE_FILES:
+        return add_file(config, key, text, line, field, err);
+    case DIP_TYPE_SETTINGS:
+        return set_settings(key, text, field, err);
+    case DIP_TYPE_COLOR:
+        return set_color(key, text, field, err);
+    case DIP_TYPE_ISA:
+        return set_isa(key, text, field, err);
+    }
+    return false;
+}
+
+void dip_config_free(DipConfig *config) {
+    for (int k = 0; k < DIP_KEY_COUNT; k++) {
+        const DipConfigKeyInfo *info = dip_config_key_info((DipConfigKey)k);
+        void *field = (char *)config + info->offset;
+        if (info->type == DIP_TYPE_FILE) {
+            free_file(field);
+        } else if (info->type == DIP_TYPE_FILES) {
+            DipConfigFiles *files = field;
+            for (size_t i = 0; i < files->count; i++) {
+                free_file(&files->items[i]);
+            }
+            free(files->items);
+        }
+    }
+    free(config->file);
+    *config = (DipConfig){0};
+}

@@ -1,0 +1,371 @@
+// Models: what arrives in the scene definition, held against what the files say.
+#include "assets/model.h"
+#include "tests/assets/fixture.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+static int open_folder(void **state) {
+    (void)state;
+    fixture_open();
+    return 0;
+}
+
+static int close_folder(void **state) {
+    (void)state;
+    fixture_close();
+    return 0;
+}
+
+static DipModel *load(const char *path, DipPool *pool, DipErrorList *warnings) {
+    DipError err = {0};
+    DipModel *model = dip_model_load(&path, 1, pool, warnings, &err);
+    if (!model) {
+        fail_msg("%s: %s", err.file, err.message);
+    }
+    return model;
+}
+
+static const DipMeshDef *mesh_of(const DipSceneDef *def, int object) {
+    return &def->meshes[def->objects[object].mesh];
+}
+
+static const DipMaterialDef *material_of(const DipSceneDef *def, int object) {
+    return &def->materials[mesh_of(def, object)->material];
+}
+
+static int find_object(const DipSceneDef *def, const char *name) {
+    for (int i = 0; i < def->object_count; ++i) {
+        if (strcmp(def->objects[i].name, name) == 0) {
+            return i;
+        }
+    }
+    fail_msg("no object %s", name);
+    return -1;
+}
+
+// World position of a corner of an object.
+static void corner_world(const DipSceneDef *def, int object, uint32_t corner, double to[3]) {
+    const DipMeshDef *mesh = mesh_of(def, object);
+    const float *p = mesh->positions + 3 * (size_t)mesh->indices[corner];
+    const float *m = def->objects[object].transform;
+    for (int row = 0; row < 3; ++row) {
+        to[row] = (double)m[4 * row] * p[0] + (double)m[4 * row + 1] * p[1] +
+                  (double)m[4 * row + 2] * p[2] + m[4 * row + 3];
+    }
+}
+
+// z of the world normal that the winding of the first triangle gives.
+static double winding_z(const DipSceneDef *def, int object) {
+    double a[3], b[3], c[3];
+    corner_world(def, object, 0, a);
+    corner_world(def, object, 1, b);
+    corner_world(def, object, 2, c);
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static void courtyard_arrives_whole(void **state) {
+    (void)state;
+    DipErrorList warnings = {0};
+    DipPool *pool = dip_pool_create(2, NULL);
+    DipModel *model = load(DIP_ASSETS_DIR "/courtyard/court.gltf", pool, &warnings);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_int_equal(def->mesh_count, 17);
+    assert_int_equal(def->object_count, 17);
+    assert_int_equal(warnings.count, 0);
+    uint64_t triangles = 0;
+    for (int i = 0; i < def->object_count; ++i) {
+        triangles += mesh_of(def, i)->index_count / 3;
+    }
+    assert_int_equal(triangles, 25344);
+    // Every picture of the folder's 26 is used once, the light map by fourteen materials.
+    assert_int_equal(def->texture_count, 26);
+    static const struct {
+        const char *name;
+        DipSurface surface;
+        bool light_mapped;
+        bool double_sided;
+    } expected[] = {
+        {"paving", DIP_SURFACE_OPAQUE, true, false}, {"iron", DIP_SURFACE_OPAQUE, true, false},
+        {"fence", DIP_SURFACE_CLIPPED, true, true},  {"leaf", DIP_SURFACE_CLIPPED, true, true},
+        {"flower", DIP_SURFACE_CLIPPED, true, true}, {"glass", DIP_SURFACE_OPAQUE, false, false},
+        {"water", DIP_SURFACE_WATER, false, true},   {"sky", DIP_SURFACE_SKY, false, true},
+    };
+    for (size_t i = 0; i < sizeof expected / sizeof expected[0]; ++i) {
+        const int object = find_object(def, expected[i].name);
+        const DipMaterialDef *material = material_of(def, object);
+        assert_int_equal(material->surface, expected[i].surface);
+        assert_int_equal(material->light_map >= 0, expected[i].light_mapped);
+        assert_int_equal(mesh_of(def, object)->uv1 != NULL, expected[i].light_mapped);
+        assert_int_equal(material->double_sided, expected[i].double_sided);
+        assert_false(material->lit);
+        if (expected[i].light_mapped) {
+            assert_true(material->light_map_scale == 2.0f);
+            assert_non_null(strstr(def->textures[material->light_map].name, "lightmap.png"));
+        }
+    }
+    const DipMaterialDef *iron = material_of(def, find_object(def, "iron"));
+    assert_int_equal(iron->colour_texture, DIP_NO_TEXTURE);
+    assert_true(fabsf(iron->base_colour_lin[2] - 0.04f) < 1e-6f);
+    const DipMaterialDef *paving = material_of(def, find_object(def, "paving"));
+    assert_int_equal(def->textures[paving->normal_map].encoding, DIP_ENCODING_LINEAR);
+    assert_int_equal(def->textures[paving->colour_texture].encoding, DIP_ENCODING_SRGB);
+    dip_model_destroy(&model);
+    assert_null(model);
+    dip_pool_destroy(&pool);
+    dip_error_list_free(&warnings);
+}
+
+// The file's corner (0, 0, 0) has texture coordinate (0, 1), the picture's lower edge.
+static void assert_square_is_upright(const DipMeshDef *mesh) {
+    assert_int_equal(mesh->vertex_count, 4);
+    assert_int_equal(mesh->index_count, 6);
+    for (uint32_t i = 0; i < 4; ++i) {
+        assert_true(fabsf(mesh->uv0[2 * i] - mesh->positions[3 * i]) < 1e-6f);
+        assert_true(fabsf(mesh->uv0[2 * i + 1] - (1.0f - mesh->positions[3 * i + 1])) < 1e-6f);
+        assert_true(mesh->normals[3 * i + 2] == 1.0f);
+    }
+}
+
+static void assert_square_material(const DipSceneDef *def) {
+    assert_square_is_upright(mesh_of(def, 0));
+    const DipMaterialDef *material = material_of(def, 0);
+    assert_int_equal(material->surface, DIP_SURFACE_CLIPPED);
+    assert_true(material->alpha_cutoff == 0.25f);
+    assert_true(material->double_sided);
+    assert_true(material->lit); // occlusion is no light map without the object's word
+    assert_int_equal(material->light_map, DIP_NO_TEXTURE);
+    assert_true(material->base_colour_lin[1] == 0.25f);
+    const DipTextureDef *texture = &def->textures[material->colour_texture];
+    const uint8_t first[8] = {255, 0, 0, 255, 0, 255, 0, 255};
+    assert_memory_equal(texture->rgba8, first, sizeof first);
+    assert_int_equal(texture->width * texture->height, 4);
+    assert_int_equal(texture->wrap_u, DIP_WRAP_CLAMP);
+    assert_int_equal(texture->wrap_v, DIP_WRAP_REPEAT);
+}
+
+static void gltf_with_embedded_picture(void **state) {
+    (void)state;
+    DipModel *model = load(fixture_data("square.gltf"), NULL, NULL);
+    assert_square_material(dip_model_scene_def(model));
+    dip_model_destroy(&model);
+}
+
+static void put_u32(uint8_t *to, size_t value) {
+    for (int i = 0; i < 4; ++i) {
+        to[i] = (uint8_t)(value >> 8 * i);
+    }
+}
+
+// The same square as one binary file: a JSON chunk, and a binary one with the arrays and the PNG.
+static const char glb_json[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+    "\"nodes\":[{\"mesh\":0,\"name\":\"square\"}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},"
+    "\"material\":0}]}],"
+    "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.25,1,1],"
+    "\"baseColorTexture\":{\"index\":0}},\"alphaMode\":\"MASK\",\"alphaCutoff\":0.25,"
+    "\"doubleSided\":true}],"
+    "\"textures\":[{\"source\":0,\"sampler\":0}],\"samplers\":[{\"wrapS\":33071}],"
+    "\"images\":[{\"mimeType\":\"image/png\",\"bufferView\":2}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},"
+    "{\"bufferView\":1,\"componentType\":5126,\"count\":6,\"type\":\"VEC2\"}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":72},"
+    "{\"buffer\":0,\"byteOffset\":72,\"byteLength\":48},"
+    "{\"buffer\":0,\"byteOffset\":120,\"byteLength\":76}],"
+    "\"buffers\":[{\"byteLength\":196}]}";
+
+static void glb_with_embedded_picture(void **state) {
+    (void)state;
+    static const float positions[18] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0};
+    static const float uv[12] = {0, 1, 1, 1, 1, 0, 0, 1, 1, 0, 0, 0};
+    const size_t json_bytes = (sizeof glb_json - 1 + 3) / 4 * 4;
+    const size_t size_bytes = 20 + json_bytes + 8 + 196;
+    uint8_t glb[2048];
+    assert_true(size_bytes <= sizeof glb);
+    memset(glb, ' ', sizeof glb);
+    memcpy(glb, "glTF", 4);
+    put_u32(glb + 4, 2);
+    put_u32(glb + 8, size_bytes);
+    put_u32(glb + 12, json_bytes);
+    memcpy(glb + 16, "JSON", 4);
+    memcpy(glb + 20, glb_json, sizeof glb_json - 1);
+    uint8_t *binary = glb + 20 + json_bytes;
+    put_u32(binary, 196);
+    memcpy(binary + 4, "BIN", 4);
+    memcpy(binary + 8, positions, sizeof positions);
+    memcpy(binary + 80, uv, sizeof uv);
+    memcpy(binary + 128, fixture_png, sizeof fixture_png);
+    fixture_write("square.glb", glb, size_bytes);
+    DipModel *model = load(fixture_path("square.glb"), NULL, NULL);
+    assert_square_material(dip_model_scene_def(model));
+    dip_model_destroy(&model);
+}
+
+// Two triangles with a chart each on the light map: the corners they share differ there alone.
+static void light_map_seams_stay(void **state) {
+    (void)state;
+    static const float uv1[6][2] = {{0.125f, 0.25f}, {0.25f, 0.25f},  {0.25f, 0.125f},
+                                    {0.625f, 0.75f}, {0.75f, 0.625f}, {0.625f, 0.625f}};
+    DipModel *model = load(fixture_data("seam.gltf"), NULL, NULL);
+    const DipMeshDef *mesh = mesh_of(dip_model_scene_def(model), 0);
+    assert_int_equal(mesh->vertex_count, 6);
+    for (uint32_t corner = 0; corner < 6; ++corner) {
+        const float *at = mesh->uv1 + 2 * (size_t)mesh->indices[corner];
+        assert_true(at[0] == uv1[corner][0] && at[1] == uv1[corner][1]);
+    }
+    dip_model_destroy(&model);
+}
+
+static void nodes_become_objects(void **state) {
+    (void)state;
+    DipModel *model = load(fixture_data("instances.gltf"), NULL, NULL);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_int_equal(def->object_count, 4);
+    const int plain = find_object(def, "plain");
+    const int moved = find_object(def, "moved");
+    const int mirrored = find_object(def, "mirrored");
+    const int child = find_object(def, "child");
+    assert_int_equal(def->objects[plain].mesh, def->objects[moved].mesh);
+    const float *m = def->objects[moved].transform;
+    assert_true(m[3] == 2.0f && m[7] == 3.0f && m[11] == 4.0f);
+    // Mirrored: a mesh of its own, on the same vertices, that faces the same way in the world.
+    assert_int_not_equal(def->objects[mirrored].mesh, def->objects[plain].mesh);
+    assert_ptr_equal(mesh_of(def, mirrored)->positions, mesh_of(def, plain)->positions);
+    assert_true(winding_z(def, plain) > 0.0);
+    assert_true(winding_z(def, mirrored) > 0.0);
+    // A child stands on its parent and takes its tag.
+    const float *c = def->objects[child].transform;
+    assert_true(c[0] == 2.0f && c[3] == 10.0f && c[7] == 1.0f);
+    assert_int_equal(material_of(def, child)->surface, DIP_SURFACE_SKY);
+    dip_model_destroy(&model);
+}
+
+static void tags_choose_surfaces(void **state) {
+    (void)state;
+    DipErrorList warnings = {0};
+    DipModel *model = load(fixture_data("tags.gltf"), NULL, &warnings);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    static const struct {
+        const char *name;
+        DipSurface surface;
+        bool light_mapped;
+        bool lit;
+    } expected[] = {
+        {"solid", DIP_SURFACE_OPAQUE, true, false},  {"mask", DIP_SURFACE_CLIPPED, false, true},
+        {"glass", DIP_SURFACE_OPAQUE, false, false}, {"water", DIP_SURFACE_WATER, false, false},
+        {"sky", DIP_SURFACE_SKY, false, false},      {"odd", DIP_SURFACE_OPAQUE, false, true},
+    };
+    for (size_t i = 0; i < sizeof expected / sizeof expected[0]; ++i) {
+        const DipMaterialDef *material = material_of(def, find_object(def, expected[i].name));
+        assert_int_equal(material->surface, expected[i].surface);
+        assert_int_equal(material->light_map >= 0, expected[i].light_mapped);
+        assert_int_equal(material->lit, expected[i].lit);
+    }
+    const DipMeshDef *solid = mesh_of(def, find_object(def, "solid"));
+    assert_true(fabsf(solid->uv1[1] - 0.75f) < 1e-6f && solid->uv1[0] == 0.25f);
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.items[0].key, "odd");
+    assert_non_null(strstr(warnings.items[0].message, "jelly"));
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
+static void obj_with_opacity_map(void **state) {
+    (void)state;
+    fixture_copy("square.obj");
+    fixture_copy("square.mtl");
+    fixture_write_tga("colour.tga", 2, 2, 100);
+    fixture_write_tga("opacity.tga", 1, 1, 0);
+    DipErrorList warnings = {0};
+    DipModel *model = load(fixture_path("square.obj"), NULL, &warnings);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_square_is_upright(mesh_of(def, 0)); // OBJ counts v from the lower edge
+    const DipMaterialDef *material = material_of(def, 0);
+    assert_int_equal(material->surface, DIP_SURFACE_CLIPPED);
+    assert_true(material->double_sided);
+    assert_true(material->base_colour_lin[0] == 1.0f); // black under a picture stands for none
+    const uint8_t texel[4] = {100, 100, 100, 0};
+    assert_memory_equal(def->textures[material->colour_texture].rgba8, texel, 4);
+    assert_int_equal(warnings.count, 0);
+    dip_model_destroy(&model);
+}
+
+static void missing_picture_is_a_warning(void **state) {
+    (void)state;
+    DipErrorList warnings = {0};
+    DipModel *model = load(fixture_data("square.obj"), NULL, &warnings);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_int_equal(material_of(def, 0)->colour_texture, DIP_NO_TEXTURE);
+    assert_int_equal(material_of(def, 0)->surface, DIP_SURFACE_OPAQUE);
+    assert_int_equal(warnings.count, 2);
+    assert_int_equal(warnings.error_count, 0);
+    assert_non_null(strstr(warnings.items[0].message, "colour.tga"));
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
+static void points_and_lines_are_counted(void **state) {
+    (void)state;
+    DipErrorList warnings = {0};
+    DipModel *model = load(fixture_data("lines.obj"), NULL, &warnings);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_int_equal(def->object_count, 1);
+    assert_int_equal(mesh_of(def, 0)->index_count, 3);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.items[0].message, "2 points and lines"));
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
+static void ply_colours_are_decoded(void **state) {
+    (void)state;
+    DipModel *model = load(fixture_data("square.ply"), NULL, NULL);
+    const DipMeshDef *mesh = mesh_of(dip_model_scene_def(model), 0);
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        const float *p = mesh->positions + 3 * i;
+        // 188 / 255 in sRGB is half the light, to three digits (IEC 61966-2-1).
+        const float red = p[0] == 0.0f && p[1] == 1.0f ? 0.5029f : 1.0f;
+        assert_true(fabsf(mesh->colours_lin[3 * i] - red) < 1e-3f);
+        assert_true(mesh->colours_lin[3 * i + 1] == 0.0f);
+    }
+    dip_model_destroy(&model);
+}
+
+static void stl_and_x_load(void **state) {
+    (void)state;
+    const char *files[2] = {fixture_data("triangle.stl"), fixture_data("square.x")};
+    DipModel *model = dip_model_load(files, 2, NULL, NULL, NULL);
+    assert_non_null(model);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_int_equal(def->object_count, 2);
+    assert_int_equal(mesh_of(def, 0)->index_count, 3);
+    assert_int_equal(mesh_of(def, 1)->index_count, 6);
+    // The frame's matrix moves the square to x = 5..6; left-handed z is turned round.
+    double corner[3];
+    corner_world(def, 1, 0, corner);
+    assert_true(corner[0] >= 5.0 && corner[0] <= 6.0);
+    dip_model_destroy(&model);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(courtyard_arrives_whole),
+        cmocka_unit_test(gltf_with_embedded_picture),
+        cmocka_unit_test(glb_with_embedded_picture),
+        cmocka_unit_test(light_map_seams_stay),
+        cmocka_unit_test(nodes_become_objects),
+        cmocka_unit_test(tags_choose_surfaces),
+        cmocka_unit_test(obj_with_opacity_map),
+        cmocka_unit_test(missing_picture_is_a_warning),
+        cmocka_unit_test(points_and_lines_are_counted),
+        cmocka_unit_test(ply_colours_are_decoded),
+        cmocka_unit_test(stl_and_x_load),
+    };
+    return cmocka_run_group_tests(tests, open_folder, close_folder);
+}

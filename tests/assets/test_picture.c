@@ -1,0 +1,159 @@
+// Pictures: exact texels of hand-made files, and broken ones refused.
+#include "assets/picture.h"
+#include "tests/assets/fixture.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+static const uint8_t png_texels[16] = {255, 0, 0,   255, 0,   255, 0,   255,
+                                       0,   0, 255, 255, 255, 255, 255, 0};
+
+static int open_folder(void **state) {
+    (void)state;
+    fixture_open();
+    return 0;
+}
+
+static int close_folder(void **state) {
+    (void)state;
+    fixture_close();
+    return 0;
+}
+
+static void png_has_its_texels(void **state) {
+    (void)state;
+    DipPicture picture;
+    DipError err;
+    assert_true(dip_picture_decode(fixture_png, sizeof fixture_png, "p", &picture, &err));
+    assert_int_equal(picture.width, 2);
+    assert_int_equal(picture.height, 2);
+    assert_true(picture.has_alpha);
+    assert_memory_equal(picture.rgba8, png_texels, sizeof png_texels);
+    dip_picture_free(&picture);
+}
+
+// Every proper beginning of a file must be refused: none may come out as a picture.
+static void every_cut_is_refused(const uint8_t *bytes, size_t size_bytes) {
+    for (size_t cut = 0; cut < size_bytes; ++cut) {
+        DipPicture picture;
+        DipError err = {0};
+        if (dip_picture_decode(bytes, cut, "cut", &picture, &err)) {
+            fail_msg("accepted with %zu of %zu bytes", cut, size_bytes);
+        }
+        assert_string_equal(err.file, "cut");
+        assert_true(err.code == DIP_ERROR_TRUNCATED || err.code == DIP_ERROR_FORMAT);
+        assert_null(picture.rgba8);
+    }
+}
+
+static void cut_png_is_refused(void **state) {
+    (void)state;
+    every_cut_is_refused(fixture_png, sizeof fixture_png);
+}
+
+static void cut_tga_is_refused(void **state) {
+    (void)state;
+    fixture_write_tga("grey.tga", 16, 16, 99);
+    size_t size_bytes = 0;
+    uint8_t *bytes = fixture_read(fixture_path("grey.tga"), &size_bytes);
+    every_cut_is_refused(bytes, size_bytes);
+    DipPicture picture;
+    assert_true(dip_picture_decode(bytes, size_bytes, "whole", &picture, NULL));
+    assert_int_equal(picture.rgba8[4 * 255], 99);
+    assert_false(picture.has_alpha);
+    dip_picture_free(&picture);
+    free(bytes);
+}
+
+static void cut_bmp_is_refused(void **state) {
+    (void)state;
+    uint8_t bmp[54 + 3 * 4 * 4] = {'B', 'M', sizeof bmp, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40};
+    bmp[18] = 4;
+    bmp[22] = 4;
+    bmp[26] = 1;
+    bmp[28] = 24;
+    memset(bmp + 54, 7, sizeof bmp - 54);
+    every_cut_is_refused(bmp, sizeof bmp);
+    DipPicture picture;
+    assert_true(dip_picture_decode(bmp, sizeof bmp, "whole", &picture, NULL));
+    assert_int_equal(picture.rgba8[4 * 15 + 2], 7);
+    dip_picture_free(&picture);
+}
+
+static void sizes_out_of_range_are_refused(void **state) {
+    (void)state;
+    uint8_t tga[18 + 64] = {[2] = 2, [12] = 1, [13] = 0x20, [14] = 1, [16] = 24, [17] = 0x20};
+    DipPicture picture;
+    DipError err = {0};
+    assert_false(dip_picture_decode(tga, sizeof tga, "wide", &picture, &err)); // 8193 x 1
+    assert_int_equal(err.code, DIP_ERROR_RANGE);
+    assert_non_null(strstr(err.message, "8193 x 1"));
+    uint8_t bgra[4] = {0};
+    assert_false(dip_picture_from_bgra(bgra, 0, 1, "none", &picture, &err));
+    assert_int_equal(err.code, DIP_ERROR_RANGE);
+    assert_false(dip_picture_from_bgra(bgra, UINT32_MAX, 1, "huge", &picture, &err));
+    assert_int_equal(err.code, DIP_ERROR_RANGE);
+}
+
+static void bgra_texels_are_reordered(void **state) {
+    (void)state;
+    const uint8_t bgra[8] = {1, 2, 3, 4, 5, 6, 7, 255};
+    const uint8_t rgba[8] = {3, 2, 1, 4, 7, 6, 5, 255};
+    DipPicture picture;
+    assert_true(dip_picture_from_bgra(bgra, 2, 1, "raw", &picture, NULL));
+    assert_memory_equal(picture.rgba8, rgba, sizeof rgba);
+    dip_picture_free(&picture);
+}
+
+static void files_say_what_is_wrong(void **state) {
+    (void)state;
+    DipPicture picture;
+    DipError err = {0};
+    assert_false(dip_picture_read_file(fixture_path("none.png"), &picture, &err));
+    assert_int_equal(err.code, DIP_ERROR_MISSING);
+    fixture_write("empty.png", "", 0);
+    assert_false(dip_picture_read_file(fixture_path("empty.png"), &picture, &err));
+    assert_int_equal(err.code, DIP_ERROR_TRUNCATED);
+    fixture_write_text("text.png", "not a picture at all, whatever its name says");
+    assert_false(dip_picture_read_file(fixture_path("text.png"), &picture, &err));
+    assert_int_equal(err.code, DIP_ERROR_FORMAT);
+    assert_non_null(strstr(err.file, "text.png"));
+    assert_false(dip_picture_read_file(fixture_path("."), &picture, &err));
+    assert_int_equal(err.code, DIP_ERROR_IO);
+}
+
+static void opacity_becomes_alpha(void **state) {
+    (void)state;
+    uint8_t colours[16] = {10, 20, 30, 255, 40, 50, 60, 255, 70, 80, 90, 255, 1, 2, 3, 255};
+    uint8_t greys[8] = {0, 0, 0, 255, 255, 255, 255, 255};
+    const DipPicture colour = {colours, 2, 2, false};
+    const DipPicture opacity = {greys, 2, 1, false};
+    const uint8_t expected[16] = {10, 20, 30, 0, 40, 50, 60, 255, 70, 80, 90, 0, 1, 2, 3, 255};
+    DipPicture merged;
+    assert_true(dip_picture_with_opacity(&colour, &opacity, &merged));
+    assert_memory_equal(merged.rgba8, expected, sizeof expected);
+    assert_true(merged.has_alpha);
+    dip_picture_free(&merged);
+    assert_true(dip_picture_with_opacity(NULL, &opacity, &merged));
+    const uint8_t white[8] = {255, 255, 255, 0, 255, 255, 255, 255};
+    assert_memory_equal(merged.rgba8, white, sizeof white);
+    dip_picture_free(&merged);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(png_has_its_texels),
+        cmocka_unit_test(cut_png_is_refused),
+        cmocka_unit_test(cut_tga_is_refused),
+        cmocka_unit_test(cut_bmp_is_refused),
+        cmocka_unit_test(sizes_out_of_range_are_refused),
+        cmocka_unit_test(bgra_texels_are_reordered),
+        cmocka_unit_test(files_say_what_is_wrong),
+        cmocka_unit_test(opacity_becomes_alpha),
+    };
+    return cmocka_run_group_tests(tests, open_folder, close_folder);
+}

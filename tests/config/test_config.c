@@ -1,0 +1,287 @@
+// The ini: Figure 12 and the shipped file load with every value as it stands; the documentation
+// knows every key.
+#include "config/config.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifndef DIP_SOURCE_DIR
+#error "DIP_SOURCE_DIR must name the top folder"
+#endif
+
+static const char figure12[] = DIP_SOURCE_DIR "/tests/config/figure12.ini";
+
+static void check_fault(const DipErrorList *faults, size_t index, DipErrorCode code,
+                        DipSeverity severity, int line, const char *key, const char *said) {
+    assert_true(index < faults->count);
+    const DipError *err = &faults->items[index];
+    assert_int_equal(err->code, code);
+    assert_int_equal(err->severity, severity);
+    assert_int_equal(err->line, line);
+    assert_string_equal(err->key, key);
+    assert_non_null(strstr(err->message, said));
+}
+
+static void load(const char *file, DipConfig *config, DipErrorList *faults) {
+    *faults = (DipErrorList){0};
+    if (!dip_config_load(file, config, faults)) {
+        char text[700];
+        dip_error_format(&faults->items[0], text, sizeof text);
+        fail_msg("%s", text);
+    }
+}
+
+static void load_text(const char *text, DipConfig *config, DipErrorList *faults) {
+    FILE *stream = fopen("test.ini", "wb");
+    assert_non_null(stream);
+    fputs(text, stream);
+    fclose(stream);
+    load("test.ini", config, faults);
+    remove("test.ini");
+}
+
+// Every key that is required, each as short as it can be.
+#define MINIMAL                                                                                    \
+    "RES:1x2\nREFLECTION_RES=3x4\nFOUNTAIN_WATER_LEVEL:-.5\nDEBUG_SHOW_REFLECTION=true\n"          \
+    "XFILE:a.x\nCAMPATH_RESET_ON_SWITCH:false\nCAMPATH_DEFAULT:p\nCAMPATH_AA:p\nCAMPATH_AF:p\n"    \
+    "CAMPATH_TAA:p\nCAMPATH_AAF:p\nCAMPATH_AAA:p\nCAMPATH_CAI:p\nCAMPATH_MIPLOD:p\nCAMPATH_GI:p\n" \
+    "CAMPATH_DEFAULT_FOV:60\nMIPDEBUG:true\n"
+
+static void figure12_loads_with_its_key_set_unchanged(void **context) {
+    (void)context;
+    DipConfig config;
+    DipErrorList faults;
+    load(figure12, &config, &faults);
+    assert_int_equal(config.res.width, 640);
+    assert_int_equal(config.res.height, 480);
+    assert_int_equal(config.reflection_res.width, 320);
+    assert_int_equal(config.reflection_res.height, 240);
+    assert_true(config.fountain_water_level == 65.619);
+    assert_false(config.debug_show_reflection);
+    assert_int_equal(config.xfile.count, 1);
+    assert_string_equal(config.xfile.items[0].text, "./Meshes/final_mesh.x");
+    assert_string_equal(config.xfile.items[0].path,
+                        DIP_SOURCE_DIR "/tests/config/./Meshes/final_mesh.x");
+    assert_true(config.campath_reset_on_switch);
+    static const char *const paths[] = {
+        [DIP_CATEGORY_DEFAULT] = "AmbCamera.bth", [DIP_CATEGORY_AA] = "AntiAliasCam.bth",
+        [DIP_CATEGORY_AF] = "AnisoCam.bth",       [DIP_CATEGORY_TAA] = "AntiAliasCam.bth",
+        [DIP_CATEGORY_AAF] = "AnisoCam.bth",      [DIP_CATEGORY_AAA] = "AdaptiveAACam.bth",
+        [DIP_CATEGORY_CAI] = "AmbCamera.bth",     [DIP_CATEGORY_MIPLOD] = "MipMapCam.bth",
+        [DIP_CATEGORY_GI] = "AmbCamera.bth",
+    };
+    for (size_t c = 0; c < sizeof paths / sizeof *paths; c++) {
+        assert_string_equal(config.camera[c].file.text, paths[c]);
+        assert_true(config.camera[c].fov_y_deg == 55.0); // AAF's is AF's
+    }
+    assert_null(config.camera[DIP_CATEGORY_WATER].file.path);
+    assert_false(config.mipdebug);
+    static const char *const pictures[] = {
+        "./Mipdebug_textures/texbase1024.bmp", "./Mipdebug_textures/tex512.bmp",
+        "./Mipdebug_textures/tex256.bmp",      "./Mipdebug_textures/tex128.bmp",
+        "./Mipdebug_textures/tex64.bmp",       "./Mipdebug_textures/tex16.bmp", // the later one
+        "./Mipdebug_textures/tex8.bmp",
+    };
+    for (int l = 0; l < 7; l++) {
+        assert_string_equal(config.mip_picture[l].text, pictures[l]);
+    }
+    assert_null(config.mip_picture[DIP_MIP_LEVEL_8].path);
+    assert_int_equal(faults.count, 2);
+    check_fault(&faults, 0, DIP_ERROR_CONFLICT, DIP_SEVERITY_WARNING, 37, "CAMPATH_AAA_FOV",
+                "line 36");
+    check_fault(&faults, 1, DIP_ERROR_CONFLICT, DIP_SEVERITY_WARNING, 52, "MIPDEBUG32", "line 51");
+    dip_error_list_free(&faults);
+    dip_config_free(&config);
+}
+
+static void the_shipped_courtyard_loads_without_a_fault(void **context) {
+    (void)context;
+    DipConfig config;
+    DipErrorList faults;
+    load(DIP_SOURCE_DIR "/config/courtyard.ini", &config, &faults);
+    assert_int_equal(faults.count, 0);
+    assert_int_equal(config.res.width, 640);
+    assert_true(config.fountain_water_level == 0.66);
+    assert_string_equal(config.xfile.items[0].path,
+                        DIP_SOURCE_DIR "/config/../assets/courtyard/court.gltf");
+    FILE *model = fopen(config.xfile.items[0].path, "rb");
+    assert_non_null(model);
+    fclose(model);
+    assert_true(dip_config_same_file(&config.camera[DIP_CATEGORY_AA].file,
+                                     &config.camera[DIP_CATEGORY_TAA].file));
+    assert_string_equal(config.camera[DIP_CATEGORY_WATER].file.text, "../campaths/water.pth");
+    assert_int_equal(dip_quality_sample_count(&config.current), 1);
+    assert_int_equal(dip_quality_sample_count(&config.requested), 4);
+    assert_int_equal(dip_quality_max_anisotropy(&config.requested), 16);
+    dip_config_free(&config);
+    dip_config_free(&config); // a zeroed one
+}
+
+static void what_is_left_out_has_its_default(void **context) {
+    (void)context;
+    DipConfig config;
+    DipErrorList faults;
+    load_text(MINIMAL, &config, &faults);
+    assert_int_equal(faults.count, 0);
+    assert_int_equal(config.res.height, 2);
+    assert_int_equal(config.reflection_res.width, 3);
+    assert_true(config.fountain_water_level == -0.5);
+    assert_true(config.debug_show_reflection && config.mipdebug);
+    assert_false(config.campath_reset_on_switch);
+    assert_string_equal(config.xfile.items[0].path, "a.x"); // the ini stands in this folder
+    assert_true(config.camera[DIP_CATEGORY_GI].fov_y_deg == 60.0);
+    const DipQuality quality = dip_quality_default();
+    assert_memory_equal(&config.current, &quality, sizeof quality);
+    assert_memory_equal(&config.requested, &quality, sizeof quality);
+    assert_int_equal(config.threads, 0);
+    assert_int_equal(config.isa, DIP_CONFIG_ISA_AUTO);
+    assert_true(config.near_m == 0.1);
+    assert_int_equal(config.background.rgb[1], 64);
+    assert_null(config.log.path);
+    assert_int_equal(config.line[DIP_KEY_THREADS], 0);
+    assert_int_equal(config.line[DIP_KEY_MIPDEBUG], 17);
+    dip_config_free(&config);
+}
+
+static void our_own_keys_are_read(void **context) {
+    (void)context;
+    DipConfig config;
+    DipErrorList faults;
+    load_text(MINIMAL "CURRENT: aa=2\nREQUESTED = aa=8,aaf=on,miplod=performance ; text\n"
+                      "THREADS: 256\nISA: sse2\nNEAR: 1e-2\nBACKGROUND: 0,255,7\n"
+                      "LOG: /var/log/diptych.log\nCAMPATH_WATER: w\nCAMPATH_WATER_FOV: 44.5\n"
+                      "MIPDEBUG8: eight.png\nXFILE: sub/b.gltf\n",
+              &config, &faults);
+    assert_int_equal(faults.count, 0);
+    assert_int_equal(dip_quality_sample_count(&config.current), 2);
+    assert_int_equal(dip_quality_sample_count(&config.requested), 8);
+    assert_int_equal(config.requested.step[DIP_SETTING_MIPLOD], DIP_MIPLOD_PERFORMANCE);
+    assert_int_equal(config.threads, 256);
+    assert_int_equal(config.isa, DIP_ISA_SSE2);
+    assert_true(config.near_m == 0.01);
+    assert_int_equal(config.background.rgb[0], 0);
+    assert_int_equal(config.background.rgb[1], 255);
+    assert_int_equal(config.background.rgb[2], 7);
+    assert_string_equal(config.log.path, "/var/log/diptych.log");
+    assert_true(config.camera[DIP_CATEGORY_WATER].fov_y_deg == 44.5);
+    assert_string_equal(config.mip_picture[DIP_MIP_LEVEL_8].path, "eight.png");
+    assert_int_equal(config.xfile.count, 2);
+    assert_string_equal(config.xfile.items[1].path, "sub/b.gltf");
+    assert_int_equal(config.xfile.items[1].line, 28);
+    DipError err;
+    assert_false(dip_config_file_fault(&config, &config.xfile.items[1], DIP_ERROR_IO, &err,
+                                       "cannot be opened, accepted a %s", "model"));
+    char text[400];
+    dip_error_format(&err, text, sizeof text);
+    assert_string_equal(text, "test.ini:28: [XFILE] cannot be opened, accepted a model");
+    dip_config_free(&config);
+}
+
+// What inih alone gets wrong or passes over.
+static void odd_but_good_layout_is_read(void **context) {
+    (void)context;
+    DipConfig config;
+    DipErrorList faults;
+    char comment[400];
+    memset(comment, 'x', sizeof comment);
+    comment[0] = ';';
+    comment[sizeof comment - 1] = '\0';
+    char text[4096];
+    snprintf(text, sizeof text,
+             "\xef\xbb\xbf" MINIMAL "%s\r\n# a comment: too\r\n\r\n"
+             "   THREADS :\t3 ; three  \r\n\tISA\t=  scalar%s\r\n"
+             "LOG: a;b c.log\t;comment",
+             comment, "    ");
+    load_text(text, &config, &faults);
+    assert_int_equal(faults.count, 0);
+    assert_int_equal(config.res.width, 1);
+    assert_int_equal(config.threads, 3); // indented: still a key of its own
+    assert_int_equal(config.line[DIP_KEY_THREADS], 21);
+    assert_int_equal(config.isa, DIP_ISA_SCALAR);
+    assert_string_equal(config.log.text, "a;b c.log");
+    dip_config_free(&config);
+
+    char longest[DIP_CONFIG_MAX_LINE + 1];
+    memset(longest, 'y', sizeof longest);
+    memcpy(longest, "LOG:", 4);
+    longest[DIP_CONFIG_MAX_LINE] = '\0';
+    snprintf(text, sizeof text, MINIMAL "%s %s\n", longest, comment);
+    load_text(text, &config, &faults);
+    assert_int_equal(strlen(config.log.text), DIP_CONFIG_MAX_LINE - 4);
+    dip_config_free(&config);
+}
+
+static void names_of_one_file_are_recognised(void **context) {
+    (void)context;
+    static const struct {
+        char *a, *b;
+        bool same;
+    } cases[] = {
+        {"a.pth", "./a.pth", true},
+        {"x/./a.pth", "x//a.pth", true},
+        {"x/.//./a.pth", "./x/a.pth", true},
+        {"/x/a.pth", "/x/./a.pth", true},
+        {"x/a.pth", "/x/a.pth", false},
+        {"a.pth", "A.pth", false},
+        {"a.pth", "a.pth2", false},
+        {"x/a", "xa", false},
+        {"../a", "a", false},
+        {".a", "a", false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const DipConfigFile a = {.path = cases[i].a};
+        const DipConfigFile b = {.path = cases[i].b};
+        if (dip_config_same_file(&a, &b) != cases[i].same ||
+            dip_config_same_file(&b, &a) != cases[i].same) {
+            fail_msg("%s and %s", cases[i].a, cases[i].b);
+        }
+    }
+    const DipConfigFile none = {0};
+    assert_false(dip_config_same_file(&none, &none));
+}
+
+static void the_documentation_has_every_key(void **context) {
+    (void)context;
+    static char document[1 << 16];
+    FILE *stream = fopen(DIP_SOURCE_DIR "/docs/config.md", "rb");
+    assert_non_null(stream);
+    document[fread(document, 1, sizeof document - 1, stream)] = '\0';
+    fclose(stream);
+    int missing = 0;
+    for (int k = 0; k < DIP_KEY_COUNT; k++) {
+        char row[512];
+        dip_config_document_key((DipConfigKey)k, row, sizeof row);
+        if (!strstr(document, row)) {
+            missing++;
+            print_message("%s\n", row);
+        }
+    }
+    int rows = 0;
+    for (const char *at = document; (at = strstr(at, "\n| `")) != NULL; at++) {
+        rows++;
+    }
+    assert_int_equal(rows, DIP_KEY_COUNT - missing); // none twice, none that is gone
+    if (missing) {
+        fail_msg("docs/config.md lacks the %d rows above", missing);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(figure12_loads_with_its_key_set_unchanged),
+        cmocka_unit_test(the_shipped_courtyard_loads_without_a_fault),
+        cmocka_unit_test(what_is_left_out_has_its_default),
+        cmocka_unit_test(our_own_keys_are_read),
+        cmocka_unit_test(odd_but_good_layout_is_read),
+        cmocka_unit_test(names_of_one_file_are_recognised),
+        cmocka_unit_test(the_documentation_has_every_key),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
