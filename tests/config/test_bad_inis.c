@@ -387,7 +387,7 @@ static size_t mutate(char *bytes, size_t size_bytes, size_t room) {
 
 static void mutations_never_crash(void **context) {
     (void)context;
-    enum { RUNS = 5000, ROOM = 4096 };
+    enum { RUNS = 3000, ROOM = 4096 };
     int accepted = 0;
     for (int run = 0; run < RUNS; run++) {
         char bytes[ROOM];
