@@ -12,8 +12,6 @@
 #include <strings.h>
 #include <unistd.h>
 
-#define FOV_OF_OWN_PATHS_DEG 45.0
-
 const char *const dip_pane_names[DIP_PANE_COUNT] = {"current", "requested"};
 
 static bool add_fault(DipErrorList *faults, const DipError *err) {
@@ -151,7 +149,7 @@ static bool load_own_path(DipSession *session, const DipOptions *options, DipErr
     if (!dip_campath_load(options->path, &path, &err)) {
         return add_fault(faults, &err);
     }
-    keep_path(session, path, 0, FOV_OF_OWN_PATHS_DEG);
+    keep_path(session, path, 0, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
     return true;
 }
 

@@ -95,7 +95,8 @@ static char *find_file(const char *model_path, const char *picture_path) {
 static int find_picture(const DipModel *model, const char *name, const void *bytes) {
     for (int i = 0; i < model->picture_count; ++i) {
         const DipPictureEntry *entry = &model->pictures[i];
-        if (bytes ? entry->bytes == bytes : !entry->bytes && strcmp(entry->name, name) == 0) {
+        const bool by_name = !bytes && !entry->bytes && name && entry->name;
+        if (by_name ? strcmp(entry->name, name) == 0 : bytes && entry->bytes == bytes) {
             return i;
         }
     }

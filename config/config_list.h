@@ -37,14 +37,14 @@
     CAMERA(WATER, "", "over the fountain's water")                                                 \
     KEY(MIPDEBUG, mipdebug, FLAG, DIP_CONFIG_REQUIRED, 0, 0,                                       \
         "begin with mip levels shown as flat colours, in both panes")                              \
-    PICTURE(MIPDEBUGBASE1024, 1024, "instead of level size 1024's colour")                         \
-    PICTURE(MIPDEBUG512, 512, "likewise, 512")                                                     \
-    PICTURE(MIPDEBUG256, 256, "likewise, 256")                                                     \
-    PICTURE(MIPDEBUG128, 128, "likewise, 128")                                                     \
-    PICTURE(MIPDEBUG64, 64, "likewise, 64")                                                        \
-    PICTURE(MIPDEBUG32, 32, "likewise, 32")                                                        \
-    PICTURE(MIPDEBUG16, 16, "likewise, 16")                                                        \
-    PICTURE(MIPDEBUG8, 8, "likewise, 8 and smaller")                                               \
+    PICTURE(MIPDEBUGBASE1024, 1024, "1024 and larger")                                             \
+    PICTURE(MIPDEBUG512, 512, "512")                                                               \
+    PICTURE(MIPDEBUG256, 256, "256")                                                               \
+    PICTURE(MIPDEBUG128, 128, "128")                                                               \
+    PICTURE(MIPDEBUG64, 64, "64")                                                                  \
+    PICTURE(MIPDEBUG32, 32, "32")                                                                  \
+    PICTURE(MIPDEBUG16, 16, "16")                                                                  \
+    PICTURE(MIPDEBUG8, 8, "8 and smaller")                                                         \
     KEY(CURRENT, current, SETTINGS, "", 0, 0, "settings the current (left) pane begins with")      \
     KEY(REQUESTED, requested, SETTINGS, "", 0, 0,                                                  \
         "settings the requested (right) pane begins with")                                         \

@@ -33,7 +33,7 @@ static const DipConfigKeyInfo infos[DIP_KEY_COUNT] = {
      "",                                                                                           \
      0,                                                                                            \
      0,                                                                                            \
-     "mip-debug picture " text,                                                                    \
+     "mip-debug picture for level size " text,                                                     \
      offsetof(DipConfig, mip_picture[DIP_MIP_LEVEL_##size])},
     DIP_CONFIG_LIST(INFO_KEY, INFO_CAMERA, INFO_PICTURE)};
 

@@ -67,7 +67,7 @@ static void draw_in_pixel(Converging *c, int32_t index, size_t pixel) {
         return;
     }
     if (triangle->clipped &&
-        dip_reference_alpha(&place, NULL) < (double)triangle->material->alpha_cutoff) {
+        (float)dip_reference_alpha(&place, NULL) < triangle->material->alpha_cutoff) {
         return;
     }
     c->plane.depths[pixel] = depth;

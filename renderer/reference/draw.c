@@ -99,8 +99,8 @@ static void draw_in_pixel(Drawing *drawing, int32_t index, int x, int y) {
     }
     if (triangle->clipped) {
         const DipRefPlace place = place_to_shade(drawing, triangle, x, y, mask);
-        if (dip_reference_alpha(&place, &drawing->filter) <
-            (double)triangle->material->alpha_cutoff) {
+        if ((float)dip_reference_alpha(&place, &drawing->filter) <
+            triangle->material->alpha_cutoff) {
             return;
         }
     }

@@ -314,6 +314,45 @@ VEC_INLINE Vu vu_gather(const uint32_t *base, Vi index) {
     return (Vu)vi_gather((const int32_t *)base, index);
 }
 
+// base[index[i]] and base[index[i] + 1] per lane: half the loads of two gathers, since both are
+// fetched at once.
+VEC_INLINE void vu_gather_pairs(const uint32_t *base, Vi index, Vu *first, Vu *second) {
+#if VEC_AVX512
+    const __m512i i = (__m512i)index;
+    const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(i), base, 4);
+    const __m512i high = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64(i, 1), base, 4);
+    const __m512i even = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
+    const __m512i odd = _mm512_set_epi32(31, 29, 27, 25, 23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3, 1);
+    *first = (Vu)_mm512_permutex2var_epi32(low, even, high);
+    *second = (Vu)_mm512_permutex2var_epi32(low, odd, high);
+#elif VEC_AVX2
+    const __m256i i = (__m256i)index;
+    const long long *pairs = (const long long *)(const void *)base;
+    const __m256 low =
+        _mm256_castsi256_ps(_mm256_i32gather_epi64(pairs, _mm256_castsi256_si128(i), 4));
+    const __m256 high =
+        _mm256_castsi256_ps(_mm256_i32gather_epi64(pairs, _mm256_extracti128_si256(i, 1), 4));
+    const __m256 even = _mm256_shuffle_ps(low, high, 0x88); // lanes 0 1 4 5 2 3 6 7
+    const __m256 odd = _mm256_shuffle_ps(low, high, 0xdd);
+    *first = (Vu)_mm256_permute4x64_epi64(_mm256_castps_si256(even), 0xd8);
+    *second = (Vu)_mm256_permute4x64_epi64(_mm256_castps_si256(odd), 0xd8);
+#elif VEC_SSE2
+    __m128i pair[4];
+    for (int i = 0; i < 4; i++) {
+        pair[i] = _mm_loadl_epi64((const __m128i *)(const void *)(base + index[i]));
+    }
+    const __m128i low = _mm_unpacklo_epi32(pair[0], pair[1]);
+    const __m128i high = _mm_unpacklo_epi32(pair[2], pair[3]);
+    *first = (Vu)_mm_unpacklo_epi64(low, high);
+    *second = (Vu)_mm_unpackhi_epi64(low, high);
+#else
+    for (int i = 0; i < DIP_LANES; i++) {
+        (*first)[i] = base[index[i]];
+        (*second)[i] = base[index[i] + 1];
+    }
+#endif
+}
+
 // The four bytes from base[index[i]] on, little-endian, at any address.
 VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
 #if VEC_AVX512

@@ -247,10 +247,12 @@ VEC_INLINE void add_texel(Colour *sum, Vu texel, Vf weight) {
 VEC_INLINE Colour bilinear_colour(const DipTexture *texture, const Level *level, Vf u, Vf v) {
     const Taps taps = taps_at(texture, level, u, v);
     Colour sum = {{vf_splat(0.0f), vf_splat(0.0f), vf_splat(0.0f)}};
-    add_texel(&sum, vu_gather(texture->texels, taps.index), taps.weight[0]);
-    add_texel(&sum, vu_gather(texture->texels + 1, taps.index), taps.weight[1]);
-    add_texel(&sum, vu_gather(texture->texels, taps.index + taps.stride), taps.weight[2]);
-    add_texel(&sum, vu_gather(texture->texels + 1, taps.index + taps.stride), taps.weight[3]);
+    Vu texel[4];
+    vu_gather_pairs(texture->texels, taps.index, &texel[0], &texel[1]);
+    vu_gather_pairs(texture->texels, taps.index + taps.stride, &texel[2], &texel[3]);
+    for (int i = 0; i < 4; i++) {
+        add_texel(&sum, texel[i], taps.weight[i]);
+    }
     return sum;
 }
 

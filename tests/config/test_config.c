@@ -263,6 +263,11 @@ static void the_documentation_has_every_key(void **context) {
             print_message("%s\n", row);
         }
     }
+    int rows = 0;
+    for (const char *at = document; (at = strstr(at, "\n| `")) != NULL; at++) {
+        rows++;
+    }
+    assert_int_equal(rows, DIP_KEY_COUNT - missing); // none twice, none that is gone
     if (missing) {
         fail_msg("docs/config.md lacks the %d rows above", missing);
     }

@@ -1,0 +1,134 @@
+// The converged picture: right on the mean, and better with more samples.
+#include "tests/renderer/image.h"
+#include "tests/renderer/screen.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/renderer/near.h"
+
+static DipScreenPicture picture;
+static DipScreenPicture other;
+
+enum { VALUES = DIP_SCREEN * DIP_SCREEN * 3 };
+
+static double decode(double code) {
+    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
+}
+
+// A texture of 8x8 repeats once per pixel. Bilinear weights sum to one over a period, so the mean
+// over a pixel is the mean of the texels, in linear light.
+static void test_texture_converges_to_its_mean(void **state) {
+    (void)state;
+    DipTestScene scene;
+    dip_screen_begin(&scene);
+    const int texture = dip_test_scene_add_texture(&scene, DIP_TEST_NOISE, 8, 8);
+    dip_screen_add_cover(&scene, dip_test_scene_add_material(&scene, texture), 64.0f, 64.0f);
+    dip_screen_converge(&scene, 64, 5, picture);
+    for (int c = 0; c < 3; c++) {
+        double expected = 0.0;
+        for (int i = 0; i < 64; i++) {
+            expected += decode(scene.textures[texture].rgba8[4 * i + c] / 255.0) / 64.0;
+        }
+        double mean = 0.0;
+        for (int i = 0; i < DIP_SCREEN * DIP_SCREEN; i++) {
+            const double value = picture[i / DIP_SCREEN][i % DIP_SCREEN][c];
+            assert_near(value, expected, 0.12);
+            mean += value / (DIP_SCREEN * DIP_SCREEN);
+        }
+        // 4096 pixels of 64 jittered samples whose deviation is below 0.3.
+        assert_near(mean, expected, 4.0 * 0.3 / sqrt(4096.0 * 64.0));
+    }
+    dip_test_scene_free(&scene);
+}
+
+// Along a ramp of 4 codes a pixel the mean over a pixel is the value at its centre; a jittered
+// sample is off by at most one cell of the grid.
+static void test_ramp_converges_to_its_centre(void **state) {
+    (void)state;
+    DipTestScene scene;
+    dip_screen_begin(&scene);
+    const int texture = dip_test_scene_add_texture(&scene, DIP_TEST_NOISE, 256, 1);
+    uint8_t *texels = dip_test_scene_texels(&scene, texture);
+    for (int i = 0; i < 256; i++) {
+        memset(texels + 4 * i, i, 4);
+    }
+    scene.textures[texture].encoding = DIP_ENCODING_LINEAR;
+    scene.textures[texture].wrap_u = DIP_WRAP_CLAMP;
+    dip_screen_add_cover(&scene, dip_test_scene_add_material(&scene, texture), 1.0f, 1.0f);
+    dip_screen_converge(&scene, 64, 2, picture);
+    double error = 0.0;
+    for (int y = 0; y < DIP_SCREEN; y++) {
+        for (int x = 1; x < DIP_SCREEN - 1; x++) {
+            const double expected = (4.0 * (x + 0.5) - 0.5) / 255.0;
+            assert_near(picture[y][x][0], expected, 4.0 / 255.0 / 8.0);
+            error += picture[y][x][0] - expected;
+        }
+    }
+    // Deviation of a mean: a cell's width / sqrt 12 / sqrt of the samples of all pixels.
+    assert_near(error / (64 * 62), 0.0, 4.0 * (4.0 / 255.0 / 8.0 / sqrt(12.0 * 64 * 62 * 64)));
+    dip_test_scene_free(&scene);
+}
+
+static double rms_of_two_seeds(const DipTestScene *scene, int sample_count) {
+    dip_screen_converge(scene, sample_count, 1, picture);
+    dip_screen_converge(scene, sample_count, 2, other);
+    return dip_image_rms(&picture[0][0][0], &other[0][0][0], VALUES);
+}
+
+// Edges fall by 4^(3/4), what is smooth within a cell by 4; both are in the scene.
+static void test_seeds_agree_better_with_more_samples(void **state) {
+    (void)state;
+    DipTestScene scene;
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_soup);
+    const double coarse = rms_of_two_seeds(&scene, 16);
+    const double fine = rms_of_two_seeds(&scene, 64);
+    const double finest = rms_of_two_seeds(&scene, 256);
+    assert_true(coarse > 0.01 && coarse < 0.1);
+    assert_true(coarse / fine > 2.2 && coarse / fine < 4.0);
+    assert_true(fine / finest > 2.2 && fine / finest < 4.0);
+    dip_test_scene_free(&scene);
+}
+
+static void test_a_seed_gives_one_picture(void **state) {
+    (void)state;
+    DipTestScene scene;
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_soup);
+    dip_screen_converge(&scene, 4, 77, picture);
+    dip_screen_converge(&scene, 4, 77, other);
+    assert_memory_equal(picture, other, sizeof picture);
+    dip_test_scene_free(&scene);
+}
+
+// What more samples are for.
+static void test_antialiasing_approaches_the_converged_picture(void **state) {
+    (void)state;
+    static const char *const settings[] = {"aa=none", "aa=2", "aa=4", "aa=6", "aa=8"};
+    DipTestScene scene;
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_soup);
+    dip_screen_converge(&scene, 256, 3, picture);
+    double last = 1.0;
+    for (int i = 0; i < 5; i++) {
+        dip_screen_draw(&scene, settings[i], other);
+        const double rms = dip_image_rms(&picture[0][0][0], &other[0][0][0], VALUES);
+        assert_true(rms < last);
+        last = rms;
+    }
+    dip_test_scene_free(&scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_texture_converges_to_its_mean),
+        cmocka_unit_test(test_ramp_converges_to_its_centre),
+        cmocka_unit_test(test_seeds_agree_better_with_more_samples),
+        cmocka_unit_test(test_a_seed_gives_one_picture),
+        cmocka_unit_test(test_antialiasing_approaches_the_converged_picture),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
