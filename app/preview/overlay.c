@@ -186,8 +186,7 @@ static void draw_help(SDL_Renderer *renderer, DipText *text, const SDL_Rect *win
     const int y0 = panel.y + l.size;
     const int room = panel.w - 2 * l.size;
     dip_text_draw(text, l.size, white, DIP_ALIGN_LEFT, x0, y0, room, "Keys");
-    dip_text_draw(text, l.size, soft, DIP_ALIGN_RIGHT, x0 + room, y0, room,
-                  "Shift reverses a setting");
+    dip_text_draw(text, l.size, soft, DIP_ALIGN_RIGHT, x0 + room, y0, room, "Shift goes backwards");
     const int column = l.label_width + l.gap + l.text_width + 2 * l.gap;
     for (int i = 0; i < count; ++i) {
         const int x = x0 + i / l.rows_per_column * column;
