@@ -75,6 +75,30 @@ static void test_ramp_converges_to_its_centre(void **state) {
     dip_test_scene_free(&scene);
 }
 
+// Over one period the texture is u times v: its mean under independent u and v is 1/4 (1/3 if they
+// were the same). Single samples, one per pixel.
+static void test_jitter_is_independent_in_x_and_y(void **state) {
+    (void)state;
+    DipTestScene scene;
+    dip_screen_begin(&scene);
+    const int texture = dip_test_scene_add_texture(&scene, DIP_TEST_NOISE, 16, 16);
+    uint8_t *texels = dip_test_scene_texels(&scene, texture);
+    for (int i = 0; i < 256; i++) {
+        memset(texels + 4 * i, (int)lround((i % 16 + 0.5) * (i / 16 + 0.5) * 255.0 / 256.0), 4);
+    }
+    scene.textures[texture].encoding = DIP_ENCODING_LINEAR;
+    dip_screen_add_cover(&scene, dip_test_scene_add_material(&scene, texture), 64.0f, 64.0f);
+    for (uint32_t seed = 0; seed < 8; seed++) {
+        dip_screen_converge(&scene, 1, seed, picture);
+        double mean = 0.0;
+        for (int i = 0; i < DIP_SCREEN * DIP_SCREEN; i++) {
+            mean += picture[i / DIP_SCREEN][i % DIP_SCREEN][0] / (DIP_SCREEN * DIP_SCREEN);
+        }
+        assert_near(mean, 0.25, 4.0 * 0.22 / 64.0); // u v deviates by 0.22
+    }
+    dip_test_scene_free(&scene);
+}
+
 static double rms_of_two_seeds(const DipTestScene *scene, int sample_count) {
     dip_screen_converge(scene, sample_count, 1, picture);
     dip_screen_converge(scene, sample_count, 2, other);
@@ -126,6 +150,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_texture_converges_to_its_mean),
         cmocka_unit_test(test_ramp_converges_to_its_centre),
+        cmocka_unit_test(test_jitter_is_independent_in_x_and_y),
         cmocka_unit_test(test_seeds_agree_better_with_more_samples),
         cmocka_unit_test(test_a_seed_gives_one_picture),
         cmocka_unit_test(test_antialiasing_approaches_the_converged_picture),

@@ -284,7 +284,32 @@ static void test_depth_is_decided_per_sample(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// A floor 1 m below the eye that begins far behind it, coloured by where it is: rays through the
+// What is at the near plane (1/16 m) is seen, what is nearer is not. In the third case the upper
+// half leans from the plane's near side to it.
+static void test_near_plane_cuts(void **state) {
+    (void)state;
+    static const double distances[][2] = {{0.0625, 0.0625}, {0.03125, 0.03125}, {0.03125, 0.0625}};
+    static const int seen[][2] = {{1, 1}, {0, 0}, {0, 1}}; // at y = 12 and 40
+    for (int k = 0; k < 3; k++) {
+        DipTestScene scene;
+        dip_screen_begin(&scene);
+        const double top = distances[k][0];
+        const double bottom = distances[k][1];
+        const DipScreenPoint p[4] = {{0, 0, top}, {0, 32, bottom}, {64, 32, bottom}, {64, 0, top}};
+        const DipScreenPoint q[4] = {
+            {0, 32, bottom}, {0, 64, bottom}, {64, 64, bottom}, {64, 32, bottom}};
+        const int material = dip_screen_add_white(&scene);
+        dip_screen_add_polygon(&scene, material, p, 4, 0);
+        dip_screen_add_polygon(&scene, material, q, 4, 0);
+        dip_screen_draw(&scene, "aa=4", picture);
+        assert_near(picture[12][30][0], seen[k][0], 0.0);
+        assert_near(picture[40][30][0], seen[k][1], 0.0);
+        dip_test_scene_free(&scene);
+    }
+}
+
+// A floor 1 m below the eye that begins behind it, with one corner far behind and one between the
+// eye and the near plane, coloured by where it is: rays through the
 // pixels' centres meet it at a place that is worked out here.
 static void test_floor_through_the_near_plane(void **state) {
     (void)state;
@@ -292,7 +317,7 @@ static void test_floor_through_the_near_plane(void **state) {
     dip_screen_begin(&scene);
     const int material = dip_screen_add_white(&scene);
     const DipTestMesh mesh = dip_test_scene_add_mesh(&scene, 4, 6, DIP_TEST_COLOURS, material);
-    static const float positions[12] = {-16, -1, 16, 16, -1, 16, 16, -1, -16, -16, -1, -16};
+    static const float positions[12] = {-16, -1, 16, 16, -1, -0.03125f, 16, -1, -16, -16, -1, -16};
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     memcpy(mesh.positions, positions, sizeof positions);
     memcpy(mesh.indices, indices, sizeof indices);
@@ -326,6 +351,7 @@ int main(void) {
         cmocka_unit_test(test_facing),
         cmocka_unit_test(test_first_submitted_of_coplanar_stays_and_nearer_wins),
         cmocka_unit_test(test_depth_is_decided_per_sample),
+        cmocka_unit_test(test_near_plane_cuts),
         cmocka_unit_test(test_floor_through_the_near_plane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,214 @@
+// The fast path's coverage against exact integers: every sample pattern, every instruction set, no
+// difference allowed.
+//
+//   test_coverage [--triangles N]
+#include "renderer/base/assert.h"
+#include "renderer/geometry/setup.h"
+#include "renderer/raster/kernels.h"
+#include "tests/renderer/oracle.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum {
+    SEED = 90125,
+    TARGET_WIDTH = 3 * DIP_TILE - 21, // so that the last tiles are cut
+    TARGET_HEIGHT = 2 * DIP_TILE - 6,
+};
+
+static const int sample_counts[] = {1, 2, 4, 6, 8};
+static long triangle_count = 60000;
+
+// A tile as the pipeline has it.
+static _Alignas(64) float depth[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
+static _Alignas(64) uint32_t ids[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
+
+typedef struct Case {
+    const DipSamplePattern *pattern;
+    DipOracleRegion region; // the tile's pixels that the target has
+    DipOracleTriangle triangle;
+    DipOracleKind kind;
+} Case;
+
+static DipSetupTarget target_of(const DipSamplePattern *pattern) {
+    DipSetupTarget target = {.width = TARGET_WIDTH,
+                             .height = TARGET_HEIGHT,
+                             .cull = DIP_CULL_NONE,
+                             .sample_min = {255, 255}};
+    for (int s = 0; s < pattern->count; s++) {
+        const uint8_t at[2] = {pattern->x[s], pattern->y[s]};
+        for (int i = 0; i < 2; i++) {
+            target.sample_min[i] = at[i] < target.sample_min[i] ? at[i] : target.sample_min[i];
+            target.sample_max[i] = at[i] > target.sample_max[i] ? at[i] : target.sample_max[i];
+        }
+    }
+    return target;
+}
+
+static DipOracleRegion random_tile(Random *random) {
+    DipOracleRegion region = {random_int(random, 0, 2) * DIP_TILE,
+                              random_int(random, 0, 1) * DIP_TILE, DIP_TILE, DIP_TILE};
+    if (region.x0 + region.width > TARGET_WIDTH) {
+        region.width = TARGET_WIDTH - region.x0;
+    }
+    if (region.y0 + region.height > TARGET_HEIGHT) {
+        region.height = TARGET_HEIGHT - region.y0;
+    }
+    return region;
+}
+
+// Whether the triangle reaches the tile's pixels at all: others are not given to it.
+static bool meets(const DipTriangle *triangle, const DipOracleRegion *region) {
+    return triangle->x0 < region->x0 + region->width && triangle->x1 >= region->x0 &&
+           triangle->y0 < region->y0 + region->height && triangle->y1 >= region->y0;
+}
+
+// Fills masks as the oracle does.
+static void cover_fast(const DipKernels *kernels, const Case *c, uint8_t *masks) {
+    DipScreenVertex vertices[3];
+    for (int i = 0; i < 3; i++) {
+        vertices[i] = (DipScreenVertex){c->triangle.x[i], c->triangle.y[i], 0.5f, 1.0f, NULL};
+    }
+    const DipSetupTarget target = target_of(c->pattern);
+    DipTriangle triangle = {0};
+    float surface[DIP_SURFACE_SLOTS];
+    DipTile tile = {.x0 = c->region.x0, .y0 = c->region.y0, .pattern = c->pattern};
+    tile.depth = depth;
+    tile.id = ids;
+    memset(masks, 0, (size_t)c->region.width * (size_t)c->region.height);
+    if (!dip_setup_triangle(&target, vertices, &triangle, surface) ||
+        !meets(&triangle, &c->region)) {
+        return;
+    }
+    kernels->dip_kernel_draw_triangle(&tile, &triangle, 1, NULL, NULL);
+    for (int block = 0; block < DIP_BLOCKS; block++) {
+        for (int i = 0; tile.touched >> block & 1 && i < DIP_BLOCK_PIXELS; i++) {
+            const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_x(i);
+            const int y = block / DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_y(i);
+            for (int s = 0; s < c->pattern->count && x < c->region.width && y < c->region.height;
+                 s++) {
+                const uint32_t id = ids[dip_tile_index(&tile, block, s) + i];
+                uint8_t *mask = &masks[y * c->region.width + x];
+                *mask = (uint8_t)(*mask | id << s);
+            }
+        }
+    }
+}
+
+static void fail_at(const Case *c, DipIsa isa, const uint8_t *expected, const uint8_t *found) {
+    int at = 0;
+    while (expected[at] == found[at]) {
+        at++;
+    }
+    const DipOracleTriangle *t = &c->triangle;
+    fail_msg(
+        "%s, %s, %d samples: (%d %d) (%d %d) (%d %d) covers %02x of pixel (%d, %d), found %02x",
+        dip_oracle_kind_name(c->kind), dip_isa_name(isa), c->pattern->count, t->x[0], t->y[0],
+        t->x[1], t->y[1], t->x[2], t->y[2], expected[at], c->region.x0 + at % c->region.width,
+        c->region.y0 + at / c->region.width, found[at]);
+}
+
+static void test_coverage_is_exact(void **state) {
+    (void)state;
+    static uint8_t expected[DIP_TILE * DIP_TILE];
+    static uint8_t found[DIP_TILE * DIP_TILE];
+    Random random = {SEED};
+    uint64_t covered[DIP_ORACLE_KINDS] = {0};
+    for (long t = 0; t < triangle_count; t++) {
+        Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5])};
+        c.kind = (DipOracleKind)(t / 5 % DIP_ORACLE_KINDS);
+        c.region = random_tile(&random);
+        c.triangle = dip_oracle_make(c.kind, &random, c.pattern, &c.region,
+                                     DIP_GUARD_BAND_PX * DIP_SUBPIXELS - 1);
+        covered[c.kind] += dip_oracle_cover(&c.triangle, c.pattern, &c.region, expected);
+        for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
+            if (!dip_isa_available((DipIsa)isa)) {
+                continue;
+            }
+            cover_fast(dip_kernels((DipIsa)isa), &c, found);
+            if (memcmp(expected, found, (size_t)c.region.width * (size_t)c.region.height) != 0) {
+                fail_at(&c, (DipIsa)isa, expected, found);
+            }
+        }
+    }
+    printf("%ld triangles, samples covered:", triangle_count);
+    for (int kind = 0; kind < DIP_ORACLE_KINDS; kind++) {
+        printf(" %s %llu", dip_oracle_kind_name((DipOracleKind)kind),
+               (unsigned long long)covered[kind]);
+        // Flat ones cover nothing, the others must not be empty air.
+        assert_true(kind == DIP_ORACLE_flat ? covered[kind] == 0 : covered[kind] > 0);
+    }
+    printf("\n");
+}
+
+// Every sample about a hub that neighbours share is hit once, by the oracle and by the kernels.
+static void test_fans_hit_every_sample_once(void **state) {
+    (void)state;
+    static uint8_t masks[DIP_TILE * DIP_TILE];
+    static uint8_t hit[2][DIP_TILE * DIP_TILE];
+    Random random = {SEED + 1};
+    for (int t = 0; t < 400; t++) {
+        Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5])};
+        c.region = random_tile(&random);
+        const size_t pixels = (size_t)c.region.width * (size_t)c.region.height;
+        const uint8_t all = (uint8_t)((1u << c.pattern->count) - 1u);
+        DipOracleTriangle fan[DIP_ORACLE_FAN];
+        dip_oracle_make_fan(&random, c.pattern, &c.region, fan);
+        memset(hit, 0, sizeof hit);
+        for (int i = 0; i < DIP_ORACLE_FAN; i++) {
+            c.triangle = fan[i];
+            for (int path = 0; path < 2; path++) {
+                if (path == 0) {
+                    dip_oracle_cover(&c.triangle, c.pattern, &c.region, masks);
+                } else {
+                    cover_fast(dip_kernels(dip_isa_best()), &c, masks);
+                }
+                for (size_t p = 0; p < pixels; p++) {
+                    assert_int_equal(hit[path][p] & masks[p], 0);
+                    hit[path][p] |= masks[p];
+                }
+            }
+        }
+        for (size_t p = 0; p < pixels; p++) {
+            assert_int_equal(hit[0][p], all);
+            assert_int_equal(hit[1][p], all);
+        }
+    }
+}
+
+// The oracle itself, on a square of 2x2 pixels cut along its diagonal: edges on sample rows and
+// columns belong to the left and upper triangle only.
+static void test_oracle_by_hand(void **state) {
+    (void)state;
+    const DipSamplePattern *centre = dip_sample_pattern(1);
+    const DipOracleRegion region = {0, 0, 4, 4};
+    uint8_t masks[16];
+    // Corners on the centres of pixels (0,0), (2,0), (0,2): a right angle at the top left.
+    const DipOracleTriangle upper = {{128, 640, 128}, {128, 128, 640}};
+    assert_int_equal(dip_oracle_cover(&upper, centre, &region, masks), 3);
+    assert_int_equal(masks[0] & masks[1] & masks[4], 1);
+    // The other half of the square: the diagonal is its left edge, its right and lower edges are
+    // not its own.
+    const DipOracleTriangle lower = {{640, 640, 128}, {128, 640, 640}};
+    assert_int_equal(dip_oracle_cover(&lower, centre, &region, masks), 1);
+    assert_int_equal(masks[5], 1);
+}
+
+int main(int argc, char **argv) {
+    if (argc == 3 && strcmp(argv[1], "--triangles") == 0) {
+        triangle_count = strtol(argv[2], NULL, 10);
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_oracle_by_hand),
+        cmocka_unit_test(test_coverage_is_exact),
+        cmocka_unit_test(test_fans_hit_every_sample_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
