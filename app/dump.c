@@ -6,10 +6,19 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+// Set by Ctrl-C: the frame in hand is finished, so that no file is left half-written.
+static volatile sig_atomic_t interrupted;
+
+static void interrupt(int signal_number) {
+    (void)signal_number;
+    interrupted = 1;
+}
 
 // Makes the folder and those above it, as far as they are missing.
 static bool make_folder(const char *folder, DipError *err) {
@@ -96,7 +105,15 @@ bool dip_dump_run(DipSession *session, const DipOptions *options, DipError *err)
     bool done = record || (!options->out && !options->json);
     const int total =
         (options->end_frame - options->first_frame + options->frame_step - 1) / options->frame_step;
+    const struct sigaction on_interrupt = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &on_interrupt, NULL);
     for (int i = 0; done && i < total; i++) {
+        if (interrupted) {
+            done =
+                dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "dump",
+                              "interrupted after %d of %d frames; no record was written", i, total);
+            break;
+        }
         done = dump_frame(session, options, options->first_frame + i * options->frame_step, record,
                           err);
         show_progress(options, i + 1, total);

@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/log.h"
 #include "app/options.h"
+#include "app/preview/preview.h"
 #include "app/session.h"
 
 #include <stdio.h>
@@ -51,8 +52,7 @@ static int run(const DipOptions *options) {
     case DIP_COMMAND_PATH_CONVERT:
         return run_on_path(options, dip_path_convert_run);
     default:
-        dip_options_print_help(options, false, stderr);
-        return EXIT_BAD_INPUT;
+        return run_with_session(options, dip_preview_run);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "renderer/texture/srgb.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -108,6 +109,11 @@ static bool load_scene(DipSession *session, const DipOptions *options, DipErrorL
     return add_fault(faults, &err);
 }
 
+static DipConfigSize pane_size(const DipSession *session, const DipOptions *options) {
+    return options->has_size ? (DipConfigSize){options->width, options->height}
+                             : session->config.res;
+}
+
 // --- camera paths ------------------------------------------------------------------------------
 
 // Takes a path over and plays it in a slot.
@@ -153,11 +159,13 @@ static bool load_own_path(DipSession *session, const DipOptions *options, DipErr
     return true;
 }
 
-static bool make_orbit(DipSession *session, DipErrorList *faults) {
+static bool make_orbit(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     float low[3];
     float high[3];
     dip_scene_bounds(session->scene, low, high);
     DipCamOrbitDef def = dip_campath_default_orbit();
+    const DipConfigSize size = pane_size(session, options);
+    def.aspect = fmin(fmax((double)size.width / size.height, 0.01), 100.0);
     for (int axis = 0; axis < 3; axis++) {
         def.min_world[axis] = low[axis];
         def.max_world[axis] = high[axis];
@@ -209,7 +217,7 @@ static bool load_paths(DipSession *session, const DipOptions *options, DipErrorL
         return load_own_path(session, options, faults);
     }
     if (options->model_count) {
-        return !session->scene || make_orbit(session, faults);
+        return !session->scene || make_orbit(session, options, faults);
     }
     bool loaded = true;
     for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
@@ -240,8 +248,8 @@ static bool make_renderers(DipSession *session, const DipOptions *options, DipEr
         const DipRendererDef def = {
             .pool = session->pool,
             .isa = session->isa,
-            .width = options->has_size ? options->width : session->config.res.width,
-            .height = options->has_size ? options->height : session->config.res.height,
+            .width = pane_size(session, options).width,
+            .height = pane_size(session, options).height,
             .quality = pane_quality(session, options, p),
         };
         session->renderers[p] = dip_renderer_create(&def, &err);

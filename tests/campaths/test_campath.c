@@ -323,6 +323,21 @@ static void conversion_loses_nothing(void **context) {
     }
 }
 
+static void periods_keep_every_nanosecond(void **context) {
+    (void)context;
+    for (int i = 0; i < 20000; i++) {
+        const int64_t span_ns = i & 1 ? DIP_CAMPATH_MAX_PERIOD_NS : INT64_C(1000000000);
+        const int64_t period_ns =
+            DIP_CAMPATH_MIN_PERIOD_NS + (int64_t)(uniform() * (double)(span_ns - 1000));
+        char text[100];
+        snprintf(text, sizeof text, "diptych-path 1\nperiod %lld.%09lld\n0 0 0 0 0 0 1\n",
+                 (long long)(period_ns / SECOND), (long long)(period_ns % SECOND));
+        DipCamPath *path = parse(text);
+        assert_true(dip_campath_info(path).period_ns == period_ns);
+        dip_campath_destroy(&path);
+    }
+}
+
 static void a_comma_locale_changes_nothing(void **context) {
     (void)context;
     if (!setlocale(LC_ALL, "de_DE.UTF-8") && !setlocale(LC_ALL, "fr_FR.UTF-8")) {
@@ -565,6 +580,7 @@ int main(void) {
         cmocka_unit_test(the_binary_layout_is_as_documented),
         cmocka_unit_test(the_text_format_is_as_documented),
         cmocka_unit_test(conversion_loses_nothing),
+        cmocka_unit_test(periods_keep_every_nanosecond),
         cmocka_unit_test(a_comma_locale_changes_nothing),
         cmocka_unit_test(files_that_cannot_be_read_or_written_are_named),
         cmocka_unit_test(the_orbit_shows_the_whole_box),

@@ -143,6 +143,8 @@ static const BadIni bad_inis[] = {
     {"two fields of view on two names of one path", NULL,
      "CAMPATH_WATER: .//./aaa.pth\nCAMPATH_WATER_FOV: 50\n", DIP_ERROR_CONFLICT, 28,
      "CAMPATH_WATER_FOV", "CAMPATH_AAA_FOV in line 21 is 40"},
+    {"a bad field of view on a shared path is one fault", "CAMPATH_TAA_FOV",
+     "CAMPATH_TAA_FOV: 999\n", DIP_ERROR_RANGE, 27, "CAMPATH_TAA_FOV", "1..170"},
     {"an optional path without a field of view", NULL, "CAMPATH_WATER: w.pth\n", DIP_ERROR_MISSING,
      0, "CAMPATH_WATER_FOV", "accepted a number 1..170"},
     {"a field of view without its optional path", NULL, "CAMPATH_WATER_FOV: 50\n",
@@ -385,7 +387,7 @@ static size_t mutate(char *bytes, size_t size_bytes, size_t room) {
 
 static void mutations_never_crash(void **context) {
     (void)context;
-    enum { RUNS = 5000, ROOM = 4096 };
+    enum { RUNS = 3000, ROOM = 4096 };
     int accepted = 0;
     for (int run = 0; run < RUNS; run++) {
         char bytes[ROOM];

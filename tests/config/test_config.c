@@ -38,13 +38,13 @@ static void load(const char *file, DipConfig *config, DipErrorList *faults) {
     }
 }
 
-static void load_text(const char *text, DipConfig *config, DipErrorList *faults) {
-    FILE *stream = fopen("test.ini", "wb");
+static void load_text(const char *file, const char *text, DipConfig *config, DipErrorList *faults) {
+    FILE *stream = fopen(file, "wb");
     assert_non_null(stream);
     fputs(text, stream);
     fclose(stream);
-    load("test.ini", config, faults);
-    remove("test.ini");
+    load(file, config, faults);
+    remove(file);
 }
 
 // Every key that is required, each as short as it can be.
@@ -128,7 +128,7 @@ static void what_is_left_out_has_its_default(void **context) {
     (void)context;
     DipConfig config;
     DipErrorList faults;
-    load_text(MINIMAL, &config, &faults);
+    load_text("test.ini", MINIMAL, &config, &faults);
     assert_int_equal(faults.count, 0);
     assert_int_equal(config.res.height, 2);
     assert_int_equal(config.reflection_res.width, 3);
@@ -154,7 +154,8 @@ static void our_own_keys_are_read(void **context) {
     (void)context;
     DipConfig config;
     DipErrorList faults;
-    load_text(MINIMAL "CURRENT: aa=2\nREQUESTED = aa=8,aaf=on,miplod=performance ; text\n"
+    load_text("./test.ini",
+              MINIMAL "CURRENT: aa=2\nREQUESTED = aa=8,aaf=on,miplod=performance ; text\n"
                       "THREADS: 256\nISA: sse2\nNEAR: 1e-2\nBACKGROUND: 0,255,7\n"
                       "LOG: /var/log/diptych.log\nCAMPATH_WATER: w\nCAMPATH_WATER_FOV: 44.5\n"
                       "MIPDEBUG8: eight.png\nXFILE: sub/b.gltf\n",
@@ -171,16 +172,16 @@ static void our_own_keys_are_read(void **context) {
     assert_int_equal(config.background.rgb[2], 7);
     assert_string_equal(config.log.path, "/var/log/diptych.log");
     assert_true(config.camera[DIP_CATEGORY_WATER].fov_y_deg == 44.5);
-    assert_string_equal(config.mip_picture[DIP_MIP_LEVEL_8].path, "eight.png");
+    assert_string_equal(config.mip_picture[DIP_MIP_LEVEL_8].path, "./eight.png");
     assert_int_equal(config.xfile.count, 2);
-    assert_string_equal(config.xfile.items[1].path, "sub/b.gltf");
+    assert_string_equal(config.xfile.items[1].path, "./sub/b.gltf");
     assert_int_equal(config.xfile.items[1].line, 28);
     DipError err;
     assert_false(dip_config_file_fault(&config, &config.xfile.items[1], DIP_ERROR_IO, &err,
                                        "cannot be opened, accepted a %s", "model"));
     char text[400];
     dip_error_format(&err, text, sizeof text);
-    assert_string_equal(text, "test.ini:28: [XFILE] cannot be opened, accepted a model");
+    assert_string_equal(text, "./test.ini:28: [XFILE] cannot be opened, accepted a model");
     dip_config_free(&config);
 }
 
@@ -199,7 +200,7 @@ static void odd_but_good_layout_is_read(void **context) {
              "   THREADS :\t3 ; three  \r\n\tISA\t=  scalar%s\r\n"
              "LOG: a;b c.log\t;comment",
              comment, "    ");
-    load_text(text, &config, &faults);
+    load_text("test.ini", text, &config, &faults);
     assert_int_equal(faults.count, 0);
     assert_int_equal(config.res.width, 1);
     assert_int_equal(config.threads, 3); // indented: still a key of its own
@@ -213,7 +214,7 @@ static void odd_but_good_layout_is_read(void **context) {
     memcpy(longest, "LOG:", 4);
     longest[DIP_CONFIG_MAX_LINE] = '\0';
     snprintf(text, sizeof text, MINIMAL "%s %s\n", longest, comment);
-    load_text(text, &config, &faults);
+    load_text("test.ini", text, &config, &faults);
     assert_int_equal(strlen(config.log.text), DIP_CONFIG_MAX_LINE - 4);
     dip_config_free(&config);
 }

@@ -1,0 +1,214 @@
+// Labels, status line and help, laid out for any window from 400x240 up.
+#include "app/preview/overlay.h"
+
+#include "app/preview/keys.h"
+
+#include <stdio.h>
+
+static const SDL_Color white = {255, 255, 255, 255};
+static const SDL_Color soft = {196, 202, 210, 255};
+static const SDL_Color accent = {255, 190, 92, 255};
+
+static void fill(SDL_Renderer *renderer, SDL_Rect rect, SDL_Color colour) {
+    SDL_SetRenderDrawBlendMode(renderer, SDL_BLENDMODE_BLEND);
+    SDL_SetRenderDrawColor(renderer, colour.r, colour.g, colour.b, colour.a);
+    SDL_RenderFillRect(renderer, &rect);
+}
+
+static int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
+static int larger(int a, int b) {
+    return a > b ? a : b;
+}
+
+// Em size of labels: grows with the pane, within what reads well.
+static int label_size(const SDL_Rect *pane) {
+    return larger(10, smaller(15, smaller(pane->w / 32, pane->h / 16)));
+}
+
+// The figures with fewer words where there is little room.
+static void format_figures(DipText *text, int size, int room, const DipPaneFigures *figures,
+                           char *line, size_t size_bytes) {
+    snprintf(line, size_bytes, "%.1f ms", figures->ms);
+    if (figures->fps > 0) {
+        char longer[64];
+        snprintf(longer, sizeof longer, "%.1f ms   %d fps", figures->ms, figures->fps);
+        if (dip_text_width(text, size, longer) <= room) {
+            snprintf(line, size_bytes, "%s", longer);
+        }
+    }
+}
+
+// Two lines in a dark strip: whose pane and how fast; which settings.
+static void draw_label(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state,
+                       int pane, const SDL_Rect *rect, const DipPaneFigures *figures) {
+    static const char *const titles[DIP_PANE_COUNT] = {"Current", "Requested"};
+    const int size = label_size(rect);
+    const int line = dip_text_line_height(text, size);
+    const int margin = larger(6, size * 2 / 3);
+    const int pad = larger(3, size / 3);
+    const bool edited = state->edited[pane];
+    const SDL_Rect strip = {rect->x, rect->y, rect->w, 2 * line + 2 * pad};
+    fill(renderer, strip, (SDL_Color){12, 14, 18, 168});
+    if (edited) {
+        fill(renderer, (SDL_Rect){rect->x, rect->y, 3, strip.h}, accent);
+    }
+    const int left = rect->x + margin + 3;
+    const int right = rect->x + rect->w - margin;
+    const int title_width = dip_text_width(text, size, titles[pane]);
+    char line_text[DIP_NOTICE_SIZE];
+    format_figures(text, size, right - left - title_width - 2 * margin, figures, line_text,
+                   sizeof line_text);
+    dip_text_draw(text, size, edited ? accent : white, DIP_ALIGN_LEFT, left, rect->y + pad,
+                  right - left, titles[pane]);
+    dip_text_draw(text, size, white, DIP_ALIGN_RIGHT, right, rect->y + pad,
+                  right - left - title_width - margin, line_text);
+    dip_preview_describe(&state->quality[pane], line_text, sizeof line_text);
+    dip_text_draw(text, size, soft, DIP_ALIGN_LEFT, left, rect->y + pad + line, right - left,
+                  line_text);
+}
+
+// One line along the window's lower edge: path and time, what just happened, how to get help.
+static void draw_status(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state,
+                        const SDL_Rect *window, int size) {
+    const int line = dip_text_line_height(text, size);
+    const int pad = larger(2, size / 4);
+    const int margin = larger(6, size * 2 / 3);
+    const SDL_Rect strip = {0, window->h - line - 2 * pad, window->w, line + 2 * pad};
+    const int y = strip.y + pad;
+    char where[96];
+    fill(renderer, strip, (SDL_Color){12, 14, 18, 150});
+    if (state->manual) {
+        snprintf(where, sizeof where, "Free camera");
+    } else {
+        snprintf(where, sizeof where, "Path %s   %.1f s%s",
+                 dip_preview_path_name(state->track->active),
+                 1e-9 * (double)dip_camtrack_time(state->track, state->play_ns),
+                 state->paused ? "   paused" : "");
+    }
+    static const char help[] = "F1 help";
+    const int left_width = dip_text_width(text, size, where);
+    const int right_width = dip_text_width(text, size, help);
+    const int side = larger(left_width, right_width) + 2 * margin;
+    dip_text_draw(text, size, soft, DIP_ALIGN_LEFT, margin, y, window->w / 2, where);
+    dip_text_draw(text, size, soft, DIP_ALIGN_RIGHT, window->w - margin, y, window->w / 3, help);
+    if (state->notice[0]) {
+        dip_text_draw(text, size, accent, DIP_ALIGN_CENTRE, window->w / 2, y,
+                      larger(0, window->w - 2 * side), state->notice);
+    }
+}
+
+enum { MAX_HELP_ROWS = 40, MAX_HELP_COLUMNS = 3 };
+
+typedef struct HelpRow {
+    const char *label;
+    char text[64];
+} HelpRow;
+
+// Settings that cannot be changed in this version are left out.
+static int help_rows(HelpRow rows[MAX_HELP_ROWS]) {
+    int count = 0;
+    for (int i = 0; i < dip_key_row_count && count < MAX_HELP_ROWS; ++i) {
+        const DipKeyRow *key = &dip_key_rows[i];
+        if (!key->label) {
+            continue;
+        }
+        if (key->action == DIP_ACTION_SETTING) {
+            const DipSettingInfo *info = dip_setting_info((DipSetting)key->argument);
+            const unsigned mask = info->available_mask;
+            if ((mask & (mask - 1)) == 0) {
+                continue;
+            }
+            snprintf(rows[count].text, sizeof rows[count].text, "%s", info->title);
+        } else {
+            snprintf(rows[count].text, sizeof rows[count].text, "%s", key->text);
+        }
+        rows[count++].label = key->label;
+    }
+    return count;
+}
+
+typedef struct HelpLayout {
+    int size;
+    int columns;
+    int rows_per_column;
+    int line;
+    int label_width;
+    int text_width;
+    int gap;
+    int width;
+    int height;
+} HelpLayout;
+
+static HelpLayout measure_help(DipText *text, const HelpRow *rows, int count, int size,
+                               int columns) {
+    HelpLayout layout = {.size = size, .columns = columns};
+    for (int i = 0; i < count; ++i) {
+        layout.label_width = larger(layout.label_width, dip_text_width(text, size, rows[i].label));
+        layout.text_width = larger(layout.text_width, dip_text_width(text, size, rows[i].text));
+    }
+    layout.gap = size;
+    layout.line = dip_text_line_height(text, size) + larger(1, size / 6);
+    layout.rows_per_column = (count + columns - 1) / columns;
+    const int column = layout.label_width + layout.gap + layout.text_width;
+    layout.width = columns * column + (columns - 1) * 2 * layout.gap + 2 * size;
+    layout.height = (layout.rows_per_column + 3) * layout.line + 2 * size;
+    return layout;
+}
+
+// The largest letters at which everything fits, with as few columns as that takes.
+static HelpLayout choose_layout(DipText *text, const HelpRow *rows, int count,
+                                const SDL_Rect *window) {
+    HelpLayout layout = {0};
+    for (int size = 17; size >= DIP_TEXT_MIN_SIZE; --size) {
+        for (int columns = 1; columns <= MAX_HELP_COLUMNS; ++columns) {
+            layout = measure_help(text, rows, count, size, columns);
+            if (layout.width <= window->w - 8 && layout.height <= window->h - 8) {
+                return layout;
+            }
+        }
+    }
+    return layout;
+}
+
+static void draw_help(SDL_Renderer *renderer, DipText *text, const SDL_Rect *window) {
+    HelpRow rows[MAX_HELP_ROWS];
+    const int count = help_rows(rows);
+    const HelpLayout l = choose_layout(text, rows, count, window);
+    const SDL_Rect panel = {(window->w - l.width) / 2, (window->h - l.height) / 2, l.width,
+                            l.height};
+    fill(renderer, (SDL_Rect){0, 0, window->w, window->h}, (SDL_Color){0, 0, 0, 90});
+    fill(renderer, panel, (SDL_Color){14, 16, 21, 236});
+    fill(renderer, (SDL_Rect){panel.x, panel.y, panel.w, 2}, accent);
+    const int x0 = panel.x + l.size;
+    const int y0 = panel.y + l.size;
+    const int room = panel.w - 2 * l.size;
+    dip_text_draw(text, l.size, white, DIP_ALIGN_LEFT, x0, y0, room, "Keys");
+    dip_text_draw(text, l.size, soft, DIP_ALIGN_RIGHT, x0 + room, y0, room, "Shift goes backwards");
+    const int column = l.label_width + l.gap + l.text_width + 2 * l.gap;
+    for (int i = 0; i < count; ++i) {
+        const int x = x0 + i / l.rows_per_column * column;
+        const int y = y0 + l.line + l.line / 2 + i % l.rows_per_column * l.line;
+        dip_text_draw(text, l.size, accent, DIP_ALIGN_LEFT, x, y, l.label_width, rows[i].label);
+        dip_text_draw(text, l.size, white, DIP_ALIGN_LEFT, x + l.label_width + l.gap, y,
+                      l.text_width, rows[i].text);
+    }
+    dip_text_draw(text, l.size, soft, DIP_ALIGN_LEFT, x0, panel.y + panel.h - l.size - l.line, room,
+                  "A setting's key moves to the path that shows it best");
+}
+
+void dip_overlay_draw(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state,
+                      const SDL_Rect panes[DIP_PANE_COUNT],
+                      const DipPaneFigures figures[DIP_PANE_COUNT]) {
+    SDL_Rect window = {0};
+    SDL_GetRendererOutputSize(renderer, &window.w, &window.h);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        draw_label(renderer, text, state, p, &panes[p], &figures[p]);
+    }
+    draw_status(renderer, text, state, &window, larger(10, label_size(&panes[0]) - 1));
+    if (state->help) {
+        draw_help(renderer, text, &window);
+    }
+}

@@ -1,0 +1,250 @@
+// What keys do to the preview.
+#include "app/preview/state.h"
+
+#include "config/config.h"
+
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const int64_t notice_ns = 2500000000;
+static const int64_t default_step_ns = 33333333; // a frame of 30 a second
+
+static const char *const pane_titles[DIP_PANE_COUNT] = {"Current", "Requested"};
+
+DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
+                                       DipCamTrack *track) {
+    DipPreviewState state = {.track = track, .step_ns = default_step_ns};
+    state.quality[DIP_PANE_CURRENT] = quality[DIP_PANE_CURRENT];
+    state.quality[DIP_PANE_REQUESTED] = quality[DIP_PANE_REQUESTED];
+    state.edited[DIP_PANE_REQUESTED] = true;
+    return state;
+}
+
+void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(state->notice, sizeof state->notice, format, arguments);
+    va_end(arguments);
+    state->notice_end_ns = now_ns + notice_ns;
+}
+
+const char *dip_preview_path_name(int slot) {
+    static const char *const names[] = {
+#define PATH_NAME(NAME, fallback, text) #NAME,
+        DIP_CONFIG_LIST(DIP_CONFIG_NONE, PATH_NAME, DIP_CONFIG_NONE)
+#undef PATH_NAME
+    };
+    return slot >= 0 && slot < DIP_CATEGORY_COUNT ? names[slot] : "?";
+}
+
+int dip_preview_path_of(DipSetting setting) {
+    switch (setting) {
+    case DIP_SETTING_AA:
+        return DIP_CATEGORY_AA;
+    case DIP_SETTING_TAA:
+        return DIP_CATEGORY_TAA;
+    case DIP_SETTING_AAA:
+    case DIP_SETTING_ASD:
+        return DIP_CATEGORY_AAA;
+    case DIP_SETTING_AF:
+        return DIP_CATEGORY_AF;
+    case DIP_SETTING_AAF:
+        return DIP_CATEGORY_AAF;
+    case DIP_SETTING_OPT:
+        return DIP_CATEGORY_CAI;
+    case DIP_SETTING_MIPLOD:
+        return DIP_CATEGORY_MIPLOD;
+    case DIP_SETTING_GI:
+        return DIP_CATEGORY_GI;
+    default:
+        return -1; // mip colours show on any path
+    }
+}
+
+// The next step that this version has and that fits the other settings.
+static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
+    const DipSettingInfo *info = dip_setting_info(setting);
+    DipQuality candidate = *quality;
+    for (int i = 1; i < info->step_count; ++i) {
+        const int offset = reverse ? info->step_count - i : i;
+        const int step = (quality->step[setting] + offset) % info->step_count;
+        candidate.step[setting] = (uint8_t)step;
+        if ((info->available_mask >> step & 1) && dip_quality_check(&candidate, NULL)) {
+            *quality = candidate;
+            return true;
+        }
+    }
+    return false;
+}
+
+static void change_setting(DipPreviewState *state, DipSetting setting, bool reverse,
+                           int64_t now_ns) {
+    const DipSettingInfo *info = dip_setting_info(setting);
+    bool changed = false;
+    const char *step = "";
+    for (int pane = 0; pane < DIP_PANE_COUNT; ++pane) {
+        if (state->edited[pane] && cycle(&state->quality[pane], setting, reverse)) {
+            changed = true;
+            step = info->steps[state->quality[pane].step[setting]];
+        }
+    }
+    if (!changed) {
+        dip_preview_notice(state, now_ns, "%s: no other step in this version", info->title);
+        return;
+    }
+    const int path = dip_preview_path_of(setting);
+    if (path >= 0 && !state->manual) {
+        dip_camtrack_switch(state->track, path, state->play_ns);
+    }
+    dip_preview_notice(state, now_ns, "%s: %s", info->title, step);
+    ++state->scene_changes;
+}
+
+static bool has_path(const DipPreviewState *state, int slot) {
+    return state->track->slots[slot].path != NULL;
+}
+
+static void choose_path(DipPreviewState *state, int slot, int64_t now_ns) {
+    if (slot < 0 || slot >= DIP_CATEGORY_COUNT || !has_path(state, slot)) {
+        dip_preview_notice(state, now_ns, "No path %s here", dip_preview_path_name(slot));
+        return;
+    }
+    dip_camtrack_switch(state->track, slot, state->play_ns);
+    state->manual = false;
+    dip_preview_notice(state, now_ns, "Path %s", dip_preview_path_name(slot));
+    ++state->scene_changes;
+}
+
+// The nearest slot onwards that has a path of its own: several may share a file.
+static void next_path(DipPreviewState *state, int direction, int64_t now_ns) {
+    const int from = state->track->active;
+    const DipCamPath *playing = state->track->slots[from].path;
+    for (int i = 1; i < DIP_CATEGORY_COUNT; ++i) {
+        const int slot = (from + direction * i + DIP_CATEGORY_COUNT * i) % DIP_CATEGORY_COUNT;
+        if (has_path(state, slot) && state->track->slots[slot].path != playing) {
+            choose_path(state, slot, now_ns);
+            return;
+        }
+    }
+    dip_preview_notice(state, now_ns, "There is one path only");
+}
+
+static void step_time(DipPreviewState *state, int direction, int64_t now_ns) {
+    const int64_t to_ns = state->play_ns + direction * state->step_ns;
+    state->paused = true;
+    state->play_ns = to_ns > 0 ? to_ns : 0;
+    dip_preview_notice(state, now_ns, "Paused");
+    ++state->scene_changes;
+}
+
+// Requested, current, both, requested, ...
+static void choose_pane(DipPreviewState *state, int64_t now_ns) {
+    bool *edited = state->edited;
+    const bool both = edited[DIP_PANE_CURRENT] && edited[DIP_PANE_REQUESTED];
+    const bool current_only = edited[DIP_PANE_CURRENT] && !both;
+    edited[DIP_PANE_REQUESTED] = both || current_only;
+    edited[DIP_PANE_CURRENT] = !both;
+    const char *which = edited[0] && edited[1] ? "both panes"
+                        : edited[0]            ? pane_titles[0]
+                                               : pane_titles[1];
+    dip_preview_notice(state, now_ns, "Keys act on: %s", which);
+}
+
+static void apply(DipPreviewState *state, int64_t now_ns) {
+    state->quality[DIP_PANE_CURRENT] = state->quality[DIP_PANE_REQUESTED];
+    dip_preview_notice(state, now_ns, "Applied");
+    ++state->scene_changes;
+}
+
+void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
+                     int64_t now_ns) {
+    switch (action) {
+    case DIP_ACTION_SETTING:
+        change_setting(state, (DipSetting)argument, reverse, now_ns);
+        break;
+    case DIP_ACTION_NEXT_PANE:
+        choose_pane(state, now_ns);
+        break;
+    case DIP_ACTION_APPLY:
+        apply(state, now_ns);
+        break;
+    case DIP_ACTION_PAUSE:
+        state->paused = !state->paused;
+        dip_preview_notice(state, now_ns, state->paused ? "Paused" : "Playing");
+        break;
+    case DIP_ACTION_STEP:
+        step_time(state, 1, now_ns);
+        break;
+    case DIP_ACTION_STEP_BACK:
+        step_time(state, -1, now_ns);
+        break;
+    case DIP_ACTION_NEXT_PATH:
+        next_path(state, reverse ? -1 : 1, now_ns);
+        break;
+    case DIP_ACTION_PREVIOUS_PATH:
+        next_path(state, -1, now_ns);
+        break;
+    case DIP_ACTION_PATH:
+        choose_path(state, argument, now_ns);
+        break;
+    case DIP_ACTION_CAMERA:
+        state->manual = !state->manual;
+        dip_preview_notice(state, now_ns,
+                           state->manual ? "Camera: yours, W A S D Q E to move"
+                                         : "Camera: on its path");
+        ++state->scene_changes;
+        break;
+    case DIP_ACTION_HELP:
+        state->help = !state->help;
+        break;
+    case DIP_ACTION_SCREENSHOT:
+        state->screenshot = true;
+        break;
+    case DIP_ACTION_FULL_SCREEN:
+        state->full_screen = !state->full_screen;
+        break;
+    case DIP_ACTION_QUIT:
+        state->quit = true;
+        break;
+    }
+}
+
+void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns) {
+    if (!state->paused && !state->manual) {
+        state->play_ns += elapsed_ns;
+        ++state->scene_changes;
+    }
+    if (now_ns >= state->notice_end_ns) {
+        state->notice[0] = '\0';
+    }
+}
+
+void dip_preview_describe(const DipQuality *quality, char *text, size_t size_bytes) {
+    size_t length = 0;
+    text[0] = '\0';
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
+        const int step = quality->step[s];
+        if (step == info->default_step || length + 1 >= size_bytes) {
+            continue;
+        }
+        char name[32];
+        size_t n = 0;
+        for (; info->key[n] && n + 1 < sizeof name; ++n) {
+            name[n] = (char)toupper((unsigned char)info->key[n]);
+        }
+        name[n] = '\0';
+        const char *value = info->steps[step];
+        const bool number = isdigit((unsigned char)value[0]);
+        const bool only_on = strcmp(value, "on") == 0;
+        const int written =
+            snprintf(text + length, size_bytes - length, "%s%s%s%s%s", length ? "  " : "", name,
+                     only_on ? "" : " ", only_on ? "" : value, number ? "x" : "");
+        length += written > 0 ? (size_t)written : 0;
+    }
+    if (!text[0]) {
+        snprintf(text, size_bytes, "Default settings");
+    }
+}

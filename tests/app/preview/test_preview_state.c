@@ -1,0 +1,227 @@
+// What keys do to the preview, the free camera, and the median of frame times; no window.
+#include "app/preview/camera.h"
+#include "app/preview/state.h"
+#include "app/preview/timing.h"
+#include "config/config.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+typedef struct Fixture {
+    DipCamPath *paths[2];
+    DipCamTrack track;
+    DipPreviewState state;
+} Fixture;
+
+static DipQuality parse(const char *text) {
+    DipQuality quality;
+    assert_true(dip_quality_parse(text, &quality, NULL));
+    return quality;
+}
+
+// Two paths of 10 s: DEFAULT and AF, which AA, without one, does not have.
+static int set_up(void **state) {
+    static Fixture fixture;
+    fixture = (Fixture){.track = dip_camtrack_make(true)};
+    for (int i = 0; i < 2; ++i) {
+        const DipCamKey keys[2] = {{{i, 0, 0}, {0, 0, 0, 1}}, {{i, 1, 0}, {0, 0, 0, 1}}};
+        assert_true(dip_campath_create(keys, 2, INT64_C(5000000000), &fixture.paths[i], NULL));
+    }
+    dip_camtrack_set(&fixture.track, DIP_CATEGORY_DEFAULT, fixture.paths[0], 50.0);
+    dip_camtrack_set(&fixture.track, DIP_CATEGORY_AF, fixture.paths[1], 60.0);
+    const DipQuality quality[2] = {parse("aa=2"), parse("aa=none")};
+    fixture.state = dip_preview_state_make(quality, &fixture.track);
+    *state = &fixture;
+    return 0;
+}
+
+static int tear_down(void **state) {
+    Fixture *fixture = *state;
+    dip_campath_destroy(&fixture->paths[0]);
+    dip_campath_destroy(&fixture->paths[1]);
+    return 0;
+}
+
+static void press(Fixture *fixture, DipAction action, int argument, bool shift) {
+    dip_preview_act(&fixture->state, action, argument, shift, 0);
+}
+
+static int step_of(const Fixture *fixture, int pane, DipSetting setting) {
+    return fixture->state.quality[pane].step[setting];
+}
+
+// none 2 4 6 8 none, on the requested pane alone; Shift goes back.
+static void settings_cycle(void **state) {
+    Fixture *f = *state;
+    for (int i = 1; i <= 5; ++i) {
+        press(f, DIP_ACTION_SETTING, DIP_SETTING_AA, false);
+        assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_AA), i % 5);
+        assert_int_equal(step_of(f, DIP_PANE_CURRENT, DIP_SETTING_AA), 1);
+    }
+    press(f, DIP_ACTION_SETTING, DIP_SETTING_AA, true);
+    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_AA), 4);
+    assert_int_equal(f->state.scene_changes, 6);
+}
+
+// Every setting comes round to where it began, through valid settings only.
+static void every_setting_comes_round(void **state) {
+    Fixture *f = *state;
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        const DipQuality before = f->state.quality[DIP_PANE_REQUESTED];
+        int presses = 0;
+        do {
+            press(f, DIP_ACTION_SETTING, s, false);
+            assert_true(dip_quality_check(&f->state.quality[DIP_PANE_REQUESTED], NULL));
+            assert_true(++presses <= DIP_MAX_STEPS);
+        } while (memcmp(&before, &f->state.quality[DIP_PANE_REQUESTED], sizeof before) != 0);
+    }
+}
+
+static void panes_and_apply(void **state) {
+    Fixture *f = *state;
+    press(f, DIP_ACTION_NEXT_PANE, 0, false); // current
+    press(f, DIP_ACTION_SETTING, DIP_SETTING_AF, false);
+    assert_int_equal(step_of(f, DIP_PANE_CURRENT, DIP_SETTING_AF), 1);
+    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_AF), 0);
+    press(f, DIP_ACTION_NEXT_PANE, 0, false); // both
+    press(f, DIP_ACTION_SETTING, DIP_SETTING_MIPDEBUG, false);
+    assert_int_equal(step_of(f, DIP_PANE_CURRENT, DIP_SETTING_MIPDEBUG), 1);
+    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_MIPDEBUG), 1);
+    press(f, DIP_ACTION_NEXT_PANE, 0, false); // requested again
+    assert_true(f->state.edited[DIP_PANE_REQUESTED] && !f->state.edited[DIP_PANE_CURRENT]);
+    press(f, DIP_ACTION_APPLY, 0, false);
+    assert_memory_equal(&f->state.quality[0], &f->state.quality[1], sizeof f->state.quality[0]);
+    assert_int_equal(step_of(f, DIP_PANE_CURRENT, DIP_SETTING_AA), 0);
+}
+
+static void a_setting_brings_its_path(void **state) {
+    Fixture *f = *state;
+    dip_preview_advance(&f->state, 3000000000, 0);
+    press(f, DIP_ACTION_SETTING, DIP_SETTING_AF, false);
+    assert_int_equal(f->track.active, DIP_CATEGORY_AF);
+    assert_int_equal(dip_camtrack_time(&f->track, f->state.play_ns), 0); // reset on switch
+    press(f, DIP_ACTION_SETTING, DIP_SETTING_MIPDEBUG, false);
+    assert_int_equal(f->track.active, DIP_CATEGORY_AF);
+    press(f, DIP_ACTION_NEXT_PATH, 0, false);
+    assert_int_equal(f->track.active, DIP_CATEGORY_DEFAULT);
+    press(f, DIP_ACTION_NEXT_PATH, 0, true);
+    assert_int_equal(f->track.active, DIP_CATEGORY_AF);
+    press(f, DIP_ACTION_PATH, DIP_CATEGORY_DEFAULT, false);
+    assert_int_equal(f->track.active, DIP_CATEGORY_DEFAULT);
+    press(f, DIP_ACTION_PATH, DIP_CATEGORY_WATER, false); // there is none
+    assert_int_equal(f->track.active, DIP_CATEGORY_DEFAULT);
+    assert_non_null(strstr(f->state.notice, "WATER"));
+}
+
+static void time_stands_when_paused_or_flying(void **state) {
+    Fixture *f = *state;
+    dip_preview_advance(&f->state, 1000, 0);
+    assert_int_equal(f->state.play_ns, 1000);
+    press(f, DIP_ACTION_STEP_BACK, 0, false);
+    assert_true(f->state.paused);
+    assert_int_equal(f->state.play_ns, 0); // not below
+    press(f, DIP_ACTION_STEP, 0, false);
+    assert_int_equal(f->state.play_ns, 33333333);
+    dip_preview_advance(&f->state, 1000, 0);
+    assert_int_equal(f->state.play_ns, 33333333);
+    press(f, DIP_ACTION_PAUSE, 0, false);
+    press(f, DIP_ACTION_CAMERA, 0, false);
+    dip_preview_advance(&f->state, 1000, 0);
+    assert_int_equal(f->state.play_ns, 33333333);
+    press(f, DIP_ACTION_CAMERA, 0, false);
+    dip_preview_advance(&f->state, 1000, 0);
+    assert_int_equal(f->state.play_ns, 33334333);
+}
+
+static void notices_pass(void **state) {
+    Fixture *f = *state;
+    dip_preview_notice(&f->state, 1000, "hello %d", 3);
+    dip_preview_advance(&f->state, 0, 1000);
+    assert_string_equal(f->state.notice, "hello 3");
+    dip_preview_advance(&f->state, 0, INT64_C(10000000000));
+    assert_string_equal(f->state.notice, "");
+}
+
+static void settings_in_words(void **state) {
+    (void)state;
+    char text[64];
+    DipQuality quality = dip_quality_default();
+    dip_preview_describe(&quality, text, sizeof text);
+    assert_string_equal(text, "Default settings");
+    quality = parse("aa=4,af=16,aaf=on,miplod=quality");
+    dip_preview_describe(&quality, text, sizeof text);
+    assert_string_equal(text, "AA 4x  AF 16x  AAF  MIPLOD quality");
+    char small[10];
+    dip_preview_describe(&quality, small, sizeof small);
+    assert_int_equal(strlen(small), 9);
+}
+
+static void assert_at(const DipPose *pose, double x, double y, double z) {
+    assert_true(fabs(pose->position_world[0] - x) < 1e-9);
+    assert_true(fabs(pose->position_world[1] - y) < 1e-9);
+    assert_true(fabs(pose->position_world[2] - z) < 1e-9);
+}
+
+static void camera_flies(void **state) {
+    (void)state;
+    DipPose pose = {.orientation = {0, 0, 0, 1}, .fov_y_deg = 50};
+    const DipCameraKeys still = {0};
+    assert_false(dip_camera_move(&pose, &still, 2.0, 1.0));
+    const DipCameraKeys forward = {.forward = 1};
+    assert_true(dip_camera_move(&pose, &forward, 2.0, 1.5)); // looks along -Z
+    assert_at(&pose, 0, 0, -3);
+    const DipCameraKeys up = {.up = 1};
+    dip_camera_move(&pose, &up, 2.0, 0.5);
+    assert_at(&pose, 0, 1, -3);
+    // A turn to the right by 90 degrees: -Z becomes +X. 50 degrees a second.
+    const DipCameraKeys turn_right = {.right = 1, .turn = true};
+    dip_camera_move(&pose, &turn_right, 2.0, 90.0 / 50.0);
+    dip_camera_move(&pose, &forward, 2.0, 1.0);
+    assert_at(&pose, 2, 1, -3);
+    // Then up by 90 degrees: forward is the sky.
+    const DipCameraKeys turn_up = {.forward = 1, .turn = true};
+    dip_camera_move(&pose, &turn_up, 2.0, 90.0 / 50.0);
+    dip_camera_move(&pose, &forward, 2.0, 1.0);
+    assert_at(&pose, 2, 3, -3);
+}
+
+static void median_of_the_last_second(void **state) {
+    (void)state;
+    DipTiming timing = {0};
+    assert_true(dip_timing_median_ms(&timing, 0) == 0.0);
+    dip_timing_add(&timing, 0, 100.0);
+    dip_timing_add(&timing, 500000000, 3.0);
+    dip_timing_add(&timing, 600000000, 1.0);
+    assert_true(dip_timing_median_ms(&timing, 700000000) == 3.0);
+    dip_timing_add(&timing, 700000000, 2.0);
+    assert_true(dip_timing_median_ms(&timing, 1100000000) == 2.0); // 100 is too old
+    assert_int_equal(dip_timing_per_second(&timing, 1100000000), 3);
+    assert_true(dip_timing_median_ms(&timing, 1550000000) == 1.5); // of two
+    assert_true(dip_timing_median_ms(&timing, 9000000000) == 2.0); // the last one
+    for (int i = 0; i < 1000; ++i) {
+        dip_timing_add(&timing, 9000000000 + i, i);
+    }
+    assert_int_equal(dip_timing_per_second(&timing, 9000001000), DIP_TIMING_SAMPLES);
+    dip_timing_clear(&timing);
+    assert_int_equal(dip_timing_per_second(&timing, 9000001000), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(settings_cycle, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(every_setting_comes_round, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(panes_and_apply, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_setting_brings_its_path, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(time_stands_when_paused_or_flying, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(notices_pass, set_up, tear_down),
+        cmocka_unit_test(settings_in_words),
+        cmocka_unit_test(camera_flies),
+        cmocka_unit_test(median_of_the_last_second),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
