@@ -46,7 +46,6 @@ static bool has_alpha(const DipTextureDef *def) {
 static size_t place_level(DipTexture *texture, int level, int width, int height, size_t offset) {
     texture->level_width[level] = width;
     texture->level_height[level] = height;
-    texture->level_stride[level] = width + 1;
     texture->level_offset[level] = (int32_t)offset;
     return (size_t)(width + 1) * (size_t)(height + 1);
 }
@@ -103,7 +102,7 @@ static void pack_level(DipTexture *texture, int level, const float *rgba) {
     const size_t base = (size_t)texture->level_offset[level];
     for (int y = 0; y <= height; y++) {
         const size_t row = (size_t)padding_source(y, height, texture->wrap_v) * (size_t)width;
-        const size_t out = base + (size_t)y * (size_t)texture->level_stride[level];
+        const size_t out = base + (size_t)y * (size_t)(width + 1);
         for (int x = 0; x <= width; x++) {
             const float *texel =
                 rgba + 4 * (row + (size_t)padding_source(x, width, texture->wrap_u));
