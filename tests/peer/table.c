@@ -45,7 +45,10 @@ void dip_table_print_heading(FILE *out, const DipPeerOptions *options, const Dip
 
 // --- rows --------------------------------------------------------------------------------------
 
-// Frames of the peer at 4x with AF that take many times the median: its mean says nothing.
+// A frame of the peer is out of the ordinary from this many times its median on.
+static const double PATHOLOGICAL = 10.0;
+
+// At 4x with AF llvmpipe is known to be out of the ordinary: not to be read with the other rows.
 static bool stands_apart(const DipPeerRow *row) {
     return row->sample_count > 1 && row->max_anisotropy > 1 && dip_peer_row_has_peer(row);
 }
@@ -81,18 +84,21 @@ static void print_row(FILE *out, const DipPeerMeasurement *m, double *scratch) {
     print_decibels(out, m);
 }
 
-static void print_apart(FILE *out, const DipPeerMeasurement *m, double *scratch) {
+// Says so where single frames of the peer take many times its median: its mean means nothing then.
+static void print_note(FILE *out, const DipPeerMeasurement *m, double *scratch) {
     const int count = m->frames * m->rounds;
+    if (!count || !dip_peer_row_has_peer(m->row)) {
+        return;
+    }
+    const double median = dip_stats_quantile(m->peer_ms, count, 0.5, scratch);
+    const double slowest = dip_stats_quantile(m->peer_ms, count, 1.0, scratch);
     double sum = 0.0;
     for (int i = 0; i < count; i++) {
         sum += m->peer_ms[i];
     }
-    print_row(out, m, scratch);
-    if (count) {
-        fprintf(out,
-                "         apart: single frames of llvmpipe are pathological here; its mean is "
-                "%.1f ms, its slowest frame %.0f ms\n",
-                sum / count, dip_stats_quantile(m->peer_ms, count, 1.0, scratch));
+    if (slowest > PATHOLOGICAL * median) {
+        fprintf(out, "           note: the peer's mean is %.0f ms, its slowest frame %.0f ms\n",
+                sum / count, slowest);
     }
 }
 
@@ -116,14 +122,11 @@ bool dip_table_print(FILE *out, const DipPeerMeasurement *measurements, int coun
     } else {
         fprintf(out, "%-9s  %6s\n", "", "PSNR dB");
     }
-    for (int i = 0; i < count; i++) {
-        if (!stands_apart(measurements[i].row)) {
-            print_row(out, &measurements[i], scratch);
-        }
-    }
-    for (int i = 0; i < count; i++) {
-        if (stands_apart(measurements[i].row)) {
-            print_apart(out, &measurements[i], scratch);
+    for (int i = 0; i < 2 * count; i++) {
+        const DipPeerMeasurement *m = &measurements[i % count];
+        if (stands_apart(m->row) == (i >= count)) {
+            print_row(out, m, scratch);
+            print_note(out, m, scratch);
         }
     }
     free(scratch);
