@@ -112,7 +112,8 @@ static bool check_node(const char *path, const struct aiScene *scene, const stru
         }
     }
     for (unsigned i = 0; i < node->mNumChildren; ++i) {
-        if (!check_node(path, scene, node->mChildren[i], depth + 1, err)) {
+        const struct aiNode *child = node->mChildren[i]; // NULL: see close_gaps
+        if (child && !check_node(path, scene, child, depth + 1, err)) {
             return false;
         }
     }
@@ -138,6 +139,33 @@ static bool check_scene(const char *path, const struct aiScene *scene, bool proc
         }
     }
     return check_node(path, scene, scene->mRootNode, 0, err);
+}
+
+// Some readers (RAW) leave gaps among a node's children; assimp's own processing follows them.
+static void close_gaps(struct aiNode *node) {
+    unsigned kept = 0;
+    for (unsigned i = 0; i < node->mNumChildren; ++i) {
+        if (node->mChildren[i]) {
+            close_gaps(node->mChildren[i]);
+            node->mChildren[kept++] = node->mChildren[i];
+        }
+    }
+    node->mNumChildren = kept;
+}
+
+// Mends a checked scene so that no processing step throws: aiApplyPostProcessing then frees the
+// scene twice and the program dies. Steps throw at meshes without a kind, which are those without
+// faces (an STL's empty solid; as points they are left alone), and at scenes that are flagged as
+// sharing vertices between faces (written by assimp itself), as other formats do unflagged.
+static void mend_scene(const struct aiScene *checked) {
+    struct aiScene *scene = (struct aiScene *)checked; // assimp hands out its own, writable one
+    scene->mFlags &= ~(unsigned)AI_SCENE_FLAGS_NON_VERBOSE_FORMAT;
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+        if (scene->mMeshes[i]->mPrimitiveTypes == 0) {
+            scene->mMeshes[i]->mPrimitiveTypes = aiPrimitiveType_POINT;
+        }
+    }
+    close_gaps(scene->mRootNode);
 }
 
 static bool is_gltf(const struct aiScene *scene) {
@@ -233,6 +261,7 @@ static bool import_and_check(DipModel *model, DipModelFile *file, DipError *err)
     if (!import_bare(model, file, err) || !check_scene(file->path, file->scene, false, err)) {
         return false;
     }
+    mend_scene(file->scene);
     const struct aiScene *processed = aiApplyPostProcessing(file->scene, process_flags);
     if (!processed) {
         file->scene = NULL; // freed by assimp
