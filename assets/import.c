@@ -6,7 +6,6 @@
 #include "assets/model_parts.h"
 
 #include <assimp/cimport.h>
-#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -20,10 +19,7 @@
 // Not aiProcess_JoinIdenticalVertices: it merges vertices that differ in their second texture
 // coordinates alone, which tears light maps. mesh.c joins on all attributes.
 static const unsigned process_flags =
-    aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_FlipUVs | aiProcess_SortByPType;
-
-// Faces that meet at a greater angle keep an edge.
-static const float smoothing_angle_deg = 60.0f;
+    aiProcess_Triangulate | aiProcess_FlipUVs | aiProcess_SortByPType;
 
 static const size_t import_stack_bytes = (size_t)256 << 20; // address space; touched as needed
 
@@ -235,18 +231,12 @@ static void take_log_line(const char *line, char *user) {
 }
 
 static bool import_bare(DipModel *model, DipModelFile *file, DipError *err) {
-    struct aiPropertyStore *properties = aiCreatePropertyStore();
-    if (!properties) {
-        return dip_model_out_of_memory(err, file->path);
-    }
-    aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, smoothing_angle_deg);
     ImportLog log = {.model = model, .path = file->path};
     const size_t warnings_before = model->warnings ? model->warnings->count : 0;
     const struct aiLogStream stream = {take_log_line, (char *)(void *)&log};
     aiAttachLogStream(&stream);
-    file->scene = aiImportFileExWithProperties(file->path, 0, NULL, properties);
+    file->scene = aiImportFile(file->path, 0);
     aiDetachLogStream(&stream);
-    aiReleasePropertyStore(properties);
     if ((!file->scene || log.indices_dropped) && model->warnings) {
         model->warnings->count = warnings_before; // the error says it once
     }
