@@ -76,7 +76,8 @@ static bool parse_assignment(const char *text, DipQuality *quality, unsigned *se
                                  key, accepted);
         }
         if (*seen >> s & 1) {
-            return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, key, "is set twice, accepted once");
+            return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, key,
+                                 "is set twice, accepted once");
         }
         *seen |= 1u << s;
         for (int i = 0; i < infos[s].step_count; i++) {
