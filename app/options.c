@@ -206,8 +206,10 @@ static const OptionRow rows[] = {
      "a camera path (.pth, .bth) instead of the ini's, with CAMPATH_DEFAULT_FOV"},
     {"--category", "NAME", SCENE, set_category,
      "which of the ini's paths to fly: DEFAULT, AA, AF, AAA, MIPLOD, WATER, ..."},
-    {"--current", "SET", SCENE, set_current, "settings of the left pane, such as aa=none"},
-    {"--requested", "SET", SCENE, set_requested, "settings of the right pane, such as aa=4,af=16"},
+    {"--current", "SET", SCENE, set_current,
+     "settings of the left pane, such as aa=none (default: the ini's)"},
+    {"--requested", "SET", SCENE, set_requested,
+     "settings of the right pane, such as aa=4,af=16 (likewise)"},
     {"--size", "WxH", SCENE, set_size, "pixels of each pane (default: the ini's RES)"},
     {"--frames", "A:B[:S]", DUMP, set_frames,
      "frames A up to, not including, B, every S-th (default 0:1)"},
@@ -298,7 +300,8 @@ static bool parse_command(int argc, char *const *argv, int *index, DipOptions *o
             *index = 2;
             return true;
         }
-        return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "path", "'%s', accepted %s", word,
+        return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "path", "%s%s%s, accepted %s",
+                             *word ? "'" : "", *word ? word : "nothing to do", *word ? "'" : "",
                              "path info FILE, path convert IN OUT");
     }
     for (int c = 0; c < DIP_COMMAND_PATH_INFO; c++) {
@@ -333,6 +336,12 @@ static bool parse_operand(DipOptions *options, const char *operand, DipError *er
 static bool check_complete(const DipOptions *options, DipError *err) {
     if (options->help || options->version) {
         return true;
+    }
+    if (options->category && (options->path || options->model_count)) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--category",
+                             "'%s' is one of the ini's paths, and %s takes their place, accepted "
+                             "one of the two",
+                             options->category, options->path ? "--path" : "a model's orbit");
     }
     if (options->command == DIP_COMMAND_DUMP && !options->out && !options->json && !options->hash) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "dump",
@@ -431,11 +440,22 @@ static const char *examples_of(DipCommand command) {
     }
 }
 
+// What the command does; both of the path's, which share a help.
+static void print_tasks(DipCommand command, FILE *out) {
+    const bool path = command == DIP_COMMAND_PATH_INFO || command == DIP_COMMAND_PATH_CONVERT;
+    const int first = path ? DIP_COMMAND_PATH_INFO : (int)command;
+    const int last = path ? DIP_COMMAND_PATH_CONVERT : (int)command;
+    fputc('\n', out);
+    for (int c = first; c <= last; c++) {
+        fprintf(out, "  %-14s %s\n", commands[c].typed, commands[c].text);
+    }
+}
+
 void dip_options_print_help(const DipOptions *options, bool one_command, FILE *out) {
     fprintf(out, "Diptych: a real-time preview of 3D image-quality settings\n\nUsage: %s\n",
             usage_of(options->command));
     if (one_command) {
-        fprintf(out, "\n%s.\n", commands[options->command].text);
+        print_tasks(options->command, out);
     } else {
         fprintf(out, "\nCommands; `diptych COMMAND --help` tells more:\n");
         for (int c = 0; c < DIP_COMMAND_COUNT; c++) {

@@ -188,6 +188,25 @@ static bool load_own_path(DipSession *session, const DipOptions *options, DipErr
     return true;
 }
 
+// Nothing nearer than DIP_MIN_W (renderer/geometry/project.h) is drawn: smaller models would be
+// invisible. A single point is framed all the same.
+static bool check_extent(const float low[3], const float high[3], const char *file,
+                         DipErrorList *faults) {
+    const double least = 5e-6;
+    double extent = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        extent = fmax(extent, (double)high[axis] - low[axis]);
+    }
+    if (extent == 0.0 || extent >= least) {
+        return true;
+    }
+    DipError err;
+    dip_error_set(&err, DIP_ERROR_RANGE, file, 0, "box",
+                  "the model is %.3g large, accepted at least %g; give it a larger unit", extent,
+                  least);
+    return add_fault(faults, &err);
+}
+
 static bool make_orbit(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     float low[3];
     float high[3];
@@ -201,8 +220,13 @@ static bool make_orbit(DipSession *session, const DipOptions *options, DipErrorL
     }
     DipCamPath *path;
     DipError err;
+    if (!check_extent(low, high, options->models[0], faults)) {
+        return false;
+    }
     if (!dip_campath_orbit(&def, &path, &err)) {
-        return add_fault(faults, &err);
+        DipError named;
+        dip_error_set(&named, err.code, options->models[0], 0, err.key, "%s", err.message);
+        return add_fault(faults, &named);
     }
     keep_path(session, path, 0, def.fov_y_deg);
     session->orbiting = true;

@@ -6,7 +6,6 @@
 #include "assets/model_parts.h"
 
 #include <assimp/cimport.h>
-#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -20,10 +19,7 @@
 // Not aiProcess_JoinIdenticalVertices: it merges vertices that differ in their second texture
 // coordinates alone, which tears light maps. mesh.c joins on all attributes.
 static const unsigned process_flags =
-    aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_FlipUVs | aiProcess_SortByPType;
-
-// Faces that meet at a greater angle keep an edge.
-static const float smoothing_angle_deg = 60.0f;
+    aiProcess_Triangulate | aiProcess_FlipUVs | aiProcess_SortByPType;
 
 static const size_t import_stack_bytes = (size_t)256 << 20; // address space; touched as needed
 
@@ -112,7 +108,8 @@ static bool check_node(const char *path, const struct aiScene *scene, const stru
         }
     }
     for (unsigned i = 0; i < node->mNumChildren; ++i) {
-        if (!check_node(path, scene, node->mChildren[i], depth + 1, err)) {
+        const struct aiNode *child = node->mChildren[i]; // NULL: see close_gaps
+        if (child && !check_node(path, scene, child, depth + 1, err)) {
             return false;
         }
     }
@@ -138,6 +135,33 @@ static bool check_scene(const char *path, const struct aiScene *scene, bool proc
         }
     }
     return check_node(path, scene, scene->mRootNode, 0, err);
+}
+
+// Some readers (RAW) leave gaps among a node's children; assimp's own processing follows them.
+static void close_gaps(struct aiNode *node) {
+    unsigned kept = 0;
+    for (unsigned i = 0; i < node->mNumChildren; ++i) {
+        if (node->mChildren[i]) {
+            close_gaps(node->mChildren[i]);
+            node->mChildren[kept++] = node->mChildren[i];
+        }
+    }
+    node->mNumChildren = kept;
+}
+
+// Mends a checked scene so that no processing step throws: aiApplyPostProcessing then frees the
+// scene twice and the program dies. Steps throw at meshes without a kind, which are those without
+// faces (an STL's empty solid; as points they are left alone), and at scenes that are flagged as
+// sharing vertices between faces (written by assimp itself), as other formats do unflagged.
+static void mend_scene(const struct aiScene *checked) {
+    struct aiScene *scene = (struct aiScene *)checked; // assimp hands out its own, writable one
+    scene->mFlags &= ~(unsigned)AI_SCENE_FLAGS_NON_VERBOSE_FORMAT;
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+        if (scene->mMeshes[i]->mPrimitiveTypes == 0) {
+            scene->mMeshes[i]->mPrimitiveTypes = aiPrimitiveType_POINT;
+        }
+    }
+    close_gaps(scene->mRootNode);
 }
 
 static bool is_gltf(const struct aiScene *scene) {
@@ -207,18 +231,12 @@ static void take_log_line(const char *line, char *user) {
 }
 
 static bool import_bare(DipModel *model, DipModelFile *file, DipError *err) {
-    struct aiPropertyStore *properties = aiCreatePropertyStore();
-    if (!properties) {
-        return dip_model_out_of_memory(err, file->path);
-    }
-    aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, smoothing_angle_deg);
     ImportLog log = {.model = model, .path = file->path};
     const size_t warnings_before = model->warnings ? model->warnings->count : 0;
     const struct aiLogStream stream = {take_log_line, (char *)(void *)&log};
     aiAttachLogStream(&stream);
-    file->scene = aiImportFileExWithProperties(file->path, 0, NULL, properties);
+    file->scene = aiImportFile(file->path, 0);
     aiDetachLogStream(&stream);
-    aiReleasePropertyStore(properties);
     if ((!file->scene || log.indices_dropped) && model->warnings) {
         model->warnings->count = warnings_before; // the error says it once
     }
@@ -233,6 +251,7 @@ static bool import_and_check(DipModel *model, DipModelFile *file, DipError *err)
     if (!import_bare(model, file, err) || !check_scene(file->path, file->scene, false, err)) {
         return false;
     }
+    mend_scene(file->scene);
     const struct aiScene *processed = aiApplyPostProcessing(file->scene, process_flags);
     if (!processed) {
         file->scene = NULL; // freed by assimp

@@ -14,46 +14,73 @@ bool dip_mesh_is_triangles(const struct aiMesh *mesh) {
     return (mesh->mPrimitiveTypes & kinds) == aiPrimitiveType_TRIANGLE;
 }
 
-static float *pack_positions(DipModel *model, const struct aiMesh *mesh) {
-    float *to = dip_model_alloc(model, mesh->mNumVertices, 3 * sizeof *to);
-    for (unsigned i = 0; to && i < mesh->mNumVertices; ++i) {
-        to[3 * i + 0] = mesh->mVertices[i].x;
-        to[3 * i + 1] = mesh->mVertices[i].y;
-        to[3 * i + 2] = mesh->mVertices[i].z;
+// Which of the file's vertices become vertices of ours, in which order: each once, or, where
+// normals must be made, one per corner of a face.
+typedef struct VertexSource {
+    const struct aiMesh *mesh;
+    bool by_corner;
+    uint32_t count;
+} VertexSource;
+
+static VertexSource vertex_source(const struct aiMesh *mesh) {
+    const bool by_corner = !mesh->mNormals;
+    return (VertexSource){mesh, by_corner, by_corner ? 3 * mesh->mNumFaces : mesh->mNumVertices};
+}
+
+static unsigned source_vertex(const VertexSource *source, uint32_t i) {
+    return source->by_corner ? source->mesh->mFaces[i / 3].mIndices[i % 3] : i;
+}
+
+static float *pack_positions(DipModel *model, const VertexSource *source) {
+    float *to = dip_model_alloc(model, source->count, 3 * sizeof *to);
+    for (uint32_t i = 0; to && i < source->count; ++i) {
+        const struct aiVector3D p = source->mesh->mVertices[source_vertex(source, i)];
+        to[3 * (size_t)i + 0] = p.x;
+        to[3 * (size_t)i + 1] = p.y;
+        to[3 * (size_t)i + 2] = p.z;
     }
     return to;
 }
 
-// Normals come out unit; one that is zero or not finite (of a face without area) points up.
-static float *pack_normals(DipModel *model, const struct aiMesh *mesh) {
-    float *to = dip_model_alloc(model, mesh->mNumVertices, 3 * sizeof *to);
-    for (unsigned i = 0; to && i < mesh->mNumVertices; ++i) {
-        const struct aiVector3D n = mesh->mNormals[i];
-        const double length = sqrt((double)n.x * n.x + (double)n.y * n.y + (double)n.z * n.z);
-        const bool usable = isfinite(length) && length > 1e-20;
-        to[3 * i + 0] = usable ? (float)(n.x / length) : 0.0f;
-        to[3 * i + 1] = usable ? (float)(n.y / length) : 1.0f;
-        to[3 * i + 2] = usable ? (float)(n.z / length) : 0.0f;
+void dip_model_unit_normal(const double n[3], float to[3]) {
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const bool usable = isfinite(length) && length > 0.0;
+    to[0] = usable ? (float)(n[0] / length) : 0.0f;
+    to[1] = usable ? (float)(n[1] / length) : 1.0f;
+    to[2] = usable ? (float)(n[2] / length) : 0.0f;
+}
+
+static float *pack_normals(DipModel *model, const VertexSource *source) {
+    if (source->by_corner) {
+        return dip_model_make_normals(model, source->mesh);
+    }
+    float *to = dip_model_alloc(model, source->count, 3 * sizeof *to);
+    for (uint32_t i = 0; to && i < source->count; ++i) {
+        const struct aiVector3D n = source->mesh->mNormals[i];
+        const double normal[3] = {n.x, n.y, n.z};
+        dip_model_unit_normal(normal, to + 3 * (size_t)i);
     }
     return to;
 }
 
-static float *pack_uv(DipModel *model, const struct aiMesh *mesh, int channel) {
-    const struct aiVector3D *from = mesh->mTextureCoords[channel];
-    float *to = dip_model_alloc(model, mesh->mNumVertices, 2 * sizeof *to);
-    for (unsigned i = 0; to && i < mesh->mNumVertices; ++i) {
-        to[2 * i + 0] = isfinite(from[i].x) ? from[i].x : 0.0f;
-        to[2 * i + 1] = isfinite(from[i].y) ? from[i].y : 0.0f;
+static float *pack_uv(DipModel *model, const VertexSource *source, int channel) {
+    const struct aiVector3D *from = source->mesh->mTextureCoords[channel];
+    float *to = dip_model_alloc(model, source->count, 2 * sizeof *to);
+    for (uint32_t i = 0; to && i < source->count; ++i) {
+        const struct aiVector3D uv = from[source_vertex(source, i)];
+        to[2 * (size_t)i + 0] = isfinite(uv.x) ? uv.x : 0.0f;
+        to[2 * (size_t)i + 1] = isfinite(uv.y) ? uv.y : 0.0f;
     }
     return to;
 }
 
-static float *pack_colours(DipModel *model, const struct aiMesh *mesh, bool linear) {
-    float *to = dip_model_alloc(model, mesh->mNumVertices, 3 * sizeof *to);
-    for (unsigned i = 0; to && i < mesh->mNumVertices; ++i) {
-        to[3 * i + 0] = dip_model_colour_to_linear(mesh->mColors[0][i].r, linear);
-        to[3 * i + 1] = dip_model_colour_to_linear(mesh->mColors[0][i].g, linear);
-        to[3 * i + 2] = dip_model_colour_to_linear(mesh->mColors[0][i].b, linear);
+static float *pack_colours(DipModel *model, const VertexSource *source, bool linear) {
+    float *to = dip_model_alloc(model, source->count, 3 * sizeof *to);
+    for (uint32_t i = 0; to && i < source->count; ++i) {
+        const struct aiColor4D colour = source->mesh->mColors[0][source_vertex(source, i)];
+        to[3 * (size_t)i + 0] = dip_model_colour_to_linear(colour.r, linear);
+        to[3 * (size_t)i + 1] = dip_model_colour_to_linear(colour.g, linear);
+        to[3 * (size_t)i + 2] = dip_model_colour_to_linear(colour.b, linear);
     }
     return to;
 }
@@ -135,11 +162,13 @@ static uint32_t join_vertices(const VertexArrays *arrays, uint32_t count, uint32
 static uint32_t *pack_indices(DipModel *model, const struct aiMesh *mesh, const uint32_t *remap,
                               bool mirrored) {
     uint32_t *to = dip_model_alloc(model, mesh->mNumFaces, 3 * sizeof *to);
+    const bool by_corner = vertex_source(mesh).by_corner;
     for (unsigned f = 0; to && f < mesh->mNumFaces; ++f) {
-        const unsigned *from = mesh->mFaces[f].mIndices;
-        to[3 * f + 0] = remap[from[0]];
-        to[3 * f + 1] = remap[from[mirrored ? 2 : 1]];
-        to[3 * f + 2] = remap[from[mirrored ? 1 : 2]];
+        const unsigned corners[3] = {3 * f, 3 * f + 1, 3 * f + 2};
+        const unsigned *from = by_corner ? corners : mesh->mFaces[f].mIndices;
+        to[3 * (size_t)f + 0] = remap[from[0]];
+        to[3 * (size_t)f + 1] = remap[from[mirrored ? 2 : 1]];
+        to[3 * (size_t)f + 2] = remap[from[mirrored ? 1 : 2]];
     }
     return to;
 }
@@ -163,18 +192,19 @@ static bool fill_vertices(DipModel *model, const struct aiMesh *mesh, DipMeshKey
     const int uv0 = plan->colour.picture >= 0    ? plan->colour.uv_channel
                     : plan->opacity.picture >= 0 ? plan->opacity.uv_channel
                                                  : plan->normal.uv_channel;
-    float *positions = pack_positions(model, mesh);
-    float *normals = mesh->mNormals ? pack_normals(model, mesh) : NULL;
-    float *uvs0 = plan->has_uv0 ? pack_uv(model, mesh, uv0) : NULL;
-    float *uvs1 = plan->has_uv1 ? pack_uv(model, mesh, plan->light.uv_channel) : NULL;
-    float *colours = mesh->mColors[0] ? pack_colours(model, mesh, linear) : NULL;
-    uint32_t *remap = dip_model_alloc(model, mesh->mNumVertices, sizeof *remap);
-    if (!positions || !remap || (mesh->mNormals && !normals) || (plan->has_uv0 && !uvs0) ||
-        (plan->has_uv1 && !uvs1) || (mesh->mColors[0] && !colours)) {
+    const VertexSource source = vertex_source(mesh);
+    float *positions = pack_positions(model, &source);
+    float *normals = pack_normals(model, &source);
+    float *uvs0 = plan->has_uv0 ? pack_uv(model, &source, uv0) : NULL;
+    float *uvs1 = plan->has_uv1 ? pack_uv(model, &source, plan->light.uv_channel) : NULL;
+    float *colours = mesh->mColors[0] ? pack_colours(model, &source, linear) : NULL;
+    uint32_t *remap = dip_model_alloc(model, source.count, sizeof *remap);
+    if (!positions || !remap || !normals || (plan->has_uv0 && !uvs0) || (plan->has_uv1 && !uvs1) ||
+        (mesh->mColors[0] && !colours)) {
         return false;
     }
     const VertexArrays arrays = {{positions, normals, uvs0, uvs1, colours}};
-    def->vertex_count = join_vertices(&arrays, mesh->mNumVertices, remap);
+    def->vertex_count = join_vertices(&arrays, source.count, remap);
     def->positions = positions;
     def->normals = normals;
     def->uv0 = uvs0;

@@ -79,7 +79,8 @@ typedef struct DipMeshKey {
     unsigned source;
     int material;
     bool mirrored;
-    const uint32_t *remap; // the file's vertex index to the joined one
+    const uint32_t
+        *remap; // the file's vertex (of meshes without normals: corner) to the joined one
 } DipMeshKey;
 
 typedef struct DipModelFile {
@@ -135,6 +136,13 @@ bool dip_model_import(DipModel *model, DipModelFile *file, DipError *err);
 // mesh.c: the index of a mesh for one placement; DIP_NOT_FOUND when it fails.
 int dip_model_mesh(DipModel *model, int file, unsigned source, int material, bool mirrored,
                    DipError *err);
+
+// mesh.c: n to length 1; one that is zero or not finite (of a face without area) points up.
+void dip_model_unit_normal(const double n[3], float to[3]);
+
+// normals.c: three floats per corner of a mesh of triangles, smooth where faces meet at less than
+// 60 degrees. Lives as long as the model; NULL when memory runs out.
+float *dip_model_make_normals(DipModel *model, const struct aiMesh *mesh);
 
 // material.c: the index of a material for a mesh of a tagged object; DIP_NOT_FOUND when it fails.
 int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, DipTag tag,

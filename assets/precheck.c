@@ -87,6 +87,44 @@ static bool check_ply(const char *path, DipError *err) {
                                  "file of %ld bytes cannot hold %.0f elements", size_bytes, count);
 }
 
+// The next number of an OFF file's header, past comments; false when something else stands there.
+static bool next_count(FILE *file, double *count) {
+    int c = getc(file);
+    while (c == '#' || c == ' ' || c == '\t' || c == '\r' || c == '\n') {
+        while (c == '#' && (c = getc(file)) != '\n' && c != EOF) {
+            c = '#';
+        }
+        c = getc(file);
+    }
+    return ungetc(c, file) != EOF && fscanf(file, "%lf", count) == 1;
+}
+
+// assimp makes room for as many vertices and faces as the header says. Each takes at least a byte.
+static bool check_off(const char *path, DipError *err) {
+    FILE *file = fopen(path, "rb");
+    if (!file || fseek(file, 0, SEEK_END) != 0) {
+        if (file) {
+            fclose(file);
+        }
+        return dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "model file cannot be read");
+    }
+    const long size_bytes = ftell(file);
+    rewind(file);
+    char word[64] = "";
+    double count = 0.0;
+    bool fits = true;
+    // [ST][C][N][4][n]OFF; n: the dimension comes before the counts.
+    if (fscanf(file, "%63s", word) == 1 && strstr(word, "OFF") &&
+        (!strchr(word, 'n') || next_count(file, &count))) {
+        for (int i = 0; i < 2 && fits && next_count(file, &count); ++i) {
+            fits = count >= 0.0 && count <= (double)size_bytes;
+        }
+    }
+    fclose(file);
+    return fits || dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, NULL,
+                                 "file of %ld bytes cannot hold %.0f elements", size_bytes, count);
+}
+
 bool dip_model_precheck(const char *path, DipError *err) {
     const char *dot = strrchr(path, '.');
     if (!dot) {
@@ -94,6 +132,9 @@ bool dip_model_precheck(const char *path, DipError *err) {
     }
     if (strcasecmp(dot, ".ply") == 0) {
         return check_ply(path, err);
+    }
+    if (strcasecmp(dot, ".off") == 0) {
+        return check_off(path, err);
     }
     const bool binary = strcasecmp(dot, ".glb") == 0;
     return (!binary && strcasecmp(dot, ".gltf") != 0) || check_json(path, binary, err);

@@ -9,7 +9,7 @@
 // Work done, exact: the same for any thread count, SIMD width and machine.
 // X(name, "what it counts")
 #define DIP_COUNTER_LIST(X)                                                                        \
-    X(triangles_in, "triangles of the objects that are not culled whole")                          \
+    X(triangles_in, "triangles of the chunks (up to 128 each) that are not culled whole")          \
     X(triangles_drawn, "triangles left after culling and clipping")                                \
     X(tile_triangles, "triangles times the tiles they are binned to")                              \
     X(blocks_tested, "8x8-pixel blocks tested against a triangle's edges")                         \

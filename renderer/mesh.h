@@ -18,7 +18,7 @@ typedef struct DipMeshData {
     int attribute_count; // 3..DIP_MAX_ATTRIBUTES
     uint32_t vertex_count;
     const uint32_t *indices;
-    uint32_t index_count; // a multiple of 3
+    uint32_t index_count; // a multiple of 3, at most 2^30
 } DipMeshData;
 
 // Fails when an index or number is out of range, a position is not finite, or memory runs out.

@@ -63,7 +63,9 @@ DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int heigh
 void dip_pipeline_destroy(DipPipeline **pipeline);
 
 // Draws a pass and adds to *counters and *times. Fails only when memory for the pass' triangles
-// runs out; then the target's content is undefined.
+// runs out, or with OVERSIZED when they are more than 32 bits index: 2^31 / (5 + 3 * the largest
+// slot_count), in chunks of up to 128 triangles that count as full, each time a draw uses them.
+// Then the target's content is undefined.
 bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
                        DipStageTimes *times, DipError *err);
 

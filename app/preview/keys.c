@@ -20,7 +20,7 @@ const DipKeyRow dip_key_rows[] = {
     SETTING_KEY(SDLK_l, SDLK_F9, MIPLOD, "L  F9"),
     SETTING_KEY(SDLK_i, SDLK_F10, GI, "I  F10"),
     SETTING_KEY(SDLK_m, 0, MIPDEBUG, "M"),
-    {SDLK_TAB, 0, DIP_ACTION_NEXT_PANE, 0, false, "Tab", "Choose the pane"},
+    {SDLK_TAB, 0, DIP_ACTION_NEXT_PANE, 0, false, "Tab  Click", "Choose the pane"},
     {SDLK_RETURN, SDLK_KP_ENTER, DIP_ACTION_APPLY, 0, false, "Enter", "Apply the requested"},
     {SDLK_SPACE, 0, DIP_ACTION_PAUSE, 0, false, "Space", "Pause or play"},
     {SDLK_PERIOD, 0, DIP_ACTION_STEP, 0, true, ".  ,", "Step a frame"},

@@ -100,6 +100,10 @@ static void draw_status(SDL_Renderer *renderer, DipText *text, const DipPreviewS
     }
 }
 
+static const char help_title[] = "Keys";
+static const char help_shift[] = "Shift goes backwards";
+static const char help_note[] = "A setting's key moves to the path that shows it best";
+
 enum { MAX_HELP_ROWS = 40, MAX_HELP_COLUMNS = 3 };
 
 typedef struct HelpRow {
@@ -153,7 +157,8 @@ static HelpLayout measure_help(DipText *text, const HelpRow *rows, int count, in
     layout.line = dip_text_line_height(text, size) + larger(1, size / 6);
     layout.rows_per_column = (count + columns - 1) / columns;
     const int column = layout.label_width + layout.gap + layout.text_width;
-    layout.width = columns * column + (columns - 1) * 2 * layout.gap + 2 * size;
+    const int rows_width = columns * column + (columns - 1) * 2 * layout.gap;
+    layout.width = larger(rows_width, dip_text_width(text, size, help_note)) + 2 * size;
     layout.height = (layout.rows_per_column + 3) * layout.line + 2 * size;
     return layout;
 }
@@ -185,8 +190,8 @@ static void draw_help(SDL_Renderer *renderer, DipText *text, const SDL_Rect *win
     const int x0 = panel.x + l.size;
     const int y0 = panel.y + l.size;
     const int room = panel.w - 2 * l.size;
-    dip_text_draw(text, l.size, white, DIP_ALIGN_LEFT, x0, y0, room, "Keys");
-    dip_text_draw(text, l.size, soft, DIP_ALIGN_RIGHT, x0 + room, y0, room, "Shift goes backwards");
+    dip_text_draw(text, l.size, white, DIP_ALIGN_LEFT, x0, y0, room, help_title);
+    dip_text_draw(text, l.size, soft, DIP_ALIGN_RIGHT, x0 + room, y0, room, help_shift);
     const int column = l.label_width + l.gap + l.text_width + 2 * l.gap;
     for (int i = 0; i < count; ++i) {
         const int x = x0 + i / l.rows_per_column * column;
@@ -196,7 +201,7 @@ static void draw_help(SDL_Renderer *renderer, DipText *text, const SDL_Rect *win
                       l.text_width, rows[i].text);
     }
     dip_text_draw(text, l.size, soft, DIP_ALIGN_LEFT, x0, panel.y + panel.h - l.size - l.line, room,
-                  "A setting's key moves to the path that shows it best");
+                  help_note);
 }
 
 void dip_overlay_draw(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state,

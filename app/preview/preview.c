@@ -27,7 +27,7 @@ typedef struct Preview {
     DipPaneFigures figures[DIP_PANE_COUNT];
     int64_t figures_ns;
     DipPose pose;
-    bool was_manual;
+    bool flying; // the camera moved by hand in this turn
     double speed_m_per_s;
     unsigned drawn_changes;
     bool full_screen;
@@ -81,6 +81,7 @@ static double held(const Uint8 *keys, SDL_Scancode plus, SDL_Scancode minus) {
 
 static void fly(Preview *preview, int64_t elapsed_ns) {
     DipPreviewState *state = &preview->state;
+    preview->flying = false;
     if (!state->manual) {
         return;
     }
@@ -95,10 +96,9 @@ static void fly(Preview *preview, int64_t elapsed_ns) {
     if (modifiers & (KMOD_CTRL | KMOD_ALT | KMOD_GUI)) {
         return;
     }
-    if (dip_camera_move(&preview->pose, &directions, preview->speed_m_per_s,
-                        1e-9 * (double)elapsed_ns)) {
-        ++state->scene_changes;
-    }
+    preview->flying = dip_camera_move(&preview->pose, &directions, preview->speed_m_per_s,
+                                      1e-9 * (double)elapsed_ns);
+    state->scene_changes += preview->flying;
 }
 
 // Makes renderers follow the window and the settings. Figures of other settings are forgotten.
@@ -151,7 +151,8 @@ static void update_figures(Preview *preview, int64_t now_ns) {
         return;
     }
     preview->figures_ns = now_ns;
-    const bool moving = !preview->state.paused || preview->state.manual;
+    // While nothing moves pictures are shown only when something changes: no rate to tell.
+    const bool moving = preview->state.manual ? preview->flying : !preview->state.paused;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->figures[p].ms = dip_timing_median_ms(&preview->timing[p], now_ns);
         preview->figures[p].fps = moving ? dip_timing_per_second(&preview->presented, now_ns) : 0;
@@ -183,9 +184,6 @@ static bool turn(Preview *preview, int64_t now_ns, int64_t elapsed_ns, bool *sho
         dip_window_full_screen(preview->window, state->full_screen);
         preview->redraw = true;
     }
-    int width = 0;
-    int height = 0;
-    dip_window_pane_size(preview->window, &width, &height);
     const bool new_scene = state->scene_changes != preview->drawn_changes || preview->redraw;
     *shown = new_scene || state->screenshot || (had_notice && !state->notice[0]);
     if (!*shown) {

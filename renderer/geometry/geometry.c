@@ -62,7 +62,14 @@ static bool make_room(DipGeometry *geometry, uint32_t room, size_t surface_room)
     return true;
 }
 
-// Lays the chunks of all draws one after another and finds the largest slot count.
+// What a pass may need of the arrays that 32 bits index: `triangles` of `floats` each. Kernels
+// gather surfaces with signed indices.
+static bool fits_indices(uint64_t triangles, int floats) {
+    return triangles * (uint64_t)floats <= INT32_MAX && triangles * DIP_MAX_BIN_TILES < DIP_BIN_END;
+}
+
+// Lays the chunks of all draws one after another and finds the largest slot count. False when
+// memory runs out.
 static bool list_chunks(DipGeometry *geometry, const DipPass *pass) {
     if (pass->draw_count + 1 > geometry->draw_room) {
         geometry->draw_room = 0;
@@ -72,7 +79,7 @@ static bool list_chunks(DipGeometry *geometry, const DipPass *pass) {
         }
         geometry->draw_room = pass->draw_count + 1;
     }
-    uint32_t chunks = 0;
+    uint32_t chunks = 0; // few enough, check_size has seen
     int slots = 0;
     for (int d = 0; d < pass->draw_count; d++) {
         geometry->draw_first_chunk[d] = chunks;
@@ -104,12 +111,32 @@ static void cut_jobs(DipGeometry *geometry, uint32_t chunks) {
     }
 }
 
+// Refuses a pass whose triangles cannot be counted, before any array is made for it.
+static bool check_size(const DipGeometry *geometry, const DipPass *pass, DipError *err) {
+    uint64_t chunks = 0;
+    int slots = 0;
+    for (int d = 0; d < pass->draw_count; d++) {
+        chunks += pass->draws[d].mesh->chunk_count;
+        slots = pass->draws[d].slot_count > slots ? pass->draws[d].slot_count : slots;
+    }
+    const uint64_t room =
+        chunks * DIP_CHUNK_TRIANGLES + DIP_MAX_JOBS * (uint64_t)geometry->clip_slack;
+    return fits_indices(room, dip_surface_floats(slots)) ||
+           dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, "pass",
+                         "%d draws of %llu chunks of up to %d triangles, accepted %u chunks",
+                         pass->draw_count, (unsigned long long)chunks, DIP_CHUNK_TRIANGLES,
+                         INT32_MAX / dip_surface_floats(slots) / DIP_CHUNK_TRIANGLES);
+}
+
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err) {
     geometry->pass = pass;
     geometry->mapping = dip_screen_mapping(pass);
     geometry->pattern = dip_sample_pattern(pass->sample_count);
     if (!geometry->clip_slack) {
         geometry->clip_slack = 256;
+    }
+    if (!check_size(geometry, pass, err)) {
+        return false;
     }
     bool made = list_chunks(geometry, pass);
     if (made) {

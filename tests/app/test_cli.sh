@@ -49,6 +49,7 @@ check "help lists settings" grep -q 'miplod' out.txt
 expect 0 '' "$diptych" dump --help
 check "help on dump gives an example" grep -q 'dump --out out --frames 0:8' out.txt
 expect 0 '' "$diptych" path --help
+check "help on path tells both" grep -q 'path convert .*rewrite' out.txt
 expect 0 '' "$diptych" --version
 check "the version is one line" grep -qE '^diptych [0-9]+\.[0-9]+\.[0-9]+$' out.txt
 
@@ -74,12 +75,19 @@ expect 2 "\[path\] 'show', accepted path info FILE" "$diptych" path show x
 expect 2 "\[path convert\] 1 of 2 files" "$diptych" path convert x.pth
 expect 2 "\[stray\] one argument too many" "$diptych" dump --hash stray
 expect 2 "\[--category\] 'SKY', accepted DEFAULT\|AA" "$diptych" dump --hash --category SKY
+expect 2 "\[--category\] 'AF' .* --path takes" "$diptych" dump --hash --category AF --path x.pth
+expect 2 "\[--category\] 'AF' .* orbit takes" "$diptych" dump --hash --category AF --model x.obj
+expect 2 "\[path\] nothing to do, accepted path info FILE" "$diptych" path
 
 # --- bad input files
 expect 2 'none.ini: ' "$diptych" dump --hash --config none.ini
 expect 2 'none.glb: ' "$diptych" dump --hash --model none.glb
 expect 2 'none.pth: ' "$diptych" dump --hash --path none.pth
 expect 2 'none.pth: ' "$diptych" path info none.pth
+printf 'v 0 0 0\nv 1e-7 0 0\nv 0 1e-7 0\nf 1 2 3\n' >tiny.obj
+expect 2 'tiny.obj: \[box\] the model is 1e-07 large' "$diptych" dump --hash --model tiny.obj
+sed 's/1e-7/1e12/' tiny.obj >huge.obj
+expect 2 'huge.obj: \[box\] 0\.\.9\.9+6e\+11 along axis 0' "$diptych" dump --hash --model huge.obj
 printf 'diptych-path 1\nperiod 1\n0 0 0 0 0 0 1\n0 0 nan 0 0 0 1\n' >nan.pth
 expect 2 'nan.pth:4: ' "$diptych" path info nan.pth
 expect 2 'nan.pth:4: ' "$diptych" dump --hash --path nan.pth

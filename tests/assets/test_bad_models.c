@@ -133,6 +133,14 @@ static void cut_glb_is_refused(void **state) {
     assert_refused(fixture_path("cut.glb"), DIP_ERROR_FORMAT, "cannot be read");
 }
 
+static void off_counts_are_checked(void **state) {
+    (void)state;
+    fixture_write_text("many.off", "OFF\n# comment\n353535235358 6 0\n0 0 0\n");
+    assert_refused(fixture_path("many.off"), DIP_ERROR_TRUNCATED, "353535235358");
+    fixture_write_text("faces.off", "4nOFF 3\n3 4000000000 0\n0 0 0 0\n");
+    assert_refused(fixture_path("faces.off"), DIP_ERROR_TRUNCATED, "4000000000");
+}
+
 static void assert_all_refused(const char *const *paths, int count, const char *culprit) {
     DipError err = {0};
     assert_null(dip_model_load(paths, count, NULL, NULL, &err));
@@ -153,9 +161,8 @@ static void one_file_at_fault_fails_all(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_files_are_refused),
-        cmocka_unit_test(deep_nesting_is_refused),
-        cmocka_unit_test(cut_glb_is_refused),
+        cmocka_unit_test(bad_files_are_refused),       cmocka_unit_test(deep_nesting_is_refused),
+        cmocka_unit_test(cut_glb_is_refused),          cmocka_unit_test(off_counts_are_checked),
         cmocka_unit_test(one_file_at_fault_fails_all),
     };
     return cmocka_run_group_tests(tests, open_folder, close_folder);

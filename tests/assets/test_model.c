@@ -353,6 +353,68 @@ static void stl_and_x_load(void **state) {
     dip_model_destroy(&model);
 }
 
+static const char cube_ply[] =
+    "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n"
+    "-1 -1 -1\n-1 -1 1\n-1 1 -1\n-1 1 1\n1 -1 -1\n1 -1 1\n1 1 -1\n1 1 1\n"
+    "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n";
+
+// A roof whose halves slope by 20 degrees: they meet at 40.
+static const char roof_ply[] =
+    "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 1 0\n0 1 1\n1 0.63603 0\n1 0.63603 1\n-1 0.63603 0\n-1 0.63603 1\n"
+    "4 0 1 3 2\n4 0 4 5 1\n";
+
+// Faces that share vertices, without normals: a cube keeps its edges, a flat roof is smooth.
+static void normals_are_made(void **state) {
+    (void)state;
+    fixture_write_text("cube.ply", cube_ply);
+    DipModel *model = load(fixture_path("cube.ply"), NULL, NULL);
+    const DipMeshDef *mesh = mesh_of(dip_model_scene_def(model), 0);
+    assert_int_equal(mesh->vertex_count, 24);
+    for (uint32_t i = 0; i < mesh->index_count; ++i) {
+        const uint32_t *face = mesh->indices + i / 3 * 3;
+        for (int axis = 0; axis < 3; ++axis) {
+            // A face's own axis is the one along which its corners agree, and they say the sign.
+            const float at = mesh->positions[3 * face[0] + axis];
+            const bool own = at == mesh->positions[3 * face[1] + axis] &&
+                             at == mesh->positions[3 * face[2] + axis];
+            assert_true(mesh->normals[3 * mesh->indices[i] + axis] == (own ? at : 0.0f));
+        }
+    }
+    dip_model_destroy(&model);
+    fixture_write_text("roof.ply", roof_ply);
+    model = load(fixture_path("roof.ply"), NULL, NULL);
+    mesh = mesh_of(dip_model_scene_def(model), 0);
+    assert_int_equal(mesh->vertex_count, 6);
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        const float x = mesh->positions[3 * i];
+        assert_true(fabsf(mesh->normals[3 * i] - x * 0.34202f) < 1e-5f); // sin 20 degrees
+        assert_true(x != 0.0f || mesh->normals[3 * i + 1] == 1.0f);
+    }
+    dip_model_destroy(&model);
+}
+
+// Files whose scenes assimp's own processing stumbles over: an empty solid beside a full one, and a
+// RAW file, of whose root's two children assimp 5.2 fills one.
+static void gaps_are_closed(void **state) {
+    (void)state;
+    fixture_write_text("gap.stl", "solid full\nfacet normal 0 0 1\nouter loop\nvertex 1 1 0\n"
+                                  "vertex -1 1 0\nvertex 0 -1 0\nendloop\nendfacet\nendsolid\n"
+                                  "solid empty\nendsolid\n");
+    fixture_write_text("gap.raw", "Hans\n0.5 0.5 0.5 0 0 0 0 1 0 1 0 0\n"
+                                  "0.1 0 0 0 0 3 0 1 3 1 0 3\n");
+    const char *const names[2] = {"gap.stl", "gap.raw"};
+    for (int i = 0; i < 2; ++i) {
+        DipModel *model = load(fixture_path(names[i]), NULL, NULL);
+        const DipSceneDef *def = dip_model_scene_def(model);
+        assert_int_equal(def->object_count, 1);
+        assert_int_equal(mesh_of(def, 0)->index_count, 3 * (i + 1));
+        dip_model_destroy(&model);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(courtyard_arrives_whole),
@@ -366,6 +428,8 @@ int main(void) {
         cmocka_unit_test(points_and_lines_are_counted),
         cmocka_unit_test(ply_colours_are_decoded),
         cmocka_unit_test(stl_and_x_load),
+        cmocka_unit_test(gaps_are_closed),
+        cmocka_unit_test(normals_are_made),
     };
     return cmocka_run_group_tests(tests, open_folder, close_folder);
 }
