@@ -1,6 +1,7 @@
 // Opening a session: ini, models, scene, paths, renderers; every fault is reported.
 #include "app/session.h"
 
+#include "app/log.h"
 #include "app/mip_pictures.h"
 #include "assets/model.h"
 #include "renderer/texture/srgb.h"
@@ -42,6 +43,31 @@ static bool find_shipped_config(char *file, size_t size_bytes) {
     return false;
 }
 
+// The ini's log file, unless the command line named one.
+static bool use_log(const DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    const DipConfigFile *log = &session->config.log;
+    DipError err;
+    if (options->log || !log->path || dip_log_open(log->path, &err)) {
+        return true;
+    }
+    DipError placed;
+    dip_config_file_fault(&session->config, log, err.code, &placed, "%s: %s", err.file,
+                          err.message);
+    return add_fault(faults, &placed);
+}
+
+static bool check_isa(const DipSession *session, DipErrorList *faults) {
+    const DipConfig *config = &session->config;
+    if (config->isa == DIP_CONFIG_ISA_AUTO || dip_isa_available((DipIsa)config->isa)) {
+        return true;
+    }
+    DipError err;
+    dip_error_set(&err, DIP_ERROR_UNSUPPORTED, config->file, config->line[DIP_KEY_ISA], "ISA",
+                  "'%s' is not available on this machine, accepted auto|..|%s",
+                  dip_isa_name((DipIsa)config->isa), dip_isa_name(dip_isa_best()));
+    return add_fault(faults, &err);
+}
+
 static bool load_config(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     char shipped[PATH_MAX];
     const char *file = options->config;
@@ -55,7 +81,10 @@ static bool load_config(DipSession *session, const DipOptions *options, DipError
         }
         file = shipped;
     }
-    return dip_config_load(file, &session->config, faults);
+    if (!dip_config_load(file, &session->config, faults)) {
+        return false;
+    }
+    return use_log(session, options, faults) && check_isa(session, faults);
 }
 
 // --- models ------------------------------------------------------------------------------------

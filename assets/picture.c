@@ -7,6 +7,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
+// stb_image's code, kept to this file: the formats that are promised, from memory only.
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_BMP
+#define STBI_ONLY_TGA
 #define STBI_NO_STDIO
 #include <stb/stb_image.h>
 

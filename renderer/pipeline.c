@@ -85,11 +85,10 @@ static void bind_batch(const Worker *worker, const DipDraw *draw, DipFragmentBat
     batch->sample_alpha = worker->pipeline->kernels->dip_kernel_sample_alpha;
 }
 
-static void flush_list(DipTileShading *shading, uint32_t draw_index) {
+static void shade_list(DipTileShading *shading, uint32_t draw_index, DipFragmentList *list) {
     Worker *worker = shading->context;
     const DipPipeline *pipeline = worker->pipeline;
     const DipDraw *draw = &pipeline->pass->draws[draw_index];
-    DipFragmentList *list = &shading->lists[draw_index];
     DipFragmentBatch *batch = &worker->batch;
     pad_list(list);
     pipeline->kernels->dip_kernel_interpolate(&shading->input, list, draw->slot_count, batch);
@@ -99,6 +98,14 @@ static void flush_list(DipTileShading *shading, uint32_t draw_index) {
     dip_store_fragments(shading, list, &worker->encoded);
     shading->fragments += (uint64_t)list->count;
     list->count = 0;
+}
+
+static void flush_list(DipTileShading *shading, uint32_t draw) {
+    shade_list(shading, draw, &shading->lists[draw]);
+}
+
+static void flush_whole_list(DipTileShading *shading, uint32_t draw) {
+    shade_list(shading, draw, &shading->whole_lists[draw]);
 }
 
 // The clip shader's verdict on a block's visible pixels of one triangle.
@@ -199,6 +206,7 @@ static void begin_tile(Worker *worker, int index) {
     shading->tile = tile;
     shading->input = (DipShadingInput){geometry->triangles, geometry->surfaces};
     shading->flush = flush_list;
+    shading->flush_whole = flush_whole_list;
     shading->context = worker;
     shading->width = target->width - tile->x0 < DIP_TILE ? target->width - tile->x0 : DIP_TILE;
     shading->height = target->height - tile->y0 < DIP_TILE ? target->height - tile->y0 : DIP_TILE;
@@ -218,6 +226,9 @@ static void shade_tile(Worker *worker) {
     worker->pipeline->kernels->dip_kernel_collect(shading);
     for (int i = 0; i < shading->active_count; i++) {
         const uint32_t draw = shading->active[i];
+        if (shading->whole_lists[draw].count) {
+            flush_whole_list(shading, draw);
+        }
         if (shading->lists[draw].count) {
             flush_list(shading, draw);
         }
@@ -331,12 +342,14 @@ static bool make_lists(DipPipeline *pipeline, int draw_count, DipError *err) {
     for (int w = 0; w < pipeline->worker_count; w++) {
         DipTileShading *shading = &pipeline->workers[w]->shading;
         free(shading->lists);
+        free(shading->whole_lists);
         free(shading->active);
         free(shading->is_active);
         shading->lists = calloc((size_t)draw_count, sizeof *shading->lists);
+        shading->whole_lists = calloc((size_t)draw_count, sizeof *shading->whole_lists);
         shading->active = calloc((size_t)draw_count, sizeof *shading->active);
         shading->is_active = calloc((size_t)draw_count, sizeof *shading->is_active);
-        if (!shading->lists || !shading->active || !shading->is_active) {
+        if (!shading->lists || !shading->whole_lists || !shading->active || !shading->is_active) {
             return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass", "no memory for %d draws",
                                  draw_count);
         }
@@ -395,6 +408,7 @@ static void destroy_worker(Worker *worker) {
         free(worker->shading.sum);
         free(worker->shading.mixed);
         free(worker->shading.lists);
+        free(worker->shading.whole_lists);
         free(worker->shading.active);
         free(worker->shading.is_active);
         free(worker);

@@ -44,7 +44,7 @@ typedef struct DipSampler {
     int32_t min_lod8;
     // Mip debugging: level l of `texture` shows level shown_level[l] of `shown`. NULL: itself.
     const DipTexture *shown;
-    int32_t shown_level[14];
+    int32_t shown_level[16];
 } DipSampler;
 
 // Work done for texture reads, added up per tile.

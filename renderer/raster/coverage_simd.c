@@ -206,29 +206,37 @@ static void touch_block(DipTile *tile, int block) {
     }
 }
 
+// The quarter of a block at (x, y) of the tile.
 VEC_INLINE SubBlock sub_block(const DipTriangle *triangle, const InTile *in, DipTile *tile,
-                              int block, int quarter, int state) {
+                              int block, int quarter) {
     SubBlock sub = {.triangle = triangle, .in = in, .tile = tile};
     sub.x = block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * 4;
     sub.y = block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * 4;
     sub.first = dip_tile_index(tile, block, 0) + quarter * 16;
-    sub.inside = state > 0 || (state == 0 && classify(in, sub.x, sub.y, 3) > 0);
     return sub;
 }
 
-static bool quarter_outside(const InTile *in, int block, int quarter) {
-    return classify(in, block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * 4,
-                    block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * 4, 3) < 0;
+// Whether the triangle's pixel box reaches into a quarter: most quarters that small triangles miss
+// are found here, before their edges are looked at.
+VEC_INLINE bool in_box(const SubBlock *sub) {
+    const int x = sub->tile->x0 + sub->x;
+    const int y = sub->tile->y0 + sub->y;
+    return sub->triangle->x0 < x + 4 && sub->triangle->x1 >= x && sub->triangle->y0 < y + 4 &&
+           sub->triangle->y1 >= y;
 }
 
 static void draw_block(const DipTriangle *triangle, const InTile *in, DipTile *tile, int block,
                        int state, uint32_t id) {
     for (int quarter = 0; quarter < 4; quarter++) {
-        if (state == 0 && quarter_outside(in, block, quarter)) {
+        SubBlock sub = sub_block(triangle, in, tile, block, quarter);
+        if (!in_box(&sub)) {
             continue;
         }
-        const SubBlock sub = sub_block(triangle, in, tile, block, quarter, state);
-        write_sub_block(&sub, id);
+        const int inside = state > 0 ? 1 : classify(in, sub.x, sub.y, 3);
+        if (inside >= 0) {
+            sub.inside = inside > 0;
+            write_sub_block(&sub, id);
+        }
     }
 }
 
@@ -238,8 +246,12 @@ static void draw_clipped_block(const DipTriangle *triangle, const InTile *in, Di
     DipBlockCoverage coverage = {{0}, {0}};
     SubBlock subs[4];
     for (int quarter = 0; quarter < 4; quarter++) {
-        subs[quarter] = sub_block(triangle, in, tile, block, quarter, state);
-        test_sub_block(&subs[quarter], quarter * 16, &coverage);
+        subs[quarter] = sub_block(triangle, in, tile, block, quarter);
+        const int inside = state > 0 ? 1 : classify(in, subs[quarter].x, subs[quarter].y, 3);
+        subs[quarter].inside = inside > 0;
+        if (inside >= 0 && in_box(&subs[quarter])) {
+            test_sub_block(&subs[quarter], quarter * 16, &coverage);
+        }
     }
     uint64_t visible = 0;
     for (int s = 0; s < tile->pattern->count; s++) {

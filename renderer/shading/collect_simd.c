@@ -4,20 +4,21 @@
 
 enum { VECTORS = 16 / DIP_LANES }; // per sub-block
 
-static DipFragmentList *list_of(DipTileShading *shading, uint32_t triangle, uint32_t *draw) {
-    *draw = shading->input.triangles[triangle].draw;
-    if (!shading->is_active[*draw]) {
-        shading->is_active[*draw] = 1;
-        shading->active[shading->active_count++] = *draw;
+// The draw of a triangle, whose list is then among the active ones.
+static uint32_t draw_of(DipTileShading *shading, uint32_t triangle) {
+    const uint32_t draw = shading->input.triangles[triangle].draw;
+    if (!shading->is_active[draw]) {
+        shading->is_active[draw] = 1;
+        shading->active[shading->active_count++] = draw;
     }
-    return &shading->lists[*draw];
+    return draw;
 }
 
 // Adds a fragment that is shaded at (sub_x, sub_y) / 256 of its pixel.
 static inline void push(DipTileShading *shading, uint32_t triangle, int x, int y, unsigned samples,
                         int sub_x, int sub_y) {
-    uint32_t draw;
-    DipFragmentList *list = list_of(shading, triangle, &draw);
+    const uint32_t draw = draw_of(shading, triangle);
+    DipFragmentList *list = &shading->lists[draw];
     const int i = list->count++;
     list->triangle[i] = triangle;
     list->pixel[i] = (uint16_t)(y * DIP_TILE + x);
@@ -26,6 +27,28 @@ static inline void push(DipTileShading *shading, uint32_t triangle, int x, int y
     list->y[i] = (float)(shading->tile->y0 + y) + (float)sub_y / 256.0f;
     if (list->count == DIP_FRAGMENT_BATCH) {
         shading->flush(shading, draw);
+    }
+}
+
+// A sub-block that one triangle fills: its 16 fragments at once, in a list of its own kind, where
+// they stay together as a vector. The list's room is a multiple of 16, so they always fit.
+static void push_whole(DipTileShading *shading, uint32_t triangle, int x0, int y0,
+                       unsigned samples) {
+    const uint32_t draw = draw_of(shading, triangle);
+    DipFragmentList *list = &shading->whole_lists[draw];
+    const int first = list->count;
+    for (int i = 0; i < 16; i++) {
+        const int x = x0 + (i & 3);
+        const int y = y0 + (i >> 2);
+        list->triangle[first + i] = triangle;
+        list->pixel[first + i] = (uint16_t)(y * DIP_TILE + x);
+        list->samples[first + i] = (uint8_t)samples;
+        list->x[first + i] = (float)(shading->tile->x0 + x) + 0.5f;
+        list->y[first + i] = (float)(shading->tile->y0 + y) + 0.5f;
+    }
+    list->count += 16;
+    if (list->count == DIP_FRAGMENT_BATCH) {
+        shading->flush_whole(shading, draw);
     }
 }
 
@@ -70,9 +93,24 @@ VEC_INLINE unsigned mixed_pixels(const DipTile *tile, const uint32_t *ids) {
     return mixed;
 }
 
+// Whether the sub-block's pixels all hold one triangle at sample 0.
+VEC_INLINE bool one_triangle(const uint32_t *ids) {
+    const Vi id = vi_splat((int32_t)ids[0]);
+    Vi differ = vi_splat(0);
+    for (int v = 0; v < VECTORS; v++) {
+        differ |= id ^ vi_load((const int32_t *)ids + v * DIP_LANES);
+    }
+    return mask_all(vi_eq(differ, vi_splat(0)));
+}
+
 static void collect_sub_block(DipTileShading *shading, const uint32_t *ids, int x0, int y0) {
     const unsigned all = (1u << shading->tile->pattern->count) - 1;
     const unsigned mixed = mixed_pixels(shading->tile, ids);
+    if (!mixed && ids[0] && x0 + 4 <= shading->width && y0 + 4 <= shading->height &&
+        one_triangle(ids)) {
+        push_whole(shading, ids[0] - 1, x0, y0, all);
+        return;
+    }
     for (int i = 0; i < 16; i++) {
         const int x = x0 + (i & 3);
         const int y = y0 + (i >> 2);

@@ -9,38 +9,52 @@ typedef struct Plane {
     Vf dy;
 } Plane;
 
-// Surface floats of a vector of fragments: one triangle's, or one per lane.
-typedef struct SurfaceReader {
-    const float *uniform; // NULL when the lanes differ
-    const float *base;
-    Vi offset;
-} SurfaceReader;
+// Up to this many triangles of a vector are read one by one; more are gathered lane by lane.
+enum { FEW_TRIANGLES = 4 };
 
-VEC_INLINE Vf read_surface(const SurfaceReader *reader, int i) {
-    return reader->uniform ? vf_splat(reader->uniform[i])
-                           : vf_gather(reader->base, reader->offset + i);
+// The floats of a vector of fragments' surfaces, float i of each lane's at values[i].
+typedef struct SurfaceRows {
+    Vf values[DIP_SURFACE_SLOTS + 3 * DIP_MAX_SLOTS];
+} SurfaceRows;
+
+VEC_INLINE const float *surface_of(const DipShadingInput *input, uint32_t triangle) {
+    return input->surfaces + input->triangles[triangle].surface;
 }
 
-VEC_INLINE Plane read_plane(const SurfaceReader *reader, int i, Vf x, Vf y) {
-    Plane plane;
-    plane.dx = read_surface(reader, i + 1);
-    plane.dy = read_surface(reader, i + 2);
-    plane.at = (read_surface(reader, i) + plane.dx * x) + plane.dy * y;
-    return plane;
+// One triangle in all lanes: its floats are spread. A few: the lanes of each are blended in, which
+// costs less than a gather per float.
+VEC_INLINE void read_surfaces(const DipShadingInput *input, const uint32_t *triangle, int count,
+                              SurfaceRows *rows) {
+    const Vi ids = vi_load((const int32_t *)triangle);
+    const float *first = surface_of(input, triangle[0]);
+    unsigned left = mask_bits(vi_eq(ids, vi_splat(ids[0]))) ^ VEC_ALL_LANES;
+    for (int f = 0; f < count; f++) {
+        rows->values[f] = vf_splat(first[f]);
+    }
+    for (int n = 1; left && n < FEW_TRIANGLES; n++) {
+        const uint32_t id = triangle[__builtin_ctz(left)];
+        const Mask lanes = vi_eq(ids, vi_splat((int32_t)id));
+        const float *surface = surface_of(input, id);
+        for (int f = 0; f < count; f++) {
+            rows->values[f] = vf_select(lanes, vf_splat(surface[f]), rows->values[f]);
+        }
+        left &= ~mask_bits(lanes);
+    }
+    if (left) {
+        int32_t offset[DIP_LANES];
+        for (int i = 0; i < DIP_LANES; i++) {
+            offset[i] = (int32_t)input->triangles[triangle[i]].surface;
+        }
+        for (int f = 0; f < count; f++) {
+            rows->values[f] = vf_gather(input->surfaces + f, vi_load(offset));
+        }
+    }
 }
 
-VEC_INLINE SurfaceReader surface_reader(const DipShadingInput *input, const uint32_t *triangle) {
-    SurfaceReader reader = {.base = input->surfaces};
-    if (vi_uniform(vi_load((const int32_t *)triangle))) {
-        reader.uniform = input->surfaces + input->triangles[triangle[0]].surface;
-        return reader;
-    }
-    int32_t offset[DIP_LANES];
-    for (int i = 0; i < DIP_LANES; i++) {
-        offset[i] = (int32_t)input->triangles[triangle[i]].surface;
-    }
-    reader.offset = vi_load(offset);
-    return reader;
+VEC_INLINE Plane plane_at(const SurfaceRows *rows, int i, Vf x, Vf y) {
+    const Vf dx = rows->values[i + 1];
+    const Vf dy = rows->values[i + 2];
+    return (Plane){(rows->values[i] + dx * x) + dy * y, dx, dy};
 }
 
 // u = (u/w) / (1/w); du/dx = (d(u/w)/dx - u d(1/w)/dx) / (1/w): exact, by the quotient rule.
@@ -48,17 +62,18 @@ void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipF
                                         int slot_count, DipFragmentBatch *batch) {
     batch->count = list->count;
     for (int i = 0; i < list->count; i += DIP_LANES) {
-        const SurfaceReader reader = surface_reader(input, list->triangle + i);
+        SurfaceRows rows;
+        read_surfaces(input, list->triangle + i, dip_surface_floats(slot_count), &rows);
         const Vf x = vf_load(list->x + i);
         const Vf y = vf_load(list->y + i);
-        const Vf from_x = x - read_surface(&reader, DIP_SURFACE_ANCHOR);
-        const Vf from_y = y - read_surface(&reader, DIP_SURFACE_ANCHOR + 1);
-        const Plane q = read_plane(&reader, DIP_SURFACE_RW, from_x, from_y);
+        const Vf from_x = x - rows.values[DIP_SURFACE_ANCHOR];
+        const Vf from_y = y - rows.values[DIP_SURFACE_ANCHOR + 1];
+        const Plane q = plane_at(&rows, DIP_SURFACE_RW, from_x, from_y);
         const Vf w = vf_splat(1.0f) / q.at;
         vf_store(batch->x + i, x);
         vf_store(batch->y + i, y);
         for (int s = 0; s < slot_count; s++) {
-            const Plane over_w = read_plane(&reader, DIP_SURFACE_SLOTS + 3 * s, from_x, from_y);
+            const Plane over_w = plane_at(&rows, DIP_SURFACE_SLOTS + 3 * s, from_x, from_y);
             const Vf value = over_w.at * w;
             vf_store(batch->slot[s] + i, value);
             vf_store(batch->slot_dx[s] + i, (over_w.dx - value * q.dx) * w);

@@ -47,9 +47,11 @@ struct DipTileShading {
     DipTile *tile;
     DipShadingInput input;
     DipFlushList *flush;
-    void *context;          // of flush
-    DipFragmentList *lists; // per draw
-    uint32_t *active;       // draws whose list was used in this tile, in order of first use
+    DipFlushList *flush_whole;
+    void *context;                // of both
+    DipFragmentList *lists;       // per draw
+    DipFragmentList *whole_lists; // per draw: of whole sub-blocks, 16 fragments of a triangle each
+    uint32_t *active;             // draws whose list was used in this tile, in order of first use
     int active_count;
     uint8_t *is_active; // per draw
     int width;          // of the tile that lies in the target

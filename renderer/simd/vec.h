@@ -272,11 +272,17 @@ VEC_INLINE Vf vf_abs(Vf a) {
 
 // Values of 2^23 and more, infinities and NaN come back as they are.
 VEC_INLINE Vf vf_floor(Vf a) {
+#if VEC_AVX512
+    return (Vf)_mm512_roundscale_ps((__m512)a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+#elif VEC_AVX2
+    return (Vf)_mm256_floor_ps((__m256)a);
+#else
     const Mask small = vf_lt(vf_abs(a), vf_splat(8388608.0f));
     const Vf inside = vf_select(small, a, vf_splat(0.0f));
     const Vf whole = vf_from_int(vi_from_float(inside));
     const Vf lower = vf_select(vf_lt(inside, whole), whole - 1.0f, whole);
     return vf_select(small, lower, a);
+#endif
 }
 
 // --- memory ------------------------------------------------------------------------------------
@@ -321,7 +327,8 @@ VEC_INLINE void vu_gather_pairs(const uint32_t *base, Vi index, Vu *first, Vu *s
     const __m512i i = (__m512i)index;
     const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(i), base, 4);
     const __m512i high = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64(i, 1), base, 4);
-    const __m512i even = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
+    const __m512i even =
+        _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
     const __m512i odd = _mm512_set_epi32(31, 29, 27, 25, 23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3, 1);
     *first = (Vu)_mm512_permutex2var_epi32(low, even, high);
     *second = (Vu)_mm512_permutex2var_epi32(low, odd, high);
@@ -353,6 +360,21 @@ VEC_INLINE void vu_gather_pairs(const uint32_t *base, Vi index, Vu *first, Vu *s
 #endif
 }
 
+// table[index[i]] per lane, 0 <= index < 16: a permutation instead of loads where there is one.
+VEC_INLINE Vi vi_lookup16(const int32_t table[16], Vi index) {
+#if VEC_AVX512
+    return (Vi)_mm512_permutexvar_epi32((__m512i)index, _mm512_loadu_si512(table));
+#elif VEC_AVX2
+    const __m256i low = _mm256_loadu_si256((const __m256i *)(const void *)table);
+    const __m256i high = _mm256_loadu_si256((const __m256i *)(const void *)(table + 8));
+    const __m256i in_low = _mm256_permutevar8x32_epi32(low, (__m256i)index);
+    const __m256i in_high = _mm256_permutevar8x32_epi32(high, (__m256i)index);
+    return vi_select(index > 7, (Vi)in_high, (Vi)in_low);
+#else
+    return vi_gather(table, index);
+#endif
+}
+
 // The four bytes from base[index[i]] on, little-endian, at any address.
 VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
 #if VEC_AVX512
@@ -372,6 +394,32 @@ VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
 // True when every lane holds the same value.
 VEC_INLINE bool vi_uniform(Vi v) {
     return mask_all(vi_eq(v, vi_splat(v[0])));
+}
+
+// The greatest lane.
+VEC_INLINE int32_t vi_greatest(Vi v) {
+#if VEC_AVX512
+    return _mm512_reduce_max_epi32((__m512i)v);
+#else
+    int32_t lanes[DIP_LANES];
+    vi_store(lanes, v);
+    int32_t greatest = lanes[0];
+    for (int i = 1; i < DIP_LANES; i++) {
+        greatest = lanes[i] > greatest ? lanes[i] : greatest;
+    }
+    return greatest;
+#endif
+}
+
+// The sum of the lanes, which must fit.
+VEC_INLINE int32_t vi_sum(Vi v) {
+    int32_t lanes[DIP_LANES];
+    vi_store(lanes, v);
+    int32_t sum = 0;
+    for (int i = 0; i < DIP_LANES; i++) {
+        sum += lanes[i];
+    }
+    return sum;
 }
 
 VEC_INLINE Vi vi_iota(void) {

@@ -23,8 +23,8 @@ DipTexture *dip_mip_debug_create(const DipTextureDef *pictures[DIP_MIP_DEBUG_LEV
     return dip_texture_create_from_levels(levels, DIP_MIP_DEBUG_LEVELS, err);
 }
 
-void dip_mip_debug_levels(const DipTexture *texture, int32_t shown_level[DIP_MAX_LEVELS]) {
-    for (int level = 0; level < DIP_MAX_LEVELS; level++) {
+void dip_mip_debug_levels(const DipTexture *texture, int32_t shown_level[DIP_LEVEL_TABLE]) {
+    for (int level = 0; level < DIP_LEVEL_TABLE; level++) {
         const int l = level < texture->level_count ? level : texture->level_count - 1;
         const int32_t width = texture->level_width[l];
         const int32_t height = texture->level_height[l];

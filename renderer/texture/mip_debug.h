@@ -11,6 +11,6 @@ DipTexture *dip_mip_debug_create(const DipTextureDef *pictures[DIP_MIP_DEBUG_LEV
                                  DipError *err);
 
 // For each level of a texture the debug level that stands for it.
-void dip_mip_debug_levels(const DipTexture *texture, int32_t shown_level[DIP_MAX_LEVELS]);
+void dip_mip_debug_levels(const DipTexture *texture, int32_t shown_level[DIP_LEVEL_TABLE]);
 
 #endif

@@ -12,6 +12,7 @@ typedef struct Footprint {
     Vf u, v;           // middle of the line, texture coordinates
     Vf line_u, line_v; // its whole length
     Vi probes;         // per lane, at least 1
+    int most_probes;   // of all lanes
     Vf inverse_probes;
     Vi level;
     Vi next_level;
@@ -111,12 +112,6 @@ VEC_INLINE Axis ellipse_axis(Jacobian j, int max_anisotropy) {
                   vf_max(vf_min(ratio, vf_splat((float)max_anisotropy)), vf_splat(1.0f))};
 }
 
-VEC_INLINE Axis isotropic_axis(Jacobian j) {
-    Axis axis = longer_of(j.ux, j.vx, j.uy, j.vy, 1.0f);
-    axis.u = axis.v = vf_splat(0.0f);
-    return axis;
-}
-
 // ceil(ratio - 1e-4) for ratios of 1..16.
 VEC_INLINE Vi probe_count(Vf ratio) {
     const Vf at = ratio - 1e-4f;
@@ -124,10 +119,9 @@ VEC_INLINE Vi probe_count(Vf ratio) {
     return whole + vi_select(vf_lt(vf_from_int(whole), at), vi_splat(1), vi_splat(0));
 }
 
-// lambda = log2(length / ratio), rounded to 1/256, biased, clamped.
-VEC_INLINE void set_level(Footprint *footprint, const DipSampler *sampler, const Axis *axis) {
-    const Vf rho = vf_max(axis->length, vf_splat(MIN_LENGTH)) / axis->ratio;
-    const Vi lod8 = vi_from_float(vf_floor(log2_of(rho) * 256.0f + 0.5f)) + sampler->bias_lod8;
+// lambda, given as log2(rho), rounded to 1/256, biased, clamped.
+VEC_INLINE void set_level(Footprint *footprint, const DipSampler *sampler, Vf lambda) {
+    const Vi lod8 = vi_from_float(vf_floor(lambda * 256.0f + 0.5f)) + sampler->bias_lod8;
     const int32_t last = (sampler->texture->level_count - 1) * 256;
     const int32_t min = sampler->min_lod8 < last ? sampler->min_lod8 : last;
     const Vi clamped = vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
@@ -136,32 +130,76 @@ VEC_INLINE void set_level(Footprint *footprint, const DipSampler *sampler, const
     footprint->next_level = vi_min(footprint->level + 1, vi_splat(last >> 8));
 }
 
+// Trilinear: one probe, and lambda = log2 of the longer derivative, from its square.
+VEC_INLINE void set_isotropic(Footprint *footprint, const DipSampler *sampler, Jacobian j) {
+    const Vf dx2 = j.ux * j.ux + j.vx * j.vx;
+    const Vf dy2 = j.uy * j.uy + j.vy * j.vy;
+    const Vf rho2 = vf_max(vf_max(dx2, dy2), vf_splat(MIN_LENGTH * MIN_LENGTH));
+    set_level(footprint, sampler, log2_of(rho2) * 0.5f);
+    footprint->line_u = footprint->line_v = vf_splat(0.0f);
+    footprint->probes = vi_splat(1);
+    footprint->inverse_probes = vf_splat(1.0f);
+    footprint->most_probes = 1;
+}
+
+VEC_INLINE void set_anisotropic(Footprint *footprint, const DipSampler *sampler, Jacobian j) {
+    const Axis axis = sampler->advanced ? ellipse_axis(j, sampler->max_anisotropy)
+                                        : two_frame_axis(j, sampler->max_anisotropy);
+    set_level(footprint, sampler, log2_of(vf_max(axis.length, vf_splat(MIN_LENGTH)) / axis.ratio));
+    footprint->line_u = axis.u * (1.0f / (float)sampler->texture->width);
+    footprint->line_v = axis.v * (1.0f / (float)sampler->texture->height);
+    footprint->probes = probe_count(axis.ratio);
+    footprint->inverse_probes = vf_splat(1.0f) / vf_from_int(footprint->probes);
+    footprint->most_probes = vi_greatest(footprint->probes);
+}
+
 VEC_INLINE Footprint footprint_at(const DipFragmentBatch *batch, const DipSampler *sampler,
                                   int slot, int i) {
-    const DipTexture *texture = sampler->texture;
-    const Jacobian jacobian = read_jacobian(batch, texture, slot, i);
-    const Axis axis = sampler->max_anisotropy == 1 ? isotropic_axis(jacobian)
-                      : sampler->advanced          ? ellipse_axis(jacobian, sampler->max_anisotropy)
-                                          : two_frame_axis(jacobian, sampler->max_anisotropy);
-    Footprint footprint = {
-        .u = vf_load(batch->slot[slot] + i),
-        .v = vf_load(batch->slot[slot + 1] + i),
-        .line_u = axis.u * (1.0f / (float)texture->width),
-        .line_v = axis.v * (1.0f / (float)texture->height),
-        .probes = probe_count(axis.ratio),
-    };
-    footprint.inverse_probes = vf_splat(1.0f) / vf_from_int(footprint.probes);
-    set_level(&footprint, sampler, &axis);
+    const Jacobian jacobian = read_jacobian(batch, sampler->texture, slot, i);
+    Footprint footprint;
+    footprint.u = vf_load(batch->slot[slot] + i);
+    footprint.v = vf_load(batch->slot[slot + 1] + i);
+    if (sampler->max_anisotropy == 1) {
+        set_isotropic(&footprint, sampler, jacobian);
+    } else {
+        set_anisotropic(&footprint, sampler, jacobian);
+    }
     return footprint;
 }
 
-// Adds up the work of the batch's own lanes.
-VEC_INLINE void count_work(DipSampleWork *work, const Footprint *footprint, int lanes) {
-    for (int i = 0; i < lanes; i++) {
-        const unsigned probes = (unsigned)footprint->probes[i];
-        work->probes += probes;
-        work->texels += probes * (footprint->fraction[i] ? 8u : 4u);
+// The batch's work so far, a sum per lane: of probes, and of levels that they read.
+typedef struct LaneWork {
+    Vi probes;
+    Vi levels;
+} LaneWork;
+
+VEC_INLINE LaneWork no_work(void) {
+    return (LaneWork){vi_splat(0), vi_splat(0)};
+}
+
+// Adds the work of the lanes that are the batch's own.
+VEC_INLINE void count_work(LaneWork *work, const Footprint *footprint, int lanes) {
+    const Vi own = vi_select(vi_lt(vi_iota(), vi_splat(lanes)), footprint->probes, vi_splat(0));
+    const Mask blends = vi_lt(vi_splat(0), footprint->fraction);
+    work->probes += own;
+    work->levels += own + vi_select(blends, own, vi_splat(0));
+}
+
+VEC_INLINE void add_work(DipSampleWork *total, const LaneWork *work) {
+    total->probes += (uint64_t)vi_sum(work->probes);
+    total->texels += (uint64_t)vi_sum(work->levels) * 4;
+}
+
+// All footprints of a batch before any texel is read: their long chains of dependent operations
+// overlap, which they would not with the reads in between.
+VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, int slot,
+                                Footprint *footprints) {
+    LaneWork work = no_work();
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        footprints[i / DIP_LANES] = footprint_at(batch, sampler, slot, i);
+        count_work(&work, &footprints[i / DIP_LANES], batch->count - i);
     }
+    add_work(&batch->work, &work);
 }
 
 // A level's table entries per lane.
@@ -174,39 +212,30 @@ typedef struct Level {
     Vi height;
 } Level;
 
-VEC_INLINE Vi read_table(const int32_t *table, Vi level, bool uniform) {
-    return uniform ? vi_splat(table[level[0]]) : vi_gather(table, level);
-}
-
 VEC_INLINE Level read_level(const DipTexture *texture, Vi level) {
-    const bool uniform = vi_uniform(level);
     Level out;
-    out.offset = read_table(texture->level_offset, level, uniform);
-    out.stride = read_table(texture->level_stride, level, uniform);
-    out.width = read_table(texture->level_width, level, uniform);
-    out.height = read_table(texture->level_height, level, uniform);
+    out.offset = vi_lookup16(texture->level_offset, level);
+    out.width = vi_lookup16(texture->level_width, level);
+    out.height = vi_lookup16(texture->level_height, level);
+    out.stride = out.width + 1;
     out.width256 = vf_from_int(out.width << 8);
     out.height256 = vf_from_int(out.height << 8);
     return out;
 }
 
-// A coordinate to 1/256 texel of a level, texel centres at whole numbers: -128..size * 256 - 128.
-VEC_INLINE Vi address(Vf coordinate, DipWrap wrap, Vf size256) {
-    Vf unit;
-    if (wrap == DIP_WRAP_REPEAT) {
-        unit = coordinate - vf_floor(coordinate);
-    } else {
-        unit = vf_min(vf_max(coordinate, vf_splat(0.0f)), vf_splat(1.0f));
-    }
-    // Infinities and NaN, for which the above is not within 0..1, read the first texel.
-    unit = vf_select(vf_ge(unit, vf_splat(0.0f)), unit, vf_splat(0.0f));
-    return vi_from_float(vf_min(unit, vf_splat(1.0f)) * size256) - 128;
+// A coordinate within the texture, 0..1: the fraction (repeat) or clamped. Infinities and NaN
+// become 0 or 1, so that no address leaves the texture.
+VEC_INLINE Vf wrap_unit(Vf coordinate, DipWrap wrap) {
+    const Vf unit = wrap == DIP_WRAP_REPEAT ? coordinate - vf_floor(coordinate) : coordinate;
+    return vf_min(vf_max(unit, vf_splat(0.0f)), vf_splat(1.0f));
 }
 
-// The texel before the first is the last (repeat) or the first itself (clamp).
-VEC_INLINE Vi wrap_first(Vi at, DipWrap wrap, Vi size) {
-    const Vi before = wrap == DIP_WRAP_REPEAT ? at + (size << 8) : vi_splat(0);
-    return vi_select(vi_lt(at, vi_splat(0)), before, at);
+// A coordinate within 0..1 to 1/256 texel of a level, texel centres at whole numbers. Before the
+// first centre comes the last texel (repeat) or the first itself (clamp).
+VEC_INLINE Vi address(Vf unit, DipWrap wrap, Vf size256, Vi size) {
+    const Vi at = vi_from_float(unit * size256) - 128;
+    const Vi before = at >> 31; // all ones where negative
+    return wrap == DIP_WRAP_REPEAT ? at + (before & (size << 8)) : at & ~before;
 }
 
 // A bilinear read: the first texel's index and the weights of the four, which sum to 65536.
@@ -216,11 +245,10 @@ typedef struct Taps {
     Vf weight[4];
 } Taps;
 
+// u, v: within 0..1.
 VEC_INLINE Taps taps_at(const DipTexture *texture, const Level *level, Vf u, Vf v) {
-    const Vi x =
-        wrap_first(address(u, texture->wrap_u, level->width256), texture->wrap_u, level->width);
-    const Vi y =
-        wrap_first(address(v, texture->wrap_v, level->height256), texture->wrap_v, level->height);
+    const Vi x = address(u, texture->wrap_u, level->width256, level->width);
+    const Vi y = address(v, texture->wrap_v, level->height256, level->height);
     const Vf fx = vf_from_int(x & 255);
     const Vf fy = vf_from_int(y & 255);
     const Vf gx = 256.0f - fx;
@@ -266,21 +294,13 @@ VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const Level *level, Vf u
             vf_from_int(lower >> 8 & 255) * taps.weight[3]);
 }
 
-VEC_INLINE int most_probes(const Footprint *footprint) {
-    int most = 1;
-    for (int i = 0; i < DIP_LANES; i++) {
-        most = footprint->probes[i] > most ? footprint->probes[i] : most;
-    }
-    return most;
-}
-
 // Where probe k of a lane's own count lies on the line: (k + 1/2) / N - 1/2.
 VEC_INLINE Vf probe_place(const Footprint *footprint, int k) {
     return ((float)k + 0.5f) * footprint->inverse_probes - 0.5f;
 }
 
 VEC_INLINE Vi shown_level(const DipSampler *sampler, Vi level) {
-    return sampler->shown ? vi_gather(sampler->shown_level, level) : level;
+    return sampler->shown ? vi_lookup16(sampler->shown_level, level) : level;
 }
 
 VEC_INLINE Colour filter_colour(const DipSampler *sampler, const Footprint *footprint) {
@@ -291,11 +311,10 @@ VEC_INLINE Colour filter_colour(const DipSampler *sampler, const Footprint *foot
     const Vf far_weight = vf_from_int(footprint->fraction);
     const Vf near_weight = 256.0f - far_weight;
     Colour total = {{vf_splat(0.0f), vf_splat(0.0f), vf_splat(0.0f)}};
-    const int most = most_probes(footprint);
-    for (int k = 0; k < most; k++) {
+    for (int k = 0; k < footprint->most_probes; k++) {
         const Vf place = probe_place(footprint, k);
-        const Vf u = footprint->u + footprint->line_u * place;
-        const Vf v = footprint->v + footprint->line_v * place;
+        const Vf u = wrap_unit(footprint->u + footprint->line_u * place, texture->wrap_u);
+        const Vf v = wrap_unit(footprint->v + footprint->line_v * place, texture->wrap_v);
         const Mask has = vi_lt(vi_splat(k), footprint->probes);
         const Colour a = bilinear_colour(texture, &near, u, v);
         Colour b = {{vf_splat(0.0f), vf_splat(0.0f), vf_splat(0.0f)}};
@@ -317,11 +336,10 @@ VEC_INLINE Vf filter_alpha(const DipSampler *sampler, const Footprint *footprint
     const Vf far_weight = vf_from_int(footprint->fraction);
     const Vf near_weight = 256.0f - far_weight;
     Vf total = vf_splat(0.0f);
-    const int most = most_probes(footprint);
-    for (int k = 0; k < most; k++) {
+    for (int k = 0; k < footprint->most_probes; k++) {
         const Vf place = probe_place(footprint, k);
-        const Vf u = footprint->u + footprint->line_u * place;
-        const Vf v = footprint->v + footprint->line_v * place;
+        const Vf u = wrap_unit(footprint->u + footprint->line_u * place, texture->wrap_u);
+        const Vf v = wrap_unit(footprint->v + footprint->line_v * place, texture->wrap_v);
         const Vf mixed = bilinear_alpha(texture, &near, u, v) * near_weight +
                          bilinear_alpha(texture, &far, u, v) * far_weight;
         const Mask has = vi_lt(vi_splat(k), footprint->probes);
@@ -338,29 +356,31 @@ void DIP_KERNEL(dip_kernel_sample_colour)(DipFragmentBatch *batch, const DipSamp
         1.0f / ((float)(DIP_TEXEL_GREEN_MAX * DIP_TEXEL_GREEN_MAX) * 16777216.0f),
         1.0f / ((float)(DIP_TEXEL_BLUE_MAX * DIP_TEXEL_BLUE_MAX) * 16777216.0f),
     };
+    Footprint footprints[DIP_FRAGMENT_BATCH / DIP_LANES];
+    find_footprints(batch, sampler, u_slot, footprints);
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        const Footprint footprint = footprint_at(batch, sampler, u_slot, i);
-        const int lanes = batch->count - i < DIP_LANES ? batch->count - i : DIP_LANES;
-        count_work(&batch->work, &footprint, lanes);
-        const Colour sum = filter_colour(sampler, &footprint);
+        const Footprint *footprint = &footprints[i / DIP_LANES];
+        const Colour sum = filter_colour(sampler, footprint);
         for (int c = 0; c < 3; c++) {
-            vf_store(out[c] + i, (sum.c[c] * unit[c]) * footprint.inverse_probes);
+            vf_store(out[c] + i, (sum.c[c] * unit[c]) * footprint->inverse_probes);
         }
     }
 }
 
 void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampler *sampler,
                                          int u_slot, float *out) {
-    for (int i = 0; i < batch->count; i += DIP_LANES) {
-        if (!sampler->texture->alpha) {
+    if (!sampler->texture->alpha) {
+        for (int i = 0; i < batch->count; i += DIP_LANES) {
             vf_store(out + i, vf_splat(1.0f));
-            continue;
         }
-        const Footprint footprint = footprint_at(batch, sampler, u_slot, i);
-        const int lanes = batch->count - i < DIP_LANES ? batch->count - i : DIP_LANES;
-        count_work(&batch->work, &footprint, lanes);
+        return;
+    }
+    Footprint footprints[DIP_FRAGMENT_BATCH / DIP_LANES];
+    find_footprints(batch, sampler, u_slot, footprints);
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        const Footprint *footprint = &footprints[i / DIP_LANES];
         // 255 * 65536 * 256 per probe, divided so that a constant alpha comes out exact.
-        const Vf scale = vf_splat(4278190080.0f) * vf_from_int(footprint.probes);
-        vf_store(out + i, filter_alpha(sampler, &footprint) / scale);
+        const Vf scale = vf_splat(4278190080.0f) * vf_from_int(footprint->probes);
+        vf_store(out + i, filter_alpha(sampler, footprint) / scale);
     }
 }

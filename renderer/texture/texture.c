@@ -46,7 +46,6 @@ static bool has_alpha(const DipTextureDef *def) {
 static size_t place_level(DipTexture *texture, int level, int width, int height, size_t offset) {
     texture->level_width[level] = width;
     texture->level_height[level] = height;
-    texture->level_stride[level] = width + 1;
     texture->level_offset[level] = (int32_t)offset;
     return (size_t)(width + 1) * (size_t)(height + 1);
 }
@@ -74,21 +73,37 @@ static bool allocate_texels(DipTexture *texture, bool with_alpha) {
     return texture->texels && (texture->alpha || !with_alpha);
 }
 
-static void decode_level(const DipTextureDef *def, float *rgba) {
+// What each of the 256 codes of a texture means: light for the filter, and the packed texel's
+// parts.
+typedef struct CodeTables {
+    float colour[256];
+    float alpha[256];
+    uint32_t red[256];
+    uint32_t green[256];
+    uint32_t blue[256];
+} CodeTables;
+
+static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
     DipSrgbDecodeTable srgb;
     dip_srgb_decode_table(&srgb);
-    float colour[256];
-    float linear[256];
     for (int i = 0; i < 256; i++) {
-        linear[i] = (float)(i / 255.0);
-        colour[i] = def->encoding == DIP_ENCODING_SRGB ? (float)srgb.linear[i] : linear[i];
+        tables->alpha[i] = (float)(i / 255.0);
+        tables->colour[i] =
+            encoding == DIP_ENCODING_SRGB ? (float)srgb.linear[i] : tables->alpha[i];
+        const double light = tables->colour[i];
+        tables->red[i] = quantise(light, DIP_TEXEL_RED_MAX) << DIP_TEXEL_RED_SHIFT;
+        tables->green[i] = quantise(light, DIP_TEXEL_GREEN_MAX) << DIP_TEXEL_GREEN_SHIFT;
+        tables->blue[i] = quantise(light, DIP_TEXEL_BLUE_MAX);
     }
+}
+
+static void decode_level(const DipTextureDef *def, const CodeTables *tables, float *rgba) {
     const size_t count = (size_t)def->width * (size_t)def->height;
-    for (size_t i = 0; i < count; i++) {
-        for (int c = 0; c < 3; c++) {
-            rgba[4 * i + (size_t)c] = colour[def->rgba8[4 * i + (size_t)c]];
+    for (size_t i = 0; i < 4 * count; i += 4) {
+        for (size_t c = 0; c < 3; c++) {
+            rgba[i + c] = tables->colour[def->rgba8[i + c]];
         }
-        rgba[4 * i + 3] = linear[def->rgba8[4 * i + 3]];
+        rgba[i + 3] = tables->alpha[def->rgba8[i + 3]];
     }
 }
 
@@ -97,13 +112,32 @@ static int padding_source(int i, int size, DipWrap wrap) {
     return i < size ? i : wrap == DIP_WRAP_REPEAT ? 0 : size - 1;
 }
 
+// Packs a picture's own texels, code by code.
+static void pack_codes(DipTexture *texture, int level, const DipTextureDef *def,
+                       const CodeTables *tables) {
+    uint32_t *texels = texture->texels + texture->level_offset[level];
+    uint8_t *alpha = texture->alpha ? texture->alpha + texture->level_offset[level] : NULL;
+    for (int y = 0; y <= def->height; y++) {
+        const uint8_t *row = def->rgba8 + (size_t)padding_source(y, def->height, texture->wrap_v) *
+                                              (size_t)def->width * 4;
+        for (int x = 0; x <= def->width; x++) {
+            const uint8_t *code = row + (size_t)padding_source(x, def->width, texture->wrap_u) * 4;
+            *texels++ = tables->red[code[0]] | tables->green[code[1]] | tables->blue[code[2]];
+            if (alpha) {
+                *alpha++ = code[3];
+            }
+        }
+    }
+}
+
+// Packs a filtered level.
 static void pack_level(DipTexture *texture, int level, const float *rgba) {
     const int width = texture->level_width[level];
     const int height = texture->level_height[level];
     const size_t base = (size_t)texture->level_offset[level];
     for (int y = 0; y <= height; y++) {
         const size_t row = (size_t)padding_source(y, height, texture->wrap_v) * (size_t)width;
-        const size_t out = base + (size_t)y * (size_t)texture->level_stride[level];
+        const size_t out = base + (size_t)y * (size_t)(width + 1);
         for (int x = 0; x <= width; x++) {
             const float *texel =
                 rgba + 4 * (row + (size_t)padding_source(x, width, texture->wrap_u));
@@ -123,8 +157,10 @@ static bool build_chain(DipTexture *texture, const DipTextureDef *def) {
     DipMipLevel to = {0, 0, malloc((texels / 2 + 1) * 4 * sizeof(float))};
     const bool allocated = from.rgba && to.rgba;
     if (allocated) {
-        decode_level(def, from.rgba);
-        pack_level(texture, 0, from.rgba);
+        CodeTables tables;
+        fill_code_tables(&tables, def->encoding);
+        decode_level(def, &tables, from.rgba);
+        pack_codes(texture, 0, def, &tables);
     }
     for (int level = 1; allocated && level < texture->level_count; level++) {
         to.width = texture->level_width[level];
@@ -177,27 +213,22 @@ DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int leve
     texture->wrap_u = levels[0].wrap_u;
     texture->wrap_v = levels[0].wrap_v;
     texture->level_count = level_count;
-    size_t largest = 0;
     for (int i = 0; i < level_count; i++) {
         if (!check_def(&levels[i], err)) {
             dip_texture_destroy(&texture);
             return NULL;
         }
-        const size_t texels =
+        texture->texel_count +=
             place_level(texture, i, levels[i].width, levels[i].height, texture->texel_count);
-        texture->texel_count += texels;
-        largest = texels > largest ? texels : largest;
     }
-    float *rgba = malloc(largest * 4 * sizeof *rgba);
-    if (!rgba || !allocate_texels(texture, false)) {
-        free(rgba);
+    if (!allocate_texels(texture, false)) {
         return out_of_memory(texture, levels[0].name, err);
     }
     for (int i = 0; i < level_count; i++) {
-        decode_level(&levels[i], rgba);
-        pack_level(texture, i, rgba);
+        CodeTables tables;
+        fill_code_tables(&tables, levels[i].encoding);
+        pack_codes(texture, i, &levels[i], &tables);
     }
-    free(rgba);
     return texture;
 }
 

@@ -15,7 +15,10 @@
 
 #include <stdint.h>
 
-enum { DIP_MAX_LEVELS = 14 }; // 8192 has 14
+enum {
+    DIP_MAX_LEVELS = 14, // 8192 has 14
+    DIP_LEVEL_TABLE = 16 // entries of a table of levels: what a kernel looks up at once
+};
 
 #define DIP_TEXEL_RED_SHIFT   21
 #define DIP_TEXEL_GREEN_SHIFT 10
@@ -29,11 +32,9 @@ typedef struct DipTexture {
     int level_count;
     DipWrap wrap_u;
     DipWrap wrap_v;
-    // Per level, as int32 so that a kernel can gather them.
-    int32_t level_offset[DIP_MAX_LEVELS]; // of the level's first texel, in texels
-    int32_t level_width[DIP_MAX_LEVELS];
-    int32_t level_height[DIP_MAX_LEVELS];
-    int32_t level_stride[DIP_MAX_LEVELS]; // texels per row, padding included
+    int32_t level_offset[DIP_LEVEL_TABLE]; // of the level's first texel, in texels
+    int32_t level_width[DIP_LEVEL_TABLE];  // texels; a row takes one more, see above
+    int32_t level_height[DIP_LEVEL_TABLE];
     uint32_t *texels;
     uint8_t *alpha;     // the same layout; NULL when all texels are opaque
     size_t texel_count; // padding included

@@ -102,6 +102,14 @@ most_lines=3 expect 2 'missing.ini:[0-9]+: \[CAMPATH_AA\] .*none.pth' "$diptych"
     --config missing.ini
 check "nothing was written so far" test -z "$(find . -name '*.png' -o -name '*.json' -o -name '*.tmp')"
 
+sed 's/^ISA:.*/ISA: neon/' good.ini >isa.ini
+if [ "$(uname -m)" = x86_64 ]; then
+    expect 2 "isa.ini:[0-9]+: \[ISA\] 'neon' is not available" "$diptych" dump --hash --config isa.ini
+fi
+sed 's/^RES:/LOG: faults.log\nRES:/; s/court.gltf/none.gltf/' good.ini >log.ini
+expect 2 'none.gltf' "$diptych" dump --hash --config log.ini
+check "the ini's log file gets the errors too" grep -q 'none.gltf' faults.log
+
 # --- what dump makes
 small="--size 64x48"
 expect 0 '' "$diptych" dump $small --hash --out a/b --json c.json --frames 0:5:2 --requested aa=4

@@ -1,0 +1,8 @@
+#!/bin/sh
+# Fails when a library exports a name that does not begin with dip_.
+# Usage: exported_names.sh LIBRARY...
+set -eu
+names=$(nm -g --defined-only "$@" 2>/dev/null | awk 'NF == 3 { print $3 }')
+[ "$(echo "$names" | wc -l)" -gt 100 ] || { echo "nm found too few names"; exit 1; }
+foreign=$(echo "$names" | grep -vE '^dip_|^__(asan|ubsan|tsan|odr_asan)' || true)
+[ -z "$foreign" ] || { echo "exported without dip_: $foreign"; exit 1; }

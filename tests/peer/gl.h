@@ -1,0 +1,96 @@
+// OpenGL without a display: an EGL surfaceless context on Mesa's llvmpipe and its functions.
+#ifndef DIP_TESTS_PEER_GL_H
+#define DIP_TESTS_PEER_GL_H
+
+#include "renderer/base/error.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/glcorearb.h>
+
+// EXT_texture_filter_anisotropic has the numbers that OpenGL 4.6 took over.
+#define DIP_GL_TEXTURE_MAX_ANISOTROPY 0x84FE
+
+// X(name without gl, NAME as in its pointer type): what the peer calls.
+#define DIP_GL_LIST(X)                                                                             \
+    X(ActiveTexture, ACTIVETEXTURE)                                                                \
+    X(AttachShader, ATTACHSHADER)                                                                  \
+    X(BindAttribLocation, BINDATTRIBLOCATION)                                                      \
+    X(BindBuffer, BINDBUFFER)                                                                      \
+    X(BindFramebuffer, BINDFRAMEBUFFER)                                                            \
+    X(BindRenderbuffer, BINDRENDERBUFFER)                                                          \
+    X(BindSampler, BINDSAMPLER)                                                                    \
+    X(BindTexture, BINDTEXTURE)                                                                    \
+    X(BindVertexArray, BINDVERTEXARRAY)                                                            \
+    X(BlitFramebuffer, BLITFRAMEBUFFER)                                                            \
+    X(BufferData, BUFFERDATA)                                                                      \
+    X(CheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS)                                              \
+    X(Clear, CLEAR)                                                                                \
+    X(ClearColor, CLEARCOLOR)                                                                      \
+    X(ClearDepth, CLEARDEPTH)                                                                      \
+    X(ClipControl, CLIPCONTROL)                                                                    \
+    X(CompileShader, COMPILESHADER)                                                                \
+    X(CreateProgram, CREATEPROGRAM)                                                                \
+    X(CreateShader, CREATESHADER)                                                                  \
+    X(DeleteShader, DELETESHADER)                                                                  \
+    X(DepthFunc, DEPTHFUNC)                                                                        \
+    X(Disable, DISABLE)                                                                            \
+    X(DrawElements, DRAWELEMENTS)                                                                  \
+    X(Enable, ENABLE)                                                                              \
+    X(EnableVertexAttribArray, ENABLEVERTEXATTRIBARRAY)                                            \
+    X(Finish, FINISH)                                                                              \
+    X(FramebufferRenderbuffer, FRAMEBUFFERRENDERBUFFER)                                            \
+    X(FrontFace, FRONTFACE)                                                                        \
+    X(GenBuffers, GENBUFFERS)                                                                      \
+    X(GenFramebuffers, GENFRAMEBUFFERS)                                                            \
+    X(GenRenderbuffers, GENRENDERBUFFERS)                                                          \
+    X(GenSamplers, GENSAMPLERS)                                                                    \
+    X(GenTextures, GENTEXTURES)                                                                    \
+    X(GenVertexArrays, GENVERTEXARRAYS)                                                            \
+    X(GetError, GETERROR)                                                                          \
+    X(GetIntegerv, GETINTEGERV)                                                                    \
+    X(GetProgramInfoLog, GETPROGRAMINFOLOG)                                                        \
+    X(GetProgramiv, GETPROGRAMIV)                                                                  \
+    X(GetString, GETSTRING)                                                                        \
+    X(GetStringi, GETSTRINGI)                                                                      \
+    X(GetUniformLocation, GETUNIFORMLOCATION)                                                      \
+    X(LinkProgram, LINKPROGRAM)                                                                    \
+    X(PixelStorei, PIXELSTOREI)                                                                    \
+    X(ReadPixels, READPIXELS)                                                                      \
+    X(RenderbufferStorageMultisample, RENDERBUFFERSTORAGEMULTISAMPLE)                              \
+    X(SamplerParameterf, SAMPLERPARAMETERF)                                                        \
+    X(SamplerParameteri, SAMPLERPARAMETERI)                                                        \
+    X(ShaderSource, SHADERSOURCE)                                                                  \
+    X(TexImage2D, TEXIMAGE2D)                                                                      \
+    X(Uniform1f, UNIFORM1F)                                                                        \
+    X(Uniform1i, UNIFORM1I)                                                                        \
+    X(Uniform3fv, UNIFORM3FV)                                                                      \
+    X(UniformMatrix3fv, UNIFORMMATRIX3FV)                                                          \
+    X(UniformMatrix4fv, UNIFORMMATRIX4FV)                                                          \
+    X(UseProgram, USEPROGRAM)                                                                      \
+    X(VertexAttribPointer, VERTEXATTRIBPOINTER)                                                    \
+    X(Viewport, VIEWPORT)
+
+// A context, current on the thread that opened it. All OpenGL objects belong to it and end with
+// it, so nobody deletes them one by one.
+typedef struct DipGl {
+#define DIP_GL_FIELD(name, NAME) PFNGL##NAME##PROC name;
+    DIP_GL_LIST(DIP_GL_FIELD)
+#undef DIP_GL_FIELD
+    EGLDisplay display;
+    EGLContext context;
+    char renderer[128]; // "llvmpipe (LLVM 15.0.6, 256 bits)"
+    char version[128];  // "3.3 (Core Profile) Mesa 22.3.6"
+    int max_samples;
+} DipGl;
+
+// threads: llvmpipe's rasteriser threads, 1..32; beside them it sets triangles up on the caller's.
+// To be called before anything else uses OpenGL in this process. Fails with UNSUPPORTED when there
+// is no llvmpipe with OpenGL 3.3 and the extensions needed; *gl is then closed.
+bool dip_gl_open(DipGl *gl, int threads, DipError *err);
+void dip_gl_close(DipGl *gl); // accepts a zeroed one
+
+// Fails with RUNTIME when OpenGL has noted an error since the last call.
+bool dip_gl_check(const DipGl *gl, const char *what, DipError *err);
+
+#endif

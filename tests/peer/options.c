@@ -1,0 +1,206 @@
+// Parsing the bench's command line.
+#include "tests/peer/options.h"
+
+#include "renderer/base/assert.h"
+#include "renderer/base/number.h"
+#include "renderer/renderer.h"
+#include "tests/peer/measure.h"
+#include "tests/peer/synthetic.h"
+
+#include <string.h>
+
+enum { MAX_FRAMES = 10000, MAX_ROUNDS = 1000, MAX_PEER_THREADS = 32 };
+
+typedef bool SetOption(DipPeerOptions *options, const char *key, const char *value, DipError *err);
+
+static bool refuse(DipError *err, const char *key, const char *value, const char *accepted) {
+    return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, key, "'%s', accepted %s", value, accepted);
+}
+
+static bool parse_integer(const char *text, int low, int high, int *value) {
+    return dip_integer_parse(text, strlen(text), value) && *value >= low && *value <= high;
+}
+
+static bool set_model(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    if (options->model_count == DIP_PEER_MAX_MODELS) {
+        return refuse(err, key, value, "64 files");
+    }
+    options->scene = DIP_PEER_SCENE_MODELS;
+    options->models[options->model_count++] = value;
+    return true;
+}
+
+static bool set_scene(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    if (strcmp(value, "large") == 0) {
+        options->scene = DIP_PEER_SCENE_LARGE;
+    } else if (strcmp(value, "tiny") == 0) {
+        options->scene = DIP_PEER_SCENE_TINY;
+    } else if (strncmp(value, "grid=", 5) == 0 &&
+               parse_integer(value + 5, 2, DIP_SYNTHETIC_MAX_TRIANGLES, &options->grid_triangles)) {
+        options->scene = DIP_PEER_SCENE_GRID;
+    } else {
+        return refuse(err, key, value, "large, tiny or grid=N with 2..20000000 triangles");
+    }
+    return true;
+}
+
+static bool set_path(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    (void)key;
+    (void)err;
+    options->path = value;
+    return true;
+}
+
+static bool set_fov(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    return (dip_number_parse(value, strlen(value), &options->fov_y_deg) &&
+            options->fov_y_deg >= 1.0 && options->fov_y_deg <= 170.0) ||
+           refuse(err, key, value, "1..170 degrees");
+}
+
+static bool set_size(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    const char *times = strchr(value, 'x');
+    return (times && dip_integer_parse(value, (size_t)(times - value), &options->width) &&
+            options->width >= 1 && options->width <= DIP_MAX_FRAME_SIZE &&
+            parse_integer(times + 1, 1, DIP_MAX_FRAME_SIZE, &options->height)) ||
+           refuse(err, key, value, "WIDTHxHEIGHT of 1..8192 pixels each");
+}
+
+static bool set_threads(DipPeerOptions *options, const char *key, const char *value,
+                        DipError *err) {
+    return parse_integer(value, 1, MAX_PEER_THREADS, &options->threads) ||
+           refuse(err, key, value, "1..32");
+}
+
+static bool set_isa(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    return (dip_isa_parse(value, &options->isa) && dip_isa_available(options->isa)) ||
+           refuse(err, key, value, "scalar, sse2, avx2, avx512 or neon, if the processor has it");
+}
+
+static bool set_frames(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    return parse_integer(value, 1, MAX_FRAMES, &options->frames) ||
+           refuse(err, key, value, "1..10000");
+}
+
+static bool set_rounds(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    return parse_integer(value, 1, MAX_ROUNDS, &options->rounds) ||
+           refuse(err, key, value, "1..1000");
+}
+
+static bool set_rows(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    options->rows = 0;
+    for (const char *name = value; *name;) {
+        const size_t length = strcspn(name, ",");
+        const int row = dip_peer_row_find(name, length);
+        if (row < 0) {
+            return refuse(err, key, value, "some of none,af4,af16,4x,4x+af16,8x,8x+af16");
+        }
+        options->rows |= 1u << row;
+        name += length + (name[length] == ',');
+    }
+    return true;
+}
+
+static bool set_csv(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    (void)key;
+    (void)err;
+    options->csv = value;
+    return true;
+}
+
+static bool set_pictures(DipPeerOptions *options, const char *key, const char *value,
+                         DipError *err) {
+    (void)key;
+    (void)err;
+    options->pictures = value;
+    return true;
+}
+
+static bool set_check(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    (void)key;
+    (void)value;
+    (void)err;
+    options->check = true;
+    return true;
+}
+
+static bool set_help(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    (void)key;
+    (void)value;
+    (void)err;
+    options->help = true;
+    return true;
+}
+
+static const struct {
+    const char *name;
+    const char *argument; // NULL: takes none
+    SetOption *set;
+    const char *text;
+} rows[] = {
+    {"--model", "FILE", set_model, "a model instead of the courtyard; may be repeated"},
+    {"--scene", "NAME", set_scene, "large, tiny or grid=N: scenes made of numbers"},
+    {"--path", "FILE", set_path, "a camera path instead of the scene's own (models: an orbit)"},
+    {"--fov", "DEG", set_fov, "vertical field of view"},
+    {"--size", "WxH", set_size, "pixels (640x480)"},
+    {"--threads", "N", set_threads, "threads of each (2)"},
+    {"--isa", "NAME", set_isa, "our instruction set (the best)"},
+    {"--frames", "N", set_frames, "frames of the path, evenly (24; with --check 6)"},
+    {"--rounds", "N", set_rounds, "times each frame is measured (5)"},
+    {"--rows", "LIST", set_rows, "some of none,af4,af16,4x,4x+af16,8x,8x+af16 (all)"},
+    {"--csv", "FILE", set_csv, "write every measured frame there"},
+    {"--pictures", "DIR", set_pictures, "write both pictures of every row and frame there, PPM"},
+    {"--check", NULL, set_check, "only compare pictures; exit 1 below 40 dB without AF"},
+    {"--help", NULL, set_help, "this help"},
+};
+
+static bool parse_option(int argc, char *const *argv, int *index, DipPeerOptions *options,
+                         DipError *err) {
+    const char *name = argv[*index];
+    for (size_t i = 0; i < DIP_ARRAY_COUNT(rows); i++) {
+        if (strcmp(rows[i].name, name) != 0) {
+            continue;
+        }
+        if (!rows[i].argument) {
+            return rows[i].set(options, name, NULL, err);
+        }
+        if (*index + 1 == argc) {
+            return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, name, "no value, accepted %s",
+                                 rows[i].argument);
+        }
+        return rows[i].set(options, name, argv[++*index], err);
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, name,
+                         "no such option; --help lists them");
+}
+
+bool dip_peer_options_parse(int argc, char *const *argv, DipPeerOptions *options, DipError *err) {
+    *options = (DipPeerOptions){
+        .width = 640, .height = 480, .threads = 2, .isa = dip_isa_best(), .rounds = 5};
+    for (int i = 1; i < argc; i++) {
+        if (!parse_option(argc, argv, &i, options, err)) {
+            return false;
+        }
+    }
+    if (options->model_count && options->scene != DIP_PEER_SCENE_MODELS) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--scene",
+                             "a scene and a model, accepted one of them");
+    }
+    if (!options->frames) {
+        options->frames = options->check ? 6 : 24;
+    }
+    if (!options->rows) {
+        options->rows = options->check ? dip_peer_rows_alike() : ~0u;
+    }
+    return true;
+}
+
+void dip_peer_options_help(FILE *out) {
+    fprintf(out, "The same frames by Diptych's renderer and by Mesa's llvmpipe, in turn.\n"
+                 "Usage: dip_peer [OPTION]...\n\n");
+    for (size_t i = 0; i < DIP_ARRAY_COUNT(rows); i++) {
+        fprintf(out, "  %-10s %-5s %s\n", rows[i].name, rows[i].argument ? rows[i].argument : "",
+                rows[i].text);
+    }
+    fprintf(out, "\nExit codes: 0 done, 1 failed, 2 bad command line, 77 no llvmpipe here.\n"
+                 "docs/peer.md tells how to read the table.\n");
+}

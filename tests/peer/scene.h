@@ -1,0 +1,30 @@
+// What is drawn: a description for both sides, a camera path, a field of view.
+#ifndef DIP_TESTS_PEER_SCENE_H
+#define DIP_TESTS_PEER_SCENE_H
+
+#include "assets/model.h"
+#include "campaths/campath.h"
+#include "renderer/scene.h"
+#include "tests/peer/options.h"
+#include "tests/peer/synthetic.h"
+
+typedef struct DipPeerScene {
+    char name[96];
+    DipSceneDef def; // borrows from the model or the synthetic scene
+    uint64_t triangle_count;
+    bool all_in_view; // triangles per second mean something
+    DipCamPath *path;
+    double fov_y_deg;
+    DipModel *model;
+    DipSynthetic *synthetic;
+} DipPeerScene;
+
+// Loads or makes what the options ask for. On failure *scene is closed.
+bool dip_peer_scene_open(const DipPeerOptions *options, DipPool *pool, DipPeerScene *scene,
+                         DipError *err);
+void dip_peer_scene_close(DipPeerScene *scene);
+
+// The pose of frame `index` of `count` that divide the path evenly.
+DipPose dip_peer_scene_pose(const DipPeerScene *scene, int index, int count);
+
+#endif

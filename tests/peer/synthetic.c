@@ -1,0 +1,251 @@
+// Making the synthetic scenes: one mesh, one material, one texture each.
+#include "tests/peer/synthetic.h"
+
+#include "renderer/base/trig.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TEXTURE_SIZE = 1024 };
+
+struct DipSynthetic {
+    DipSceneDef def;
+    DipTextureDef texture;
+    DipMaterialDef material;
+    DipMeshDef mesh;
+    DipObjectDef object;
+    DipCamPath *path;
+    uint8_t *rgba8;
+    float *positions;
+    float *normals;
+    float *uv;
+    float *colours_lin;
+    uint32_t *indices;
+};
+
+// A well-mixed number of two, the same on every machine.
+static uint32_t hash(uint32_t x, uint32_t y) {
+    uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u;
+    h = (h ^ h >> 15) * 0x2c1b3c6du;
+    h = (h ^ h >> 12) * 0x297a2d39u;
+    return h ^ h >> 15;
+}
+
+// Squares of 64, 16 and 4 texels in random shades: detail for every mip level.
+static void paint(uint8_t *rgba8) {
+    for (uint32_t y = 0; y < TEXTURE_SIZE; y++) {
+        for (uint32_t x = 0; x < TEXTURE_SIZE; x++) {
+            uint8_t *texel = rgba8 + 4 * ((size_t)y * TEXTURE_SIZE + x);
+            const uint32_t coarse = hash(x / 64, y / 64);
+            const uint32_t middle = hash(x / 16 + 1000, y / 16);
+            const uint32_t fine = hash(x / 4 + 2000, y / 4);
+            for (int c = 0; c < 3; c++) {
+                texel[c] = (uint8_t)(40 + (coarse >> 8 * c & 127) + (middle >> 8 * c & 31) +
+                                     (fine >> 8 * c & 31));
+            }
+            texel[3] = 255;
+        }
+    }
+}
+
+// Room for the mesh and the texture; everything else of the description. NULL without memory.
+static DipSynthetic *allocate(uint32_t vertex_count, uint32_t index_count, bool textured,
+                              DipError *err) {
+    DipSynthetic *s = calloc(1, sizeof *s);
+    if (s) {
+        s->rgba8 = malloc((size_t)TEXTURE_SIZE * TEXTURE_SIZE * 4);
+        s->positions = malloc(sizeof(float) * 3 * vertex_count);
+        s->normals = malloc(sizeof(float) * 3 * vertex_count);
+        s->uv = malloc(sizeof(float) * 2 * vertex_count);
+        s->colours_lin = malloc(sizeof(float) * 3 * vertex_count);
+        s->indices = malloc(sizeof(uint32_t) * index_count);
+    }
+    if (!s || !s->rgba8 || !s->positions || !s->normals || !s->uv || !s->colours_lin ||
+        !s->indices) {
+        dip_synthetic_destroy(&s);
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--scene", "out of memory");
+        return NULL;
+    }
+    paint(s->rgba8);
+    s->texture = (DipTextureDef){"squares",         TEXTURE_SIZE,    TEXTURE_SIZE,   s->rgba8,
+                                 DIP_ENCODING_SRGB, DIP_WRAP_REPEAT, DIP_WRAP_REPEAT};
+    s->material = (DipMaterialDef){.name = "squares",
+                                   .surface = DIP_SURFACE_OPAQUE,
+                                   .base_colour_lin = {0.9f, 0.9f, 0.9f},
+                                   .colour_texture = textured ? 0 : DIP_NO_TEXTURE,
+                                   .light_map = DIP_NO_TEXTURE,
+                                   .normal_map = DIP_NO_TEXTURE,
+                                   .light_map_scale = 1.0f};
+    s->mesh = (DipMeshDef){.name = "mesh",
+                           .vertex_count = vertex_count,
+                           .positions = s->positions,
+                           .uv0 = s->uv,
+                           .index_count = index_count,
+                           .indices = s->indices};
+    s->object = (DipObjectDef){"object", 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    s->def = (DipSceneDef){.textures = &s->texture,
+                           .materials = &s->material,
+                           .meshes = &s->mesh,
+                           .objects = &s->object,
+                           .texture_count = 1,
+                           .material_count = 1,
+                           .mesh_count = 1,
+                           .object_count = 1,
+                           .background_lin = {0.1f, 0.2f, 0.4f},
+                           .near_m = 0.1f};
+    return s;
+}
+
+void dip_synthetic_destroy(DipSynthetic **synthetic) {
+    DipSynthetic *s = *synthetic;
+    if (s) {
+        dip_campath_destroy(&s->path);
+        free(s->rgba8);
+        free(s->positions);
+        free(s->normals);
+        free(s->uv);
+        free(s->colours_lin);
+        free(s->indices);
+        free(s);
+        *synthetic = NULL;
+    }
+}
+
+const DipSceneDef *dip_synthetic_scene_def(const DipSynthetic *synthetic) {
+    return &synthetic->def;
+}
+
+DipCamPath *dip_synthetic_take_path(DipSynthetic *synthetic) {
+    DipCamPath *path = synthetic->path;
+    synthetic->path = NULL;
+    return path;
+}
+
+// --- the room ----------------------------------------------------------------------------------
+
+// A parallelogram by a corner and two edges, metres; seen from where edge 0 to 1 turns left. The
+// texture repeats every four metres.
+typedef struct Wall {
+    float corner[3];
+    float edge[2][3];
+} Wall;
+
+static void add_wall(DipSynthetic *s, const Wall *wall, uint32_t index) {
+    static const uint32_t corners[6] = {0, 1, 2, 0, 2, 3};
+    for (uint32_t i = 0; i < 4; i++) {
+        const uint32_t vertex = 4 * index + i;
+        const float along[2] = {i == 1 || i == 2 ? 1.0f : 0.0f, i >= 2 ? 1.0f : 0.0f};
+        for (int e = 0; e < 2; e++) {
+            const float *edge = wall->edge[e];
+            const float length = sqrtf(edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]);
+            s->uv[2 * vertex + (uint32_t)e] = along[e] * length / 4.0f;
+        }
+        for (uint32_t axis = 0; axis < 3; axis++) {
+            s->positions[3 * vertex + axis] = wall->corner[axis] + along[0] * wall->edge[0][axis] +
+                                              along[1] * wall->edge[1][axis];
+        }
+    }
+    for (uint32_t i = 0; i < 6; i++) {
+        s->indices[6 * index + i] = 4 * index + corners[i];
+    }
+}
+
+DipSynthetic *dip_synthetic_room(DipError *err) {
+    // 12 x 4 x 8 metres about the origin, and two screens; inner sides are the front ones.
+    static const Wall walls[] = {
+        {{-6, -2, 4}, {{12, 0, 0}, {0, 0, -8}}},   {{-6, 2, -4}, {{12, 0, 0}, {0, 0, 8}}},
+        {{-6, -2, -4}, {{12, 0, 0}, {0, 4, 0}}},   {{6, -2, 4}, {{-12, 0, 0}, {0, 4, 0}}},
+        {{6, -2, -4}, {{0, 0, 8}, {0, 4, 0}}},     {{-6, -2, 4}, {{0, 0, -8}, {0, 4, 0}}},
+        {{-3, -1, -2.5f}, {{3, 0, 1}, {0, 2, 0}}}, {{4, -1.5f, 1}, {{-3, 0, 2}, {0.5f, 3, 0}}},
+    };
+    enum { WALLS = sizeof walls / sizeof *walls, KEYS = 16 };
+    DipSynthetic *s = allocate(4 * WALLS, 6 * WALLS, true, err);
+    if (!s) {
+        return NULL;
+    }
+    for (uint32_t i = 0; i < WALLS; i++) {
+        add_wall(s, &walls[i], i);
+    }
+    s->material.double_sided = true;
+    DipCamKey keys[KEYS];
+    for (int i = 0; i < KEYS; i++) {
+        const double half_turn = DIP_PI * i / KEYS;
+        keys[i] = (DipCamKey){{0.3, 0.1, 0.4}, {0, dip_sin(half_turn), 0, dip_cos(half_turn)}};
+    }
+    if (!dip_campath_create(keys, KEYS, 500000000, &s->path, err)) {
+        dip_synthetic_destroy(&s);
+    }
+    return s;
+}
+
+// --- the relief --------------------------------------------------------------------------------
+
+enum { RELIEF_DISTANCE_M = 10 };
+
+// Waves of 2 % of the distance; position, normal, coordinates and colour of one corner.
+static void set_corner(DipSynthetic *s, uint32_t vertex, double x, double y) {
+    const double height = 0.1 * dip_sin(3.0 * x) + 0.1 * dip_cos(4.0 * y);
+    const double slope[2] = {0.3 * dip_cos(3.0 * x), -0.4 * dip_sin(4.0 * y)};
+    const double length = sqrt(slope[0] * slope[0] + slope[1] * slope[1] + 1.0);
+    const double position[3] = {x, y, height};
+    const double normal[3] = {-slope[0] / length, -slope[1] / length, 1.0 / length};
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        s->positions[3 * vertex + axis] = (float)position[axis];
+        s->normals[3 * vertex + axis] = (float)normal[axis];
+        const double phase = 1.5 * x - 2.0 * y + axis;
+        s->colours_lin[3 * vertex + axis] = (float)(0.5 + 0.4 * dip_sin(phase));
+    }
+    s->uv[2 * vertex] = (float)(x / 4.0);
+    s->uv[2 * vertex + 1] = (float)(-y / 4.0);
+}
+
+static void set_relief(DipSynthetic *s, int columns, int rows, double half_width,
+                       double half_height) {
+    uint32_t *index = s->indices;
+    for (int j = 0; j <= rows; j++) {
+        for (int i = 0; i <= columns; i++) {
+            const uint32_t corner = (uint32_t)j * (uint32_t)(columns + 1) + (uint32_t)i;
+            const uint32_t above = corner + (uint32_t)(columns + 1);
+            set_corner(s, corner, half_width * (2.0 * i / columns - 1.0),
+                       half_height * (2.0 * j / rows - 1.0));
+            if (i < columns && j < rows) {
+                const uint32_t cell[6] = {corner, corner + 1, above + 1, corner, above + 1, above};
+                memcpy(index, cell, sizeof cell);
+                index += 6;
+            }
+        }
+    }
+}
+
+DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov_y_deg,
+                                   double aspect, DipError *err) {
+    enum { KEYS = 8 };
+    const int rows = (int)fmax(1.0, floor(sqrt(triangle_count / 2 / aspect) + 0.5));
+    const int columns = (int)fmax(1.0, floor(triangle_count / 2.0 / rows + 0.5));
+    DipSynthetic *s = allocate((uint32_t)(rows + 1) * (uint32_t)(columns + 1),
+                               6 * (uint32_t)rows * (uint32_t)columns, textured, err);
+    if (!s) {
+        return NULL;
+    }
+    // 5 % smaller than the picture: the waves' crests are nearer, the camera sways by 1 %.
+    const double half_height = 0.95 * RELIEF_DISTANCE_M * dip_tan(fov_y_deg * (DIP_PI / 360.0));
+    set_relief(s, columns, rows, half_height * aspect, half_height);
+    s->material.lit = true;
+    s->mesh.normals = s->normals;
+    if (!textured) {
+        s->mesh.uv0 = NULL;
+        s->mesh.colours_lin = s->colours_lin;
+    }
+    DipCamKey keys[KEYS];
+    for (int i = 0; i < KEYS; i++) {
+        const double angle = 2.0 * DIP_PI * i / KEYS;
+        keys[i] = (DipCamKey){{0.01 * half_height * dip_cos(angle),
+                               0.01 * half_height * dip_sin(angle), RELIEF_DISTANCE_M},
+                              {0, 0, 0, 1}};
+    }
+    if (!dip_campath_create(keys, KEYS, 500000000, &s->path, err)) {
+        dip_synthetic_destroy(&s);
+    }
+    return s;
+}

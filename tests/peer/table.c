@@ -1,0 +1,193 @@
+// Printing the table.
+#include "tests/peer/table.h"
+
+#include "tests/peer/stats.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- heading -----------------------------------------------------------------------------------
+
+// The processor's name as Linux has it, or "unknown processor".
+static void find_processor(char *name, size_t size_bytes) {
+    snprintf(name, size_bytes, "unknown processor");
+    FILE *in = fopen("/proc/cpuinfo", "r");
+    char line[256];
+    while (in && fgets(line, sizeof line, in)) {
+        const char *colon = strchr(line, ':');
+        if (strncmp(line, "model name", strlen("model name")) == 0 && colon) {
+            line[strcspn(line, "\n")] = '\0';
+            snprintf(name, size_bytes, "%s", colon + 2);
+            break;
+        }
+    }
+    if (in) {
+        fclose(in);
+    }
+}
+
+void dip_table_print_heading(FILE *out, const DipPeerOptions *options, const DipPeerScene *scene,
+                             const DipPeer *peer) {
+    char processor[128];
+    find_processor(processor, sizeof processor);
+    fprintf(out, "scene    %s, %" PRIu64 " triangles, %dx%d, %d frames", scene->name,
+            scene->triangle_count, options->width, options->height, options->frames);
+    if (!options->check) {
+        fprintf(out, ", %d rounds", options->rounds);
+    }
+    fprintf(out, "\nmachine  %s, %d threads each\n", processor, options->threads);
+    fprintf(out, "ours     %s\n", dip_isa_name(options->isa));
+    fprintf(out, "peer     %s, OpenGL %s\n\n", dip_peer_renderer(peer), dip_peer_version(peer));
+}
+
+// --- rows --------------------------------------------------------------------------------------
+
+// A frame of the peer is out of the ordinary from this many times its median on.
+static const double PATHOLOGICAL = 10.0;
+
+// At 4x with AF llvmpipe is known to be out of the ordinary: not to be read with the other rows.
+static bool stands_apart(const DipPeerRow *row) {
+    return row->sample_count > 1 && row->max_anisotropy > 1 && dip_peer_row_has_peer(row);
+}
+
+static void print_decibels(FILE *out, const DipPeerMeasurement *m) {
+    if (!dip_peer_row_has_peer(m->row)) {
+        fprintf(out, "       -");
+    } else if (isinf(m->psnr_db)) {
+        fprintf(out, "   equal");
+    } else {
+        fprintf(out, "  %6.1f  (%.1f in frame %d)", m->psnr_db, m->worst_psnr_db, m->worst_frame);
+    }
+    fprintf(out, "\n");
+}
+
+static void print_row(FILE *out, const DipPeerMeasurement *m, double *scratch) {
+    const int count = m->frames * m->rounds;
+    fprintf(out, "%-9s", m->row->name);
+    if (count) {
+        const double ours = dip_stats_quantile(m->ours_ms, count, 0.5, scratch);
+        const double ours_p95 = dip_stats_quantile(m->ours_ms, count, 0.95, scratch);
+        if (dip_peer_row_has_peer(m->row)) {
+            const double peer = dip_stats_quantile(m->peer_ms, count, 0.5, scratch);
+            const double peer_p95 = dip_stats_quantile(m->peer_ms, count, 0.95, scratch);
+            const DipStatsInterval interval =
+                dip_stats_ratio_interval(m->peer_ms, m->ours_ms, m->frames, m->rounds, scratch);
+            fprintf(out, "%8.2f %8.2f  %8.2f %8.2f  %6.2fx  %5.2f to %5.2f", peer, peer_p95, ours,
+                    ours_p95, peer / ours, interval.low, interval.high);
+        } else {
+            fprintf(out, "%8s %8s  %8.2f %8.2f  %7s  %14s", "-", "-", ours, ours_p95, "-", "-");
+        }
+    }
+    print_decibels(out, m);
+}
+
+// Says so where single frames of the peer take many times its median: its mean means nothing then.
+static void print_note(FILE *out, const DipPeerMeasurement *m, double *scratch) {
+    const int count = m->frames * m->rounds;
+    if (!count || !dip_peer_row_has_peer(m->row)) {
+        return;
+    }
+    const double median = dip_stats_quantile(m->peer_ms, count, 0.5, scratch);
+    const double slowest = dip_stats_quantile(m->peer_ms, count, 1.0, scratch);
+    double sum = 0.0;
+    for (int i = 0; i < count; i++) {
+        sum += m->peer_ms[i];
+    }
+    if (slowest > PATHOLOGICAL * median) {
+        fprintf(out, "           note: the peer's mean is %.0f ms, its slowest frame %.0f ms\n",
+                sum / count, slowest);
+    }
+}
+
+static double *allocate_scratch(const DipPeerMeasurement *measurements, int count, DipError *err) {
+    const size_t most = count ? (size_t)measurements->frames * (size_t)measurements->rounds : 0;
+    double *scratch = malloc((3 * most + DIP_STATS_RESAMPLES) * sizeof *scratch);
+    if (!scratch) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--frames", "out of memory");
+    }
+    return scratch;
+}
+
+bool dip_table_print(FILE *out, const DipPeerMeasurement *measurements, int count, DipError *err) {
+    double *scratch = allocate_scratch(measurements, count, err);
+    if (!scratch) {
+        return false;
+    }
+    if (count && measurements->rounds) {
+        fprintf(out, "%-9s%8s %8s  %8s %8s  %7s  %14s  %6s\n", "ms/frame", "peer", "p95", "ours",
+                "p95", "ratio", "95 % interval", "PSNR dB");
+    } else {
+        fprintf(out, "%-9s  %6s\n", "", "PSNR dB");
+    }
+    for (int i = 0; i < 2 * count; i++) {
+        const DipPeerMeasurement *m = &measurements[i % count];
+        if (stands_apart(m->row) == (i >= count)) {
+            print_row(out, m, scratch);
+            print_note(out, m, scratch);
+        }
+    }
+    free(scratch);
+    return true;
+}
+
+bool dip_table_print_triangles(FILE *out, const DipPeerMeasurement *measurements, int count,
+                               uint64_t triangle_count, DipError *err) {
+    double *scratch = allocate_scratch(measurements, count, err);
+    if (!scratch) {
+        return false;
+    }
+    fprintf(out, "\n%-9s%8s %8s   millions of triangles a second\n", "", "peer", "ours");
+    for (int i = 0; i < count; i++) {
+        const DipPeerMeasurement *m = &measurements[i];
+        const int values = m->frames * m->rounds;
+        const double millions_ms = 1e-3 * (double)triangle_count;
+        fprintf(out, "%-9s", m->row->name);
+        if (dip_peer_row_has_peer(m->row)) {
+            fprintf(out, "%8.2f",
+                    millions_ms / dip_stats_quantile(m->peer_ms, values, 0.5, scratch));
+        } else {
+            fprintf(out, "%8s", "-");
+        }
+        fprintf(out, " %8.2f\n",
+                millions_ms / dip_stats_quantile(m->ours_ms, values, 0.5, scratch));
+    }
+    free(scratch);
+    return true;
+}
+
+// --- other forms -------------------------------------------------------------------------------
+
+bool dip_table_write_csv(const char *file, const DipPeerMeasurement *measurements, int count,
+                         DipError *err) {
+    FILE *out = fopen(file, "w");
+    bool written = out && fprintf(out, "row,frame,round,peer_ms,ours_ms\n") > 0;
+    for (int i = 0; written && i < count; i++) {
+        const DipPeerMeasurement *m = &measurements[i];
+        for (int v = 0; written && v < m->frames * m->rounds; v++) {
+            char peer[32] = "";
+            if (dip_peer_row_has_peer(m->row)) {
+                snprintf(peer, sizeof peer, "%.4f", m->peer_ms[v]);
+            }
+            written = fprintf(out, "%s,%d,%d,%s,%.4f\n", m->row->name, v % m->frames, v / m->frames,
+                              peer, m->ours_ms[v]) > 0;
+        }
+    }
+    if (out && fclose(out) != 0) {
+        written = false;
+    }
+    return written || dip_error_set(err, DIP_ERROR_IO, file, 0, "--csv", "%s", strerror(errno));
+}
+
+double dip_table_lowest_psnr_db(const DipPeerMeasurement *measurements, int count) {
+    double lowest = INFINITY;
+    for (int i = 0; i < count; i++) {
+        const DipPeerRow *row = measurements[i].row;
+        if (dip_peer_rows_alike() >> (row - dip_peer_rows) & 1) {
+            lowest = fmin(lowest, measurements[i].psnr_db);
+        }
+    }
+    return lowest;
+}

@@ -1,0 +1,330 @@
+// The pipeline as its callers see it: shaders of their own, culling, user clip planes, clip
+// shaders, the near plane, and what must never be drawn.
+#include "renderer/pipeline.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 100, HEIGHT = 70 };
+
+// Vertices are clip positions x, y, z, w and one varying.
+typedef struct Vertex {
+    float clip[4];
+    float value;
+} Vertex;
+
+static void vertex_shader(const DipVertexBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        for (int c = 0; c < 4; c++) {
+            batch->clip[c][i] = batch->in[c][i];
+        }
+        batch->slot[0][i] = batch->in[4][i];
+    }
+}
+
+static void white(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->colour[0][i] = batch->colour[1][i] = batch->colour[2][i] = 1.0f;
+    }
+}
+
+static void grey(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->colour[0][i] = batch->colour[1][i] = batch->colour[2][i] = 0.2f;
+    }
+}
+
+// The varying as red, its derivatives as green and blue, scaled by the uniforms.
+static void varying(DipFragmentBatch *batch) {
+    const float scale = *(const float *)batch->uniforms;
+    for (int i = 0; i < batch->count; i++) {
+        batch->colour[0][i] = batch->slot[0][i];
+        batch->colour[1][i] = batch->slot_dx[0][i] * scale;
+        batch->colour[2][i] = batch->slot_dy[0][i] * scale;
+    }
+}
+
+// There where the varying is at least one half.
+static void keep_upper_half(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->keep[i] = batch->slot[0][i] >= 0.5f;
+    }
+}
+
+static uint8_t picture[WIDTH * HEIGHT * 4];
+
+// A draw of these vertices with everything at its default.
+static DipDraw draw_of(const DipMesh *mesh, DipFragmentShader *shader) {
+    return (DipDraw){.mesh = mesh,
+                     .vertex_shader = vertex_shader,
+                     .fragment_shader = shader,
+                     .slot_count = 1,
+                     .cull = DIP_CULL_NONE};
+}
+
+static DipPass pass_of(const DipDraw *draws, int count, int samples) {
+    return (DipPass){.draws = draws,
+                     .draw_count = count,
+                     .sample_count = samples,
+                     .target = {picture, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+}
+
+static DipCounters run(const DipPass *pass) {
+    DipCounters counters = {0};
+    DipStageTimes times = {0};
+    DipPool *pool = dip_pool_create(2, NULL);
+    DipPipeline *pipeline = dip_pipeline_create(pool, dip_isa_best(), WIDTH, HEIGHT, NULL);
+    assert_non_null(pipeline);
+    memset(picture, 77, sizeof picture);
+    assert_true(dip_pipeline_draw(pipeline, pass, &counters, &times, NULL));
+    dip_pipeline_destroy(&pipeline);
+    dip_pool_destroy(&pool);
+    return counters;
+}
+
+static DipMesh *mesh_of(const Vertex *vertices, uint32_t vertex_count, const uint32_t *indices,
+                        uint32_t index_count) {
+    const DipMeshData data = {"test", &vertices[0].clip[0], 5, vertex_count, indices, index_count};
+    DipMesh *mesh = dip_mesh_create(&data, NULL);
+    assert_non_null(mesh);
+    return mesh;
+}
+
+// The whole picture at depth z, counter-clockwise as seen; the varying runs from 0 left to 1 right.
+static DipMesh *screen(float z) {
+    const Vertex vertices[4] = {
+        {{-1, -1, z, 1}, 0}, {{1, -1, z, 1}, 1}, {{1, 1, z, 1}, 1}, {{-1, 1, z, 1}, 0}};
+    return mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3}, 6);
+}
+
+static int red(int x, int y) {
+    return picture[4 * (y * WIDTH + x)];
+}
+
+static int lit_pixels(void) {
+    int count = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        count += picture[4 * i] == 255;
+    }
+    return count;
+}
+
+static void every_pixel_is_drawn_once(void **state) {
+    (void)state;
+    DipMesh *mesh = screen(0.5f);
+    for (int samples = 1; samples <= 8; samples += samples == 1 ? 1 : 2) {
+        const DipDraw draw = draw_of(mesh, white);
+        const DipPass pass = pass_of(&draw, 1, samples);
+        const DipCounters counters = run(&pass);
+        assert_int_equal(lit_pixels(), WIDTH * HEIGHT);
+        // The diagonal's pixels hold both triangles when there are more samples than one.
+        assert_in_range(counters.fragments_shaded, WIDTH * HEIGHT,
+                        WIDTH * HEIGHT + (samples > 1 ? WIDTH + HEIGHT : 0));
+        assert_int_equal(counters.triangles_drawn, 2);
+    }
+    dip_mesh_destroy(&mesh);
+}
+
+static void culling_knows_the_front(void **state) {
+    (void)state;
+    DipMesh *mesh = screen(0.5f);
+    DipDraw draw = draw_of(mesh, white);
+    const DipPass pass = pass_of(&draw, 1, 1);
+    draw.cull = DIP_CULL_BACK;
+    run(&pass);
+    assert_int_equal(lit_pixels(), WIDTH * HEIGHT);
+    draw.cull = DIP_CULL_FRONT;
+    run(&pass);
+    assert_int_equal(lit_pixels(), 0);
+    dip_mesh_destroy(&mesh);
+}
+
+// A plane x * 1 + w * c >= 0 keeps what lies right of x = -c.
+static void user_planes_cut_where_they_stand(void **state) {
+    (void)state;
+    DipMesh *mesh = screen(0.5f);
+    const DipDraw draw = draw_of(mesh, white);
+    DipPass pass = pass_of(&draw, 1, 1);
+    const float offsets[3] = {0.0f, 0.5f, -0.5f};
+    for (int i = 0; i < 3; i++) {
+        pass.clip_plane_count = 1;
+        memcpy(pass.clip_planes[0], (const float[]){1, 0, 0, offsets[i]}, sizeof(float[4]));
+        run(&pass);
+        const int first = (int)((1.0f - offsets[i]) * WIDTH / 2);
+        assert_int_equal(lit_pixels(), (WIDTH - first) * HEIGHT);
+        assert_int_equal(red(first - 1, 9), 0);
+        assert_int_equal(red(first, 9), 255);
+    }
+    // All six at once leave the rectangle they bound.
+    const float planes[6][4] = {{1, 0, 0, 0.5f},  {-1, 0, 0, 0.5f}, {0, 1, 0, 0.6f},
+                                {0, -1, 0, 0.6f}, {1, 0, 0, 0.9f},  {0, 0, 1, 0}};
+    pass.clip_plane_count = 6;
+    memcpy(pass.clip_planes, planes, sizeof planes);
+    run(&pass);
+    assert_int_equal(lit_pixels(), WIDTH / 2 * (HEIGHT * 6 / 10));
+    dip_mesh_destroy(&mesh);
+}
+
+static void clip_shader_decides_what_is_there(void **state) {
+    (void)state;
+    DipMesh *front = screen(0.8f);
+    DipMesh *back = screen(0.2f);
+    DipDraw draws[2] = {draw_of(front, white), draw_of(back, grey)};
+    draws[0].clip_shader = keep_upper_half;
+    for (int samples = 1; samples <= 8; samples += samples == 1 ? 1 : 2) {
+        const DipPass pass = pass_of(draws, 2, samples);
+        const DipCounters counters = run(&pass);
+        // Where the front is clipped away the back shows, whichever was submitted first.
+        assert_int_equal(lit_pixels(), WIDTH / 2 * HEIGHT);
+        assert_true(red(0, 0) > 0 && red(0, 0) < 255);
+        assert_true(counters.fragments_clip_tested >= WIDTH * HEIGHT);
+    }
+    dip_mesh_destroy(&front);
+    dip_mesh_destroy(&back);
+}
+
+static void nearer_wins_and_the_first_of_equals_stays(void **state) {
+    (void)state;
+    DipMesh *front = screen(0.8f);
+    DipMesh *back = screen(0.2f);
+    DipMesh *same = screen(0.8f);
+    const DipDraw draws[3] = {draw_of(back, grey), draw_of(front, white), draw_of(same, grey)};
+    const DipPass pass = pass_of(draws, 3, 4);
+    run(&pass);
+    assert_int_equal(lit_pixels(), WIDTH * HEIGHT);
+    dip_mesh_destroy(&front);
+    dip_mesh_destroy(&back);
+    dip_mesh_destroy(&same);
+}
+
+// With w from 1 left to 3 right the varying is u(x) = (x / 3) / ((1 - x) + x / 3), x = 0..1.
+static void varyings_follow_the_perspective(void **state) {
+    (void)state;
+    const Vertex vertices[4] = {
+        {{-1, -1, 0.5f, 1}, 0}, {{3, -3, 0.5f, 3}, 1}, {{3, 3, 0.5f, 3}, 1}, {{-1, 1, 0.5f, 1}, 0}};
+    DipMesh *mesh = mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3}, 6);
+    const float scale = 20.0f;
+    DipDraw draw = draw_of(mesh, varying);
+    draw.uniforms = &scale;
+    const DipPass pass = pass_of(&draw, 1, 1);
+    run(&pass);
+    for (int x = 0; x < WIDTH; x++) {
+        const double t = (x + 0.5) / WIDTH;
+        const double below = 1.0 - t + t / 3.0;
+        const double u = t / 3.0 / below;
+        const double du = 1.0 / 3.0 / (below * below) / WIDTH * scale;
+        const double expected[3] = {u, du, 0.0};
+        for (int c = 0; c < 3; c++) {
+            const double e = expected[c];
+            const double code =
+                255.0 * (e <= 0.0031308 ? 12.92 * e : 1.055 * pow(e, 1.0 / 2.4) - 0.055);
+            assert_true(fabs(picture[4 * (30 * WIDTH + x) + c] - code) <= 0.6);
+        }
+    }
+    dip_mesh_destroy(&mesh);
+}
+
+// A floor that begins behind the eye: what lies before the near plane (z = w) is seen, no more.
+static void near_plane_cuts_exactly(void **state) {
+    (void)state;
+    // x, y = -1, w runs from -1 (behind) to 3; z is 1 everywhere, so the cut is at w = 1, which the
+    // picture shows at y = -1, its lower edge, and w = 3 at y = -1/3.
+    const Vertex vertices[4] = {
+        {{-9, -1, 1, -1}, 0}, {{9, -1, 1, -1}, 0}, {{9, -1, 1, 3}, 1}, {{-9, -1, 1, 3}, 1}};
+    DipMesh *mesh = mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3}, 6);
+    const DipDraw draw = draw_of(mesh, white);
+    const DipPass pass = pass_of(&draw, 1, 1);
+    run(&pass);
+    const int first_row = (int)lround((1.0 + 1.0 / 3.0) / 2.0 * HEIGHT);
+    for (int y = 0; y < HEIGHT; y++) {
+        if (y != first_row && y != first_row - 1) {
+            assert_int_equal(red(WIDTH / 2, y), y < first_row ? 0 : 255);
+        }
+    }
+    dip_mesh_destroy(&mesh);
+}
+
+// As vertex_shader, but the third vertex gets one bad clip coordinate: {which, value}.
+typedef struct Bad {
+    int coordinate;
+    float value;
+} Bad;
+
+static void bad_vertex_shader(const DipVertexBatch *batch) {
+    const Bad *bad = batch->uniforms;
+    vertex_shader(batch);
+    batch->clip[bad->coordinate][2] = bad->value;
+}
+
+static void impossible_vertices_draw_nothing(void **state) {
+    (void)state;
+    const float values[] = {NAN, INFINITY, -INFINITY, 3e38f};
+    const Vertex vertices[6] = {{{-1, -1, 0.5f, 1}, 0},      {{1, -1, 0.5f, 1}, 0},
+                                {{0, 1, 0.5f, 1}, 0},        {{-0.1f, -0.1f, 0.5f, 1}, 0},
+                                {{0.1f, -0.1f, 0.5f, 1}, 0}, {{0, 0.1f, 0.5f, 1}, 0}};
+    DipMesh *mesh = mesh_of(vertices, 6, (const uint32_t[]){0, 1, 2, 3, 4, 5}, 6);
+    for (int i = 0; i < 16; i++) {
+        const Bad bad = {i / 4, values[i % 4]};
+        DipDraw draw = draw_of(mesh, white);
+        draw.vertex_shader = bad_vertex_shader;
+        draw.uniforms = &bad;
+        const DipPass pass = pass_of(&draw, 1, 1);
+        const DipCounters counters = run(&pass);
+        // The triangle with the bad vertex is gone, the other one whole.
+        assert_int_equal(counters.triangles_drawn, 1);
+        assert_int_equal(red(WIDTH / 2, HEIGHT / 2), 255);
+        assert_int_equal(red(WIDTH / 2, HEIGHT - 2), 0);
+    }
+    dip_mesh_destroy(&mesh);
+}
+
+static void meshes_of_bad_numbers_are_refused(void **state) {
+    (void)state;
+    const float good[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const float nan[9] = {0, 0, 0, 1, NAN, 0, 0, 1, 0};
+    static const struct {
+        int attributes;
+        uint32_t index_count;
+        uint32_t indices[3];
+        bool nan;
+        DipErrorCode code;
+        const char *key;
+    } rows[] = {
+        {2, 3, {0, 1, 2}, false, DIP_ERROR_RANGE, "attributes"},
+        {DIP_MAX_ATTRIBUTES + 1, 3, {0, 1, 2}, false, DIP_ERROR_RANGE, "attributes"},
+        {3, 2, {0, 1, 2}, false, DIP_ERROR_FORMAT, "indices"},
+        {3, 3, {0, 1, 3}, false, DIP_ERROR_RANGE, "indices"},
+        {3, 3, {0, 1, 0xffffffffu}, false, DIP_ERROR_RANGE, "indices"},
+        {3, 3, {0, 1, 2}, true, DIP_ERROR_RANGE, "vertices"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        DipError err = {0};
+        const DipMeshData data = {"bad", rows[i].nan ? nan : good, rows[i].attributes,
+                                  3,     rows[i].indices,          rows[i].index_count};
+        assert_null(dip_mesh_create(&data, &err));
+        assert_int_equal(err.code, rows[i].code);
+        assert_string_equal(err.key, rows[i].key);
+        assert_string_equal(err.file, "bad");
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_pixel_is_drawn_once),
+        cmocka_unit_test(culling_knows_the_front),
+        cmocka_unit_test(user_planes_cut_where_they_stand),
+        cmocka_unit_test(clip_shader_decides_what_is_there),
+        cmocka_unit_test(nearer_wins_and_the_first_of_equals_stays),
+        cmocka_unit_test(varyings_follow_the_perspective),
+        cmocka_unit_test(near_plane_cuts_exactly),
+        cmocka_unit_test(impossible_vertices_draw_nothing),
+        cmocka_unit_test(meshes_of_bad_numbers_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
