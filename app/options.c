@@ -281,6 +281,14 @@ static bool parse_option(int argc, char *const *argv, int *index, DipOptions *op
     return row->set(options, row->name, value, err);
 }
 
+static bool unknown_command(const char *word, DipError *err) {
+    static const char *const names[] = {"preview", "dump", "path"};
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, word,
+                         "no such command, nearest %s; --help lists them, and a model of this name "
+                         "is opened as ./%s",
+                         dip_nearest_name(word, names, DIP_ARRAY_COUNT(names)), word);
+}
+
 // Takes the command's words off the front; without one it is the preview.
 static bool parse_command(int argc, char *const *argv, int *index, DipOptions *options,
                           DipError *err) {
@@ -308,7 +316,12 @@ static bool parse_command(int argc, char *const *argv, int *index, DipOptions *o
         if (strcmp(argv[1], commands[c].typed) == 0) {
             options->command = (DipCommand)c;
             *index = 2;
+            return true;
         }
+    }
+    // A bare word that cannot be a file's name with an ending or a folder is a mistyped command.
+    if (argv[1][0] != '-' && !strpbrk(argv[1], "./\\")) {
+        return unknown_command(argv[1], err);
     }
     return true;
 }

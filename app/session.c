@@ -101,12 +101,13 @@ static bool place_in_config(DipSession *session, const DipConfigFile *file, DipE
 
 static void set_surroundings(const DipSession *session, const DipOptions *options,
                              DipSceneDef *def) {
+    if (options->model_count) {
+        return; // a model of the user's own brings its own
+    }
     for (int c = 0; c < 3; c++) {
         def->background_lin[c] = (float)dip_srgb_decode(session->config.background.rgb[c] / 255.0);
     }
-    if (!options->model_count) {
-        def->near_m = (float)session->config.near_m;
-    }
+    def->near_m = (float)session->config.near_m;
 }
 
 static bool load_scene(DipSession *session, const DipOptions *options, DipErrorList *faults) {

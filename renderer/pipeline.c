@@ -362,6 +362,11 @@ bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *
                        DipStageTimes *times, DipError *err) {
     DIP_ASSERT(pass->target.width == pipeline->width && pass->target.height == pipeline->height);
     DIP_ASSERT(pass->target.stride_bytes % 4 == 0);
+    DIP_ASSERT(pass->target.stride_bytes >= 4 * (size_t)pass->target.width);
+    DIP_ASSERT(pass->clip_plane_count >= 0 && pass->clip_plane_count <= DIP_MAX_CLIP_PLANES);
+    for (int d = 0; d < pass->draw_count; d++) {
+        DIP_ASSERT(pass->draws[d].slot_count >= 0 && pass->draws[d].slot_count <= DIP_MAX_SLOTS);
+    }
     if (!make_lists(pipeline, pass->draw_count, err)) {
         return false;
     }

@@ -62,6 +62,7 @@ typedef struct DipPipeline DipPipeline;
 DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height, DipError *err);
 void dip_pipeline_destroy(DipPipeline **pipeline);
 
+// What the fields' comments ask for is asserted in debug builds and not checked in others.
 // Draws a pass and adds to *counters and *times. Fails only when memory for the pass' triangles
 // runs out, or with OVERSIZED when they are more than 32 bits index: 2^31 / (5 + 3 * the largest
 // slot_count), in chunks of up to 128 triangles that count as full, each time a draw uses them.

@@ -112,8 +112,9 @@ static void pane_rects(const DipWindow *window, SDL_Rect panes[DIP_PANE_COUNT]) 
 void dip_window_pane_size(const DipWindow *window, int *width, int *height) {
     SDL_Rect panes[DIP_PANE_COUNT];
     pane_rects(window, panes);
-    *width = panes[0].w;
-    *height = panes[0].h;
+    // A window may be wider than a picture may be; what is drawn is then scaled up.
+    *width = panes[0].w < DIP_MAX_FRAME_SIZE ? panes[0].w : DIP_MAX_FRAME_SIZE;
+    *height = panes[0].h < DIP_MAX_FRAME_SIZE ? panes[0].h : DIP_MAX_FRAME_SIZE;
 }
 
 int dip_window_pane_at(const DipWindow *window, int x) {

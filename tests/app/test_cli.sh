@@ -73,6 +73,7 @@ expect 2 "\[--hash\] takes no value" "$diptych" dump --hash=yes
 expect 2 "\[--out\] is no option of .diptych path info." "$diptych" path info --out x y
 expect 2 "\[path\] 'show', accepted path info FILE" "$diptych" path show x
 expect 2 "\[path convert\] 1 of 2 files" "$diptych" path convert x.pth
+expect 2 "\[dmp\] no such command, nearest dump" "$diptych" dmp --hash
 expect 2 "\[stray\] one argument too many" "$diptych" dump --hash stray
 expect 2 "\[--category\] 'SKY', accepted DEFAULT\|AA" "$diptych" dump --hash --category SKY
 expect 2 "\[--category\] 'AF' .* --path takes" "$diptych" dump --hash --category AF --path x.pth
