@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 enum { EXIT_BAD_USE = 2, EXIT_NO_PEER = 77 };
 
@@ -81,11 +82,17 @@ static bool measure(Session *session, DipError *err) {
         if (!(options->rows >> i & 1)) {
             continue;
         }
+        if (isatty(STDERR_FILENO)) {
+            fprintf(stderr, "\rmeasuring %-8s", dip_peer_rows[i].name);
+        }
         if (!dip_peer_measure(&bench, &dip_peer_rows[i], &session->measurements[session->measured],
                               err)) {
             return false;
         }
         session->measured++;
+    }
+    if (isatty(STDERR_FILENO)) {
+        fprintf(stderr, "\r%20s\r", "");
     }
     return true;
 }

@@ -12,8 +12,8 @@
 
 enum { PEER_MAX_SAMPLES = 4 };
 
-// A frame that takes the peer longer than this is measured in the first round only.
-static const double SLOW_FRAME_MS = 2000.0;
+// A frame that takes the peer longer than this when it is first drawn is not drawn again.
+static const double SLOW_FRAME_MS = 10000.0;
 
 const DipPeerRow dip_peer_rows[DIP_PEER_ROW_COUNT] = {
     {"none", "aa=none,af=none", 1, 1}, {"af4", "aa=none,af=4", 1, 4},
@@ -53,11 +53,18 @@ static bool set_row(const DipPeerBench *bench, const DipPeerRow *row, DipError *
             dip_peer_set(bench->peer, row->sample_count, row->max_anisotropy, err));
 }
 
+// Returns the milliseconds that it took.
+static double draw_peer(const DipPeerBench *bench, const DipPose *pose) {
+    const int64_t begin_ns = dip_clock_ns();
+    dip_peer_draw(bench->peer, pose);
+    return 1e-6 * (double)(dip_clock_ns() - begin_ns);
+}
+
 // --- likeness ----------------------------------------------------------------------------------
 
-// Draws a frame on both sides and returns its squared error in *error.
+// Draws a frame on both sides and returns its squared error and the peer's time.
 static bool compare_frame(const DipPeerBench *bench, const DipPeerRow *row, int index,
-                          double *error, DipError *err) {
+                          double *error, double *peer_ms, DipError *err) {
     const DipPose pose = dip_peer_scene_pose(bench->scene, index, bench->frames);
     const bool has_peer = dip_peer_row_has_peer(row);
     DipFrame frame;
@@ -65,7 +72,7 @@ static bool compare_frame(const DipPeerBench *bench, const DipPeerRow *row, int 
         return false;
     }
     if (has_peer) {
-        dip_peer_draw(bench->peer, &pose);
+        *peer_ms = draw_peer(bench, &pose);
         if (!dip_peer_read(bench->peer, bench->peer_rgba8, err)) {
             return false;
         }
@@ -81,7 +88,7 @@ static bool compare_frames(const DipPeerBench *bench, DipPeerMeasurement *m, Dip
     double worst = -1.0;
     for (int i = 0; i < bench->frames; i++) {
         double error = NAN;
-        if (!compare_frame(bench, m->row, i, &error, err)) {
+        if (!compare_frame(bench, m->row, i, &error, &m->first_peer_ms[i], err)) {
             return false;
         }
         sum += error;
@@ -111,18 +118,15 @@ static bool time_ours(const DipPeerBench *bench, const DipPose *pose, double *ms
     return drawn;
 }
 
-// Frames that are slow beyond reason lie far above the median whatever their exact time is.
-static void time_peer(const DipPeerBench *bench, const DipPose *pose, DipPeerMeasurement *m,
-                      int place) {
-    const double first_ms = m->peer_ms[place % bench->frames];
-    if (place >= bench->frames && first_ms > SLOW_FRAME_MS) {
-        m->peer_ms[place] = first_ms;
+// Frames that are slow beyond reason lie far above the median whatever their exact time is;
+// compiling shaders is a small part of the first one's.
+static void time_peer(const DipPeerBench *bench, const DipPose *pose, double first_ms, double *ms) {
+    if (first_ms > SLOW_FRAME_MS) {
+        *ms = first_ms;
         return;
     }
     rest();
-    const int64_t begin_ns = dip_clock_ns();
-    dip_peer_draw(bench->peer, pose);
-    m->peer_ms[place] = 1e-6 * (double)(dip_clock_ns() - begin_ns);
+    *ms = draw_peer(bench, pose);
 }
 
 static bool toss(DipPeerBench *bench) {
@@ -138,13 +142,13 @@ static bool time_frame(DipPeerBench *bench, DipPeerMeasurement *m, int round, in
     const bool has_peer = dip_peer_row_has_peer(m->row);
     const bool peer_first = toss(bench);
     if (has_peer && peer_first) {
-        time_peer(bench, &pose, m, place);
+        time_peer(bench, &pose, m->first_peer_ms[index], &m->peer_ms[place]);
     }
     if (!time_ours(bench, &pose, &m->ours_ms[place], err)) {
         return false;
     }
     if (has_peer && !peer_first) {
-        time_peer(bench, &pose, m, place);
+        time_peer(bench, &pose, m->first_peer_ms[index], &m->peer_ms[place]);
     }
     return true;
 }
@@ -155,7 +159,8 @@ bool dip_peer_measure(DipPeerBench *bench, const DipPeerRow *row, DipPeerMeasure
     *m = (DipPeerMeasurement){.row = row, .frames = bench->frames, .rounds = bench->rounds};
     m->ours_ms = calloc(count, sizeof *m->ours_ms);
     m->peer_ms = calloc(count, sizeof *m->peer_ms);
-    bool done = m->ours_ms && m->peer_ms;
+    m->first_peer_ms = calloc((size_t)bench->frames, sizeof *m->first_peer_ms);
+    bool done = m->ours_ms && m->peer_ms && m->first_peer_ms;
     if (!done) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--frames", "out of memory");
     }
@@ -174,5 +179,6 @@ bool dip_peer_measure(DipPeerBench *bench, const DipPeerRow *row, DipPeerMeasure
 void dip_peer_measurement_free(DipPeerMeasurement *measurement) {
     free(measurement->ours_ms);
     free(measurement->peer_ms);
+    free(measurement->first_peer_ms);
     *measurement = (DipPeerMeasurement){.row = NULL};
 }

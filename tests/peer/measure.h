@@ -44,9 +44,10 @@ typedef struct DipPeerMeasurement {
     const DipPeerRow *row;
     int frames;
     int rounds;
-    double *ours_ms; // [round * frames + frame]
-    double *peer_ms; // likewise; not filled in where the peer has no such row
-    double psnr_db;  // of the mean squared error over all frames; NaN without a peer
+    double *ours_ms;       // [round * frames + frame]
+    double *peer_ms;       // likewise; not filled in where the peer has no such row
+    double *first_peer_ms; // [frame], when the pictures were compared, compiling included
+    double psnr_db;        // of the mean squared error over all frames; NaN without a peer
     double worst_psnr_db;
     int worst_frame;
 } DipPeerMeasurement;

@@ -144,7 +144,7 @@ static const struct {
     {"--size", "WxH", set_size, "pixels (640x480)"},
     {"--threads", "N", set_threads, "threads of each (2)"},
     {"--isa", "NAME", set_isa, "our instruction set (the best)"},
-    {"--frames", "N", set_frames, "frames of the path, evenly (24; with --check 6)"},
+    {"--frames", "N", set_frames, "frames of the path, evenly (16; with --check 6)"},
     {"--rounds", "N", set_rounds, "times each frame is measured (5)"},
     {"--rows", "LIST", set_rows, "some of none,af4,af16,4x,4x+af16,8x,8x+af16 (all)"},
     {"--csv", "FILE", set_csv, "write every measured frame there"},
@@ -186,7 +186,7 @@ bool dip_peer_options_parse(int argc, char *const *argv, DipPeerOptions *options
                              "a scene and a model, accepted one of them");
     }
     if (!options->frames) {
-        options->frames = options->check ? 6 : 24;
+        options->frames = options->check ? 6 : 16;
     }
     if (!options->rows) {
         options->rows = options->check ? dip_peer_rows_alike() : ~0u;
