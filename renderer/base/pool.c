@@ -1,6 +1,7 @@
 // The worker pool: an atomic index hands out tasks; idle workers spin briefly, then sleep.
 #include "renderer/base/pool.h"
 
+#include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
 
 #include <pthread.h>
@@ -9,9 +10,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// How often an idle worker looks for work before it sleeps: some tens of microseconds, about the
-// pause between the phases of a frame.
-enum { SPIN_COUNT = 4000 };
+// How long an idle worker looks for work before it sleeps: about the pause between two panes or
+// the phases of a frame. Waking a sleeping thread costs a good part of a geometry phase.
+#define SPIN_NS 300000
+
+enum { LOOKS_PER_CLOCK = 64 }; // looks for work between two looks at the clock
 
 typedef struct Worker {
     DipPool *pool;
@@ -23,6 +26,7 @@ struct DipPool {
     int thread_count;
     Worker *workers; // thread_count - 1 of them; the caller is worker 0
     int started;
+    bool spins; // every thread may have a processor of its own
 
     // One run. Written by the caller before `generation` rises.
     DipTask task;
@@ -56,12 +60,15 @@ static void work(DipPool *pool, int worker) {
 
 // Waits until a generation other than `seen` has begun and returns it.
 static unsigned await_run(DipPool *pool, unsigned seen) {
-    for (int i = 0; i < SPIN_COUNT; i++) {
-        const unsigned now = atomic_load_explicit(&pool->generation, memory_order_acquire);
-        if (now != seen) {
-            return now;
+    const int64_t end_ns = pool->spins ? dip_clock_ns() + SPIN_NS : 0;
+    while (pool->spins && dip_clock_ns() < end_ns) {
+        for (int i = 0; i < LOOKS_PER_CLOCK; i++) {
+            const unsigned now = atomic_load_explicit(&pool->generation, memory_order_acquire);
+            if (now != seen) {
+                return now;
+            }
+            pause_briefly();
         }
-        pause_briefly();
     }
     pthread_mutex_lock(&pool->mutex);
     pool->sleeping++;
@@ -116,6 +123,7 @@ DipPool *dip_pool_create(int thread_count, DipError *err) {
         return NULL;
     }
     pool->thread_count = thread_count ? thread_count : processor_count();
+    pool->spins = pool->thread_count <= processor_count();
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->wake, NULL);
     pool->workers = calloc((size_t)pool->thread_count, sizeof *pool->workers);
@@ -167,8 +175,8 @@ void dip_pool_run(DipPool *pool, int count, DipTask task, void *context) {
         begin_generation(pool);
     }
     work(pool, 0);
-    for (int spins = 0; atomic_load_explicit(&pool->busy, memory_order_acquire); spins++) {
-        if (spins < SPIN_COUNT) {
+    while (atomic_load_explicit(&pool->busy, memory_order_acquire)) {
+        if (pool->spins) {
             pause_briefly();
         } else {
             sched_yield();
