@@ -213,7 +213,7 @@ static void add_bounds(DipScene *scene, const DipSceneObject *object) {
     float low[3];
     float high[3];
     dip_mesh_bounds(mesh, low, high);
-    for (int corner = 0; corner < 8 && dip_mesh_triangle_count(mesh); corner++) {
+    for (int corner = 0; corner < 8; corner++) {
         const float p[3] = {corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
                             corner & 4 ? high[2] : low[2]};
         for (int axis = 0; axis < 3; axis++) {
@@ -225,20 +225,39 @@ static void add_bounds(DipScene *scene, const DipSceneObject *object) {
     }
 }
 
-static void place_objects(const DipSceneDef *def, DipScene *scene) {
+static bool is_sky(const DipScene *scene, const DipSceneObject *object) {
+    return scene->materials[scene->meshes[object->mesh].material].surface == DIP_SURFACE_SKY;
+}
+
+// Bounds of the objects that are sky, or of those that are not. False when there is none.
+static bool bound_objects(DipScene *scene, bool sky) {
+    bool any = false;
     for (int axis = 0; axis < 3; axis++) {
         scene->min_world[axis] = INFINITY;
         scene->max_world[axis] = -INFINITY;
     }
+    for (int i = 0; i < scene->object_count; i++) {
+        const DipSceneObject *object = &scene->objects[i];
+        if (is_sky(scene, object) == sky &&
+            dip_mesh_triangle_count(scene->meshes[object->mesh].mesh)) {
+            add_bounds(scene, object);
+            any = true;
+        }
+    }
+    return any;
+}
+
+static void place_objects(const DipSceneDef *def, DipScene *scene) {
     for (int i = 0; i < def->object_count; i++) {
         DipSceneObject *object = &scene->objects[i];
         object->mesh = def->objects[i].mesh;
         memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
         scene->triangle_count += dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
-        add_bounds(scene, object);
     }
-    for (int axis = 0; axis < 3 && !scene->triangle_count; axis++) {
-        scene->min_world[axis] = scene->max_world[axis] = 0.0f;
+    if (!bound_objects(scene, false) && !bound_objects(scene, true)) {
+        for (int axis = 0; axis < 3; axis++) {
+            scene->min_world[axis] = scene->max_world[axis] = 0.0f;
+        }
     }
 }
 

@@ -96,7 +96,8 @@ typedef struct DipScene DipScene;
 DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err);
 void dip_scene_destroy(DipScene **scene);
 
-// Axis-aligned bounds of all objects in world space.
+// Axis-aligned bounds of all objects in world space; of sky only where there is nothing else, so
+// that a camera made for the bounds does not look at a sky dome from outside.
 void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]);
 uint64_t dip_scene_triangle_count(const DipScene *scene);
 uint64_t dip_scene_texture_bytes(const DipScene *scene);
