@@ -60,17 +60,28 @@ static bool check_json(const char *path, bool binary, DipError *err) {
     return true;
 }
 
-// An element takes at least a byte, in text and in binary files.
-static bool check_ply(const char *path, DipError *err) {
+// Opens a file and tells its size.
+static FILE *open_sized(const char *path, long *size_bytes, DipError *err) {
     FILE *file = fopen(path, "rb");
     if (!file || fseek(file, 0, SEEK_END) != 0) {
         if (file) {
             fclose(file);
         }
-        return dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "model file cannot be read");
+        dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "model file cannot be read");
+        return NULL;
     }
-    const long size_bytes = ftell(file);
+    *size_bytes = ftell(file);
     rewind(file);
+    return file;
+}
+
+// An element takes at least a byte, in text and in binary files.
+static bool check_ply(const char *path, DipError *err) {
+    long size_bytes;
+    FILE *file = open_sized(path, &size_bytes, err);
+    if (!file) {
+        return false;
+    }
     char line[256];
     char element[64] = "";
     double count = 0.0;
@@ -101,15 +112,11 @@ static bool next_count(FILE *file, double *count) {
 
 // assimp makes room for as many vertices and faces as the header says. Each takes at least a byte.
 static bool check_off(const char *path, DipError *err) {
-    FILE *file = fopen(path, "rb");
-    if (!file || fseek(file, 0, SEEK_END) != 0) {
-        if (file) {
-            fclose(file);
-        }
-        return dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "model file cannot be read");
+    long size_bytes;
+    FILE *file = open_sized(path, &size_bytes, err);
+    if (!file) {
+        return false;
     }
-    const long size_bytes = ftell(file);
-    rewind(file);
     char word[64] = "";
     double count = 0.0;
     bool fits = true;

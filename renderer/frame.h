@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
+
 // Work done, exact: the same for any thread count, SIMD width and machine.
 // X(name, "what it counts")
 #define DIP_COUNTER_LIST(X)                                                                        \

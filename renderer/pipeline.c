@@ -438,9 +438,9 @@ static bool allocate_parts(DipPipeline *pipeline) {
 }
 
 DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height, DipError *err) {
-    if (width < 1 || height < 1 || width > DIP_MAX_TARGET_SIZE || height > DIP_MAX_TARGET_SIZE) {
+    if (width < 1 || height < 1 || width > DIP_MAX_FRAME_SIZE || height > DIP_MAX_FRAME_SIZE) {
         dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "size", "%dx%d pixels, accepted 1x1 to %dx%d",
-                      width, height, DIP_MAX_TARGET_SIZE, DIP_MAX_TARGET_SIZE);
+                      width, height, DIP_MAX_FRAME_SIZE, DIP_MAX_FRAME_SIZE);
         return NULL;
     }
     if (!dip_isa_available(isa)) {

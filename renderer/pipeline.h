@@ -15,10 +15,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum {
-    DIP_MAX_CLIP_PLANES = 6,
-    DIP_MAX_TARGET_SIZE = 8192, // width and height, pixels
-};
+enum { DIP_MAX_CLIP_PLANES = 6 };
 
 typedef enum DipCull { DIP_CULL_NONE, DIP_CULL_BACK, DIP_CULL_FRONT } DipCull;
 
@@ -58,7 +55,8 @@ typedef struct DipPass {
 
 typedef struct DipPipeline DipPipeline;
 
-// width and height: 1..8192 pixels. The pool is borrowed and must outlive the pipeline.
+// width and height: 1..DIP_MAX_FRAME_SIZE pixels. The pool is borrowed and must outlive the
+// pipeline.
 DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height, DipError *err);
 void dip_pipeline_destroy(DipPipeline **pipeline);
 

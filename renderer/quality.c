@@ -4,7 +4,6 @@
 #include "renderer/base/assert.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define STEPS(...)    __VA_ARGS__

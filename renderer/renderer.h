@@ -15,8 +15,6 @@
 
 #include <stdint.h>
 
-enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
-
 typedef struct DipRendererDef {
     DipPool *pool; // borrowed; must outlive the renderer
     DipIsa isa;

@@ -20,7 +20,6 @@ typedef struct Splitter {
     DipMesh *mesh;
     LocalIndex *local; // per source vertex
     uint32_t *source;  // per chunk vertex, the source vertex; vertex_total of them
-    uint32_t vertex_room;
 } Splitter;
 
 static bool check_data(const DipMeshData *data, DipError *err) {
@@ -157,9 +156,9 @@ static void bound_chunks(DipMesh *mesh) {
 static bool allocate_split(Splitter *splitter) {
     const size_t triangles = splitter->data->index_count / 3;
     const size_t chunks = triangles / (DIP_VERTEX_BATCH / 3) + 1;
-    splitter->vertex_room = (uint32_t)(3 * triangles + chunks * DIP_BATCH_ALIGN);
+    const size_t vertices = 3 * triangles + chunks * DIP_BATCH_ALIGN;
     splitter->local = calloc((size_t)splitter->data->vertex_count + 1, sizeof *splitter->local);
-    splitter->source = malloc((splitter->vertex_room + 1) * sizeof *splitter->source);
+    splitter->source = malloc((vertices + 1) * sizeof *splitter->source);
     splitter->mesh->chunks = malloc(chunks * sizeof *splitter->mesh->chunks);
     splitter->mesh->indices = malloc(3 * triangles + 1);
     return splitter->local && splitter->source && splitter->mesh->chunks && splitter->mesh->indices;

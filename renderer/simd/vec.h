@@ -62,12 +62,6 @@ VEC_INLINE void vi_store(int32_t *p, Vi v) {
     memcpy(p, &v, sizeof v);
 }
 
-VEC_INLINE Vu vu_load(const uint32_t *p) {
-    Vu v;
-    memcpy(&v, p, sizeof v);
-    return v;
-}
-
 VEC_INLINE void vu_store(uint32_t *p, Vu v) {
     memcpy(p, &v, sizeof v);
 }
@@ -110,10 +104,6 @@ VEC_INLINE Mask vf_lt(Vf a, Vf b) {
     return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ);
 }
 
-VEC_INLINE Mask vf_ge(Vf a, Vf b) {
-    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GE_OQ);
-}
-
 VEC_INLINE Mask vi_lt(Vi a, Vi b) {
     return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
 }
@@ -147,10 +137,6 @@ typedef Vi Mask;
 
 VEC_INLINE Mask vf_lt(Vf a, Vf b) {
     return a < b;
-}
-
-VEC_INLINE Mask vf_ge(Vf a, Vf b) {
-    return a >= b;
 }
 
 VEC_INLINE Mask vi_lt(Vi a, Vi b) {
@@ -316,10 +302,6 @@ VEC_INLINE Vi vi_gather(const int32_t *base, Vi index) {
 #endif
 }
 
-VEC_INLINE Vu vu_gather(const uint32_t *base, Vi index) {
-    return (Vu)vi_gather((const int32_t *)base, index);
-}
-
 // base[index[i]] and base[index[i] + 1] per lane: half the loads of two gathers, since both are
 // fetched at once.
 VEC_INLINE void vu_gather_pairs(const uint32_t *base, Vi index, Vu *first, Vu *second) {
@@ -389,11 +371,6 @@ VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
     }
     return v;
 #endif
-}
-
-// True when every lane holds the same value.
-VEC_INLINE bool vi_uniform(Vi v) {
-    return mask_all(vi_eq(v, vi_splat(v[0])));
 }
 
 // The greatest lane.

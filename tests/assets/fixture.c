@@ -14,7 +14,7 @@ const uint8_t fixture_png[76] = {
     0x1f, 0x0c, 0x81, 0x34, 0x08, 0x30, 0x00, 0x00, 0x48, 0xc9, 0x08, 0xf8, 0xc5, 0x34, 0xfd, 0x05,
     0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
-static char folder[64];
+static char folder[256];
 
 static void check(int ok, const char *what) {
     if (!ok) {
@@ -23,12 +23,18 @@ static void check(int ok, const char *what) {
     }
 }
 
-void fixture_open(void) {
-    strcpy(folder, "/tmp/dip_assets_XXXXXX");
-    check(mkdtemp(folder) != NULL, "mkdtemp");
+int fixture_open(void **state) {
+    (void)state;
+    const char *temporary = getenv("TMPDIR");
+    const int length = snprintf(folder, sizeof folder, "%s/dip_assets_XXXXXX",
+                                temporary && *temporary ? temporary : "/tmp");
+    check(length > 0 && (size_t)length < sizeof folder, "TMPDIR");
+    check(mkdtemp(folder) != NULL, folder);
+    return 0;
 }
 
-void fixture_close(void) {
+int fixture_close(void **state) {
+    (void)state;
     DIR *listing = opendir(folder);
     check(listing != NULL, folder);
     for (struct dirent *entry = readdir(listing); entry; entry = readdir(listing)) {
@@ -38,6 +44,7 @@ void fixture_close(void) {
     }
     closedir(listing);
     rmdir(folder);
+    return 0;
 }
 
 static const char *join(const char *directory, const char *name) {

@@ -10,8 +10,10 @@ extern const uint8_t fixture_png[76];
 
 enum { FIXTURE_PATH = 512 };
 
-void fixture_open(void);  // makes the folder
-void fixture_close(void); // removes it with its files
+// Set-up and tear-down of a group of tests: make the folder, remove it with its files.
+int fixture_open(void **state);
+int fixture_close(void **state);
+
 // The path of a file in the folder; the buffer is reused after four calls.
 const char *fixture_path(const char *name);
 const char *fixture_data(const char *name); // of a file in tests/assets/data; likewise

@@ -64,18 +64,6 @@ static const BadFile bad_files[] = {
     {"bad_truncated.x", DIP_ERROR_FORMAT, ""},
 };
 
-static int open_folder(void **state) {
-    (void)state;
-    fixture_open();
-    return 0;
-}
-
-static int close_folder(void **state) {
-    (void)state;
-    fixture_close();
-    return 0;
-}
-
 static void assert_refused(const char *path, DipErrorCode code, const char *reason) {
     DipError err = {0};
     DipErrorList warnings = {0};
@@ -165,5 +153,5 @@ int main(void) {
         cmocka_unit_test(cut_glb_is_refused),          cmocka_unit_test(off_counts_are_checked),
         cmocka_unit_test(one_file_at_fault_fails_all),
     };
-    return cmocka_run_group_tests(tests, open_folder, close_folder);
+    return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

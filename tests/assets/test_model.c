@@ -10,18 +10,6 @@
 #include <string.h>
 #include <cmocka.h>
 
-static int open_folder(void **state) {
-    (void)state;
-    fixture_open();
-    return 0;
-}
-
-static int close_folder(void **state) {
-    (void)state;
-    fixture_close();
-    return 0;
-}
-
 static DipModel *load(const char *path, DipPool *pool, DipErrorList *warnings) {
     DipError err = {0};
     DipModel *model = dip_model_load(&path, 1, pool, warnings, &err);
@@ -431,5 +419,5 @@ int main(void) {
         cmocka_unit_test(gaps_are_closed),
         cmocka_unit_test(normals_are_made),
     };
-    return cmocka_run_group_tests(tests, open_folder, close_folder);
+    return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

@@ -12,18 +12,6 @@
 static const uint8_t png_texels[16] = {255, 0, 0,   255, 0,   255, 0,   255,
                                        0,   0, 255, 255, 255, 255, 255, 0};
 
-static int open_folder(void **state) {
-    (void)state;
-    fixture_open();
-    return 0;
-}
-
-static int close_folder(void **state) {
-    (void)state;
-    fixture_close();
-    return 0;
-}
-
 static void png_has_its_texels(void **state) {
     (void)state;
     DipPicture picture;
@@ -155,5 +143,5 @@ int main(void) {
         cmocka_unit_test(files_say_what_is_wrong),
         cmocka_unit_test(opacity_becomes_alpha),
     };
-    return cmocka_run_group_tests(tests, open_folder, close_folder);
+    return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

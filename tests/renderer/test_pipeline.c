@@ -151,12 +151,13 @@ static void user_planes_cut_where_they_stand(void **state) {
     DipMesh *mesh = screen(0.5f);
     const DipDraw draw = draw_of(mesh, white);
     DipPass pass = pass_of(&draw, 1, 1);
-    const float offsets[3] = {0.0f, 0.5f, -0.5f};
-    for (int i = 0; i < 3; i++) {
+    // The last one cuts off two columns: its outside vertices are only just outside.
+    const float offsets[4] = {0.0f, 0.5f, -0.5f, 0.96f};
+    for (int i = 0; i < 4; i++) {
         pass.clip_plane_count = 1;
         memcpy(pass.clip_planes[0], (const float[]){1, 0, 0, offsets[i]}, sizeof(float[4]));
         run(&pass);
-        const int first = (int)((1.0f - offsets[i]) * WIDTH / 2);
+        const int first = (int)lround((1.0 - (double)offsets[i]) * WIDTH / 2);
         assert_int_equal(lit_pixels(), (WIDTH - first) * HEIGHT);
         assert_int_equal(red(first - 1, 9), 0);
         assert_int_equal(red(first, 9), 255);
@@ -233,18 +234,22 @@ static void varyings_follow_the_perspective(void **state) {
 // A floor that begins behind the eye: what lies before the near plane (z = w) is seen, no more.
 static void near_plane_cuts_exactly(void **state) {
     (void)state;
-    // x, y = -1, w runs from -1 (behind) to 3; z is 1 everywhere, so the cut is at w = 1, which the
-    // picture shows at y = -1, its lower edge, and w = 3 at y = -1/3.
-    const Vertex vertices[4] = {
-        {{-9, -1, 1, -1}, 0}, {{9, -1, 1, -1}, 0}, {{9, -1, 1, 3}, 1}, {{-9, -1, 1, 3}, 1}};
+    // y = -1/2 and w runs from -1 (behind) to 3; z is 1 everywhere, so the cut is at w = 1, which
+    // the picture shows at y = -1/2; w = 3 is at y = -1/6.
+    const Vertex vertices[4] = {{{-9, -0.5f, 1, -1}, 0},
+                                {{9, -0.5f, 1, -1}, 0},
+                                {{9, -0.5f, 1, 3}, 1},
+                                {{-9, -0.5f, 1, 3}, 1}};
     DipMesh *mesh = mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3}, 6);
     const DipDraw draw = draw_of(mesh, white);
     const DipPass pass = pass_of(&draw, 1, 1);
     run(&pass);
-    const int first_row = (int)lround((1.0 + 1.0 / 3.0) / 2.0 * HEIGHT);
+    const double far_edge = (1.0 + 1.0 / 6.0) / 2.0 * HEIGHT;
+    const double cut = (1.0 + 1.0 / 2.0) / 2.0 * HEIGHT;
     for (int y = 0; y < HEIGHT; y++) {
-        if (y != first_row && y != first_row - 1) {
-            assert_int_equal(red(WIDTH / 2, y), y < first_row ? 0 : 255);
+        const double centre = y + 0.5;
+        if (fabs(centre - far_edge) > 0.01 && fabs(centre - cut) > 0.01) {
+            assert_int_equal(red(WIDTH / 2, y), centre > far_edge && centre < cut ? 255 : 0);
         }
     }
     dip_mesh_destroy(&mesh);
