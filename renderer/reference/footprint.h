@@ -12,9 +12,10 @@ typedef struct DipFootprint {
 } DipFootprint;
 
 // ddx and ddy: the Jacobian in texels of level 0 per pixel. max_anisotropy 1 is trilinear, for
-// which `advanced` has no meaning. For a Jacobian that is not finite: one probe, lambda NaN.
+// which `advanced` has no meaning. min_level: the finest that may be read; probes lie no closer
+// than its texels. For a Jacobian that is not finite: one probe, lambda NaN.
 DipFootprint dip_reference_footprint(const double ddx[2], const double ddy[2], int max_anisotropy,
-                                     bool advanced);
+                                     bool advanced, int min_level);
 
 // The level to read, in steps of 1/256 within [min_level, last_level]; last_level wins where the
 // chain is shorter than min_level.

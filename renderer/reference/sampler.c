@@ -105,7 +105,8 @@ static int find_min_level(const DipRefTexture *texture, const DipRefFilter *filt
     if (!filter->drop_levels) {
         return 0;
     }
-    return texture->widths[0] >= 1024 || texture->heights[0] >= 1024 ? 2 : 1;
+    const int dropped = texture->widths[0] >= 1024 || texture->heights[0] >= 1024 ? 2 : 1;
+    return dropped < texture->level_count ? dropped : texture->level_count - 1;
 }
 
 void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filter,
@@ -115,10 +116,11 @@ void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filt
     const double height = texture->heights[0];
     const double ddx[2] = {duv_dx[0] * width, duv_dx[1] * height};
     const double ddy[2] = {duv_dy[0] * width, duv_dy[1] * height};
+    const int min_level = find_min_level(texture, filter);
     const DipFootprint footprint =
-        dip_reference_footprint(ddx, ddy, filter->max_anisotropy, filter->advanced);
-    const double level = dip_reference_level(
-        footprint.lambda, filter->bias, find_min_level(texture, filter), texture->level_count - 1);
+        dip_reference_footprint(ddx, ddy, filter->max_anisotropy, filter->advanced, min_level);
+    const double level =
+        dip_reference_level(footprint.lambda, filter->bias, min_level, texture->level_count - 1);
     double sum[4] = {0};
     for (int i = 0; i < footprint.probe_count; i++) {
         const double t = (i + 0.5) / footprint.probe_count - 0.5;

@@ -16,10 +16,14 @@ static uint32_t quantise(double linear, int max) {
     return (uint32_t)(sqrt(clamped) * max + 0.5);
 }
 
+static uint32_t spread_blue(uint32_t code) {
+    return code >> 5 << 16 | (code & 31);
+}
+
 uint32_t dip_texel_pack(const double rgb_lin[3]) {
-    return quantise(rgb_lin[0], DIP_TEXEL_RED_MAX) << DIP_TEXEL_RED_SHIFT |
-           quantise(rgb_lin[1], DIP_TEXEL_GREEN_MAX) << DIP_TEXEL_GREEN_SHIFT |
-           quantise(rgb_lin[2], DIP_TEXEL_BLUE_MAX);
+    return quantise(rgb_lin[0], DIP_TEXEL_RED_GREEN_MAX) << 21 |
+           quantise(rgb_lin[1], DIP_TEXEL_RED_GREEN_MAX) << 5 |
+           spread_blue(quantise(rgb_lin[2], DIP_TEXEL_BLUE_MAX));
 }
 
 static bool check_def(const DipTextureDef *def, DipError *err) {
@@ -42,11 +46,27 @@ static bool has_alpha(const DipTextureDef *def) {
     return false;
 }
 
+static bool repeats(const DipTextureDef *def) {
+    return def->wrap_u == DIP_WRAP_REPEAT && def->wrap_v == DIP_WRAP_REPEAT;
+}
+
+static int floor_log2(int size) {
+    return 31 - __builtin_clz((unsigned)size);
+}
+
+static bool is_power_of_two(int size) {
+    return (size & (size - 1)) == 0;
+}
+
 // Appends a level's place to the table and returns the texels it takes.
 static size_t place_level(DipTexture *texture, int level, int width, int height, size_t offset) {
     texture->level_width[level] = width;
     texture->level_height[level] = height;
     texture->level_offset[level] = (int32_t)offset;
+    texture->level_log2_width[level] = floor_log2(width);
+    texture->level_log2_height[level] = floor_log2(height);
+    texture->wraps_in_bits =
+        texture->wraps_in_bits && is_power_of_two(width) && is_power_of_two(height);
     return (size_t)(width + 1) * (size_t)(height + 1);
 }
 
@@ -91,9 +111,9 @@ static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
         tables->colour[i] =
             encoding == DIP_ENCODING_SRGB ? (float)srgb.linear[i] : tables->alpha[i];
         const double light = tables->colour[i];
-        tables->red[i] = quantise(light, DIP_TEXEL_RED_MAX) << DIP_TEXEL_RED_SHIFT;
-        tables->green[i] = quantise(light, DIP_TEXEL_GREEN_MAX) << DIP_TEXEL_GREEN_SHIFT;
-        tables->blue[i] = quantise(light, DIP_TEXEL_BLUE_MAX);
+        tables->red[i] = quantise(light, DIP_TEXEL_RED_GREEN_MAX) << 21;
+        tables->green[i] = quantise(light, DIP_TEXEL_RED_GREEN_MAX) << 5;
+        tables->blue[i] = spread_blue(quantise(light, DIP_TEXEL_BLUE_MAX));
     }
 }
 
@@ -194,6 +214,7 @@ DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err) {
     texture->height = def->height;
     texture->wrap_u = def->wrap_u;
     texture->wrap_v = def->wrap_v;
+    texture->wraps_in_bits = repeats(def);
     place_chain(texture);
     if (!allocate_texels(texture, has_alpha(def)) || !build_chain(texture, def)) {
         return out_of_memory(texture, def->name, err);
@@ -212,6 +233,7 @@ DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int leve
     texture->height = levels[0].height;
     texture->wrap_u = levels[0].wrap_u;
     texture->wrap_v = levels[0].wrap_v;
+    texture->wraps_in_bits = repeats(&levels[0]);
     texture->level_count = level_count;
     for (int i = 0; i < level_count; i++) {
         if (!check_def(&levels[i], err)) {

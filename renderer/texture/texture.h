@@ -1,9 +1,10 @@
 // Textures as the fast path stores them: mip chains in linear light, packed for filtering.
 //
-// A texel is 32 bits: square roots of linear light, red in bits 21..31, green 10..20 (11 bits
-// each), blue 0..9. The square root spreads the codes as the eye does, and squaring is exact in a
-// filter; the error is below 0.06 sRGB codes (blue 0.12). Alpha is a separate plane of bytes,
-// kept only when some texel is not opaque.
+// A texel is 32 bits: square roots of linear light, red in bits 21..31, green in 5..15 (11 bits
+// each), blue in 16..20 and 0..4 (10 bits), so that red and green lie at the top of 16-bit halves
+// and blue comes together by one multiply-add. The square root spreads the codes as the eye does;
+// the error is below 0.06 sRGB codes (blue 0.12). Alpha is a separate plane of bytes, kept only
+// when some texel is not opaque.
 //
 // Every level has one column and one row more than its size, which repeat the first (DIP_WRAP_
 // REPEAT) or the last (DIP_WRAP_CLAMP), so the four texels of a bilinear read are always at
@@ -20,11 +21,13 @@ enum {
     DIP_LEVEL_TABLE = 16 // entries of a table of levels: what a kernel looks up at once
 };
 
-#define DIP_TEXEL_RED_SHIFT   21
-#define DIP_TEXEL_GREEN_SHIFT 10
-#define DIP_TEXEL_RED_MAX     2047
-#define DIP_TEXEL_GREEN_MAX   2047
-#define DIP_TEXEL_BLUE_MAX    1023
+#define DIP_TEXEL_RED_GREEN_MAX 2047
+#define DIP_TEXEL_BLUE_MAX      1023
+
+// Masks of the codes, and what blue's parts are multiplied by to make a number of 16 bits.
+#define DIP_TEXEL_RED_GREEN   0xffe0ffe0u
+#define DIP_TEXEL_BLUE        0x001f001fu
+#define DIP_TEXEL_BLUE_PLACES 0x08000040u
 
 typedef struct DipTexture {
     int width; // of level 0, texels
@@ -35,6 +38,11 @@ typedef struct DipTexture {
     int32_t level_offset[DIP_LEVEL_TABLE]; // of the level's first texel, in texels
     int32_t level_width[DIP_LEVEL_TABLE];  // texels; a row takes one more, see above
     int32_t level_height[DIP_LEVEL_TABLE];
+    // Both axes repeat and every level's sizes are powers of two: coordinates may be fractions in
+    // 32 bits, which wrap by themselves.
+    bool wraps_in_bits;
+    int32_t level_log2_width[DIP_LEVEL_TABLE];
+    int32_t level_log2_height[DIP_LEVEL_TABLE];
     uint32_t *texels;
     uint8_t *alpha;     // the same layout; NULL when all texels are opaque
     size_t texel_count; // padding included

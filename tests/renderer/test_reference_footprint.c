@@ -30,10 +30,10 @@ static void test_trilinear_takes_the_longer_derivative(void **state) {
     (void)state;
     const double dx[2] = {3.0, 4.0};
     const double dy[2] = {0.0, 8.0};
-    const DipFootprint f = dip_reference_footprint(dx, dy, 1, true);
+    const DipFootprint f = dip_reference_footprint(dx, dy, 1, true, 0);
     assert_near(f.lambda, 3.0, 1e-12);
     assert_int_equal(f.probe_count, 1);
-    assert_near(dip_reference_footprint(dy, dx, 1, false).lambda, 3.0, 1e-12);
+    assert_near(dip_reference_footprint(dy, dx, 1, false, 0).lambda, 3.0, 1e-12);
 }
 
 static void test_advanced_finds_the_axes_at_any_roll(void **state) {
@@ -47,12 +47,12 @@ static void test_advanced_finds_the_axes_at_any_roll(void **state) {
         const double eta = fmin(ratio, max);
         double dx[2], dy[2];
         make_jacobian(minor * ratio, minor, direction, random_real(&random, 0.0, 2.0 * pi), dx, dy);
-        const DipFootprint f = dip_reference_footprint(dx, dy, max, true);
+        const DipFootprint f = dip_reference_footprint(dx, dy, max, true, 0);
         assert_near(f.eta, eta, 1e-9 * eta);
         assert_near(f.lambda, log2(minor * ratio / eta), 1e-9);
-        const double until_next = fabs(eta - 1e-4 - rint(eta - 1e-4));
-        if (until_next > 1e-8) {
-            assert_int_equal(f.probe_count, (int)ceil(eta - 1e-4));
+        const double probes = fmin(eta, fmax(1.0, minor * ratio)) - 1e-4;
+        if (fabs(probes - rint(probes)) > 1e-8) {
+            assert_int_equal(f.probe_count, (int)ceil(probes));
         }
         if (ratio > 1.01) { // a line, so either sense
             const double cross =
@@ -67,7 +67,7 @@ static void test_advanced_finds_the_axes_at_any_roll(void **state) {
 static double plain_eta(double ratio, double roll_deg, int max) {
     double dx[2], dy[2];
     make_jacobian(ratio, 1.0, 0.3, roll_deg * pi / 180.0, dx, dy);
-    return dip_reference_footprint(dx, dy, max, false).eta;
+    return dip_reference_footprint(dx, dy, max, false, 0).eta;
 }
 
 // Ratio of the two derivatives of an ellipse that is turned against the frame.
@@ -97,7 +97,7 @@ static void test_plain_level_belongs_to_the_frame_it_chose(void **state) {
     (void)state;
     double dx[2], dy[2];
     make_jacobian(16.0, 1.0, 0.3, 45.0 * pi / 180.0, dx, dy);
-    const DipFootprint turned = dip_reference_footprint(dx, dy, 16, false);
+    const DipFootprint turned = dip_reference_footprint(dx, dy, 16, false, 0);
     assert_near(turned.lambda, 1.0, 1e-9); // 16 texels over 8 probes
     assert_int_equal(turned.probe_count, 8);
     // The axis found is the ellipse's own.
@@ -125,7 +125,7 @@ static void test_level_is_finite_for_any_jacobian(void **state) {
             dy[1] = dx[1] * 3.0;
         }
         const int max = 1 << random_int(&random, 0, 4);
-        const DipFootprint f = dip_reference_footprint(dx, dy, max, i % 2 == 0);
+        const DipFootprint f = dip_reference_footprint(dx, dy, max, i % 2 == 0, 0);
         assert_true(f.eta >= 1.0 && f.eta <= max);
         assert_true(f.probe_count >= 1 && f.probe_count <= max);
         const double level = dip_reference_level(f.lambda, 0.5, 0, 10);
@@ -139,15 +139,31 @@ static void test_degenerate_jacobians(void **state) {
     const double line[2] = {8.0, 0.0};
     const double broken[2] = {NAN, INFINITY};
     for (int advanced = 0; advanced < 2; advanced++) {
-        const DipFootprint point = dip_reference_footprint(zero, zero, 16, advanced);
+        const DipFootprint point = dip_reference_footprint(zero, zero, 16, advanced, 0);
         assert_near(point.eta, 1.0, 0.0);
         assert_near(dip_reference_level(point.lambda, 1.5, 0, 9), 0.0, 0.0);
-        const DipFootprint thin = dip_reference_footprint(line, zero, 16, advanced);
+        const DipFootprint thin = dip_reference_footprint(line, zero, 16, advanced, 0);
         assert_near(thin.eta, 16.0, 0.0);
         assert_near(thin.lambda, -1.0, 1e-12);
-        const DipFootprint none = dip_reference_footprint(broken, line, 16, advanced);
+        const DipFootprint none = dip_reference_footprint(broken, line, 16, advanced, 0);
         assert_int_equal(none.probe_count, 1);
         assert_near(dip_reference_level(none.lambda, 0.0, 0, 9), 9.0, 0.0);
+    }
+}
+
+// A footprint of 6 x 0.1 texels asks for 16 probes; six are a texel apart already. With two levels
+// dropped a texel is 4 wide.
+static void test_probes_are_no_closer_than_texels(void **state) {
+    (void)state;
+    const double along[2] = {6.0, 0.0};
+    const double across[2] = {0.0, 0.1};
+    for (int advanced = 0; advanced < 2; advanced++) {
+        const DipFootprint f = dip_reference_footprint(along, across, 16, advanced, 0);
+        assert_near(f.eta, 16.0, 0.0);
+        assert_int_equal(f.probe_count, 6);
+        assert_int_equal(dip_reference_footprint(along, across, 16, advanced, 2).probe_count, 2);
+        const double small[2] = {0.5, 0.0};
+        assert_int_equal(dip_reference_footprint(small, across, 16, advanced, 0).probe_count, 1);
     }
 }
 
@@ -171,6 +187,7 @@ int main(void) {
         cmocka_unit_test(test_plain_level_belongs_to_the_frame_it_chose),
         cmocka_unit_test(test_level_is_finite_for_any_jacobian),
         cmocka_unit_test(test_degenerate_jacobians),
+        cmocka_unit_test(test_probes_are_no_closer_than_texels),
         cmocka_unit_test(test_level_is_biased_clamped_and_rounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,193 @@
+// Footprints of fragments in a texture: level of detail and probes, for sample_simd.c.
+// docs/picture.md defines them.
+#ifndef DIP_RENDERER_TEXTURE_FOOTPRINT_SIMD_H
+#define DIP_RENDERER_TEXTURE_FOOTPRINT_SIMD_H
+
+#include "renderer/shader.h"
+#include "renderer/simd/vec.h"
+#include "renderer/texture/texture.h"
+
+#define MAX_DERIVATIVE 1e15f  // its square is finite
+#define MIN_LENGTH     1e-18f // texels; its square is a normal number
+
+// What a vector of fragments reads: probes along a line, all at one level of detail.
+typedef struct Footprint {
+    Vf u, v;           // first probe, texture coordinates
+    Vf step_u, step_v; // from one probe to the next
+    Vi probes;         // per lane, at least 1
+    int most_probes;   // of all lanes
+    Vf inverse_probes;
+    Vi level;
+    Vi next_level;
+    Vi fraction; // of next_level, 0..255
+} Footprint;
+
+// The Jacobian in texels of level 0 per pixel.
+typedef struct Jacobian {
+    Vf ux, vx; // dX
+    Vf uy, vy; // dY
+} Jacobian;
+
+// log2 of positive normal numbers: exact at powers of two and monotone; error below 1e-5. On
+// [1, 2), log2(1 + t) = t (1 + (1 - t) r(t)), r interpolated at Chebyshev points.
+VEC_INLINE Vf log2_of(Vf x) {
+    const Vi bits = vi_bits(x);
+    const Vf exponent = vf_from_int((bits >> 23) - 127);
+    const Vf t = vf_bits((bits & 0x7fffff) | 0x3f800000) - 1.0f;
+    const Vf r = (((0.0256912634f * t - 0.0972018316f) * t + 0.184100822f) * t - 0.276569515f) * t +
+                 0.442654073f;
+    return exponent + t * (1.0f + (1.0f - t) * r);
+}
+
+// Bounded to +-MAX_DERIVATIVE; NaN becomes the bound, so that it leads to the smallest level.
+VEC_INLINE Vf bounded(Vf v) {
+    return vf_max(vf_min(v, vf_splat(MAX_DERIVATIVE)), vf_splat(-MAX_DERIVATIVE));
+}
+
+VEC_INLINE Jacobian read_jacobian(const DipFragmentBatch *batch, const DipTexture *texture,
+                                  int slot, int i) {
+    const float width = (float)texture->width;
+    const float height = (float)texture->height;
+    return (Jacobian){
+        vf_load(batch->slot_dx[slot] + i) * width, vf_load(batch->slot_dx[slot + 1] + i) * height,
+        vf_load(batch->slot_dy[slot] + i) * width, vf_load(batch->slot_dy[slot + 1] + i) * height};
+}
+
+VEC_INLINE Jacobian bounded_jacobian(Jacobian j) {
+    return (Jacobian){bounded(j.ux), bounded(j.vx), bounded(j.uy), bounded(j.vy)};
+}
+
+// The major axis of a footprint, texels, and how many times longer than the minor it counts.
+typedef struct Axis {
+    Vf u, v;
+    Vf length;
+    Vf ratio;
+} Axis;
+
+// The longer of two derivatives (the first on a tie), with the ratio of their lengths.
+VEC_INLINE Axis longer_of(Vf au, Vf av, Vf bu, Vf bv, float max_ratio) {
+    const Vf a2 = au * au + av * av;
+    const Vf b2 = bu * bu + bv * bv;
+    const Mask second = vf_lt(a2, b2);
+    const Vf long2 = vf_select(second, b2, a2);
+    const Vf short2 = vf_max(vf_select(second, a2, b2), vf_splat(MIN_LENGTH * MIN_LENGTH));
+    const Vf ratio = vf_sqrt(long2 / short2);
+    return (Axis){vf_select(second, bu, au), vf_select(second, bv, av), vf_sqrt(long2),
+                  vf_max(vf_min(ratio, vf_splat(max_ratio)), vf_splat(1.0f))};
+}
+
+// Plain AF: the better of the screen's frame and one turned by 45 degrees, the latter capped at
+// half; hence a level of detail that depends on the angle.
+VEC_INLINE Axis two_frame_axis(Jacobian j, int max_anisotropy) {
+    const float max = (float)max_anisotropy;
+    const float half = max_anisotropy > 2 ? 0.5f * max : 1.0f;
+    const float c = 0.70710678f;
+    const Axis screen = longer_of(j.ux, j.vx, j.uy, j.vy, max);
+    const Axis turned =
+        longer_of((j.ux + j.uy) * c, (j.vx + j.vy) * c, (j.uy - j.ux) * c, (j.vy - j.vx) * c, half);
+    const Mask use = vf_lt(screen.ratio, turned.ratio);
+    return (Axis){vf_select(use, turned.u, screen.u), vf_select(use, turned.v, screen.v),
+                  vf_select(use, turned.length, screen.length),
+                  vf_select(use, turned.ratio, screen.ratio)};
+}
+
+// Advanced AF: the ellipse's axes by the closed-form singular values of the Jacobian, which do
+// not cancel; the major direction is the larger column of J J^T - m^2 I.
+VEC_INLINE Axis ellipse_axis(Jacobian j, int max_anisotropy) {
+    const Vf e = (j.ux + j.vy) * 0.5f;
+    const Vf f = (j.ux - j.vy) * 0.5f;
+    const Vf g = (j.vx + j.uy) * 0.5f;
+    const Vf h = (j.vx - j.uy) * 0.5f;
+    const Vf major = vf_sqrt(e * e + h * h) + vf_sqrt(f * f + g * g);
+    const Vf longer = vf_max(major, vf_splat(MIN_LENGTH));
+    const Vf minor = vf_abs(j.ux * j.vy - j.uy * j.vx) / longer;
+    const Vf ratio = longer / vf_max(minor, vf_splat(MIN_LENGTH));
+    // Scaled to M = 1, so that no square overflows.
+    const Vf unit = vf_splat(1.0f) / longer;
+    const Jacobian k = {j.ux * unit, j.vx * unit, j.uy * unit, j.vy * unit};
+    const Vf minor2 = (minor * unit) * (minor * unit);
+    const Vf across = k.ux * k.vx + k.uy * k.vy;
+    const Vf along_u = (k.ux * k.ux + k.uy * k.uy) - minor2;
+    const Vf along_v = (k.vx * k.vx + k.vy * k.vy) - minor2;
+    const Mask by_v = vf_lt(along_u, along_v);
+    const Vf u = vf_select(by_v, across, along_u);
+    const Vf v = vf_select(by_v, along_v, across);
+    const Vf norm = vf_sqrt(vf_max(u * u + v * v, vf_splat(1e-30f)));
+    const Vf scale = longer / norm;
+    return (Axis){u * scale, v * scale, longer,
+                  vf_max(vf_min(ratio, vf_splat((float)max_anisotropy)), vf_splat(1.0f))};
+}
+
+// ceil(ratio - 1e-4) for ratios of 1..16.
+VEC_INLINE Vi probe_count(Vf ratio) {
+    const Vf at = ratio - 1e-4f;
+    const Vi whole = vi_from_float(at);
+    return whole + vi_select(vf_lt(vf_from_int(whole), at), vi_splat(1), vi_splat(0));
+}
+
+// lambda, given as log2(rho), rounded to 1/256, biased, clamped.
+VEC_INLINE void set_level(Footprint *footprint, const DipSampler *sampler, Vf lambda) {
+    const Vi lod8 = vi_from_float(vf_floor(lambda * 256.0f + 0.5f)) + sampler->bias_lod8;
+    const int32_t last = (sampler->texture->level_count - 1) * 256;
+    const int32_t min = sampler->min_lod8 < last ? sampler->min_lod8 : last;
+    const Vi clamped = vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
+    footprint->level = clamped >> 8;
+    footprint->fraction = clamped & 255;
+    footprint->next_level = vi_min(footprint->level + 1, vi_splat(last >> 8));
+}
+
+// Trilinear: one probe, and lambda = log2 of the longer derivative, from its square.
+VEC_INLINE void set_isotropic(Footprint *footprint, const DipSampler *sampler, Jacobian j) {
+    // Not finite: the bound, so that it leads to the smallest level.
+    const Vf most = vf_splat(MAX_DERIVATIVE * MAX_DERIVATIVE);
+    const Vf dx2 = vf_min(j.ux * j.ux + j.vx * j.vx, most);
+    const Vf dy2 = vf_min(j.uy * j.uy + j.vy * j.vy, most);
+    const Vf rho2 = vf_max(vf_max(dx2, dy2), vf_splat(MIN_LENGTH * MIN_LENGTH));
+    set_level(footprint, sampler, log2_of(rho2) * 0.5f);
+    footprint->step_u = footprint->step_v = vf_splat(0.0f);
+    footprint->probes = vi_splat(1);
+    footprint->inverse_probes = vf_splat(1.0f);
+    footprint->most_probes = 1;
+}
+
+// Probes of equal weight at (k + 1/2) / N - 1/2 of the major axis, but none closer than a texel of
+// the finest level that may be read: more would read the same texels again.
+VEC_INLINE void place_probes(Footprint *footprint, const DipSampler *sampler, const Axis *axis) {
+    const int last = sampler->texture->level_count - 1;
+    const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
+    const float finest = 1.0f / (float)(1 << min);
+    const Vf texels = vf_max(axis->length * finest, vf_splat(1.0f));
+    footprint->probes = probe_count(vf_min(axis->ratio, texels));
+    footprint->inverse_probes = vf_splat(1.0f) / vf_from_int(footprint->probes);
+    footprint->most_probes = vi_greatest(footprint->probes);
+    const Vf line_u = axis->u * (1.0f / (float)sampler->texture->width);
+    const Vf line_v = axis->v * (1.0f / (float)sampler->texture->height);
+    const Vf first = 0.5f * footprint->inverse_probes - 0.5f;
+    footprint->u = footprint->u + line_u * first;
+    footprint->v = footprint->v + line_v * first;
+    footprint->step_u = line_u * footprint->inverse_probes;
+    footprint->step_v = line_v * footprint->inverse_probes;
+}
+
+VEC_INLINE void set_anisotropic(Footprint *footprint, const DipSampler *sampler, Jacobian j) {
+    const Axis axis = sampler->advanced ? ellipse_axis(j, sampler->max_anisotropy)
+                                        : two_frame_axis(j, sampler->max_anisotropy);
+    set_level(footprint, sampler, log2_of(vf_max(axis.length, vf_splat(MIN_LENGTH)) / axis.ratio));
+    place_probes(footprint, sampler, &axis);
+}
+
+VEC_INLINE Footprint footprint_at(const DipFragmentBatch *batch, const DipSampler *sampler,
+                                  int slot, int i) {
+    const Jacobian jacobian = read_jacobian(batch, sampler->texture, slot, i);
+    Footprint footprint;
+    footprint.u = vf_load(batch->slot[slot] + i);
+    footprint.v = vf_load(batch->slot[slot + 1] + i);
+    if (sampler->max_anisotropy == 1) {
+        set_isotropic(&footprint, sampler, jacobian);
+    } else {
+        set_anisotropic(&footprint, sampler, bounded_jacobian(jacobian));
+    }
+    return footprint;
+}
+
+#endif
