@@ -25,6 +25,13 @@ bool dip_isa_parse(const char *name, DipIsa *isa) {
     return false;
 }
 
+#if defined(__x86_64__)
+// What kernels of avx2 and above count and search bits with.
+static bool has_bit_counts(void) {
+    return __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("bmi");
+}
+#endif
+
 bool dip_isa_available(DipIsa isa) {
     switch (isa) {
     case DIP_ISA_SCALAR:
@@ -33,10 +40,11 @@ bool dip_isa_available(DipIsa isa) {
     case DIP_ISA_SSE2:
         return true;
     case DIP_ISA_AVX2:
-        return __builtin_cpu_supports("avx2");
+        return has_bit_counts() && __builtin_cpu_supports("avx2");
     case DIP_ISA_AVX512:
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
+        return has_bit_counts() && __builtin_cpu_supports("avx512f") &&
+               __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+               __builtin_cpu_supports("avx512dq");
 #elif defined(__aarch64__)
     case DIP_ISA_NEON:
         return true;

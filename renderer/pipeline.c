@@ -73,8 +73,7 @@ static void pad_list(DipFragmentList *list) {
     const int last = list->count - 1;
     for (int i = list->count; i % DIP_BATCH_ALIGN; i++) {
         list->triangle[i] = list->triangle[last];
-        list->x[i] = list->x[last];
-        list->y[i] = list->y[last];
+        list->place[i] = list->place[last];
     }
 }
 
@@ -85,27 +84,39 @@ static void bind_batch(const Worker *worker, const DipDraw *draw, DipFragmentBat
     batch->sample_alpha = worker->pipeline->kernels->dip_kernel_sample_alpha;
 }
 
-static void shade_list(DipTileShading *shading, uint32_t draw_index, DipFragmentList *list) {
-    Worker *worker = shading->context;
+// Shades the first fragments of a list, at most a batch, into the worker's encoded batch.
+static int shade_batch(Worker *worker, uint32_t draw_index, DipFragmentList *list) {
     const DipPipeline *pipeline = worker->pipeline;
     const DipDraw *draw = &pipeline->pass->draws[draw_index];
     DipFragmentBatch *batch = &worker->batch;
     pad_list(list);
-    pipeline->kernels->dip_kernel_interpolate(&shading->input, list, draw->slot_count, batch);
+    pipeline->kernels->dip_kernel_interpolate(&worker->shading.input, list, draw->slot_count,
+                                              batch);
     bind_batch(worker, draw, batch);
     draw->fragment_shader(batch);
     pipeline->kernels->dip_kernel_encode(batch, pipeline->srgb->code, &worker->encoded);
-    dip_store_fragments(shading, list, &worker->encoded);
-    shading->fragments += (uint64_t)list->count;
-    list->count = 0;
+    worker->shading.fragments += (uint64_t)batch->count;
+    return batch->count;
 }
 
 static void flush_list(DipTileShading *shading, uint32_t draw) {
-    shade_list(shading, draw, &shading->lists[draw]);
+    Worker *worker = shading->context;
+    DipFragmentList *list = &shading->lists[draw];
+    const int count = shade_batch(worker, draw, list);
+    dip_store_fragments(shading, list, count, &worker->encoded);
+    list->count -= count;
+    const size_t left = (size_t)list->count;
+    memcpy(list->triangle, list->triangle + count, left * sizeof *list->triangle);
+    memcpy(list->place, list->place + count, left * sizeof *list->place);
+    memcpy(list->samples, list->samples + count, left * sizeof *list->samples);
 }
 
 static void flush_whole_list(DipTileShading *shading, uint32_t draw) {
-    shade_list(shading, draw, &shading->whole_lists[draw]);
+    Worker *worker = shading->context;
+    DipFragmentList *list = &shading->whole_lists[draw];
+    shade_batch(worker, draw, list);
+    dip_store_whole(shading, list, &worker->encoded);
+    list->count = 0;
 }
 
 // The clip shader's verdict on a block's visible pixels of one triangle.
@@ -134,11 +145,12 @@ static uint64_t clip_test(void *context, const DipTile *tile, const DipTriangle 
                 break;
             }
         }
-        const int x = tile->x0 + block % DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_x(pixel);
-        const int y = tile->y0 + block / DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_y(pixel);
+        const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_x(pixel);
+        const int y = block / DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_y(pixel);
         list->triangle[list->count] = (uint32_t)(triangle - pipeline->geometry.triangles);
-        list->x[list->count] = (float)x + (float)sub_x / 256.0f;
-        list->y[list->count] = (float)y + (float)sub_y / 256.0f;
+        list->place[list->count] = (uint32_t)(y * DIP_TILE + x) |
+                                   (uint32_t)sub_x << DIP_PLACE_SUB_X |
+                                   (uint32_t)sub_y << DIP_PLACE_SUB_Y;
         list->count++;
     }
     pad_list(list);
@@ -204,7 +216,7 @@ static void begin_tile(Worker *worker, int index) {
     tile->blocks_accepted = 0;
     DipTileShading *shading = &worker->shading;
     shading->tile = tile;
-    shading->input = (DipShadingInput){geometry->triangles, geometry->surfaces};
+    shading->input = (DipShadingInput){geometry->triangles, geometry->surfaces, tile->x0, tile->y0};
     shading->flush = flush_list;
     shading->flush_whole = flush_whole_list;
     shading->context = worker;

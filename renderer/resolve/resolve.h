@@ -4,8 +4,13 @@
 
 #include "renderer/shading/tile_shading.h"
 
-// Stores fragments that hold all their pixel's samples; adds the others to their pixel's sum.
-void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list,
+// Stores the fragments of a whole list, sub-block by sub-block.
+void dip_store_whole(DipTileShading *shading, const DipFragmentList *list,
+                     const DipEncodedBatch *encoded);
+
+// The list's first `count`: stores fragments that hold all their pixel's samples, adds the others
+// to their pixel's sum.
+void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list, int count,
                          const DipEncodedBatch *encoded);
 
 // Pixels of several surfaces: the mean over the samples in linear light, then encoded.

@@ -1,11 +1,51 @@
 // The fragments of a tile: every pixel's distinct surfaces, pushed to the lists of their draws.
+// A sub-block's pixels of one triangle are pushed together, as a mask of 16 bits.
 #include "renderer/raster/kernels.h"
 #include "renderer/simd/vec.h"
 
-enum { VECTORS = 16 / DIP_LANES }; // per sub-block
+enum { VECTORS = 16 / DIP_LANES, ALL_PIXELS = 0xffff };
 
-// The draw of a triangle, whose list is then among the active ones.
-static uint32_t draw_of(DipTileShading *shading, uint32_t triangle) {
+// Where a sub-block's pixels lie from its first one, as places (tile_shading.h).
+static const int32_t pixel_place[16] = {
+    0,   1,   2,   3,   64,  65,  66,  67, // DIP_TILE to the next row
+    128, 129, 130, 131, 192, 193, 194, 195,
+};
+
+// A sub-block in hand.
+typedef struct SubBlock {
+    DipTileShading *shading;
+    const uint32_t *ids; // of sample 0; DIP_BLOCK_PIXELS to the next sample's
+    int sample_count;
+    int x0, y0; // pixels in the tile
+} SubBlock;
+
+// Pixels, one bit each, whose sample holds the triangle of that id.
+VEC_INLINE unsigned pixels_with(const uint32_t *ids, uint32_t id) {
+    unsigned bits = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        const Vi held = vi_load((const int32_t *)ids + v * DIP_LANES);
+        bits |= mask_bits(vi_eq(held, vi_splat((int32_t)id))) << (v * DIP_LANES);
+    }
+    return bits;
+}
+
+// Pixels whose samples do not all hold the same triangle.
+VEC_INLINE unsigned mixed_pixels(const SubBlock *sub) {
+    unsigned same = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        const int32_t *ids = (const int32_t *)sub->ids + v * DIP_LANES;
+        const Vi first = vi_load(ids);
+        Vi differ = vi_splat(0);
+        for (int s = 1; s < sub->sample_count; s++) {
+            differ |= first ^ vi_load(ids + s * DIP_BLOCK_PIXELS);
+        }
+        same |= mask_bits(vi_eq(differ, vi_splat(0))) << (v * DIP_LANES);
+    }
+    return ~same & ALL_PIXELS;
+}
+
+// The draw of a triangle, whose lists are then among the active ones.
+static inline uint32_t draw_of(DipTileShading *shading, uint32_t triangle) {
     const uint32_t draw = shading->input.triangles[triangle].draw;
     if (!shading->is_active[draw]) {
         shading->is_active[draw] = 1;
@@ -14,37 +54,26 @@ static uint32_t draw_of(DipTileShading *shading, uint32_t triangle) {
     return draw;
 }
 
-// Adds a fragment that is shaded at (sub_x, sub_y) / 256 of its pixel.
-static inline void push(DipTileShading *shading, uint32_t triangle, int x, int y, unsigned samples,
-                        int sub_x, int sub_y) {
-    const uint32_t draw = draw_of(shading, triangle);
-    DipFragmentList *list = &shading->lists[draw];
-    const int i = list->count++;
-    list->triangle[i] = triangle;
-    list->pixel[i] = (uint16_t)(y * DIP_TILE + x);
-    list->samples[i] = (uint8_t)samples;
-    list->x[i] = (float)(shading->tile->x0 + x) + (float)sub_x / 256.0f;
-    list->y[i] = (float)(shading->tile->y0 + y) + (float)sub_y / 256.0f;
-    if (list->count == DIP_FRAGMENT_BATCH) {
-        shading->flush(shading, draw);
+VEC_INLINE int32_t place_of(const SubBlock *sub, int sub_x, int sub_y) {
+    return (sub->y0 * DIP_TILE + sub->x0) | sub_x << DIP_PLACE_SUB_X | sub_y << DIP_PLACE_SUB_Y;
+}
+
+VEC_INLINE void set_triangles(DipFragmentList *list, uint32_t triangle) {
+    for (int v = 0; v < VECTORS; v++) {
+        vu_store(list->triangle + list->count + v * DIP_LANES, vu_splat(triangle));
     }
 }
 
-// A sub-block that one triangle fills: its 16 fragments at once, in a list of its own kind, where
-// they stay together as a vector. The list's room is a multiple of 16, so they always fit.
-static void push_whole(DipTileShading *shading, uint32_t triangle, int x0, int y0,
-                       unsigned samples) {
+// A sub-block that one triangle fills: its 16 fragments stay together, in a list of their own kind.
+static void push_whole(const SubBlock *sub, uint32_t triangle) {
+    DipTileShading *shading = sub->shading;
     const uint32_t draw = draw_of(shading, triangle);
     DipFragmentList *list = &shading->whole_lists[draw];
-    const int first = list->count;
-    for (int i = 0; i < 16; i++) {
-        const int x = x0 + (i & 3);
-        const int y = y0 + (i >> 2);
-        list->triangle[first + i] = triangle;
-        list->pixel[first + i] = (uint16_t)(y * DIP_TILE + x);
-        list->samples[first + i] = (uint8_t)samples;
-        list->x[first + i] = (float)(shading->tile->x0 + x) + 0.5f;
-        list->y[first + i] = (float)(shading->tile->y0 + y) + 0.5f;
+    set_triangles(list, triangle);
+    for (int v = 0; v < VECTORS; v++) {
+        const Vi at = vi_load(pixel_place + v * DIP_LANES);
+        vi_store((int32_t *)list->place + list->count + v * DIP_LANES,
+                 at + place_of(sub, 128, 128));
     }
     list->count += 16;
     if (list->count == DIP_FRAGMENT_BATCH) {
@@ -52,78 +81,130 @@ static void push_whole(DipTileShading *shading, uint32_t triangle, int x0, int y
     }
 }
 
-// A pixel whose samples differ: its uncovered samples start the sum, each surface is a fragment.
-static void push_mixed(DipTileShading *shading, const uint32_t *ids, int x, int y) {
-    const DipSamplePattern *pattern = shading->tile->pattern;
-    const int pixel = y * DIP_TILE + x;
-    int empty = 0;
-    unsigned left = 0;
-    for (int s = 0; s < pattern->count; s++) {
-        const bool covered = ids[s * DIP_BLOCK_PIXELS] != 0;
-        empty += !covered;
-        left |= (unsigned)covered << s;
-    }
-    for (int c = 0; c < 3; c++) {
-        shading->sum[pixel][c] = shading->clear_linear16[c] * empty;
-    }
-    shading->mixed[shading->mixed_count++] = (uint16_t)pixel;
-    while (left) {
-        const int first = __builtin_ctz(left);
-        const uint32_t id = ids[first * DIP_BLOCK_PIXELS];
-        unsigned samples = 0;
-        for (int s = first; s < pattern->count; s++) {
-            samples |= (unsigned)(ids[s * DIP_BLOCK_PIXELS] == id) << s;
-        }
-        left &= ~samples;
-        push(shading, id - 1, x, y, samples, pattern->x[first], pattern->y[first]);
-    }
-}
-
-// Pixels of a sub-block, one bit each, whose samples do not all hold the same triangle.
-VEC_INLINE unsigned mixed_pixels(const DipTile *tile, const uint32_t *ids) {
-    unsigned mixed = 0;
-    for (int v = 0; v < VECTORS && tile->pattern->count > 1; v++) {
-        const Vi first = vi_load((const int32_t *)ids + v * DIP_LANES);
-        Vi differ = vi_splat(0);
-        for (int s = 1; s < tile->pattern->count; s++) {
-            differ |= first ^ vi_load((const int32_t *)ids + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
-        }
-        mixed |= (mask_bits(vi_eq(differ, vi_splat(0))) ^ VEC_ALL_LANES) << (v * DIP_LANES);
-    }
-    return mixed;
-}
-
-// Whether the sub-block's pixels all hold one triangle at sample 0.
-VEC_INLINE bool one_triangle(const uint32_t *ids) {
-    const Vi id = vi_splat((int32_t)ids[0]);
-    Vi differ = vi_splat(0);
+// The triangle's pixels as fragments of its draw; samples and sub-pixel places per vector.
+static void push(const SubBlock *sub, uint32_t triangle, unsigned pixels, const Vu *samples,
+                 const Vu *places) {
+    DipTileShading *shading = sub->shading;
+    const uint32_t draw = draw_of(shading, triangle);
+    DipFragmentList *list = &shading->lists[draw];
+    set_triangles(list, triangle);
     for (int v = 0; v < VECTORS; v++) {
-        differ |= id ^ vi_load((const int32_t *)ids + v * DIP_LANES);
+        const unsigned bits = pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
+        vu_compress(list->samples + list->count, bits, samples[v]);
+        list->count += vu_compress(list->place + list->count, bits, places[v]);
     }
-    return mask_all(vi_eq(differ, vi_splat(0)));
+    if (list->count >= DIP_FRAGMENT_BATCH) {
+        shading->flush(shading, draw);
+    }
 }
 
-static void collect_sub_block(DipTileShading *shading, const uint32_t *ids, int x0, int y0) {
-    const unsigned all = (1u << shading->tile->pattern->count) - 1;
-    const unsigned mixed = mixed_pixels(shading->tile, ids);
-    if (!mixed && ids[0] && x0 + 4 <= shading->width && y0 + 4 <= shading->height &&
-        one_triangle(ids)) {
-        push_whole(shading, ids[0] - 1, x0, y0, all);
+// Pixels that one triangle each holds with all samples, shaded at their centres.
+VEC_INLINE void push_uniform(const SubBlock *sub, unsigned left) {
+    Vu samples[VECTORS];
+    Vu places[VECTORS];
+    for (int v = 0; v < VECTORS; v++) {
+        samples[v] = vu_splat((1u << sub->sample_count) - 1);
+        places[v] = (Vu)(vi_load(pixel_place + v * DIP_LANES) + place_of(sub, 128, 128));
+    }
+    while (left) {
+        const uint32_t id = sub->ids[__builtin_ctz(left)];
+        const unsigned pixels = pixels_with(sub->ids, id) & left;
+        left &= ~pixels;
+        push(sub, id - 1, pixels, samples, places);
+    }
+}
+
+// Pixels whose samples differ, all those of the triangle that the first of `left` holds in sample
+// `first`: shaded at their first sample of it. Takes them out of `left`.
+VEC_INLINE void push_mixed_triangle(const SubBlock *sub, unsigned *left, int first) {
+    const DipSamplePattern *pattern = sub->shading->tile->pattern;
+    const uint32_t id = sub->ids[first * DIP_BLOCK_PIXELS + __builtin_ctz(left[first])];
+    Vu samples[VECTORS];
+    Vu places[VECTORS];
+    unsigned pixels = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        samples[v] = places[v] = vu_splat(0);
+    }
+    for (int s = sub->sample_count - 1; s >= first; s--) {
+        const unsigned held = pixels_with(sub->ids + s * DIP_BLOCK_PIXELS, id) & left[s];
+        left[s] &= ~held;
+        pixels |= held;
+        const Vi place = vi_splat(place_of(sub, pattern->x[s], pattern->y[s]));
+        for (int v = 0; v < VECTORS; v++) {
+            const Mask mask = mask_from_bits(held >> (v * DIP_LANES) & VEC_ALL_LANES);
+            samples[v] |= (Vu)vi_select(mask, vi_splat(1 << s), vi_splat(0));
+            places[v] = (Vu)vi_select(mask, place, (Vi)places[v]);
+        }
+    }
+    for (int v = 0; v < VECTORS; v++) {
+        places[v] += (Vu)vi_load(pixel_place + v * DIP_LANES);
+    }
+    push(sub, id - 1, pixels, samples, places);
+}
+
+// Starts a pixel's sum with its uncovered samples.
+static void begin_sum(const SubBlock *sub, int pixel) {
+    DipTileShading *shading = sub->shading;
+    int empty = 0;
+    for (int s = 0; s < sub->sample_count; s++) {
+        empty += sub->ids[s * DIP_BLOCK_PIXELS + pixel] == 0;
+    }
+    const int at = sub->y0 * DIP_TILE + sub->x0 + pixel_place[pixel];
+    for (int c = 0; c < 3; c++) {
+        shading->sum[at][c] = shading->clear_linear16[c] * empty;
+    }
+    shading->mixed[shading->mixed_count++] = (uint16_t)at;
+}
+
+static void push_mixed(const SubBlock *sub, unsigned mixed) {
+    for (unsigned left = mixed; left; left &= left - 1) {
+        begin_sum(sub, __builtin_ctz(left));
+    }
+    unsigned left[DIP_MAX_SAMPLES];
+    for (int s = 0; s < sub->sample_count; s++) {
+        left[s] = ~pixels_with(sub->ids + s * DIP_BLOCK_PIXELS, 0) & mixed;
+    }
+    for (int s = 0; s < sub->sample_count; s++) {
+        while (left[s]) {
+            push_mixed_triangle(sub, left, s);
+        }
+    }
+}
+
+static void clear_pixels(const SubBlock *sub, unsigned left) {
+    const DipTileShading *shading = sub->shading;
+    for (; left; left &= left - 1) {
+        const int place = sub->y0 * DIP_TILE + sub->x0 + pixel_place[__builtin_ctz(left)];
+        shading->pixels[(size_t)(place / DIP_TILE) * shading->stride + (size_t)(place % DIP_TILE)] =
+            shading->clear_rgba8;
+    }
+}
+
+// The sub-block's pixels that lie in the target.
+static unsigned pixels_in_target(const SubBlock *sub) {
+    unsigned inside = 0;
+    for (int i = 0; i < 16; i++) {
+        const bool in =
+            sub->x0 + (i & 3) < sub->shading->width && sub->y0 + (i >> 2) < sub->shading->height;
+        inside |= (unsigned)in << i;
+    }
+    return inside;
+}
+
+static void collect_sub_block(const SubBlock *sub) {
+    const bool within = sub->x0 + 4 <= sub->shading->width && sub->y0 + 4 <= sub->shading->height;
+    const unsigned mixed = sub->sample_count > 1 ? mixed_pixels(sub) : 0;
+    if (within && !mixed && sub->ids[0] && pixels_with(sub->ids, sub->ids[0]) == ALL_PIXELS) {
+        push_whole(sub, sub->ids[0] - 1);
         return;
     }
-    for (int i = 0; i < 16; i++) {
-        const int x = x0 + (i & 3);
-        const int y = y0 + (i >> 2);
-        if (x >= shading->width || y >= shading->height) {
-            continue;
-        }
-        if (mixed >> i & 1) {
-            push_mixed(shading, ids + i, x, y);
-        } else if (ids[i]) {
-            push(shading, ids[i] - 1, x, y, all, 128, 128);
-        } else {
-            shading->pixels[(size_t)y * shading->stride + (size_t)x] = shading->clear_rgba8;
-        }
+    const unsigned inside = within ? ALL_PIXELS : pixels_in_target(sub);
+    const unsigned uniform = inside & ~mixed;
+    const unsigned empty = pixels_with(sub->ids, 0) & uniform;
+    clear_pixels(sub, empty);
+    push_uniform(sub, uniform & ~empty);
+    if (mixed & inside) {
+        push_mixed(sub, mixed & inside);
     }
 }
 
@@ -146,9 +227,10 @@ void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
         }
         const uint32_t *ids = tile->id + dip_tile_index(tile, block, 0);
         for (int quarter = 0; quarter < 4; quarter++) {
-            collect_sub_block(shading, ids + quarter * 16,
-                              block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * 4,
-                              block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * 4);
+            const SubBlock sub = {shading, ids + quarter * 16, tile->pattern->count,
+                                  block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * 4,
+                                  block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * 4};
+            collect_sub_block(&sub);
         }
     }
 }

@@ -57,15 +57,23 @@ VEC_INLINE Plane plane_at(const SurfaceRows *rows, int i, Vf x, Vf y) {
     return (Plane){(rows->values[i] + dx * x) + dy * y, dx, dy};
 }
 
+// A place's pixel coordinate in 1/256 pixel of the tile, to pixels in the target.
+VEC_INLINE Vf target_coordinate(Vi pixel, Vi sub, int tile_first) {
+    return vf_from_int((pixel + tile_first) << 8 | sub) * (1.0f / 256.0f);
+}
+
 // u = (u/w) / (1/w); du/dx = (d(u/w)/dx - u d(1/w)/dx) / (1/w): exact, by the quotient rule.
 void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipFragmentList *list,
                                         int slot_count, DipFragmentBatch *batch) {
-    batch->count = list->count;
-    for (int i = 0; i < list->count; i += DIP_LANES) {
+    batch->count = list->count < DIP_FRAGMENT_BATCH ? list->count : DIP_FRAGMENT_BATCH;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
         SurfaceRows rows;
         read_surfaces(input, list->triangle + i, dip_surface_floats(slot_count), &rows);
-        const Vf x = vf_load(list->x + i);
-        const Vf y = vf_load(list->y + i);
+        const Vi place = vi_load((const int32_t *)list->place + i);
+        const Vf x =
+            target_coordinate(place & (DIP_TILE - 1), place >> DIP_PLACE_SUB_X & 255, input->x0);
+        const Vf y = target_coordinate(place >> DIP_PLACE_Y & (DIP_TILE - 1),
+                                       place >> DIP_PLACE_SUB_Y & 255, input->y0);
         const Vf from_x = x - rows.values[DIP_SURFACE_ANCHOR];
         const Vf from_y = y - rows.values[DIP_SURFACE_ANCHOR + 1];
         const Plane q = plane_at(&rows, DIP_SURFACE_RW, from_x, from_y);

@@ -16,14 +16,24 @@
 
 enum { DIP_TILE_PIXELS = DIP_TILE * DIP_TILE };
 
+// Where a fragment is shaded, in bits: its pixel in the tile, y * DIP_TILE + x, and the place in
+// the pixel, 1/256 pixel from its top left corner.
+enum {
+    DIP_PLACE_Y = 6,      // first of 6 bits, after the 6 of x
+    DIP_PLACE_SUB_X = 12, // first of 8
+    DIP_PLACE_SUB_Y = 20,
+    DIP_PLACE_PIXEL = DIP_TILE_PIXELS - 1, // mask of x and y
+};
+
+// A sub-block's fragments are pushed at once, past a batch's count.
+enum { DIP_LIST_ROOM = DIP_FRAGMENT_BATCH + 16 };
+
 // Fragments of one draw that wait to be shaded. Arrays may be read to their end.
 typedef struct DipFragmentList {
     int count;
-    uint32_t triangle[DIP_FRAGMENT_BATCH]; // index into the geometry's triangles
-    uint16_t pixel[DIP_FRAGMENT_BATCH];    // of the tile: y * DIP_TILE + x
-    uint8_t samples[DIP_FRAGMENT_BATCH];   // bit s: holds sample s
-    float x[DIP_FRAGMENT_BATCH];           // where it is shaded, pixels in the target
-    float y[DIP_FRAGMENT_BATCH];
+    uint32_t triangle[DIP_LIST_ROOM]; // index into the geometry's triangles
+    uint32_t place[DIP_LIST_ROOM];
+    uint32_t samples[DIP_LIST_ROOM]; // bit s: holds sample s; whole lists: not set, all of them
 } DipFragmentList;
 
 // A batch after shading.
@@ -36,11 +46,13 @@ typedef struct DipEncodedBatch {
 typedef struct DipShadingInput {
     const DipTriangle *triangles;
     const float *surfaces;
+    int x0; // of the tile's first pixel in the target
+    int y0;
 } DipShadingInput;
 
 typedef struct DipTileShading DipTileShading;
 
-// Shades a draw's list and empties it.
+// Shades a draw's list, at most a batch of it, and moves what is left to its start.
 typedef void DipFlushList(DipTileShading *shading, uint32_t draw);
 
 struct DipTileShading {

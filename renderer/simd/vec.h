@@ -345,6 +345,24 @@ VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
 #endif
 }
 
+// Stores the lanes whose bit is set one after another and returns their number; may write over a
+// whole vector's room.
+VEC_INLINE int vu_compress(uint32_t *out, unsigned bits, Vu v) {
+#if VEC_AVX512
+    const __m512i packed = _mm512_maskz_compress_epi32((__mmask16)bits, (__m512i)v);
+    _mm512_storeu_si512(out, packed);
+    return __builtin_popcount(bits);
+#else
+    uint32_t lanes[DIP_LANES];
+    vu_store(lanes, v);
+    int count = 0;
+    for (; bits; bits &= bits - 1) {
+        out[count++] = lanes[__builtin_ctz(bits)];
+    }
+    return count;
+#endif
+}
+
 // The greatest lane.
 VEC_INLINE int32_t vi_greatest(Vi v) {
 #if VEC_AVX512

@@ -185,10 +185,9 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
     const bool one_triangle = random_int(random, 0, 1);
     for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
         list.triangle[i] = one_triangle ? 3 : (uint32_t)random_int(random, 0, TRIANGLES - 1);
-        list.x[i] = (float)random_real(random, 0.0, 640.0);
-        list.y[i] = (float)random_real(random, 0.0, 480.0);
+        list.place[i] = (uint32_t)random_int(random, 0, (1 << 28) - 1);
     }
-    const DipShadingInput input = {triangles, surfaces};
+    const DipShadingInput input = {triangles, surfaces, 576, 448};
     scalar->dip_kernel_interpolate(&input, &list, SLOTS, &expected);
     other->dip_kernel_interpolate(&input, &list, SLOTS, &found);
     for (int s = 0; s < SLOTS; s++) {
