@@ -10,7 +10,7 @@ typedef struct Plane {
 } Plane;
 
 // Up to this many triangles of a vector are read one by one; more are gathered lane by lane.
-enum { FEW_TRIANGLES = 4 };
+enum { FEW_TRIANGLES = 8 };
 
 // The floats of a vector of fragments' surfaces, float i of each lane's at values[i].
 typedef struct SurfaceRows {

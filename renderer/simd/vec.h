@@ -329,6 +329,18 @@ VEC_INLINE Vi vi_lookup16(const int32_t table[16], Vi index) {
 #endif
 }
 
+VEC_INLINE Vf vf_lookup16(const float table[16], Vi index) {
+#if VEC_AVX512
+    return (Vf)_mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(table));
+#elif VEC_AVX2
+    const __m256 in_low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)index);
+    const __m256 in_high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), (__m256i)index);
+    return vf_select(index > 7, (Vf)in_high, (Vf)in_low);
+#else
+    return vf_gather(table, index);
+#endif
+}
+
 // The four bytes from base[index[i]] on, little-endian, at any address.
 VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
 #if VEC_AVX512

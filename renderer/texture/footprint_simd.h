@@ -15,11 +15,8 @@ typedef struct Footprint {
     Vf u, v;           // first probe, texture coordinates
     Vf step_u, step_v; // from one probe to the next
     Vi probes;         // per lane, at least 1
-    int most_probes;   // of all lanes
     Vf inverse_probes;
-    Vi level;
-    Vi next_level;
-    Vi fraction; // of next_level, 0..255
+    Vi lod8; // level of detail, 1/256 level
 } Footprint;
 
 // The Jacobian in texels of level 0 per pixel.
@@ -60,39 +57,43 @@ VEC_INLINE Jacobian bounded_jacobian(Jacobian j) {
 // The major axis of a footprint, texels, and how many times longer than the minor it counts.
 typedef struct Axis {
     Vf u, v;
-    Vf length;
-    Vf ratio;
+    Vf length2; // squares
+    Vf ratio2;
 } Axis;
 
-// The longer of two derivatives (the first on a tie), with the ratio of their lengths.
-VEC_INLINE Axis longer_of(Vf au, Vf av, Vf bu, Vf bv, float max_ratio) {
-    const Vf a2 = au * au + av * av;
-    const Vf b2 = bu * bu + bv * bv;
-    const Mask second = vf_lt(a2, b2);
-    const Vf long2 = vf_select(second, b2, a2);
-    const Vf short2 = vf_max(vf_select(second, a2, b2), vf_splat(MIN_LENGTH * MIN_LENGTH));
-    const Vf ratio = vf_sqrt(long2 / short2);
-    return (Axis){vf_select(second, bu, au), vf_select(second, bv, av), vf_sqrt(long2),
-                  vf_max(vf_min(ratio, vf_splat(max_ratio)), vf_splat(1.0f))};
+VEC_INLINE Vf clamped_square(Vf square, float max) {
+    return vf_max(vf_min(square, vf_splat(max * max)), vf_splat(1.0f));
 }
 
 // Plain AF: the better of the screen's frame and one turned by 45 degrees, the latter capped at
-// half; hence a level of detail that depends on the angle.
+// half; hence a level of detail that depends on the angle. In the turned frame the derivatives are
+// (dX + dY) / sqrt 2 and (dY - dX) / sqrt 2, their squares half the sum plus and minus dX dY.
 VEC_INLINE Axis two_frame_axis(Jacobian j, int max_anisotropy) {
     const float max = (float)max_anisotropy;
-    const float half = max_anisotropy > 2 ? 0.5f * max : 1.0f;
+    const Vf tiny = vf_splat(MIN_LENGTH * MIN_LENGTH);
+    const Vf x2 = j.ux * j.ux + j.vx * j.vx;
+    const Vf y2 = j.uy * j.uy + j.vy * j.vy;
+    const Vf dot = j.ux * j.uy + j.vx * j.vy;
+    const Vf mean = (x2 + y2) * 0.5f;
+    const Vf screen2 = vf_max(x2, y2);
+    const Vf turned2 = mean + vf_abs(dot);
+    const Vf screen_ratio2 = clamped_square(screen2 / vf_max(vf_min(x2, y2), tiny), max);
+    const Vf turned_ratio2 = clamped_square(turned2 / vf_max(mean - vf_abs(dot), tiny),
+                                            max_anisotropy > 2 ? 0.5f * max : 1.0f);
+    const Mask turn = vf_lt(screen_ratio2, turned_ratio2);
+    const Mask y_longer = vf_lt(x2, y2);
+    const Mask opposed = vf_lt(dot, vf_splat(0.0f));
     const float c = 0.70710678f;
-    const Axis screen = longer_of(j.ux, j.vx, j.uy, j.vy, max);
-    const Axis turned =
-        longer_of((j.ux + j.uy) * c, (j.vx + j.vy) * c, (j.uy - j.ux) * c, (j.vy - j.vx) * c, half);
-    const Mask use = vf_lt(screen.ratio, turned.ratio);
-    return (Axis){vf_select(use, turned.u, screen.u), vf_select(use, turned.v, screen.v),
-                  vf_select(use, turned.length, screen.length),
-                  vf_select(use, turned.ratio, screen.ratio)};
+    const Vf turned_u = (j.uy + vf_select(opposed, -j.ux, j.ux)) * c;
+    const Vf turned_v = (j.vy + vf_select(opposed, -j.vx, j.vx)) * c;
+    return (Axis){vf_select(turn, turned_u, vf_select(y_longer, j.uy, j.ux)),
+                  vf_select(turn, turned_v, vf_select(y_longer, j.vy, j.vx)),
+                  vf_select(turn, turned2, screen2), vf_select(turn, turned_ratio2, screen_ratio2)};
 }
 
-// Advanced AF: the ellipse's axes by the closed-form singular values of the Jacobian, which do
-// not cancel; the major direction is the larger column of J J^T - m^2 I.
+// Advanced AF: the ellipse's axes by the closed-form singular values M >= m of the Jacobian J,
+// which do not cancel; the major direction is the larger column of J J^T - m^2 I. Lengths are in
+// units of M, so that no square overflows.
 VEC_INLINE Axis ellipse_axis(Jacobian j, int max_anisotropy) {
     const Vf e = (j.ux + j.vy) * 0.5f;
     const Vf f = (j.ux - j.vy) * 0.5f;
@@ -100,22 +101,20 @@ VEC_INLINE Axis ellipse_axis(Jacobian j, int max_anisotropy) {
     const Vf h = (j.vx - j.uy) * 0.5f;
     const Vf major = vf_sqrt(e * e + h * h) + vf_sqrt(f * f + g * g);
     const Vf longer = vf_max(major, vf_splat(MIN_LENGTH));
-    const Vf minor = vf_abs(j.ux * j.vy - j.uy * j.vx) / longer;
-    const Vf ratio = longer / vf_max(minor, vf_splat(MIN_LENGTH));
-    // Scaled to M = 1, so that no square overflows.
     const Vf unit = vf_splat(1.0f) / longer;
     const Jacobian k = {j.ux * unit, j.vx * unit, j.uy * unit, j.vy * unit};
-    const Vf minor2 = (minor * unit) * (minor * unit);
+    const Vf minor = vf_abs(k.ux * k.vy - k.uy * k.vx);
+    const Vf ratio = vf_splat(1.0f) / vf_max(minor, vf_splat(MIN_LENGTH));
+    const Vf minor2 = minor * minor;
     const Vf across = k.ux * k.vx + k.uy * k.vy;
     const Vf along_u = (k.ux * k.ux + k.uy * k.uy) - minor2;
     const Vf along_v = (k.vx * k.vx + k.vy * k.vy) - minor2;
     const Mask by_v = vf_lt(along_u, along_v);
     const Vf u = vf_select(by_v, across, along_u);
     const Vf v = vf_select(by_v, along_v, across);
-    const Vf norm = vf_sqrt(vf_max(u * u + v * v, vf_splat(1e-30f)));
-    const Vf scale = longer / norm;
-    return (Axis){u * scale, v * scale, longer,
-                  vf_max(vf_min(ratio, vf_splat((float)max_anisotropy)), vf_splat(1.0f))};
+    const Vf scale = longer / vf_sqrt(vf_max(u * u + v * v, vf_splat(1e-30f)));
+    return (Axis){u * scale, v * scale, longer * longer,
+                  clamped_square(ratio * ratio, (float)max_anisotropy)};
 }
 
 // ceil(ratio - 1e-4) for ratios of 1..16.
@@ -125,15 +124,20 @@ VEC_INLINE Vi probe_count(Vf ratio) {
     return whole + vi_select(vf_lt(vf_from_int(whole), at), vi_splat(1), vi_splat(0));
 }
 
+// 1 / probes, for 1..16.
+VEC_INLINE Vf inverse_of(Vi probes) {
+    static const float inverses[16] = {
+        1.0f / 16, 1.0f,     1.0f / 2,  1.0f / 3,  1.0f / 4,  1.0f / 5,  1.0f / 6,  1.0f / 7,
+        1.0f / 8,  1.0f / 9, 1.0f / 10, 1.0f / 11, 1.0f / 12, 1.0f / 13, 1.0f / 14, 1.0f / 15};
+    return vf_lookup16(inverses, probes & 15);
+}
+
 // lambda, given as log2(rho), rounded to 1/256, biased, clamped.
-VEC_INLINE void set_level(Footprint *footprint, const DipSampler *sampler, Vf lambda) {
+VEC_INLINE Vi find_level(const DipSampler *sampler, Vf lambda) {
     const Vi lod8 = vi_from_float(vf_floor(lambda * 256.0f + 0.5f)) + sampler->bias_lod8;
     const int32_t last = (sampler->texture->level_count - 1) * 256;
     const int32_t min = sampler->min_lod8 < last ? sampler->min_lod8 : last;
-    const Vi clamped = vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
-    footprint->level = clamped >> 8;
-    footprint->fraction = clamped & 255;
-    footprint->next_level = vi_min(footprint->level + 1, vi_splat(last >> 8));
+    return vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
 }
 
 // Trilinear: one probe, and lambda = log2 of the longer derivative, from its square.
@@ -143,11 +147,10 @@ VEC_INLINE void set_isotropic(Footprint *footprint, const DipSampler *sampler, J
     const Vf dx2 = vf_min(j.ux * j.ux + j.vx * j.vx, most);
     const Vf dy2 = vf_min(j.uy * j.uy + j.vy * j.vy, most);
     const Vf rho2 = vf_max(vf_max(dx2, dy2), vf_splat(MIN_LENGTH * MIN_LENGTH));
-    set_level(footprint, sampler, log2_of(rho2) * 0.5f);
+    footprint->lod8 = find_level(sampler, log2_of(rho2) * 0.5f);
     footprint->step_u = footprint->step_v = vf_splat(0.0f);
     footprint->probes = vi_splat(1);
     footprint->inverse_probes = vf_splat(1.0f);
-    footprint->most_probes = 1;
 }
 
 // Probes of equal weight at (k + 1/2) / N - 1/2 of the major axis, but none closer than a texel of
@@ -156,10 +159,9 @@ VEC_INLINE void place_probes(Footprint *footprint, const DipSampler *sampler, co
     const int last = sampler->texture->level_count - 1;
     const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
     const float finest = 1.0f / (float)(1 << min);
-    const Vf texels = vf_max(axis->length * finest, vf_splat(1.0f));
-    footprint->probes = probe_count(vf_min(axis->ratio, texels));
-    footprint->inverse_probes = vf_splat(1.0f) / vf_from_int(footprint->probes);
-    footprint->most_probes = vi_greatest(footprint->probes);
+    const Vf texels2 = vf_max(axis->length2 * (finest * finest), vf_splat(1.0f));
+    footprint->probes = probe_count(vf_sqrt(vf_min(axis->ratio2, texels2)));
+    footprint->inverse_probes = inverse_of(footprint->probes);
     const Vf line_u = axis->u * (1.0f / (float)sampler->texture->width);
     const Vf line_v = axis->v * (1.0f / (float)sampler->texture->height);
     const Vf first = 0.5f * footprint->inverse_probes - 0.5f;
@@ -172,20 +174,21 @@ VEC_INLINE void place_probes(Footprint *footprint, const DipSampler *sampler, co
 VEC_INLINE void set_anisotropic(Footprint *footprint, const DipSampler *sampler, Jacobian j) {
     const Axis axis = sampler->advanced ? ellipse_axis(j, sampler->max_anisotropy)
                                         : two_frame_axis(j, sampler->max_anisotropy);
-    set_level(footprint, sampler, log2_of(vf_max(axis.length, vf_splat(MIN_LENGTH)) / axis.ratio));
+    const Vf length2 = vf_max(axis.length2, vf_splat(MIN_LENGTH * MIN_LENGTH));
+    footprint->lod8 = find_level(sampler, log2_of(length2 / axis.ratio2) * 0.5f);
     place_probes(footprint, sampler, &axis);
 }
 
 VEC_INLINE Footprint footprint_at(const DipFragmentBatch *batch, const DipSampler *sampler,
-                                  int slot, int i) {
+                                  int slot, int i, bool anisotropic) {
     const Jacobian jacobian = read_jacobian(batch, sampler->texture, slot, i);
     Footprint footprint;
     footprint.u = vf_load(batch->slot[slot] + i);
     footprint.v = vf_load(batch->slot[slot + 1] + i);
-    if (sampler->max_anisotropy == 1) {
-        set_isotropic(&footprint, sampler, jacobian);
-    } else {
+    if (anisotropic) {
         set_anisotropic(&footprint, sampler, bounded_jacobian(jacobian));
+    } else {
+        set_isotropic(&footprint, sampler, jacobian);
     }
     return footprint;
 }

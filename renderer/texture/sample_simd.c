@@ -10,67 +10,26 @@
 #include "renderer/texture/footprint_simd.h"
 #include "renderer/texture/texture.h"
 
-// The batch's work so far, a sum per lane: of probes, and of levels that they read.
-typedef struct LaneWork {
-    Vi probes;
-    Vi levels;
-} LaneWork;
+enum { VECTORS = DIP_FRAGMENT_BATCH / DIP_LANES };
 
-VEC_INLINE LaneWork no_work(void) {
-    return (LaneWork){vi_splat(0), vi_splat(0)};
-}
+// A way to read a texture: constants of each inlined copy of the loops below.
+typedef struct Way {
+    bool anisotropic; // several probes
+    bool in_bits;     // addresses are fractions of the texture in 32 bits, which wrap by themselves
+} Way;
 
-// Adds the work of the lanes that are the batch's own.
-VEC_INLINE void count_work(LaneWork *work, const Footprint *footprint, int lanes) {
-    const Vi own = vi_select(vi_lt(vi_iota(), vi_splat(lanes)), footprint->probes, vi_splat(0));
-    const Mask blends = vi_lt(vi_splat(0), footprint->fraction);
-    work->probes += own;
-    work->levels += own + vi_select(blends, own, vi_splat(0));
-}
-
-VEC_INLINE void add_work(DipSampleWork *total, const LaneWork *work) {
-    total->probes += (uint64_t)vi_sum(work->probes);
-    total->texels += (uint64_t)vi_sum(work->levels) * 4;
-}
-
-// All footprints of a batch before any texel is read: their long chains of dependent operations
-// overlap, which they would not with the reads in between.
-VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, int slot,
-                                Footprint *footprints) {
-    LaneWork work = no_work();
-    for (int i = 0; i < batch->count; i += DIP_LANES) {
-        footprints[i / DIP_LANES] = footprint_at(batch, sampler, slot, i);
-        count_work(&work, &footprints[i / DIP_LANES], batch->count - i);
-    }
-    add_work(&batch->work, &work);
-}
-
-// --- addresses ---------------------------------------------------------------------------------
-
-// Where a vector's probes lie: as fractions of the texture in 32 bits, which wrap by themselves, or
-// as floats, for textures of other sizes and address modes.
-typedef struct Walk {
-    bool in_bits;
-    Vu u, v;
-    Vu step_u, step_v;
-    const Footprint *footprint;
-} Walk;
-
-// A level's table entries per lane.
-typedef struct Level {
-    Vi offset;
-    Vi stride;
-    Vi stride_pairs; // stride, in pair order
-    Vi width;        // texels; in_bits: their log2
-    Vi height;
-} Level;
-
-// A bilinear read: the first texel's index and its place in 1/256 texel, the whole texels included.
-typedef struct Taps {
-    Vi index;
-    Vi x8;
-    Vi y8;
-} Taps;
+// The footprints of a batch, found before any texel is read: their long chains of dependent
+// operations overlap, which they would not with the reads in between. Places are fractions in units
+// of 2^-32, or the bits of floats where the way says so.
+typedef struct Footprints {
+    Vi lod8[VECTORS];
+    Vu u[VECTORS]; // of the first probe
+    Vu v[VECTORS];
+    Vu step_u[VECTORS]; // the rest: anisotropic only
+    Vu step_v[VECTORS];
+    Vi probes[VECTORS];
+    Vf inverse_probes[VECTORS];
+} Footprints;
 
 // The fraction of a coordinate in units of 2^-32. Infinities and NaN become some fraction.
 VEC_INLINE Vu fraction32(Vf coordinate) {
@@ -87,24 +46,86 @@ VEC_INLINE Vu step32(Vf step) {
     return (Vu)vi_from_float(bounded * 4294967296.0f);
 }
 
-VEC_INLINE Walk begin_walk(const DipTexture *texture, const Footprint *footprint) {
-    Walk walk = {.in_bits = texture->wraps_in_bits, .footprint = footprint};
-    walk.step_u = walk.step_v = vu_splat(0);
-    if (walk.in_bits) {
-        walk.u = fraction32(footprint->u);
-        walk.v = fraction32(footprint->v);
-        if (footprint->most_probes > 1) {
-            walk.step_u = step32(footprint->step_u);
-            walk.step_v = step32(footprint->step_v);
+// The batch's work so far, a sum per lane: of probes, and of levels that they read.
+typedef struct LaneWork {
+    Vi probes;
+    Vi levels;
+} LaneWork;
+
+// Adds the work of the lanes that are the batch's own.
+VEC_INLINE void count_work(LaneWork *work, const Footprint *footprint, int lanes) {
+    const Vi own = vi_select(vi_lt(vi_iota(), vi_splat(lanes)), footprint->probes, vi_splat(0));
+    const Mask blends = vi_lt(vi_splat(0), footprint->lod8 & 255);
+    work->probes += own;
+    work->levels += own + vi_select(blends, own, vi_splat(0));
+}
+
+VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
+                                int slot, Footprints *out) {
+    LaneWork work = {vi_splat(0), vi_splat(0)};
+    for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
+        const Footprint footprint = footprint_at(batch, sampler, slot, i, way.anisotropic);
+        count_work(&work, &footprint, batch->count - i);
+        out->lod8[n] = footprint.lod8;
+        out->u[n] = way.in_bits ? fraction32(footprint.u) : (Vu)footprint.u;
+        out->v[n] = way.in_bits ? fraction32(footprint.v) : (Vu)footprint.v;
+        if (way.anisotropic) {
+            out->step_u[n] = way.in_bits ? step32(footprint.step_u) : (Vu)footprint.step_u;
+            out->step_v[n] = way.in_bits ? step32(footprint.step_v) : (Vu)footprint.step_v;
+            out->probes[n] = footprint.probes;
+            out->inverse_probes[n] = footprint.inverse_probes;
         }
+    }
+    batch->work.probes += (uint64_t)vi_sum(work.probes);
+    batch->work.texels += (uint64_t)vi_sum(work.levels) * 4;
+}
+
+// --- addresses ---------------------------------------------------------------------------------
+
+// Where a vector's probes are.
+typedef struct Walk {
+    Vu u, v;
+    Vu step_u, step_v;
+    int probe;
+} Walk;
+
+VEC_INLINE Walk begin_walk(const Footprints *footprints, Way way, int n) {
+    Walk walk = {.u = footprints->u[n], .v = footprints->v[n]};
+    if (way.anisotropic) {
+        walk.step_u = footprints->step_u[n];
+        walk.step_v = footprints->step_v[n];
     }
     return walk;
 }
 
-VEC_INLINE Level read_level(const DipTexture *texture, Vi level) {
+VEC_INLINE void next_probe(Walk *walk, Way way) {
+    walk->probe++;
+    if (way.in_bits) {
+        walk->u += walk->step_u;
+        walk->v += walk->step_v;
+    }
+}
+
+// A level's table entries per lane.
+typedef struct Level {
+    Vi offset;
+    Vi stride;
+    Vi stride_pairs; // stride, in pair order
+    Vi width;        // texels; in bits: their log2
+    Vi height;
+} Level;
+
+// A bilinear read: the first texel's index and its place in 1/256 texel, the whole texels included.
+typedef struct Taps {
+    Vi index;
+    Vi x8;
+    Vi y8;
+} Taps;
+
+VEC_INLINE Level read_level(const DipTexture *texture, Way way, Vi level) {
     Level out;
     out.offset = vi_lookup16(texture->level_offset, level);
-    if (texture->wraps_in_bits) {
+    if (way.in_bits) {
         out.width = vi_lookup16(texture->level_log2_width, level);
         out.height = vi_lookup16(texture->level_log2_height, level);
         out.stride = (vi_splat(1) << out.width) + 1;
@@ -134,18 +155,18 @@ VEC_INLINE Vi address(Vf coordinate, DipWrap wrap, Vi size) {
     return wrap == DIP_WRAP_REPEAT ? at + (before & (size << 8)) : at & ~before;
 }
 
-// Probe k's read of a level.
-VEC_INLINE Taps taps_at(const DipTexture *texture, const Walk *walk, int k, const Level *level) {
+// The probe's read of a level.
+VEC_INLINE Taps taps_at(const DipTexture *texture, Way way, const Walk *walk, const Level *level) {
     Taps taps;
-    if (walk->in_bits) {
+    if (way.in_bits) {
         taps.x8 = address_in_bits(walk->u, level->width);
         taps.y8 = address_in_bits(walk->v, level->height);
         const Vi y = taps.y8 >> 8;
         taps.index = (level->offset + (taps.x8 >> 8)) + ((y << level->width) + y);
     } else {
-        const Footprint *footprint = walk->footprint;
-        const Vf u = footprint->u + footprint->step_u * (float)k;
-        const Vf v = footprint->v + footprint->step_v * (float)k;
+        const float probe = (float)walk->probe;
+        const Vf u = way.anisotropic ? (Vf)walk->u + (Vf)walk->step_u * probe : (Vf)walk->u;
+        const Vf v = way.anisotropic ? (Vf)walk->v + (Vf)walk->step_v * probe : (Vf)walk->v;
         taps.x8 = address(u, texture->wrap_u, level->width);
         taps.y8 = address(v, texture->wrap_v, level->height);
         taps.index = (level->offset + (taps.x8 >> 8)) + (taps.y8 >> 8) * level->stride;
@@ -153,11 +174,24 @@ VEC_INLINE Taps taps_at(const DipTexture *texture, const Walk *walk, int k, cons
     return taps;
 }
 
-VEC_INLINE void next_probe(Walk *walk) {
-    if (walk->in_bits) {
-        walk->u += walk->step_u;
-        walk->v += walk->step_v;
-    }
+// The levels that a footprint blends.
+typedef struct Levels {
+    Level near;
+    Level far;
+    Vi fraction; // of far, 1/256
+} Levels;
+
+VEC_INLINE Vi shown_level(const DipSampler *sampler, Vi level) {
+    return sampler->shown ? vi_lookup16(sampler->shown_level, level) : level;
+}
+
+VEC_INLINE Levels read_levels(const DipSampler *sampler, const DipTexture *texture, Way way,
+                              Vi lod8) {
+    const Vi near = lod8 >> 8;
+    const Vi far = vi_min(near + 1, vi_splat(sampler->texture->level_count - 1));
+    const bool shown = texture != sampler->texture;
+    return (Levels){read_level(texture, way, shown ? shown_level(sampler, near) : near),
+                    read_level(texture, way, shown ? shown_level(sampler, far) : far), lod8 & 255};
 }
 
 // --- colour ------------------------------------------------------------------------------------
@@ -200,36 +234,55 @@ VEC_INLINE void add_level(PairSum *sum, const DipTexture *texture, const Level *
     add_row(sum, texture, index + level->stride_pairs, across, lower);
 }
 
-VEC_INLINE Vi shown_level(const DipSampler *sampler, Vi level) {
-    return sampler->shown ? vi_lookup16(sampler->shown_level, level) : level;
-}
-
-VEC_INLINE Colour filter_colour(const DipSampler *sampler, const Footprint *footprint) {
-    const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
-    const Level near = read_level(texture, shown_level(sampler, footprint->level));
-    const Level far = read_level(texture, shown_level(sampler, footprint->next_level));
-    const bool blend = mask_any(vi_lt(vi_splat(0), footprint->fraction));
-    const VuPair far_weight = vu_pair_both(footprint->fraction);
+// The sum over the probes of vector n.
+VEC_INLINE Colour filter_colour(const DipSampler *sampler, const DipTexture *texture, Way way,
+                                const Footprints *footprints, int n) {
+    const Levels levels = read_levels(sampler, texture, way, footprints->lod8[n]);
+    const bool blend = mask_any(vi_lt(vi_splat(0), levels.fraction));
+    const VuPair far_weight = vu_pair_both(levels.fraction);
     const VuPair near_weight = {~far_weight.a, ~far_weight.b};
+    const Vi probes = way.anisotropic ? footprints->probes[n] : vi_splat(1);
+    const int most_probes = way.anisotropic ? vi_greatest(probes) : 1;
     Colour total = {{vi_splat(0), vi_splat(0), vi_splat(0)}};
-    Walk walk = begin_walk(texture, footprint);
-    for (int k = 0; k < footprint->most_probes; k++) {
-        PairSum sum = {{{0}, {0}}, {{0}, {0}}};
-        const Taps near_taps = taps_at(texture, &walk, k, &near);
-        add_level(&sum, texture, &near, &near_taps, near_weight);
-        if (blend) { // where the fraction is 0 it adds nothing, so lanes do not matter
-            const Taps far_taps = taps_at(texture, &walk, k, &far);
-            add_level(&sum, texture, &far, &far_taps, far_weight);
+    Walk walk = begin_walk(footprints, way, n);
+    for (int k = 0; k < most_probes; k++) {
+        PairSum sum = {{vu_splat(0), vu_splat(0)}, {vu_splat(0), vu_splat(0)}};
+        const Taps near_taps = taps_at(texture, way, &walk, &levels.near);
+        add_level(&sum, texture, &levels.near, &near_taps, near_weight);
+        if (blend) { // where the fraction is 0 it adds nothing, so other lanes do not matter
+            const Taps far_taps = taps_at(texture, way, &walk, &levels.far);
+            add_level(&sum, texture, &levels.far, &far_taps, far_weight);
         }
-        const Mask has = vi_lt(vi_splat(k), footprint->probes);
-        const Vi red_green = vi_select(has, (Vi)vu_pair_sum(sum.red_green), vi_splat(0));
-        const Vi blue = vi_select(has, (Vi)vu_pair_sum(sum.blue), vi_splat(0));
+        Vi red_green = (Vi)vu_pair_sum(sum.red_green);
+        Vi blue = (Vi)vu_pair_sum(sum.blue);
+        if (way.anisotropic) {
+            const Mask has = vi_lt(vi_splat(k), probes);
+            red_green = vi_select(has, red_green, vi_splat(0));
+            blue = vi_select(has, blue, vi_splat(0));
+            next_probe(&walk, way);
+        }
         total.c[0] += (Vi)((Vu)red_green >> 16);
         total.c[1] += red_green & 0xffff;
         total.c[2] += blue;
-        next_probe(&walk);
     }
     return total;
+}
+
+VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
+                              int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
+    // What white comes to, within 6: the squares of its codes less what eight rounded products
+    // lose.
+    static const float white[3] = {65464.0f, 65464.0f, 65400.0f};
+    const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
+    Footprints footprints;
+    find_footprints(batch, sampler, way, u_slot, &footprints);
+    for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
+        const Colour sum = filter_colour(sampler, texture, way, &footprints, n);
+        for (int c = 0; c < 3; c++) {
+            const Vf light = vf_from_int(sum.c[c]) * (1.0f / white[c]);
+            vf_store(out[c] + i, way.anisotropic ? light * footprints.inverse_probes[n] : light);
+        }
+    }
 }
 
 // --- alpha -------------------------------------------------------------------------------------
@@ -245,43 +298,60 @@ VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const Level *level, cons
            (vf_from_int(lower & 255) * (gx * fy) + vf_from_int(lower >> 8 & 255) * (fx * fy));
 }
 
-VEC_INLINE Vf filter_alpha(const DipSampler *sampler, const Footprint *footprint) {
+// The sum over the probes of vector n, in units of 1 / (255 * 65536 * 256).
+VEC_INLINE Vf filter_alpha(const DipSampler *sampler, Way way, const Footprints *footprints,
+                           int n) {
     const DipTexture *texture = sampler->texture;
-    const Level near = read_level(texture, footprint->level);
-    const Level far = read_level(texture, footprint->next_level);
-    const Vf far_weight = vf_from_int(footprint->fraction);
+    const Levels levels = read_levels(sampler, texture, way, footprints->lod8[n]);
+    const Vf far_weight = vf_from_int(levels.fraction);
     const Vf near_weight = 256.0f - far_weight;
+    const Vi probes = way.anisotropic ? footprints->probes[n] : vi_splat(1);
+    const int most_probes = way.anisotropic ? vi_greatest(probes) : 1;
     Vf total = vf_splat(0.0f);
-    Walk walk = begin_walk(texture, footprint);
-    for (int k = 0; k < footprint->most_probes; k++) {
-        const Taps near_taps = taps_at(texture, &walk, k, &near);
-        const Taps far_taps = taps_at(texture, &walk, k, &far);
-        const Vf mixed = bilinear_alpha(texture, &near, &near_taps) * near_weight +
-                         bilinear_alpha(texture, &far, &far_taps) * far_weight;
-        const Mask has = vi_lt(vi_splat(k), footprint->probes);
+    Walk walk = begin_walk(footprints, way, n);
+    for (int k = 0; k < most_probes; k++) {
+        const Taps near_taps = taps_at(texture, way, &walk, &levels.near);
+        const Taps far_taps = taps_at(texture, way, &walk, &levels.far);
+        const Vf mixed = bilinear_alpha(texture, &levels.near, &near_taps) * near_weight +
+                         bilinear_alpha(texture, &levels.far, &far_taps) * far_weight;
+        const Mask has = vi_lt(vi_splat(k), probes);
         total += vf_select(has, mixed, vf_splat(0.0f));
-        next_probe(&walk);
+        next_probe(&walk, way);
     }
     return total;
 }
 
+VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
+                             int u_slot, float *out) {
+    Footprints footprints;
+    find_footprints(batch, sampler, way, u_slot, &footprints);
+    for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
+        // Divided so that a constant alpha comes out exact.
+        const Vf probes = way.anisotropic ? vf_from_int(footprints.probes[n]) : vf_splat(1.0f);
+        vf_store(out + i, filter_alpha(sampler, way, &footprints, n) / (4278190080.0f * probes));
+    }
+}
+
 // --- kernels -----------------------------------------------------------------------------------
+
+// Calls sample(batch, sampler, way, ...) with a way of constants.
+#define SAMPLE_BY_WAY(sample, in_bits, ...)                                                        \
+    do {                                                                                           \
+        if (sampler->max_anisotropy > 1 && (in_bits)) {                                            \
+            sample(batch, sampler, (Way){true, true}, __VA_ARGS__);                                \
+        } else if (sampler->max_anisotropy > 1) {                                                  \
+            sample(batch, sampler, (Way){true, false}, __VA_ARGS__);                               \
+        } else if (in_bits) {                                                                      \
+            sample(batch, sampler, (Way){false, true}, __VA_ARGS__);                               \
+        } else {                                                                                   \
+            sample(batch, sampler, (Way){false, false}, __VA_ARGS__);                              \
+        }                                                                                          \
+    } while (false)
 
 void DIP_KERNEL(dip_kernel_sample_colour)(DipFragmentBatch *batch, const DipSampler *sampler,
                                           int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
-    // What white comes to, within 6: the squares of its codes less what eight rounded products
-    // lose.
-    static const float white[3] = {65464.0f, 65464.0f, 65400.0f};
-    Footprint footprints[DIP_FRAGMENT_BATCH / DIP_LANES];
-    find_footprints(batch, sampler, u_slot, footprints);
-    for (int i = 0; i < batch->count; i += DIP_LANES) {
-        const Footprint *footprint = &footprints[i / DIP_LANES];
-        const Colour sum = filter_colour(sampler, footprint);
-        for (int c = 0; c < 3; c++) {
-            const Vf mean = vf_from_int(sum.c[c]) * footprint->inverse_probes;
-            vf_store(out[c] + i, mean * (1.0f / white[c]));
-        }
-    }
+    const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
+    SAMPLE_BY_WAY(sample_colour, texture->wraps_in_bits, u_slot, out);
 }
 
 void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampler *sampler,
@@ -292,12 +362,5 @@ void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampl
         }
         return;
     }
-    Footprint footprints[DIP_FRAGMENT_BATCH / DIP_LANES];
-    find_footprints(batch, sampler, u_slot, footprints);
-    for (int i = 0; i < batch->count; i += DIP_LANES) {
-        const Footprint *footprint = &footprints[i / DIP_LANES];
-        // 255 * 65536 * 256 per probe, divided so that a constant alpha comes out exact.
-        const Vf scale = vf_splat(4278190080.0f) * vf_from_int(footprint->probes);
-        vf_store(out + i, filter_alpha(sampler, footprint) / scale);
-    }
+    SAMPLE_BY_WAY(sample_alpha, sampler->texture->wraps_in_bits, u_slot, out);
 }
