@@ -99,7 +99,7 @@ static void prepare_60_pixels(int sample_count) {
 static void draw_triangles(const DipKernels *kernels) {
     raster.tile.touched = 0;
     for (int t = 0; t < raster.triangle_count; t++) {
-        kernels->dip_kernel_draw_triangle(&raster.tile, &raster.triangles[t], (uint32_t)t + 1, NULL,
+        kernels->dip_kernel_draw_triangle(&raster.tile, &raster.triangles[t], (uint32_t)t + 1,
                                           NULL);
     }
 }
