@@ -245,18 +245,20 @@ VEC_INLINE Vf depth_lanes(const InTile *in, float corner, int v, int s) {
 VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bool inside,
                                int sample_count, DipTile *tile, uint32_t id) {
     const int first = touch_sub_block(tile, region, n, sample_count);
+    float *const depths = tile->depth + first;
+    int32_t *const ids = (int32_t *)tile->id + first;
     for (int v = 0; v < VECTORS; v++) {
         const PixelEdges edges = pixel_edges(in, region, n, v);
         for (int s = 0; s < sample_count; s++) {
-            const int at = first + s * DIP_BLOCK_PIXELS + v * DIP_LANES;
-            const Vf old = vf_load(tile->depth + at);
+            const int at = s * DIP_BLOCK_PIXELS + v * DIP_LANES;
+            const Vf old = vf_load(depths + at);
             const Vf depth = depth_lanes(in, region->depth[n], v, s);
             Mask nearer = vf_lt(old, depth);
             if (!inside) {
                 nearer = nearer & covered_lanes(in, &edges, s, sample_count);
             }
-            vf_store_lanes(tile->depth + at, nearer, depth, old);
-            vi_store_lanes((int32_t *)tile->id + at, nearer, vi_splat((int32_t)id));
+            vf_store_lanes(depths + at, nearer, depth, old);
+            vi_store_lanes(ids + at, nearer, vi_splat((int32_t)id));
         }
     }
 }

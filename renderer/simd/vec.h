@@ -66,13 +66,6 @@ VEC_INLINE void vu_store(uint32_t *p, Vu v) {
     memcpy(p, &v, sizeof v);
 }
 
-// DIP_LANES bytes, each to a lane.
-VEC_INLINE Vi vi_load_bytes(const uint8_t *p) {
-    uint8_t bytes __attribute__((vector_size(DIP_LANES)));
-    memcpy(&bytes, p, sizeof bytes);
-    return __builtin_convertvector(bytes, Vi);
-}
-
 VEC_INLINE Vf vf_splat(float x) {
     return x - (Vf){0};
 }
@@ -319,6 +312,21 @@ VEC_INLINE Vi vi_gather(const int32_t *base, Vi index) {
     Vi v;
     for (int i = 0; i < DIP_LANES; i++) {
         v[i] = base[index[i]];
+    }
+    return v;
+#endif
+}
+
+// DIP_LANES bytes, each to a lane.
+VEC_INLINE Vi vi_load_bytes(const uint8_t *p) {
+#if VEC_AVX512
+    return (Vi)_mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)(const void *)p));
+#elif VEC_AVX2
+    return (Vi)_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)p));
+#else
+    Vi v;
+    for (int i = 0; i < DIP_LANES; i++) {
+        v[i] = p[i];
     }
     return v;
 #endif

@@ -1,7 +1,7 @@
 // What the kernels cost per unit of work, for every instruction set of this machine: one table to
 // hold a change against, or a floor.
 //
-//   dip_bench_kernels [ROW]      rows whose name contains ROW; all without it
+//   dip_bench_kernels [ROW [ISA]]      rows whose name contains ROW; all without it
 //
 // Cycles are core cycles, calibrated by a chain of dependent additions of one cycle each. Every
 // number is the least of many rounds.
@@ -165,9 +165,10 @@ static double measure_ns_per_cycle(void) {
     return least;
 }
 
-static void measure_row(const Row *row, double ns_per_cycle) {
+static void measure_row(const Row *row, const char *only_isa, double ns_per_cycle) {
     for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
-        if (!dip_isa_available((DipIsa)isa)) {
+        const bool wanted = !only_isa || strcmp(only_isa, dip_isa_name((DipIsa)isa)) == 0;
+        if (!wanted || !dip_isa_available((DipIsa)isa)) {
             continue;
         }
         row->prepare(row->parameter);
@@ -178,8 +179,8 @@ static void measure_row(const Row *row, double ns_per_cycle) {
 }
 
 int main(int argc, char **argv) {
-    if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
-        fprintf(stderr, "usage: dip_bench_kernels [ROW]\n");
+    if (argc > 3 || (argc > 1 && argv[1][0] == '-')) {
+        fprintf(stderr, "usage: dip_bench_kernels [ROW [ISA]]\n");
         return 2;
     }
     dip_fp_mode_set();
@@ -187,7 +188,7 @@ int main(int argc, char **argv) {
     printf("one cycle is %.3f ns\n", ns_per_cycle);
     for (int i = 0; i < (int)DIP_ARRAY_COUNT(rows); i++) {
         if (argc < 2 || strstr(rows[i].name, argv[1])) {
-            measure_row(&rows[i], ns_per_cycle);
+            measure_row(&rows[i], argc > 2 ? argv[2] : NULL, ns_per_cycle);
         }
     }
     return 0;
