@@ -192,10 +192,11 @@ VEC_INLINE void place_corners(Region *region, const DipTriangle *triangle, const
 
 // --- sub-blocks --------------------------------------------------------------------------------
 
-VEC_INLINE void clear_block(DipTile *tile, int block) {
-    float *depth = tile->depth + dip_tile_index(tile, block, 0);
-    int32_t *id = (int32_t *)tile->id + dip_tile_index(tile, block, 0);
-    for (int i = 0; i < tile->pattern->count * DIP_BLOCK_PIXELS; i += DIP_LANES) {
+VEC_INLINE void clear_block(DipTile *tile, int block, int sample_count) {
+    const int count = sample_count * DIP_BLOCK_PIXELS;
+    float *const depth = tile->depth + block * count;
+    int32_t *const id = (int32_t *)tile->id + block * count;
+    for (int i = 0; i < count; i += DIP_LANES) {
         vf_store(depth + i, vf_splat(0.0f));
         vi_store(id + i, vi_splat(0));
     }
@@ -209,7 +210,7 @@ VEC_INLINE int touch_sub_block(DipTile *tile, const Region *region, int n, int s
     const int block = y / 2 * DIP_TILE_BLOCKS + x / 2;
     const int quarter = y % 2 * 2 + x % 2;
     if (!(tile->touched >> block & 1)) {
-        clear_block(tile, block);
+        clear_block(tile, block, sample_count);
     }
     return block * sample_count * DIP_BLOCK_PIXELS + quarter * DIP_SUB_BLOCK_PIXELS;
 }
@@ -451,21 +452,25 @@ static void draw_clipped(DipTile *tile, const DipTriangle *triangle, uint32_t id
     draw_in_tile(tile, triangle, id, clip, tile->pattern->count);
 }
 
-static void draw_one_sample(DipTile *tile, const DipTriangle *triangle, uint32_t id) {
-    draw_in_tile(tile, triangle, id, NULL, 1);
-}
-
-static void draw_samples(DipTile *tile, const DipTriangle *triangle, uint32_t id) {
-    draw_in_tile(tile, triangle, id, NULL, tile->pattern->count);
-}
+// One version for each sample count, so that loops over samples unroll.
+#define DRAW_SAMPLES(n)                                                                            \
+    static void draw_##n(DipTile *tile, const DipTriangle *triangle, uint32_t id) {                \
+        draw_in_tile(tile, triangle, id, NULL, n);                                                 \
+    }
+DRAW_SAMPLES(1)
+DRAW_SAMPLES(2)
+DRAW_SAMPLES(4)
+DRAW_SAMPLES(6)
+DRAW_SAMPLES(8)
 
 void DIP_KERNEL(dip_kernel_draw_triangle)(DipTile *tile, const DipTriangle *triangle, uint32_t id,
                                           const DipClipTest *clip) {
+    typedef void Draw(DipTile *, const DipTriangle *, uint32_t);
+    static Draw *const draw[DIP_MAX_SAMPLES + 1] = {
+        [1] = draw_1, [2] = draw_2, [4] = draw_4, [6] = draw_6, [8] = draw_8};
     if (clip) {
         draw_clipped(tile, triangle, id, clip);
-    } else if (tile->pattern->count == 1) {
-        draw_one_sample(tile, triangle, id);
     } else {
-        draw_samples(tile, triangle, id);
+        draw[tile->pattern->count](tile, triangle, id);
     }
 }
