@@ -304,21 +304,24 @@ typedef struct ClipQueue {
 VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, const DipTile *tile,
                                Waiting *waiting, Vf offset_x[VECTORS], Vf offset_y[VECTORS]) {
     const DipSamplePattern *pattern = tile->pattern;
-    waiting->pixels = 0;
-    memset(waiting->visible, 0, sizeof waiting->visible);
+    const float *const depths = tile->depth + waiting->first;
+    const float corner = waiting->depth;
+    unsigned pixels = 0;
+    for (int s = 0; s < pattern->count; s++) {
+        waiting->visible[s] = 0;
+    }
     for (int v = 0; v < VECTORS; v++) {
         const PixelEdges edges = pixel_edges(in, region, n, v);
         unsigned whole = VEC_ALL_LANES;
         offset_x[v] = vf_splat(0.5f);
         offset_y[v] = vf_splat(0.5f);
         for (int s = pattern->count - 1; s >= 0; s--) {
-            const Vf old =
-                vf_load(tile->depth + waiting->first + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
+            const Vf old = vf_load(depths + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
             const Mask covered = covered_lanes(in, &edges, s, pattern->count);
-            const Mask nearer = vf_lt(old, depth_lanes(in, waiting->depth, v, s));
+            const Mask nearer = vf_lt(old, depth_lanes(in, corner, v, s));
             const unsigned visible = mask_bits(covered & nearer) << (v * DIP_LANES);
             waiting->visible[s] |= (uint16_t)visible;
-            waiting->pixels |= (uint16_t)visible;
+            pixels |= visible;
             whole &= mask_bits(covered);
             offset_x[v] = vf_select(covered, vf_splat((float)pattern->x[s] / 256.0f), offset_x[v]);
             offset_y[v] = vf_select(covered, vf_splat((float)pattern->y[s] / 256.0f), offset_y[v]);
@@ -327,6 +330,7 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
         offset_x[v] = vf_select(centre, vf_splat(0.5f), offset_x[v]);
         offset_y[v] = vf_select(centre, vf_splat(0.5f), offset_y[v]);
     }
+    waiting->pixels = (uint16_t)pixels;
 }
 
 // Stores the visible samples of the pixels that are kept.
@@ -359,7 +363,7 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
     for (int i = 0; i < queue->count; i++) {
         unsigned keep = 0;
         for (unsigned left = queue->waiting[i].pixels; left; left &= left - 1) {
-            keep |= *there++ ? left & -left : 0;
+            keep |= left & -left & (0u - (*there++ != 0)); // without a branch
         }
         if (keep) {
             keep_sub_block(in, tile, &queue->waiting[i], keep, id);
@@ -421,9 +425,9 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
     queue.count = 0;
     for (int y = box.y0; y <= box.y1; y += REGION) {
         for (int x = box.x0; x <= box.x1; x += REGION) {
-            // A region never leaves the tile.
-            Region region = {.x = min_int(x, DIP_TILE_SUB_BLOCKS - REGION),
-                             .y = min_int(y, DIP_TILE_SUB_BLOCKS - REGION)};
+            Region region; // within the tile; all of its fields are set
+            region.x = min_int(x, DIP_TILE_SUB_BLOCKS - REGION);
+            region.y = min_int(y, DIP_TILE_SUB_BLOCKS - REGION);
             classify(&in, &region);
             region.reached &= box_bits(&region, x, y, min_int(x + REGION - 1, box.x1),
                                        min_int(y + REGION - 1, box.y1));
