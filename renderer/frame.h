@@ -14,8 +14,8 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(triangles_in, "triangles of the chunks (up to 128 each) that are not culled whole")          \
     X(triangles_drawn, "triangles left after culling and clipping")                                \
     X(tile_triangles, "triangles times the tiles they are binned to")                              \
-    X(blocks_tested, "8x8-pixel blocks tested against a triangle's edges")                         \
-    X(blocks_accepted, "of these, blocks wholly inside the triangle")                              \
+    X(sub_blocks_tested, "4x4-pixel blocks tested against a triangle's edges")                     \
+    X(sub_blocks_accepted, "of these, blocks wholly inside the triangle")                          \
     X(fragments_clip_tested, "pixels of alpha-clipped surfaces whose clip map was read")           \
     X(fragments_shaded, "fragments shaded: pixels times the surfaces seen in them")                \
     X(pixels_resolved, "pixels whose samples show more than one surface")                          \

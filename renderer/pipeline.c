@@ -20,8 +20,8 @@ typedef enum TileStage { STAGE_RASTER, STAGE_SHADING, STAGE_RESOLVE, STAGE_COUNT
 // What one tile did; added up in tile order after the phase.
 typedef struct TileWork {
     DipSampleWork sampling;
-    uint64_t blocks_tested;
-    uint64_t blocks_accepted;
+    uint64_t sub_blocks_tested;
+    uint64_t sub_blocks_accepted;
     uint64_t clip_tested;
     uint64_t fragments;
     uint64_t mixed;
@@ -119,61 +119,27 @@ static void flush_whole_list(DipTileShading *shading, uint32_t draw) {
     list->count = 0;
 }
 
-// The clip shader's verdict on a block's visible pixels of one triangle.
-static uint64_t clip_test(void *context, const DipTile *tile, const DipTriangle *triangle,
-                          int block, const DipBlockCoverage *coverage) {
+// The clip shader's verdict on the fragments in the worker's clip list.
+static const uint8_t *clip_test(void *context, const DipTriangle *triangle) {
     Worker *worker = context;
     const DipPipeline *pipeline = worker->pipeline;
     const DipDraw *draw = &pipeline->pass->draws[triangle->draw];
-    const DipSamplePattern *pattern = tile->pattern;
-    DipFragmentList *list = &worker->clip_list;
-    uint64_t visible = 0;
-    uint64_t whole = ~(uint64_t)0;
-    for (int s = 0; s < pattern->count; s++) {
-        visible |= coverage->visible[s];
-        whole &= coverage->covered[s];
-    }
-    list->count = 0;
-    for (uint64_t left = visible; left; left &= left - 1) {
-        const int pixel = __builtin_ctzll(left);
-        int sub_x = 128;
-        int sub_y = 128;
-        for (int s = 0; s < pattern->count && !(whole >> pixel & 1); s++) {
-            if (coverage->covered[s] >> pixel & 1) {
-                sub_x = pattern->x[s];
-                sub_y = pattern->y[s];
-                break;
-            }
-        }
-        const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_x(pixel);
-        const int y = block / DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_y(pixel);
-        list->triangle[list->count] = (uint32_t)(triangle - pipeline->geometry.triangles);
-        list->place[list->count] = (uint32_t)(y * DIP_TILE + x) |
-                                   (uint32_t)sub_x << DIP_PLACE_SUB_X |
-                                   (uint32_t)sub_y << DIP_PLACE_SUB_Y;
-        list->count++;
-    }
-    pad_list(list);
     DipFragmentBatch *batch = &worker->clip_batch;
-    pipeline->kernels->dip_kernel_interpolate(&worker->shading.input, list, draw->slot_count,
-                                              batch);
+    pipeline->kernels->dip_kernel_interpolate(&worker->shading.input, &worker->clip_list,
+                                              draw->clip_slot_count, batch);
     bind_batch(worker, draw, batch);
     draw->clip_shader(batch);
-    worker->work->clip_tested += (uint64_t)list->count;
-    uint64_t keep = 0;
-    int i = 0;
-    for (uint64_t left = visible; left; left &= left - 1) {
-        keep |= (uint64_t)(batch->keep[i++] != 0) << __builtin_ctzll(left);
-    }
-    return keep;
+    worker->work->clip_tested += (uint64_t)worker->clip_list.count;
+    return batch->keep;
 }
 
 static void draw_triangle(Worker *worker, uint32_t index) {
     const DipPipeline *pipeline = worker->pipeline;
     const DipTriangle *triangle = &pipeline->geometry.triangles[index];
+    const DipClipTest clip = {&worker->clip_list, clip_test, worker};
     const bool clipped = pipeline->pass->draws[triangle->draw].clip_shader != NULL;
     pipeline->kernels->dip_kernel_draw_triangle(&worker->tile, triangle, index + 1,
-                                                clipped ? clip_test : NULL, worker);
+                                                clipped ? &clip : NULL);
 }
 
 static bool in_tile(const DipTriangle *triangle, const DipTile *tile) {
@@ -212,8 +178,8 @@ static void begin_tile(Worker *worker, int index) {
     tile->y0 = index / geometry->tiles_x * DIP_TILE;
     tile->pattern = geometry->pattern;
     tile->touched = 0;
-    tile->blocks_tested = 0;
-    tile->blocks_accepted = 0;
+    tile->sub_blocks_tested = 0;
+    tile->sub_blocks_accepted = 0;
     DipTileShading *shading = &worker->shading;
     shading->tile = tile;
     shading->input = (DipShadingInput){geometry->triangles, geometry->surfaces, tile->x0, tile->y0};
@@ -270,8 +236,8 @@ static void run_tile(void *context, int index, int worker_index) {
     work->stage_ns[STAGE_RASTER] = covered - begin;
     work->stage_ns[STAGE_SHADING] = shaded - covered;
     work->stage_ns[STAGE_RESOLVE] = resolved - shaded;
-    work->blocks_tested = worker->tile.blocks_tested;
-    work->blocks_accepted = worker->tile.blocks_accepted;
+    work->sub_blocks_tested = worker->tile.sub_blocks_tested;
+    work->sub_blocks_accepted = worker->tile.sub_blocks_accepted;
     work->fragments = worker->shading.fragments;
     work->mixed = (uint64_t)worker->shading.mixed_count;
     work->sampling.probes = worker->batch.work.probes + worker->clip_batch.work.probes;
@@ -305,8 +271,8 @@ static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
     }
     for (int t = 0; t < geometry->tiles_x * geometry->tiles_y; t++) {
         const TileWork *work = &pipeline->tile_work[t];
-        counters->blocks_tested += work->blocks_tested;
-        counters->blocks_accepted += work->blocks_accepted;
+        counters->sub_blocks_tested += work->sub_blocks_tested;
+        counters->sub_blocks_accepted += work->sub_blocks_accepted;
         counters->fragments_clip_tested += work->clip_tested;
         counters->fragments_shaded += work->fragments;
         counters->pixels_resolved += work->mixed;

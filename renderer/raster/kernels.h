@@ -16,10 +16,9 @@
     /* Clip positions to rounded screen positions, depth, 1/w and clip codes. */                   \
     X(void, dip_kernel_project,                                                                    \
       (const DipScreenMapping *map, int count, float *const *clip, DipScreenBatch *out))           \
-    /* Coverage and depth of a triangle in a tile. clip_test NULL: opaque. */                      \
+    /* Coverage and depth of a triangle in a tile that its box reaches. clip NULL: opaque. */      \
     X(void, dip_kernel_draw_triangle,                                                              \
-      (DipTile * tile, const DipTriangle *triangle, uint32_t id, DipClipTest *clip_test,           \
-       void *clip_context))                                                                        \
+      (DipTile * tile, const DipTriangle *triangle, uint32_t id, const DipClipTest *clip))         \
     /* The surfaces of every pixel of a tile, pushed to the lists of their draws. */               \
     X(void, dip_kernel_collect, (DipTileShading * shading))                                        \
     /* Varyings and derivatives of a list's fragments. */                                          \

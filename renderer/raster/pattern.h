@@ -7,12 +7,17 @@
 
 #include <stdint.h>
 
-enum { DIP_MAX_SAMPLES = 8 };
+enum {
+    DIP_MAX_SAMPLES = 8,
+    DIP_SAMPLE_ROOM = 16, // so that the widest vector may be read
+};
 
 typedef struct DipSamplePattern {
     int count;
-    uint8_t x[DIP_MAX_SAMPLES];
-    uint8_t y[DIP_MAX_SAMPLES];
+    uint8_t least; // of all coordinates
+    uint8_t greatest;
+    uint8_t x[DIP_SAMPLE_ROOM];
+    uint8_t y[DIP_SAMPLE_ROOM];
 } DipSamplePattern;
 
 // sample_count: 1, 2, 4, 6 or 8. Static storage.

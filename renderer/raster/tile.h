@@ -17,6 +17,9 @@ enum {
     DIP_TILE_BLOCKS = DIP_TILE / DIP_BLOCK, // per row
     DIP_BLOCKS = DIP_TILE_BLOCKS * DIP_TILE_BLOCKS,
     DIP_BLOCK_PIXELS = DIP_BLOCK * DIP_BLOCK,
+    DIP_SUB_BLOCK = 4,
+    DIP_SUB_BLOCK_PIXELS = DIP_SUB_BLOCK * DIP_SUB_BLOCK,
+    DIP_TILE_SUB_BLOCKS = DIP_TILE / DIP_SUB_BLOCK, // per row
 };
 
 // Pixel i (0..63) of a block: its place within the block.
@@ -28,28 +31,16 @@ static inline int dip_block_y(int i) {
     return (i >> 5) * 4 + (i >> 2 & 3);
 }
 
-typedef struct DipBlockCoverage {
-    uint64_t covered[DIP_MAX_SAMPLES]; // by the edges; bit i: pixel i of the block
-    uint64_t visible[DIP_MAX_SAMPLES]; // covered and nearer than what is there
-} DipBlockCoverage;
-
-typedef struct DipTile DipTile;
-
-// Decides an alpha-clipped triangle's pixels in a block: bit i of the result is set where the
-// surface is there. Called only when some sample is visible.
-typedef uint64_t DipClipTest(void *context, const DipTile *tile, const DipTriangle *triangle,
-                             int block, const DipBlockCoverage *coverage);
-
-struct DipTile {
+typedef struct DipTile {
     int x0; // of the first pixel, in the target
     int y0;
     const DipSamplePattern *pattern;
     uint64_t touched; // bit b: block b has been cleared and holds something since
     float *depth;     // [block][sample][64]; 0 is infinitely far
     uint32_t *id;     // likewise; triangle index + 1, or 0 for none
-    uint64_t blocks_tested;
-    uint64_t blocks_accepted;
-};
+    uint64_t sub_blocks_tested;
+    uint64_t sub_blocks_accepted;
+} DipTile;
 
 static inline int dip_tile_index(const DipTile *tile, int block, int sample) {
     return (block * tile->pattern->count + sample) * DIP_BLOCK_PIXELS;

@@ -36,6 +36,16 @@ typedef struct DipFragmentList {
     uint32_t samples[DIP_LIST_ROOM]; // bit s: holds sample s; whole lists: not set, all of them
 } DipFragmentList;
 
+// How coverage asks which fragments of an alpha-clipped triangle are there: it fills the list's
+// count, x, y and triangle (one for all; these three up to a multiple of DIP_BATCH_ALIGN) and calls
+// test, which returns a byte per fragment, 0 where the surface is not. `samples` and `pixel` are
+// not used.
+typedef struct DipClipTest {
+    DipFragmentList *list;
+    const uint8_t *(*test)(void *context, const DipTriangle *triangle);
+    void *context;
+} DipClipTest;
+
 // A batch after shading.
 typedef struct DipEncodedBatch {
     int32_t linear16[3][DIP_FRAGMENT_BATCH];

@@ -283,6 +283,21 @@ VEC_INLINE Vf vf_floor(Vf a) {
 #endif
 }
 
+// The products of the lanes' low and high 16-bit halves, signed, added.
+VEC_INLINE Vi vi_dot16(Vi a, Vi b) {
+#if VEC_AVX512
+    return (Vi)_mm512_madd_epi16((__m512i)a, (__m512i)b);
+#elif VEC_AVX2
+    return (Vi)_mm256_madd_epi16((__m256i)a, (__m256i)b);
+#elif VEC_SSE2
+    return (Vi)_mm_madd_epi16((__m128i)a, (__m128i)b);
+#else
+    const Vi low_a = (Vi)((Vu)a << 16) >> 16;
+    const Vi low_b = (Vi)((Vu)b << 16) >> 16;
+    return low_a * low_b + (a >> 16) * (b >> 16);
+#endif
+}
+
 // --- memory ------------------------------------------------------------------------------------
 
 // base[index[i]] per lane.
@@ -311,6 +326,40 @@ VEC_INLINE Vi vi_gather(const int32_t *base, Vi index) {
         v[i] = base[index[i]];
     }
     return v;
+#endif
+}
+
+// DIP_LANES bytes, each to a lane.
+VEC_INLINE Vi vi_load_bytes(const uint8_t *p) {
+#if VEC_AVX512
+    return (Vi)_mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)(const void *)p));
+#elif VEC_AVX2
+    return (Vi)_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)p));
+#else
+    Vi v;
+    for (int i = 0; i < DIP_LANES; i++) {
+        v[i] = p[i];
+    }
+    return v;
+#endif
+}
+
+// p[i] = m ? v : old per lane, where old is what p holds.
+VEC_INLINE void vf_store_lanes(float *p, Mask m, Vf v, Vf old) {
+#if VEC_AVX512
+    (void)old;
+    _mm512_mask_storeu_ps(p, m, (__m512)v);
+#else
+    vf_store(p, vf_select(m, v, old));
+#endif
+}
+
+// p[i] = v where m.
+VEC_INLINE void vi_store_lanes(int32_t *p, Mask m, Vi v) {
+#if VEC_AVX512
+    _mm512_mask_storeu_epi32(p, m, (__m512i)v);
+#else
+    vi_store(p, vi_select(m, v, vi_load(p)));
 #endif
 }
 

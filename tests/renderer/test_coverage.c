@@ -87,7 +87,7 @@ static void cover_fast(const DipKernels *kernels, const Case *c, uint8_t *masks)
         !meets(&triangle, &c->region)) {
         return;
     }
-    kernels->dip_kernel_draw_triangle(&tile, &triangle, 1, NULL, NULL);
+    kernels->dip_kernel_draw_triangle(&tile, &triangle, 1, NULL);
     for (int block = 0; block < DIP_BLOCKS; block++) {
         for (int i = 0; tile.touched >> block & 1 && i < DIP_BLOCK_PIXELS; i++) {
             const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_x(i);

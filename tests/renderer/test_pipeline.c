@@ -178,6 +178,7 @@ static void clip_shader_decides_what_is_there(void **state) {
     DipMesh *back = screen(0.2f);
     DipDraw draws[2] = {draw_of(front, white), draw_of(back, grey)};
     draws[0].clip_shader = keep_upper_half;
+    draws[0].clip_slot_count = 1;
     for (int samples = 1; samples <= 8; samples += samples == 1 ? 1 : 2) {
         const DipPass pass = pass_of(draws, 2, samples);
         const DipCounters counters = run(&pass);

@@ -1,0 +1,195 @@
+// What the kernels cost per unit of work, for every instruction set of this machine: one table to
+// hold a change against, or a floor.
+//
+//   dip_bench_kernels [ROW [ISA]]      rows whose name contains ROW; all without it
+//
+// Cycles are core cycles, calibrated by a chain of dependent additions of one cycle each. Every
+// number is the least of many rounds.
+#include "renderer/base/assert.h"
+#include "renderer/base/clock.h"
+#include "renderer/base/fp_mode.h"
+#include "renderer/geometry/setup.h"
+#include "renderer/raster/kernels.h"
+#include "tests/renderer/random.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROUNDS = 60, SEED = 4711, TRIANGLES = 512 };
+
+// A tile as the pipeline has it, and the triangles that are drawn into it.
+typedef struct Raster {
+    _Alignas(64) float depth[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
+    _Alignas(64) uint32_t ids[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
+    DipTile tile;
+    DipTriangle triangles[TRIANGLES];
+    int triangle_count;
+} Raster;
+
+static Raster raster;
+
+// A kernel at one kind of input. prepare fills the input; run does the work once and returns its
+// units.
+typedef struct Row {
+    const char *name;
+    const char *unit;
+    void (*prepare)(int parameter);
+    double (*run)(const DipKernels *kernels);
+    int parameter;
+} Row;
+
+// --- coverage and depth ------------------------------------------------------------------------
+
+static void begin_raster(int sample_count) {
+    raster.tile = (DipTile){.pattern = dip_sample_pattern(sample_count)};
+    raster.tile.depth = raster.depth;
+    raster.tile.id = raster.ids;
+    raster.triangle_count = 0;
+}
+
+// Corners in pixels, depth that grows from submission to submission.
+static void add_triangle(const double x[3], const double y[3]) {
+    DipSetupTarget target = {.width = DIP_TILE, .height = DIP_TILE, .sample_max = {255, 255}};
+    target.cull = DIP_CULL_NONE;
+    DipScreenVertex vertices[3];
+    for (int i = 0; i < 3; i++) {
+        const float z = 0.1f + 0.001f * (float)raster.triangle_count + 0.0001f * (float)i;
+        vertices[i] =
+            (DipScreenVertex){(int32_t)(x[i] * 256.0), (int32_t)(y[i] * 256.0), z, 1.0f, NULL};
+    }
+    float surface[DIP_SURFACE_SLOTS];
+    DipTriangle *triangle = &raster.triangles[raster.triangle_count];
+    raster.triangle_count += dip_setup_triangle(&target, vertices, triangle, surface);
+}
+
+static void prepare_full_tile(int sample_count) {
+    begin_raster(sample_count);
+    add_triangle((double[]){-10.0, 200.0, -10.0}, (double[]){-10.0, -10.0, 200.0});
+}
+
+static void prepare_small(int sample_count, double area_px) {
+    Random random = {SEED};
+    begin_raster(sample_count);
+    while (raster.triangle_count < TRIANGLES) {
+        double x[3];
+        double y[3];
+        const double at_x = random_real(&random, 8.0, DIP_TILE - 8.0);
+        const double at_y = random_real(&random, 8.0, DIP_TILE - 8.0);
+        const double reach = area_px < 10.0 ? 2.5 : 8.0;
+        for (int i = 0; i < 3; i++) {
+            x[i] = at_x + random_real(&random, -reach, reach);
+            y[i] = at_y + random_real(&random, -reach, reach);
+        }
+        const double area = 0.5 * ((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]));
+        if (area > 0.9 * area_px && area < 1.1 * area_px) {
+            add_triangle(x, y);
+        }
+    }
+}
+
+static void prepare_3_pixels(int sample_count) {
+    prepare_small(sample_count, 3.0);
+}
+
+static void prepare_60_pixels(int sample_count) {
+    prepare_small(sample_count, 60.0);
+}
+
+static void draw_triangles(const DipKernels *kernels) {
+    raster.tile.touched = 0;
+    for (int t = 0; t < raster.triangle_count; t++) {
+        kernels->dip_kernel_draw_triangle(&raster.tile, &raster.triangles[t], (uint32_t)t + 1,
+                                          NULL);
+    }
+}
+
+static double run_full_tile(const DipKernels *kernels) {
+    draw_triangles(kernels);
+    return DIP_TILE * DIP_TILE;
+}
+
+static double run_small(const DipKernels *kernels) {
+    draw_triangles(kernels);
+    return raster.triangle_count;
+}
+
+// --- the table ---------------------------------------------------------------------------------
+
+static const Row rows[] = {
+    // A tile is cleared and filled by one triangle.
+    {"tile, 1 sample", "pixel", prepare_full_tile, run_full_tile, 1},
+    {"tile, 2 samples", "pixel", prepare_full_tile, run_full_tile, 2},
+    {"tile, 4 samples", "pixel", prepare_full_tile, run_full_tile, 4},
+    {"tile, 8 samples", "pixel", prepare_full_tile, run_full_tile, 8},
+    {"3-pixel triangles, 1 sample", "triangle", prepare_3_pixels, run_small, 1},
+    {"3-pixel triangles, 4 samples", "triangle", prepare_3_pixels, run_small, 4},
+    {"60-pixel triangles, 1 sample", "triangle", prepare_60_pixels, run_small, 1},
+    {"60-pixel triangles, 4 samples", "triangle", prepare_60_pixels, run_small, 4},
+};
+
+static double least_ns_per_unit(const Row *row, const DipKernels *kernels) {
+    enum { REPEAT = 20 };
+    double least = 1e30;
+    for (int round = 0; round < ROUNDS; round++) {
+        const int64_t begin = dip_clock_ns();
+        double units = 0.0;
+        for (int i = 0; i < REPEAT; i++) {
+            units += row->run(kernels);
+        }
+        const double ns = (double)(dip_clock_ns() - begin) / units;
+        least = ns < least ? ns : least;
+    }
+    return least;
+}
+
+// Each addition needs the one before it. The empty statements hide the values from the compiler,
+// and the addend is a register since some processors fold chains of constants.
+static double measure_ns_per_cycle(void) {
+    enum { STEPS = 200000, PER_STEP = 8 };
+    double least = 1e30;
+    for (int round = 0; round < ROUNDS; round++) {
+        uint64_t sum = 0;
+        uint64_t addend = (uint64_t)round;
+        const int64_t begin = dip_clock_ns();
+        for (int i = 0; i < STEPS; i++) {
+            for (int k = 0; k < PER_STEP; k++) { // unrolled
+                __asm__ volatile("" : "+r"(sum), "+r"(addend));
+                sum += addend;
+            }
+        }
+        __asm__ volatile("" : "+r"(sum));
+        const double ns = (double)(dip_clock_ns() - begin) / (STEPS * PER_STEP);
+        least = ns < least ? ns : least;
+    }
+    return least;
+}
+
+static void measure_row(const Row *row, const char *only_isa, double ns_per_cycle) {
+    for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
+        const bool wanted = !only_isa || strcmp(only_isa, dip_isa_name((DipIsa)isa)) == 0;
+        if (!wanted || !dip_isa_available((DipIsa)isa)) {
+            continue;
+        }
+        row->prepare(row->parameter);
+        const double ns = least_ns_per_unit(row, dip_kernels((DipIsa)isa));
+        printf("%-32s %-8s %10.3f ns %10.2f cycles per %s\n", row->name, dip_isa_name((DipIsa)isa),
+               ns, ns / ns_per_cycle, row->unit);
+    }
+}
+
+int main(int argc, char **argv) {
+    if (argc > 3 || (argc > 1 && argv[1][0] == '-')) {
+        fprintf(stderr, "usage: dip_bench_kernels [ROW [ISA]]\n");
+        return 2;
+    }
+    dip_fp_mode_set();
+    const double ns_per_cycle = measure_ns_per_cycle();
+    printf("one cycle is %.3f ns\n", ns_per_cycle);
+    for (int i = 0; i < (int)DIP_ARRAY_COUNT(rows); i++) {
+        if (argc < 2 || strstr(rows[i].name, argv[1])) {
+            measure_row(&rows[i], argc > 2 ? argv[2] : NULL, ns_per_cycle);
+        }
+    }
+    return 0;
+}
