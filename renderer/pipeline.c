@@ -169,24 +169,68 @@ static bool in_tile(const DipTriangle *triangle, const DipTile *tile) {
            triangle->y0 < tile->y0 + DIP_TILE && triangle->y1 >= tile->y0;
 }
 
+enum { PREFETCH_AHEAD = 3 }; // triangles; about the time of a read from another core's cache
+
+// A walk along the triangles of a bin.
+typedef struct BinWalk {
+    const DipBinBlock *block;
+    const DipBinBlock *last;
+    uint32_t entry;
+    uint32_t count; // of the block's entries
+    uint32_t last_count;
+} BinWalk;
+
+static BinWalk walk_bin(const DipGeometry *geometry, const DipTileBin *bin) {
+    if (!bin) {
+        return (BinWalk){0};
+    }
+    BinWalk walk = {.block = geometry->blocks + bin->first,
+                    .last = geometry->blocks + bin->last,
+                    .last_count = bin->last_count};
+    walk.count = walk.block == walk.last ? walk.last_count : DIP_BIN_BLOCK;
+    return walk;
+}
+
+static void prefetch(const DipTriangle *triangle) {
+    __builtin_prefetch(triangle);
+    __builtin_prefetch((const char *)(triangle + 1) - 1);
+}
+
+// The next triangle's index, DIP_NO_TRIANGLE at the end.
+static uint32_t next_of(const DipGeometry *geometry, BinWalk *walk) {
+    if (walk->entry == walk->count) {
+        if (walk->block == walk->last) {
+            return DIP_NO_TRIANGLE;
+        }
+        walk->block = geometry->blocks + walk->block->next;
+        walk->entry = 0;
+        walk->count = walk->block == walk->last ? walk->last_count : DIP_BIN_BLOCK;
+    }
+    if (walk->entry + PREFETCH_AHEAD < walk->count) {
+        prefetch(&geometry->triangles[walk->block->triangle[walk->entry + PREFETCH_AHEAD]]);
+    }
+    return walk->block->triangle[walk->entry++];
+}
+
 // Draws one job's triangles of the tile: its bin and its wide triangles, merged by index, which is
 // submission order.
-static void draw_job(Worker *worker, const DipGeometryJob *job, const DipTileBin *bin) {
+static void draw_job(Worker *worker, int job, size_t tile) {
     const DipGeometry *geometry = &worker->pipeline->geometry;
-    const DipBinEntry *entries =
-        geometry->entries + (size_t)job->first_triangle * DIP_MAX_BIN_TILES;
-    const uint32_t *wide = geometry->wide + job->first_triangle;
-    const uint32_t *wide_end = wide + job->wide_count;
-    uint32_t entry = bin->first;
-    while (entry != DIP_BIN_END || wide != wide_end) {
-        if (wide == wide_end || (entry != DIP_BIN_END && entries[entry].triangle < *wide)) {
-            draw_triangle(worker, entries[entry].triangle);
-            entry = entries[entry].next;
+    const DipTileBin *bin = dip_geometry_bin(geometry, job, tile);
+    const DipTileBin *wide_bin = dip_geometry_bin(geometry, job, dip_geometry_tiles(geometry));
+    BinWalk walk = walk_bin(geometry, bin);
+    BinWalk wide_walk = walk_bin(geometry, wide_bin);
+    uint32_t next = next_of(geometry, &walk);
+    uint32_t wide = next_of(geometry, &wide_walk);
+    while (next != DIP_NO_TRIANGLE || wide != DIP_NO_TRIANGLE) {
+        if (next < wide) {
+            draw_triangle(worker, next);
+            next = next_of(geometry, &walk);
         } else {
-            if (in_tile(&geometry->triangles[*wide], &worker->tile)) {
-                draw_triangle(worker, *wide);
+            if (in_tile(&geometry->triangles[wide], &worker->tile)) {
+                draw_triangle(worker, wide);
             }
-            wide++;
+            wide = next_of(geometry, &wide_walk);
         }
     }
 }
@@ -242,13 +286,12 @@ static void run_tile(void *context, int index, int worker_index) {
     const DipGeometry *geometry = &pipeline->geometry;
     Worker *worker = pipeline->workers[worker_index];
     TileWork *work = &pipeline->tile_work[index];
-    const size_t tiles = (size_t)geometry->tiles_x * (size_t)geometry->tiles_y;
     *work = (TileWork){0};
     worker->work = work;
     const int64_t begin = dip_clock_ns();
     begin_tile(worker, index);
     for (int j = 0; j < geometry->job_count; j++) {
-        draw_job(worker, &geometry->jobs[j], &geometry->bins[(size_t)j * tiles + (size_t)index]);
+        draw_job(worker, j, (size_t)index);
     }
     const int64_t covered = dip_clock_ns();
     shade_tile(worker);
@@ -288,7 +331,7 @@ static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
     const DipGeometry *geometry = &pipeline->geometry;
     for (int j = 0; j < geometry->job_count; j++) {
         counters->triangles_in += geometry->jobs[j].triangles_in;
-        counters->triangles_drawn += geometry->jobs[j].triangle_count;
+        counters->triangles_drawn += geometry->jobs[j].triangles_drawn;
         counters->tile_triangles += geometry->jobs[j].tile_triangles;
     }
     for (int t = 0; t < geometry->tiles_x * geometry->tiles_y; t++) {
