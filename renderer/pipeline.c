@@ -212,26 +212,65 @@ static uint32_t next_of(const DipGeometry *geometry, BinWalk *walk) {
     return walk->block->triangle[walk->entry++];
 }
 
-// Draws one job's triangles of the tile: its bin and its wide triangles, merged by index, which is
-// submission order.
-static void draw_job(Worker *worker, int job, size_t tile) {
+// One job's triangles that may lie in the tile: its bin and its wide triangles.
+typedef struct JobWalks {
+    BinWalk bin;
+    BinWalk wide;
+} JobWalks;
+
+// The jobs that have any, in order. Reads of other cores' caches overlap: all bins first, then the
+// first blocks of all.
+static int find_jobs(const DipGeometry *geometry, size_t tile, JobWalks *found) {
+    const DipTileBin *bins[DIP_MAX_JOBS][2];
+    int count = 0;
+    for (int j = 0; j < geometry->job_count; j++) {
+        bins[count][0] = dip_geometry_bin(geometry, j, tile);
+        bins[count][1] = dip_geometry_bin(geometry, j, dip_geometry_tiles(geometry));
+        for (int i = 0; i < 2 && bins[count][i]; i++) {
+            __builtin_prefetch(bins[count][i]);
+        }
+        count += bins[count][0] || bins[count][1];
+    }
+    for (int i = 0; i < count; i++) {
+        found[i] = (JobWalks){walk_bin(geometry, bins[i][0]), walk_bin(geometry, bins[i][1])};
+        __builtin_prefetch(found[i].bin.block);
+    }
+    return count;
+}
+
+static void prefetch_first(const DipGeometry *geometry, const BinWalk *walk) {
+    for (uint32_t i = 0; i < PREFETCH_AHEAD && i < walk->count; i++) {
+        prefetch(&geometry->triangles[walk->block->triangle[i]]);
+    }
+}
+
+// Draws one job's triangles of the tile, merged by index, which is submission order.
+static void draw_job(Worker *worker, JobWalks *job) {
     const DipGeometry *geometry = &worker->pipeline->geometry;
-    const DipTileBin *bin = dip_geometry_bin(geometry, job, tile);
-    const DipTileBin *wide_bin = dip_geometry_bin(geometry, job, dip_geometry_tiles(geometry));
-    BinWalk walk = walk_bin(geometry, bin);
-    BinWalk wide_walk = walk_bin(geometry, wide_bin);
-    uint32_t next = next_of(geometry, &walk);
-    uint32_t wide = next_of(geometry, &wide_walk);
+    uint32_t next = next_of(geometry, &job->bin);
+    uint32_t wide = next_of(geometry, &job->wide);
     while (next != DIP_NO_TRIANGLE || wide != DIP_NO_TRIANGLE) {
         if (next < wide) {
             draw_triangle(worker, next);
-            next = next_of(geometry, &walk);
+            next = next_of(geometry, &job->bin);
         } else {
             if (in_tile(&geometry->triangles[wide], &worker->tile)) {
                 draw_triangle(worker, wide);
             }
-            wide = next_of(geometry, &wide_walk);
+            wide = next_of(geometry, &job->wide);
         }
+    }
+}
+
+static void draw_jobs(Worker *worker, size_t tile) {
+    const DipGeometry *geometry = &worker->pipeline->geometry;
+    JobWalks jobs[DIP_MAX_JOBS];
+    const int count = find_jobs(geometry, tile, jobs);
+    for (int i = 0; i < count; i++) {
+        if (i + 1 < count) {
+            prefetch_first(geometry, &jobs[i + 1].bin);
+        }
+        draw_job(worker, &jobs[i]);
     }
 }
 
@@ -283,16 +322,13 @@ static void shade_tile(Worker *worker) {
 
 static void run_tile(void *context, int index, int worker_index) {
     DipPipeline *pipeline = context;
-    const DipGeometry *geometry = &pipeline->geometry;
     Worker *worker = pipeline->workers[worker_index];
     TileWork *work = &pipeline->tile_work[index];
     *work = (TileWork){0};
     worker->work = work;
     const int64_t begin = dip_clock_ns();
     begin_tile(worker, index);
-    for (int j = 0; j < geometry->job_count; j++) {
-        draw_job(worker, j, (size_t)index);
-    }
+    draw_jobs(worker, (size_t)index);
     const int64_t covered = dip_clock_ns();
     shade_tile(worker);
     const int64_t shaded = dip_clock_ns();
