@@ -29,8 +29,8 @@ typedef struct DipDraw {
     int clip_slot_count;            // 0..slot_count: the clip shader gets the first ones only
     const void *uniforms;
     const DipSampler *samplers; // up to DIP_MAX_SAMPLERS
-    // 4x4, row-major: takes mesh positions to clip space, only to cull chunks by their bounds;
-    // NULL: nothing is culled before the vertex shader.
+    // 4x4, row-major: takes mesh positions to clip space, only to cull what is out of view by its
+    // bounds; NULL: nothing is culled before the vertex shader.
     const float *bounds_to_clip;
     DipCull cull; // a front face winds counter-clockwise seen with +y up
 } DipDraw;
@@ -63,9 +63,9 @@ void dip_pipeline_destroy(DipPipeline **pipeline);
 
 // What the fields' comments ask for is asserted in debug builds and not checked in others.
 // Draws a pass and adds to *counters and *times. Fails only when memory for the pass' triangles
-// runs out, or with OVERSIZED when they are more than 32 bits index: 2^31 / (5 + 3 * the largest
-// slot_count), in chunks of up to 128 triangles that count as full, each time a draw uses them.
-// Then the target's content is undefined.
+// runs out, or with OVERSIZED when they are more than 32 bits index: about 2^31 / (8 + 3 * the
+// largest slot_count), each counted as often as draws use it, whether it is in view or not. Then
+// the target's content is undefined.
 bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
                        DipStageTimes *times, DipError *err);
 

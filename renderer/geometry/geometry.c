@@ -1,13 +1,22 @@
-// The geometry phase: culling chunks, transforming, clipping, set-up and binning, by jobs.
+// The geometry phase: transforming chunks in view, clipping, set-up and binning, by jobs.
 #include "renderer/geometry/geometry.h"
 
 #include "renderer/geometry/clip.h"
+#include "renderer/geometry/cull.h"
 #include "renderer/geometry/mesh.h"
-#include "renderer/geometry/setup.h"
 #include "renderer/raster/kernels.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+enum {
+    TRIANGLE_RUN = 1024, // triangles that a job takes room for at a time
+    BLOCK_RUN = 32,      // bin blocks, likewise
+    // What the end of a run may leave unused.
+    TRIANGLE_RUN_WASTE = DIP_SETUP_BATCH + DIP_SETUP_EXCESS,
+    LEAST_SLACK = 4096,
+    MEAN_BIN_TILES = 2, // per triangle, of a pass of very many
+};
 
 DipScreenMapping dip_screen_mapping(const DipPass *pass) {
     DipScreenMapping map = {
@@ -25,28 +34,74 @@ DipScreenMapping dip_screen_mapping(const DipPass *pass) {
     return map;
 }
 
-static size_t tile_count(const DipGeometry *geometry) {
-    return (size_t)geometry->tiles_x * (size_t)geometry->tiles_y;
+// --- room --------------------------------------------------------------------------------------
+
+// What a pass needs room for, whatever is in view.
+typedef struct Needs {
+    uint64_t chunks;
+    uint64_t triangles;
+    uint64_t blocks;
+    int surface_stride;
+} Needs;
+
+static uint64_t least(uint64_t a, uint64_t b) {
+    return a < b ? a : b;
+}
+
+static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
+    Needs needs = {0};
+    int slots = 0;
+    for (int d = 0; d < pass->draw_count; d++) {
+        needs.chunks += pass->draws[d].mesh->chunk_count;
+        needs.triangles += pass->draws[d].mesh->triangle_count;
+        slots = pass->draws[d].slot_count > slots ? pass->draws[d].slot_count : slots;
+    }
+    const uint64_t jobs = least(needs.chunks, DIP_MAX_JOBS);
+    const uint64_t total = needs.triangles + geometry->slack;
+    needs.triangles = total * TRIANGLE_RUN / (TRIANGLE_RUN - TRIANGLE_RUN_WASTE) +
+                      jobs * TRIANGLE_RUN + DIP_SETUP_EXCESS;
+    // Every bin may end in a block that is not full.
+    const uint64_t entries =
+        least(total * DIP_MAX_BIN_TILES, total * MEAN_BIN_TILES + (uint64_t)16 * geometry->slack);
+    needs.blocks = entries / DIP_BIN_BLOCK +
+                   least(entries, jobs * (dip_geometry_tiles(geometry) + 1)) + jobs * BLOCK_RUN;
+    needs.surface_stride = dip_surface_stride(slots);
+    return needs;
+}
+
+// Refuses a pass whose triangles cannot be counted, before any array is made for it: kernels gather
+// surfaces with signed indices.
+static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
+    return needs->triangles <= INT32_MAX / (uint64_t)needs->surface_stride ||
+           dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, "pass",
+                         "%d draws that need room for %llu triangles, accepted %d",
+                         pass->draw_count, (unsigned long long)needs->triangles,
+                         INT32_MAX / needs->surface_stride);
 }
 
 // Reallocates without keeping the content.
 static bool replace(void *pointer_to_array, size_t count, size_t size) {
     void **array = pointer_to_array;
     free(*array);
-    *array = malloc((count ? count : 1) * size);
+    *array = aligned_alloc(64, (count * size / 64 + 1) * 64);
     return *array != NULL;
 }
 
-static bool make_room(DipGeometry *geometry, uint32_t room, size_t surface_room) {
-    if (room > geometry->room) {
-        geometry->room = 0;
-        if (!replace(&geometry->triangles, room, sizeof *geometry->triangles) ||
-            !replace(&geometry->wide, room, sizeof *geometry->wide) ||
-            !replace(&geometry->entries, (size_t)room * DIP_MAX_BIN_TILES,
-                     sizeof *geometry->entries)) {
+static bool make_room(DipGeometry *geometry, const Needs *needs) {
+    const size_t surface_room = (size_t)needs->triangles * (size_t)needs->surface_stride;
+    if (needs->chunks > geometry->visible_room) {
+        geometry->visible_room = 0;
+        if (!replace(&geometry->visible, needs->chunks, sizeof *geometry->visible)) {
             return false;
         }
-        geometry->room = room;
+        geometry->visible_room = (uint32_t)needs->chunks;
+    }
+    if (needs->triangles > geometry->triangle_room) {
+        geometry->triangle_room = 0;
+        if (!replace(&geometry->triangles, needs->triangles, sizeof *geometry->triangles)) {
+            return false;
+        }
+        geometry->triangle_room = (uint32_t)needs->triangles;
     }
     if (surface_room > geometry->surface_room) {
         geometry->surface_room = 0;
@@ -55,100 +110,57 @@ static bool make_room(DipGeometry *geometry, uint32_t room, size_t surface_room)
         }
         geometry->surface_room = surface_room;
     }
-    if (!geometry->bins) {
-        return replace(&geometry->bins, DIP_MAX_JOBS * tile_count(geometry),
-                       sizeof *geometry->bins);
-    }
-    return true;
-}
-
-// What a pass may need of the arrays that 32 bits index: `triangles` of `floats` each. Kernels
-// gather surfaces with signed indices.
-static bool fits_indices(uint64_t triangles, int floats) {
-    return triangles * (uint64_t)floats <= INT32_MAX && triangles * DIP_MAX_BIN_TILES < DIP_BIN_END;
-}
-
-// Lays the chunks of all draws one after another and finds the largest slot count. False when
-// memory runs out.
-static bool list_chunks(DipGeometry *geometry, const DipPass *pass) {
-    if (pass->draw_count + 1 > geometry->draw_room) {
-        geometry->draw_room = 0;
-        if (!replace(&geometry->draw_first_chunk, (size_t)pass->draw_count + 1,
-                     sizeof *geometry->draw_first_chunk)) {
+    if (needs->blocks > geometry->block_room) {
+        geometry->block_room = 0;
+        if (!replace(&geometry->blocks, needs->blocks, sizeof *geometry->blocks)) {
             return false;
         }
-        geometry->draw_room = pass->draw_count + 1;
+        geometry->block_room = (uint32_t)needs->blocks;
     }
-    uint32_t chunks = 0; // few enough, check_size has seen
-    int slots = 0;
-    for (int d = 0; d < pass->draw_count; d++) {
-        geometry->draw_first_chunk[d] = chunks;
-        chunks += pass->draws[d].mesh->chunk_count;
-        slots = pass->draws[d].slot_count > slots ? pass->draws[d].slot_count : slots;
-    }
-    geometry->draw_first_chunk[pass->draw_count] = chunks;
-    geometry->surface_stride = dip_surface_floats(slots);
     return true;
 }
 
-static void cut_jobs(DipGeometry *geometry, uint32_t chunks) {
-    geometry->job_count = chunks < DIP_MAX_JOBS ? (int)chunks : DIP_MAX_JOBS;
-    uint32_t first_triangle = 0;
-    for (int j = 0; j < geometry->job_count; j++) {
-        const uint32_t first = (uint32_t)((uint64_t)chunks * (uint64_t)j / DIP_MAX_JOBS);
-        DipGeometryJob *job = &geometry->jobs[j];
-        *job = (DipGeometryJob){.first_triangle = first_triangle};
-        if (geometry->job_count < DIP_MAX_JOBS) {
-            job->first_chunk = (uint32_t)j;
-            job->chunk_count = 1;
-        } else {
-            job->first_chunk = first;
-            job->chunk_count =
-                (uint32_t)((uint64_t)chunks * (uint64_t)(j + 1) / DIP_MAX_JOBS) - first;
-        }
-        job->triangle_room = job->chunk_count * DIP_CHUNK_TRIANGLES + geometry->clip_slack;
-        first_triangle += job->triangle_room;
-    }
+static bool make_bins(DipGeometry *geometry) {
+    const size_t bins = dip_geometry_tiles(geometry) + 1;
+    return geometry->bins ||
+           (replace(&geometry->bins, DIP_MAX_JOBS * bins, sizeof *geometry->bins) &&
+            replace(&geometry->occupied, DIP_MAX_JOBS * ((bins + 63) / 64),
+                    sizeof *geometry->occupied));
 }
 
-// Refuses a pass whose triangles cannot be counted, before any array is made for it.
-static bool check_size(const DipGeometry *geometry, const DipPass *pass, DipError *err) {
-    uint64_t chunks = 0;
-    int slots = 0;
-    for (int d = 0; d < pass->draw_count; d++) {
-        chunks += pass->draws[d].mesh->chunk_count;
-        slots = pass->draws[d].slot_count > slots ? pass->draws[d].slot_count : slots;
+static void cut_jobs(DipGeometry *geometry) {
+    const uint32_t chunks = geometry->visible_count;
+    geometry->job_count = (int)least(chunks, DIP_MAX_JOBS);
+    uint32_t first = 0;
+    for (int j = 0; j < geometry->job_count; j++) {
+        const uint32_t end =
+            (uint32_t)((uint64_t)chunks * (uint64_t)(j + 1) / (uint64_t)geometry->job_count);
+        geometry->jobs[j] = (DipGeometryJob){.first_chunk = first, .chunk_count = end - first};
+        first = end;
     }
-    const uint64_t room =
-        chunks * DIP_CHUNK_TRIANGLES + DIP_MAX_JOBS * (uint64_t)geometry->clip_slack;
-    return fits_indices(room, dip_surface_floats(slots)) ||
-           dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, "pass",
-                         "%d draws of %llu chunks of up to %d triangles, accepted %u chunks",
-                         pass->draw_count, (unsigned long long)chunks, DIP_CHUNK_TRIANGLES,
-                         INT32_MAX / dip_surface_floats(slots) / DIP_CHUNK_TRIANGLES);
 }
 
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err) {
     geometry->pass = pass;
     geometry->mapping = dip_screen_mapping(pass);
     geometry->pattern = dip_sample_pattern(pass->sample_count);
-    if (!geometry->clip_slack) {
-        geometry->clip_slack = 256;
+    if (!geometry->slack) {
+        geometry->slack = LEAST_SLACK;
     }
-    if (!check_size(geometry, pass, err)) {
+    const Needs needs = needs_of(geometry, pass);
+    if (!check_size(pass, &needs, err)) {
         return false;
     }
-    bool made = list_chunks(geometry, pass);
-    if (made) {
-        cut_jobs(geometry, geometry->draw_first_chunk[pass->draw_count]);
-        uint32_t room = 0;
-        for (int j = 0; j < geometry->job_count; j++) {
-            room += geometry->jobs[j].triangle_room;
-        }
-        made = make_room(geometry, room, (size_t)room * (size_t)geometry->surface_stride);
+    if (!make_room(geometry, &needs) || !make_bins(geometry)) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass",
+                             "no memory for the triangles of %d draws", pass->draw_count);
     }
-    return made || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass",
-                                 "no memory for the triangles of %d draws", pass->draw_count);
+    geometry->surface_stride = needs.surface_stride;
+    geometry->visible_count = dip_cull_chunks(pass, geometry->visible);
+    cut_jobs(geometry);
+    atomic_store_explicit(&geometry->triangles_taken, 0, memory_order_relaxed);
+    atomic_store_explicit(&geometry->blocks_taken, 0, memory_order_relaxed);
+    return true;
 }
 
 bool dip_geometry_grow_after_overflow(DipGeometry *geometry) {
@@ -156,114 +168,136 @@ bool dip_geometry_grow_after_overflow(DipGeometry *geometry) {
     for (int j = 0; j < geometry->job_count; j++) {
         overflowed |= geometry->jobs[j].overflowed;
     }
-    geometry->clip_slack *= overflowed ? 4 : 1;
+    // By half of what there is room for, at least.
+    if (overflowed) {
+        geometry->slack = geometry->slack * 2 + geometry->triangle_room / 2;
+    }
     return overflowed;
 }
 
 void dip_geometry_free(DipGeometry *geometry) {
+    free(geometry->visible);
     free(geometry->triangles);
     free(geometry->surfaces);
-    free(geometry->wide);
-    free(geometry->entries);
+    free(geometry->blocks);
     free(geometry->bins);
-    free(geometry->draw_first_chunk);
-    *geometry = (DipGeometry){0};
+    free(geometry->occupied);
+    memset(geometry, 0, sizeof *geometry);
 }
 
-// --- one job -----------------------------------------------------------------------------------
+// --- binning -----------------------------------------------------------------------------------
 
 typedef struct JobRun {
     DipGeometry *geometry;
     const DipKernels *kernels;
-    DipGeometryJob *job;
     DipGeometryScratch *scratch;
     DipTileBin *bins;
     const DipDraw *draw;
-    uint32_t draw_index;
     DipSetupTarget target;
+    uint32_t next_triangle; // of the run in hand
+    uint32_t triangle_end;
+    uint32_t next_block; // likewise
+    uint32_t block_end;
+    DipGeometryJob job; // to be stored at the end, so that jobs share no cache line while they run
 } JobRun;
 
-// Whether a chunk's box lies outside one plane of the view volume. Row r of the matrix gives clip
-// coordinate r; the plane is the row's combination, so one dot product per box and plane.
-static bool outside_view(const DipChunk *chunk, const float *m) {
-    static const float planes[6][4] = {{1, 0, 0, 1},  {-1, 0, 0, 1}, {0, 1, 0, 1},
-                                       {0, -1, 0, 1}, {0, 0, 1, 0},  {0, 0, -1, 1}};
-    for (int p = 0; p < 6; p++) {
-        double normal[4];
-        for (int c = 0; c < 4; c++) {
-            normal[c] = (double)planes[p][0] * m[c] + (double)planes[p][1] * m[4 + c] +
-                        (double)planes[p][2] * m[8 + c] + (double)planes[p][3] * m[12 + c];
+// The next block of the job's room; false when the room ends.
+static bool take_block(JobRun *run, uint32_t *block) {
+    if (run->next_block == run->block_end) {
+        DipGeometry *geometry = run->geometry;
+        const uint32_t first =
+            atomic_fetch_add_explicit(&geometry->blocks_taken, BLOCK_RUN, memory_order_relaxed);
+        if (first + BLOCK_RUN > geometry->block_room) {
+            run->job.overflowed = true;
+            return false;
         }
-        double reach = normal[3];
-        double size = normal[3] < 0.0 ? -normal[3] : normal[3];
-        for (int c = 0; c < 3; c++) {
-            const double length = normal[c] < 0.0 ? -normal[c] : normal[c];
-            const double centre = chunk->centre[c];
-            reach += normal[c] * centre + length * chunk->extent[c];
-            size += length * ((centre < 0.0 ? -centre : centre) + chunk->extent[c]);
-        }
-        // The margin covers the rounding of the matrix and of the shader's own arithmetic.
-        if (reach < -1e-5 * size) {
-            return true;
-        }
+        run->next_block = first;
+        run->block_end = first + BLOCK_RUN;
     }
-    return false;
+    *block = run->next_block++;
+    return true;
 }
 
-static void bin_to_tile(JobRun *run, uint32_t triangle, size_t tile) {
-    DipGeometryJob *job = run->job;
-    DipBinEntry *entries = run->geometry->entries + (size_t)job->first_triangle * DIP_MAX_BIN_TILES;
-    const uint32_t index = job->entry_count++;
-    entries[index] = (DipBinEntry){triangle, DIP_BIN_END};
-    DipTileBin *bin = &run->bins[tile];
-    if (bin->first == DIP_BIN_END) {
-        bin->first = index;
-    } else {
-        entries[bin->last].next = index;
+static void add_to_bin(JobRun *run, uint32_t triangle, size_t index) {
+    DipBinBlock *blocks = run->geometry->blocks;
+    DipTileBin *bin = &run->bins[index];
+    uint64_t *word = &run->scratch->occupied[index / 64];
+    const uint64_t bit = (uint64_t)1 << index % 64;
+    const bool empty = !(*word & bit);
+    if (empty || bin->last_count == DIP_BIN_BLOCK) {
+        uint32_t block;
+        if (!take_block(run, &block)) {
+            return;
+        }
+        if (empty) {
+            *word |= bit;
+            bin->first = block;
+        } else {
+            blocks[bin->last].next = block;
+        }
+        bin->last = block;
+        bin->last_count = 0;
     }
-    bin->last = index;
+    blocks[bin->last].triangle[bin->last_count++] = triangle;
 }
 
 static void bin_triangle(JobRun *run, uint32_t index) {
     const DipTriangle *triangle = &run->geometry->triangles[index];
-    const int x0 = triangle->x0 / DIP_TILE;
-    const int y0 = triangle->y0 / DIP_TILE;
-    const int x1 = triangle->x1 / DIP_TILE;
-    const int y1 = triangle->y1 / DIP_TILE;
-    const int tiles = (x1 - x0 + 1) * (y1 - y0 + 1);
-    run->job->tile_triangles += (uint64_t)tiles;
+    const size_t tiles_x = (size_t)run->geometry->tiles_x;
+    const size_t x0 = (size_t)triangle->x0 / DIP_TILE;
+    const size_t y0 = (size_t)triangle->y0 / DIP_TILE;
+    const size_t x1 = (size_t)triangle->x1 / DIP_TILE;
+    const size_t y1 = (size_t)triangle->y1 / DIP_TILE;
+    const size_t tiles = (x1 - x0 + 1) * (y1 - y0 + 1);
+    run->job.tile_triangles += tiles;
     if (tiles > DIP_MAX_BIN_TILES) {
-        run->geometry->wide[run->job->first_triangle + run->job->wide_count++] = index;
+        add_to_bin(run, index, dip_geometry_tiles(run->geometry));
         return;
     }
-    for (int y = y0; y <= y1; y++) {
-        for (int x = x0; x <= x1; x++) {
-            bin_to_tile(run, index, (size_t)y * (size_t)run->geometry->tiles_x + (size_t)x);
+    for (size_t y = y0; y <= y1; y++) {
+        for (size_t x = x0; x <= x1; x++) {
+            add_to_bin(run, index, y * tiles_x + x);
         }
     }
 }
 
-static void add_triangle(JobRun *run, const DipScreenVertex vertex[3]) {
-    DipGeometry *geometry = run->geometry;
-    DipGeometryJob *job = run->job;
-    if (job->triangle_count == job->triangle_room) {
-        job->overflowed = true;
+// --- set-up ------------------------------------------------------------------------------------
+
+// Room for `count` triangles in a row at next_triangle; false when the room ends.
+static bool take_triangles(JobRun *run, uint32_t count) {
+    if (run->triangle_end - run->next_triangle < count) {
+        DipGeometry *geometry = run->geometry;
+        const uint32_t first = atomic_fetch_add_explicit(&geometry->triangles_taken, TRIANGLE_RUN,
+                                                         memory_order_relaxed);
+        if (first + TRIANGLE_RUN > geometry->triangle_room) {
+            run->job.overflowed = true;
+            return false;
+        }
+        run->next_triangle = first;
+        run->triangle_end = first + TRIANGLE_RUN;
+    }
+    return true;
+}
+
+static void add_batch(JobRun *run, const DipSetupBatch *batch) {
+    if (run->job.overflowed || !take_triangles(run, (uint32_t)batch->count + DIP_SETUP_EXCESS)) {
         return;
     }
-    const uint32_t index = job->first_triangle + job->triangle_count;
-    DipTriangle *triangle = &geometry->triangles[index];
-    triangle->draw = run->draw_index;
-    triangle->surface = index * (uint32_t)geometry->surface_stride;
-    if (dip_setup_triangle(&run->target, vertex, triangle,
-                           geometry->surfaces + triangle->surface)) {
-        job->triangle_count++;
-        bin_triangle(run, index);
+    const DipGeometry *geometry = run->geometry;
+    const uint32_t first = run->next_triangle;
+    const uint32_t surface = first * (uint32_t)geometry->surface_stride;
+    const int count = run->kernels->dip_kernel_setup(
+        &run->target, batch, surface, geometry->triangles + first, geometry->surfaces + surface);
+    for (int i = 0; i < count; i++) {
+        bin_triangle(run, first + (uint32_t)i);
     }
+    run->next_triangle += (uint32_t)count;
+    run->job.triangles_drawn += (uint64_t)count;
 }
 
 // Clips a triangle and sets up the fan of what remains.
-static void add_clipped(JobRun *run, const uint8_t *corner, int32_t codes) {
-    DipGeometryScratch *scratch = run->scratch;
+static void add_clipped(JobRun *run, const uint8_t corner[3], int32_t codes) {
+    const DipGeometryScratch *scratch = run->scratch;
     const int slot_count = run->draw->slot_count;
     DipClipPolygon polygon = {.count = 3};
     for (int i = 0; i < 3; i++) {
@@ -278,56 +312,93 @@ static void add_clipped(JobRun *run, const uint8_t *corner, int32_t codes) {
     if (!polygon.count) {
         return;
     }
-    float clip[4][DIP_MAX_CLIP_VERTICES + DIP_BATCH_ALIGN] = {{0}};
+    enum { ROOM = DIP_MAX_CLIP_VERTICES + DIP_BATCH_ALIGN };
+    float clip[4][ROOM] = {{0}};
+    float slots[DIP_MAX_SLOTS][ROOM];
+    uint8_t fan[3][ROOM] = {{0}};
     float *const clip_rows[4] = {clip[0], clip[1], clip[2], clip[3]};
     for (int i = 0; i < polygon.count; i++) {
         for (int c = 0; c < 4; c++) {
             clip[c][i] = polygon.vertex[i].position[c];
         }
+        for (int s = 0; s < slot_count; s++) {
+            slots[s][i] = polygon.vertex[i].slot[s];
+        }
+        fan[1][i] = (uint8_t)(i + 1 < polygon.count ? i + 1 : 0);
+        fan[2][i] = (uint8_t)(i + 2 < polygon.count ? i + 2 : 0);
     }
     DipScreenBatch screen;
     run->kernels->dip_kernel_project(&run->geometry->mapping, polygon.count, clip_rows, &screen);
-    DipSetupTarget packed = run->target;
-    packed.slot_stride = 1;
-    const DipSetupTarget strided = run->target;
-    run->target = packed;
-    for (int i = 1; i + 1 < polygon.count; i++) {
-        const int fan[3] = {0, i, i + 1};
-        DipScreenVertex vertex[3];
-        for (int k = 0; k < 3; k++) {
-            const int v = fan[k];
-            vertex[k] = (DipScreenVertex){screen.x[v], screen.y[v], screen.z[v], screen.rw[v],
-                                          polygon.vertex[v].slot};
-        }
-        add_triangle(run, vertex);
+    add_batch(run, &(DipSetupBatch){.count = polygon.count - 2,
+                                    .corner = {fan[0], fan[1], fan[2]},
+                                    .screen = &screen,
+                                    .slots = slots[0],
+                                    .slot_stride = ROOM});
+}
+
+// --- one job -----------------------------------------------------------------------------------
+
+// All vertices of a triangle beyond the same one of these: it is not seen.
+enum {
+    REJECT = DIP_CLIP_PICTURE | DIP_CLIP_NEAR | DIP_CLIP_FAR | DIP_CLIP_W | DIP_CLIP_ALL_USER,
+};
+
+// A chunk with vertices to clip at: its triangles in order, those between two clipped ones at once.
+static void add_mixed_chunk(JobRun *run, const DipSetupBatch *chunk) {
+    uint8_t corner[3][DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {{0}};
+    DipSetupBatch batch = *chunk;
+    batch.count = 0;
+    for (int k = 0; k < 3; k++) {
+        batch.corner[k] = corner[k];
     }
-    run->target = strided;
+    for (int t = 0; t < chunk->count; t++) {
+        const uint8_t v[3] = {chunk->corner[0][t], chunk->corner[1][t], chunk->corner[2][t]};
+        const int32_t *code = chunk->screen->code;
+        const int32_t any = code[v[0]] | code[v[1]] | code[v[2]];
+        if ((code[v[0]] & code[v[1]] & code[v[2]] & REJECT) || (any & DIP_CLIP_INVALID)) {
+            continue;
+        }
+        if (!(any & DIP_CLIP_NEEDED)) {
+            for (int k = 0; k < 3; k++) {
+                corner[k][batch.count] = v[k];
+            }
+            batch.count++;
+            continue;
+        }
+        if (batch.count) {
+            add_batch(run, &batch);
+            batch.count = 0;
+        }
+        add_clipped(run, v, any);
+    }
+    if (batch.count) {
+        add_batch(run, &batch);
+    }
 }
 
 static void add_chunk_triangles(JobRun *run, const DipChunk *chunk) {
     const DipScreenBatch *screen = &run->scratch->screen;
-    const uint8_t *corner = run->draw->mesh->indices + 3 * (size_t)chunk->first_triangle;
-    const int32_t reject =
-        DIP_CLIP_PICTURE | DIP_CLIP_NEAR | DIP_CLIP_FAR | DIP_CLIP_W | DIP_CLIP_ALL_USER;
-    for (uint32_t t = 0; t < chunk->triangle_count; t++, corner += 3) {
-        const int32_t c0 = screen->code[corner[0]];
-        const int32_t c1 = screen->code[corner[1]];
-        const int32_t c2 = screen->code[corner[2]];
-        const int32_t any = c0 | c1 | c2;
-        if ((c0 & c1 & c2 & reject) || (any & DIP_CLIP_INVALID)) {
-            continue;
-        }
-        if (any & DIP_CLIP_NEEDED) {
-            add_clipped(run, corner, any);
-            continue;
-        }
-        DipScreenVertex vertex[3];
-        for (int k = 0; k < 3; k++) {
-            const int v = corner[k];
-            vertex[k] = (DipScreenVertex){screen->x[v], screen->y[v], screen->z[v], screen->rw[v],
-                                          run->scratch->slot[0] + v};
-        }
-        add_triangle(run, vertex);
+    const uint8_t *corner = run->draw->mesh->indices + chunk->first_index;
+    const uint32_t stride = dip_corner_stride(chunk);
+    int32_t any = 0;
+    int32_t all = -1;
+    for (uint32_t v = 0; v < chunk->vertex_count; v++) {
+        any |= screen->code[v];
+        all &= screen->code[v];
+    }
+    if (all & REJECT) {
+        return;
+    }
+    const DipSetupBatch batch = {.count = (int)chunk->triangle_count,
+                                 .corner = {corner, corner + stride, corner + 2 * stride},
+                                 .screen = screen,
+                                 .slots = run->scratch->slot[0],
+                                 .slot_stride = DIP_VERTEX_BATCH};
+    if (any & (DIP_CLIP_NEEDED | DIP_CLIP_INVALID)) {
+        add_mixed_chunk(run, &batch);
+    } else {
+        // Triangles beyond one side of the picture have no pixel in it: set-up drops them.
+        add_batch(run, &batch);
     }
 }
 
@@ -357,7 +428,7 @@ static DipSetupTarget setup_target(const DipGeometry *geometry) {
     DipSetupTarget target = {
         .width = geometry->pass->target.width,
         .height = geometry->pass->target.height,
-        .slot_stride = DIP_VERTEX_BATCH,
+        .surface_stride = geometry->surface_stride,
         .sample_min = {255, 255},
     };
     for (int s = 0; s < geometry->pattern->count; s++) {
@@ -374,44 +445,32 @@ static DipSetupTarget setup_target(const DipGeometry *geometry) {
     return target;
 }
 
-// The draw that holds a chunk: the last whose first chunk is not beyond it.
-static uint32_t draw_of_chunk(const DipGeometry *geometry, uint32_t chunk) {
-    uint32_t low = 0;
-    uint32_t high = (uint32_t)geometry->pass->draw_count;
-    while (high - low > 1) {
-        const uint32_t middle = (low + high) / 2;
-        if (geometry->draw_first_chunk[middle] <= chunk) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
 void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int job_index,
                           DipGeometryScratch *scratch) {
     DipGeometryJob *job = &geometry->jobs[job_index];
+    const size_t bins = dip_geometry_tiles(geometry) + 1;
+    const size_t words = (bins + 63) / 64;
     JobRun run = {
         .geometry = geometry,
         .kernels = kernels,
-        .job = job,
         .scratch = scratch,
-        .bins = geometry->bins + (size_t)job_index * tile_count(geometry),
+        .bins = geometry->bins + (size_t)job_index * bins,
         .target = setup_target(geometry),
+        .job = *job,
     };
-    memset(run.bins, 0xff, tile_count(geometry) * sizeof *run.bins);
+    memset(scratch->occupied, 0, words * sizeof *scratch->occupied);
     for (uint32_t c = job->first_chunk; c < job->first_chunk + job->chunk_count; c++) {
-        run.draw_index = draw_of_chunk(geometry, c);
-        run.draw = &geometry->pass->draws[run.draw_index];
+        const DipVisibleChunk visible = geometry->visible[c];
+        run.draw = &geometry->pass->draws[visible.draw];
+        run.target.draw = visible.draw;
         run.target.cull = run.draw->cull;
         run.target.slot_count = run.draw->slot_count;
-        const DipChunk *chunk =
-            &run.draw->mesh->chunks[c - geometry->draw_first_chunk[run.draw_index]];
-        if (run.draw->bounds_to_clip && outside_view(chunk, run.draw->bounds_to_clip)) {
-            continue;
-        }
-        job->triangles_in += chunk->triangle_count;
+        const DipChunk *chunk = &run.draw->mesh->chunks[visible.chunk];
+        run.job.triangles_in += chunk->triangle_count;
         run_chunk(&run, chunk);
     }
+    for (size_t w = 0; w < words; w++) {
+        geometry->occupied[w * DIP_MAX_JOBS + (size_t)job_index] = scratch->occupied[w];
+    }
+    *job = run.job;
 }

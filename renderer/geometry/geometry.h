@@ -1,51 +1,65 @@
 // The geometry phase: meshes to set-up triangles, binned to tiles.
 //
-// The chunks of a pass are cut into a fixed number of jobs, whatever the number of threads. Each
-// job owns a run of the triangle, surface and bin arrays, so jobs never wait for each other, and
-// tiles read the jobs in order, which is submission order.
+// The chunks of a pass that may be in view are cut into a fixed number of jobs, whatever the number
+// of threads. Jobs take room for their triangles from shared arrays by runs, without locks; within
+// a job, a triangle's index rises with submission order. Tiles read the jobs in order, which is
+// submission order too.
 #ifndef DIP_RENDERER_GEOMETRY_GEOMETRY_H
 #define DIP_RENDERER_GEOMETRY_GEOMETRY_H
 
+#include "renderer/frame.h"
 #include "renderer/geometry/project.h"
+#include "renderer/geometry/setup.h"
 #include "renderer/geometry/triangle.h"
 #include "renderer/pipeline.h"
 #include "renderer/raster/pattern.h"
+#include "renderer/raster/tile.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
 enum {
     DIP_MAX_JOBS = 64,
     DIP_MAX_BIN_TILES = 16, // a triangle in more tiles goes to its job's list of wide ones
+    DIP_BIN_BLOCK = 15,     // entries
+    DIP_MAX_BINS = DIP_MAX_FRAME_SIZE / DIP_TILE * (DIP_MAX_FRAME_SIZE / DIP_TILE) + 1,
+    DIP_BIN_WORDS = (DIP_MAX_BINS + 63) / 64,
 };
 
-#define DIP_BIN_END 0xffffffffu // no entry
+#define DIP_NO_TRIANGLE 0xffffffffu // beyond every index
 
-// One triangle in one tile's list.
-typedef struct DipBinEntry {
-    uint32_t triangle;
-    uint32_t next; // index of the next entry of the tile, or DIP_BIN_END
-} DipBinEntry;
+// A cache line of a bin's list.
+typedef struct DipBinBlock {
+    uint32_t triangle[DIP_BIN_BLOCK]; // in rising order
+    uint32_t next;                    // index of the next block, unless this is the last
+} DipBinBlock;
 
+// One job's triangles in one tile.
 typedef struct DipTileBin {
-    uint32_t first;
+    uint32_t first; // block
     uint32_t last;
+    uint32_t last_count; // entries of the last block; the others are full
 } DipTileBin;
 
+typedef struct DipVisibleChunk {
+    uint32_t draw;
+    uint32_t chunk; // of the draw's mesh
+} DipVisibleChunk;
+
+// Written once, at the end of a job.
 typedef struct DipGeometryJob {
-    uint32_t first_chunk; // of the pass' chunks
+    uint32_t first_chunk; // of the visible ones
     uint32_t chunk_count;
-    uint32_t first_triangle; // of the geometry's arrays
-    uint32_t triangle_count;
-    uint32_t triangle_room;
-    uint32_t entry_count; // entries start at first_triangle * DIP_MAX_BIN_TILES
-    uint32_t wide_count;  // wide triangles start at first_triangle
-    bool overflowed;      // clipping made more triangles than there was room for
+    bool overflowed; // there was not enough room
     uint64_t triangles_in;
+    uint64_t triangles_drawn;
     uint64_t tile_triangles;
 } DipGeometryJob;
 
-// All arrays grow when a pass needs more than any before it, never within a frame otherwise.
+// All arrays grow when a pass needs more than any before it, never within a frame otherwise. They
+// have room for all triangles of the pass, but what is not in view is not written, so its pages
+// cost no memory.
 typedef struct DipGeometry {
     const DipPass *pass;
     DipScreenMapping mapping;
@@ -55,16 +69,20 @@ typedef struct DipGeometry {
     int surface_stride; // floats per triangle: that of the pass' largest slot count
     int job_count;
     DipGeometryJob jobs[DIP_MAX_JOBS];
-    uint32_t room;       // triangles
+    uint32_t visible_count;
+    uint32_t visible_room;
+    uint32_t triangle_room;
+    uint32_t block_room;
     size_t surface_room; // floats
-    uint32_t clip_slack; // triangles a job may make beyond those it reads
+    uint32_t slack;      // triangles beyond those of the meshes, and blocks; grows with overflows
+    DipVisibleChunk *visible;
     DipTriangle *triangles;
     float *surfaces;
-    uint32_t *wide;
-    DipBinEntry *entries;
-    DipTileBin *bins;           // [job][tile]
-    uint32_t *draw_first_chunk; // per draw, and one past the last
-    int draw_room;
+    DipBinBlock *blocks;
+    DipTileBin *bins;   // [job][tile], the job's wide triangles last
+    uint64_t *occupied; // [tile / 64][job]: bit tile % 64 is set where the bin is not empty
+    atomic_uint triangles_taken;
+    atomic_uint blocks_taken;
 } DipGeometry;
 
 typedef struct DipKernels DipKernels;
@@ -74,9 +92,22 @@ typedef struct DipGeometryScratch {
     float clip[4][DIP_VERTEX_BATCH];
     float slot[DIP_MAX_SLOTS][DIP_VERTEX_BATCH];
     DipScreenBatch screen;
+    uint64_t occupied[DIP_BIN_WORDS];
 } DipGeometryScratch;
 
-// Cuts the pass into jobs and makes room for it.
+static inline size_t dip_geometry_tiles(const DipGeometry *geometry) {
+    return (size_t)geometry->tiles_x * (size_t)geometry->tiles_y;
+}
+
+// The job's triangles of a bin, NULL where there is none. Bin dip_geometry_tiles: the wide ones.
+static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, int job, size_t bin) {
+    const uint64_t word = geometry->occupied[bin / 64 * DIP_MAX_JOBS + (size_t)job];
+    return word >> bin % 64 & 1
+               ? &geometry->bins[(size_t)job * (dip_geometry_tiles(geometry) + 1) + bin]
+               : NULL;
+}
+
+// Finds the chunks in view, cuts them into jobs and makes room for the pass.
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err);
 
 // Runs one job; any thread.

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_INDICES = 1 << 30 }; // so that 32 bits count the chunks' vertices
+enum { MAX_INDICES = 1 << 30 }; // so that 32 bits count the chunks' vertices and corners
 
 // Which vertex of the chunk being built a source vertex is, if it is one.
 typedef struct LocalIndex {
@@ -20,6 +20,8 @@ typedef struct Splitter {
     DipMesh *mesh;
     LocalIndex *local; // per source vertex
     uint32_t *source;  // per chunk vertex, the source vertex; vertex_total of them
+    uint32_t index_total;
+    uint8_t corner[3][DIP_CHUNK_TRIANGLES]; // of the chunk being built
 } Splitter;
 
 static bool check_data(const DipMeshData *data, DipError *err) {
@@ -53,11 +55,11 @@ static bool check_data(const DipMeshData *data, DipError *err) {
     return true;
 }
 
-// Starts a chunk at the next free triangle and aligned vertex.
-static DipChunk *begin_chunk(Splitter *splitter, uint32_t triangle) {
+// Starts a chunk at the next free index and aligned vertex.
+static DipChunk *begin_chunk(Splitter *splitter) {
     DipMesh *mesh = splitter->mesh;
     DipChunk *chunk = &mesh->chunks[mesh->chunk_count++];
-    *chunk = (DipChunk){.first_vertex = mesh->vertex_total, .first_triangle = triangle};
+    *chunk = (DipChunk){.first_vertex = mesh->vertex_total, .first_index = splitter->index_total};
     return chunk;
 }
 
@@ -71,7 +73,6 @@ static uint32_t missing_vertices(const Splitter *splitter, const uint32_t *corne
 
 static void add_triangle(Splitter *splitter, DipChunk *chunk, const uint32_t *corner) {
     DipMesh *mesh = splitter->mesh;
-    uint8_t *out = mesh->indices + 3 * (size_t)(chunk->first_triangle + chunk->triangle_count++);
     for (int i = 0; i < 3; i++) {
         LocalIndex *local = &splitter->local[corner[i]];
         if (local->chunk != mesh->chunk_count) {
@@ -79,12 +80,20 @@ static void add_triangle(Splitter *splitter, DipChunk *chunk, const uint32_t *co
             local->index = (uint8_t)chunk->vertex_count;
             splitter->source[chunk->first_vertex + chunk->vertex_count++] = corner[i];
         }
-        out[i] = local->index;
+        splitter->corner[i][chunk->triangle_count] = local->index;
     }
+    chunk->triangle_count++;
 }
 
-// Pads the chunk's vertices with copies of its last one, so that batches need no tail.
+// Pads the chunk's vertices and corners, so that batches need no tail.
 static void end_chunk(Splitter *splitter, const DipChunk *chunk) {
+    const uint32_t stride = dip_corner_stride(chunk);
+    for (uint32_t k = 0; k < 3; k++) {
+        uint8_t *row = splitter->mesh->indices + chunk->first_index + k * stride;
+        memset(row, 0, stride);
+        memcpy(row, splitter->corner[k], chunk->triangle_count);
+    }
+    splitter->index_total += 3 * stride;
     uint32_t end = chunk->first_vertex + chunk->vertex_count;
     const uint32_t last = splitter->source[end - 1];
     while (end % DIP_BATCH_ALIGN) {
@@ -106,7 +115,7 @@ static void split(Splitter *splitter) {
             chunk = NULL;
         }
         if (!chunk) {
-            chunk = begin_chunk(splitter, t);
+            chunk = begin_chunk(splitter);
         }
         add_triangle(splitter, chunk, corner);
     }
@@ -126,29 +135,61 @@ static void fill_attributes(Splitter *splitter) {
     }
 }
 
-static void bound_chunks(DipMesh *mesh) {
+typedef struct Range {
+    float low[3];
+    float high[3];
+} Range;
+
+static const Range nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static void add_range(Range *range, const Range *other) {
     for (int axis = 0; axis < 3; axis++) {
-        mesh->min[axis] = mesh->chunk_count ? INFINITY : 0.0f;
-        mesh->max[axis] = mesh->chunk_count ? -INFINITY : 0.0f;
+        range->low[axis] = fminf(range->low[axis], other->low[axis]);
+        range->high[axis] = fmaxf(range->high[axis], other->high[axis]);
     }
-    for (uint32_t c = 0; c < mesh->chunk_count; c++) {
-        DipChunk *chunk = &mesh->chunks[c];
-        for (int axis = 0; axis < 3; axis++) {
-            const float *values =
-                mesh->attributes + (size_t)axis * mesh->vertex_total + chunk->first_vertex;
-            float low = values[0];
-            float high = values[0];
-            for (uint32_t v = 1; v < chunk->vertex_count; v++) {
-                low = values[v] < low ? values[v] : low;
-                high = values[v] > high ? values[v] : high;
-            }
-            chunk->centre[axis] = low * 0.5f + high * 0.5f;
-            // Rounded outwards, so that the box holds its vertices.
-            const float half = fmaxf(high - chunk->centre[axis], chunk->centre[axis] - low);
-            chunk->extent[axis] = half * 1.000001f;
-            mesh->min[axis] = low < mesh->min[axis] ? low : mesh->min[axis];
-            mesh->max[axis] = high > mesh->max[axis] ? high : mesh->max[axis];
+}
+
+static DipBox box_of(const Range *range) {
+    DipBox box;
+    for (int axis = 0; axis < 3; axis++) {
+        const float low = range->low[axis];
+        const float high = range->high[axis];
+        box.centre[axis] = low * 0.5f + high * 0.5f;
+        // Rounded outwards, so that the box holds its vertices.
+        box.extent[axis] = fmaxf(high - box.centre[axis], box.centre[axis] - low) * 1.000001f;
+    }
+    return box;
+}
+
+static Range chunk_range(const DipMesh *mesh, const DipChunk *chunk) {
+    Range range = nothing;
+    for (int axis = 0; axis < 3; axis++) {
+        const float *values =
+            mesh->attributes + (size_t)axis * mesh->vertex_total + chunk->first_vertex;
+        for (uint32_t v = 0; v < chunk->vertex_count; v++) {
+            range.low[axis] = fminf(range.low[axis], values[v]);
+            range.high[axis] = fmaxf(range.high[axis], values[v]);
         }
+    }
+    return range;
+}
+
+static void bound_chunks(DipMesh *mesh) {
+    Range all = nothing;
+    for (uint32_t first = 0; first < mesh->chunk_count; first += DIP_GROUP_CHUNKS) {
+        Range group = nothing;
+        for (uint32_t c = first; c < first + DIP_GROUP_CHUNKS && c < mesh->chunk_count; c++) {
+            const Range range = chunk_range(mesh, &mesh->chunks[c]);
+            mesh->chunks[c].box = box_of(&range);
+            add_range(&group, &range);
+        }
+        mesh->groups[first / DIP_GROUP_CHUNKS] = box_of(&group);
+        add_range(&all, &group);
+    }
+    if (mesh->chunk_count) {
+        mesh->box = box_of(&all);
+        memcpy(mesh->min, all.low, sizeof mesh->min);
+        memcpy(mesh->max, all.high, sizeof mesh->max);
     }
 }
 
@@ -160,7 +201,7 @@ static bool allocate_split(Splitter *splitter) {
     splitter->local = calloc((size_t)splitter->data->vertex_count + 1, sizeof *splitter->local);
     splitter->source = malloc((vertices + 1) * sizeof *splitter->source);
     splitter->mesh->chunks = malloc(chunks * sizeof *splitter->mesh->chunks);
-    splitter->mesh->indices = malloc(3 * triangles + 1);
+    splitter->mesh->indices = malloc(3 * (triangles + chunks * DIP_BATCH_ALIGN));
     return splitter->local && splitter->source && splitter->mesh->chunks && splitter->mesh->indices;
 }
 
@@ -177,7 +218,8 @@ DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err) {
         split(&splitter);
         const size_t floats = (size_t)mesh->vertex_total * (size_t)mesh->attribute_count;
         mesh->attributes = malloc((floats + 1) * sizeof *mesh->attributes);
-        made = mesh->attributes != NULL;
+        mesh->groups = malloc((mesh->chunk_count / DIP_GROUP_CHUNKS + 1) * sizeof *mesh->groups);
+        made = mesh->attributes && mesh->groups;
     }
     if (made) {
         fill_attributes(&splitter);
@@ -194,6 +236,7 @@ DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err) {
 void dip_mesh_destroy(DipMesh **mesh) {
     if (*mesh) {
         free((*mesh)->chunks);
+        free((*mesh)->groups);
         free((*mesh)->attributes);
         free((*mesh)->indices);
         free(*mesh);

@@ -1,35 +1,43 @@
-// Triangle set-up: three projected vertices to a DipTriangle with its shading planes.
+// Triangle set-up: projected vertices to DipTriangles with their shading planes.
 #ifndef DIP_RENDERER_GEOMETRY_SETUP_H
 #define DIP_RENDERER_GEOMETRY_SETUP_H
 
+#include "renderer/geometry/project.h"
 #include "renderer/geometry/triangle.h"
 #include "renderer/pipeline.h"
-#include "renderer/raster/pattern.h"
 
-#include <stdbool.h>
 #include <stdint.h>
 
-typedef struct DipScreenVertex {
-    int32_t x; // 1/256 pixel
-    int32_t y;
-    float z;
-    float rw;
-    const float *slot; // slot s is slot[s * slot_stride]
-} DipScreenVertex;
+enum {
+    DIP_SETUP_BATCH = 128, // triangles
+    // Beyond the triangles that stay, up to this many may be overwritten with nothing of use.
+    DIP_SETUP_EXCESS = 8,
+};
 
 typedef struct DipSetupTarget {
     int width; // pixels
     int height;
     int slot_count;
-    int slot_stride; // between the slots of a vertex, floats
+    int surface_stride; // floats per triangle, see dip_surface_stride
+    uint32_t draw;
     DipCull cull;
     uint8_t sample_min[2]; // least and greatest sample position of the pattern, 1/256 pixel
     uint8_t sample_max[2];
 } DipSetupTarget;
 
-// Fills *triangle (but for draw and surface) and surface[]; false when the triangle is culled, has
-// no area or lies between the samples.
-bool dip_setup_triangle(const DipSetupTarget *target, const DipScreenVertex vertex[3],
-                        DipTriangle *triangle, float *surface);
+// Triangles of one draw. Arrays of corners may be read to the next multiple of DIP_BATCH_ALIGN and
+// hold valid vertices there.
+typedef struct DipSetupBatch {
+    int count;                // 1..DIP_SETUP_BATCH
+    const uint8_t *corner[3]; // of triangle t: vertices corner[0..2][t] of `screen`
+    const DipScreenBatch *screen;
+    const float *slots; // slot s of vertex v: slots[s * slot_stride + v]
+    int slot_stride;
+} DipSetupBatch;
+
+// dip_kernel_setup (see kernels.h) keeps, in order, the triangles that are not culled, have an area
+// and do not lie between the samples; it returns their number. Triangle i of these goes to
+// triangles[i], its planes to surfaces + i * surface_stride, where its `surface` is
+// first_surface + i * surface_stride.
 
 #endif

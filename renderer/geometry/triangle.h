@@ -39,4 +39,12 @@ static inline int dip_surface_floats(int slot_count) {
     return DIP_SURFACE_SLOTS + 3 * slot_count;
 }
 
+enum { DIP_SURFACE_ALIGN = 8 }; // floats; set-up writes so many at once
+
+// From one triangle's planes to the next.
+static inline int dip_surface_stride(int slot_count) {
+    return (dip_surface_floats(slot_count) + DIP_SURFACE_ALIGN - 1) / DIP_SURFACE_ALIGN *
+           DIP_SURFACE_ALIGN;
+}
+
 #endif

@@ -6,6 +6,7 @@
 #define DIP_RENDERER_RASTER_KERNELS_H
 
 #include "renderer/geometry/project.h"
+#include "renderer/geometry/setup.h"
 #include "renderer/isa.h"
 #include "renderer/raster/tile.h"
 #include "renderer/shader.h"
@@ -16,6 +17,10 @@
     /* Clip positions to rounded screen positions, depth, 1/w and clip codes. */                   \
     X(void, dip_kernel_project,                                                                    \
       (const DipScreenMapping *map, int count, float *const *clip, DipScreenBatch *out))           \
+    /* Projected triangles to those that may cover samples, with their planes; see setup.h. */     \
+    X(int, dip_kernel_setup,                                                                       \
+      (const DipSetupTarget *target, const DipSetupBatch *batch, uint32_t first_surface,           \
+       DipTriangle *triangles, float *surfaces))                                                   \
     /* Coverage and depth of a triangle in a tile that its box reaches. clip NULL: opaque. */      \
     X(void, dip_kernel_draw_triangle,                                                              \
       (DipTile * tile, const DipTriangle *triangle, uint32_t id, const DipClipTest *clip))         \

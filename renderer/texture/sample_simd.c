@@ -3,10 +3,10 @@
 //
 // Colours are filtered in 16-bit fixed point: a texel's codes are widened to 16 bits, squared to
 // linear light, and weighted by 16-bit fractions, keeping the upper half of each product. Two
-// texels beside each other are fetched at once and stay side by side ("pair order", simd/vec.h)
+// texels beside each other are fetched at once and stay side by side ("pair order", simd/pairs.h)
 // until their sum. Sums are whole numbers, so no order of lanes or probes matters.
 #include "renderer/raster/kernels.h"
-#include "renderer/simd/vec.h"
+#include "renderer/simd/pairs.h"
 #include "renderer/texture/footprint_simd.h"
 #include "renderer/texture/texture.h"
 

@@ -23,7 +23,7 @@ typedef struct Raster {
     _Alignas(64) float depth[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
     _Alignas(64) uint32_t ids[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
     DipTile tile;
-    DipTriangle triangles[TRIANGLES];
+    DipTriangle triangles[TRIANGLES + DIP_SETUP_EXCESS];
     int triangle_count;
 } Raster;
 
@@ -50,17 +50,27 @@ static void begin_raster(int sample_count) {
 
 // Corners in pixels, depth that grows from submission to submission.
 static void add_triangle(const double x[3], const double y[3]) {
-    DipSetupTarget target = {.width = DIP_TILE, .height = DIP_TILE, .sample_max = {255, 255}};
-    target.cull = DIP_CULL_NONE;
-    DipScreenVertex vertices[3];
+    static DipScreenBatch screen;
+    static uint8_t corner[3][DIP_BATCH_ALIGN];
+    static float surfaces[(1 + DIP_SETUP_EXCESS) * DIP_SURFACE_ALIGN];
     for (int i = 0; i < 3; i++) {
-        const float z = 0.1f + 0.001f * (float)raster.triangle_count + 0.0001f * (float)i;
-        vertices[i] =
-            (DipScreenVertex){(int32_t)(x[i] * 256.0), (int32_t)(y[i] * 256.0), z, 1.0f, NULL};
+        screen.x[i] = (int32_t)(x[i] * 256.0);
+        screen.y[i] = (int32_t)(y[i] * 256.0);
+        screen.z[i] = 0.1f + 0.001f * (float)raster.triangle_count + 0.0001f * (float)i;
+        screen.rw[i] = 1.0f;
+        corner[i][0] = (uint8_t)i;
     }
-    float surface[DIP_SURFACE_SLOTS];
-    DipTriangle *triangle = &raster.triangles[raster.triangle_count];
-    raster.triangle_count += dip_setup_triangle(&target, vertices, triangle, surface);
+    const DipSetupTarget target = {.width = DIP_TILE,
+                                   .height = DIP_TILE,
+                                   .surface_stride = DIP_SURFACE_ALIGN,
+                                   .cull = DIP_CULL_NONE,
+                                   .sample_max = {255, 255}};
+    const DipSetupBatch batch = {
+        .count = 1, .corner = {corner[0], corner[1], corner[2]}, .screen = &screen};
+    raster.triangle_count +=
+        dip_kernels(DIP_ISA_SCALAR)
+            ->dip_kernel_setup(&target, &batch, 0, raster.triangles + raster.triangle_count,
+                               surfaces);
 }
 
 static void prepare_full_tile(int sample_count) {

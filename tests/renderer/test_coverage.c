@@ -40,6 +40,7 @@ typedef struct Case {
 static DipSetupTarget target_of(const DipSamplePattern *pattern) {
     DipSetupTarget target = {.width = TARGET_WIDTH,
                              .height = TARGET_HEIGHT,
+                             .surface_stride = DIP_SURFACE_ALIGN,
                              .cull = DIP_CULL_NONE,
                              .sample_min = {255, 255}};
     for (int s = 0; s < pattern->count; s++) {
@@ -72,22 +73,29 @@ static bool meets(const DipTriangle *triangle, const DipOracleRegion *region) {
 
 // Fills masks as the oracle does.
 static void cover_fast(const DipKernels *kernels, const Case *c, uint8_t *masks) {
-    DipScreenVertex vertices[3];
+    static DipScreenBatch screen;
+    static uint8_t corner[3][DIP_BATCH_ALIGN];
     for (int i = 0; i < 3; i++) {
-        vertices[i] = (DipScreenVertex){c->triangle.x[i], c->triangle.y[i], 0.5f, 1.0f, NULL};
+        screen.x[i] = c->triangle.x[i];
+        screen.y[i] = c->triangle.y[i];
+        screen.z[i] = 0.5f;
+        screen.rw[i] = 1.0f;
+        corner[i][0] = (uint8_t)i;
     }
+    const DipSetupBatch batch = {
+        .count = 1, .corner = {corner[0], corner[1], corner[2]}, .screen = &screen};
     const DipSetupTarget target = target_of(c->pattern);
-    DipTriangle triangle = {0};
-    float surface[DIP_SURFACE_SLOTS];
+    DipTriangle triangle[1 + DIP_SETUP_EXCESS];
+    float surface[(1 + DIP_SETUP_EXCESS) * DIP_SURFACE_ALIGN];
     DipTile tile = {.x0 = c->region.x0, .y0 = c->region.y0, .pattern = c->pattern};
     tile.depth = depth;
     tile.id = ids;
     memset(masks, 0, (size_t)c->region.width * (size_t)c->region.height);
-    if (!dip_setup_triangle(&target, vertices, &triangle, surface) ||
-        !meets(&triangle, &c->region)) {
+    if (!kernels->dip_kernel_setup(&target, &batch, 0, triangle, surface) ||
+        !meets(triangle, &c->region)) {
         return;
     }
-    kernels->dip_kernel_draw_triangle(&tile, &triangle, 1, NULL);
+    kernels->dip_kernel_draw_triangle(&tile, triangle, 1, NULL);
     for (int block = 0; block < DIP_BLOCKS; block++) {
         for (int i = 0; tile.touched >> block & 1 && i < DIP_BLOCK_PIXELS; i++) {
             const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_x(i);

@@ -90,6 +90,73 @@ static void project_is_the_same_for_every_isa(void **state) {
     compare_all(compare_project);
 }
 
+// --- set-up ------------------------------------------------------------------------------------
+
+enum { SETUP_ROOM = DIP_SETUP_BATCH + DIP_SETUP_EXCESS };
+
+// Vertices on a coarse lattice now and then, so that edges meet samples and areas vanish.
+static void random_screen(Random *random, DipScreenBatch *screen) {
+    const int far = 1 << random_int(random, 4, 22);
+    const int step = 1 << random_int(random, 0, 8);
+    for (int i = 0; i < DIP_VERTEX_BATCH; i++) {
+        screen->x[i] = random_int(random, -far, far) / step * step;
+        screen->y[i] = random_int(random, -far, far) / step * step;
+        screen->z[i] = (float)random_real(random, 0.0, 1.0);
+        screen->rw[i] = (float)random_real(random, 0.0, 10.0);
+    }
+}
+
+static void compare_setup(const DipKernels *scalar, const DipKernels *other, Random *random) {
+    static DipScreenBatch screen;
+    static float slots[DIP_MAX_SLOTS][DIP_VERTEX_BATCH];
+    static uint8_t corner[3][DIP_SETUP_BATCH];
+    static DipTriangle triangles[2][SETUP_ROOM];
+    static float surfaces[2][SETUP_ROOM * 64];
+    random_screen(random, &screen);
+    for (int i = 0; i < DIP_VERTEX_BATCH; i++) {
+        for (int s = 0; s < DIP_MAX_SLOTS; s++) {
+            slots[s][i] = awkward(random, 3.0);
+        }
+    }
+    for (int t = 0; t < DIP_SETUP_BATCH; t++) {
+        for (int k = 0; k < 3; k++) {
+            corner[k][t] = (uint8_t)random_u64(random);
+        }
+    }
+    const int slot_count = random_int(random, 0, DIP_MAX_SLOTS);
+    const DipSetupTarget target = {.width = random_int(random, 1, 8192),
+                                   .height = random_int(random, 1, 8192),
+                                   .slot_count = slot_count,
+                                   .surface_stride = dip_surface_stride(slot_count),
+                                   .draw = 17,
+                                   .cull = (DipCull)random_int(random, 0, 2),
+                                   .sample_min = {16, 32},
+                                   .sample_max = {240, 224}};
+    const DipSetupBatch batch = {.count = random_int(random, 1, DIP_SETUP_BATCH),
+                                 .corner = {corner[0], corner[1], corner[2]},
+                                 .screen = &screen,
+                                 .slots = slots[0],
+                                 .slot_stride = DIP_VERTEX_BATCH};
+    const int expected = scalar->dip_kernel_setup(&target, &batch, 640, triangles[0], surfaces[0]);
+    const int found = other->dip_kernel_setup(&target, &batch, 640, triangles[1], surfaces[1]);
+    assert_int_equal(found, expected);
+    assert_memory_equal(triangles[0], triangles[1], (size_t)found * sizeof triangles[0][0]);
+    for (int t = 0; t < found; t++) {
+        const int at = t * target.surface_stride;
+        assert_int_equal(triangles[0][t].surface, 640 + at);
+        for (int f = 0; f < dip_surface_floats(slot_count); f++) {
+            const float a = surfaces[0][at + f];
+            const float b = surfaces[1][at + f];
+            assert_true(memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b)));
+        }
+    }
+}
+
+static void setup_is_the_same_for_every_isa(void **state) {
+    (void)state;
+    compare_all(compare_setup);
+}
+
 // --- textures ----------------------------------------------------------------------------------
 
 static DipTexture *random_texture(Random *random) {
@@ -227,6 +294,7 @@ static void fragments_are_the_same_for_every_isa(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(project_is_the_same_for_every_isa),
+        cmocka_unit_test(setup_is_the_same_for_every_isa),
         cmocka_unit_test(sampling_is_the_same_for_every_isa),
         cmocka_unit_test(fragments_are_the_same_for_every_isa),
     };

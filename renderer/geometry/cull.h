@@ -1,0 +1,11 @@
+// Which chunks of a pass may be in view.
+#ifndef DIP_RENDERER_GEOMETRY_CULL_H
+#define DIP_RENDERER_GEOMETRY_CULL_H
+
+#include "renderer/geometry/geometry.h"
+
+// Fills `visible`, in submission order, with the chunks whose boxes do not lie outside one plane of
+// the view volume or of the user's; returns their number. There must be room for all chunks.
+uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible);
+
+#endif

@@ -1,0 +1,288 @@
+// Half vectors: doubles and 64-bit numbers beside vec.h, for triangle set-up.
+#ifndef DIP_RENDERER_SIMD_HALF_H
+#define DIP_RENDERER_SIMD_HALF_H
+
+#include "renderer/simd/vec.h"
+
+// As many doubles as a vector's bytes hold, and 64-bit and 32-bit numbers of as many lanes; of two
+// lanes of 32 bits a vector has two more, which hold nothing of use. A condition is a vector of
+// 0 / -1, as comparisons give it.
+enum { DIP_HALF_LANES = DIP_LANES > 1 ? DIP_LANES / 2 : 1 };
+
+#define VEC_HALF_BYTES (DIP_LANES == 4 ? 16 : 4 * (DIP_LANES > 1 ? DIP_LANES / 2 : 1))
+
+typedef double Vd __attribute__((vector_size(8 * DIP_HALF_LANES)));
+typedef int64_t Vl __attribute__((vector_size(8 * DIP_HALF_LANES)));
+typedef float Hf __attribute__((vector_size(VEC_HALF_BYTES)));
+typedef int32_t Hi __attribute__((vector_size(VEC_HALF_BYTES)));
+
+VEC_INLINE Vd vd_splat(double x) {
+    return x - (Vd){0};
+}
+
+VEC_INLINE Hi hi_splat(int32_t x) {
+    return x - (Hi){0};
+}
+
+VEC_INLINE Hi hi_iota(void) {
+    Hi v;
+    for (int i = 0; i < (int)(sizeof v / sizeof v[0]); i++) {
+        v[i] = i;
+    }
+    return v;
+}
+
+VEC_INLINE Hi hi_load(const int32_t *p) {
+    Hi v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+VEC_INLINE Hi hi_load_bytes(const uint8_t *p) {
+#if VEC_AVX512
+    return (Hi)_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)p));
+#elif VEC_AVX2
+    return (Hi)_mm_cvtepu8_epi32(_mm_loadu_si32(p));
+#else
+    Hi v = {0};
+    for (int i = 0; i < DIP_HALF_LANES; i++) {
+        v[i] = p[i];
+    }
+    return v;
+#endif
+}
+
+VEC_INLINE Vd vd_from_int(Hi v) {
+#if VEC_AVX512
+    return (Vd)_mm512_cvtepi32_pd((__m256i)v);
+#elif VEC_AVX2
+    return (Vd)_mm256_cvtepi32_pd((__m128i)v);
+#elif VEC_SSE2
+    return (Vd)_mm_cvtepi32_pd((__m128i)v);
+#else
+    Vd wide = {0};
+    for (int i = 0; i < DIP_HALF_LANES; i++) {
+        wide[i] = v[i];
+    }
+    return wide;
+#endif
+}
+
+VEC_INLINE Vd vd_from_float(Hf v) {
+#if VEC_AVX512
+    return (Vd)_mm512_cvtps_pd((__m256)v);
+#elif VEC_AVX2
+    return (Vd)_mm256_cvtps_pd((__m128)v);
+#elif VEC_SSE2
+    return (Vd)_mm_cvtps_pd((__m128)v);
+#else
+    Vd wide = {0};
+    for (int i = 0; i < DIP_HALF_LANES; i++) {
+        wide[i] = (double)v[i];
+    }
+    return wide;
+#endif
+}
+
+VEC_INLINE Hf hf_from_double(Vd v) {
+#if VEC_AVX512
+    return (Hf)_mm512_cvtpd_ps((__m512d)v);
+#elif VEC_AVX2
+    return (Hf)_mm256_cvtpd_ps((__m256d)v);
+#elif VEC_SSE2
+    return (Hf)_mm_cvtpd_ps((__m128d)v);
+#else
+    Hf narrow = {0};
+    for (int i = 0; i < DIP_HALF_LANES; i++) {
+        narrow[i] = (float)v[i];
+    }
+    return narrow;
+#endif
+}
+
+VEC_INLINE Vd vd_abs(Vd v) {
+    return (Vd)((Vl)v & INT64_MAX);
+}
+
+// Whole numbers below 2^51 in magnitude: adding 1.5 * 2^52 leaves them in the low bits.
+VEC_INLINE Vl vl_from_whole(Vd v) {
+    const Vd shift = vd_splat(6755399441055744.0);
+    return (Vl)(v + shift) - (Vl)shift;
+}
+
+VEC_INLINE Vd vd_select(Vl m, Vd a, Vd b) {
+#if VEC_AVX2
+    return (Vd)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)m);
+#else
+    return (Vd)(((Vl)a & m) | ((Vl)b & ~m));
+#endif
+}
+
+VEC_INLINE Hi hi_select(Hi m, Hi a, Hi b) {
+    return (a & m) | (b & ~m);
+}
+
+VEC_INLINE Hi hi_min(Hi a, Hi b) {
+    return hi_select(a < b, a, b);
+}
+
+VEC_INLINE Hi hi_max(Hi a, Hi b) {
+    return hi_select(a > b, a, b);
+}
+
+VEC_INLINE Hf hf_select(Hi m, Hf a, Hf b) {
+    return (Hf)hi_select(m, (Hi)a, (Hi)b);
+}
+
+// A condition on doubles as one on their lanes' 32-bit numbers.
+VEC_INLINE Hi hi_condition(Vl m) {
+#if VEC_AVX512
+    return (Hi)_mm512_cvtepi64_epi32((__m512i)m);
+#elif VEC_AVX2
+    return __builtin_convertvector(m, Hi);
+#else
+    Hi narrow = {0};
+    for (int i = 0; i < DIP_HALF_LANES; i++) {
+        narrow[i] = (int32_t)m[i];
+    }
+    return narrow;
+#endif
+}
+
+// The other way round.
+VEC_INLINE Vl vl_condition(Hi m) {
+#if VEC_AVX512
+    return (Vl)_mm512_cvtepi32_epi64((__m256i)m);
+#elif VEC_AVX2
+    return (Vl)_mm256_cvtepi32_epi64((__m128i)m);
+#elif VEC_SSE2
+    return (Vl)_mm_unpacklo_epi32((__m128i)m, (__m128i)m);
+#else
+    Vl wide = {0};
+    for (int i = 0; i < DIP_HALF_LANES; i++) {
+        wide[i] = m[i];
+    }
+    return wide;
+#endif
+}
+
+VEC_INLINE unsigned hi_mask_bits(Hi m) {
+#if VEC_AVX512
+    return (unsigned)_mm256_movemask_ps((__m256)m);
+#elif VEC_AVX2
+    return (unsigned)_mm_movemask_ps((__m128)m);
+#elif VEC_SSE2
+    return (unsigned)_mm_movemask_ps((__m128)m) & 3u;
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < DIP_HALF_LANES; i++) {
+        bits |= (unsigned)(m[i] & 1) << i;
+    }
+    return bits;
+#endif
+}
+
+// base[index[i]] per lane.
+VEC_INLINE Hi hi_gather(const int32_t *base, Hi index) {
+#if VEC_AVX512
+    return (Hi)_mm256_i32gather_epi32(base, (__m256i)index, 4);
+#elif VEC_AVX2
+    return (Hi)_mm_i32gather_epi32(base, (__m128i)index, 4);
+#else
+    Hi v = {0};
+    for (int i = 0; i < DIP_HALF_LANES; i++) {
+        v[i] = base[index[i]];
+    }
+    return v;
+#endif
+}
+
+VEC_INLINE Hf hf_gather(const float *base, Hi index) {
+    return (Hf)hi_gather((const int32_t *)(const void *)base, index);
+}
+
+// Stores the lanes whose bits are set one after another; may write a whole vector.
+VEC_INLINE void hi_store_packed(int32_t *out, Hi v, unsigned bits) {
+#if VEC_AVX512
+    v = (Hi)_mm256_maskz_compress_epi32((__mmask8)bits, (__m256i)v);
+    memcpy(out, &v, sizeof v);
+#else
+    if (bits == (1u << DIP_HALF_LANES) - 1) {
+        memcpy(out, &v, sizeof v);
+        return;
+    }
+    for (; bits; bits &= bits - 1) {
+        *out++ = v[__builtin_ctz(bits)];
+    }
+#endif
+}
+
+// Lane by lane, low in the lower half of 64 bits.
+VEC_INLINE Vl vl_pair(Hi low, Hi high) {
+#if VEC_AVX512
+    const __m512i order = _mm512_set_epi32(23, 7, 22, 6, 21, 5, 20, 4, 19, 3, 18, 2, 17, 1, 16, 0);
+    return (Vl)_mm512_permutex2var_epi32(_mm512_castsi256_si512((__m256i)low), order,
+                                         _mm512_castsi256_si512((__m256i)high));
+#elif VEC_AVX2
+    return (Vl)_mm256_set_m128i(_mm_unpackhi_epi32((__m128i)low, (__m128i)high),
+                                _mm_unpacklo_epi32((__m128i)low, (__m128i)high));
+#elif VEC_SSE2
+    return (Vl)_mm_unpacklo_epi32((__m128i)low, (__m128i)high);
+#else
+    Vl v = {0};
+    for (int i = 0; i < DIP_HALF_LANES; i++) {
+        v[i] = (int64_t)((uint64_t)(uint32_t)high[i] << 32 | (uint32_t)low[i]);
+    }
+    return v;
+#endif
+}
+
+// Four words of every lane to memory: those of lane i at out + i * stride_bytes.
+VEC_INLINE void vl_store_rows(void *out, size_t stride_bytes, const Vl row[4]) {
+    char *at = out;
+#if VEC_AVX512
+    const __m512i first = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
+    const __m512i second = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+    const __m512i even[2] = {_mm512_unpacklo_epi64((__m512i)row[0], (__m512i)row[1]),
+                             _mm512_unpacklo_epi64((__m512i)row[2], (__m512i)row[3])};
+    const __m512i odd[2] = {_mm512_unpackhi_epi64((__m512i)row[0], (__m512i)row[1]),
+                            _mm512_unpackhi_epi64((__m512i)row[2], (__m512i)row[3])};
+    // Lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7.
+    const __m512i lanes[4] = {_mm512_permutex2var_epi64(even[0], first, even[1]),
+                              _mm512_permutex2var_epi64(odd[0], first, odd[1]),
+                              _mm512_permutex2var_epi64(even[0], second, even[1]),
+                              _mm512_permutex2var_epi64(odd[0], second, odd[1])};
+    for (size_t i = 0; i < 4; i++) {
+        _mm256_storeu_si256((__m256i *)(void *)(at + i * stride_bytes),
+                            _mm512_castsi512_si256(lanes[i]));
+        _mm256_storeu_si256((__m256i *)(void *)(at + (i + 4) * stride_bytes),
+                            _mm512_extracti64x4_epi64(lanes[i], 1));
+    }
+#elif VEC_AVX2
+    const __m256i even[2] = {_mm256_unpacklo_epi64((__m256i)row[0], (__m256i)row[1]),
+                             _mm256_unpacklo_epi64((__m256i)row[2], (__m256i)row[3])};
+    const __m256i odd[2] = {_mm256_unpackhi_epi64((__m256i)row[0], (__m256i)row[1]),
+                            _mm256_unpackhi_epi64((__m256i)row[2], (__m256i)row[3])};
+    const __m256i lanes[4] = {_mm256_permute2x128_si256(even[0], even[1], 0x20),
+                              _mm256_permute2x128_si256(odd[0], odd[1], 0x20),
+                              _mm256_permute2x128_si256(even[0], even[1], 0x31),
+                              _mm256_permute2x128_si256(odd[0], odd[1], 0x31)};
+    for (size_t i = 0; i < 4; i++) {
+        _mm256_storeu_si256((__m256i *)(void *)(at + i * stride_bytes), lanes[i]);
+    }
+#elif VEC_SSE2
+    for (size_t i = 0; i < 2; i++) {
+        const __m128i a = (__m128i)row[2 * i];
+        const __m128i b = (__m128i)row[2 * i + 1];
+        _mm_storeu_si128((__m128i *)(void *)(at + 16 * i), _mm_unpacklo_epi64(a, b));
+        _mm_storeu_si128((__m128i *)(void *)(at + 16 * i + stride_bytes), _mm_unpackhi_epi64(a, b));
+    }
+#else
+    for (size_t i = 0; i < DIP_HALF_LANES; i++) {
+        const int64_t words[4] = {row[0][i], row[1][i], row[2][i], row[3][i]};
+        memcpy(at + i * stride_bytes, words, sizeof words);
+    }
+#endif
+}
+
+#endif

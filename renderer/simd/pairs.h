@@ -1,0 +1,142 @@
+// Pairs of texels beside each other, 16 bits per channel: vector operations for texture reads.
+#ifndef DIP_RENDERER_SIMD_PAIRS_H
+#define DIP_RENDERER_SIMD_PAIRS_H
+
+#include "renderer/simd/vec.h"
+
+// Two values per lane of a vector, left and right, in pair order: where a 64-bit load brings both,
+// they stay side by side, the first half of each 128-bit part in a, the second in b; elsewhere a
+// holds the left ones and b the right ones. Only the operations here know which.
+typedef struct VuPair {
+    Vu a;
+    Vu b;
+} VuPair;
+
+// 16-bit halves: the upper half of each product.
+VEC_INLINE Vu vu_mulhi16(Vu a, Vu b) {
+#if VEC_AVX512
+    return (Vu)_mm512_mulhi_epu16((__m512i)a, (__m512i)b);
+#elif VEC_AVX2
+    return (Vu)_mm256_mulhi_epu16((__m256i)a, (__m256i)b);
+#elif VEC_SSE2
+    return (Vu)_mm_mulhi_epu16((__m128i)a, (__m128i)b);
+#else
+    return ((a & 0xffffu) * (b & 0xffffu)) >> 16 | (((a >> 16) * (b >> 16)) & 0xffff0000u);
+#endif
+}
+
+// The sum of the products of the 16-bit halves, which are below 2^15.
+VEC_INLINE Vu vu_dot16(Vu a, uint32_t b) {
+#if VEC_AVX512
+    return (Vu)_mm512_madd_epi16((__m512i)a, (__m512i)vu_splat(b));
+#elif VEC_AVX2
+    return (Vu)_mm256_madd_epi16((__m256i)a, (__m256i)vu_splat(b));
+#elif VEC_SSE2
+    return (Vu)_mm_madd_epi16((__m128i)a, (__m128i)vu_splat(b));
+#else
+    return (a & 0xffffu) * (b & 0xffffu) + (a >> 16) * (b >> 16);
+#endif
+}
+
+// The lanes in the order in which vu_gather_pairs takes them.
+VEC_INLINE Vi vi_pair_order(Vi v) {
+#if VEC_AVX512
+    const __m512i order = _mm512_set_epi32(15, 14, 11, 10, 7, 6, 3, 2, 13, 12, 9, 8, 5, 4, 1, 0);
+    return (Vi)_mm512_permutexvar_epi32(order, (__m512i)v);
+#elif VEC_AVX2
+    return (Vi)_mm256_permute4x64_epi64((__m256i)v, 0xd8);
+#else
+    return v;
+#endif
+}
+
+// base[index] and base[index + 1] of each lane: both are fetched at once. index: in pair order.
+VEC_INLINE VuPair vu_gather_pairs(const uint32_t *base, Vi index) {
+#if VEC_AVX512
+    const __m512i i = (__m512i)index;
+    return (VuPair){(Vu)_mm512_i32gather_epi64(_mm512_castsi512_si256(i), base, 4),
+                    (Vu)_mm512_i32gather_epi64(_mm512_extracti64x4_epi64(i, 1), base, 4)};
+#elif VEC_AVX2
+    const __m256i i = (__m256i)index;
+    const long long *pairs = (const long long *)(const void *)base;
+    return (VuPair){(Vu)_mm256_i32gather_epi64(pairs, _mm256_castsi256_si128(i), 4),
+                    (Vu)_mm256_i32gather_epi64(pairs, _mm256_extracti128_si256(i, 1), 4)};
+#elif VEC_SSE2
+    __m128i pair[4];
+    for (int i = 0; i < 4; i++) {
+        pair[i] = _mm_loadl_epi64((const __m128i *)(const void *)(base + index[i]));
+    }
+    return (VuPair){(Vu)_mm_unpacklo_epi64(pair[0], pair[1]),
+                    (Vu)_mm_unpacklo_epi64(pair[2], pair[3])};
+#else
+    VuPair pair;
+    for (int i = 0; i < DIP_LANES; i++) {
+        pair.a[i] = base[index[i]];
+        pair.b[i] = base[index[i] + 1];
+    }
+    return pair;
+#endif
+}
+
+// The lowest byte of each lane, times 256, in all 16-bit halves of its two values.
+VEC_INLINE VuPair vu_pair_both(Vi v) {
+#if VEC_AVX512 || VEC_AVX2
+    const __m128i spread_a = _mm_set_epi8(4, -1, 4, -1, 4, -1, 4, -1, 0, -1, 0, -1, 0, -1, 0, -1);
+    const __m128i spread_b =
+        _mm_set_epi8(12, -1, 12, -1, 12, -1, 12, -1, 8, -1, 8, -1, 8, -1, 8, -1);
+#endif
+#if VEC_AVX512
+    return (VuPair){(Vu)_mm512_shuffle_epi8((__m512i)v, _mm512_broadcast_i32x4(spread_a)),
+                    (Vu)_mm512_shuffle_epi8((__m512i)v, _mm512_broadcast_i32x4(spread_b))};
+#elif VEC_AVX2
+    return (VuPair){(Vu)_mm256_shuffle_epi8((__m256i)v, _mm256_broadcastsi128_si256(spread_a)),
+                    (Vu)_mm256_shuffle_epi8((__m256i)v, _mm256_broadcastsi128_si256(spread_b))};
+#else
+    const Vu byte = ((Vu)v & 0xffu) << 8;
+    const Vu both = byte | byte << 16;
+#if VEC_SSE2
+    return (VuPair){(Vu)_mm_unpacklo_epi32((__m128i)both, (__m128i)both),
+                    (Vu)_mm_unpackhi_epi32((__m128i)both, (__m128i)both)};
+#else
+    return (VuPair){both, both};
+#endif
+#endif
+}
+
+// The same, with the left values' bits inverted: weights from left to right that sum to 65535.
+VEC_INLINE VuPair vu_pair_ramp(Vi v) {
+    const VuPair both = vu_pair_both(v);
+#if VEC_AVX512
+    const Vu left = (Vu)_mm512_set1_epi64(0xffffffff);
+#elif VEC_AVX2
+    const Vu left = (Vu)_mm256_set1_epi64x(0xffffffff);
+#elif VEC_SSE2
+    const Vu left = (Vu)_mm_set1_epi64x(0xffffffff);
+#else
+    return (VuPair){~both.a, both.b};
+#endif
+#if VEC_AVX512 || VEC_AVX2 || VEC_SSE2
+    return (VuPair){both.a ^ left, both.b ^ left};
+#endif
+}
+
+// Left plus right of each lane, back in the order of lanes; no carry may pass between halves.
+VEC_INLINE Vu vu_pair_sum(VuPair pair) {
+#if VEC_AVX512
+    const __m512 a = (__m512)pair.a;
+    const __m512 b = (__m512)pair.b;
+    return (Vu)_mm512_shuffle_ps(a, b, 0x88) + (Vu)_mm512_shuffle_ps(a, b, 0xdd);
+#elif VEC_AVX2
+    const __m256 a = (__m256)pair.a;
+    const __m256 b = (__m256)pair.b;
+    return (Vu)_mm256_shuffle_ps(a, b, 0x88) + (Vu)_mm256_shuffle_ps(a, b, 0xdd);
+#elif VEC_SSE2
+    const __m128 a = (__m128)pair.a;
+    const __m128 b = (__m128)pair.b;
+    return (Vu)_mm_shuffle_ps(a, b, 0x88) + (Vu)_mm_shuffle_ps(a, b, 0xdd);
+#else
+    return pair.a + pair.b;
+#endif
+}
+
+#endif
