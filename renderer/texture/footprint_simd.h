@@ -7,8 +7,10 @@
 #include "renderer/simd/vec.h"
 #include "renderer/texture/texture.h"
 
-#define MAX_DERIVATIVE 1e15f  // its square is finite
-#define MIN_LENGTH     1e-18f // texels; its square is a normal number
+// Texels per pixel. The greatest exceeds every texture, and the product of two squares is finite;
+// the square of the least is a normal number.
+#define MAX_DERIVATIVE 1e9f
+#define MIN_LENGTH     1e-18f
 
 // What a vector of fragments reads: probes along a line, all at one level of detail.
 typedef struct Footprint {
@@ -31,8 +33,9 @@ VEC_INLINE Vf log2_of(Vf x) {
     const Vi bits = vi_bits(x);
     const Vf exponent = vf_from_int((bits >> 23) - 127);
     const Vf t = vf_bits((bits & 0x7fffff) | 0x3f800000) - 1.0f;
-    const Vf r = (((0.0256912634f * t - 0.0972018316f) * t + 0.184100822f) * t - 0.276569515f) * t +
-                 0.442654073f;
+    const Vf t2 = t * t; // r in a form that is short rather than long and thin
+    const Vf r = (0.442654073f - 0.276569515f * t) +
+                 t2 * ((0.184100822f - 0.0972018316f * t) + 0.0256912634f * t2);
     return exponent + t * (1.0f + (1.0f - t) * r);
 }
 
@@ -54,67 +57,68 @@ VEC_INLINE Jacobian bounded_jacobian(Jacobian j) {
     return (Jacobian){bounded(j.ux), bounded(j.vx), bounded(j.uy), bounded(j.vy)};
 }
 
-// The major axis of a footprint, texels, and how many times longer than the minor it counts.
+// The major axis of a footprint in texels, with the squares of its length and of the minor one's as
+// it counts: no shorter than the greatest anisotropy allows.
 typedef struct Axis {
     Vf u, v;
-    Vf length2; // squares
-    Vf ratio2;
+    Vf length2;
+    Vf minor2;
 } Axis;
-
-VEC_INLINE Vf clamped_square(Vf square, float max) {
-    return vf_max(vf_min(square, vf_splat(max * max)), vf_splat(1.0f));
-}
 
 // Plain AF: the better of the screen's frame and one turned by 45 degrees, the latter capped at
 // half; hence a level of detail that depends on the angle. In the turned frame the derivatives are
 // (dX + dY) / sqrt 2 and (dY - dX) / sqrt 2, their squares half the sum plus and minus dX dY.
+// Squares of ratios are compared by their products, without division.
 VEC_INLINE Axis two_frame_axis(Jacobian j, int max_anisotropy) {
     const float max = (float)max_anisotropy;
-    const Vf tiny = vf_splat(MIN_LENGTH * MIN_LENGTH);
+    const float half = max_anisotropy > 2 ? 0.5f * max : 1.0f;
     const Vf x2 = j.ux * j.ux + j.vx * j.vx;
     const Vf y2 = j.uy * j.uy + j.vy * j.vy;
     const Vf dot = j.ux * j.uy + j.vx * j.vy;
     const Vf mean = (x2 + y2) * 0.5f;
-    const Vf screen2 = vf_max(x2, y2);
-    const Vf turned2 = mean + vf_abs(dot);
-    const Vf screen_ratio2 = clamped_square(screen2 / vf_max(vf_min(x2, y2), tiny), max);
-    const Vf turned_ratio2 = clamped_square(turned2 / vf_max(mean - vf_abs(dot), tiny),
-                                            max_anisotropy > 2 ? 0.5f * max : 1.0f);
-    const Mask turn = vf_lt(screen_ratio2, turned_ratio2);
+    const Vf screen_long = vf_max(x2, y2);
+    const Vf screen_short = vf_min(x2, y2);
+    const Vf turned_long = mean + vf_abs(dot);
+    const Vf turned_short =
+        vf_max(vf_max(mean - vf_abs(dot), vf_splat(0.0f)), turned_long * (1.0f / (half * half)));
+    const Mask turn = vf_lt(screen_long * turned_short, turned_long * screen_short);
     const Mask y_longer = vf_lt(x2, y2);
     const Mask opposed = vf_lt(dot, vf_splat(0.0f));
     const float c = 0.70710678f;
     const Vf turned_u = (j.uy + vf_select(opposed, -j.ux, j.ux)) * c;
     const Vf turned_v = (j.vy + vf_select(opposed, -j.vx, j.vx)) * c;
+    const Vf long2 = vf_select(turn, turned_long, screen_long);
+    const Vf short2 = vf_select(turn, turned_short, screen_short);
     return (Axis){vf_select(turn, turned_u, vf_select(y_longer, j.uy, j.ux)),
-                  vf_select(turn, turned_v, vf_select(y_longer, j.vy, j.vx)),
-                  vf_select(turn, turned2, screen2), vf_select(turn, turned_ratio2, screen_ratio2)};
+                  vf_select(turn, turned_v, vf_select(y_longer, j.vy, j.vx)), long2,
+                  vf_max(short2, long2 * (1.0f / (max * max)))};
 }
 
-// Advanced AF: the ellipse's axes by the closed-form singular values M >= m of the Jacobian J,
-// which do not cancel; the major direction is the larger column of J J^T - m^2 I. Lengths are in
-// units of M, so that no square overflows.
+// Advanced AF: the ellipse's axes M >= m, the singular values of the Jacobian J in closed form,
+// which does not cancel: M = |(e, h)| + |(f, g)|, m = |det J| / M. The major direction is the
+// larger column of J J^T - m^2 I.
 VEC_INLINE Axis ellipse_axis(Jacobian j, int max_anisotropy) {
     const Vf e = (j.ux + j.vy) * 0.5f;
     const Vf f = (j.ux - j.vy) * 0.5f;
     const Vf g = (j.vx + j.uy) * 0.5f;
     const Vf h = (j.vx - j.uy) * 0.5f;
-    const Vf major = vf_sqrt(e * e + h * h) + vf_sqrt(f * f + g * g);
-    const Vf longer = vf_max(major, vf_splat(MIN_LENGTH));
-    const Vf unit = vf_splat(1.0f) / longer;
-    const Jacobian k = {j.ux * unit, j.vx * unit, j.uy * unit, j.vy * unit};
-    const Vf minor = vf_abs(k.ux * k.vy - k.uy * k.vx);
-    const Vf ratio = vf_splat(1.0f) / vf_max(minor, vf_splat(MIN_LENGTH));
-    const Vf minor2 = minor * minor;
-    const Vf across = k.ux * k.vx + k.uy * k.vy;
-    const Vf along_u = (k.ux * k.ux + k.uy * k.uy) - minor2;
-    const Vf along_v = (k.vx * k.vx + k.vy * k.vy) - minor2;
+    const Vf eh2 = e * e + h * h;
+    const Vf fg2 = f * f + g * g;
+    const Vf length2 =
+        vf_max((eh2 + fg2) + 2.0f * vf_sqrt(eh2 * fg2), vf_splat(MIN_LENGTH * MIN_LENGTH));
+    const Vf determinant = j.ux * j.vy - j.uy * j.vx;
+    const Vf minor2 = determinant * determinant / length2;
+    const Vf across = j.ux * j.vx + j.uy * j.vy;
+    const Vf along_u = (j.ux * j.ux + j.uy * j.uy) - minor2;
+    const Vf along_v = (j.vx * j.vx + j.vy * j.vy) - minor2;
     const Mask by_v = vf_lt(along_u, along_v);
     const Vf u = vf_select(by_v, across, along_u);
     const Vf v = vf_select(by_v, along_v, across);
-    const Vf scale = longer / vf_sqrt(vf_max(u * u + v * v, vf_splat(1e-30f)));
-    return (Axis){u * scale, v * scale, longer * longer,
-                  clamped_square(ratio * ratio, (float)max_anisotropy)};
+    const Vf norm2 = vf_max(u * u + v * v, vf_splat(MIN_LENGTH * MIN_LENGTH));
+    const Vf scale = vf_sqrt(length2 / norm2);
+    const float max = (float)max_anisotropy;
+    return (Axis){u * scale, v * scale, length2,
+                  vf_max(vf_min(minor2, length2), length2 * (1.0f / (max * max)))};
 }
 
 // ceil(ratio - 1e-4) for ratios of 1..16.
@@ -159,8 +163,10 @@ VEC_INLINE void place_probes(Footprint *footprint, const DipSampler *sampler, co
     const int last = sampler->texture->level_count - 1;
     const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
     const float finest = 1.0f / (float)(1 << min);
-    const Vf texels2 = vf_max(axis->length2 * (finest * finest), vf_splat(1.0f));
-    footprint->probes = probe_count(vf_sqrt(vf_min(axis->ratio2, texels2)));
+    const Vf texels2 = axis->length2 * (finest * finest);
+    const Vf ratio2 = axis->length2 / vf_max(axis->minor2, vf_splat(MIN_LENGTH * MIN_LENGTH));
+    const Vf probes2 = vf_max(vf_min(ratio2, texels2), vf_splat(1.0f));
+    footprint->probes = probe_count(vf_sqrt(probes2));
     footprint->inverse_probes = inverse_of(footprint->probes);
     const Vf line_u = axis->u * (1.0f / (float)sampler->texture->width);
     const Vf line_v = axis->v * (1.0f / (float)sampler->texture->height);
@@ -174,8 +180,8 @@ VEC_INLINE void place_probes(Footprint *footprint, const DipSampler *sampler, co
 VEC_INLINE void set_anisotropic(Footprint *footprint, const DipSampler *sampler, Jacobian j) {
     const Axis axis = sampler->advanced ? ellipse_axis(j, sampler->max_anisotropy)
                                         : two_frame_axis(j, sampler->max_anisotropy);
-    const Vf length2 = vf_max(axis.length2, vf_splat(MIN_LENGTH * MIN_LENGTH));
-    footprint->lod8 = find_level(sampler, log2_of(length2 / axis.ratio2) * 0.5f);
+    const Vf minor2 = vf_max(axis.minor2, vf_splat(MIN_LENGTH * MIN_LENGTH));
+    footprint->lod8 = find_level(sampler, log2_of(minor2) * 0.5f);
     place_probes(footprint, sampler, &axis);
 }
 

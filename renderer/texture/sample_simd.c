@@ -1,10 +1,10 @@
 // Texture reads: probes and filtering, compiled once per instruction set. docs/picture.md defines
 // them.
 //
-// Colours are filtered in 16-bit fixed point: a texel's codes are widened to 16 bits, squared to
-// linear light, and weighted by 16-bit fractions, keeping the upper half of each product. Two
-// texels beside each other are fetched at once and stay side by side ("pair order", simd/pairs.h)
-// until their sum. Sums are whole numbers, so no order of lanes or probes matters.
+// Colours are filtered in 16-bit fixed point: a texel's codes are squared to linear light and
+// weighted by 16-bit fractions, keeping the upper half of each product. Two texels beside each
+// other are fetched at once and stay side by side ("pair order", simd/pairs.h) until their sum.
+// Sums are whole numbers, so no order of lanes or probes matters.
 #include "renderer/raster/kernels.h"
 #include "renderer/simd/pairs.h"
 #include "renderer/texture/footprint_simd.h"
@@ -209,9 +209,8 @@ typedef struct Colour {
 
 // Adds half of the pairs: linear light, the square of the codes, times a 16-bit weight.
 VEC_INLINE void add_texels(Vu *red_green, Vu *blue, Vu texels, Vu weight) {
-    const Vu rg = texels & DIP_TEXEL_RED_GREEN;
     const Vu b = vu_dot16(texels & DIP_TEXEL_BLUE, DIP_TEXEL_BLUE_PLACES);
-    *red_green += vu_mulhi16(vu_mulhi16(rg, rg), weight);
+    *red_green += vu_mulhi16(vu_mulhi16(texels, texels), weight);
     *blue += vu_mulhi16(vu_mulhi16(b, b), weight);
 }
 

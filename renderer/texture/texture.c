@@ -11,19 +11,29 @@
 
 enum { MAX_TEXTURE_SIZE = 8192 };
 
+enum { FULL_CODE16 = 65535, FULL_CODE10 = 1023 };
+
 static uint32_t quantise(double linear, int max) {
     const double clamped = linear > 0.0 ? (linear < 1.0 ? linear : 1.0) : 0.0;
     return (uint32_t)(sqrt(clamped) * max + 0.5);
 }
 
-static uint32_t spread_blue(uint32_t code) {
-    return code >> 5 << 16 | (code & 31);
+// The multiple of 32 that comes closest to a 16-bit code with `low` added.
+static uint32_t beside(uint32_t code16, uint32_t low) {
+    const uint32_t at = code16 + 16 < low ? 0 : (code16 + 16 - low) & ~31u;
+    return at > 65504 ? 65504 : at;
+}
+
+// From 16-bit codes of red and green and blue's of 10 bits.
+static uint32_t join_codes(uint32_t red16, uint32_t green16, uint32_t blue10) {
+    const uint32_t high = blue10 >> 5;
+    const uint32_t low = blue10 & 31;
+    return (beside(red16, high) | high) << 16 | beside(green16, low) | low;
 }
 
 uint32_t dip_texel_pack(const double rgb_lin[3]) {
-    return quantise(rgb_lin[0], DIP_TEXEL_RED_GREEN_MAX) << 21 |
-           quantise(rgb_lin[1], DIP_TEXEL_RED_GREEN_MAX) << 5 |
-           spread_blue(quantise(rgb_lin[2], DIP_TEXEL_BLUE_MAX));
+    return join_codes(quantise(rgb_lin[0], FULL_CODE16), quantise(rgb_lin[1], FULL_CODE16),
+                      quantise(rgb_lin[2], FULL_CODE10));
 }
 
 static bool check_def(const DipTextureDef *def, DipError *err) {
@@ -98,9 +108,8 @@ static bool allocate_texels(DipTexture *texture, bool with_alpha) {
 typedef struct CodeTables {
     float colour[256];
     float alpha[256];
-    uint32_t red[256];
-    uint32_t green[256];
-    uint32_t blue[256];
+    uint32_t code16[256];
+    uint32_t code10[256];
 } CodeTables;
 
 static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
@@ -111,9 +120,8 @@ static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
         tables->colour[i] =
             encoding == DIP_ENCODING_SRGB ? (float)srgb.linear[i] : tables->alpha[i];
         const double light = tables->colour[i];
-        tables->red[i] = quantise(light, DIP_TEXEL_RED_GREEN_MAX) << 21;
-        tables->green[i] = quantise(light, DIP_TEXEL_RED_GREEN_MAX) << 5;
-        tables->blue[i] = spread_blue(quantise(light, DIP_TEXEL_BLUE_MAX));
+        tables->code16[i] = quantise(light, FULL_CODE16);
+        tables->code10[i] = quantise(light, FULL_CODE10);
     }
 }
 
@@ -142,7 +150,8 @@ static void pack_codes(DipTexture *texture, int level, const DipTextureDef *def,
                                               (size_t)def->width * 4;
         for (int x = 0; x <= def->width; x++) {
             const uint8_t *code = row + (size_t)padding_source(x, def->width, texture->wrap_u) * 4;
-            *texels++ = tables->red[code[0]] | tables->green[code[1]] | tables->blue[code[2]];
+            *texels++ = join_codes(tables->code16[code[0]], tables->code16[code[1]],
+                                   tables->code10[code[2]]);
             if (alpha) {
                 *alpha++ = code[3];
             }

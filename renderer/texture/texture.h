@@ -1,10 +1,11 @@
 // Textures as the fast path stores them: mip chains in linear light, packed for filtering.
 //
-// A texel is 32 bits: square roots of linear light, red in bits 21..31, green in 5..15 (11 bits
-// each), blue in 16..20 and 0..4 (10 bits), so that red and green lie at the top of 16-bit halves
-// and blue comes together by one multiply-add. The square root spreads the codes as the eye does;
-// the error is below 0.06 sRGB codes (blue 0.12). Alpha is a separate plane of bytes, kept only
-// when some texel is not opaque.
+// A texel is 32 bits: square roots of linear light. The upper half is red in 16 bits, the lower
+// half green, but their five lowest bits are blue's ten, the higher five with red; red and green
+// are rounded with blue's bits in place, so that they are read as they are, within 16. The square
+// root spreads the codes as the eye does; the error is below 0.06 sRGB codes (blue 0.12; 0.11 for
+// full red or green without blue). Alpha is a separate plane of bytes, kept only when some texel is
+// not opaque.
 //
 // Every level has one column and one row more than its size, which repeat the first (DIP_WRAP_
 // REPEAT) or the last (DIP_WRAP_CLAMP), so the four texels of a bilinear read are always at
@@ -21,11 +22,7 @@ enum {
     DIP_LEVEL_TABLE = 16 // entries of a table of levels: what a kernel looks up at once
 };
 
-#define DIP_TEXEL_RED_GREEN_MAX 2047
-#define DIP_TEXEL_BLUE_MAX      1023
-
-// Masks of the codes, and what blue's parts are multiplied by to make a number of 16 bits.
-#define DIP_TEXEL_RED_GREEN   0xffe0ffe0u
+// Mask of blue's bits, and what its parts are multiplied by to make a number of 16 bits.
 #define DIP_TEXEL_BLUE        0x001f001fu
 #define DIP_TEXEL_BLUE_PLACES 0x08000040u
 
