@@ -302,12 +302,13 @@ typedef struct ClipQueue {
 // fragments are shaded, as an offset from their pixels: the centre where all samples are covered,
 // else the first covered sample.
 VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, const DipTile *tile,
-                               Waiting *waiting, Vf offset_x[VECTORS], Vf offset_y[VECTORS]) {
+                               int sample_count, Waiting *waiting, Vf offset_x[VECTORS],
+                               Vf offset_y[VECTORS]) {
     const DipSamplePattern *pattern = tile->pattern;
     const float *const depths = tile->depth + waiting->first;
     const float corner = waiting->depth;
     unsigned pixels = 0;
-    for (int s = 0; s < pattern->count; s++) {
+    for (int s = 0; s < sample_count; s++) {
         waiting->visible[s] = 0;
     }
     for (int v = 0; v < VECTORS; v++) {
@@ -315,9 +316,9 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
         unsigned whole = VEC_ALL_LANES;
         offset_x[v] = vf_splat(0.5f);
         offset_y[v] = vf_splat(0.5f);
-        for (int s = pattern->count - 1; s >= 0; s--) {
+        for (int s = sample_count - 1; s >= 0; s--) {
             const Vf old = vf_load(depths + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
-            const Mask covered = covered_lanes(in, &edges, s, pattern->count);
+            const Mask covered = covered_lanes(in, &edges, s, sample_count);
             const Mask nearer = vf_lt(old, depth_lanes(in, corner, v, s));
             const unsigned visible = mask_bits(covered & nearer) << (v * DIP_LANES);
             waiting->visible[s] |= (uint16_t)visible;
@@ -375,14 +376,14 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
 
 // Adds the visible pixels of sub-block n to the queue.
 VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region *region, int n,
-                                DipTile *tile) {
+                                int sample_count, DipTile *tile) {
     DipFragmentList *list = queue->clip->list;
     Waiting *waiting = &queue->waiting[queue->count];
-    waiting->first = touch_sub_block(tile, region, n, tile->pattern->count);
+    waiting->first = touch_sub_block(tile, region, n, sample_count);
     waiting->depth = region->depth[n];
     Vf x[VECTORS];
     Vf y[VECTORS];
-    test_sub_block(in, region, n, tile, waiting, x, y);
+    test_sub_block(in, region, n, tile, sample_count, waiting, x, y);
     if (!waiting->pixels) {
         return;
     }
@@ -400,12 +401,13 @@ VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region
 }
 
 VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *region,
-                            const DipTriangle *triangle, DipTile *tile, uint32_t id) {
+                            const DipTriangle *triangle, int sample_count, DipTile *tile,
+                            uint32_t id) {
     for (unsigned left = region->reached; left; left &= left - 1) {
         if (queue->clip->list->count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
             flush_clip_queue(queue, in, triangle, tile, id);
         }
-        queue_sub_block(queue, in, region, __builtin_ctz(left), tile);
+        queue_sub_block(queue, in, region, __builtin_ctz(left), sample_count, tile);
     }
 }
 
@@ -438,7 +440,7 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
             tile->sub_blocks_accepted += (uint64_t)__builtin_popcount(region.inside);
             place_corners(&region, triangle, tile);
             if (clip) {
-                clip_region(&queue, &in, &region, triangle, tile, id);
+                clip_region(&queue, &in, &region, triangle, sample_count, tile, id);
             } else {
                 draw_region(&in, &region, sample_count, tile, id);
             }
@@ -453,7 +455,11 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
 static void draw_clipped(DipTile *tile, const DipTriangle *triangle, uint32_t id,
                          const DipClipTest *clip) {
     clip->list->count = 0;
-    draw_in_tile(tile, triangle, id, clip, tile->pattern->count);
+    if (tile->pattern->count == 1) {
+        draw_in_tile(tile, triangle, id, clip, 1);
+    } else {
+        draw_in_tile(tile, triangle, id, clip, tile->pattern->count);
+    }
 }
 
 // One version for each sample count, so that loops over samples unroll.
