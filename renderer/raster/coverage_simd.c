@@ -104,9 +104,11 @@ VEC_INLINE void place_edge(InTile *in, int i, const DipTriangle *triangle, const
     const int64_t less = min_i64(a * first, a * last) + min_i64(b * first, b * last);
     edge->greatest = (int32_t)((c + most) >> 8) - edge->corner;
     edge->least = (int32_t)((c + less) >> 8) - edge->corner;
+    const Vi lanes = vi_splat(edge->a) * vi_load(lane_x) + vi_splat(edge->b) * vi_load(lane_y);
     for (int v = 0; v < VECTORS; v++) {
-        edge->lane[v] = vi_splat(edge->a) * vi_load(lane_x + v * DIP_LANES) +
-                        vi_splat(edge->b) * vi_load(lane_y + v * DIP_LANES);
+        const int first_lane = v * DIP_LANES;
+        edge->lane[v] =
+            lanes + vi_splat(edge->a * lane_x[first_lane] + edge->b * lane_y[first_lane]);
     }
     if (pattern->count > 1) {
         place_samples(edge, c, pattern);
@@ -264,20 +266,18 @@ VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bo
     }
 }
 
-// Those wholly inside first: they need no edges. With one sample the edges cost less than the
-// branch mispredicted at the end of another loop.
+// Only a region without partly covered sub-blocks goes without edges: in a mixed one the branch
+// costs more than the edges.
 VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_count, DipTile *tile,
                             uint32_t id) {
-    const bool apart = sample_count > 1 || region->inside == region->reached;
-    unsigned partial = region->reached;
-    if (apart) {
-        for (unsigned left = region->inside; left; left &= left - 1) {
+    if (region->inside == region->reached) {
+        for (unsigned left = region->reached; left; left &= left - 1) {
             draw_sub_block(in, region, __builtin_ctz(left), true, sample_count, tile, id);
         }
-        partial &= ~region->inside;
-    }
-    for (unsigned left = partial; left; left &= left - 1) {
-        draw_sub_block(in, region, __builtin_ctz(left), false, sample_count, tile, id);
+    } else {
+        for (unsigned left = region->reached; left; left &= left - 1) {
+            draw_sub_block(in, region, __builtin_ctz(left), false, sample_count, tile, id);
+        }
     }
 }
 
