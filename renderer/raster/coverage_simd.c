@@ -298,9 +298,8 @@ typedef struct ClipQueue {
     Waiting waiting[DIP_FRAGMENT_BATCH];
 } ClipQueue;
 
-// Fills a waiting sub-block's masks; whole: its pixels with all samples covered. Returns where its
-// fragments are shaded, as an offset from their pixels: the centre where all samples are covered,
-// else the first covered sample.
+// Fills a waiting sub-block's masks and says where its fragments are shaded, as an offset from
+// their pixels: the centre where all samples are covered, else the first covered sample.
 VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, const DipTile *tile,
                                int sample_count, Waiting *waiting, Vf offset_x[VECTORS],
                                Vf offset_y[VECTORS]) {
