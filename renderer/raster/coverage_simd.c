@@ -104,9 +104,11 @@ VEC_INLINE void place_edge(InTile *in, int i, const DipTriangle *triangle, const
     const int64_t less = min_i64(a * first, a * last) + min_i64(b * first, b * last);
     edge->greatest = (int32_t)((c + most) >> 8) - edge->corner;
     edge->least = (int32_t)((c + less) >> 8) - edge->corner;
+    const Vi lanes = vi_splat(edge->a) * vi_load(lane_x) + vi_splat(edge->b) * vi_load(lane_y);
     for (int v = 0; v < VECTORS; v++) {
-        edge->lane[v] = vi_splat(edge->a) * vi_load(lane_x + v * DIP_LANES) +
-                        vi_splat(edge->b) * vi_load(lane_y + v * DIP_LANES);
+        const int first_lane = v * DIP_LANES;
+        edge->lane[v] =
+            lanes + vi_splat(edge->a * lane_x[first_lane] + edge->b * lane_y[first_lane]);
     }
     if (pattern->count > 1) {
         place_samples(edge, c, pattern);
@@ -264,20 +266,18 @@ VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bo
     }
 }
 
-// Those wholly inside first: they need no edges. With one sample the edges cost less than the
-// branch mispredicted at the end of another loop.
+// Only a region without partly covered sub-blocks goes without edges: in a mixed one the branch
+// costs more than the edges.
 VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_count, DipTile *tile,
                             uint32_t id) {
-    const bool apart = sample_count > 1 || region->inside == region->reached;
-    unsigned partial = region->reached;
-    if (apart) {
-        for (unsigned left = region->inside; left; left &= left - 1) {
+    if (region->inside == region->reached) {
+        for (unsigned left = region->reached; left; left &= left - 1) {
             draw_sub_block(in, region, __builtin_ctz(left), true, sample_count, tile, id);
         }
-        partial &= ~region->inside;
-    }
-    for (unsigned left = partial; left; left &= left - 1) {
-        draw_sub_block(in, region, __builtin_ctz(left), false, sample_count, tile, id);
+    } else {
+        for (unsigned left = region->reached; left; left &= left - 1) {
+            draw_sub_block(in, region, __builtin_ctz(left), false, sample_count, tile, id);
+        }
     }
 }
 
@@ -306,21 +306,21 @@ VEC_INLINE Vi sub_place(int sub_x, int sub_y) {
 // Fills a waiting sub-block's masks. Finds where in their pixels its fragments are shaded: at the
 // centre where all samples are covered, else at the first covered sample.
 VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, const DipTile *tile,
-                               Waiting *waiting, Vi places[VECTORS]) {
+                               int sample_count, Waiting *waiting, Vi places[VECTORS]) {
     const DipSamplePattern *pattern = tile->pattern;
     const float *const depths = tile->depth + waiting->first;
     const float corner = waiting->depth;
     unsigned pixels = 0;
-    for (int s = 0; s < pattern->count; s++) {
+    for (int s = 0; s < sample_count; s++) {
         waiting->visible[s] = 0;
     }
     for (int v = 0; v < VECTORS; v++) {
         const PixelEdges edges = pixel_edges(in, region, n, v);
         unsigned whole = VEC_ALL_LANES;
         places[v] = sub_place(128, 128);
-        for (int s = pattern->count - 1; s >= 0; s--) {
+        for (int s = sample_count - 1; s >= 0; s--) {
             const Vf old = vf_load(depths + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
-            const Mask covered = covered_lanes(in, &edges, s, pattern->count);
+            const Mask covered = covered_lanes(in, &edges, s, sample_count);
             const Mask nearer = vf_lt(old, depth_lanes(in, corner, v, s));
             const unsigned visible = mask_bits(covered & nearer) << (v * DIP_LANES);
             waiting->visible[s] |= (uint16_t)visible;
@@ -375,13 +375,13 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
 
 // Adds the visible pixels of sub-block n to the queue.
 VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region *region, int n,
-                                DipTile *tile) {
+                                int sample_count, DipTile *tile) {
     DipFragmentList *list = queue->clip->list;
     Waiting *waiting = &queue->waiting[queue->count];
-    waiting->first = touch_sub_block(tile, region, n, tile->pattern->count);
+    waiting->first = touch_sub_block(tile, region, n, sample_count);
     waiting->depth = region->depth[n];
     Vi places[VECTORS];
-    test_sub_block(in, region, n, tile, waiting, places);
+    test_sub_block(in, region, n, tile, sample_count, waiting, places);
     if (!waiting->pixels) {
         return;
     }
@@ -397,12 +397,13 @@ VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region
 }
 
 VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *region,
-                            const DipTriangle *triangle, DipTile *tile, uint32_t id) {
+                            const DipTriangle *triangle, int sample_count, DipTile *tile,
+                            uint32_t id) {
     for (unsigned left = region->reached; left; left &= left - 1) {
         if (queue->clip->list->count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
             flush_clip_queue(queue, in, triangle, tile, id);
         }
-        queue_sub_block(queue, in, region, __builtin_ctz(left), tile);
+        queue_sub_block(queue, in, region, __builtin_ctz(left), sample_count, tile);
     }
 }
 
@@ -435,7 +436,7 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
             tile->sub_blocks_accepted += (uint64_t)__builtin_popcount(region.inside);
             place_corners(&region, triangle, tile);
             if (clip) {
-                clip_region(&queue, &in, &region, triangle, tile, id);
+                clip_region(&queue, &in, &region, triangle, sample_count, tile, id);
             } else {
                 draw_region(&in, &region, sample_count, tile, id);
             }
@@ -450,7 +451,11 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
 static void draw_clipped(DipTile *tile, const DipTriangle *triangle, uint32_t id,
                          const DipClipTest *clip) {
     clip->list->count = 0;
-    draw_in_tile(tile, triangle, id, clip, tile->pattern->count);
+    if (tile->pattern->count == 1) {
+        draw_in_tile(tile, triangle, id, clip, 1);
+    } else {
+        draw_in_tile(tile, triangle, id, clip, tile->pattern->count);
+    }
 }
 
 // One version for each sample count, so that loops over samples unroll.

@@ -148,7 +148,7 @@ VEC_INLINE Mask vi_eq(Vi a, Vi b) {
 }
 
 VEC_INLINE Mask vi_not_negative(Vi a) {
-    return a >= 0;
+    return ~(a >> 31);
 }
 
 VEC_INLINE unsigned mask_bits(Mask m) {

@@ -271,7 +271,7 @@ VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler
                               int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
     // What white comes to, within 6: the squares of its codes less what eight rounded products
     // lose.
-    static const float white[3] = {65464.0f, 65464.0f, 65400.0f};
+    static const float white[3] = {65526.0f, 65526.0f, 65402.0f};
     const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
     Footprints footprints;
     find_footprints(batch, sampler, way, u_slot, &footprints);

@@ -71,8 +71,9 @@ static bool meets(const DipTriangle *triangle, const DipOracleRegion *region) {
            triangle->y0 < region->y0 + region->height && triangle->y1 >= region->y0;
 }
 
-// Fills masks as the oracle does.
-static void cover_fast(const DipKernels *kernels, const Case *c, uint8_t *masks) {
+// Draws the case's triangle; false when it is culled or does not reach the tile.
+static bool draw_fast(const DipKernels *kernels, const Case *c, const DipClipTest *clip,
+                      DipTile *tile) {
     static DipScreenBatch screen;
     static uint8_t corner[3][DIP_BATCH_ALIGN];
     for (int i = 0; i < 3; i++) {
@@ -87,27 +88,38 @@ static void cover_fast(const DipKernels *kernels, const Case *c, uint8_t *masks)
     const DipSetupTarget target = target_of(c->pattern);
     DipTriangle triangle[1 + DIP_SETUP_EXCESS];
     float surface[(1 + DIP_SETUP_EXCESS) * DIP_SURFACE_ALIGN];
-    DipTile tile = {.x0 = c->region.x0, .y0 = c->region.y0, .pattern = c->pattern};
-    tile.depth = depth;
-    tile.id = ids;
-    memset(masks, 0, (size_t)c->region.width * (size_t)c->region.height);
+    *tile = (DipTile){.x0 = c->region.x0, .y0 = c->region.y0, .pattern = c->pattern};
+    tile->depth = depth;
+    tile->id = ids;
     if (!kernels->dip_kernel_setup(&target, &batch, 0, triangle, surface) ||
         !meets(triangle, &c->region)) {
-        return;
+        return false;
     }
-    kernels->dip_kernel_draw_triangle(&tile, triangle, 1, NULL);
+    kernels->dip_kernel_draw_triangle(tile, triangle, 1, clip);
+    return true;
+}
+
+// Fills masks as the oracle does.
+static void read_masks(const Case *c, const DipTile *tile, uint8_t *masks) {
+    memset(masks, 0, (size_t)c->region.width * (size_t)c->region.height);
     for (int block = 0; block < DIP_BLOCKS; block++) {
-        for (int i = 0; tile.touched >> block & 1 && i < DIP_BLOCK_PIXELS; i++) {
+        for (int i = 0; tile->touched >> block & 1 && i < DIP_BLOCK_PIXELS; i++) {
             const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_x(i);
             const int y = block / DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_y(i);
             for (int s = 0; s < c->pattern->count && x < c->region.width && y < c->region.height;
                  s++) {
-                const uint32_t id = ids[dip_tile_index(&tile, block, s) + i];
+                const uint32_t id = ids[dip_tile_index(tile, block, s) + i];
                 uint8_t *mask = &masks[y * c->region.width + x];
                 *mask = (uint8_t)(*mask | id << s);
             }
         }
     }
+}
+
+static void cover_fast(const DipKernels *kernels, const Case *c, uint8_t *masks) {
+    DipTile tile;
+    draw_fast(kernels, c, NULL, &tile);
+    read_masks(c, &tile, masks);
 }
 
 static void fail_at(const Case *c, DipIsa isa, const uint8_t *expected, const uint8_t *found) {
@@ -191,6 +203,102 @@ static void test_fans_hit_every_sample_once(void **state) {
     }
 }
 
+// A clip test that keeps a chequer of pixels and checks where it is asked.
+typedef struct Chequer {
+    const Case *c;
+    const uint8_t *covered; // as the oracle says
+    DipFragmentList list;
+    uint8_t keep[DIP_FRAGMENT_BATCH];
+    uint8_t asked[DIP_TILE * DIP_TILE]; // times, per pixel of the region
+} Chequer;
+
+static bool chequer_keeps(int x, int y) {
+    return ((x ^ y) & 1) != 0 || (x & 4) != 0;
+}
+
+static const uint8_t *ask_chequer(void *context, const DipTriangle *triangle) {
+    (void)triangle;
+    Chequer *chequer = context;
+    const DipOracleRegion *region = &chequer->c->region;
+    const DipSamplePattern *pattern = chequer->c->pattern;
+    assert_in_range(chequer->list.count, 1, DIP_FRAGMENT_BATCH);
+    for (int i = 0; i < chequer->list.count; i++) {
+        const uint32_t place = chequer->list.place[i];
+        const int x = place & (DIP_TILE - 1);
+        const int y = place >> DIP_PLACE_Y & (DIP_TILE - 1);
+        if (x >= region->width || y >= region->height) {
+            continue; // beyond the target, where nobody looks
+        }
+        const unsigned mask = chequer->covered[y * region->width + x];
+        const bool whole = mask == (1u << pattern->count) - 1u;
+        const int first = mask ? __builtin_ctz(mask) : 0;
+        assert_int_equal(chequer->list.triangle[i], 0);
+        assert_true(mask != 0);
+        assert_int_equal(place >> DIP_PLACE_SUB_X & 255, whole ? 128 : pattern->x[first]);
+        assert_int_equal(place >> DIP_PLACE_SUB_Y & 255, whole ? 128 : pattern->y[first]);
+        chequer->asked[y * region->width + x]++;
+        chequer->keep[i] = chequer_keeps(x, y);
+    }
+    return chequer->keep;
+}
+
+// Every covered pixel is asked about once, at its centre or first covered sample, and drawn with
+// its covered samples where the answer is yes. The counters do not depend on the vector's width.
+static void test_clip_test_is_asked_and_obeyed(void **state) {
+    (void)state;
+    static uint8_t expected[DIP_TILE * DIP_TILE];
+    static uint8_t found[DIP_TILE * DIP_TILE];
+    static Chequer chequer;
+    Random random = {SEED + 2};
+    for (int t = 0; t < 2000; t++) {
+        Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5])};
+        c.kind = (DipOracleKind)(t / 5 % DIP_ORACLE_KINDS);
+        c.region = random_tile(&random);
+        c.triangle = dip_oracle_make(c.kind, &random, c.pattern, &c.region,
+                                     DIP_GUARD_BAND_PX * DIP_SUBPIXELS - 1);
+        dip_oracle_cover(&c.triangle, c.pattern, &c.region, expected);
+        DipTile first = {.x0 = 0};
+        for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
+            if (!dip_isa_available((DipIsa)isa)) {
+                continue;
+            }
+            memset(&chequer, 0, sizeof chequer);
+            chequer.c = &c;
+            chequer.covered = expected;
+            const DipClipTest clip = {&chequer.list, ask_chequer, &chequer};
+            DipTile tile;
+            draw_fast(dip_kernels((DipIsa)isa), &c, &clip, &tile);
+            read_masks(&c, &tile, found);
+            for (int p = 0; p < c.region.width * c.region.height; p++) {
+                const bool keeps = chequer_keeps(p % c.region.width, p / c.region.width);
+                assert_int_equal(chequer.asked[p], expected[p] != 0);
+                assert_int_equal(found[p], keeps ? expected[p] : 0);
+            }
+            first = isa == DIP_ISA_SCALAR ? tile : first;
+            assert_int_equal(tile.sub_blocks_tested, first.sub_blocks_tested);
+            assert_int_equal(tile.sub_blocks_accepted, first.sub_blocks_accepted);
+        }
+    }
+}
+
+static void test_patterns_lie_within_their_bounds(void **state) {
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        const DipSamplePattern *pattern = dip_sample_pattern(sample_counts[i]);
+        int least = 255;
+        int greatest = 0;
+        for (int s = 0; s < pattern->count; s++) {
+            for (int axis = 0; axis < 2; axis++) {
+                const int at = axis ? pattern->y[s] : pattern->x[s];
+                least = at < least ? at : least;
+                greatest = at > greatest ? at : greatest;
+            }
+        }
+        assert_int_equal(pattern->least, least);
+        assert_int_equal(pattern->greatest, greatest);
+    }
+}
+
 // The oracle itself, on a square of 2x2 pixels cut along its diagonal: edges on sample rows and
 // columns belong to the left and upper triangle only.
 static void test_oracle_by_hand(void **state) {
@@ -215,7 +323,9 @@ int main(int argc, char **argv) {
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_oracle_by_hand),
+        cmocka_unit_test(test_patterns_lie_within_their_bounds),
         cmocka_unit_test(test_coverage_is_exact),
+        cmocka_unit_test(test_clip_test_is_asked_and_obeyed),
         cmocka_unit_test(test_fans_hit_every_sample_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
