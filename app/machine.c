@@ -1,0 +1,22 @@
+// Reading /proc and the resource usage.
+#include "app/machine.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void dip_machine_processor(char *name, size_t size_bytes) {
+    snprintf(name, size_bytes, "unknown processor");
+    FILE *in = fopen("/proc/cpuinfo", "r");
+    char line[256];
+    while (in && fgets(line, sizeof line, in)) {
+        const char *colon = strchr(line, ':');
+        if (strncmp(line, "model name", strlen("model name")) == 0 && colon) {
+            line[strcspn(line, "\n")] = '\0';
+            snprintf(name, size_bytes, "%s", colon + 2);
+            break;
+        }
+    }
+    if (in) {
+        fclose(in);
+    }
+}

@@ -1,0 +1,10 @@
+// What a measurement says of the machine.
+#ifndef DIP_APP_MACHINE_H
+#define DIP_APP_MACHINE_H
+
+#include <stddef.h>
+
+// The processor's name as Linux has it, or "unknown processor".
+void dip_machine_processor(char *name, size_t size_bytes);
+
+#endif
