@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 void dip_machine_processor(char *name, size_t size_bytes) {
     snprintf(name, size_bytes, "unknown processor");
@@ -19,4 +20,9 @@ void dip_machine_processor(char *name, size_t size_bytes) {
     if (in) {
         fclose(in);
     }
+}
+
+int dip_machine_processor_count(void) {
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online < 1 ? 1 : (int)online;
 }

@@ -7,4 +7,7 @@
 // The processor's name as Linux has it, or "unknown processor".
 void dip_machine_processor(char *name, size_t size_bytes);
 
+// Processors that are online, at least 1.
+int dip_machine_processor_count(void);
+
 #endif

@@ -234,8 +234,8 @@ static bool make_orbit(DipSession *session, const DipOptions *options, DipErrorL
     return true;
 }
 
-// "DEFAULT", "AA", ...: the key less its "CAMPATH_".
-static const char *category_name(int category) {
+// The key less its "CAMPATH_".
+const char *dip_session_category(int category) {
     return dip_config_key_name((DipConfigKey)(DIP_KEY_CAMPATH_DEFAULT + 2 * category)) +
            strlen("CAMPATH_");
 }
@@ -246,7 +246,7 @@ static bool choose_category(DipSession *session, const DipOptions *options, DipE
     }
     char known[160] = "";
     for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
-        const char *name = category_name(c);
+        const char *name = dip_session_category(c);
         if (strcasecmp(name, options->category) == 0) {
             session->track.active = c;
             return true;
@@ -324,14 +324,23 @@ static bool make_pool(DipSession *session, const DipOptions *options, DipErrorLi
     return session->pool || add_fault(faults, &err);
 }
 
+// The bench makes renderers of its own, and it may have no use for the scene.
+static bool draws_scene(const DipOptions *options) {
+    return options->command != DIP_COMMAND_BENCH ||
+           (!options->bench.grid_count && (!options->bench.vs || options->bench.serve));
+}
+
 bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     *session = (DipSession){.isa = DIP_ISA_SCALAR};
     bool opened = load_config(session, options, faults) && make_pool(session, options, faults);
     if (opened) {
         // Model and paths both, so that one run shows the faults of all.
-        const bool scene = load_scene(session, options, faults);
-        const bool paths = load_paths(session, options, faults);
-        opened = scene && paths && make_renderers(session, options, faults);
+        const bool draws = draws_scene(options);
+        const bool scene = !draws || load_scene(session, options, faults);
+        const bool paths = !draws || load_paths(session, options, faults);
+        opened =
+            scene && paths &&
+            (options->command == DIP_COMMAND_BENCH || make_renderers(session, options, faults));
     }
     if (!opened) {
         dip_session_close(session);
