@@ -16,6 +16,8 @@ enum {
     BOTTOM = 404,
     LEGEND_TOP = 476,
     LEGEND_LINE = 20,
+    LEGEND_WIDTH = 340, // of a column
+    MOST_BARRED = 4,    // series
     MAX_TICKS = 16,
     TICK_ROOM = 46 // between two labels of the x axis
 };
@@ -217,18 +219,20 @@ static void write_axes(FILE *out, const DipPlot *plot, const Axis *x, const Axis
     fprintf(out, "</g>\n");
 }
 
-static void write_series(FILE *out, const DipPlotSeries *series, int index, const Axis *x,
-                         const Axis *y) {
+static const char *dash_of(int index) {
+    return index < COLOUR_COUNT ? "" : " stroke-dasharray=\"7 4\"";
+}
+
+static void write_series(FILE *out, const DipPlotSeries *series, int index, bool bars,
+                         const Axis *x, const Axis *y) {
     const char *colour = colours[index % COLOUR_COUNT];
-    const char *dash = index < COLOUR_COUNT ? "" : " stroke-dasharray=\"7 4\"";
-    const double legend_y = LEGEND_TOP + LEGEND_LINE * index;
     fprintf(out, "<g stroke=\"%s\" fill=\"%s\">\n", colour, colour);
-    for (int i = 0; series->low && series->high && i < series->count; i++) {
+    for (int i = 0; bars && series->low && series->high && i < series->count; i++) {
         const double at = pixel(x, series->x[i]);
         write_line(out, at, pixel(y, series->low[i]), at, pixel(y, series->high[i]),
                    "stroke-opacity=\"0.4\" stroke-width=\"5\"");
     }
-    fprintf(out, "<polyline fill=\"none\" stroke-width=\"2\"%s points=\"", dash);
+    fprintf(out, "<polyline fill=\"none\" stroke-width=\"2\"%s points=\"", dash_of(index));
     for (int i = 0; i < series->count; i++) {
         fprintf(out, "%s%.1f,%.1f", i ? " " : "", pixel(x, series->x[i]), pixel(y, series->y[i]));
     }
@@ -237,11 +241,19 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, cons
         fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/>\n", pixel(x, series->x[i]),
                 pixel(y, series->y[i]));
     }
+    fprintf(out, "</g>\n");
+}
+
+// In two columns, row by row.
+static void write_legend_entry(FILE *out, const char *name, int index) {
+    const char *colour = colours[index % COLOUR_COUNT];
+    const double x = LEFT + LEGEND_WIDTH * (index % 2);
+    const double y = LEGEND_TOP + LEGEND_LINE * (index / 2);
     fprintf(out,
-            "<line x1=\"%d\" y1=\"%.1f\" x2=\"%d\" y2=\"%.1f\" stroke-width=\"2\"%s/>"
-            "<circle cx=\"%d\" cy=\"%.1f\" r=\"3.5\"/>\n</g>\n",
-            LEFT, legend_y, LEFT + 34, legend_y, dash, LEFT + 17, legend_y);
-    write_text(out, LEFT + 44, legend_y + 4.5, "", series->name);
+            "<g stroke=\"%s\" fill=\"%s\"><line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" "
+            "y2=\"%.1f\" stroke-width=\"2\"%s/><circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/></g>\n",
+            colour, colour, x, y, x + 34, y, dash_of(index), x + 17, y);
+    write_text(out, x + 44, y + 4.5, "", name);
 }
 
 static void write_plot(FILE *out, const DipPlot *plot) {
@@ -249,7 +261,7 @@ static void write_plot(FILE *out, const DipPlot *plot) {
     const Axis y = make_y(plot);
     const int shown = shown_series(plot);
     const int left_out = plot->series_count - shown;
-    const int height = LEGEND_TOP + LEGEND_LINE * (shown + (left_out > 0)) + 2;
+    const int height = LEGEND_TOP + LEGEND_LINE * ((shown + 1) / 2 + (left_out > 0)) + 2;
     fprintf(out,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
             "height=\"%d\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" "
@@ -260,12 +272,13 @@ static void write_plot(FILE *out, const DipPlot *plot) {
     write_text(out, LEFT, 47, "fill=\"#606060\"", plot->subtitle);
     write_axes(out, plot, &x, &y);
     for (int s = 0; s < shown; s++) {
-        write_series(out, &plot->series[s], s, &x, &y);
+        write_series(out, &plot->series[s], s, shown <= MOST_BARRED, &x, &y);
+        write_legend_entry(out, plot->series[s].name, s);
     }
     if (left_out > 0) {
         char text[64];
         snprintf(text, sizeof text, "and %d more that are not drawn", left_out);
-        write_text(out, LEFT + 44, LEGEND_TOP + LEGEND_LINE * shown + 4.5, "", text);
+        write_text(out, LEFT + 44, LEGEND_TOP + LEGEND_LINE * ((shown + 1) / 2) + 4.5, "", text);
     }
     fprintf(out, "</svg>\n");
 }

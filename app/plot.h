@@ -9,7 +9,8 @@
 
 enum { DIP_PLOT_MAX_SERIES = 12 };
 
-// One line with a mark at each point. x ascends. low and high, of a bar at each point, may be NULL.
+// One line with a mark at each point. x ascends. low and high, of a bar at each point, may be NULL;
+// bars are left out where more than four series would hide each other.
 typedef struct DipPlotSeries {
     const char *name; // for the legend
     const double *x;

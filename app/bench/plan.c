@@ -91,7 +91,7 @@ void dip_bench_label(const DipBenchPlan *plan, const DipBenchCombination *combin
         const size_t used = strlen(label);
         char value[DIP_BENCH_LABEL_SIZE];
         dip_bench_value_name(plan, combination, (DipBenchAxis)axis, value, sizeof value);
-        snprintf(label + used, DIP_BENCH_LABEL_SIZE - used, "%s%.90s", used ? "  " : "", value);
+        snprintf(label + used, DIP_BENCH_LABEL_SIZE - used, "%s%.90s", used ? ", " : "", value);
     }
     if (!*label) {
         dip_bench_value_name(plan, combination, DIP_BENCH_AXIS_SET, label, DIP_BENCH_LABEL_SIZE);

@@ -92,7 +92,7 @@ static void name_without_samples(const DipQuality *quality, char *name, size_t s
         }
     }
     if (!*name) {
-        snprintf(name, size_bytes, "other settings at their defaults");
+        snprintf(name, size_bytes, "default settings");
     }
 }
 
@@ -108,7 +108,7 @@ static void name_series(const DipBenchPlan *plan, const struct Kind *kind, Serie
         name_without_samples(&plan->options.sets[series->like->at[DIP_BENCH_AXIS_SET]].quality,
                              settings, sizeof settings);
         snprintf(rest, sizeof rest, "%s", series->name);
-        snprintf(series->name, sizeof series->name, "%s%s%.120s", settings, others ? "  " : "",
+        snprintf(series->name, sizeof series->name, "%s%s%.120s", settings, others ? ", " : "",
                  others ? rest : "");
     }
 }
@@ -176,13 +176,12 @@ static bool write_kind(const char *folder, const struct Kind *kind, const DipBen
     }
     dip_machine_processor(processor, sizeof processor);
     dip_bench_fixed_label(plan, fixed);
-    snprintf(subtitle, sizeof subtitle,
-             "%.40s, %.40s; medians of %d frames, bars from 5th to 95th percentile", processor,
-             fixed, plan->options.rounds * plan->options.frames);
+    snprintf(subtitle, sizeof subtitle, "%.50s, %.40s; %d drawings each", processor, fixed,
+             plan->options.rounds * plan->options.frames);
     const DipPlot plot = {.title = kind->title,
                           .subtitle = subtitle,
                           .x_title = kind->x_title,
-                          .y_title = "ms per frame",
+                          .y_title = "ms per frame: median, bars from 5th to 95th percentile",
                           .log_x = kind->log_x,
                           .log_y = kind->log_y,
                           .series = lines,
