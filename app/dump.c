@@ -2,6 +2,7 @@
 #include "app/commands.h"
 
 #include "app/folder.h"
+#include "app/machine.h"
 #include "app/png.h"
 #include "app/progress.h"
 #include "app/record.h"
@@ -99,7 +100,9 @@ bool dip_dump_run(DipSession *session, const DipOptions *options, DipError *err)
     if (quiet_output) {
         dip_progress_end(&progress, drawn);
     }
-    done = done && (!record || write_records(record, options, err));
+    done = done && (!record || (dip_record_set_start(record, &session->times,
+                                                     dip_machine_peak_rss_bytes(), err) &&
+                                write_records(record, options, err)));
     dip_record_destroy(&record);
     if (done && options->hash && fflush(stdout) != 0) {
         done = dip_error_set(err, DIP_ERROR_IO, NULL, 0, "--hash", "standard output: %s",

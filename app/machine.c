@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 void dip_machine_processor(char *name, size_t size_bytes) {
@@ -25,4 +26,9 @@ void dip_machine_processor(char *name, size_t size_bytes) {
 int dip_machine_processor_count(void) {
     const long online = sysconf(_SC_NPROCESSORS_ONLN);
     return online < 1 ? 1 : (int)online;
+}
+
+size_t dip_machine_peak_rss_bytes(void) {
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (size_t)usage.ru_maxrss * 1024 : 0;
 }

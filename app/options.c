@@ -2,6 +2,7 @@
 #include "app/options_private.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/clock.h"
 #include "renderer/base/nearest.h"
 #include "renderer/base/number.h"
 #include "renderer/renderer.h"
@@ -79,6 +80,14 @@ static bool set_hash(DipOptions *options, const char *key, const char *value, Di
     (void)value;
     (void)err;
     options->hash = true;
+    return true;
+}
+
+static bool set_timing(DipOptions *options, const char *key, const char *value, DipError *err) {
+    (void)key;
+    (void)value;
+    (void)err;
+    options->timing = true;
     return true;
 }
 
@@ -251,6 +260,8 @@ static const OptionRow rows[] = {
      "plot time against pixels, samples, triangles, threads there"},
     {"--serve", NULL, BENCH, dip_bench_set_serve,
      "draw what standard input asks for: what --vs starts"},
+    {"--timing", NULL, PANES, set_timing,
+     "at the end say how long start and end took, and the most memory that was used"},
     {"--log", "FILE", SCENE, set_log, "also write warnings and errors there"},
     {"--help", NULL, ALL, set_help, "this help; after a command, help on it"},
     {"--version", NULL, ALL, set_version, "the version"},
@@ -411,7 +422,8 @@ static bool check_complete(const DipOptions *options, DipError *err) {
 }
 
 bool dip_options_parse(int argc, char *const *argv, DipOptions *options, DipError *err) {
-    *options = (DipOptions){.end_frame = 1, .frame_step = 1, .fps_milli = 30000};
+    *options = (DipOptions){
+        .begin_ns = dip_clock_ns(), .end_frame = 1, .frame_step = 1, .fps_milli = 30000};
     dip_bench_options_default(&options->bench);
     options->bench.argc = argc;
     options->bench.argv = argv;

@@ -31,6 +31,8 @@ enum { DIP_MAX_OPTION_MODELS = 64, DIP_MAX_OPERANDS = 2 };
 // Texts are borrowed from argv. A NULL text or a false has_... means not given.
 typedef struct DipOptions {
     DipCommand command;
+    int64_t begin_ns; // when the command line was read: as good as the program's start
+    bool timing;
     bool help;
     bool version;
     const char *config;

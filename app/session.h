@@ -3,6 +3,7 @@
 #define DIP_APP_SESSION_H
 
 #include "app/options.h"
+#include "app/start_times.h"
 #include "campaths/camtrack.h"
 #include "config/config.h"
 #include "renderer/renderer.h"
@@ -21,7 +22,8 @@ typedef struct DipSession {
     DipCamPath **paths; // loaded once each, by file
     int path_count;
     DipRenderer *renderers[DIP_PANE_COUNT]; // not for the bench, which makes its own
-    bool orbiting;                          // a model of the user's own, without a path
+    DipStartTimes times;
+    bool orbiting; // a model of the user's own, without a path
 } DipSession;
 
 // Loads everything the options and the ini name. Every fault goes to *faults with file and line;

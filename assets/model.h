@@ -41,6 +41,13 @@ DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool
                          DipErrorList *warnings, DipError *err);
 void dip_model_destroy(DipModel **model);
 
+// How long the parts of the load took, milliseconds.
+typedef struct DipModelTimes {
+    double import_ms;   // model files to meshes and materials
+    double pictures_ms; // reading and decoding
+} DipModelTimes;
+DipModelTimes dip_model_times(const DipModel *model);
+
 // Valid until the model is destroyed; dip_scene_create copies what it needs.
 const DipSceneDef *dip_model_scene_def(const DipModel *model);
 

@@ -107,6 +107,7 @@ struct DipModel {
     DipModelFile *files;
     int file_count;
     DipErrorList *warnings; // may be NULL
+    DipModelTimes times;
 };
 
 // Room for one more item in an array of `count`: the array, moved if need be, or NULL, and then the

@@ -1,6 +1,8 @@
 // Making a scene from its description: checks, textures, vertex layouts, bounds.
 #include "renderer/scene_internal.h"
 
+#include "renderer/base/clock.h"
+
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -304,7 +306,9 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
         return NULL;
     }
     copy_materials(def, scene);
+    const int64_t begin_ns = dip_clock_ns();
     bool made = create_textures(def, scene, pool, err);
+    const int64_t textured_ns = dip_clock_ns();
     for (int i = 0; made && i < def->mesh_count; i++) {
         made = create_mesh(def, i, scene, err);
     }
@@ -313,6 +317,8 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
         return NULL;
     }
     place_objects(def, scene);
+    scene->times = (DipSceneTimes){1e-6 * (double)(textured_ns - begin_ns),
+                                   1e-6 * (double)(dip_clock_ns() - textured_ns)};
     return scene;
 }
 
@@ -338,6 +344,10 @@ void dip_scene_destroy(DipScene **scene_pointer) {
 void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]) {
     memcpy(min_world, scene->min_world, sizeof scene->min_world);
     memcpy(max_world, scene->max_world, sizeof scene->max_world);
+}
+
+DipSceneTimes dip_scene_times(const DipScene *scene) {
+    return scene->times;
 }
 
 uint64_t dip_scene_triangle_count(const DipScene *scene) {

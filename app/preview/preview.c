@@ -199,6 +199,7 @@ static bool turn(Preview *preview, int64_t now_ns, int64_t elapsed_ns, bool *sho
         take_screenshot(preview, now_ns);
     }
     dip_window_present(preview->window, state, preview->figures);
+    dip_start_times_frame(&preview->session->times);
     dip_timing_add(&preview->presented, dip_clock_ns(), 0.0);
     return true;
 }
