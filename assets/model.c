@@ -292,8 +292,8 @@ static void finish(DipModel *model) {
     model->def.near_m = near_distance(model);
 }
 
-DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
-                         DipErrorList *warnings, DipError *err) {
+static DipModel *load(const char *const *files, int file_count, bool normal_maps, DipPool *pool,
+                      DipErrorList *warnings, DipError *err) {
     if (file_count < 1 || file_count > DIP_MAX_MODEL_FILES) {
         dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL, "%d model files, accepted 1..%d",
                       file_count, DIP_MAX_MODEL_FILES);
@@ -305,6 +305,7 @@ DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool
         return NULL;
     }
     model->warnings = warnings;
+    model->normal_maps = normal_maps;
     model->files = calloc((size_t)file_count, sizeof *model->files);
     bool ok = model->files || dip_model_out_of_memory(err, files[0]);
     const int64_t begin_ns = dip_clock_ns();
@@ -322,6 +323,16 @@ DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool
     model->times.pictures_ms = 1e-6 * (double)(dip_clock_ns() - imported_ns);
     finish(model);
     return model;
+}
+
+DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
+                         DipErrorList *warnings, DipError *err) {
+    return load(files, file_count, false, pool, warnings, err);
+}
+
+DipModel *dip_model_load_with_normals(const char *const *files, int file_count, DipPool *pool,
+                                      DipErrorList *warnings, DipError *err) {
+    return load(files, file_count, true, pool, warnings, err);
 }
 
 void dip_model_destroy(DipModel **model_pointer) {
