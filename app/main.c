@@ -38,10 +38,10 @@ static int run_with_session(const DipOptions *options,
     }
     const bool done = command(&session, options, &err);
     const DipStartTimes times = session.times;
-    const int64_t closing_ns = dip_clock_ns();
+    const int64_t ended_ns = times.ended_ns ? times.ended_ns : dip_clock_ns();
     dip_session_close(&session);
     if (options->timing) {
-        say_times(&times, dip_start_times_since_ms(closing_ns));
+        say_times(&times, dip_start_times_since_ms(ended_ns));
     }
     return done ? EXIT_DONE : fail(&err, EXIT_FAILED);
 }

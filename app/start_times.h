@@ -24,6 +24,7 @@ typedef struct DipStartTimes {
 #undef DIP_START_TIME_FIELD
     int64_t begin_ns;  // of the program
     int64_t opened_ns; // everything is loaded
+    int64_t ended_ns;  // the command has done its work and gives back what it holds
 } DipStartTimes;
 
 // Milliseconds since a time of dip_clock_ns.

@@ -225,6 +225,9 @@ static bool run_loop(Preview *preview, DipError *err) {
         while (SDL_PollEvent(&event)) {
             handle_event(preview, &event, now_ns);
         }
+        if (preview->state.quit) {
+            break; // without another frame
+        }
         const int64_t since_ns = now_ns - last_ns;
         const int64_t elapsed_ns = since_ns < longest_step_ns ? since_ns : longest_step_ns;
         bool shown = false;
@@ -251,6 +254,7 @@ bool dip_preview_run(DipSession *session, const DipOptions *options, DipError *e
         return false;
     }
     const bool done = run_loop(&preview, err);
+    session->times.ended_ns = dip_clock_ns();
     dip_window_destroy(&preview.window);
     return done;
 }

@@ -77,7 +77,7 @@ static bool compare_frame(const DipPeerBench *bench, const DipPeerRow *row, int 
             return false;
         }
         *error = dip_likeness_squared_error(frame.rgba8, frame.stride_bytes, bench->peer_rgba8,
-                                         (size_t)bench->width * 4, bench->width, bench->height);
+                                            (size_t)bench->width * 4, bench->width, bench->height);
     }
     return !bench->pictures || dip_pictures_write(bench->pictures, row->name, index, &frame,
                                                   has_peer ? bench->peer_rgba8 : NULL, err);
