@@ -238,7 +238,8 @@ static const OptionRow rows[] = {
     {"--hash", NULL, DUMP, set_hash, "print a line per frame and pane: 0000 current HASH"},
     {"--threads", "N", PANES, set_threads, "worker threads (default: all processors)"},
     {"--isa", "NAME", PANES, set_isa, "auto, scalar, sse2, avx2, avx512: the same picture each"},
-    {"--sets", "LIST", BENCH, dip_bench_set_sets, "settings to measure: SET;SET;... in quotes"},
+    {"--sets", "LIST", BENCH, dip_bench_set_sets,
+     "settings to measure, SET;SET;... in quotes (default: aa none, 4, 8, without and with af=16)"},
     {"--size", "LIST", BENCH, dip_bench_set_size, "WxH,WxH,... pixels (default: the ini's RES)"},
     {"--grid", "LIST", BENCH, dip_bench_set_grid,
      "instead of a scene, reliefs of N,N,... triangles that fill the picture"},
@@ -406,6 +407,13 @@ static bool check_complete(const DipOptions *options, DipError *err) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "dump",
                              "nothing to make, accepted at least one of --out DIR, --json FILE, "
                              "--hash");
+    }
+    if (options->bench.grid_count && (options->model_count || options->path || options->category)) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--grid",
+                             "a grid takes the place of %s, accepted one of the two",
+                             options->model_count ? "--model"
+                             : options->path      ? "--path"
+                                                  : "--category");
     }
     if (options->command == DIP_COMMAND_BENCH && !dip_bench_options_check(&options->bench, err)) {
         return false;

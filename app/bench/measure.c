@@ -13,7 +13,7 @@ typedef struct Measuring {
     DipBenchResult *results;
     uint64_t random;
     DipProgress progress;
-    int drawn; // frames of all sources
+    int64_t drawn; // frames of all sources
 } Measuring;
 
 static uint32_t next_random(uint64_t *state) {
@@ -86,8 +86,9 @@ bool dip_bench_measure(const DipBenchPlan *plan, const DipBenchSource *sources, 
     Measuring m = {plan, sources, source_count, results, (uint64_t)plan->options.seed, {0}, 0};
     const int frames = plan->options.frames;
     const int per_round = source_count * frames + (source_count == 1);
-    m.progress = dip_progress_begin(
-        "frames", plan->count * (source_count * frames + plan->options.rounds * per_round));
+    const int64_t per_combination =
+        (int64_t)source_count * frames + (int64_t)plan->options.rounds * per_round;
+    m.progress = dip_progress_begin("frames", plan->count * per_combination);
     int order[DIP_BENCH_MAX_COMBINATIONS];
     for (int i = 0; i < plan->count; i++) {
         order[i] = i;

@@ -92,6 +92,7 @@ expect 2 "\[--grid\] '1', accepted 2..20000000" "$diptych" bench --grid 1
 expect 2 "\[--frames\] '0:4', accepted 1..10000" "$diptych" bench --frames 0:4
 expect 2 "\[--rounds\] '0', accepted 1" "$diptych" bench --rounds 0
 expect 2 "\[--grid-out-of-view\] there is no grid" "$diptych" bench --grid-out-of-view
+expect 2 "\[--grid\] a grid takes the place of --path" "$diptych" bench --grid 9 --path x.pth
 expect 2 "\[--svg\] nothing to plot" "$diptych" bench --sets aa=none --svg plots
 expect 2 "none: \[--vs\] cannot be run" "$diptych" bench --vs ./none
 expect 2 "\[--svg\] plots show one program" "$diptych" bench --svg plots --vs "$diptych"
