@@ -1,7 +1,10 @@
 // `diptych dump`: frames without a display.
 #include "app/commands.h"
 
+#include "app/folder.h"
+#include "app/machine.h"
 #include "app/png.h"
+#include "app/progress.h"
 #include "app/record.h"
 
 #include <errno.h>
@@ -9,7 +12,6 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 // Set by Ctrl-C: the frame in hand is finished, so that no file is left half-written.
@@ -18,30 +20,6 @@ static volatile sig_atomic_t interrupted;
 static void interrupt(int signal_number) {
     (void)signal_number;
     interrupted = 1;
-}
-
-// Makes the folder and those above it, as far as they are missing.
-static bool make_folder(const char *folder, DipError *err) {
-    char part[PATH_MAX];
-    const size_t length = strlen(folder);
-    if (length >= sizeof part) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
-    }
-    for (size_t i = 1; i <= length; i++) {
-        if (folder[i] == '/' || folder[i] == '\0') {
-            memcpy(part, folder, i);
-            part[i] = '\0';
-            if (mkdir(part, 0777) != 0 && errno != EEXIST) {
-                return dip_error_set(err, DIP_ERROR_IO, part, 0, "--out",
-                                     "the folder cannot be made: %s", strerror(errno));
-            }
-        }
-    }
-    struct stat status;
-    if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode)) {
-        return dip_error_set(err, DIP_ERROR_IO, folder, 0, "--out", "is no folder");
-    }
-    return true;
 }
 
 static bool write_picture(const char *folder, int index, int pane, const DipFrame *frame,
@@ -53,12 +31,6 @@ static bool write_picture(const char *folder, int index, int pane, const DipFram
         return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
     }
     return dip_png_write(file, frame, err);
-}
-
-static void show_progress(const DipOptions *options, int done, int total) {
-    if (isatty(STDERR_FILENO) && (options->out || options->json || !isatty(STDOUT_FILENO))) {
-        fprintf(stderr, "\r%d of %d frames%s", done, total, done == total ? "\n" : "");
-    }
 }
 
 static bool dump_frame(DipSession *session, const DipOptions *options, int index, DipRecord *record,
@@ -98,15 +70,19 @@ static bool write_records(const DipRecord *record, const DipOptions *options, Di
 }
 
 bool dip_dump_run(DipSession *session, const DipOptions *options, DipError *err) {
-    if (options->out && !make_folder(options->out, err)) {
+    if (options->out && !dip_folder_make(options->out, "--out", err)) {
         return false;
     }
     DipRecord *record = options->out || options->json ? dip_record_create(err) : NULL;
     bool done = record || (!options->out && !options->json);
     const int total =
         (options->end_frame - options->first_frame + options->frame_step - 1) / options->frame_step;
+    // On a terminal the hashes are progress enough.
+    const bool quiet_output = options->out || options->json || !isatty(STDOUT_FILENO);
+    DipProgress progress = dip_progress_begin("frames", total);
     const struct sigaction on_interrupt = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
     sigaction(SIGINT, &on_interrupt, NULL);
+    int drawn = 0;
     for (int i = 0; done && i < total; i++) {
         if (interrupted) {
             done =
@@ -116,9 +92,17 @@ bool dip_dump_run(DipSession *session, const DipOptions *options, DipError *err)
         }
         done = dump_frame(session, options, options->first_frame + i * options->frame_step, record,
                           err);
-        show_progress(options, i + 1, total);
+        drawn = i + done;
+        if (quiet_output) {
+            dip_progress_show(&progress, i + 1);
+        }
     }
-    done = done && (!record || write_records(record, options, err));
+    if (quiet_output) {
+        dip_progress_end(&progress, drawn);
+    }
+    done = done && (!record || (dip_record_set_start(record, &session->times,
+                                                     dip_machine_peak_rss_bytes(), err) &&
+                                write_records(record, options, err)));
     dip_record_destroy(&record);
     if (done && options->hash && fflush(stdout) != 0) {
         done = dip_error_set(err, DIP_ERROR_IO, NULL, 0, "--hash", "standard output: %s",

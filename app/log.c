@@ -2,6 +2,7 @@
 #include "app/log.h"
 
 #include <errno.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -20,14 +21,27 @@ void dip_log_close(void) {
     }
 }
 
-void dip_log_error(const DipError *err) {
-    char text[1024];
-    dip_error_format(err, text, sizeof text);
+static void say(const char *text) {
     fprintf(stderr, "diptych: %s\n", text);
     if (log_file) {
         fprintf(log_file, "%s\n", text);
         fflush(log_file);
     }
+}
+
+void dip_log_error(const DipError *err) {
+    char text[1024];
+    dip_error_format(err, text, sizeof text);
+    say(text);
+}
+
+void dip_log_note(const char *format, ...) {
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    say(text);
 }
 
 void dip_log_errors(const DipErrorList *list) {

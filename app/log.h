@@ -14,4 +14,7 @@ void dip_log_close(void);
 void dip_log_error(const DipError *err);
 void dip_log_errors(const DipErrorList *list);
 
+// One line "diptych: ..." that is no fault.
+void dip_log_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
 #endif

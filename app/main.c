@@ -1,9 +1,11 @@
 // The program: reads the command line, runs a command, says what went wrong.
 #include "app/commands.h"
 #include "app/log.h"
+#include "app/machine.h"
 #include "app/options.h"
 #include "app/preview/preview.h"
 #include "app/session.h"
+#include "renderer/base/clock.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -13,6 +15,13 @@ enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_BAD_INPUT = 2 };
 static int fail(const DipError *err, int code) {
     dip_log_error(err);
     return code;
+}
+
+static void say_times(const DipStartTimes *times, double shutdown_ms) {
+    char start[320];
+    dip_start_times_format(times, start, sizeof start);
+    dip_log_note("%s; shutdown %.1f ms; peak %.1f MiB resident", start, shutdown_ms,
+                 (double)dip_machine_peak_rss_bytes() / (1 << 20));
 }
 
 // Opens what the command draws with, runs it and closes it.
@@ -28,7 +37,12 @@ static int run_with_session(const DipOptions *options,
         return EXIT_BAD_INPUT;
     }
     const bool done = command(&session, options, &err);
+    const DipStartTimes times = session.times;
+    const int64_t ended_ns = times.ended_ns ? times.ended_ns : dip_clock_ns();
     dip_session_close(&session);
+    if (options->timing) {
+        say_times(&times, dip_start_times_since_ms(ended_ns));
+    }
     return done ? EXIT_DONE : fail(&err, EXIT_FAILED);
 }
 
@@ -47,6 +61,8 @@ static int run(const DipOptions *options) {
     switch (options->command) {
     case DIP_COMMAND_DUMP:
         return run_with_session(options, dip_dump_run);
+    case DIP_COMMAND_BENCH:
+        return run_with_session(options, dip_bench_run);
     case DIP_COMMAND_PATH_INFO:
         return run_on_path(options, dip_path_info_run);
     case DIP_COMMAND_PATH_CONVERT:

@@ -1,7 +1,8 @@
 // Parsing the command line and printing help from the same table.
-#include "app/options.h"
+#include "app/options_private.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/clock.h"
 #include "renderer/base/nearest.h"
 #include "renderer/base/number.h"
 #include "renderer/renderer.h"
@@ -12,23 +13,23 @@
 enum {
     PREVIEW = 1 << DIP_COMMAND_PREVIEW,
     DUMP = 1 << DIP_COMMAND_DUMP,
-    SCENE = PREVIEW | DUMP, // those that draw
+    PANES = PREVIEW | DUMP, // those that draw two panes
+    BENCH = 1 << DIP_COMMAND_BENCH,
+    SCENE = PANES | BENCH, // those that draw
     ALL = (1 << DIP_COMMAND_COUNT) - 1,
     MAX_FRAME = 1000000
 };
-
-typedef bool SetOption(DipOptions *options, const char *key, const char *value, DipError *err);
 
 typedef struct OptionRow {
     const char *name;
     const char *argument; // NULL: takes none
     unsigned commands;
-    SetOption *set;
+    DipOptionSetter *set;
     const char *text;
 } OptionRow;
 
-static bool refuse(DipError *err, DipErrorCode code, const char *key, const char *value,
-                   const char *accepted) {
+bool dip_option_refuse(DipError *err, DipErrorCode code, const char *key, const char *value,
+                       const char *accepted) {
     return dip_error_set(err, code, NULL, 0, key, "'%s', accepted %s", value, accepted);
 }
 
@@ -82,6 +83,14 @@ static bool set_hash(DipOptions *options, const char *key, const char *value, Di
     return true;
 }
 
+static bool set_timing(DipOptions *options, const char *key, const char *value, DipError *err) {
+    (void)key;
+    (void)value;
+    (void)err;
+    options->timing = true;
+    return true;
+}
+
 static bool set_help(DipOptions *options, const char *key, const char *value, DipError *err) {
     (void)key;
     (void)value;
@@ -102,10 +111,10 @@ static bool set_threads(DipOptions *options, const char *key, const char *value,
     options->has_threads = true;
     return (dip_integer_parse(value, strlen(value), &options->threads) && options->threads >= 0 &&
             options->threads <= DIP_MAX_THREADS) ||
-           refuse(err, DIP_ERROR_RANGE, key, value, "1..256, or 0 for all processors");
+           dip_option_refuse(err, DIP_ERROR_RANGE, key, value, "1..256, or 0 for all processors");
 }
 
-static bool set_isa(DipOptions *options, const char *key, const char *value, DipError *err) {
+bool dip_option_isa(const char *key, const char *value, DipIsa *isa, DipError *err) {
     char accepted[96] = "auto";
     for (int i = 0; i < DIP_ISA_COUNT; i++) {
         if (dip_isa_available((DipIsa)i)) {
@@ -113,16 +122,20 @@ static bool set_isa(DipOptions *options, const char *key, const char *value, Dip
         }
     }
     if (strcmp(value, "auto") == 0) {
-        options->has_isa = false;
+        *isa = dip_isa_best();
         return true;
     }
-    options->has_isa = true;
-    if (!dip_isa_parse(value, &options->isa)) {
-        return refuse(err, DIP_ERROR_UNKNOWN, key, value, accepted);
+    if (!dip_isa_parse(value, isa)) {
+        return dip_option_refuse(err, DIP_ERROR_UNKNOWN, key, value, accepted);
     }
-    return dip_isa_available(options->isa) ||
+    return dip_isa_available(*isa) ||
            dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, key,
                          "'%s' is not available on this machine, accepted %s", value, accepted);
+}
+
+static bool set_isa(DipOptions *options, const char *key, const char *value, DipError *err) {
+    options->has_isa = strcmp(value, "auto") != 0;
+    return dip_option_isa(key, value, &options->isa, err);
 }
 
 static bool set_model(DipOptions *options, const char *key, const char *value, DipError *err) {
@@ -146,9 +159,7 @@ static bool set_requested(DipOptions *options, const char *key, const char *valu
     return dip_quality_parse(value, &options->requested, err);
 }
 
-// Reads numbers separated by one character; as many as there are, up to count. Returns how many,
-// or 0 when something is not a number.
-static int parse_integers(const char *text, char separator, int count, int *values) {
+int dip_option_integers(const char *text, char separator, int count, int *values) {
     int found = 0;
     for (;;) {
         const char *end = strchr(text, separator);
@@ -164,24 +175,30 @@ static int parse_integers(const char *text, char separator, int count, int *valu
     }
 }
 
-static bool set_size(DipOptions *options, const char *key, const char *value, DipError *err) {
+bool dip_option_size(const char *key, const char *value, int *width, int *height, DipError *err) {
     int size[2];
-    options->has_size = true;
-    if (parse_integers(value, 'x', 2, size) != 2 || size[0] < 1 || size[1] < 1 ||
+    if (dip_option_integers(value, 'x', 2, size) != 2 || size[0] < 1 || size[1] < 1 ||
         size[0] > DIP_MAX_FRAME_SIZE || size[1] > DIP_MAX_FRAME_SIZE) {
-        return refuse(err, DIP_ERROR_RANGE, key, value, "WIDTHxHEIGHT of 1..8192 pixels each");
+        return dip_option_refuse(err, DIP_ERROR_RANGE, key, value,
+                                 "WIDTHxHEIGHT of 1..8192 pixels each");
     }
-    options->width = size[0];
-    options->height = size[1];
+    *width = size[0];
+    *height = size[1];
     return true;
+}
+
+static bool set_size(DipOptions *options, const char *key, const char *value, DipError *err) {
+    options->has_size = true;
+    return dip_option_size(key, value, &options->width, &options->height, err);
 }
 
 static bool set_frames(DipOptions *options, const char *key, const char *value, DipError *err) {
     int range[3] = {0, 0, 1};
-    if (parse_integers(value, ':', 3, range) < 2 || range[0] < 0 || range[1] <= range[0] ||
+    if (dip_option_integers(value, ':', 3, range) < 2 || range[0] < 0 || range[1] <= range[0] ||
         range[1] > MAX_FRAME || range[2] < 1) {
-        return refuse(err, DIP_ERROR_RANGE, key, value,
-                      "FIRST:END or FIRST:END:STEP with 0 <= FIRST < END <= 1000000, STEP >= 1");
+        return dip_option_refuse(
+            err, DIP_ERROR_RANGE, key, value,
+            "FIRST:END or FIRST:END:STEP with 0 <= FIRST < END <= 1000000, STEP >= 1");
     }
     options->first_frame = range[0];
     options->end_frame = range[1];
@@ -192,7 +209,8 @@ static bool set_frames(DipOptions *options, const char *key, const char *value, 
 static bool set_fps(DipOptions *options, const char *key, const char *value, DipError *err) {
     double fps;
     if (!dip_number_parse(value, strlen(value), &fps) || fps < 0.001 || fps > 1000.0) {
-        return refuse(err, DIP_ERROR_RANGE, key, value, "frames per second, 0.001..1000");
+        return dip_option_refuse(err, DIP_ERROR_RANGE, key, value,
+                                 "frames per second, 0.001..1000");
     }
     options->fps_milli = (int64_t)(fps * 1000.0 + 0.5);
     return true;
@@ -206,11 +224,11 @@ static const OptionRow rows[] = {
      "a camera path (.pth, .bth) instead of the ini's, with CAMPATH_DEFAULT_FOV"},
     {"--category", "NAME", SCENE, set_category,
      "which of the ini's paths to fly: DEFAULT, AA, AF, AAA, MIPLOD, WATER, ..."},
-    {"--current", "SET", SCENE, set_current,
+    {"--current", "SET", PANES, set_current,
      "settings of the left pane, such as aa=none (default: the ini's)"},
-    {"--requested", "SET", SCENE, set_requested,
+    {"--requested", "SET", PANES, set_requested,
      "settings of the right pane, such as aa=4,af=16 (likewise)"},
-    {"--size", "WxH", SCENE, set_size, "pixels of each pane (default: the ini's RES)"},
+    {"--size", "WxH", PANES, set_size, "pixels of each pane (default: the ini's RES)"},
     {"--frames", "A:B[:S]", DUMP, set_frames,
      "frames A up to, not including, B, every S-th (default 0:1)"},
     {"--fps", "N", DUMP, set_fps, "frame n shows time n / N seconds (default 30)"},
@@ -218,8 +236,33 @@ static const OptionRow rows[] = {
      "write current_0000.png, requested_0000.png, ... and frames.json there"},
     {"--json", "FILE", DUMP, set_json, "write the record of all frames there"},
     {"--hash", NULL, DUMP, set_hash, "print a line per frame and pane: 0000 current HASH"},
-    {"--threads", "N", SCENE, set_threads, "worker threads (default: all processors)"},
-    {"--isa", "NAME", SCENE, set_isa, "auto, scalar, sse2, avx2, avx512: the same picture each"},
+    {"--threads", "N", PANES, set_threads, "worker threads (default: all processors)"},
+    {"--isa", "NAME", PANES, set_isa, "auto, scalar, sse2, avx2, avx512: the same picture each"},
+    {"--sets", "LIST", BENCH, dip_bench_set_sets,
+     "settings to measure, SET;SET;... in quotes (default: aa none, 4, 8, without and with af=16)"},
+    {"--size", "LIST", BENCH, dip_bench_set_size, "WxH,WxH,... pixels (default: the ini's RES)"},
+    {"--grid", "LIST", BENCH, dip_bench_set_grid,
+     "instead of a scene, reliefs of N,N,... triangles that fill the picture"},
+    {"--grid-out-of-view", NULL, BENCH, dip_bench_set_grid_out_of_view,
+     "the camera has its back to the grid: the cost of what is not seen"},
+    {"--threads", "LIST", BENCH, dip_bench_set_threads,
+     "worker threads, such as 1,2 (default: the ini's; 0: all processors)"},
+    {"--isa", "LIST", BENCH, dip_bench_set_isa,
+     "of auto, scalar, sse2, avx2, avx512 (default: the best here)"},
+    {"--frames", "N", BENCH, dip_bench_set_frames,
+     "frames that divide the camera path evenly (default 12)"},
+    {"--rounds", "N", BENCH, dip_bench_set_rounds,
+     "how often each combination draws them (default 10)"},
+    {"--seed", "N", BENCH, dip_bench_set_seed, "of the order in the rounds (default: the clock's)"},
+    {"--vs", "PROGRAM", BENCH, dip_bench_set_vs,
+     "another build of diptych: measure both in turn, print the ratio other / this"},
+    {"--csv", "FILE", BENCH, dip_bench_set_csv, "write every frame of every round there"},
+    {"--svg", "DIR", BENCH, dip_bench_set_svg,
+     "plot time against pixels, samples, triangles, threads there"},
+    {"--serve", NULL, BENCH, dip_bench_set_serve,
+     "draw what standard input asks for: what --vs starts"},
+    {"--timing", NULL, PANES, set_timing,
+     "at the end say how long start and end took, and the most memory that was used"},
     {"--log", "FILE", SCENE, set_log, "also write warnings and errors there"},
     {"--help", NULL, ALL, set_help, "this help; after a command, help on it"},
     {"--version", NULL, ALL, set_version, "the version"},
@@ -234,13 +277,16 @@ static const struct {
 #undef COMMAND_ROW
 };
 
-static const OptionRow *find_row(const char *name, size_t length) {
+// Of rows of one name the command's own.
+static const OptionRow *find_row(const char *name, size_t length, DipCommand command) {
+    const OptionRow *found = NULL;
     for (size_t i = 0; i < DIP_ARRAY_COUNT(rows); i++) {
-        if (strlen(rows[i].name) == length && memcmp(rows[i].name, name, length) == 0) {
-            return &rows[i];
+        if (strlen(rows[i].name) == length && memcmp(rows[i].name, name, length) == 0 &&
+            (!found || rows[i].commands >> command & 1)) {
+            found = &rows[i];
         }
     }
-    return NULL;
+    return found;
 }
 
 static bool unknown_option(const char *name, DipError *err) {
@@ -259,8 +305,9 @@ static bool parse_option(int argc, char *const *argv, int *index, DipOptions *op
     const char *argument = argv[*index];
     const char *equals = strchr(argument, '=');
     const size_t length = equals ? (size_t)(equals - argument) : strlen(argument);
-    const OptionRow *row =
-        strcmp(argument, "-h") == 0 ? find_row("--help", 6) : find_row(argument, length);
+    const OptionRow *row = strcmp(argument, "-h") == 0
+                               ? find_row("--help", 6, options->command)
+                               : find_row(argument, length, options->command);
     if (!row) {
         return unknown_option(argument, err);
     }
@@ -282,7 +329,7 @@ static bool parse_option(int argc, char *const *argv, int *index, DipOptions *op
 }
 
 static bool unknown_command(const char *word, DipError *err) {
-    static const char *const names[] = {"preview", "dump", "path"};
+    static const char *const names[] = {"preview", "dump", "bench", "path"};
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, word,
                          "no such command, nearest %s; --help lists them, and a model of this name "
                          "is opened as ./%s",
@@ -361,6 +408,16 @@ static bool check_complete(const DipOptions *options, DipError *err) {
                              "nothing to make, accepted at least one of --out DIR, --json FILE, "
                              "--hash");
     }
+    if (options->bench.grid_count && (options->model_count || options->path || options->category)) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--grid",
+                             "a grid takes the place of %s, accepted one of the two",
+                             options->model_count ? "--model"
+                             : options->path      ? "--path"
+                                                  : "--category");
+    }
+    if (options->command == DIP_COMMAND_BENCH && !dip_bench_options_check(&options->bench, err)) {
+        return false;
+    }
     if (options->command == DIP_COMMAND_PATH_INFO && options->operand_count != 1) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path info",
                              "no file, accepted path info FILE");
@@ -373,7 +430,11 @@ static bool check_complete(const DipOptions *options, DipError *err) {
 }
 
 bool dip_options_parse(int argc, char *const *argv, DipOptions *options, DipError *err) {
-    *options = (DipOptions){.end_frame = 1, .frame_step = 1, .fps_milli = 30000};
+    *options = (DipOptions){
+        .begin_ns = dip_clock_ns(), .end_frame = 1, .frame_step = 1, .fps_milli = 30000};
+    dip_bench_options_default(&options->bench);
+    options->bench.argc = argc;
+    options->bench.argv = argv;
     int index = 1;
     if (!parse_command(argc, argv, &index, options, err)) {
         return false;
@@ -419,7 +480,7 @@ static void print_options(unsigned mask, FILE *out) {
             char left[40];
             snprintf(left, sizeof left, "%s %s", rows[i].name,
                      rows[i].argument ? rows[i].argument : "");
-            fprintf(out, "  %-18s %s\n", left, rows[i].text);
+            fprintf(out, "  %-19s %s\n", left, rows[i].text);
         }
     }
 }
@@ -428,6 +489,8 @@ static const char *usage_of(DipCommand command) {
     switch (command) {
     case DIP_COMMAND_DUMP:
         return "diptych dump --out DIR | --json FILE | --hash [OPTION]...";
+    case DIP_COMMAND_BENCH:
+        return "diptych bench [OPTION]...";
     case DIP_COMMAND_PATH_INFO:
     case DIP_COMMAND_PATH_CONVERT:
         return "diptych path info FILE\n       diptych path convert IN OUT.pth|OUT.bth";
@@ -442,6 +505,14 @@ static const char *examples_of(DipCommand command) {
         return "  diptych dump --out out --frames 0:8\n"
                "  diptych dump --hash --frames 0:1200:10 --requested aa=8,af=16 --isa avx2\n"
                "  diptych dump --out out --category AF --current af=none --requested af=16\n";
+    case DIP_COMMAND_BENCH:
+        return "  diptych bench\n"
+               "  diptych bench --sets \"aa=none;aa=4;aa=4,af=16\" --threads 1,2 --isa "
+               "avx2,avx512\n"
+               "  diptych bench --size 320x240,640x480,1280x960 --svg plots --csv frames.csv\n"
+               "  diptych bench --grid 1000,10000,100000 --sets aa=none --grid-out-of-view\n"
+               "  diptych bench --vs ../before/build/release/diptych --threads 1 --rounds 40\n"
+               "\nTimes are wall-clock milliseconds; docs/bench.md tells how to read them.\n";
     case DIP_COMMAND_PATH_INFO:
     case DIP_COMMAND_PATH_CONVERT:
         return "  diptych path info campaths/ambient.pth\n"

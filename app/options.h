@@ -2,6 +2,7 @@
 #ifndef DIP_APP_OPTIONS_H
 #define DIP_APP_OPTIONS_H
 
+#include "app/bench/options.h"
 #include "renderer/base/error.h"
 #include "renderer/isa.h"
 #include "renderer/quality.h"
@@ -14,6 +15,7 @@
 #define DIP_COMMAND_LIST(X)                                                                        \
     X(PREVIEW, "preview", "open the window: two panes, one camera path (the default)")             \
     X(DUMP, "dump", "draw frames without a display: pictures, hashes, a record in JSON")           \
+    X(BENCH, "bench", "measure frames: every combination of settings, threads, sizes, ...")        \
     X(PATH_INFO, "path info", "say what is in a camera path")                                      \
     X(PATH_CONVERT, "path convert", "rewrite a camera path as .pth (text) or .bth (binary)")
 
@@ -29,6 +31,8 @@ enum { DIP_MAX_OPTION_MODELS = 64, DIP_MAX_OPERANDS = 2 };
 // Texts are borrowed from argv. A NULL text or a false has_... means not given.
 typedef struct DipOptions {
     DipCommand command;
+    int64_t begin_ns; // when the command line was read: as good as the program's start
+    bool timing;
     bool help;
     bool version;
     const char *config;
@@ -57,6 +61,7 @@ typedef struct DipOptions {
     int64_t fps_milli;                      // frames per 1000 seconds
     const char *operands[DIP_MAX_OPERANDS]; // files of the path commands
     int operand_count;
+    DipBenchOptions bench;
 } DipOptions;
 
 // Reads argv[1..]. Fails with the option at fault as key: found, accepted.

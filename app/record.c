@@ -106,6 +106,19 @@ bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *
     return true;
 }
 
+bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t peak_rss_bytes,
+                          DipError *err) {
+    cJSON *object = cJSON_AddObjectToObject(record->root, "load_ms");
+    bool added = object != NULL;
+#define ADD_PART(name, text)                                                                       \
+    added = added && cJSON_AddNumberToObject(object, #name, times->name##_ms);
+    DIP_START_TIME_LIST(ADD_PART)
+#undef ADD_PART
+    added =
+        added && cJSON_AddNumberToObject(record->root, "peak_rss_bytes", (double)peak_rss_bytes);
+    return added || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "record", "out of memory");
+}
+
 bool dip_record_write(const DipRecord *record, const char *file, DipError *err) {
     char *text = cJSON_Print(record->root);
     const bool written = text

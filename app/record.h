@@ -2,10 +2,12 @@
 //
 // {"frames":[{"index":0,"time_s":0,"pose":{"position":[x,y,z],"orientation":[x,y,z,w],
 // "fov_y_deg":45},"current":{"settings":"aa=..","hash":"..","ms":1.5,"stages_ms":{..},
-// "counters":{..},"effects":{"light_map":{"run":true,"why":".."},..}},"requested":{..}},..]}
+// "counters":{..},"effects":{"light_map":{"run":true,"why":".."},..}},"requested":{..}},..],
+// "load_ms":{"ini":0.3,..},"peak_rss_bytes":123456}
 #ifndef DIP_APP_RECORD_H
 #define DIP_APP_RECORD_H
 
+#include "app/start_times.h"
 #include "renderer/base/error.h"
 #include "renderer/frame.h"
 #include "renderer/pose.h"
@@ -26,6 +28,10 @@ void dip_record_destroy(DipRecord **record);
 // panes: current, requested.
 bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *pose,
                     const DipRecordPane panes[2], DipError *err);
+
+// How the program started, and the memory it took.
+bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t peak_rss_bytes,
+                          DipError *err);
 
 // Writes the file whole or not at all.
 bool dip_record_write(const DipRecord *record, const char *file, DipError *err);

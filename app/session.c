@@ -4,6 +4,7 @@
 #include "app/log.h"
 #include "app/mip_pictures.h"
 #include "assets/model.h"
+#include "renderer/base/clock.h"
 #include "renderer/texture/srgb.h"
 
 #include <limits.h>
@@ -126,9 +127,13 @@ static bool load_scene(DipSession *session, const DipOptions *options, DipErrorL
         DipSceneDef def = *dip_model_scene_def(model);
         set_surroundings(session, options, &def);
         session->scene = dip_scene_create(&def, session->pool, &err);
+        session->times.import_ms = dip_model_times(model).import_ms;
+        session->times.pictures_ms = dip_model_times(model).pictures_ms;
         dip_model_destroy(&model);
     }
     if (session->scene) {
+        session->times.textures_ms = dip_scene_times(session->scene).textures_ms;
+        session->times.meshes_ms = dip_scene_times(session->scene).meshes_ms;
         return true;
     }
     for (size_t i = 0; !options->model_count && i < named->count; i++) {
@@ -234,8 +239,8 @@ static bool make_orbit(DipSession *session, const DipOptions *options, DipErrorL
     return true;
 }
 
-// "DEFAULT", "AA", ...: the key less its "CAMPATH_".
-static const char *category_name(int category) {
+// The key less its "CAMPATH_".
+const char *dip_session_category(int category) {
     return dip_config_key_name((DipConfigKey)(DIP_KEY_CAMPATH_DEFAULT + 2 * category)) +
            strlen("CAMPATH_");
 }
@@ -246,7 +251,7 @@ static bool choose_category(DipSession *session, const DipOptions *options, DipE
     }
     char known[160] = "";
     for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
-        const char *name = category_name(c);
+        const char *name = dip_session_category(c);
         if (strcasecmp(name, options->category) == 0) {
             session->track.active = c;
             return true;
@@ -324,15 +329,37 @@ static bool make_pool(DipSession *session, const DipOptions *options, DipErrorLi
     return session->pool || add_fault(faults, &err);
 }
 
+// The bench makes renderers of its own, and it may have no use for the scene.
+static bool draws_scene(const DipOptions *options) {
+    return options->command != DIP_COMMAND_BENCH ||
+           (!options->bench.grid_count && (!options->bench.vs || options->bench.serve));
+}
+
+// Scene and paths both, so that one run shows the faults of all.
+static bool load_what_is_drawn(DipSession *session, const DipOptions *options,
+                               DipErrorList *faults) {
+    if (!draws_scene(options)) {
+        return true;
+    }
+    const bool scene = load_scene(session, options, faults);
+    const int64_t begin_ns = dip_clock_ns();
+    const bool paths = load_paths(session, options, faults);
+    session->times.paths_ms = dip_start_times_since_ms(begin_ns);
+    return scene && paths;
+}
+
 bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     *session = (DipSession){.isa = DIP_ISA_SCALAR};
+    session->times.begin_ns = options->begin_ns;
     bool opened = load_config(session, options, faults) && make_pool(session, options, faults);
-    if (opened) {
-        // Model and paths both, so that one run shows the faults of all.
-        const bool scene = load_scene(session, options, faults);
-        const bool paths = load_paths(session, options, faults);
-        opened = scene && paths && make_renderers(session, options, faults);
+    session->times.ini_ms = dip_start_times_since_ms(options->begin_ns);
+    opened = opened && load_what_is_drawn(session, options, faults);
+    if (opened && options->command != DIP_COMMAND_BENCH) {
+        const int64_t begin_ns = dip_clock_ns();
+        opened = make_renderers(session, options, faults);
+        session->times.renderers_ms = dip_start_times_since_ms(begin_ns);
     }
+    session->times.opened_ns = dip_clock_ns();
     if (!opened) {
         dip_session_close(session);
     }
@@ -364,5 +391,6 @@ bool dip_session_draw(DipSession *session, int64_t play_ns, DipPose *pose,
             return false;
         }
     }
+    dip_start_times_frame(&session->times);
     return true;
 }

@@ -3,6 +3,7 @@
 #define DIP_APP_SESSION_H
 
 #include "app/options.h"
+#include "app/start_times.h"
 #include "campaths/camtrack.h"
 #include "config/config.h"
 #include "renderer/renderer.h"
@@ -20,7 +21,8 @@ typedef struct DipSession {
     DipCamTrack track;  // slots are the ini's categories
     DipCamPath **paths; // loaded once each, by file
     int path_count;
-    DipRenderer *renderers[DIP_PANE_COUNT];
+    DipRenderer *renderers[DIP_PANE_COUNT]; // not for the bench, which makes its own
+    DipStartTimes times;
     bool orbiting; // a model of the user's own, without a path
 } DipSession;
 
@@ -28,6 +30,9 @@ typedef struct DipSession {
 // warnings too. Returns false when one of them is an error; then the session is empty.
 bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorList *faults);
 void dip_session_close(DipSession *session);
+
+// "DEFAULT", "AA", ...: the ini's category that a slot of the track plays.
+const char *dip_session_category(int slot);
 
 // Draws both panes at a time on the active path.
 bool dip_session_draw(DipSession *session, int64_t play_ns, DipPose *pose,

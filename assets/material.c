@@ -138,7 +138,10 @@ static void read_pictures(DipModel *model, int file, const char *name, const str
     static const enum aiTextureType normal[] = {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA};
     plan->colour = texture_use(model, file, name, mesh, colour, 2);
     plan->opacity = texture_use(model, file, name, mesh, opacity, 1);
-    plan->normal = texture_use(model, file, name, mesh, normal, 2);
+    plan->normal = (DipTextureUse){.picture = DIP_NO_TEXTURE};
+    if (model->normal_maps) {
+        plan->normal = texture_use(model, file, name, mesh, normal, 2);
+    }
     plan->light = (DipTextureUse){.picture = DIP_NO_TEXTURE};
     // glTF's occlusion picture is a light map only where the object says so.
     if (plan->light_mapped || !model->files[file].linear_colours) {

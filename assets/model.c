@@ -2,6 +2,7 @@
 #include "assets/model.h"
 
 #include "assets/model_parts.h"
+#include "renderer/base/clock.h"
 
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
@@ -291,8 +292,8 @@ static void finish(DipModel *model) {
     model->def.near_m = near_distance(model);
 }
 
-DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
-                         DipErrorList *warnings, DipError *err) {
+static DipModel *load(const char *const *files, int file_count, bool normal_maps, DipPool *pool,
+                      DipErrorList *warnings, DipError *err) {
     if (file_count < 1 || file_count > DIP_MAX_MODEL_FILES) {
         dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL, "%d model files, accepted 1..%d",
                       file_count, DIP_MAX_MODEL_FILES);
@@ -304,19 +305,34 @@ DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool
         return NULL;
     }
     model->warnings = warnings;
+    model->normal_maps = normal_maps;
     model->files = calloc((size_t)file_count, sizeof *model->files);
     bool ok = model->files || dip_model_out_of_memory(err, files[0]);
+    const int64_t begin_ns = dip_clock_ns();
     for (int i = 0; ok && i < file_count; ++i) {
         ok = load_file(model, i, files[i], err);
     }
+    const int64_t imported_ns = dip_clock_ns();
     ok =
         ok && dip_model_decode_pictures(model, pool, err) && dip_model_finish_materials(model, err);
     if (!ok) {
         dip_model_destroy(&model);
         return NULL;
     }
+    model->times.import_ms = 1e-6 * (double)(imported_ns - begin_ns);
+    model->times.pictures_ms = 1e-6 * (double)(dip_clock_ns() - imported_ns);
     finish(model);
     return model;
+}
+
+DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
+                         DipErrorList *warnings, DipError *err) {
+    return load(files, file_count, false, pool, warnings, err);
+}
+
+DipModel *dip_model_load_with_normals(const char *const *files, int file_count, DipPool *pool,
+                                      DipErrorList *warnings, DipError *err) {
+    return load(files, file_count, true, pool, warnings, err);
 }
 
 void dip_model_destroy(DipModel **model_pointer) {
@@ -346,4 +362,8 @@ void dip_model_destroy(DipModel **model_pointer) {
 
 const DipSceneDef *dip_model_scene_def(const DipModel *model) {
     return &model->def;
+}
+
+DipModelTimes dip_model_times(const DipModel *model) {
+    return model->times;
 }

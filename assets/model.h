@@ -37,9 +37,23 @@ enum { DIP_MAX_MODEL_FILES = 256 };
 // Refused: a file that is missing, empty, truncated or of no readable format; an index out of
 // range; a position or transform that is not finite; no triangle at all; a picture that is there
 // but broken or larger than 8192 pixels. Different models may be loaded on different threads.
+//
+// Normal maps, which the renderer does not draw, are neither looked for nor decoded: materials then
+// have none.
 DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
                          DipErrorList *warnings, DipError *err);
+
+// The same with normal maps.
+DipModel *dip_model_load_with_normals(const char *const *files, int file_count, DipPool *pool,
+                                      DipErrorList *warnings, DipError *err);
 void dip_model_destroy(DipModel **model);
+
+// How long the parts of the load took, milliseconds.
+typedef struct DipModelTimes {
+    double import_ms;   // model files to meshes and materials
+    double pictures_ms; // reading and decoding
+} DipModelTimes;
+DipModelTimes dip_model_times(const DipModel *model);
 
 // Valid until the model is destroyed; dip_scene_create copies what it needs.
 const DipSceneDef *dip_model_scene_def(const DipModel *model);

@@ -107,6 +107,8 @@ struct DipModel {
     DipModelFile *files;
     int file_count;
     DipErrorList *warnings; // may be NULL
+    DipModelTimes times;
+    bool normal_maps; // to be loaded
 };
 
 // Room for one more item in an array of `count`: the array, moved if need be, or NULL, and then the

@@ -111,7 +111,7 @@ bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *nam
         return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL, "picture cannot be read: %s",
                              reason ? reason : "no reason known");
     }
-    picture->has_alpha = any_alpha(picture);
+    picture->has_alpha = (channels == 2 || channels == 4) && any_alpha(picture);
     return true;
 }
 

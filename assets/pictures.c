@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const char *base_name(const char *path) {
     const char *slash = strrchr(path, '/');
@@ -151,10 +152,7 @@ int dip_model_picture(DipModel *model, int file, const char *path) {
     return index;
 }
 
-static void decode_task(void *context, int index, int worker) {
-    (void)worker;
-    DipModel *model = context;
-    DipPictureEntry *entry = &model->pictures[index];
+static void decode(DipPictureEntry *entry) {
     if (!entry->bytes) {
         dip_picture_read_file(entry->name, &entry->picture, &entry->error);
     } else if (entry->raw_height > 0) {
@@ -166,13 +164,53 @@ static void decode_task(void *context, int index, int worker) {
     }
 }
 
-bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
+// A picture by how long it will take.
+typedef struct DecodeJob {
+    DipPictureEntry *entry;
+    size_t size_bytes;
+} DecodeJob;
+
+static int larger_first(const void *a, const void *b) {
+    const size_t x = ((const DecodeJob *)a)->size_bytes;
+    const size_t y = ((const DecodeJob *)b)->size_bytes;
+    return (x < y) - (x > y);
+}
+
+static size_t file_size(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0 && status.st_size > 0 ? (size_t)status.st_size : 0;
+}
+
+static void decode_task(void *context, int index, int worker) {
+    (void)worker;
+    decode(((const DecodeJob *)context)[index].entry);
+}
+
+// Largest first, so that no thread begins a long one at the end.
+static bool decode_all(DipModel *model, DipPool *pool) {
+    DecodeJob *jobs = malloc(((size_t)model->picture_count + 1) * sizeof *jobs);
+    if (!jobs) {
+        return false;
+    }
+    for (int i = 0; i < model->picture_count; ++i) {
+        DipPictureEntry *entry = &model->pictures[i];
+        jobs[i] = (DecodeJob){entry, entry->bytes ? entry->size_bytes : file_size(entry->name)};
+    }
+    qsort(jobs, (size_t)model->picture_count, sizeof *jobs, larger_first);
     if (pool) {
-        dip_pool_run(pool, model->picture_count, decode_task, model);
+        dip_pool_run(pool, model->picture_count, decode_task, jobs);
     } else {
         for (int i = 0; i < model->picture_count; ++i) {
-            decode_task(model, i, 0);
+            decode_task(jobs, i, 0);
         }
+    }
+    free(jobs);
+    return true;
+}
+
+bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
+    if (!decode_all(model, pool)) {
+        return dip_model_out_of_memory(err, NULL);
     }
     for (int i = 0; i < model->picture_count; ++i) {
         const DipPictureEntry *entry = &model->pictures[i];

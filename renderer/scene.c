@@ -1,6 +1,8 @@
 // Making a scene from its description: checks, textures, vertex layouts, bounds.
 #include "renderer/scene_internal.h"
 
+#include "renderer/base/clock.h"
+
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -147,23 +149,7 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
     return out->mesh != NULL;
 }
 
-// --- textures, in parallel ---------------------------------------------------------------------
-
-typedef struct TextureJobs {
-    const DipSceneDef *def;
-    DipScene *scene;
-    DipError *errors; // per texture
-    bool *used;       // by a material as it is drawn; the others are not made
-} TextureJobs;
-
-static void create_texture(void *context, int index, int worker) {
-    (void)worker;
-    TextureJobs *jobs = context;
-    if (jobs->used[index]) {
-        jobs->scene->textures[index] =
-            dip_texture_create(&jobs->def->textures[index], &jobs->errors[index]);
-    }
-}
+// --- textures ----------------------------------------------------------------------------------
 
 static void mark_used_textures(const DipSceneDef *def, bool *used) {
     for (int i = 0; i < def->material_count; i++) {
@@ -176,33 +162,16 @@ static void mark_used_textures(const DipSceneDef *def, bool *used) {
     }
 }
 
+// Those that no material as it is drawn uses are not made.
 static bool create_textures(const DipSceneDef *def, DipScene *scene, DipPool *pool, DipError *err) {
-    const size_t count = (size_t)def->texture_count;
-    TextureJobs jobs = {def, scene, calloc(count + 1, sizeof(DipError)),
-                        calloc(count + 1, sizeof(bool))};
-    bool made = jobs.errors && jobs.used;
-    if (!made) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "textures", "out of memory");
-    } else {
-        mark_used_textures(def, jobs.used);
-        if (pool) {
-            dip_pool_run(pool, def->texture_count, create_texture, &jobs);
-        } else {
-            for (int i = 0; i < def->texture_count; i++) {
-                create_texture(&jobs, i, 0);
-            }
-        }
+    bool *used = calloc((size_t)def->texture_count + 1, sizeof *used);
+    if (!used) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "textures", "out of memory");
     }
-    for (int i = 0; made && i < def->texture_count; i++) {
-        if (jobs.used[i] && !scene->textures[i]) {
-            made = false;
-            if (err) {
-                *err = jobs.errors[i];
-            }
-        }
-    }
-    free(jobs.errors);
-    free(jobs.used);
+    mark_used_textures(def, used);
+    const bool made =
+        dip_textures_create(def->textures, used, def->texture_count, pool, scene->textures, err);
+    free(used);
     return made;
 }
 
@@ -304,7 +273,9 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
         return NULL;
     }
     copy_materials(def, scene);
+    const int64_t begin_ns = dip_clock_ns();
     bool made = create_textures(def, scene, pool, err);
+    const int64_t textured_ns = dip_clock_ns();
     for (int i = 0; made && i < def->mesh_count; i++) {
         made = create_mesh(def, i, scene, err);
     }
@@ -313,6 +284,8 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
         return NULL;
     }
     place_objects(def, scene);
+    scene->times = (DipSceneTimes){1e-6 * (double)(textured_ns - begin_ns),
+                                   1e-6 * (double)(dip_clock_ns() - textured_ns)};
     return scene;
 }
 
@@ -338,6 +311,10 @@ void dip_scene_destroy(DipScene **scene_pointer) {
 void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]) {
     memcpy(min_world, scene->min_world, sizeof scene->min_world);
     memcpy(max_world, scene->max_world, sizeof scene->max_world);
+}
+
+DipSceneTimes dip_scene_times(const DipScene *scene) {
+    return scene->times;
 }
 
 uint64_t dip_scene_triangle_count(const DipScene *scene) {

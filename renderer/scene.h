@@ -96,6 +96,13 @@ typedef struct DipScene DipScene;
 DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err);
 void dip_scene_destroy(DipScene **scene);
 
+// How long the parts of making it took, milliseconds.
+typedef struct DipSceneTimes {
+    double textures_ms; // mip chains
+    double meshes_ms;
+} DipSceneTimes;
+DipSceneTimes dip_scene_times(const DipScene *scene);
+
 // Axis-aligned bounds of all objects in world space; of sky only where there is nothing else, so
 // that a camera made for the bounds does not look at a sky dome from outside.
 void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]);

@@ -43,6 +43,7 @@ struct DipScene {
     uint64_t triangle_count;
     bool has_light_map;
     bool has_clipped;
+    DipSceneTimes times;
 };
 
 #endif

@@ -199,6 +199,7 @@ static bool turn(Preview *preview, int64_t now_ns, int64_t elapsed_ns, bool *sho
         take_screenshot(preview, now_ns);
     }
     dip_window_present(preview->window, state, preview->figures);
+    dip_start_times_frame(&preview->session->times);
     dip_timing_add(&preview->presented, dip_clock_ns(), 0.0);
     return true;
 }
@@ -223,6 +224,9 @@ static bool run_loop(Preview *preview, DipError *err) {
         SDL_Event event;
         while (SDL_PollEvent(&event)) {
             handle_event(preview, &event, now_ns);
+        }
+        if (preview->state.quit) {
+            break; // without another frame
         }
         const int64_t since_ns = now_ns - last_ns;
         const int64_t elapsed_ns = since_ns < longest_step_ns ? since_ns : longest_step_ns;
@@ -250,6 +254,7 @@ bool dip_preview_run(DipSession *session, const DipOptions *options, DipError *e
         return false;
     }
     const bool done = run_loop(&preview, err);
+    session->times.ended_ns = dip_clock_ns();
     dip_window_destroy(&preview.window);
     return done;
 }

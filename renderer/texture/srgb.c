@@ -35,10 +35,11 @@ void dip_srgb_decode_table(DipSrgbDecodeTable *table) {
 void dip_srgb_encode_table(DipSrgbEncodeTable *table) {
     // Code c begins at the first i whose light reaches that of c - 1/2.
     int code = 0;
+    double end = dip_srgb_decode(0.5 / 255.0);
     for (int i = 0; i <= DIP_LINEAR16_MAX; i++) {
-        while (code < 255 &&
-               i / (double)DIP_LINEAR16_MAX >= dip_srgb_decode((code + 0.5) / 255.0)) {
+        while (code < 255 && i / (double)DIP_LINEAR16_MAX >= end) {
             code++;
+            end = dip_srgb_decode((code + 0.5) / 255.0);
         }
         table->code[i] = (uint8_t)code;
     }

@@ -1,4 +1,4 @@
-// Building textures: decode, mip chain, pack, pad.
+// Building textures: decode, mip chain, pack, pad, on many threads.
 #include "renderer/texture/texture.h"
 
 #include "renderer/base/assert.h"
@@ -15,7 +15,7 @@ enum { FULL_CODE16 = 65535, FULL_CODE10 = 1023 };
 
 static uint32_t quantise(double linear, int max) {
     const double clamped = linear > 0.0 ? (linear < 1.0 ? linear : 1.0) : 0.0;
-    return (uint32_t)(sqrt(clamped) * max + 0.5);
+    return (uint32_t)(int32_t)(sqrt(clamped) * max + 0.5); // vectors convert to signed only
 }
 
 // The multiple of 32 that comes closest to a 16-bit code with `low` added.
@@ -46,14 +46,17 @@ static bool check_def(const DipTextureDef *def, DipError *err) {
     return true;
 }
 
+// A few thousand texels at a time, so that the loop is free of branches.
 static bool has_alpha(const DipTextureDef *def) {
     const size_t count = (size_t)def->width * (size_t)def->height;
-    for (size_t i = 0; i < count; i++) {
-        if (def->rgba8[4 * i + 3] != 255) {
-            return true;
+    uint8_t all = 255;
+    for (size_t i = 0; i < count && all == 255;) {
+        const size_t end = count - i < 4096 ? count : i + 4096;
+        for (; i < end; i++) {
+            all &= def->rgba8[4 * i + 3];
         }
     }
-    return false;
+    return all != 255;
 }
 
 static bool repeats(const DipTextureDef *def) {
@@ -125,31 +128,26 @@ static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
     }
 }
 
-static void decode_level(const DipTextureDef *def, const CodeTables *tables, float *rgba) {
-    const size_t count = (size_t)def->width * (size_t)def->height;
-    for (size_t i = 0; i < 4 * count; i += 4) {
-        for (size_t c = 0; c < 3; c++) {
-            rgba[i + c] = tables->colour[def->rgba8[i + c]];
-        }
-        rgba[i + 3] = tables->alpha[def->rgba8[i + 3]];
-    }
-}
-
 // The padding's column or row repeats the first or the last of the level.
 static int padding_source(int i, int size, DipWrap wrap) {
     return i < size ? i : wrap == DIP_WRAP_REPEAT ? 0 : size - 1;
 }
 
-// Packs a picture's own texels, code by code.
+// Packs rows first..end-1 of a picture's own texels, code by code; the row of padding is the
+// height's.
 static void pack_codes(DipTexture *texture, int level, const DipTextureDef *def,
-                       const CodeTables *tables) {
-    uint32_t *texels = texture->texels + texture->level_offset[level];
-    uint8_t *alpha = texture->alpha ? texture->alpha + texture->level_offset[level] : NULL;
-    for (int y = 0; y <= def->height; y++) {
+                       const CodeTables *tables, int first, int end) {
+    const size_t place =
+        (size_t)texture->level_offset[level] + (size_t)first * (size_t)(def->width + 1);
+    uint32_t *texels = texture->texels + place;
+    uint8_t *alpha = texture->alpha ? texture->alpha + place : NULL;
+    for (int y = first; y < end; y++) {
         const uint8_t *row = def->rgba8 + (size_t)padding_source(y, def->height, texture->wrap_v) *
                                               (size_t)def->width * 4;
         for (int x = 0; x <= def->width; x++) {
-            const uint8_t *code = row + (size_t)padding_source(x, def->width, texture->wrap_u) * 4;
+            const uint8_t *code =
+                x < def->width ? row + 4 * (size_t)x
+                               : row + (size_t)padding_source(x, def->width, texture->wrap_u) * 4;
             *texels++ = join_codes(tables->code16[code[0]], tables->code16[code[1]],
                                    tables->code10[code[2]]);
             if (alpha) {
@@ -159,50 +157,139 @@ static void pack_codes(DipTexture *texture, int level, const DipTextureDef *def,
     }
 }
 
-// Packs a filtered level.
-static void pack_level(DipTexture *texture, int level, const float *rgba) {
+// Packs a row of a filtered level, without its padding.
+static void pack_row(const float *row, int width, uint32_t *restrict texels,
+                     uint8_t *restrict alpha) {
+    for (int x = 0; x < width; x++) {
+        const double rgb[3] = {row[x], row[width + x], row[2 * width + x]};
+        texels[x] = dip_texel_pack(rgb);
+    }
+    for (int x = 0; alpha && x < width; x++) {
+        alpha[x] = (uint8_t)(row[3 * width + x] * 255.0f + 0.5f);
+    }
+}
+
+// --- chains ------------------------------------------------------------------------------------
+
+// Level 0 is packed from the picture's codes and halved from them, row by row; the levels below are
+// a third of the work and are made by one task, which runs beside the next texture's bands.
+enum { BAND_TEXELS = 1 << 16 }; // of level 0, about
+
+// A texture that is being built.
+typedef struct Chain {
+    const DipTextureDef *def;
+    DipTexture *texture;
+    const CodeTables *tables;
+    float *level1; // rows of floats, see mip.h; level2 behind it
+    float *level2;
+    int band_rows; // of level 1
+    int band_count;
+} Chain;
+
+typedef struct ChainJobs {
+    Chain *bands; // NULL: none; whose bands are the tasks from 1 on
+    Chain *rest;  // NULL: none; whose further levels are task 0
+    float *rows;  // per worker, three rows of level 0
+    size_t row_floats;
+} ChainJobs;
+
+static void decode_row(const uint8_t *codes, int width, const CodeTables *tables,
+                       float *restrict to) {
+    for (int x = 0; x < width; x++) {
+        to[x] = tables->colour[codes[4 * x]];
+        to[width + x] = tables->colour[codes[4 * x + 1]];
+        to[2 * width + x] = tables->colour[codes[4 * x + 2]];
+        to[3 * width + x] = tables->alpha[codes[4 * x + 3]];
+    }
+}
+
+// Packs a row of a filtered level with its padding column, and the row of padding where this is the
+// row that it repeats.
+static void store_row(DipTexture *texture, int level, int y, const float *row) {
     const int width = texture->level_width[level];
     const int height = texture->level_height[level];
+    const size_t stride = (size_t)width + 1;
     const size_t base = (size_t)texture->level_offset[level];
-    for (int y = 0; y <= height; y++) {
-        const size_t row = (size_t)padding_source(y, height, texture->wrap_v) * (size_t)width;
-        const size_t out = base + (size_t)y * (size_t)(width + 1);
-        for (int x = 0; x <= width; x++) {
-            const float *texel =
-                rgba + 4 * (row + (size_t)padding_source(x, width, texture->wrap_u));
-            const double rgb[3] = {texel[0], texel[1], texel[2]};
-            texture->texels[out + (size_t)x] = dip_texel_pack(rgb);
-            if (texture->alpha) {
-                texture->alpha[out + (size_t)x] = (uint8_t)(texel[3] * 255.0f + 0.5f);
-            }
+    const size_t place = base + (size_t)y * stride;
+    uint8_t *alpha = texture->alpha;
+    const size_t last = (size_t)padding_source(width, width, texture->wrap_u);
+    pack_row(row, width, texture->texels + place, alpha ? alpha + place : NULL);
+    texture->texels[place + (size_t)width] = texture->texels[place + last];
+    if (alpha) {
+        alpha[place + (size_t)width] = alpha[place + last];
+    }
+    if (y == padding_source(height, height, texture->wrap_v)) {
+        const size_t below = base + (size_t)height * stride;
+        memcpy(texture->texels + below, texture->texels + place, stride * sizeof(uint32_t));
+        if (alpha) {
+            memcpy(alpha + below, alpha + place, stride);
         }
     }
 }
 
-// Packs level 0 and halves it until the chain ends, with two levels in memory at a time.
-static bool build_chain(DipTexture *texture, const DipTextureDef *def) {
-    const size_t texels = (size_t)def->width * (size_t)def->height;
-    DipMipLevel from = {def->width, def->height, malloc(texels * 4 * sizeof(float))};
-    DipMipLevel to = {0, 0, malloc((texels / 2 + 1) * 4 * sizeof(float))};
-    const bool allocated = from.rgba && to.rgba;
-    if (allocated) {
-        CodeTables tables;
-        fill_code_tables(&tables, def->encoding);
-        decode_level(def, &tables, from.rgba);
-        pack_codes(texture, 0, def, &tables);
+// Level 0's rows that belong to a band of level 1, and that band.
+static void make_band(const Chain *chain, int band, float *scratch) {
+    DipTexture *texture = chain->texture;
+    const int width = texture->width;
+    const int next_height = texture->level_height[1];
+    const int first = band * chain->band_rows;
+    const bool last_band = band == chain->band_count - 1;
+    const int end = last_band ? next_height : first + chain->band_rows;
+    pack_codes(texture, 0, chain->def, chain->tables,
+               dip_mip_tap(first, texture->height, next_height).first,
+               last_band ? texture->height + 1
+                         : dip_mip_tap(end, texture->height, next_height).first);
+    for (int y = first; y < end; y++) {
+        const DipMipTap tap = dip_mip_tap(y, texture->height, next_height);
+        const float *rows[DIP_MIP_MAX_TAPS] = {0};
+        for (int i = 0; i < tap.count; i++) {
+            float *row = scratch + (size_t)i * DIP_MIP_CHANNELS * (size_t)width;
+            decode_row(chain->def->rgba8 + (size_t)(tap.first + i) * (size_t)width * 4, width,
+                       chain->tables, row);
+            rows[i] = row;
+        }
+        const int next_width = texture->level_width[1];
+        float *to = chain->level1 + (size_t)y * DIP_MIP_CHANNELS * (size_t)next_width;
+        dip_mip_halve_row(&tap, rows, width, to, next_width);
+        store_row(texture, 1, y, to);
     }
-    for (int level = 1; allocated && level < texture->level_count; level++) {
+}
+
+// Every level from 2 on, with two levels in memory at a time.
+static void make_rest(const Chain *chain) {
+    DipTexture *texture = chain->texture;
+    DipMipLevel from = {texture->level_width[1], texture->level_height[1], chain->level1};
+    DipMipLevel to = {0, 0, chain->level2};
+    for (int level = 2; level < texture->level_count; level++) {
         to.width = texture->level_width[level];
         to.height = texture->level_height[level];
         dip_mip_halve(&from, &to);
-        pack_level(texture, level, to.rgba);
+        for (int y = 0; y < to.height; y++) {
+            store_row(texture, level, y, to.rows + (size_t)y * DIP_MIP_CHANNELS * (size_t)to.width);
+        }
         const DipMipLevel swap = from;
         from = to;
         to = swap;
     }
-    free(from.rgba);
-    free(to.rgba);
-    return allocated;
+}
+
+static void run_chain_task(void *context, int index, int worker) {
+    const ChainJobs *jobs = context;
+    if (index > 0) {
+        make_band(jobs->bands, index - 1, jobs->rows + (size_t)worker * jobs->row_floats);
+    } else if (jobs->rest) {
+        make_rest(jobs->rest);
+    }
+}
+
+static void run_tasks(DipPool *pool, int count, DipTask task, void *context) {
+    if (pool) {
+        dip_pool_run(pool, count, task, context);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        task(context, i, 0);
+    }
 }
 
 static DipTexture *out_of_memory(DipTexture *texture, const char *name, DipError *err) {
@@ -211,7 +298,8 @@ static DipTexture *out_of_memory(DipTexture *texture, const char *name, DipError
     return NULL;
 }
 
-DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err) {
+// A texture with its levels' places, without texels in them.
+static DipTexture *begin_texture(const DipTextureDef *def, DipError *err) {
     if (!check_def(def, err)) {
         return NULL;
     }
@@ -225,10 +313,103 @@ DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err) {
     texture->wrap_v = def->wrap_v;
     texture->wraps_in_bits = repeats(def);
     place_chain(texture);
-    if (!allocate_texels(texture, has_alpha(def)) || !build_chain(texture, def)) {
-        return out_of_memory(texture, def->name, err);
+    return allocate_texels(texture, has_alpha(def)) ? texture
+                                                    : out_of_memory(texture, def->name, err);
+}
+
+static bool begin_chain(Chain *chain, const DipTextureDef *def, const CodeTables tables[2],
+                        DipError *err) {
+    DipTexture *texture = begin_texture(def, err);
+    *chain = (Chain){def, texture, &tables[def->encoding], NULL, NULL, 0, 0};
+    if (!texture || texture->level_count == 1) {
+        return texture != NULL;
     }
-    return texture;
+    size_t floats[2] = {0, 0};
+    for (int i = 0; i < 2 && i + 1 < texture->level_count; i++) {
+        floats[i] = (size_t)DIP_MIP_CHANNELS * (size_t)texture->level_width[i + 1] *
+                    (size_t)texture->level_height[i + 1];
+    }
+    chain->level1 = malloc((floats[0] + floats[1]) * sizeof(float));
+    if (!chain->level1) {
+        chain->texture = out_of_memory(texture, def->name, err);
+        return false;
+    }
+    chain->level2 = chain->level1 + floats[0];
+    const int rows = BAND_TEXELS / 2 / def->width;
+    chain->band_rows = rows > 1 ? rows : 1;
+    chain->band_count = (texture->level_height[1] + chain->band_rows - 1) / chain->band_rows;
+    return true;
+}
+
+// What the tasks of every texture share.
+static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef *defs,
+                       const bool *used, int count, DipPool *pool) {
+    int widest = 1;
+    for (int i = 0; i < count; i++) {
+        widest = (!used || used[i]) && defs[i].width > widest ? defs[i].width : widest;
+    }
+    widest = widest < MAX_TEXTURE_SIZE ? widest : MAX_TEXTURE_SIZE;
+    const size_t workers = pool ? (size_t)dip_pool_thread_count(pool) : 1;
+    jobs->row_floats = (size_t)DIP_MIP_MAX_TAPS * DIP_MIP_CHANNELS * (size_t)widest;
+    jobs->rows = malloc(workers * jobs->row_floats * sizeof *jobs->rows);
+    *tables = malloc(2 * sizeof **tables);
+    if (!jobs->rows || !*tables) {
+        return false;
+    }
+    fill_code_tables(&(*tables)[DIP_ENCODING_SRGB], DIP_ENCODING_SRGB);
+    fill_code_tables(&(*tables)[DIP_ENCODING_LINEAR], DIP_ENCODING_LINEAR);
+    return true;
+}
+
+// Runs a chain's bands beside the rest of the one before, whose memory is then given back.
+static void run_chains(ChainJobs *jobs, DipPool *pool) {
+    run_tasks(pool, 1 + (jobs->bands ? jobs->bands->band_count : 0), run_chain_task, jobs);
+    if (jobs->rest) {
+        free(jobs->rest->level1);
+    }
+    jobs->rest = jobs->bands;
+    jobs->bands = NULL;
+}
+
+bool dip_textures_create(const DipTextureDef *defs, const bool *used, int count, DipPool *pool,
+                         DipTexture **textures, DipError *err) {
+    ChainJobs jobs = {NULL, NULL, NULL, 0};
+    CodeTables *tables = NULL;
+    Chain chains[2];
+    bool made = begin_jobs(&jobs, &tables, defs, used, count, pool);
+    if (!made) {
+        out_of_memory(NULL, count ? defs[0].name : NULL, err);
+    }
+    for (int i = 0; i < count; i++) {
+        textures[i] = NULL;
+    }
+    for (int i = 0, turn = 0; made && i < count; i++) {
+        if (used && !used[i]) {
+            continue;
+        }
+        Chain *chain = &chains[turn++ & 1];
+        made = begin_chain(chain, &defs[i], tables, err);
+        textures[i] = chain->texture;
+        if (made && chain->level1) {
+            jobs.bands = chain;
+            run_chains(&jobs, pool);
+        } else if (made) {
+            pack_codes(chain->texture, 0, chain->def, chain->tables, 0, chain->def->height + 1);
+            turn--;
+        }
+    }
+    run_chains(&jobs, pool);
+    free(jobs.rows);
+    free(tables);
+    for (int i = 0; !made && i < count; i++) {
+        dip_texture_destroy(&textures[i]);
+    }
+    return made;
+}
+
+DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err) {
+    DipTexture *texture;
+    return dip_textures_create(def, NULL, 1, NULL, &texture, err) ? texture : NULL;
 }
 
 DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
@@ -258,7 +439,7 @@ DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int leve
     for (int i = 0; i < level_count; i++) {
         CodeTables tables;
         fill_code_tables(&tables, levels[i].encoding);
-        pack_codes(texture, i, &levels[i], &tables);
+        pack_codes(texture, i, &levels[i], &tables, 0, levels[i].height + 1);
     }
     return texture;
 }

@@ -45,7 +45,13 @@ typedef struct DipTexture {
     size_t texel_count; // padding included
 } DipTexture;
 
-// Builds the whole mip chain. def is only read. The pool may be NULL.
+// Builds textures with their whole mip chains into textures[0..count-1], all or none. defs are only
+// read; those that are not used (NULL: all are) are left out and their textures are NULL. On the
+// pool (may be NULL), across textures and within them: the same texels for every number of threads.
+bool dip_textures_create(const DipTextureDef *defs, const bool *used, int count, DipPool *pool,
+                         DipTexture **textures, DipError *err);
+
+// One texture, on the caller's thread.
 DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err);
 
 // A texture whose levels are given pictures of any size instead of a chain (mip debugging):

@@ -48,6 +48,9 @@ check "help lists every command" grep -q 'path convert' out.txt
 check "help lists settings" grep -q 'miplod' out.txt
 expect 0 '' "$diptych" dump --help
 check "help on dump gives an example" grep -q 'dump --out out --frames 0:8' out.txt
+expect 0 '' "$diptych" bench --help
+check "help on bench gives examples" grep -q 'bench --vs' out.txt
+check "and the lists' own texts" grep -q -- '--threads LIST' out.txt
 expect 0 '' "$diptych" path --help
 check "help on path tells both" grep -q 'path convert .*rewrite' out.txt
 expect 0 '' "$diptych" --version
@@ -79,6 +82,23 @@ expect 2 "\[--category\] 'SKY', accepted DEFAULT\|AA" "$diptych" dump --hash --c
 expect 2 "\[--category\] 'AF' .* --path takes" "$diptych" dump --hash --category AF --path x.pth
 expect 2 "\[--category\] 'AF' .* orbit takes" "$diptych" dump --hash --category AF --model x.obj
 expect 2 "\[path\] nothing to do, accepted path info FILE" "$diptych" path
+
+expect 2 "\[aa\] '3' is no step" "$diptych" bench --sets "aa=none;aa=3"
+expect 2 "\[--sets\] 'aa=2;' has an empty place" "$diptych" bench --sets "aa=2;"
+expect 2 "\[--threads\] 'two', accepted 0..256" "$diptych" bench --threads 1,two
+expect 2 "\[--isa\] 'mmx', accepted auto\|scalar" "$diptych" bench --isa scalar,mmx
+expect 2 "\[--size\] '64', accepted WIDTHxHEIGHT" "$diptych" bench --size 64x48,64
+expect 2 "\[--grid\] '1', accepted 2..20000000" "$diptych" bench --grid 1
+expect 2 "\[--frames\] '0:4', accepted 1..10000" "$diptych" bench --frames 0:4
+expect 2 "\[--rounds\] '0', accepted 1" "$diptych" bench --rounds 0
+expect 2 "\[--grid-out-of-view\] there is no grid" "$diptych" bench --grid-out-of-view
+expect 2 "\[--grid\] a grid takes the place of --path" "$diptych" bench --grid 9 --path x.pth
+expect 2 "\[--svg\] nothing to plot" "$diptych" bench --sets aa=none --svg plots
+expect 2 "none: \[--vs\] cannot be run" "$diptych" bench --vs ./none
+expect 2 "\[--svg\] plots show one program" "$diptych" bench --svg plots --vs "$diptych"
+expect 2 "\[bench\] 1024 combinations" "$diptych" bench --sets "aa=none;aa=2" \
+    --threads "1$(printf ',%d' $(seq 2 32))" --size "1x1$(printf ',%dx1' $(seq 2 16))"
+expect 2 "\[--current\] is no option of .diptych bench." "$diptych" bench --current aa=2
 
 # --- bad input files
 expect 2 'none.ini: ' "$diptych" dump --hash --config none.ini
@@ -148,6 +168,42 @@ check "settings change the picture" test \
 expect 0 '' "$diptych" dump $small --hash --fps 15 --frames 0:3
 check "frame 1 at 15 per second is frame 2 at 30" test \
     "$(sed -n '3s/.* //p' out.txt)" = "$(sed -n '3s/.* //p' hashes.txt)"
+
+expect 0 'start, ms: ini [0-9.]+ import .* total [0-9.]+; shutdown [0-9.]+ ms; peak [0-9.]+ MiB' \
+    "$diptych" dump $small --hash --timing
+check "the record tells how the start went" grep -q '"load_ms"' c.json
+check "and the memory" grep -q '"peak_rss_bytes"' c.json
+
+# --- the bench: what it prints and writes; no times are judged
+quick="--frames 2 --rounds 2"
+expect 0 'plot written: plots/time_samples.svg' "$diptych" bench $quick --size 32x24,64x48 \
+    --sets "aa=none;aa=4" --threads 1,2 --seed 7 --csv all.csv --svg plots
+check "the heading tells the seed" grep -q 'order by seed 7$' out.txt
+check "a row per combination" test "$(grep -cE '^ +[1-8]  .*median' out.txt)" = 8
+check "each with its p95 and least" test "$(grep -cE '^ +(p95|min) ' out.txt)" = 16
+check "and its work" test "$(awk '$1 == "fragments_shaded" { print $2 }' out.txt)" = 768
+check "a line of CSV per combination, round and frame" test "$(wc -l <all.csv)" = 33
+check "units in its names" grep -q '^settings,width_px,.*,total_ms,.*_count' all.csv
+for axis in pixels samples threads; do
+    check "time_$axis.svg is whole" grep -q '^</svg>$' "plots/time_$axis.svg"
+done
+check "and no other file" test "$(find plots -type f | wc -l)" = 3
+expect 0 'time_triangles.svg' "$diptych" bench $quick --size 32x24 --grid 10,200 \
+    --sets aa=none --svg plots
+check "triangles in view" test "$(awk '$1 == "triangles_drawn" { print ($2 > 4) }' out.txt)" = 1
+expect 0 '' "$diptych" bench $quick --size 32x24 --sets aa=none --grid 200 \
+    --grid-out-of-view
+check "triangles out of view" test "$(awk '$1 == "triangles_drawn" { print $2 }' out.txt)" = 0
+expect 0 '' "$diptych" bench $quick --size 32x24 --sets "aa=none;aa=2" --vs "$diptych" --csv vs.csv
+check "against itself: the same pictures" test "$(grep -cE '^aa=.* same$' out.txt)" = 2
+check "CSV of both programs" test "$(grep -c '^other,' vs.csv)" = 8
+expect 1 "\[--vs\] .*true has ended" "$diptych" bench $quick --vs /bin/true
+expect 1 "\[--vs\] .*echo is no diptych" "$diptych" bench $quick --vs /bin/echo
+expect 1 'none/a.csv' "$diptych" bench $quick --size 8x8 --csv none/a.csv
+printf 'draw 0 0 1\ndraw 9 0 0\n' >asked.txt
+serve() { "$diptych" bench $quick --size 32x24 --sets aa=none --serve <asked.txt; }
+expect 1 "\[--serve\] 'draw 9 0 0'" serve
+check "a greeting and an answer" test "$(grep -cE '^diptych-bench 1 1 2$|total_ms=.*hash=[0-9a-f]{32}$' out.txt)" = 2
 
 # --- a model of one's own, with an orbit made for it
 expect 0 '' "$diptych" dump $small --hash --model "$source/tests/assets/data/square.gltf"

@@ -37,6 +37,21 @@ static int find_object(const DipSceneDef *def, const char *name) {
     return -1;
 }
 
+// Of the 26 pictures ten are normal maps, which nothing draws yet.
+static void normal_maps_wait_until_they_are_wanted(void **state) {
+    (void)state;
+    DipModel *model = load(DIP_ASSETS_DIR "/courtyard/court.gltf", NULL, NULL);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_int_equal(def->texture_count, 16);
+    for (int i = 0; i < def->material_count; ++i) {
+        assert_int_equal(def->materials[i].normal_map, DIP_NO_TEXTURE);
+    }
+    for (int i = 0; i < def->texture_count; ++i) {
+        assert_null(strstr(def->textures[i].name, "_n.png"));
+    }
+    dip_model_destroy(&model);
+}
+
 // World position of a corner of an object.
 static void corner_world(const DipSceneDef *def, int object, uint32_t corner, double to[3]) {
     const DipMeshDef *mesh = mesh_of(def, object);
@@ -61,7 +76,9 @@ static void courtyard_arrives_whole(void **state) {
     (void)state;
     DipErrorList warnings = {0};
     DipPool *pool = dip_pool_create(2, NULL);
-    DipModel *model = load(DIP_ASSETS_DIR "/courtyard/court.gltf", pool, &warnings);
+    const char *path = DIP_ASSETS_DIR "/courtyard/court.gltf";
+    DipModel *model = dip_model_load_with_normals(&path, 1, pool, &warnings, NULL);
+    assert_non_null(model);
     const DipSceneDef *def = dip_model_scene_def(model);
     assert_int_equal(def->mesh_count, 17);
     assert_int_equal(def->object_count, 17);
@@ -406,6 +423,7 @@ static void gaps_are_closed(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(courtyard_arrives_whole),
+        cmocka_unit_test(normal_maps_wait_until_they_are_wanted),
         cmocka_unit_test(gltf_with_embedded_picture),
         cmocka_unit_test(glb_with_embedded_picture),
         cmocka_unit_test(light_map_seams_stay),

@@ -7,23 +7,31 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void decode(const DipTextureDef *def, float *rgba) {
+// Interleaved codes to the rows of a level, see renderer/texture/mip.h.
+static void decode(const DipTextureDef *def, float *rows) {
     DipSrgbDecodeTable srgb;
     dip_srgb_decode_table(&srgb);
-    const size_t count = 4 * (size_t)def->width * (size_t)def->height;
-    for (size_t i = 0; i < count; i++) {
-        const bool linear = def->encoding == DIP_ENCODING_LINEAR || i % 4 == 3;
-        rgba[i] = linear ? (float)def->rgba8[i] / 255.0f : (float)srgb.linear[def->rgba8[i]];
+    const size_t width = (size_t)def->width;
+    for (size_t i = 0; i < width * (size_t)def->height; i++) {
+        for (size_t c = 0; c < 4; c++) {
+            const uint8_t code = def->rgba8[4 * i + c];
+            const bool linear = def->encoding == DIP_ENCODING_LINEAR || c == 3;
+            rows[(4 * (i / width) + c) * width + i % width] =
+                linear ? (float)code / 255.0f : (float)srgb.linear[code];
+        }
     }
 }
 
 static void encode(const DipMipLevel *level, DipEncoding encoding, const DipSrgbEncodeTable *srgb,
                    uint8_t *rgba8) {
-    const size_t count = 4 * (size_t)level->width * (size_t)level->height;
-    for (size_t i = 0; i < count; i++) {
-        const bool linear = encoding == DIP_ENCODING_LINEAR || i % 4 == 3;
-        rgba8[i] = linear ? (uint8_t)lrintf(level->rgba[i] * 255.0f)
-                          : srgb->code[lrintf(level->rgba[i] * DIP_LINEAR16_MAX)];
+    const size_t width = (size_t)level->width;
+    for (size_t i = 0; i < width * (size_t)level->height; i++) {
+        for (size_t c = 0; c < 4; c++) {
+            const float light = level->rows[(4 * (i / width) + c) * width + i % width];
+            const bool linear = encoding == DIP_ENCODING_LINEAR || c == 3;
+            rgba8[4 * i + c] = linear ? (uint8_t)lrintf(light * 255.0f)
+                                      : srgb->code[lrintf(light * DIP_LINEAR16_MAX)];
+        }
     }
 }
 
@@ -39,13 +47,13 @@ bool dip_gl_texture_make(const DipGl *gl, const DipTextureDef *def, GLuint *name
     DipMipLevel to = {0, 0, malloc((texels / 2 + 1) * 4 * sizeof(float))};
     uint8_t *rgba8 = malloc((texels / 2 + 1) * 4);
     DipSrgbEncodeTable *srgb = malloc(sizeof *srgb);
-    const bool allocated = from.rgba && to.rgba && rgba8 && srgb;
+    const bool allocated = from.rows && to.rows && rgba8 && srgb;
     if (allocated) {
         gl->GenTextures(1, name);
         gl->BindTexture(GL_TEXTURE_2D, *name);
         upload(gl, 0, def->encoding, def->width, def->height, def->rgba8);
         dip_srgb_encode_table(srgb);
-        decode(def, from.rgba);
+        decode(def, from.rows);
     }
     for (int level = 1; allocated && (from.width > 1 || from.height > 1); level++) {
         to.width = dip_mip_next_size(from.width);
@@ -57,8 +65,8 @@ bool dip_gl_texture_make(const DipGl *gl, const DipTextureDef *def, GLuint *name
         from = to;
         to = swap;
     }
-    free(from.rgba);
-    free(to.rgba);
+    free(from.rows);
+    free(to.rows);
     free(rgba8);
     free(srgb);
     return allocated

@@ -2,8 +2,8 @@
 #include "tests/peer/measure.h"
 
 #include "renderer/base/clock.h"
+#include "tests/peer/likeness.h"
 #include "tests/peer/pictures.h"
-#include "tests/peer/stats.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -76,8 +76,8 @@ static bool compare_frame(const DipPeerBench *bench, const DipPeerRow *row, int 
         if (!dip_peer_read(bench->peer, bench->peer_rgba8, err)) {
             return false;
         }
-        *error = dip_stats_squared_error(frame.rgba8, frame.stride_bytes, bench->peer_rgba8,
-                                         (size_t)bench->width * 4, bench->width, bench->height);
+        *error = dip_likeness_squared_error(frame.rgba8, frame.stride_bytes, bench->peer_rgba8,
+                                            (size_t)bench->width * 4, bench->width, bench->height);
     }
     return !bench->pictures || dip_pictures_write(bench->pictures, row->name, index, &frame,
                                                   has_peer ? bench->peer_rgba8 : NULL, err);
@@ -97,8 +97,8 @@ static bool compare_frames(const DipPeerBench *bench, DipPeerMeasurement *m, Dip
             m->worst_frame = i;
         }
     }
-    m->psnr_db = dip_stats_psnr_db(sum / bench->frames);
-    m->worst_psnr_db = dip_peer_row_has_peer(m->row) ? dip_stats_psnr_db(worst) : NAN;
+    m->psnr_db = dip_likeness_psnr_db(sum / bench->frames);
+    m->worst_psnr_db = dip_peer_row_has_peer(m->row) ? dip_likeness_psnr_db(worst) : NAN;
     return true;
 }
 

@@ -5,7 +5,7 @@
 #include "renderer/base/number.h"
 #include "renderer/renderer.h"
 #include "tests/peer/measure.h"
-#include "tests/peer/synthetic.h"
+#include "app/bench/synthetic.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #include "campaths/campath.h"
 #include "renderer/scene.h"
 #include "tests/peer/options.h"
-#include "tests/peer/synthetic.h"
+#include "app/bench/synthetic.h"
 
 typedef struct DipPeerScene {
     char name[96];

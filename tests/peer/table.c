@@ -1,7 +1,8 @@
 // Printing the table.
 #include "tests/peer/table.h"
 
-#include "tests/peer/stats.h"
+#include "app/machine.h"
+#include "app/stats.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -11,28 +12,10 @@
 
 // --- heading -----------------------------------------------------------------------------------
 
-// The processor's name as Linux has it, or "unknown processor".
-static void find_processor(char *name, size_t size_bytes) {
-    snprintf(name, size_bytes, "unknown processor");
-    FILE *in = fopen("/proc/cpuinfo", "r");
-    char line[256];
-    while (in && fgets(line, sizeof line, in)) {
-        const char *colon = strchr(line, ':');
-        if (strncmp(line, "model name", strlen("model name")) == 0 && colon) {
-            line[strcspn(line, "\n")] = '\0';
-            snprintf(name, size_bytes, "%s", colon + 2);
-            break;
-        }
-    }
-    if (in) {
-        fclose(in);
-    }
-}
-
 void dip_table_print_heading(FILE *out, const DipPeerOptions *options, const DipPeerScene *scene,
                              const DipPeer *peer) {
     char processor[128];
-    find_processor(processor, sizeof processor);
+    dip_machine_processor(processor, sizeof processor);
     fprintf(out, "scene    %s, %" PRIu64 " triangles, %dx%d, %d frames", scene->name,
             scene->triangle_count, options->width, options->height, options->frames);
     if (!options->check) {

@@ -1,5 +1,5 @@
 // Making the synthetic scenes: one mesh, one material, one texture each.
-#include "tests/peer/synthetic.h"
+#include "app/bench/synthetic.h"
 
 #include "renderer/base/trig.h"
 

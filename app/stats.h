@@ -1,9 +1,6 @@
-// Order statistics of times, the spread of their ratio, and the likeness of pictures.
-#ifndef DIP_TESTS_PEER_STATS_H
-#define DIP_TESTS_PEER_STATS_H
-
-#include <stddef.h>
-#include <stdint.h>
+// Order statistics of times and the spread of their ratio.
+#ifndef DIP_APP_STATS_H
+#define DIP_APP_STATS_H
 
 // The value below which a share (0..1) of count >= 1 values lies, linear between neighbours:
 // 0.5 is the median. Sorts a copy in scratch, which has room for count values.
@@ -21,13 +18,5 @@ typedef struct DipStatsInterval {
 enum { DIP_STATS_RESAMPLES = 1000 };
 DipStatsInterval dip_stats_ratio_interval(const double *a, const double *b, int frames, int rounds,
                                           double *scratch);
-
-// Mean of the squared differences of red, green and blue, in codes squared. Pixels of 4 bytes;
-// alpha is left out.
-double dip_stats_squared_error(const uint8_t *a, size_t a_stride_bytes, const uint8_t *b,
-                               size_t b_stride_bytes, int width, int height);
-
-// Decibels below full scale (255); infinite for no error.
-double dip_stats_psnr_db(double squared_error);
 
 #endif

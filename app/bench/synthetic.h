@@ -1,6 +1,6 @@
 // Scenes made of numbers, which nobody tuned for: a few large triangles, or very many small ones.
-#ifndef DIP_TESTS_PEER_SYNTHETIC_H
-#define DIP_TESTS_PEER_SYNTHETIC_H
+#ifndef DIP_APP_BENCH_SYNTHETIC_H
+#define DIP_APP_BENCH_SYNTHETIC_H
 
 #include "campaths/campath.h"
 #include "renderer/scene.h"

@@ -1,0 +1,111 @@
+// Combining the axes' values.
+#include "app/bench/plan.h"
+
+#include "app/machine.h"
+#include "renderer/base/clock.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void fill_in(DipBenchOptions *options, const DipSession *session) {
+    const DipConfig *config = &session->config;
+    if (!options->threads_count) {
+        options->threads[options->threads_count++] = dip_pool_thread_count(session->pool);
+    }
+    for (int i = 0; i < options->threads_count; i++) {
+        if (options->threads[i] == 0) {
+            options->threads[i] = dip_machine_processor_count();
+        }
+    }
+    if (!options->isa_count) {
+        options->isas[options->isa_count++] = session->isa;
+    }
+    if (!options->size_count) {
+        options->sizes[options->size_count++] =
+            (DipBenchSize){config->res.width, config->res.height};
+    }
+    if (!options->has_seed) {
+        options->seed = (int)(dip_clock_ns() / 1000 % 1000000);
+    }
+}
+
+void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
+                         const DipBenchOptions *options) {
+    plan->options = *options;
+    fill_in(&plan->options, session);
+    const DipBenchOptions *o = &plan->options;
+    const int counts[DIP_BENCH_AXIS_COUNT] = {
+        [DIP_BENCH_AXIS_GRID] = o->grid_count ? o->grid_count : 1,
+        [DIP_BENCH_AXIS_SIZE] = o->size_count,
+        [DIP_BENCH_AXIS_SET] = o->set_count,
+        [DIP_BENCH_AXIS_ISA] = o->isa_count,
+        [DIP_BENCH_AXIS_THREADS] = o->threads_count,
+    };
+    memcpy(plan->counts, counts, sizeof counts);
+    plan->count = 1;
+    for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
+        plan->count *= counts[axis];
+    }
+    for (int i = 0; i < plan->count; i++) {
+        int rest = i;
+        for (int axis = DIP_BENCH_AXIS_COUNT - 1; axis >= 0; axis--) {
+            plan->combinations[i].at[axis] = rest % counts[axis];
+            rest /= counts[axis];
+        }
+    }
+}
+
+void dip_bench_value_name(const DipBenchPlan *plan, const DipBenchCombination *combination,
+                          DipBenchAxis axis, char *name, size_t size_bytes) {
+    const DipBenchOptions *options = &plan->options;
+    const int at = combination->at[axis];
+    *name = '\0';
+    switch (axis) {
+    case DIP_BENCH_AXIS_GRID:
+        if (options->grid_count) {
+            snprintf(name, size_bytes, "%d triangles", options->grids[at]);
+        }
+        break;
+    case DIP_BENCH_AXIS_SIZE:
+        snprintf(name, size_bytes, "%dx%d", options->sizes[at].width, options->sizes[at].height);
+        break;
+    case DIP_BENCH_AXIS_SET:
+        snprintf(name, size_bytes, "%s", options->sets[at].text);
+        break;
+    case DIP_BENCH_AXIS_ISA:
+        snprintf(name, size_bytes, "%s", dip_isa_name(options->isas[at]));
+        break;
+    default:
+        snprintf(name, size_bytes, "%d thread%s", options->threads[at],
+                 options->threads[at] == 1 ? "" : "s");
+    }
+}
+
+void dip_bench_label(const DipBenchPlan *plan, const DipBenchCombination *combination,
+                     DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]) {
+    *label = '\0';
+    for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
+        if (plan->counts[axis] == 1 || axis == (int)without) {
+            continue;
+        }
+        const size_t used = strlen(label);
+        char value[DIP_BENCH_LABEL_SIZE];
+        dip_bench_value_name(plan, combination, (DipBenchAxis)axis, value, sizeof value);
+        snprintf(label + used, DIP_BENCH_LABEL_SIZE - used, "%s%.90s", used ? ", " : "", value);
+    }
+    if (!*label) {
+        dip_bench_value_name(plan, combination, DIP_BENCH_AXIS_SET, label, DIP_BENCH_LABEL_SIZE);
+    }
+}
+
+void dip_bench_fixed_label(const DipBenchPlan *plan, char label[DIP_BENCH_LABEL_SIZE]) {
+    *label = '\0';
+    for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
+        const size_t used = strlen(label);
+        char value[DIP_BENCH_LABEL_SIZE];
+        dip_bench_value_name(plan, plan->combinations, (DipBenchAxis)axis, value, sizeof value);
+        if (plan->counts[axis] == 1 && *value) {
+            snprintf(label + used, DIP_BENCH_LABEL_SIZE - used, "%s%.90s", used ? ", " : "", value);
+        }
+    }
+}

@@ -1,0 +1,80 @@
+// Keeping the bench's figures.
+#include "app/bench/result.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT] = {
+#define STAGE_NAME(name, text) #name,
+    DIP_STAGE_LIST(STAGE_NAME)
+#undef STAGE_NAME
+        "total"};
+
+void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash) {
+#define SET_STAGE(name, text) sample->ms[DIP_BENCH_STAGE_##name] = frame->stages.name##_ms;
+    DIP_STAGE_LIST(SET_STAGE)
+#undef SET_STAGE
+    sample->ms[DIP_BENCH_STAGE_total] = frame->stages.total_ms;
+    sample->counters = frame->counters;
+    sample->hash[0] = '\0';
+    if (hash) {
+        dip_frame_hash(frame, sample->hash);
+    }
+}
+
+static size_t values_per_stage(const DipBenchPlan *plan) {
+    return (size_t)plan->options.rounds * (size_t)plan->options.frames;
+}
+
+bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err) {
+    const size_t count = (size_t)plan->count;
+    *result = (DipBenchResult){.plan = plan};
+    result->ms = calloc(count * DIP_BENCH_STAGE_COUNT * values_per_stage(plan), sizeof(double));
+    result->first = calloc(count * (size_t)plan->options.frames, sizeof(DipBenchSample));
+    if (!result->ms || !result->first) {
+        dip_bench_result_free(result);
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
+    }
+    return true;
+}
+
+void dip_bench_result_free(DipBenchResult *result) {
+    free(result->ms);
+    free(result->first);
+    *result = (DipBenchResult){.plan = NULL};
+}
+
+static size_t place(const DipBenchResult *result, int combination, DipBenchStage stage) {
+    return ((size_t)combination * DIP_BENCH_STAGE_COUNT + stage) * values_per_stage(result->plan);
+}
+
+void dip_bench_result_add(DipBenchResult *result, int combination, int round, int frame,
+                          const DipBenchSample *sample) {
+    const int value = round * result->plan->options.frames + frame;
+    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+        result->ms[place(result, combination, (DipBenchStage)stage) + (size_t)value] =
+            sample->ms[stage];
+    }
+}
+
+const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
+                                  DipBenchStage stage) {
+    return result->ms + place(result, combination, stage);
+}
+
+const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,
+                                             int frame) {
+    return &result->first[combination * result->plan->options.frames + frame];
+}
+
+DipBenchWork dip_bench_result_work(const DipBenchResult *result, int combination) {
+    DipBenchWork work = {0};
+    const int frames = result->plan->options.frames;
+    for (int i = 0; i < frames; i++) {
+        const DipCounters *counters = &dip_bench_result_first(result, combination, i)->counters;
+#define ADD_COUNTER(name, text) work.name += (double)counters->name / frames;
+        DIP_COUNTER_LIST(ADD_COUNTER)
+#undef ADD_COUNTER
+    }
+    return work;
+}

@@ -1,0 +1,55 @@
+// What the bench found: times of every frame of every round, work of every frame.
+#ifndef DIP_APP_BENCH_RESULT_H
+#define DIP_APP_BENCH_RESULT_H
+
+#include "app/bench/plan.h"
+
+// The renderer's stages, and the whole frame last.
+typedef enum DipBenchStage {
+#define DIP_BENCH_STAGE_ENUM(name, text) DIP_BENCH_STAGE_##name,
+    DIP_STAGE_LIST(DIP_BENCH_STAGE_ENUM)
+#undef DIP_BENCH_STAGE_ENUM
+        DIP_BENCH_STAGE_total,
+    DIP_BENCH_STAGE_COUNT
+} DipBenchStage;
+
+extern const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
+
+// One drawing of a frame.
+typedef struct DipBenchSample {
+    double ms[DIP_BENCH_STAGE_COUNT];
+    DipCounters counters;
+    char hash[33]; // empty unless asked for
+} DipBenchSample;
+
+void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash);
+
+// One program's figures.
+typedef struct DipBenchResult {
+    const DipBenchPlan *plan;
+    double *ms;            // [combination][stage][round][frame]
+    DipBenchSample *first; // [combination][frame]: of the warm-up
+} DipBenchResult;
+
+bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
+void dip_bench_result_free(DipBenchResult *result);
+
+void dip_bench_result_add(DipBenchResult *result, int combination, int round, int frame,
+                          const DipBenchSample *sample);
+
+// rounds * frames values, [round * frames + frame].
+const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
+                                  DipBenchStage stage);
+const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,
+                                             int frame);
+
+// The mean of each counter over the frames, in the list's order.
+typedef struct DipBenchWork {
+#define DIP_BENCH_WORK_FIELD(name, text) double name;
+    DIP_COUNTER_LIST(DIP_BENCH_WORK_FIELD)
+#undef DIP_BENCH_WORK_FIELD
+} DipBenchWork;
+
+DipBenchWork dip_bench_result_work(const DipBenchResult *result, int combination);
+
+#endif

@@ -1,0 +1,314 @@
+// Printing tables, writing CSV.
+#include "app/bench/table.h"
+
+#include "app/machine.h"
+#include "app/stats.h"
+#include "app/whole_file.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool out_of_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
+}
+
+// --- heading -----------------------------------------------------------------------------------
+
+static void print_scene(const DipBenchPlan *plan, const DipSession *session,
+                        const DipOptions *options, FILE *out) {
+    const char *view = plan->options.grid_out_of_view ? ", out of view" : "";
+    if (plan->options.grid_count) {
+        fprintf(out, "scene    grid%s\n", view);
+        return;
+    }
+    const char *name = options->model_count          ? options->models[0]
+                       : session->config.xfile.count ? session->config.xfile.items[0].path
+                                                     : "none";
+    const char *slash = strrchr(name, '/');
+    fprintf(out, "scene    %s", slash ? slash + 1 : name);
+    if (session->scene) {
+        fprintf(out, ", %" PRIu64 " triangles", dip_scene_triangle_count(session->scene));
+    }
+    if (!options->model_count && !options->path) {
+        fprintf(out, ", path %s", dip_session_category(session->track.active));
+    } else if (options->path) {
+        fprintf(out, ", path %s", options->path);
+    }
+    fprintf(out, "\n");
+}
+
+void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session,
+                             const DipOptions *options, FILE *out) {
+    char processor[128];
+    char fixed[DIP_BENCH_LABEL_SIZE];
+    dip_machine_processor(processor, sizeof processor);
+    print_scene(plan, session, options, out);
+    fprintf(out, "machine  %s, %d processors\n", processor, dip_machine_processor_count());
+    dip_bench_fixed_label(plan, fixed);
+    fprintf(out, "fixed    %s", fixed);
+    fprintf(out, "\nsamples  %d frames along the path, %d rounds, order by seed %d\n\n",
+            plan->options.frames, plan->options.rounds, plan->options.seed);
+}
+
+// --- times -------------------------------------------------------------------------------------
+
+static int label_width(const DipBenchPlan *plan) {
+    int width = 8;
+    for (int c = 0; c < plan->count; c++) {
+        char label[DIP_BENCH_LABEL_SIZE];
+        dip_bench_label(plan, &plan->combinations[c], DIP_BENCH_AXIS_COUNT, label);
+        const int length = (int)strlen(label);
+        width = length > width ? length : width;
+    }
+    return width;
+}
+
+static int value_count(const DipBenchPlan *plan) {
+    return plan->options.rounds * plan->options.frames;
+}
+
+static void print_quantile(const DipBenchResult *result, int combination, double share,
+                           double *scratch, FILE *out) {
+    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+        const double *ms = dip_bench_result_ms(result, combination, (DipBenchStage)stage);
+        fprintf(out, " %9.3f", dip_stats_quantile(ms, value_count(result->plan), share, scratch));
+    }
+    fprintf(out, "\n");
+}
+
+bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *err) {
+    static const struct {
+        const char *name;
+        double share;
+    } lines[] = {{"median", 0.5}, {"p95", 0.95}, {"min", 0.0}};
+    const DipBenchPlan *plan = result->plan;
+    const int width = label_width(plan);
+    double *scratch = malloc(sizeof *scratch * (size_t)value_count(plan));
+    if (!scratch) {
+        return out_of_memory(err);
+    }
+    fprintf(out, "  #  %-*s        ", width, "ms/frame");
+    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+        fprintf(out, " %9s", dip_bench_stage_names[stage]);
+    }
+    fprintf(out, "\n");
+    for (int c = 0; c < plan->count; c++) {
+        char label[DIP_BENCH_LABEL_SIZE];
+        dip_bench_label(plan, &plan->combinations[c], DIP_BENCH_AXIS_COUNT, label);
+        for (int line = 0; line < 3; line++) {
+            if (line == 0) {
+                fprintf(out, "%3d  %-*s  %-6s", c + 1, width, label, lines[line].name);
+            } else {
+                fprintf(out, "     %-*s  %-6s", width, "", lines[line].name);
+            }
+            print_quantile(result, c, lines[line].share, scratch, out);
+        }
+    }
+    free(scratch);
+    return true;
+}
+
+// --- work --------------------------------------------------------------------------------------
+
+enum { WORK_COLUMNS = 6 };
+
+static void print_work_line(const char *name, const double *means, int count, FILE *out) {
+    fprintf(out, "%-22s", name);
+    for (int i = 0; i < count; i++) {
+        fprintf(out, " %12.0f", means[i]);
+    }
+    fprintf(out, "\n");
+}
+
+static void print_work_block(const DipBenchResult *result, const int *shown, int count, FILE *out) {
+    DipBenchWork work[WORK_COLUMNS];
+    double means[WORK_COLUMNS];
+    fprintf(out, "\n%-22s", "mean per frame, of #");
+    for (int i = 0; i < count; i++) {
+        fprintf(out, " %12d", shown[i] + 1);
+        work[i] = dip_bench_result_work(result, shown[i]);
+    }
+    fprintf(out, "\n");
+#define PRINT_COUNTER(name, text)                                                                  \
+    for (int i = 0; i < count; i++) {                                                              \
+        means[i] = work[i].name;                                                                   \
+    }                                                                                              \
+    print_work_line(#name, means, count, out);
+    DIP_COUNTER_LIST(PRINT_COUNTER)
+#undef PRINT_COUNTER
+}
+
+void dip_bench_print_work(const DipBenchResult *result, FILE *out) {
+    const DipBenchPlan *plan = result->plan;
+    int shown[WORK_COLUMNS];
+    int count = 0;
+    fprintf(out, "\nWork is the same for every instruction set and thread count.\n");
+    for (int c = 0; c < plan->count; c++) {
+        const int *at = plan->combinations[c].at;
+        if (at[DIP_BENCH_AXIS_ISA] == 0 && at[DIP_BENCH_AXIS_THREADS] == 0) {
+            shown[count++] = c;
+        }
+        if (count == WORK_COLUMNS || (count && c == plan->count - 1)) {
+            print_work_block(result, shown, count, out);
+            count = 0;
+        }
+    }
+}
+
+// --- ratios ------------------------------------------------------------------------------------
+
+static int different_pictures(const DipBenchResult *here, const DipBenchResult *other,
+                              int combination) {
+    int different = 0;
+    for (int i = 0; i < here->plan->options.frames; i++) {
+        different += strcmp(dip_bench_result_first(here, combination, i)->hash,
+                            dip_bench_result_first(other, combination, i)->hash) != 0;
+    }
+    return different;
+}
+
+// The sum over the frames of the least time in any round: what is left when the machine's noise,
+// which only adds, was away once.
+static double least_ms(const DipBenchResult *result, int combination) {
+    const DipBenchOptions *options = &result->plan->options;
+    const double *ms = dip_bench_result_ms(result, combination, DIP_BENCH_STAGE_total);
+    double sum = 0.0;
+    for (int frame = 0; frame < options->frames; frame++) {
+        double least = ms[frame];
+        for (int round = 1; round < options->rounds; round++) {
+            least = fmin(least, ms[round * options->frames + frame]);
+        }
+        sum += least;
+    }
+    return sum;
+}
+
+static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *other,
+                            int combination, double *scratch, FILE *out) {
+    const DipBenchPlan *plan = here->plan;
+    const int count = value_count(plan);
+    double medians[2][DIP_BENCH_STAGE_COUNT];
+    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+        const DipBenchStage s = (DipBenchStage)stage;
+        medians[0][stage] =
+            dip_stats_quantile(dip_bench_result_ms(here, combination, s), count, 0.5, scratch);
+        medians[1][stage] =
+            dip_stats_quantile(dip_bench_result_ms(other, combination, s), count, 0.5, scratch);
+    }
+    const DipStatsInterval interval =
+        dip_stats_ratio_interval(dip_bench_result_ms(other, combination, DIP_BENCH_STAGE_total),
+                                 dip_bench_result_ms(here, combination, DIP_BENCH_STAGE_total),
+                                 plan->options.frames, plan->options.rounds, scratch);
+    const double other_ms = medians[1][DIP_BENCH_STAGE_total];
+    const double here_ms = medians[0][DIP_BENCH_STAGE_total];
+    fprintf(out, " %8.3f %8.3f  %6.3f  %5.3f to %5.3f  %6.3f ", other_ms, here_ms,
+            other_ms / here_ms, interval.low, interval.high,
+            least_ms(other, combination) / least_ms(here, combination));
+    for (int stage = 0; stage < DIP_BENCH_STAGE_total; stage++) {
+        if (medians[0][stage] > 0.0) {
+            fprintf(out, " %8.3f", medians[1][stage] / medians[0][stage]);
+        } else {
+            fprintf(out, " %8s", "-");
+        }
+    }
+    const int different = different_pictures(here, other, combination);
+    if (different) {
+        fprintf(out, "  %d of %d differ\n", different, plan->options.frames);
+    } else {
+        fprintf(out, "  same\n");
+    }
+}
+
+bool dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out,
+                            DipError *err) {
+    const DipBenchPlan *plan = here->plan;
+    const int width = label_width(plan);
+    double *scratch =
+        malloc(sizeof *scratch * (3 * (size_t)value_count(plan) + DIP_STATS_RESAMPLES));
+    if (!scratch) {
+        return out_of_memory(err);
+    }
+    fprintf(out,
+            "medians, ms per frame; ratios are other / this: above 1 this program is faster\n");
+    fprintf(out, "%-*s %8s %8s  %6s  %14s  %6s ", width, "", "other", "this", "ratio",
+            "95 % interval", "least");
+    for (int stage = 0; stage < DIP_BENCH_STAGE_total; stage++) {
+        fprintf(out, " %8s", dip_bench_stage_names[stage]);
+    }
+    fprintf(out, "  pictures\n");
+    for (int c = 0; c < plan->count; c++) {
+        char label[DIP_BENCH_LABEL_SIZE];
+        dip_bench_label(plan, &plan->combinations[c], DIP_BENCH_AXIS_COUNT, label);
+        fprintf(out, "%-*s", width, label);
+        print_ratio_row(here, other, c, scratch, out);
+    }
+    free(scratch);
+    return true;
+}
+
+// --- CSV ---------------------------------------------------------------------------------------
+
+static void print_csv_heading(bool programs, FILE *out) {
+    fprintf(out, "%ssettings,width_px,height_px,threads,isa,grid_triangles,round,frame",
+            programs ? "program," : "");
+    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+        fprintf(out, ",%s_ms", dip_bench_stage_names[stage]);
+    }
+#define PRINT_NAME(name, text) fprintf(out, ",%s_count", #name);
+    DIP_COUNTER_LIST(PRINT_NAME)
+#undef PRINT_NAME
+    fprintf(out, "\n");
+}
+
+static void print_csv_line(const DipBenchResult *result, int combination, int value, FILE *out) {
+    const DipBenchPlan *plan = result->plan;
+    const DipBenchOptions *o = &plan->options;
+    const int *at = plan->combinations[combination].at;
+    const DipBenchSize size = o->sizes[at[DIP_BENCH_AXIS_SIZE]];
+    fprintf(out, "\"%s\",%d,%d,%d,%s,", o->sets[at[DIP_BENCH_AXIS_SET]].text, size.width,
+            size.height, o->threads[at[DIP_BENCH_AXIS_THREADS]],
+            dip_isa_name(o->isas[at[DIP_BENCH_AXIS_ISA]]));
+    if (o->grid_count) {
+        fprintf(out, "%d", o->grids[at[DIP_BENCH_AXIS_GRID]]);
+    }
+    fprintf(out, ",%d,%d", value / o->frames, value % o->frames);
+    for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+        fprintf(out, ",%.4f",
+                dip_bench_result_ms(result, combination, (DipBenchStage)stage)[value]);
+    }
+    const DipCounters *counters =
+        &dip_bench_result_first(result, combination, value % o->frames)->counters;
+#define PRINT_COUNTER(name, text) fprintf(out, ",%" PRIu64, counters->name);
+    DIP_COUNTER_LIST(PRINT_COUNTER)
+#undef PRINT_COUNTER
+    fprintf(out, "\n");
+}
+
+bool dip_bench_write_csv(const char *file, const DipBenchResult *results, int count,
+                         DipError *err) {
+    static const char *const programs[] = {"this", "other"};
+    char *text = NULL;
+    size_t size_bytes = 0;
+    FILE *out = open_memstream(&text, &size_bytes);
+    if (!out) {
+        return out_of_memory(err);
+    }
+    print_csv_heading(count > 1, out);
+    for (int p = 0; p < count; p++) {
+        for (int c = 0; c < results[p].plan->count; c++) {
+            for (int v = 0; v < value_count(results[p].plan); v++) {
+                if (count > 1) {
+                    fprintf(out, "%s,", programs[p]);
+                }
+                print_csv_line(&results[p], c, v, out);
+            }
+        }
+    }
+    const bool made = !ferror(out);
+    bool written = fclose(out) == 0 && made ? dip_whole_file_write(file, text, size_bytes, err)
+                                            : out_of_memory(err);
+    free(text);
+    return written;
+}

@@ -1,0 +1,34 @@
+// Reading /proc and the resource usage.
+#include "app/machine.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+void dip_machine_processor(char *name, size_t size_bytes) {
+    snprintf(name, size_bytes, "unknown processor");
+    FILE *in = fopen("/proc/cpuinfo", "r");
+    char line[256];
+    while (in && fgets(line, sizeof line, in)) {
+        const char *colon = strchr(line, ':');
+        if (strncmp(line, "model name", strlen("model name")) == 0 && colon) {
+            line[strcspn(line, "\n")] = '\0';
+            snprintf(name, size_bytes, "%s", colon + 2);
+            break;
+        }
+    }
+    if (in) {
+        fclose(in);
+    }
+}
+
+int dip_machine_processor_count(void) {
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online < 1 ? 1 : (int)online;
+}
+
+size_t dip_machine_peak_rss_bytes(void) {
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (size_t)usage.ru_maxrss * 1024 : 0;
+}
