@@ -420,6 +420,7 @@ typedef double Vd __attribute__((vector_size(8 * DIP_HALF_LANES)));
 typedef int64_t Vl __attribute__((vector_size(8 * DIP_HALF_LANES)));
 typedef float Hf __attribute__((vector_size(VEC_HALF_BYTES)));
 typedef int32_t Hi __attribute__((vector_size(VEC_HALF_BYTES)));
+typedef uint32_t Hu __attribute__((vector_size(VEC_HALF_BYTES)));
 
 VEC_INLINE Vd vd_splat(double x) {
     return x - (Vd){0};
@@ -521,6 +522,11 @@ VEC_INLINE Vd vd_select(Vl m, Vd a, Vd b) {
 #else
     return (Vd)(((Vl)a & m) | ((Vl)b & ~m));
 #endif
+}
+
+// a * b - c * d modulo 2^32.
+VEC_INLINE Hi hi_cross(Hi a, Hi b, Hi c, Hi d) {
+    return (Hi)((Hu)a * (Hu)b - (Hu)c * (Hu)d);
 }
 
 VEC_INLINE Hi hi_select(Hi m, Hi a, Hi b) {
