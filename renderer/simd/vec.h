@@ -410,8 +410,8 @@ VEC_INLINE Vi vi_iota(void) {
 // --- half vectors ------------------------------------------------------------------------------
 
 // As many doubles as a vector's bytes hold, and 64-bit and 32-bit numbers of as many lanes; of two
-// lanes of 32 bits a vector has two more, which hold nothing of use. A condition is a vector of
-// 0 / -1, as comparisons give it.
+// lanes of 32 bits a vector has two more, which are 0 when loaded and of no use. A condition is a
+// vector of 0 / -1, as comparisons give it.
 enum { DIP_HALF_LANES = DIP_LANES > 1 ? DIP_LANES / 2 : 1 };
 
 #define VEC_HALF_BYTES (DIP_LANES == 4 ? 16 : 4 * (DIP_LANES > 1 ? DIP_LANES / 2 : 1))
@@ -439,8 +439,8 @@ VEC_INLINE Hi hi_iota(void) {
 }
 
 VEC_INLINE Hi hi_load(const int32_t *p) {
-    Hi v;
-    memcpy(&v, p, sizeof v);
+    Hi v = {0};
+    memcpy(&v, p, DIP_HALF_LANES * sizeof *p);
     return v;
 }
 
