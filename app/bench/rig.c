@@ -13,7 +13,6 @@ typedef struct View {
     const DipCamPath *path;
     DipCamPath *own_path;
     double fov_y_deg;
-    bool turned;   // looks the other way
     int triangles; // of a grid, as asked for
     double aspect;
 } View;
@@ -42,9 +41,9 @@ static View session_view(const DipSession *session) {
 static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSession *session,
                            DipError *err) {
     view->fov_y_deg = session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg;
-    view->turned = plan->options.grid_out_of_view;
+    const double turn_deg = plan->options.grid_out_of_view ? 180.0 : 0.0;
     DipSynthetic *relief =
-        dip_synthetic_relief(view->triangles, true, view->fov_y_deg, view->aspect, err);
+        dip_synthetic_relief(view->triangles, true, view->fov_y_deg, view->aspect, turn_deg, err);
     if (!relief) {
         return false;
     }
@@ -157,13 +156,6 @@ void dip_bench_rig_destroy(DipBenchRig **rig_pointer) {
     *rig_pointer = NULL;
 }
 
-// Half a turn about the vertical: q times (0, 1, 0, 0).
-static void turn_around(DipPose *pose) {
-    const double *q = pose->orientation;
-    const double turned[4] = {-q[2], q[3], q[0], -q[1]};
-    memcpy(pose->orientation, turned, sizeof turned);
-}
-
 bool dip_bench_rig_draw(DipBenchRig *rig, int combination, int frame, DipFrame *picture,
                         DipError *err) {
     const View *view = &rig->views[rig->view_of[combination]];
@@ -171,9 +163,6 @@ bool dip_bench_rig_draw(DipBenchRig *rig, int combination, int frame, DipFrame *
         dip_campath_info(view->path).duration_ns / rig->plan->options.frames * frame;
     DipPose pose = {.fov_y_deg = view->fov_y_deg};
     dip_campath_sample(view->path, time_ns, &pose);
-    if (view->turned) {
-        turn_around(&pose);
-    }
     return dip_renderer_draw(rig->renderers[combination], view->scene, &pose, time_ns, picture,
                              err);
 }

@@ -219,7 +219,7 @@ static void set_relief(DipSynthetic *s, int columns, int rows, double half_width
 }
 
 DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov_y_deg,
-                                   double aspect, DipError *err) {
+                                   double aspect, double turn_deg, DipError *err) {
     enum { KEYS = 8 };
     const int rows = (int)fmax(1.0, floor(sqrt(triangle_count / 2 / aspect) + 0.5));
     const int columns = (int)fmax(1.0, floor(triangle_count / 2.0 / rows + 0.5));
@@ -237,12 +237,13 @@ DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov
         s->mesh.uv0 = NULL;
         s->mesh.colours_lin = s->colours_lin;
     }
+    const double half_turn = turn_deg * (DIP_PI / 360.0);
     DipCamKey keys[KEYS];
     for (int i = 0; i < KEYS; i++) {
         const double angle = 2.0 * DIP_PI * i / KEYS;
         keys[i] = (DipCamKey){{0.01 * half_height * dip_cos(angle),
                                0.01 * half_height * dip_sin(angle), RELIEF_DISTANCE_M},
-                              {0, 0, 0, 1}};
+                              {0, dip_sin(half_turn), 0, dip_cos(half_turn)}};
     }
     if (!dip_campath_create(keys, KEYS, 500000000, &s->path, err)) {
         dip_synthetic_destroy(&s);

@@ -18,9 +18,10 @@ DipSynthetic *dip_synthetic_room(DipError *err);
 
 // A relief of about triangle_count (2..DIP_SYNTHETIC_MAX_TRIANGLES) triangles of equal size under
 // the fixed light, which fills the picture and stays in it whole while the camera sways a little.
-// textured: with a colour texture, else with vertex colours.
+// textured: with a colour texture, else with vertex colours. turn_deg: of the camera about the
+// vertical, to the left, so that less of the relief is in view.
 DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov_y_deg,
-                                   double aspect, DipError *err);
+                                   double aspect, double turn_deg, DipError *err);
 
 void dip_synthetic_destroy(DipSynthetic **synthetic);
 

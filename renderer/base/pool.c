@@ -16,6 +16,12 @@
 
 enum { LOOKS_PER_CLOCK = 64 }; // looks for work between two looks at the clock
 
+// A run's state in one word: its number, whether workers may still enter, how many are inside. Who
+// wakes too late for a run is not waited for.
+#define STATE_RUN_SHIFT 32
+#define STATE_OPEN      0x80000000u
+#define STATE_INSIDE    0x7fffffffu
+
 typedef struct Worker {
     DipPool *pool;
     int index;
@@ -28,14 +34,13 @@ struct DipPool {
     int started;
     bool spins; // every thread may have a processor of its own
 
-    // One run. Written by the caller before `generation` rises.
+    // One run. Written by the caller while none is open and no worker is inside.
     DipTask task;
     void *context;
     int count;
-    atomic_int next;        // index to hand out
-    atomic_int busy;        // workers that have not finished this run
-    atomic_uint generation; // rises with each run; workers wait for it
+    atomic_int next; // index to hand out
     atomic_bool stop;
+    _Atomic uint64_t state;
 
     pthread_mutex_t mutex; // guards sleeping only
     pthread_cond_t wake;
@@ -58,51 +63,81 @@ static void work(DipPool *pool, int worker) {
     }
 }
 
-// Waits until a generation other than `seen` has begun and returns it.
-static unsigned await_run(DipPool *pool, unsigned seen) {
+static uint32_t current_run(DipPool *pool) {
+    return (uint32_t)(atomic_load_explicit(&pool->state, memory_order_acquire) >> STATE_RUN_SHIFT);
+}
+
+// Waits until a run other than `seen` has begun.
+static void await_run(DipPool *pool, uint32_t seen) {
     const int64_t end_ns = pool->spins ? dip_clock_ns() + SPIN_NS : 0;
     while (pool->spins && dip_clock_ns() < end_ns) {
         for (int i = 0; i < LOOKS_PER_CLOCK; i++) {
-            const unsigned now = atomic_load_explicit(&pool->generation, memory_order_acquire);
-            if (now != seen) {
-                return now;
+            if (current_run(pool) != seen) {
+                return;
             }
             pause_briefly();
         }
     }
     pthread_mutex_lock(&pool->mutex);
     pool->sleeping++;
-    while (atomic_load_explicit(&pool->generation, memory_order_acquire) == seen) {
+    while (current_run(pool) == seen) {
         pthread_cond_wait(&pool->wake, &pool->mutex);
     }
     pool->sleeping--;
     pthread_mutex_unlock(&pool->mutex);
-    return atomic_load_explicit(&pool->generation, memory_order_acquire);
+}
+
+// Enters the current run, whose number goes to *run; false when it is over.
+static bool enter(DipPool *pool, uint32_t *run) {
+    uint64_t state = atomic_load_explicit(&pool->state, memory_order_acquire);
+    while (state & STATE_OPEN &&
+           !atomic_compare_exchange_weak_explicit(&pool->state, &state, state + 1,
+                                                  memory_order_acquire, memory_order_acquire)) {
+    }
+    *run = (uint32_t)(state >> STATE_RUN_SHIFT);
+    return state & STATE_OPEN;
 }
 
 static void *worker_main(void *argument) {
     Worker *self = argument;
     DipPool *pool = self->pool;
     dip_fp_mode_set();
-    unsigned generation = 0;
+    uint32_t run = 0;
     for (;;) {
-        generation = await_run(pool, generation);
+        await_run(pool, run);
         if (atomic_load_explicit(&pool->stop, memory_order_acquire)) {
             return NULL;
         }
-        work(pool, self->index);
-        atomic_fetch_sub_explicit(&pool->busy, 1, memory_order_release);
+        if (enter(pool, &run)) {
+            work(pool, self->index);
+            atomic_fetch_sub_explicit(&pool->state, 1, memory_order_release);
+        }
     }
 }
 
-// Starts a new generation; the mutex closes the gap between a worker's check and its sleep.
-static void begin_generation(DipPool *pool) {
+// Starts a new run; the mutex closes the gap between a worker's check and its sleep.
+static void begin_run(DipPool *pool, uint32_t flags) {
     pthread_mutex_lock(&pool->mutex);
-    atomic_fetch_add_explicit(&pool->generation, 1, memory_order_release);
+    const uint64_t run = (uint64_t)(uint32_t)(current_run(pool) + 1) << STATE_RUN_SHIFT;
+    atomic_store_explicit(&pool->state, run | flags, memory_order_release);
     if (pool->sleeping) {
         pthread_cond_broadcast(&pool->wake);
     }
     pthread_mutex_unlock(&pool->mutex);
+}
+
+// Lets no more workers enter and waits for those inside.
+static void end_run(DipPool *pool) {
+    uint64_t state =
+        atomic_fetch_and_explicit(&pool->state, ~(uint64_t)STATE_OPEN, memory_order_acquire);
+    while (state & STATE_INSIDE) {
+        if (pool->spins) {
+            pause_briefly();
+        } else {
+            sched_yield();
+        }
+        state = atomic_load_explicit(&pool->state, memory_order_acquire);
+    }
 }
 
 static int processor_count(void) {
@@ -149,7 +184,7 @@ void dip_pool_destroy(DipPool **pool_pointer) {
         return;
     }
     atomic_store_explicit(&pool->stop, true, memory_order_release);
-    begin_generation(pool);
+    begin_run(pool, 0);
     for (int i = 0; i < pool->started; i++) {
         pthread_join(pool->workers[i].thread, NULL);
     }
@@ -170,17 +205,12 @@ void dip_pool_run(DipPool *pool, int count, DipTask task, void *context) {
     pool->context = context;
     pool->count = count;
     atomic_store_explicit(&pool->next, 0, memory_order_relaxed);
-    atomic_store_explicit(&pool->busy, pool->started, memory_order_relaxed);
     if (pool->started) {
-        begin_generation(pool);
+        begin_run(pool, STATE_OPEN);
     }
     work(pool, 0);
-    while (atomic_load_explicit(&pool->busy, memory_order_acquire)) {
-        if (pool->spins) {
-            pause_briefly();
-        } else {
-            sched_yield();
-        }
+    if (pool->started) {
+        end_run(pool);
     }
     dip_fp_mode_restore(saved);
 }

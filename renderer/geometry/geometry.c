@@ -429,6 +429,7 @@ static DipSetupTarget setup_target(const DipGeometry *geometry) {
         .width = geometry->pass->target.width,
         .height = geometry->pass->target.height,
         .surface_stride = geometry->surface_stride,
+        .pattern = geometry->pattern,
         .sample_min = {255, 255},
     };
     for (int s = 0; s < geometry->pattern->count; s++) {

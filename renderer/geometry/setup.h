@@ -5,6 +5,7 @@
 #include "renderer/geometry/project.h"
 #include "renderer/geometry/triangle.h"
 #include "renderer/pipeline.h"
+#include "renderer/raster/pattern.h"
 
 #include <stdint.h>
 
@@ -21,6 +22,7 @@ typedef struct DipSetupTarget {
     int surface_stride; // floats per triangle, see dip_surface_stride
     uint32_t draw;
     DipCull cull;
+    const DipSamplePattern *pattern;
     uint8_t sample_min[2]; // least and greatest sample position of the pattern, 1/256 pixel
     uint8_t sample_max[2];
 } DipSetupTarget;
@@ -36,8 +38,8 @@ typedef struct DipSetupBatch {
 } DipSetupBatch;
 
 // dip_kernel_setup (see kernels.h) keeps, in order, the triangles that are not culled, have an area
-// and do not lie between the samples; it returns their number. Triangle i of these goes to
-// triangles[i], its planes to surfaces + i * surface_stride, where its `surface` is
-// first_surface + i * surface_stride.
+// and, as far as that is quickly seen, do not lie between the samples; it returns their number.
+// Triangle i of these goes to triangles[i], its planes to surfaces + i * surface_stride, where its
+// `surface` is first_surface + i * surface_stride.
 
 #endif

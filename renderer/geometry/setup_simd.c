@@ -23,14 +23,20 @@ typedef struct Candidates {
 
 // --- rejection ---------------------------------------------------------------------------------
 
+VEC_INLINE Hi least3(const Hi v[3]) {
+    return hi_min(hi_min(v[0], v[1]), v[2]);
+}
+
+VEC_INLINE Hi greatest3(const Hi v[3]) {
+    return hi_max(hi_max(v[0], v[1]), v[2]);
+}
+
 // The first and last pixel of 0..limit-1 with a sample offset in [sample_min, sample_max] that
 // falls within the corners' range.
 VEC_INLINE void pixel_range(const Hi at[3], int sample_min, int sample_max, int limit, Hi *first,
                             Hi *last) {
-    const Hi low = hi_min(hi_min(at[0], at[1]), at[2]);
-    const Hi high = hi_max(hi_max(at[0], at[1]), at[2]);
-    *first = hi_max((low + (DIP_SUBPIXELS - 1 - sample_max)) >> 8, hi_splat(0));
-    *last = hi_min((high - sample_min) >> 8, hi_splat(limit - 1));
+    *first = hi_max((least3(at) + (DIP_SUBPIXELS - 1 - sample_max)) >> 8, hi_splat(0));
+    *last = hi_min((greatest3(at) - sample_min) >> 8, hi_splat(limit - 1));
 }
 
 // Twice the area in 1/256 pixel squared; counter-clockwise as seen, a front face, is negative,
@@ -44,6 +50,33 @@ VEC_INLINE void swap_if(Hi m, Hi *a, Hi *b) {
     const Hi old = *a;
     *a = hi_select(m, *b, old);
     *b = hi_select(m, old, *b);
+}
+
+enum { SMALL = 1 << 14 }; // 1/256 pixel; products of such distances and their differences fit
+
+VEC_INLINE Hi is_small(const Hi at[3]) {
+    return greatest3(at) - least3(at) < SMALL;
+}
+
+// Whether each triangle, small and wound so that its area is positive, covers a sample of a pixel
+// that its box meets.
+VEC_INLINE Hi covers_pixel(const DipSamplePattern *pattern, const Hi x[3], const Hi y[3],
+                           const Hi pixel[2]) {
+    Hi covers = hi_splat(0);
+    for (int s = 0; s < pattern->count; s++) {
+        const Hi at_x = pixel[0] * DIP_SUBPIXELS + pattern->x[s];
+        const Hi at_y = pixel[1] * DIP_SUBPIXELS + pattern->y[s];
+        Hi inside = hi_splat(-1);
+        for (int i = 0; i < 3; i++) {
+            const Hi dx = x[(i + 1) % 3] - x[i];
+            const Hi dy = y[(i + 1) % 3] - y[i];
+            const Hi edge = hi_cross(dx, at_y - y[i], dy, at_x - x[i]);
+            const Hi top_left = (dy < 0) | ((dy == 0) & (dx > 0));
+            inside &= (edge > 0) | ((edge == 0) & top_left);
+        }
+        covers |= inside;
+    }
+    return covers;
 }
 
 // Appends the triangles of a vector that stay to the `count` ones before; returns the new count.
@@ -79,6 +112,10 @@ VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch
     swap_if(front, &corner[1], &corner[2]);
     swap_if(front, &x[1], &x[2]);
     swap_if(front, &y[1], &y[2]);
+    const Hi one_pixel = (first[0] == last[0]) & (first[1] == last[1]) & is_small(x) & is_small(y);
+    if (hi_mask_bits(one_pixel) & bits) {
+        bits &= hi_mask_bits(~one_pixel | covers_pixel(target->pattern, x, y, first));
+    }
     for (int k = 0; k < 3; k++) {
         hi_store_packed(out->corner[k] + count, corner[k], bits);
         hi_store_packed(out->x[k] + count, x[k], bits);

@@ -4,9 +4,11 @@
 
 #include "renderer/simd/vec.h"
 
+// --- half vectors ------------------------------------------------------------------------------
+
 // As many doubles as a vector's bytes hold, and 64-bit and 32-bit numbers of as many lanes; of two
-// lanes of 32 bits a vector has two more, which hold nothing of use. A condition is a vector of
-// 0 / -1, as comparisons give it.
+// lanes of 32 bits a vector has two more, which are 0 when loaded and of no use. A condition is a
+// vector of 0 / -1, as comparisons give it.
 enum { DIP_HALF_LANES = DIP_LANES > 1 ? DIP_LANES / 2 : 1 };
 
 #define VEC_HALF_BYTES (DIP_LANES == 4 ? 16 : 4 * (DIP_LANES > 1 ? DIP_LANES / 2 : 1))
@@ -15,6 +17,7 @@ typedef double Vd __attribute__((vector_size(8 * DIP_HALF_LANES)));
 typedef int64_t Vl __attribute__((vector_size(8 * DIP_HALF_LANES)));
 typedef float Hf __attribute__((vector_size(VEC_HALF_BYTES)));
 typedef int32_t Hi __attribute__((vector_size(VEC_HALF_BYTES)));
+typedef uint32_t Hu __attribute__((vector_size(VEC_HALF_BYTES)));
 
 VEC_INLINE Vd vd_splat(double x) {
     return x - (Vd){0};
@@ -33,8 +36,8 @@ VEC_INLINE Hi hi_iota(void) {
 }
 
 VEC_INLINE Hi hi_load(const int32_t *p) {
-    Hi v;
-    memcpy(&v, p, sizeof v);
+    Hi v = {0};
+    memcpy(&v, p, DIP_HALF_LANES * sizeof *p);
     return v;
 }
 
@@ -116,6 +119,11 @@ VEC_INLINE Vd vd_select(Vl m, Vd a, Vd b) {
 #else
     return (Vd)(((Vl)a & m) | ((Vl)b & ~m));
 #endif
+}
+
+// a * b - c * d modulo 2^32.
+VEC_INLINE Hi hi_cross(Hi a, Hi b, Hi c, Hi d) {
+    return (Hi)((Hu)a * (Hu)b - (Hu)c * (Hu)d);
 }
 
 VEC_INLINE Hi hi_select(Hi m, Hi a, Hi b) {

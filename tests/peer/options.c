@@ -57,6 +57,12 @@ static bool set_fov(DipPeerOptions *options, const char *key, const char *value,
            refuse(err, key, value, "1..170 degrees");
 }
 
+static bool set_turn(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
+    return (dip_number_parse(value, strlen(value), &options->turn_deg) &&
+            options->turn_deg >= -180.0 && options->turn_deg <= 180.0) ||
+           refuse(err, key, value, "-180..180 degrees");
+}
+
 static bool set_size(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
     const char *times = strchr(value, 'x');
     return (times && dip_integer_parse(value, (size_t)(times - value), &options->width) &&
@@ -141,6 +147,7 @@ static const struct {
     {"--scene", "NAME", set_scene, "large, tiny or grid=N: scenes made of numbers"},
     {"--path", "FILE", set_path, "a camera path instead of the scene's own (models: an orbit)"},
     {"--fov", "DEG", set_fov, "vertical field of view"},
+    {"--turn", "DEG", set_turn, "tiny, grid: turn the camera left; 40 half away, 180 away (0)"},
     {"--size", "WxH", set_size, "pixels (640x480)"},
     {"--threads", "N", set_threads, "threads of each (2)"},
     {"--isa", "NAME", set_isa, "our instruction set (the best)"},

@@ -26,6 +26,7 @@ typedef struct DipPeerOptions {
     int model_count;
     const char *path;
     double fov_y_deg; // 0: as the scene has it
+    double turn_deg;  // of the camera before a relief, about the vertical; 180: away from it
     int width;        // pixels
     int height;
     int threads;

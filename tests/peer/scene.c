@@ -101,17 +101,17 @@ static bool open_synthetic(DipPeerScene *scene, const DipPeerOptions *options, D
     } else if (options->scene == DIP_PEER_SCENE_TINY) {
         const int count = options->width * options->height / 3;
         snprintf(scene->name, sizeof scene->name, "triangles of about 3 pixels");
-        scene->synthetic =
-            dip_synthetic_relief(count < 2 ? 2 : count, false, scene->fov_y_deg, aspect, err);
+        scene->synthetic = dip_synthetic_relief(count < 2 ? 2 : count, false, scene->fov_y_deg,
+                                                aspect, options->turn_deg, err);
     } else {
         snprintf(scene->name, sizeof scene->name, "a grid");
-        scene->synthetic =
-            dip_synthetic_relief(options->grid_triangles, true, scene->fov_y_deg, aspect, err);
+        scene->synthetic = dip_synthetic_relief(options->grid_triangles, true, scene->fov_y_deg,
+                                                aspect, options->turn_deg, err);
     }
     if (!scene->synthetic) {
         return false;
     }
-    scene->all_in_view = options->scene != DIP_PEER_SCENE_LARGE;
+    scene->all_in_view = options->scene != DIP_PEER_SCENE_LARGE && options->turn_deg == 0.0;
     scene->def = *dip_synthetic_scene_def(scene->synthetic);
     if (!options->path) {
         scene->path = dip_synthetic_take_path(scene->synthetic);

@@ -41,6 +41,7 @@ static DipSetupTarget target_of(const DipSamplePattern *pattern) {
     DipSetupTarget target = {.width = TARGET_WIDTH,
                              .height = TARGET_HEIGHT,
                              .surface_stride = DIP_SURFACE_ALIGN,
+                             .pattern = pattern,
                              .cull = DIP_CULL_NONE,
                              .sample_min = {255, 255}};
     for (int s = 0; s < pattern->count; s++) {
@@ -166,6 +167,36 @@ static void test_coverage_is_exact(void **state) {
         assert_true(kind == DIP_ORACLE_flat ? covered[kind] == 0 : covered[kind] > 0);
     }
     printf("\n");
+}
+
+// Large triangles of which one pixel at the target's corner lies in the target.
+static void test_large_triangles_in_one_pixel(void **state) {
+    (void)state;
+    static uint8_t expected[DIP_TILE * DIP_TILE];
+    static uint8_t found[DIP_TILE * DIP_TILE];
+    Random random = {SEED + 2};
+    uint64_t covered = 0;
+    for (int t = 0; t < 20000; t++) {
+        Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5]),
+                  .region = {0, 0, DIP_TILE, DIP_TILE}};
+        for (int i = 0; i < 3; i++) {
+            const bool far = i <= t % 2;
+            const int low = far ? -DIP_GUARD_BAND_PX * DIP_SUBPIXELS + 1 : 0;
+            const int high = far ? -600 : 270;
+            c.triangle.x[i] = random_int(&random, low, high);
+            c.triangle.y[i] = random_int(&random, low, high);
+        }
+        covered += dip_oracle_cover(&c.triangle, c.pattern, &c.region, expected);
+        for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
+            if (dip_isa_available((DipIsa)isa)) {
+                cover_fast(dip_kernels((DipIsa)isa), &c, found);
+                if (memcmp(expected, found, sizeof expected) != 0) {
+                    fail_at(&c, (DipIsa)isa, expected, found);
+                }
+            }
+        }
+    }
+    assert_true(covered > 10000);
 }
 
 // Every sample about a hub that neighbours share is hit once, by the oracle and by the kernels.
@@ -326,6 +357,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(test_patterns_lie_within_their_bounds),
         cmocka_unit_test(test_coverage_is_exact),
         cmocka_unit_test(test_clip_test_is_asked_and_obeyed),
+        cmocka_unit_test(test_large_triangles_in_one_pixel),
         cmocka_unit_test(test_fans_hit_every_sample_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

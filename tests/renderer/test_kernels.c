@@ -130,8 +130,9 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
                                    .surface_stride = dip_surface_stride(slot_count),
                                    .draw = 17,
                                    .cull = (DipCull)random_int(random, 0, 2),
-                                   .sample_min = {16, 32},
-                                   .sample_max = {240, 224}};
+                                   .pattern = dip_sample_pattern(8),
+                                   .sample_min = {16, 16},
+                                   .sample_max = {240, 240}};
     const DipSetupBatch batch = {.count = random_int(random, 1, DIP_SETUP_BATCH),
                                  .corner = {corner[0], corner[1], corner[2]},
                                  .screen = &screen,

@@ -58,6 +58,26 @@ static void every_index_runs_once(void **state) {
     }
 }
 
+// Workers that wake too late for a run meet the next ones.
+static void short_runs_follow_each_other(void **state) {
+    (void)state;
+    enum { THREADS = 4, SHORT_RUNS = 20000, TASKS = 3 };
+    static Tally all;
+    all = (Tally){.thread_count = THREADS};
+    DipPool *pool = dip_pool_create(THREADS, NULL);
+    assert_non_null(pool);
+    for (int run = 0; run < SHORT_RUNS; run++) {
+        dip_pool_run(pool, run % (TASKS + 1), tally, &all);
+    }
+    for (int i = 0; i < TASKS; i++) {
+        const int expected = SHORT_RUNS / (TASKS + 1) * (TASKS - i);
+        assert_int_equal(all.runs[i], expected);
+        assert_int_equal(all.plain[i], (int64_t)i * expected);
+    }
+    assert_int_equal(all.bad_worker, 0);
+    dip_pool_destroy(&pool);
+}
+
 static void refuses_impossible_thread_counts(void **state) {
     (void)state;
     DipError err = {0};
@@ -71,6 +91,7 @@ static void refuses_impossible_thread_counts(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_index_runs_once),
+        cmocka_unit_test(short_runs_follow_each_other),
         cmocka_unit_test(refuses_impossible_thread_counts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
