@@ -12,15 +12,6 @@
 #define MAX_DERIVATIVE 1e9f
 #define MIN_LENGTH     1e-18f
 
-// What a vector of fragments reads: probes along a line, all at one level of detail.
-typedef struct Footprint {
-    Vf u, v;           // first probe, texture coordinates
-    Vf step_u, step_v; // from one probe to the next
-    Vi probes;         // per lane, at least 1
-    Vf inverse_probes;
-    Vi lod8; // level of detail, 1/256 level
-} Footprint;
-
 // The Jacobian in texels of level 0 per pixel.
 typedef struct Jacobian {
     Vf ux, vx; // dX
@@ -136,67 +127,53 @@ VEC_INLINE Vf inverse_of(Vi probes) {
     return vf_lookup16(inverses, probes & 15);
 }
 
-// lambda, given as log2(rho), rounded to 1/256, biased, clamped.
-VEC_INLINE Vi find_level(const DipSampler *sampler, Vf lambda) {
+// Trilinear: the square of the longer derivative.
+VEC_INLINE Vf isotropic_minor2(Jacobian j) {
+    // Not finite: the bound, so that it leads to the smallest level.
+    const Vf most = vf_splat(MAX_DERIVATIVE * MAX_DERIVATIVE);
+    const Vf dx2 = vf_min(j.ux * j.ux + j.vx * j.vx, most);
+    const Vf dy2 = vf_min(j.uy * j.uy + j.vy * j.vy, most);
+    return vf_max(dx2, dy2);
+}
+
+VEC_INLINE Axis anisotropic_axis(const DipSampler *sampler, Jacobian j) {
+    const Jacobian bounds = bounded_jacobian(j);
+    return sampler->advanced ? ellipse_axis(bounds, sampler->max_anisotropy)
+                             : two_frame_axis(bounds, sampler->max_anisotropy);
+}
+
+// lambda = log2 of the minor axis, from its square, rounded to 1/256 level, biased, clamped.
+VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
+    const Vf lambda = log2_of(vf_max(minor2, vf_splat(MIN_LENGTH * MIN_LENGTH))) * 0.5f;
     const Vi lod8 = vi_from_float(vf_floor(lambda * 256.0f + 0.5f)) + sampler->bias_lod8;
     const int32_t last = (sampler->texture->level_count - 1) * 256;
     const int32_t min = sampler->min_lod8 < last ? sampler->min_lod8 : last;
     return vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
 }
 
-// Trilinear: one probe, and lambda = log2 of the longer derivative, from its square.
-VEC_INLINE void set_isotropic(Footprint *footprint, const DipSampler *sampler, Jacobian j) {
-    // Not finite: the bound, so that it leads to the smallest level.
-    const Vf most = vf_splat(MAX_DERIVATIVE * MAX_DERIVATIVE);
-    const Vf dx2 = vf_min(j.ux * j.ux + j.vx * j.vx, most);
-    const Vf dy2 = vf_min(j.uy * j.uy + j.vy * j.vy, most);
-    const Vf rho2 = vf_max(vf_max(dx2, dy2), vf_splat(MIN_LENGTH * MIN_LENGTH));
-    footprint->lod8 = find_level(sampler, log2_of(rho2) * 0.5f);
-    footprint->step_u = footprint->step_v = vf_splat(0.0f);
-    footprint->probes = vi_splat(1);
-    footprint->inverse_probes = vf_splat(1.0f);
-}
+// The probes of an anisotropic footprint, relative to its middle, texture coordinates.
+typedef struct Probes {
+    Vi count; // per lane, at least 1
+    Vf inverse_count;
+    Vf first_u, first_v;
+    Vf step_u, step_v;
+} Probes;
 
 // Probes of equal weight at (k + 1/2) / N - 1/2 of the major axis, but none closer than a texel of
 // the finest level that may be read: more would read the same texels again.
-VEC_INLINE void place_probes(Footprint *footprint, const DipSampler *sampler, const Axis *axis) {
+VEC_INLINE Probes place_probes(const DipSampler *sampler, const Axis *axis) {
     const int last = sampler->texture->level_count - 1;
     const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
     const float finest = 1.0f / (float)(1 << min);
     const Vf texels2 = axis->length2 * (finest * finest);
     const Vf ratio2 = axis->length2 / vf_max(axis->minor2, vf_splat(MIN_LENGTH * MIN_LENGTH));
-    const Vf probes2 = vf_max(vf_min(ratio2, texels2), vf_splat(1.0f));
-    footprint->probes = probe_count(vf_sqrt(probes2));
-    footprint->inverse_probes = inverse_of(footprint->probes);
+    const Vi count = probe_count(vf_sqrt(vf_max(vf_min(ratio2, texels2), vf_splat(1.0f))));
+    const Vf inverse = inverse_of(count);
     const Vf line_u = axis->u * (1.0f / (float)sampler->texture->width);
     const Vf line_v = axis->v * (1.0f / (float)sampler->texture->height);
-    const Vf first = 0.5f * footprint->inverse_probes - 0.5f;
-    footprint->u = footprint->u + line_u * first;
-    footprint->v = footprint->v + line_v * first;
-    footprint->step_u = line_u * footprint->inverse_probes;
-    footprint->step_v = line_v * footprint->inverse_probes;
-}
-
-VEC_INLINE void set_anisotropic(Footprint *footprint, const DipSampler *sampler, Jacobian j) {
-    const Axis axis = sampler->advanced ? ellipse_axis(j, sampler->max_anisotropy)
-                                        : two_frame_axis(j, sampler->max_anisotropy);
-    const Vf minor2 = vf_max(axis.minor2, vf_splat(MIN_LENGTH * MIN_LENGTH));
-    footprint->lod8 = find_level(sampler, log2_of(minor2) * 0.5f);
-    place_probes(footprint, sampler, &axis);
-}
-
-VEC_INLINE Footprint footprint_at(const DipFragmentBatch *batch, const DipSampler *sampler,
-                                  int slot, int i, bool anisotropic) {
-    const Jacobian jacobian = read_jacobian(batch, sampler->texture, slot, i);
-    Footprint footprint;
-    footprint.u = vf_load(batch->slot[slot] + i);
-    footprint.v = vf_load(batch->slot[slot + 1] + i);
-    if (anisotropic) {
-        set_anisotropic(&footprint, sampler, bounded_jacobian(jacobian));
-    } else {
-        set_isotropic(&footprint, sampler, jacobian);
-    }
-    return footprint;
+    const Vf first = 0.5f * inverse - 0.5f;
+    return (Probes){count,          inverse,          line_u * first,
+                    line_v * first, line_u * inverse, line_v * inverse};
 }
 
 #endif

@@ -53,28 +53,46 @@ typedef struct LaneWork {
 } LaneWork;
 
 // Adds the work of the lanes that are the batch's own.
-VEC_INLINE void count_work(LaneWork *work, const Footprint *footprint, int lanes) {
-    const Vi own = vi_select(vi_lt(vi_iota(), vi_splat(lanes)), footprint->probes, vi_splat(0));
-    const Mask blends = vi_lt(vi_splat(0), footprint->lod8 & 255);
+VEC_INLINE void count_work(LaneWork *work, Vi probes, Vi lod8, int lanes) {
+    const Vi own = vi_select(vi_lt(vi_iota(), vi_splat(lanes)), probes, vi_splat(0));
+    const Mask blends = vi_lt(vi_splat(0), lod8 & 255);
     work->probes += own;
     work->levels += own + vi_select(blends, own, vi_splat(0));
 }
 
+// In short loops, for the same reason.
 VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
                                 int slot, Footprints *out) {
-    LaneWork work = {vi_splat(0), vi_splat(0)};
-    for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
-        const Footprint footprint = footprint_at(batch, sampler, slot, i, way.anisotropic);
-        count_work(&work, &footprint, batch->count - i);
-        out->lod8[n] = footprint.lod8;
-        out->u[n] = way.in_bits ? fraction32(footprint.u) : (Vu)footprint.u;
-        out->v[n] = way.in_bits ? fraction32(footprint.v) : (Vu)footprint.v;
+    const int count = (batch->count + DIP_LANES - 1) / DIP_LANES;
+    Axis axes[VECTORS];
+    for (int n = 0; n < count; n++) {
+        const Jacobian jacobian = read_jacobian(batch, sampler->texture, slot, n * DIP_LANES);
         if (way.anisotropic) {
-            out->step_u[n] = way.in_bits ? step32(footprint.step_u) : (Vu)footprint.step_u;
-            out->step_v[n] = way.in_bits ? step32(footprint.step_v) : (Vu)footprint.step_v;
-            out->probes[n] = footprint.probes;
-            out->inverse_probes[n] = footprint.inverse_probes;
+            axes[n] = anisotropic_axis(sampler, jacobian);
+        } else {
+            axes[n].minor2 = isotropic_minor2(jacobian);
         }
+    }
+    for (int n = 0; n < count; n++) {
+        out->lod8[n] = find_level(sampler, axes[n].minor2);
+    }
+    LaneWork work = {vi_splat(0), vi_splat(0)};
+    for (int n = 0; n < count; n++) {
+        Vf u = vf_load(batch->slot[slot] + n * DIP_LANES);
+        Vf v = vf_load(batch->slot[slot + 1] + n * DIP_LANES);
+        Vi probe_count = vi_splat(1);
+        if (way.anisotropic) {
+            const Probes probes = place_probes(sampler, &axes[n]);
+            u += probes.first_u;
+            v += probes.first_v;
+            out->step_u[n] = way.in_bits ? step32(probes.step_u) : (Vu)probes.step_u;
+            out->step_v[n] = way.in_bits ? step32(probes.step_v) : (Vu)probes.step_v;
+            out->probes[n] = probe_count = probes.count;
+            out->inverse_probes[n] = probes.inverse_count;
+        }
+        out->u[n] = way.in_bits ? fraction32(u) : (Vu)u;
+        out->v[n] = way.in_bits ? fraction32(v) : (Vu)v;
+        count_work(&work, probe_count, out->lod8[n], batch->count - n * DIP_LANES);
     }
     batch->work.probes += (uint64_t)vi_sum(work.probes);
     batch->work.texels += (uint64_t)vi_sum(work.levels) * 4;
