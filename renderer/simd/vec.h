@@ -428,6 +428,12 @@ VEC_INLINE int vu_compress(uint32_t *out, unsigned bits, Vu v) {
 VEC_INLINE int32_t vi_greatest(Vi v) {
 #if VEC_AVX512
     return _mm512_reduce_max_epi32((__m512i)v);
+#elif VEC_AVX2
+    __m128i m =
+        _mm_max_epi32(_mm256_castsi256_si128((__m256i)v), _mm256_extracti128_si256((__m256i)v, 1));
+    m = _mm_max_epi32(m, _mm_shuffle_epi32(m, 0x4e));
+    m = _mm_max_epi32(m, _mm_shuffle_epi32(m, 0xb1));
+    return _mm_cvtsi128_si32(m);
 #else
     int32_t lanes[DIP_LANES];
     vi_store(lanes, v);

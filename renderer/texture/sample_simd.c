@@ -251,54 +251,97 @@ VEC_INLINE void add_level(PairSum *sum, const DipTexture *texture, const Level *
     add_row(sum, texture, index + level->stride_pairs, across, lower);
 }
 
-// The sum over the probes of vector n.
-VEC_INLINE Colour filter_colour(const DipSampler *sampler, const DipTexture *texture, Way way,
-                                const Footprints *footprints, int n) {
-    const Levels levels = read_levels(sampler, texture, way, footprints->lod8[n]);
-    const bool blend = mask_any(vi_lt(vi_splat(0), levels.fraction));
-    const VuPair far_weight = vu_pair_both(levels.fraction);
-    const VuPair near_weight = {~far_weight.a, ~far_weight.b};
-    const Vi probes = way.anisotropic ? footprints->probes[n] : vi_splat(1);
-    const int most_probes = way.anisotropic ? vi_greatest(probes) : 1;
-    Colour total = {{vi_splat(0), vi_splat(0), vi_splat(0)}};
-    Walk walk = begin_walk(footprints, way, n);
-    for (int k = 0; k < most_probes; k++) {
-        PairSum sum = {{vu_splat(0), vu_splat(0)}, {vu_splat(0), vu_splat(0)}};
-        const Taps near_taps = taps_at(texture, way, &walk, &levels.near);
-        add_level(&sum, texture, &levels.near, &near_taps, near_weight);
-        if (blend) { // where the fraction is 0 it adds nothing, so other lanes do not matter
-            const Taps far_taps = taps_at(texture, way, &walk, &levels.far);
-            add_level(&sum, texture, &levels.far, &far_taps, far_weight);
-        }
-        Vi red_green = (Vi)vu_pair_sum(sum.red_green);
-        Vi blue = (Vi)vu_pair_sum(sum.blue);
-        if (way.anisotropic) {
-            const Mask has = vi_lt(vi_splat(k), probes);
-            red_green = vi_select(has, red_green, vi_splat(0));
-            blue = vi_select(has, blue, vi_splat(0));
-            next_probe(&walk, way);
-        }
-        total.c[0] += (Vi)((Vu)red_green >> 16);
-        total.c[1] += red_green & 0xffff;
-        total.c[2] += blue;
+// A vector that is being read.
+typedef struct Reader {
+    Levels levels;
+    Walk walk;
+    Vi probes_left; // anisotropic only
+    Colour total;
+} Reader;
+
+VEC_INLINE void begin_reader(Reader *reader, const DipSampler *sampler, const DipTexture *texture,
+                             Way way, const Footprints *footprints, int n) {
+    reader->levels = read_levels(sampler, texture, way, footprints->lod8[n]);
+    reader->walk = begin_walk(footprints, way, n);
+    if (way.anisotropic) {
+        reader->probes_left = footprints->probes[n];
     }
-    return total;
+    reader->total = (Colour){{vi_splat(0), vi_splat(0), vi_splat(0)}};
+}
+
+// Adds the next probe. Where the far level's fraction is 0 it adds nothing, so whether it is read
+// for the sake of other lanes does not matter.
+VEC_INLINE void read_probe(Reader *reader, const DipTexture *texture, Way way, bool blend) {
+    const Levels *levels = &reader->levels;
+    const VuPair far_weight = vu_pair_both(levels->fraction);
+    const VuPair near_weight = {~far_weight.a, ~far_weight.b};
+    PairSum sum = {{vu_splat(0), vu_splat(0)}, {vu_splat(0), vu_splat(0)}};
+    const Taps near_taps = taps_at(texture, way, &reader->walk, &levels->near);
+    add_level(&sum, texture, &levels->near, &near_taps, near_weight);
+    if (blend) {
+        const Taps far_taps = taps_at(texture, way, &reader->walk, &levels->far);
+        add_level(&sum, texture, &levels->far, &far_taps, far_weight);
+    }
+    Vi red_green = (Vi)vu_pair_sum(sum.red_green);
+    Vi blue = (Vi)vu_pair_sum(sum.blue);
+    if (way.anisotropic) {
+        const Mask has = vi_lt(vi_splat(0), reader->probes_left);
+        red_green = vi_select(has, red_green, vi_splat(0));
+        blue = vi_select(has, blue, vi_splat(0));
+        reader->probes_left -= 1;
+        next_probe(&reader->walk, way);
+    }
+    reader->total.c[0] += (Vi)((Vu)red_green >> 16);
+    reader->total.c[1] += red_green & 0xffff;
+    reader->total.c[2] += blue;
+}
+
+VEC_INLINE void store_light(float (*out)[DIP_FRAGMENT_BATCH], int n, const Colour *total,
+                            Vf scale) {
+    // What white comes to, within 6: the squares of its codes less what eight rounded products
+    // lose.
+    static const float white[3] = {65526.0f, 65526.0f, 65402.0f};
+    for (int c = 0; c < 3; c++) {
+        vf_store(out[c] + n * DIP_LANES, vf_from_int(total->c[c]) * (1.0f / white[c]) * scale);
+    }
+}
+
+VEC_INLINE void read_isotropic(const DipSampler *sampler, const DipTexture *texture, Way way,
+                               const Footprints *footprints, int vectors,
+                               float (*out)[DIP_FRAGMENT_BATCH]) {
+    for (int n = 0; n < vectors; n++) {
+        Reader reader;
+        begin_reader(&reader, sampler, texture, way, footprints, n);
+        const bool blend = mask_any(vi_lt(vi_splat(0), reader.levels.fraction));
+        read_probe(&reader, texture, way, blend);
+        store_light(out, n, &reader.total, vf_splat(1.0f));
+    }
+}
+
+VEC_INLINE void read_anisotropic(const DipSampler *sampler, const DipTexture *texture, Way way,
+                                 const Footprints *footprints, int vectors,
+                                 float (*out)[DIP_FRAGMENT_BATCH]) {
+    for (int n = 0; n < vectors; n++) {
+        Reader reader;
+        begin_reader(&reader, sampler, texture, way, footprints, n);
+        const bool blend = mask_any(vi_lt(vi_splat(0), reader.levels.fraction));
+        for (int left = vi_greatest(reader.probes_left); left > 0; left--) {
+            read_probe(&reader, texture, way, blend);
+        }
+        store_light(out, n, &reader.total, footprints->inverse_probes[n]);
+    }
 }
 
 VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
                               int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
-    // What white comes to, within 6: the squares of its codes less what eight rounded products
-    // lose.
-    static const float white[3] = {65526.0f, 65526.0f, 65402.0f};
     const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
+    const int vectors = (batch->count + DIP_LANES - 1) / DIP_LANES;
     Footprints footprints;
     find_footprints(batch, sampler, way, u_slot, &footprints);
-    for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
-        const Colour sum = filter_colour(sampler, texture, way, &footprints, n);
-        for (int c = 0; c < 3; c++) {
-            const Vf light = vf_from_int(sum.c[c]) * (1.0f / white[c]);
-            vf_store(out[c] + i, way.anisotropic ? light * footprints.inverse_probes[n] : light);
-        }
+    if (way.anisotropic) {
+        read_anisotropic(sampler, texture, way, &footprints, vectors, out);
+    } else {
+        read_isotropic(sampler, texture, way, &footprints, vectors, out);
     }
 }
 
