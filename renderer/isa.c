@@ -26,9 +26,10 @@ bool dip_isa_parse(const char *name, DipIsa *isa) {
 }
 
 #if defined(__x86_64__)
-// What kernels of avx2 and above count and search bits with.
+// What kernels of avx2 and above count, search and move bits with.
 static bool has_bit_counts(void) {
-    return __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("bmi");
+    return __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("bmi") &&
+           __builtin_cpu_supports("bmi2");
 }
 #endif
 

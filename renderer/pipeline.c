@@ -265,7 +265,8 @@ static void begin_tile(Worker *worker, int index) {
     tile->sub_blocks_accepted = 0;
     DipTileShading *shading = &worker->shading;
     shading->tile = tile;
-    shading->input = (DipShadingInput){geometry->triangles, geometry->surfaces, tile->x0, tile->y0};
+    shading->input = (DipShadingInput){geometry->triangles, geometry->surfaces,
+                                       geometry->surface_stride, tile->x0, tile->y0};
     shading->flush = flush_list;
     shading->flush_whole = flush_whole_list;
     shading->context = worker;

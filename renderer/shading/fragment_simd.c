@@ -2,6 +2,18 @@
 #include "renderer/raster/kernels.h"
 #include "renderer/simd/vec.h"
 
+// Up to this many triangles of a vector are read one by one; more are gathered lane by lane.
+enum { FEW_TRIANGLES = 8 };
+
+enum { MAX_ROWS = DIP_SURFACE_SLOTS + 3 * DIP_MAX_SLOTS };
+
+// The floats of a vector of fragments' surfaces: those of one triangle for all lanes, or (one is
+// NULL) float i of each lane's at rows[i].
+typedef struct Surfaces {
+    const float *one;
+    const Vf *rows;
+} Surfaces;
+
 // One plane of a surface at the fragments' places: value, d/dx, d/dy.
 typedef struct Plane {
     Vf at;
@@ -9,52 +21,44 @@ typedef struct Plane {
     Vf dy;
 } Plane;
 
-// Up to this many triangles of a vector are read one by one; more are gathered lane by lane.
-enum { FEW_TRIANGLES = 8 };
-
-// The floats of a vector of fragments' surfaces, float i of each lane's at values[i].
-typedef struct SurfaceRows {
-    Vf values[DIP_SURFACE_SLOTS + 3 * DIP_MAX_SLOTS];
-} SurfaceRows;
-
 VEC_INLINE const float *surface_of(const DipShadingInput *input, uint32_t triangle) {
-    return input->surfaces + input->triangles[triangle].surface;
+    return input->surfaces + (size_t)triangle * (size_t)input->surface_stride;
 }
 
-// One triangle in all lanes: its floats are spread. A few: the lanes of each are blended in, which
-// costs less than a gather per float.
-VEC_INLINE void read_surfaces(const DipShadingInput *input, const uint32_t *triangle, int count,
-                              SurfaceRows *rows) {
+// Reads the surfaces of several triangles. Of a few, the lanes of each are blended in, which costs
+// less than a gather per float. left: lanes that hold another triangle than the first.
+VEC_INLINE void read_rows(const DipShadingInput *input, const uint32_t *triangle, unsigned left,
+                          int count, Vf *rows) {
     const Vi ids = vi_load((const int32_t *)triangle);
     const float *first = surface_of(input, triangle[0]);
-    unsigned left = mask_bits(vi_eq(ids, vi_splat(ids[0]))) ^ VEC_ALL_LANES;
     for (int f = 0; f < count; f++) {
-        rows->values[f] = vf_splat(first[f]);
+        rows[f] = vf_splat(first[f]);
     }
     for (int n = 1; left && n < FEW_TRIANGLES; n++) {
         const uint32_t id = triangle[__builtin_ctz(left)];
         const Mask lanes = vi_eq(ids, vi_splat((int32_t)id));
         const float *surface = surface_of(input, id);
         for (int f = 0; f < count; f++) {
-            rows->values[f] = vf_select(lanes, vf_splat(surface[f]), rows->values[f]);
+            rows[f] = vf_select(lanes, vf_splat(surface[f]), rows[f]);
         }
         left &= ~mask_bits(lanes);
     }
     if (left) {
-        int32_t offset[DIP_LANES];
-        for (int i = 0; i < DIP_LANES; i++) {
-            offset[i] = (int32_t)input->triangles[triangle[i]].surface;
-        }
+        const Vi offset = ids * input->surface_stride;
         for (int f = 0; f < count; f++) {
-            rows->values[f] = vf_gather(input->surfaces + f, vi_load(offset));
+            rows[f] = vf_gather(input->surfaces + f, offset);
         }
     }
 }
 
-VEC_INLINE Plane plane_at(const SurfaceRows *rows, int i, Vf x, Vf y) {
-    const Vf dx = rows->values[i + 1];
-    const Vf dy = rows->values[i + 2];
-    return (Plane){(rows->values[i] + dx * x) + dy * y, dx, dy};
+VEC_INLINE Vf value_of(const Surfaces *surfaces, int i) {
+    return surfaces->one ? vf_splat(surfaces->one[i]) : surfaces->rows[i];
+}
+
+VEC_INLINE Plane plane_at(const Surfaces *surfaces, int i, Vf x, Vf y) {
+    const Vf dx = value_of(surfaces, i + 1);
+    const Vf dy = value_of(surfaces, i + 2);
+    return (Plane){(value_of(surfaces, i) + dx * x) + dy * y, dx, dy};
 }
 
 // A place's pixel coordinate in 1/256 pixel of the tile, to pixels in the target.
@@ -63,29 +67,44 @@ VEC_INLINE Vf target_coordinate(Vi pixel, Vi sub, int tile_first) {
 }
 
 // u = (u/w) / (1/w); du/dx = (d(u/w)/dx - u d(1/w)/dx) / (1/w): exact, by the quotient rule.
+VEC_INLINE void interpolate(const Surfaces *surfaces, Vf x, Vf y, int slot_count, int i,
+                            DipFragmentBatch *batch) {
+    const Vf from_x = x - value_of(surfaces, DIP_SURFACE_ANCHOR);
+    const Vf from_y = y - value_of(surfaces, DIP_SURFACE_ANCHOR + 1);
+    const Plane q = plane_at(surfaces, DIP_SURFACE_RW, from_x, from_y);
+    const Vf w = vf_splat(1.0f) / q.at;
+    for (int s = 0; s < slot_count; s++) {
+        const Plane over_w = plane_at(surfaces, DIP_SURFACE_SLOTS + 3 * s, from_x, from_y);
+        const Vf value = over_w.at * w;
+        vf_store(batch->slot[s] + i, value);
+        vf_store(batch->slot_dx[s] + i, (over_w.dx - value * q.dx) * w);
+        vf_store(batch->slot_dy[s] + i, (over_w.dy - value * q.dy) * w);
+    }
+}
+
 void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipFragmentList *list,
                                         int slot_count, DipFragmentBatch *batch) {
     batch->count = list->count < DIP_FRAGMENT_BATCH ? list->count : DIP_FRAGMENT_BATCH;
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        SurfaceRows rows;
-        read_surfaces(input, list->triangle + i, dip_surface_floats(slot_count), &rows);
         const Vi place = vi_load((const int32_t *)list->place + i);
         const Vf x =
             target_coordinate(place & (DIP_TILE - 1), place >> DIP_PLACE_SUB_X & 255, input->x0);
         const Vf y = target_coordinate(place >> DIP_PLACE_Y & (DIP_TILE - 1),
                                        place >> DIP_PLACE_SUB_Y & 255, input->y0);
-        const Vf from_x = x - rows.values[DIP_SURFACE_ANCHOR];
-        const Vf from_y = y - rows.values[DIP_SURFACE_ANCHOR + 1];
-        const Plane q = plane_at(&rows, DIP_SURFACE_RW, from_x, from_y);
-        const Vf w = vf_splat(1.0f) / q.at;
         vf_store(batch->x + i, x);
         vf_store(batch->y + i, y);
-        for (int s = 0; s < slot_count; s++) {
-            const Plane over_w = plane_at(&rows, DIP_SURFACE_SLOTS + 3 * s, from_x, from_y);
-            const Vf value = over_w.at * w;
-            vf_store(batch->slot[s] + i, value);
-            vf_store(batch->slot_dx[s] + i, (over_w.dx - value * q.dx) * w);
-            vf_store(batch->slot_dy[s] + i, (over_w.dy - value * q.dy) * w);
+        const uint32_t *triangle = list->triangle + i;
+        const Vi ids = vi_load((const int32_t *)triangle);
+        const unsigned others =
+            mask_bits(vi_eq(ids, vi_splat((int32_t)triangle[0]))) ^ VEC_ALL_LANES;
+        if (!others) {
+            const Surfaces surfaces = {surface_of(input, triangle[0]), NULL};
+            interpolate(&surfaces, x, y, slot_count, i, batch);
+        } else {
+            Vf rows[MAX_ROWS];
+            const Surfaces surfaces = {NULL, rows};
+            read_rows(input, triangle, others, dip_surface_floats(slot_count), rows);
+            interpolate(&surfaces, x, y, slot_count, i, batch);
         }
     }
 }

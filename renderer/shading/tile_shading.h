@@ -55,7 +55,8 @@ typedef struct DipEncodedBatch {
 // The geometry's arrays, as kernels read them.
 typedef struct DipShadingInput {
     const DipTriangle *triangles;
-    const float *surfaces;
+    const float *surfaces; // of triangle i from i * surface_stride on
+    int surface_stride;
     int x0; // of the tile's first pixel in the target
     int y0;
 } DipShadingInput;

@@ -413,6 +413,13 @@ VEC_INLINE int vu_compress(uint32_t *out, unsigned bits, Vu v) {
     const __m512i packed = _mm512_maskz_compress_epi32((__mmask16)bits, (__m512i)v);
     _mm512_storeu_si512(out, packed);
     return __builtin_popcount(bits);
+#elif VEC_AVX2
+    // A byte per lane: the numbers of the lanes that stay, moved together.
+    const uint64_t stay = _pdep_u64(bits, 0x0101010101010101u) * 255;
+    const uint64_t order = _pext_u64(0x0706050403020100u, stay);
+    const __m256i lane = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order));
+    _mm256_storeu_si256((__m256i *)(void *)out, _mm256_permutevar8x32_epi32((__m256i)v, lane));
+    return __builtin_popcount(bits);
 #else
     uint32_t lanes[DIP_LANES];
     vu_store(lanes, v);

@@ -255,7 +255,7 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
         list.triangle[i] = one_triangle ? 3 : (uint32_t)random_int(random, 0, TRIANGLES - 1);
         list.place[i] = (uint32_t)random_int(random, 0, (1 << 28) - 1);
     }
-    const DipShadingInput input = {triangles, surfaces, 576, 448};
+    const DipShadingInput input = {triangles, surfaces, dip_surface_floats(SLOTS), 576, 448};
     scalar->dip_kernel_interpolate(&input, &list, SLOTS, &expected);
     other->dip_kernel_interpolate(&input, &list, SLOTS, &found);
     for (int s = 0; s < SLOTS; s++) {
