@@ -285,9 +285,9 @@ static void add_batch(JobRun *run, const DipSetupBatch *batch) {
     }
     const DipGeometry *geometry = run->geometry;
     const uint32_t first = run->next_triangle;
-    const uint32_t surface = first * (uint32_t)geometry->surface_stride;
+    const size_t surface = (size_t)first * (size_t)geometry->surface_stride;
     const int count = run->kernels->dip_kernel_setup(
-        &run->target, batch, surface, geometry->triangles + first, geometry->surfaces + surface);
+        &run->target, batch, geometry->triangles + first, geometry->surfaces + surface);
     for (int i = 0; i < count; i++) {
         bin_triangle(run, first + (uint32_t)i);
     }

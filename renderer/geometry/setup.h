@@ -39,7 +39,6 @@ typedef struct DipSetupBatch {
 
 // dip_kernel_setup (see kernels.h) keeps, in order, the triangles that are not culled, have an area
 // and, as far as that is quickly seen, do not lie between the samples; it returns their number.
-// Triangle i of these goes to triangles[i], its planes to surfaces + i * surface_stride, where its
-// `surface` is first_surface + i * surface_stride.
+// Triangle i of these goes to triangles[i], its planes to surfaces + i * surface_stride.
 
 #endif

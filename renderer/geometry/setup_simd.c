@@ -213,7 +213,7 @@ VEC_INLINE void set_edge(const Frame *frame, int i, Vd dx, Vd dy, Vd x, Vd y, Hi
 
 // The triangles' words, in the order of DipTriangle's fields.
 VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen, uint32_t draw,
-                                Hi surface, DipTriangle *out) {
+                                DipTriangle *out) {
     Hi a[3];
     Hi b[3];
     Vl c[3];
@@ -233,14 +233,13 @@ VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen
     const Vl words[3][4] = {
         {c[0], c[1], c[2], vl_pair(a[0], a[1])},
         {vl_pair(a[2], b[0]), vl_pair(b[1], b[2]), vl_pair(frame->first_pixel, frame->last_pixel),
-         vl_pair(hi_splat((int32_t)draw), surface)},
+         vl_pair(hi_splat((int32_t)draw), hi_splat(0))},
         {(Vl)origin, (Vl)slope.dx, (Vl)slope.dy,
          vl_pair((Hi)hf_select(low < z[2], low, z[2]), (Hi)hf_select(high > z[2], high, z[2]))},
     };
     _Static_assert(sizeof(DipTriangle) == sizeof(int64_t[3][4]) && offsetof(DipTriangle, a) == 24 &&
                        offsetof(DipTriangle, b) == 36 && offsetof(DipTriangle, x0) == 48 &&
                        offsetof(DipTriangle, x1) == 52 && offsetof(DipTriangle, draw) == 56 &&
-                       offsetof(DipTriangle, surface) == 60 &&
                        offsetof(DipTriangle, z_origin) == 64 && offsetof(DipTriangle, z_min) == 88,
                    "triangles are written by words");
     for (int i = 0; i < 3; i++) {
@@ -309,7 +308,7 @@ VEC_INLINE void store_surfaces(const Frame *frame, const DipSetupTarget *target,
 // -----------------------------------------------------------------------------------------------
 
 int DIP_KERNEL(dip_kernel_setup)(const DipSetupTarget *target, const DipSetupBatch *batch,
-                                 uint32_t first_surface, DipTriangle *triangles, float *surfaces) {
+                                 DipTriangle *triangles, float *surfaces) {
     Candidates candidates;
     int count = 0;
     for (int i = 0; i < batch->count; i += DIP_HALF_LANES) {
@@ -319,11 +318,9 @@ int DIP_KERNEL(dip_kernel_setup)(const DipSetupTarget *target, const DipSetupBat
         return 0;
     }
     pad(&candidates, count);
-    const Hi lane = hi_iota();
     for (int i = 0; i < count; i += DIP_HALF_LANES) {
         const Frame frame = frame_of(&candidates, i);
-        const Hi surface = (lane + i) * target->surface_stride + (int32_t)first_surface;
-        store_triangles(&frame, batch->screen, target->draw, surface, triangles + i);
+        store_triangles(&frame, batch->screen, target->draw, triangles + i);
         store_surfaces(&frame, target, batch,
                        surfaces + (size_t)i * (size_t)target->surface_stride);
     }

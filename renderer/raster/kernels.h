@@ -19,8 +19,8 @@
       (const DipScreenMapping *map, int count, float *const *clip, DipScreenBatch *out))           \
     /* Projected triangles to those that may cover samples, with their planes; see setup.h. */     \
     X(int, dip_kernel_setup,                                                                       \
-      (const DipSetupTarget *target, const DipSetupBatch *batch, uint32_t first_surface,           \
-       DipTriangle *triangles, float *surfaces))                                                   \
+      (const DipSetupTarget *target, const DipSetupBatch *batch, DipTriangle *triangles,           \
+       float *surfaces))                                                                           \
     /* Coverage and depth of a triangle in a tile that its box reaches. clip NULL: opaque. */      \
     X(void, dip_kernel_draw_triangle,                                                              \
       (DipTile * tile, const DipTriangle *triangle, uint32_t id, const DipClipTest *clip))         \

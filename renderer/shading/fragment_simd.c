@@ -1,11 +1,11 @@
 // Fragment batches: varyings in, encoded colours out, compiled once per instruction set.
 #include "renderer/raster/kernels.h"
-#include "renderer/simd/vec.h"
+#include "renderer/simd/pairs.h"
 
 // Up to this many triangles of a vector are read one by one; more are gathered lane by lane.
-enum { FEW_TRIANGLES = 8 };
+enum { FEW_TRIANGLES = 4 };
 
-enum { MAX_ROWS = DIP_SURFACE_SLOTS + 3 * DIP_MAX_SLOTS };
+enum { MAX_ROWS = DIP_SURFACE_SLOTS + 3 * DIP_MAX_SLOTS + 1 };
 
 // The floats of a vector of fragments' surfaces: those of one triangle for all lanes, or (one is
 // NULL) float i of each lane's at rows[i].
@@ -44,9 +44,12 @@ VEC_INLINE void read_rows(const DipShadingInput *input, const uint32_t *triangle
         left &= ~mask_bits(lanes);
     }
     if (left) {
-        const Vi offset = ids * input->surface_stride;
-        for (int f = 0; f < count; f++) {
-            rows[f] = vf_gather(input->surfaces + f, offset);
+        const uint32_t *surfaces = (const uint32_t *)(const void *)input->surfaces;
+        const Vi offset = vi_pair_order(ids * input->surface_stride);
+        for (int f = 0; f < count; f += 2) { // a surface has room for one more
+            const VuPair pair = vu_gather_pairs(surfaces + f, offset);
+            rows[f] = (Vf)vu_pair_left(pair);
+            rows[f + 1] = (Vf)vu_pair_right(pair);
         }
     }
 }

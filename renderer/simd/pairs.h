@@ -1,4 +1,4 @@
-// Pairs of texels beside each other, 16 bits per channel: vector operations for texture reads.
+// Pairs of values beside each other in memory, such as texels, as vectors; and 16-bit arithmetic.
 #ifndef DIP_RENDERER_SIMD_PAIRS_H
 #define DIP_RENDERER_SIMD_PAIRS_H
 
@@ -120,23 +120,34 @@ VEC_INLINE VuPair vu_pair_ramp(Vi v) {
 #endif
 }
 
-// Left plus right of each lane, back in the order of lanes; no carry may pass between halves.
-VEC_INLINE Vu vu_pair_sum(VuPair pair) {
+// The left and the right values, back in the order of lanes.
+VEC_INLINE Vu vu_pair_left(VuPair pair) {
 #if VEC_AVX512
-    const __m512 a = (__m512)pair.a;
-    const __m512 b = (__m512)pair.b;
-    return (Vu)_mm512_shuffle_ps(a, b, 0x88) + (Vu)_mm512_shuffle_ps(a, b, 0xdd);
+    return (Vu)_mm512_shuffle_ps((__m512)pair.a, (__m512)pair.b, 0x88);
 #elif VEC_AVX2
-    const __m256 a = (__m256)pair.a;
-    const __m256 b = (__m256)pair.b;
-    return (Vu)_mm256_shuffle_ps(a, b, 0x88) + (Vu)_mm256_shuffle_ps(a, b, 0xdd);
+    return (Vu)_mm256_shuffle_ps((__m256)pair.a, (__m256)pair.b, 0x88);
 #elif VEC_SSE2
-    const __m128 a = (__m128)pair.a;
-    const __m128 b = (__m128)pair.b;
-    return (Vu)_mm_shuffle_ps(a, b, 0x88) + (Vu)_mm_shuffle_ps(a, b, 0xdd);
+    return (Vu)_mm_shuffle_ps((__m128)pair.a, (__m128)pair.b, 0x88);
 #else
-    return pair.a + pair.b;
+    return pair.a;
 #endif
+}
+
+VEC_INLINE Vu vu_pair_right(VuPair pair) {
+#if VEC_AVX512
+    return (Vu)_mm512_shuffle_ps((__m512)pair.a, (__m512)pair.b, 0xdd);
+#elif VEC_AVX2
+    return (Vu)_mm256_shuffle_ps((__m256)pair.a, (__m256)pair.b, 0xdd);
+#elif VEC_SSE2
+    return (Vu)_mm_shuffle_ps((__m128)pair.a, (__m128)pair.b, 0xdd);
+#else
+    return pair.b;
+#endif
+}
+
+// Left plus right of each lane; no carry may pass between halves.
+VEC_INLINE Vu vu_pair_sum(VuPair pair) {
+    return vu_pair_left(pair) + vu_pair_right(pair);
 }
 
 #endif

@@ -69,8 +69,7 @@ static void add_triangle(const double x[3], const double y[3]) {
         .count = 1, .corner = {corner[0], corner[1], corner[2]}, .screen = &screen};
     raster.triangle_count +=
         dip_kernels(DIP_ISA_SCALAR)
-            ->dip_kernel_setup(&target, &batch, 0, raster.triangles + raster.triangle_count,
-                               surfaces);
+            ->dip_kernel_setup(&target, &batch, raster.triangles + raster.triangle_count, surfaces);
 }
 
 static void prepare_full_tile(int sample_count) {

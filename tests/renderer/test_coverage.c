@@ -92,7 +92,7 @@ static bool draw_fast(const DipKernels *kernels, const Case *c, const DipClipTes
     *tile = (DipTile){.x0 = c->region.x0, .y0 = c->region.y0, .pattern = c->pattern};
     tile->depth = depth;
     tile->id = ids;
-    if (!kernels->dip_kernel_setup(&target, &batch, 0, triangle, surface) ||
+    if (!kernels->dip_kernel_setup(&target, &batch, triangle, surface) ||
         !meets(triangle, &c->region)) {
         return false;
     }

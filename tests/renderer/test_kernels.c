@@ -138,13 +138,12 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
                                  .screen = &screen,
                                  .slots = slots[0],
                                  .slot_stride = DIP_VERTEX_BATCH};
-    const int expected = scalar->dip_kernel_setup(&target, &batch, 640, triangles[0], surfaces[0]);
-    const int found = other->dip_kernel_setup(&target, &batch, 640, triangles[1], surfaces[1]);
+    const int expected = scalar->dip_kernel_setup(&target, &batch, triangles[0], surfaces[0]);
+    const int found = other->dip_kernel_setup(&target, &batch, triangles[1], surfaces[1]);
     assert_int_equal(found, expected);
     assert_memory_equal(triangles[0], triangles[1], (size_t)found * sizeof triangles[0][0]);
     for (int t = 0; t < found; t++) {
         const int at = t * target.surface_stride;
-        assert_int_equal(triangles[0][t].surface, 640 + at);
         for (int f = 0; f < dip_surface_floats(slot_count); f++) {
             const float a = surfaces[0][at + f];
             const float b = surfaces[1][at + f];
@@ -235,7 +234,7 @@ enum { TRIANGLES = 40, SLOTS = 5 };
 
 static void compare_fragments(const DipKernels *scalar, const DipKernels *other, Random *random) {
     static DipTriangle triangles[TRIANGLES];
-    static float surfaces[TRIANGLES * (DIP_SURFACE_SLOTS + 3 * SLOTS)];
+    static float surfaces[TRIANGLES * (DIP_SURFACE_SLOTS + 3 * SLOTS + DIP_SURFACE_ALIGN)];
     static DipFragmentBatch expected;
     static DipFragmentBatch found;
     static DipSrgbEncodeTable srgb;
@@ -246,16 +245,13 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
     for (size_t i = 0; i < DIP_ARRAY_COUNT(surfaces); i++) {
         surfaces[i] = awkward(random, 2.0);
     }
-    for (int t = 0; t < TRIANGLES; t++) {
-        triangles[t].surface = (uint32_t)(t * dip_surface_floats(SLOTS));
-    }
     list.count = random_int(random, 1, DIP_FRAGMENT_BATCH);
     const bool one_triangle = random_int(random, 0, 1);
     for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
         list.triangle[i] = one_triangle ? 3 : (uint32_t)random_int(random, 0, TRIANGLES - 1);
         list.place[i] = (uint32_t)random_int(random, 0, (1 << 28) - 1);
     }
-    const DipShadingInput input = {triangles, surfaces, dip_surface_floats(SLOTS), 576, 448};
+    const DipShadingInput input = {triangles, surfaces, dip_surface_stride(SLOTS), 576, 448};
     scalar->dip_kernel_interpolate(&input, &list, SLOTS, &expected);
     other->dip_kernel_interpolate(&input, &list, SLOTS, &found);
     for (int s = 0; s < SLOTS; s++) {
