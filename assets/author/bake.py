@@ -1,6 +1,6 @@
 """Bakes the courtyard's light with Cycles on the CPU. Runs inside Blender:
 
-    blender -b --factory-startup [-t THREADS] -P bake.py -- PICTURES OUT.npz SIDE SUN_SAMPLES ALL_SAMPLES
+    blender -b --factory-startup -P bake.py -- PICTURES OUT.npz SIDE SUN_SAMPLES ALL_SAMPLES
 
 Writes float arrays of SIDE x SIDE texels, upper row first: `sun` (sunlight alone), `all` (sun, sky
 and what they throw back), `position`, `normal`, and the mask `covered`. All is irradiance / pi, to
@@ -16,6 +16,7 @@ import numpy as np
 from mathutils import Vector
 from PIL import Image
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import charts
 import courtyard
@@ -32,7 +33,7 @@ def mean_albedo(pictures, material):
         rgba = np.asarray(Image.open(pictures / material.picture).convert("RGBA"), float) / 255.0
         rgba = rgba[rgba[..., 3] >= 0.5]
         srgb = rgba[:, :3]
-        linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+        linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055)**2.4)
         albedo = albedo * linear.mean(0)
     return albedo
 

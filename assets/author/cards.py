@@ -70,7 +70,8 @@ def fence():
                         (1.815, 0.010), (1.85, 0.024), (1.87, 0.022), (1.985, 0.0015)])
         iron.turned(x, [(0.955, 0.010), (0.985, 0.017), (1.015, 0.017), (1.045, 0.010)])
     for x in (0.0, 0.125):
-        iron.turned(x, [(0.06, 0.008), (0.52, 0.008), (0.545, 0.018), (0.555, 0.017), (0.63, 0.001)])
+        iron.turned(x, [(0.06, 0.008), (0.52, 0.008), (0.545, 0.018), (0.555, 0.017),
+                        (0.63, 0.001)])
         iron.ring(x, 1.545, 0.052, 0.008)
     for z, half in ((0.06, 0.020), (0.40, 0.013), (1.46, 0.014), (1.63, 0.018)):
         iron.rail(z, half)
@@ -83,7 +84,8 @@ def fence():
 
 def leaf_outline(base, angle, length, width, bend):
     """The two halves of a leaf, as polygons around the same midrib."""
-    stations = [(0.0, 0.0), (0.12, 0.32), (0.3, 0.48), (0.5, 0.5), (0.7, 0.38), (0.88, 0.16), (1.0, 0.0)]
+    stations = [(0.0, 0.0), (0.12, 0.32), (0.3, 0.48), (0.5, 0.5), (0.7, 0.38), (0.88, 0.16),
+                (1.0, 0.0)]
     rib, left, right = [], [], []
     for t, w in stations:
         a = angle + bend * t
@@ -110,7 +112,8 @@ class Spray:
         ImageDraw.Draw(self.alpha).polygon(points, 255)
 
     def leaf(self, base, angle, length, colour):
-        rib, left, right = leaf_outline(base, angle, length, length * self.random.uniform(0.40, 0.52),
+        rib, left, right = leaf_outline(base, angle, length,
+                                        length * self.random.uniform(0.40, 0.52),
                                         self.random.uniform(-0.5, 0.5))
         self.polygon(rib + left[::-1], np.asarray(colour) * 1.10)
         self.polygon(rib + right[::-1], np.asarray(colour) * 0.84)
@@ -118,8 +121,10 @@ class Spray:
     def petals(self, centre, radius, colour):
         turn = self.random.uniform(0, 6.28)
         for k in range(5):
-            self.leaf(centre, turn + k * 2 * math.pi / 5, radius, np.asarray(colour) * self.random.uniform(0.9, 1.1))
-        dot = [(centre[0] + 0.012 * math.cos(a), centre[1] + 0.012 * math.sin(a)) for a in (0, 1, 2, 3, 4, 5, 6)]
+            self.leaf(centre, turn + k * 2 * math.pi / 5, radius,
+                      np.asarray(colour) * self.random.uniform(0.9, 1.1))
+        dot = [(centre[0] + 0.012 * math.cos(a), centre[1] + 0.012 * math.sin(a))
+               for a in (0, 1, 2, 3, 4, 5, 6)]
         self.polygon(dot, rgb("f4e6a0"))
 
     def place(self, spread):
@@ -130,7 +135,8 @@ class Spray:
     def picture(self):
         alpha = reduced(np.asarray(self.alpha, np.float32) / 255.0)
         weight = np.maximum(alpha, 1e-3)[..., None]
-        masked = np.asarray(self.colour, np.float32) / 255.0 * (np.asarray(self.alpha)[..., None] > 0)
+        masked = (np.asarray(self.colour, np.float32) / 255.0 *
+                  (np.asarray(self.alpha)[..., None] > 0))
         return reduced(masked) / weight, alpha
 
 
@@ -141,7 +147,8 @@ def leaves(seed, codes, count=150):
         base, outwards = spray.place(0.36)
         tone = 0.55 * depth + 0.45 * spray.random.random()
         colour = palette(codes, np.array([tone]))[0] * (0.50 + 0.50 * depth)
-        spray.leaf(base, outwards + spray.random.uniform(-0.9, 0.9), spray.random.uniform(0.10, 0.15), colour)
+        spray.leaf(base, outwards + spray.random.uniform(-0.9, 0.9),
+                   spray.random.uniform(0.10, 0.15), colour)
     return spray.picture()
 
 
@@ -150,7 +157,8 @@ def flowers(seed, greens, petals):
     for i in range(80):
         base, outwards = spray.place(0.35)
         colour = palette(greens, np.array([spray.random.random()]))[0] * (0.45 + 0.35 * i / 80)
-        spray.leaf(base, outwards + spray.random.uniform(-0.9, 0.9), spray.random.uniform(0.09, 0.13), colour)
+        spray.leaf(base, outwards + spray.random.uniform(-0.9, 0.9),
+                   spray.random.uniform(0.09, 0.13), colour)
     for i in range(64):
         centre, _ = spray.place(0.39)
         colour = palette(petals, np.array([spray.random.random()]))[0] * (0.62 + 0.38 * i / 64)
@@ -163,4 +171,6 @@ if __name__ == "__main__":
     greens = ["2c5a1c", "467a28", "6a9a38", "92b850"]
     save_clip_map(folder / "fence.png", *fence(), colours=48)
     save_clip_map(folder / "leaf.png", *leaves(3, greens), colours=64)
-    save_clip_map(folder / "flower.png", *flowers(4, greens[:3], ["b01858", "d83078", "ee5c98", "f48cb4"]), colours=96)
+    save_clip_map(folder / "flower.png",
+                  *flowers(4, greens[:3], ["b01858", "d83078", "ee5c98", "f48cb4"]),
+                  colours=96)

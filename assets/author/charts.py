@@ -59,8 +59,10 @@ def pack(sizes, side):
 def lay_out(scene, side):
     """The scene's meshes with coordinates in a light map of side x side texels, filled as densely
     as possible. Prints what came out."""
-    meshes = [Mesh(name, light, part, matrices)
-              for (name, light), (part, matrices) in scene.meshes().items()]
+    meshes = [
+        Mesh(name, light, part, matrices)
+        for (name, light), (part, matrices) in scene.meshes().items()
+    ]
     charts = []  # (mesh, chart, low, extent, density)
     for mesh in meshes:
         for chart, (low, high) in sorted(chart_boxes(mesh.part).items()):
@@ -81,19 +83,20 @@ def lay_out(scene, side):
         else:
             low = middle
     # What fits is not quite monotonous: a little more may fit as well.
-    low = max(low * (1 + k / 400) for k in range(30) if pack(sizes_at(low * (1 + k / 400)), side)
-              is not None)
+    low = max(low * (1 + k / 400) for k in range(30)
+              if pack(sizes_at(low * (1 + k / 400)), side) is not None)
     sizes, places = sizes_at(low), pack(sizes_at(low), side)
-    used = sum(w * h for w, h in sizes) / side ** 2
+    used = sum(w * h for w, h in sizes) / side**2
     print(f"light map: {len(charts)} charts, {low:.1f} texels per metre, {used:.0%} used")
     rectangles = {}
     for (mesh, chart, origin, extent, _), size, place in zip(charts, sizes, places):
         rectangles[mesh.name, chart] = (origin, extent, size, place)
     for mesh in meshes:
         for material, surface in light_mapped(mesh.part):
-            mesh.light_uvs[material] = np.array([
-                texel_of(uv, *rectangles[mesh.name, chart]) for chart, uv in
-                zip(surface.charts, surface.chart_uvs)]) / side
+            mesh.light_uvs[material] = (np.array([
+                texel_of(uv, *rectangles[mesh.name, chart])
+                for chart, uv in zip(surface.charts, surface.chart_uvs)
+            ]) / side)
     return meshes
 
 

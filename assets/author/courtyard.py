@@ -1,7 +1,8 @@
 """The courtyard: what stands where. x east, y north, z up, metres; the fountain is the origin.
 
-The third of each `light` name tells which placements look alike under the sun, and so share their
-part of the light map: the west wing lies in its own shade, the first bay of the north wing too.
+The `light` of a placement names its likes under the sun, which share their part of the light map:
+the west wing lies in its own shade, the first bay of the north wing too. Of each group the middle
+one in order is baked, so put a typical one there.
 """
 import numpy as np
 
@@ -26,6 +27,16 @@ WINGS = {
     "west": frame(-COURT_M, -COURT_M, 0, 90),
 }
 
+POTS = [  # what, its light, the turn from one to the next in degrees, where they stand
+    (planting.tree, SUNNY, 0, [(6.3, 6.3), (6.3, -5.4)]),
+    (planting.tree, SHADY, 0, [(-6.3, 6.3), (-6.9, -4.2)]),
+    (planting.flower_pot, SUNNY, 47,
+     [(-2.0, 8.9), (2.0, 8.9), (8.9, 2.0), (8.9, -2.0), (8.9, -6.0), (4.2, 4.2)]),
+    (planting.flower_pot, SHADY, 47, [(-8.9, 2.0), (-8.9, -2.0), (-5.6, 8.9)]),
+    (planting.topiary, SUNNY, 71, [(5.6, 8.9), (8.9, -4.0), (8.9, 5.8)]),
+    (planting.topiary, SHADY, 71, [(-8.9, 6.0), (-8.9, -5.9)]),
+]
+
 
 def bay_light(side, x):
     """The light of something on a wing's front: in the west wing's shadow or not."""
@@ -33,37 +44,34 @@ def bay_light(side, x):
 
 
 def add_wings(scene):
-    parts = {name: make() for name, make in (
-        ("wing", wing.wing), ("column", column), ("medallion", wing.medallion),
-        ("beams", wing.beams), ("glass", openings.window_glass), ("doorway", openings.doorway),
-        ("lantern", wall_lantern))}
-    windows = [openings.window(8.0), openings.window(38.0)]
+    whole, pillar, medallion, beams = wing.wing(), column(), wing.medallion(), wing.beams()
+    windows, glass = [openings.window(8.0), openings.window(38.0)], openings.window_glass()
+    doorway, lantern = openings.doorway(), wall_lantern()
     boxes = {tint: planting.flower_box(tint) for tint in (SUNNY, SHADY)}
     for side, place in WINGS.items():
-        scene.add(parts["wing"], light=side, within=place)
+        scene.add(whole, light=side, within=place)
         for b, x in enumerate(wing.centres()):
             light = bay_light(side, x)
-            door_bay = side == "north" and b == 2
-            scene.add(windows[(b * 2 + len(side)) % 3 % 2 and not door_bay], x, light=light, within=place)
-            scene.add(parts["glass"], x, light=light, within=place)
-            scene.add(parts["doorway"], x, light=side, within=place)
-            scene.add(parts["beams"], x - wing.BAY_M / 2, light=side, within=place)
+            ajar = (2 * b + len(side)) % 3 == 1 and (side, b) != ("north", 2)  # by the balcony: not
+            scene.add(windows[ajar], x, light=light, within=place)
+            scene.add(glass, x, light=light, within=place)
+            scene.add(doorway, x, light=side, within=place)
+            scene.add(beams, x - wing.BAY_M / 2, light=side, within=place)
             if b in (1, 3):
                 tint = SHADY if side == "west" else SUNNY
                 scene.add(boxes[tint], x, 0, wing.WINDOW[1], light=light, within=place)
         for b in range(1, wing.BAYS):
             x = wing.BAY_M * b
             light = bay_light(side, x)
-            scene.add(parts["column"], x, wing.WALL_M / 2, wing.FLOOR_M, light=light, within=place)
-            scene.add(parts["medallion"], x, 0, 3.95, light=light, within=place)
-            scene.add(parts["lantern"], x, wing.GALLERY_M, 2.5, light=side, within=place)
+            scene.add(pillar, x, wing.WALL_M / 2, wing.FLOOR_M, light=light, within=place)
+            scene.add(medallion, x, 0, 3.95, light=light, within=place)
+            scene.add(lantern, x, wing.GALLERY_M, 2.5, light=side, within=place)
 
 
 def add_roofs(scene):
     panel = roof.panel()
     for k in range(-7, 7):
-        scene.add(panel, COURT_M + k * roof.PANEL_M, light="north",
-                  within=WINGS["north"])
+        scene.add(panel, COURT_M + k * roof.PANEL_M, light="north", within=WINGS["north"])
     for k in range(12):
         along = wing.LENGTH_M + 0.2 - (k + 1) * roof.PANEL_M
         scene.add(panel, along, light="east", within=WINGS["east"])
@@ -71,11 +79,12 @@ def add_roofs(scene):
     verge = roof.verge()
     scene.add(verge, -0.2, within=WINGS["west"])
     scene.add(mirrored(verge), wing.LENGTH_M + 0.2, within=WINGS["east"])
-    scene.add(roof.back_wall(wing.LENGTH_M + 2 * roof.RIDGE_M), -roof.RIDGE_M, within=WINGS["north"])
+    scene.add(roof.back_wall(wing.LENGTH_M + 2 * roof.RIDGE_M),
+              -roof.RIDGE_M,
+              within=WINGS["north"])
     side_wall = roof.back_wall(wing.LENGTH_M + roof.RIDGE_M)
     for side, start in (("east", -roof.RIDGE_M), ("west", 0.0)):
-        scene.add(side_wall, start, light=side,
-                  within=WINGS[side])
+        scene.add(side_wall, start, light=side, within=WINGS[side])
 
 
 def add_corners(scene):
@@ -113,7 +122,7 @@ def add_fence(scene):
         scene.add(wall, x, -COURT_M)
     pier = fence.pier("pier", fence.PIER_HALF_M, 2.40)
     gate_pier = fence.pier("gate_pier", fence.GATE_PIER_HALF_M, 2.85)
-    for x in (-6.0, 6.0, -9.95, 9.95):
+    for x in (-9.95, -6.0, 6.0, 9.95):
         scene.add(pier, x, -COURT_M)
     for x in (-2.0, 2.0):
         scene.add(gate_pier, x, -COURT_M)
@@ -140,21 +149,10 @@ def add_tower(scene):
 
 
 def add_planting(scene):
-    for tint, spots in ((SUNNY, ((6.3, 6.3), (6.3, -5.4))), (SHADY, ((-6.3, 6.3), (-6.9, -4.2)))):
-        part = planting.tree(tint)
-        for x, y in spots:
-            scene.add(part, x, y)
-    for tint, spots in ((SUNNY, ((-2.0, 8.9), (2.0, 8.9), (8.9, 2.0), (8.9, -2.0), (8.9, -6.0), (4.2, 4.2),
-                                 (4.3, -4.0))),
-                        (SHADY, ((-8.9, 2.0), (-8.9, -2.0), (-5.6, 8.9)))):
-        part = planting.flower_pot(tint)
+    for make, tint, turn_deg, spots in POTS:
+        part = make(tint)
         for k, (x, y) in enumerate(spots):
-            scene.add(part, x, y, turn_deg=47 * k)
-    for tint, spots in ((SUNNY, ((5.6, 8.9), (8.9, -4.0), (8.9, 5.8))),
-                        (SHADY, ((-8.9, 6.0), (-8.9, -5.9)))):
-        part = planting.topiary(tint)
-        for k, (x, y) in enumerate(spots):
-            scene.add(part, x, y, turn_deg=71 * k)
+            scene.add(part, x, y, turn_deg=turn_deg * k)
     scene.add(planting.climber(), COURT_M, COURT_M)
     trees = [planting.cypress(1, 14.0), planting.cypress(2, 11.0)]
     spots = ((-8.2, 17.6, 1.1), (-5.6, 18.6, 0.95), (12.2, 18.4, 1.0), (17.8, -12.5, 0.62),

@@ -1,4 +1,4 @@
-"""The street side: iron fence panels (quads with a clip map) on a low wall between piers, a gate."""
+"""The street side: iron fence panels (quads with a clip map) between piers, low walls, a gate."""
 import math
 
 from geometry import Part
@@ -10,9 +10,11 @@ GATE_HALF_M = PITCH_M / 2 - GATE_PIER_HALF_M
 
 
 def upright(part, x0, x1, z0):
-    part.face("fence", [(x0, 0, z0), (x1, 0, z0), (x1, 0, z0 + PANEL_M), (x0, 0, z0 + PANEL_M)],
-              [(0.0, -0.6, 0.8)] * 4,
-              [(0, 0), (x1 - x0, 0), (x1 - x0, PANEL_M), (0, PANEL_M)], -1, [(0, 0)] * 4)
+    part.face("fence", [(x0, 0, z0), (x1, 0, z0), (x1, 0, z0 + PANEL_M),
+                        (x0, 0, z0 + PANEL_M)], [(0.0, -0.6, 0.8)] * 4, [(0, 0), (x1 - x0, 0),
+                                                                         (x1 - x0, PANEL_M),
+                                                                         (0, PANEL_M)], -1,
+              [(0, 0)] * 4)
 
 
 def panel():
@@ -55,6 +57,6 @@ def pier(name, half, height):
     radius, z = half * 0.72, height + 0.13
     ball = [(radius * math.sin(a), z + 0.10 + radius * (1 - math.cos(a)))
             for a in (math.pi * (0.14 + 0.86 * k / 9) for k in range(10))]
-    part.lathe("carved", [(half * 0.75, z), (half * 0.75, z + 0.03), (half * 0.42, z + 0.06)]
-               + ball[:-1] + [(0.0, z + 0.10 + 2 * radius)], 20)
+    part.lathe("carved", [(half * 0.75, z), (half * 0.75, z + 0.03),
+                          (half * 0.42, z + 0.06)] + ball[:-1] + [(0.0, z + 0.10 + 2 * radius)], 20)
     return part

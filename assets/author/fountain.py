@@ -1,4 +1,6 @@
 """The fountain: an octagonal basin and two bowls, each with its pool, under a finial."""
+import math
+
 from geometry import Part
 
 WATER_M = (0.66, 2.30, 3.33)  # of the pools; the lowest is the ini's FOUNTAIN_WATER_LEVEL
@@ -20,7 +22,8 @@ def panels_and_posts(part):
         with part.placed(turn_deg=45.0 * k):
             face, half = -3.02 * 0.92388, 0.82
             for x0, x1, z0, z1 in ((-half, half, 0.49, 0.53), (-half, half, 0.65, 0.69),
-                                   (-half, -half + 0.05, 0.53, 0.65), (half - 0.05, half, 0.53, 0.65)):
+                                   (-half, -half + 0.05, 0.53, 0.65), (half - 0.05, half, 0.53,
+                                                                       0.65)):
                 part.box("carved", (x0, face - 0.035, z0), (x1, face, z1), "b")
         with part.placed(turn_deg=45.0 * k + 22.5):
             part.box("carved", (-0.17, -3.26, 0.16), (0.17, -2.86, 0.99), "d")
@@ -28,8 +31,10 @@ def panels_and_posts(part):
 
 
 def pedestal(part):
-    part.lathe("carved", [(0.95, 0.30), (0.95, 0.72), (0.93, 0.76), (0.86, 0.79)], 8,
-               start_deg=22.5, flat=True)
+    part.lathe("carved", [(0.95, 0.30), (0.95, 0.72), (0.93, 0.76), (0.86, 0.79)],
+               8,
+               start_deg=22.5,
+               flat=True)
     part.lathe("carved", [(0.86, 0.79), (0.78, 0.80), (0.76, 0.84), (0.70, 0.88), (0.58, 0.94),
                           (0.48, 1.03), (0.41, 1.15), (0.37, 1.30), (0.36, 1.44), (0.39, 1.56),
                           (0.43, 1.63)], 40)
@@ -47,7 +52,8 @@ def large_bowl(part):
 def small_bowl(part):
     part.lathe("carved", [(0.34, 2.03), (0.34, 2.34), (0.31, 2.38), (0.25, 2.44), (0.20, 2.55),
                           (0.175, 2.68), (0.175, 2.80), (0.20, 2.90), (0.23, 2.95)], 28)
-    part.lathe("carved", [(0.23, 2.95), (0.26, 2.965), (0.265, 2.99), (0.25, 3.015), (0.22, 3.025)], 28)
+    part.lathe("carved", [(0.23, 2.95), (0.26, 2.965), (0.265, 2.99), (0.25, 3.015), (0.22, 3.025)],
+               28)
     part.lathe("carved", [(0.22, 3.025), (0.40, 3.06), (0.57, 3.12), (0.70, 3.20), (0.78, 3.29),
                           (0.80, 3.33)], 36)
     part.lathe("carved", [(0.80, 3.33), (0.835, 3.345), (0.85, 3.375), (0.84, 3.40), (0.80, 3.41),
@@ -62,7 +68,7 @@ def finial(part):
     cone = [(0.12, 3.70)]
     for k in range(6):
         t = (k + 0.5) / 6
-        r = 0.185 * (1 - t ** 2.2) + 0.02
+        r = 0.185 * (1 - t**2.2) + 0.02
         z = 3.72 + 0.42 * t
         cone += [(r, z), (r * 0.86, z + 0.042)]
     part.lathe("carved", cone + [(0.0, 4.22)], 16)
@@ -92,7 +98,6 @@ def water():
 
 def post_ball():
     """A stone ball for the basin's posts; its foot at z = 0."""
-    import math
     part = Part("post_ball")
     ball = [(0.15 * math.sin(a), 0.17 - 0.15 * math.cos(a))
             for a in (math.pi * (0.16 + 0.84 * k / 9) for k in range(10))]

@@ -19,8 +19,8 @@ def frame(x=0.0, y=0.0, z=0.0, turn_deg=0.0, scale=1.0):
     """4x4 matrix: scaled, turned about z, moved."""
     c, s = math.cos(math.radians(turn_deg)), math.sin(math.radians(turn_deg))
     c, s = (round(v) if abs(v - round(v)) < 1e-12 else v for v in (c, s))
-    return np.array([[c * scale, -s * scale, 0, x], [s * scale, c * scale, 0, y],
-                     [0, 0, scale, z], [0, 0, 0, 1]], float)
+    return np.array([[c * scale, -s * scale, 0, x], [s * scale, c * scale, 0, y], [0, 0, scale, z],
+                     [0, 0, 0, 1]], float)
 
 
 def unit(v):
@@ -63,6 +63,7 @@ class Surface:
 
 
 class Part:
+
     def __init__(self, name):
         self.name = name
         self.surfaces = {}
@@ -84,7 +85,7 @@ class Part:
     @contextlib.contextmanager
     def sheet(self, axes, density=1.0):
         """Faces made within share one chart, laid out by two of their coordinates ('xz')."""
-        self._sheet = (["xyz".index(a) for a in axes], self._new_chart(density))
+        self._sheet = (["xyz".index(a) for a in axes], self.chart(density))
         yield
         self._sheet = None
 
@@ -94,7 +95,8 @@ class Part:
         yield
         self._density = before
 
-    def _new_chart(self, density):
+    def chart(self, density):
+        """Number of a new chart."""
         self.chart_density.append(density * self._density)
         return len(self.chart_density) - 1
 
@@ -105,8 +107,8 @@ class Part:
         surface = self.surfaces.setdefault(material, Surface())
         first = len(surface.positions)
         for p, n, uv, chart_uv in zip(points, normals, uvs, chart_uvs):
-            surface.positions.append(tuple(self._frame[:3, :3] @ np.asarray(p, float)
-                                           + self._frame[:3, 3]))
+            surface.positions.append(
+                tuple(self._frame[:3, :3] @ np.asarray(p, float) + self._frame[:3, 3]))
             surface.normals.append(tuple(unit(self._frame[:3, :3] @ np.asarray(n, float))))
             surface.uvs.append(uv)
             surface.colours.append(colour)
@@ -117,15 +119,15 @@ class Part:
 
     def polygon(self, material, points, uvs=None):
         points = [np.asarray(p, float) for p in points]
-        n = unit(sum(np.cross(points[i], points[(i + 1) % len(points)])
-                     for i in range(len(points))))
+        n = unit(sum(
+            np.cross(points[i], points[(i + 1) % len(points)]) for i in range(len(points))))
         if uvs is None:
             uvs = [plane_uv(p, n) for p in points]
         if self._sheet:
             axes, chart = self._sheet
             chart_uvs = [tuple(p[axes]) for p in points]
         else:
-            chart = self._new_chart(MATERIALS[material].density)
+            chart = self.chart(MATERIALS[material].density)
             right = unit(points[1] - points[0])
             up = np.cross(n, right)
             chart_uvs = [(np.dot(p - points[0], right), np.dot(p - points[0], up)) for p in points]
@@ -138,12 +140,18 @@ class Part:
         width, height = MATERIALS[material].tile_m
         fit = [(0, 0), (width, 0), (width, height), (0, height)] if uv_fit else None
         sides = {
-            "f": [(x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)],
-            "b": [(x1, y1, z0), (x0, y1, z0), (x0, y1, z1), (x1, y1, z1)],
-            "l": [(x0, y1, z0), (x0, y0, z0), (x0, y0, z1), (x0, y1, z1)],
-            "r": [(x1, y0, z0), (x1, y1, z0), (x1, y1, z1), (x1, y0, z1)],
-            "t": [(x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)],
-            "d": [(x0, y1, z0), (x1, y1, z0), (x1, y0, z0), (x0, y0, z0)],
+            "f": [(x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)], "b": [(x1, y1, z0),
+                                                                                 (x0, y1, z0),
+                                                                                 (x0, y1, z1),
+                                                                                 (x1, y1, z1)],
+            "l": [(x0, y1, z0), (x0, y0, z0), (x0, y0, z1), (x0, y1, z1)], "r": [(x1, y0, z0),
+                                                                                 (x1, y1, z0),
+                                                                                 (x1, y1, z1),
+                                                                                 (x1, y0, z1)],
+            "t": [(x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)], "d": [(x0, y1, z0),
+                                                                                 (x1, y1, z0),
+                                                                                 (x1, y0, z0),
+                                                                                 (x0, y0, z0)]
         }
         for side, points in sides.items():
             if side not in skip:
@@ -153,7 +161,7 @@ class Part:
         """A bent sheet. rows: points from the lower to the upper edge, each from left to right;
         normal_rows: per band of rows the normals at its lower and upper edge; us, vs: metres along
         columns and rows; us_rows: per band its own us for the picture."""
-        chart = self._new_chart(MATERIALS[material].density)
+        chart = self.chart(MATERIALS[material].density)
         for i in range(len(rows) - 1):
             low, high = normal_rows[i]
             picture_us = us_rows[i] if us_rows else us
@@ -168,49 +176,50 @@ class Part:
                           [(picture_us[at[k][0]], vs[at[k][1]]) for k in keep], chart,
                           [(us[at[k][0]], vs[at[k][1]]) for k in keep])
 
-    def lathe(self, material, profile, segments, start_deg=0.0, flat=False, turn_deg=360.0):
+    def lathe(self, material, profile, segments, start_deg=0.0, flat=False):
         """A turned shape about z. profile: (radius, z) upwards on the outside. flat: facets."""
         ends, runs = profile_normals(profile)
-        angles = [math.radians(start_deg + turn_deg * k / segments) for k in range(segments + 1)]
+        angles = [math.radians(start_deg + 360.0 * k / segments) for k in range(segments + 1)]
         ring = [(math.cos(a), math.sin(a)) for a in angles]
-        if flat:  # each facet its own normal: one strip per facet would waste charts
-            half = math.radians(turn_deg / segments / 2)
         rows = [[(r * c, r * s, z) for c, s in ring] for r, z in profile]
         vs = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(np.asarray(profile), axis=0).T))])
-        share = turn_deg / 360.0
-        radius = max(r for r, _ in profile)
-        us = [2 * math.pi * radius * share * k / segments for k in range(segments + 1)]
-        tile = MATERIALS[material].tile_m[0]
-        us_rows = []
-        for i, run in enumerate(runs):
-            radii = [profile[k][0] for j, r in enumerate(runs) if r == run for k in (j, j + 1)]
-            turns = 2 * math.pi * (sum(radii) / len(radii)) * share / tile
-            us_rows.append([max(1, round(turns)) * tile * k / segments
-                            for k in range(segments + 1)])
+        around = 2 * math.pi * max(r for r, _ in profile)
+        us = [around * k / segments for k in range(segments + 1)]
+        us_rows = [[length * k / segments for k in range(segments + 1)]
+                   for length in self._lengths_around(material, profile, runs)]
         if not flat:
             normal_rows = [[[(n[0] * c, n[0] * s, n[1]) for c, s in ring] for n in pair]
                            for pair in ends]
             self.strip(material, rows, normal_rows, us, vs, us_rows)
             return
         for k in range(segments):
-            middle = (math.cos(angles[k] + half), math.sin(angles[k] + half))
-            normal_rows = [[[(n[0] * middle[0], n[0] * middle[1], n[1])] * 2 for n in pair]
-                           for pair in ends]
+            middle = (angles[k] + angles[k + 1]) / 2
+            c, s = math.cos(middle), math.sin(middle)
+            normal_rows = [[[(n[0] * c, n[0] * s, n[1])] * 2 for n in pair] for pair in ends]
             self.strip(material, [row[k:k + 2] for row in rows], normal_rows, us[k:k + 2], vs,
                        [row[k:k + 2] for row in us_rows])
 
+    @staticmethod
+    def _lengths_around(material, profile, runs):
+        """For each band how long the picture is laid around it: whole pictures, and of one length
+        for all bands between two edges, so that the picture is not sheared."""
+        tile = MATERIALS[material].tile_m[0]
+        for run in runs:
+            radii = [profile[k][0] for j, r in enumerate(runs) if r == run for k in (j, j + 1)]
+            yield max(1, round(2 * math.pi * sum(radii) / len(radii) / tile)) * tile
+
     def disc(self, material, radius, z, segments, start_deg=0.0):
-        self.polygon(material, [(radius * math.cos(a), radius * math.sin(a), z) for a in
-                                (math.radians(start_deg) + 2 * math.pi * k / segments
-                                 for k in range(segments))])
+        self.polygon(material, [(radius * math.cos(a), radius * math.sin(a), z)
+                                for a in (math.radians(start_deg) + 2 * math.pi * k / segments
+                                          for k in range(segments))])
 
     def moulding(self, material, x0, x1, profile, caps=False):
         """A profile of (y, z), upwards, drawn along x; its outside is towards -y."""
         ends, _ = profile_normals([(-y, z) for y, z in profile])
         vs = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(np.asarray(profile), axis=0).T))])
         normal_rows = [[[(0, -n[0], n[1])] * 2 for n in pair] for pair in ends]
-        self.strip(material, [[(x0, y, z), (x1, y, z)] for y, z in profile], normal_rows,
-                   [x0, x1], vs)
+        self.strip(material, [[(x0, y, z), (x1, y, z)] for y, z in profile], normal_rows, [x0, x1],
+                   vs)
         if caps:
             back = max(y for y, _ in profile)
             outline = profile + [(back, profile[-1][1]), (back, profile[0][1])]
@@ -225,8 +234,9 @@ class Part:
         """A profile of (radius, y) drawn along an arch in the xz plane about centre (x, z). From
         the left foot to the right; a profile of growing radius faces -y."""
         ends, _ = profile_normals([(r, y) for r, y in profile])
-        angles = [math.radians(from_deg + (to_deg - from_deg) * k / segments)
-                  for k in range(segments + 1)]
+        angles = [
+            math.radians(from_deg + (to_deg - from_deg) * k / segments) for k in range(segments + 1)
+        ]
         ring = [(math.cos(a), math.sin(a)) for a in angles]
         rows = [[(centre[0] + r * c, y, centre[1] + r * s) for c, s in ring] for r, y in profile]
         normal_rows = [[[(n[0] * c, n[1], n[0] * s) for c, s in ring] for n in pair]
@@ -246,9 +256,11 @@ class Part:
         right, up = right * c + up * s, up * c - right * s
         centre = np.asarray(centre, float)
         width, height = MATERIALS[material].tile_m
-        self.face(material, [centre - right - up, centre + right - up, centre + right + up,
-                             centre - right + up], [normal] * 4,
-                  [(0, 0), (width, 0), (width, height), (0, height)], -1, [(0, 0)] * 4, colour)
+        self.face(
+            material,
+            [centre - right - up, centre + right - up, centre + right + up, centre - right + up],
+            [normal] * 4, [(0, 0), (width, 0), (width, height),
+                           (0, height)], -1, [(0, 0)] * 4, colour)
 
 
 def mirrored(part):

@@ -26,13 +26,15 @@ def rounded(values, step):
 
 
 class Writer:
+
     def __init__(self):
-        self.json = {"asset": {"version": "2.0", "generator": "Diptych assets/author"}, "scene": 0,
-                     "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "accessors": [],
-                     "bufferViews": [], "buffers": [], "materials": [], "textures": [],
-                     "images": [], "samplers": [
-                         {"magFilter": 9729, "minFilter": 9987, "wrapS": REPEAT, "wrapT": REPEAT},
-                         {"magFilter": 9729, "minFilter": 9987, "wrapS": REPEAT, "wrapT": CLAMP}]}
+        self.json = {
+            "asset": {"version": "2.0", "generator": "Diptych assets/author"}, "scene": 0,
+            "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "accessors": [],
+            "bufferViews": [], "buffers": [], "materials": [], "textures": [], "images": [],
+            "samplers": [{"magFilter": 9729, "minFilter": 9987, "wrapS": REPEAT, "wrapT": REPEAT},
+                         {"magFilter": 9729, "minFilter": 9987, "wrapS": REPEAT, "wrapT": CLAMP}]
+        }
         self.bytes = bytearray()
         self.known = {}  # of views, materials and textures: what was written already
 
@@ -54,8 +56,10 @@ class Writer:
         if ("data", data, component) not in self.known:
             self.known["data", data, component] = len(self.json["bufferViews"])
             self.bytes += bytes(-len(self.bytes) % 4)
-            self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.bytes),
-                                             "byteLength": len(data), "target": target})
+            self.json["bufferViews"].append({
+                "buffer": 0, "byteOffset": len(self.bytes), "byteLength": len(data),
+                "target": target
+            })
             self.bytes += data
         entry["bufferView"] = self.known["data", data, component]
         return self.once("accessors", json.dumps(entry, sort_keys=True), entry)
@@ -77,8 +81,9 @@ class Writer:
             value["normalTexture"] = {"index": self.texture(picture)}
         if source.lightmapped:
             # Coordinates count from 0: a surface without a picture has but the light map's.
-            value["occlusionTexture"] = {"index": self.texture("light.jpg"),
-                                         "texCoord": int(source.picture is not None)}
+            value["occlusionTexture"] = {
+                "index": self.texture("light.jpg"), "texCoord": int(source.picture is not None)
+            }
         if source.surface == "mask":
             value.update(alphaMode="MASK", alphaCutoff=0.5)
         if source.double_sided:
@@ -97,7 +102,8 @@ class Writer:
             names, shapes = names + ["TEXCOORD_0"], shapes + ["VEC2"]
         if source.lightmapped:
             columns.append(rounded(light_uvs, 1 / 32768))
-            names, shapes = names + [f"TEXCOORD_{int(source.picture is not None)}"], shapes + ["VEC2"]
+            names, shapes = names + [f"TEXCOORD_{int(source.picture is not None)}"
+                                     ], shapes + ["VEC2"]
         colours = np.asarray(surface.colours)
         if (colours != 1.0).any():
             columns.append(rounded(colours, 1 / 255))
@@ -122,8 +128,10 @@ class Writer:
             else:
                 attributes[attribute] = self.accessor(values, FLOAT, shape, ARRAY,
                                                       attribute == "POSITION")
-        return {"attributes": attributes, "material": self.material(name),
-                "indices": self.accessor(indices, UINT16, "SCALAR", ELEMENTS)}
+        return {
+            "attributes": attributes, "material": self.material(name),
+            "indices": self.accessor(indices, UINT16, "SCALAR", ELEMENTS)
+        }
 
     def node(self, name, mesh, matrix, extras):
         node = {"name": name, "mesh": mesh, "extras": extras}
@@ -141,8 +149,8 @@ class Writer:
         kinds = {}
         for name, surface in mesh.part.surfaces.items():
             kind = (MATERIALS[name].surface, MATERIALS[name].lightmapped)
-            kinds.setdefault(kind, []).append(
-                self.primitive(name, surface, mesh.light_uvs.get(name)))
+            kinds.setdefault(kind,
+                             []).append(self.primitive(name, surface, mesh.light_uvs.get(name)))
         for (tag, lightmapped), primitives in kinds.items():
             name = mesh.name if len(kinds) == 1 else f"{mesh.name}_{tag}"
             self.json["meshes"].append({"name": name, "primitives": primitives})

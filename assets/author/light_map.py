@@ -28,9 +28,9 @@ def filtered(light, position, normal, covered, reach_m, levels):
         for i, ky in enumerate(KERNEL):
             for j, kx in enumerate(KERNEL):
                 dy, dx = (i - 2) * stride, (j - 2) * stride
-                apart = ((position - shifted(position, dy, dx)) ** 2).sum(-1)
-                along = np.clip((normal * shifted(normal, dy, dx)).sum(-1), 0, 1) ** 8
-                weight = ky * kx * along * np.exp(-apart / (reach_m * stride) ** 2)
+                apart = ((position - shifted(position, dy, dx))**2).sum(-1)
+                along = np.clip((normal * shifted(normal, dy, dx)).sum(-1), 0, 1)**8
+                weight = ky * kx * along * np.exp(-apart / (reach_m * stride)**2)
                 weight = weight * shifted(weight_of, dy, dx)
                 total += weight[..., None] * shifted(light, dy, dx)
                 weights += weight
@@ -55,7 +55,7 @@ def grown(light, covered, texels):
 
 def encoded(light):
     x = np.clip(light / LIGHT_MAP_SCALE, 0.0, 1.0)
-    return np.where(x <= 0.0031308, x * 12.92, 1.055 * np.maximum(x, 1e-9) ** (1 / 2.4) - 0.055)
+    return np.where(x <= 0.0031308, x * 12.92, 1.055 * np.maximum(x, 1e-9)**(1 / 2.4) - 0.055)
 
 
 def main(baked_file, out):

@@ -21,8 +21,8 @@ class Material:
 
 
 MATERIALS = {
-    "paving": Material((2.4, 2.4), "paving.jpg", True, roughness=0.55, density=1.0),
-    "setts": Material((1.0, 1.0), "setts.jpg", True, roughness=0.5, density=1.0),
+    "paving": Material((2.4, 2.4), "paving.jpg", True, roughness=0.55),
+    "setts": Material((1.0, 1.0), "setts.jpg", True, roughness=0.5),
     "ashlar": Material((2.0, 2.0), "ashlar.jpg", True, roughness=0.75),
     "carved": Material((1.0, 1.0), "carved.jpg", True, roughness=0.7),
     "plaster": Material((4.0, 4.0), "plaster.jpg", True, roughness=0.9),
@@ -32,7 +32,7 @@ MATERIALS = {
     "door": Material((1.24, 2.45), "door.jpg", True, roughness=0.6, density=0.6),
     "shutter": Material((0.56, 1.66), "shutter.jpg", True, roughness=0.5, density=0.8),
     "terracotta": Material((0.5, 0.5), "terracotta.jpg", True, roughness=0.7),
-    "soil": Material(colour_lin=(0.060, 0.038, 0.022), density=0.4),
+    "soil": Material(colour_lin=(0.060, 0.038, 0.022), density=0.2),
     "iron": Material(colour_lin=(0.020, 0.024, 0.026), roughness=0.4, density=0.4),
     "bronze": Material(colour_lin=(0.16, 0.10, 0.04), roughness=0.35, density=0.4),
     "lamp": Material(colour_lin=(0.80, 0.62, 0.34), roughness=0.3, density=0.4),

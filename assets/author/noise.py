@@ -17,7 +17,7 @@ def noise(shape, low, high, slope=1.0, seed=0, stretch=(1.0, 1.0)):
     fx = np.fft.fftfreq(columns)[None, :] * columns * stretch[0]
     fy = np.fft.fftfreq(rows)[:, None] * rows * stretch[1]
     f = np.hypot(fx, fy)
-    band = np.where((f >= low) & (f <= high), np.maximum(f, 1e-6) ** -slope, 0.0)
+    band = np.where((f >= low) & (f <= high), np.maximum(f, 1e-6)**-slope, 0.0)
     field = np.real(np.fft.ifft2(np.fft.fft2(white) * band))
     return (field / field.std()).astype(np.float32)
 
@@ -27,7 +27,7 @@ def blur(field, sigma_px):
     rows, columns = field.shape[:2]
     fx = np.fft.fftfreq(columns)[None, :]
     fy = np.fft.fftfreq(rows)[:, None]
-    gauss = np.exp(-2.0 * (np.pi * sigma_px) ** 2 * (fx * fx + fy * fy))
+    gauss = np.exp(-2.0 * (np.pi * sigma_px)**2 * (fx * fx + fy * fy))
     if field.ndim == 3:
         return np.stack([blur(field[..., c], sigma_px) for c in range(field.shape[2])], -1)
     return np.real(np.fft.ifft2(np.fft.fft2(field) * gauss)).astype(np.float32)
@@ -88,7 +88,8 @@ def save_clip_map(path, colour, alpha, colours=96):
     bytes_rgb = to_bytes(colour)
     mean = bytes_rgb[kept].mean(0)
     bytes_rgb[~kept] = np.rint(mean)
-    flat = Image.fromarray(bytes_rgb).quantize(colours, method=Image.Quantize.MEDIANCUT,
+    flat = Image.fromarray(bytes_rgb).quantize(colours,
+                                               method=Image.Quantize.MEDIANCUT,
                                                dither=Image.Dither.NONE)
     index = np.asarray(flat).copy()
     entries = np.array(flat.getpalette()[:3 * colours]).reshape(-1, 3).tolist()

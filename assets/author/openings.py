@@ -7,11 +7,10 @@ from wing import DOOR, FLOOR_M, GALLERY_M, WINDOW
 REVEAL_M = 0.28
 
 
-def reveal(part, half, foot, head, depth, with_sill=True):
+def reveal(part, half, foot, head, depth):
     """The four inner faces of a hole in a wall."""
-    if with_sill:
-        part.polygon("carved", [(-half, 0, foot), (half, 0, foot), (half, depth, foot),
-                                (-half, depth, foot)])
+    part.polygon("carved", [(-half, 0, foot), (half, 0, foot), (half, depth, foot),
+                            (-half, depth, foot)])
     part.polygon("carved", [(-half, depth, head), (half, depth, head), (half, 0, head),
                             (-half, 0, head)])
     part.polygon("carved", [(-half, 0, foot), (-half, depth, foot), (-half, depth, head),
@@ -48,9 +47,12 @@ def window(opened_deg=8.0):
     for side in (-1, 1):
         x0, x1 = sorted((side * half, side * (half + 0.15)))
         part.box("carved", (x0, -0.06, sill), (x1, 0, head), "bd")
-    part.moulding("carved", -half - 0.15, half + 0.15, [(0, head), (-0.06, head + 0.001),
-                  (-0.06, head + 0.14), (-0.11, head + 0.17), (-0.16, head + 0.22),
-                  (-0.16, head + 0.27), (0, head + 0.30)], caps=True)
+    part.moulding("carved",
+                  -half - 0.15,
+                  half + 0.15, [(0, head), (-0.06, head + 0.001), (-0.06, head + 0.14),
+                                (-0.11, head + 0.17), (-0.16, head + 0.22), (-0.16, head + 0.27),
+                                (0, head + 0.30)],
+                  caps=True)
     part.box("carved", (-half - 0.24, -0.18, sill - 0.13), (half + 0.24, 0, sill), "b")
     for x in (-half - 0.06, half - 0.06):
         part.box("carved", (x, -0.13, sill - 0.30), (x + 0.12, 0, sill - 0.13), "bt")
@@ -63,8 +65,8 @@ def window_glass():
     part = Part("window_glass")
     width, height = 1.0, 1.7
     part.polygon("glass", [(-half, REVEAL_M, sill), (half, REVEAL_M, sill), (half, REVEAL_M, head),
-                           (-half, REVEAL_M, head)],
-                 [(0, 0), (width, 0), (width, height), (0, height)])
+                           (-half, REVEAL_M, head)], [(0, 0), (width, 0), (width, height),
+                                                      (0, height)])
     return part
 
 
@@ -73,7 +75,7 @@ def doorway():
     part = Part("doorway")
     y, foot, head = GALLERY_M, FLOOR_M, FLOOR_M + height
     with part.placed(y=y):
-        reveal(part, half, foot, head, 0.14, with_sill=False)
+        reveal(part, half, foot, head, 0.14)
         for side in (-1, 1):
             x0, x1 = sorted((side * half, side * (half + 0.17)))
             part.box("carved", (x0, -0.06, foot), (x1, 0, head), "bd")
@@ -107,7 +109,8 @@ def balcony():
                     part.polygon("carved", quad if side < 0 else quad[::-1])
     top = z + 0.16 + 0.80
     for low, high in (((-half, -depth, z), (half, -depth + 0.2, z + 0.12)),
-                      ((-half - 0.03, -depth - 0.03, top), (half + 0.03, -depth + 0.23, top + 0.1))):
+                      ((-half - 0.03, -depth - 0.03, top), (half + 0.03, -depth + 0.23,
+                                                            top + 0.1))):
         part.box("carved", low, high, "")
     for side in (-1, 1):
         x0, x1 = sorted((side * half, side * (half - 0.2)))

@@ -46,8 +46,8 @@ def tree(tint=SUNNY):
     part.lathe("wood", [(0.075, 0.68), (0.055, 1.2), (0.05, 2.1)], 10)
     for k in range(3):
         a = 2.1 * k
-        crown(part, (0.26 * math.cos(a), 0.26 * math.sin(a), 2.35 + 0.12 * (k % 2)), 0.72, 0.66,
-              30, 0.74, tint, 40 + k)
+        crown(part, (0.26 * math.cos(a), 0.26 * math.sin(a), 2.35 + 0.12 * (k % 2)), 0.72, 0.66, 30,
+              0.74, tint, 40 + k)
     return part
 
 
@@ -88,13 +88,13 @@ def climber():
     rng = random.Random(90)
     for x, y, lean in ((-0.55, -0.50, 0.0), (-0.62, -0.40, 60.0)):
         with part.placed(x, y, turn_deg=lean):
-            part.lathe("wood", [(0.06, 0.0), (0.045, 1.2), (0.03, 3.4)], 7)
+            part.lathe("wood", [(0.035, 0.0), (0.025, 1.2), (0.015, 3.0)], 6)
     for k in range(230):
-        z = 0.4 + 7.6 * rng.random() ** 0.8
-        spread = 0.30 + 1.9 * math.sin(math.pi * min(1.0, z / 7.2)) ** 1.2
+        z = 0.4 + 7.6 * rng.random()**0.8
+        spread = 0.30 + 1.9 * math.sin(math.pi * min(1.0, z / 7.2))**1.2
         off = min(abs(rng.gauss(0, 0.5)), 1.1) * spread
         if z < SPRING_M + ARCH_R:  # no further than the wall beside the arch
-            off = min(off, 2.25 - math.sqrt(ARCH_R ** 2 - max(0.0, z - SPRING_M) ** 2))
+            off = min(off, 2.25 - math.sqrt(ARCH_R**2 - max(0.0, z - SPRING_M)**2))
         lift = 0.12 + 0.38 * rng.random()
         on_y = k % 2 == 0
         at = (-off, -lift, z) if on_y else (-lift, -off, z)
@@ -110,15 +110,16 @@ def cypress(seed, height):
     """Stands outside the walls; the lowest metres are never seen."""
     part = Part(f"cypress_{seed}")
     rng = random.Random(seed)
-    count = int(height * 9)
+    count = int(height * 10)
     for i in range(count):
         t = (i + 0.5) / count
         z = 0.6 + (height - 0.8) * t
-        radius = 0.92 * math.sin(math.pi * min(0.97, 0.16 + 0.82 * t)) ** 0.75 + 0.05
+        radius = 0.92 * math.sin(math.pi * min(0.97, 0.16 + 0.82 * t))**0.75 + 0.05
         a = 2.4 * i
         out = np.array([math.cos(a), math.sin(a), 0.25])
         depth = rng.uniform(0.6, 1.0)
         part.card("leaf", (out[0] * radius * depth, out[1] * radius * depth, z),
                   out + np.array([rng.uniform(-0.4, 0.4) for _ in range(3)]), rng.uniform(0, 6.28),
-                  rng.uniform(0.95, 1.25), unit(out), shaded(depth, 0.4 + 0.6 * t, (0.62, 0.72, 0.66), rng))
+                  rng.uniform(0.9, 1.2) * (0.45 + 0.6 * radius), unit(out),
+                  shaded(depth, 0.4 + 0.6 * t, (0.62, 0.72, 0.66), rng))
     return part

@@ -37,8 +37,8 @@ def tiles(part):
     # The lower rim: the tiles' thickness, and the mortar that fills the covers' mouths.
     y = -OVERHANG_M
     rim = [(0.0, -1.0, 0.0)] * len(xs)
-    lower = [(x, y, roof_z(y) + (h - 0.035 if h <= 0.012 else h - 0.022)) for x, h in
-             zip(xs, heights)]
+    lower = [(x, y, roof_z(y) + (h - 0.035 if h <= 0.012 else h - 0.022))
+             for x, h in zip(xs, heights)]
     part.strip("roof", [lower, rows[0]], [(rim, rim)], xs, [0.30, 0.335])
     mouth = [(x, y + 0.05, roof_z(y) - 0.06) for x in xs]
     inner = [(p[0], p[1] + 0.05, p[2]) for p in lower]

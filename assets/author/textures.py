@@ -9,7 +9,9 @@ import sys
 
 import numpy as np
 
-from noise import (halved, mix, noise, normal_map, palette, rgb, save_jpeg, step)
+from noise import halved, mix, noise, normal_map, palette, rgb, save_jpeg, step
+
+PAVING_BAND_M = 0.2
 
 
 def metres(shape, size_m, wobble_m=0.0, seed=0):
@@ -23,14 +25,15 @@ def metres(shape, size_m, wobble_m=0.0, seed=0):
     return x, y
 
 
-def courses(shape, size_m, row_widths_m, corner_m, wobble_m, seed):
+def courses(shape, size_m, row_widths_m, corner_m, wobble_m, seed, height=None):
     """Courses of stones. row_widths_m: per course (offset, [widths that sum to the tile's]).
+    height: of a course, metres; where it is not given the courses fill the tile.
 
     Returns each texel's distance to its stone's edge in metres (negative in the joint's corners)
     and its stone's number.
     """
     x, y = metres(shape, size_m, wobble_m, seed)
-    height = size_m[1] / len(row_widths_m)
+    height = height or size_m[1] / len(row_widths_m)
     row = np.floor(y / height).astype(int) % len(row_widths_m)
     across = y - np.floor(y / height) * height
     distance = np.zeros(shape, np.float32)
@@ -62,21 +65,32 @@ def random_widths(rng, size_m, count, spread):
 
 
 def paving():
+    """Flags in panels of 2.4 m between bands of dark setts."""
     shape, size = (1024, 1024), (2.4, 2.4)
     rng = np.random.RandomState(11)
-    rows = [(rng.uniform(0, 0.4), random_widths(rng, 2.4, 5 + r % 2, 0.25)) for r in range(6)]
-    edge, stone = courses(shape, size, rows, 0.018, 0.002, 12)
+    band = [PAVING_BAND_M / 2] * 2
+    rows = [(0.0, band + random_widths(rng, 2.4 - PAVING_BAND_M, 5 + r % 2, 0.25))
+            for r in range(6)]
+    edge, stone = courses(shape, size, rows, 0.018, 0.002, 12, (2.4 - PAVING_BAND_M) / 6)
+    small = [(0.0, [PAVING_BAND_M / 2] * 24)] * 24
+    sett_edge, sett = courses(shape, size, small, 0.016, 0.0015, 18)
+    x, y = metres(shape, size)
+    in_band = (x < PAVING_BAND_M) | (y > 2.4 - PAVING_BAND_M)
+    edge = np.where(in_band, sett_edge, edge)
     inside, worn = step(0.003, 0.010, edge), step(0.004, 0.045, edge)
     fine, mid = noise(shape, 60, 400, 0.6, 13), noise(shape, 3, 60, 1.1, 14)
     tone = per_stone(stone, 15)
     colour = palette(["a88f68", "c4ab80", "d2bd96", "dfcfac"], tone + 0.06 * mid)
     colour = mix(colour, rgb("b9a896"), 0.75 * step(0.80, 0.86, per_stone(stone, 16)))
     colour = mix(colour, rgb("c69a6a"), 0.55 * step(0.12, 0.06, per_stone(stone, 16)))
+    dark = palette(["48423c", "605850", "70665a"], per_stone(sett, 19) + 0.06 * mid)
+    colour = np.where(in_band[..., None], dark, colour)
     pits = step(1.3, 2.2, noise(shape, 20, 120, 0.5, 17))
     colour = colour * (1 + 0.05 * fine + 0.05 * mid - 0.22 * pits)[..., None]
     colour = colour * (0.80 + 0.20 * worn)[..., None]
-    joint = mix(rgb("5f5138"), rgb("6f7040"), step(0.0, 1.5, mid)) * (1 + 0.12 * fine)[..., None]
-    height = 0.008 * step(0.0, 0.022, edge) + (0.0007 * mid + 0.0002 * fine - 0.0016 * pits) * inside
+    joint = mix(rgb("4f4430"), rgb("5f6238"), step(0.0, 1.5, mid)) * (1 + 0.12 * fine)[..., None]
+    height = (0.008 * step(0.0, 0.022, edge) +
+              (0.0007 * mid + 0.0002 * fine - 0.0016 * pits) * inside)
     return mix(joint, colour, inside), height, 1024 / 2.4
 
 
@@ -89,7 +103,8 @@ def setts():
     fine, mid = noise(shape, 40, 250, 0.5, 23), noise(shape, 3, 40, 1.0, 24)
     colour = palette(["6a625c", "857b70", "9c9182"], per_stone(stone, 25) + 0.05 * mid)
     colour = mix(colour, rgb("8a6a58"), 0.5 * step(0.85, 0.92, per_stone(stone, 26)))
-    colour = colour * (1 + 0.07 * fine)[..., None] * (0.72 + 0.34 * step(0.0, 0.04, edge))[..., None]
+    colour = (colour * (1 + 0.07 * fine)[..., None] *
+              (0.72 + 0.34 * step(0.0, 0.04, edge))[..., None])
     joint = rgb("4a4334") * (1 + 0.12 * fine)[..., None]
     return mix(joint, colour, inside), 0.012 * step(0, 0.035, edge) + 0.0005 * fine, 512.0
 
@@ -184,8 +199,8 @@ def planks(shape, size_m, count, codes, seed):
 
 
 def wood():
-    colour, gap, grain = planks((512, 512), (1.0, 1.0), 5,
-                                ["4a2f1c", "6b4528", "8a5f38", "a37a4c"], 81)
+    colour, gap, grain = planks((512, 512), (1.0, 1.0), 5, ["4a2f1c", "6b4528", "8a5f38", "a37a4c"],
+                                81)
     inside = step(0.002, 0.008, gap)
     return colour * (0.4 + 0.6 * inside)[..., None], 0.006 * inside + 0.0004 * grain, 512.0
 
@@ -217,14 +232,15 @@ def shutter():
     wood_colour, _, grain = planks(shape, size, 2, ["8a7252", "a88e68", "bda47e"], 101)
     field = np.full(shape, -1.0, np.float32)
     for top, bottom in ((0.09, 0.80), (0.89, 1.57)):
-        field = np.maximum(field, np.minimum(np.minimum(x - 0.07, 0.49 - x),
-                                             np.minimum(y - top, bottom - y)))
+        field = np.maximum(
+            field, np.minimum(np.minimum(x - 0.07, 0.49 - x), np.minimum(y - top, bottom - y)))
     slatted = step(0.0, 0.006, field)
     slat = (y / 0.045) % 1.0
     paint = palette(["1d5a58", "2a7470", "3a8a84"], 0.5 + 0.16 * grain)
     wear = step(1.1, 2.0, noise(shape, 4, 120, 0.8, 102, stretch=(1.0, 3.0)) + 0.5 * grain)
     colour = mix(paint, wood_colour, 0.7 * wear)
-    colour = colour * (1 - slatted * (0.62 * step(0.35, 0.0, slat) - 0.12 * step(0.7, 0.9, slat)))[..., None]
+    colour = (colour * (1 - slatted *
+                        (0.62 * step(0.35, 0.0, slat) - 0.12 * step(0.7, 0.9, slat)))[..., None])
     rim = np.exp(-np.square(field / 0.008))
     colour = colour * (1 - 0.45 * rim)[..., None]
     height = 0.010 * (1 - slatted) + slatted * 0.010 * slat + 0.0003 * grain
@@ -261,24 +277,33 @@ def sky():
     """Red and green perturb, blue is cloud; also to be seen as it is, as blue sky with clouds.
 
     Blue is 0.77 in the clear and 1 in the densest cloud. Red and green hold a swirl of their own
-    (deviation 0.018) on top of a part that follows the cloud (0.40 to 0.93 and 0.57 to 0.94).
+    (deviation 0.012) on top of a part that follows the cloud (0.40 to 0.93 and 0.57 to 0.94).
     """
     shape = (512, 512)
     billow = noise(shape, 2, 160, 1.55, 141) + 0.55 * noise(shape, 1, 3, 0.6, 142)
     cloud = step(-0.15, 1.9, billow)
     swirl_x, swirl_y = noise(shape, 1, 12, 1.2, 143), noise(shape, 1, 12, 1.2, 144)
-    red = 0.40 + 0.53 * cloud + 0.018 * swirl_x
-    green = 0.57 + 0.37 * cloud + 0.018 * swirl_y
+    red = 0.40 + 0.53 * cloud + 0.012 * swirl_x
+    green = 0.57 + 0.37 * cloud + 0.012 * swirl_y
     return np.stack([red, green, 0.77 + 0.23 * cloud], -1), None, 0.0
 
 
 # name: (maker, quality, times the normal map is halved; None: no normal map is shipped)
 TEXTURES = {
-    "paving": (paving, 84, 1), "setts": (setts, 84, 0), "ashlar": (ashlar, 84, 1),
-    "carved": (carved, 84, 1), "plaster": (plaster, 86, 1), "brick": (brick, 84, 0),
-    "roof": (roof, 84, 0), "wood": (wood, 84, None), "door": (door, 86, 0),
-    "shutter": (shutter, 86, 0), "terracotta": (terracotta, 86, 0), "glass": (glass, 86, None),
-    "water": (water, 88, 0), "sky": (sky, 92, None),
+    "paving": (paving, 84, 1),
+    "setts": (setts, 84, 0),
+    "ashlar": (ashlar, 84, 1),
+    "carved": (carved, 84, 1),
+    "plaster": (plaster, 86, 1),
+    "brick": (brick, 84, 0),
+    "roof": (roof, 84, 0),
+    "wood": (wood, 84, None),
+    "door": (door, 86, 0),
+    "shutter": (shutter, 86, 0),
+    "terracotta": (terracotta, 86, 0),
+    "glass": (glass, 86, None),
+    "water": (water, 88, 0),
+    "sky": (sky, 92, None),
 }
 
 

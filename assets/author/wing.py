@@ -5,6 +5,8 @@ negative y. All three wings are this one part, turned.
 """
 import math
 
+import numpy as np
+
 from geometry import Part
 
 BAY_M, BAYS = 4.0, 5
@@ -16,6 +18,7 @@ WALL_M, GALLERY_M = 0.5, 3.6  # thickness of the front, depth of the gallery
 WINDOW = (0.55, 5.75, 7.45)  # half width, sill, head
 DOOR = (0.62, 2.45)  # half width, height
 ARCH_STEPS = 20
+TILTED = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], float)  # z to -y
 
 
 def centres():
@@ -81,25 +84,27 @@ def gallery(part):
             for i in range(3):
                 for k in range(2):
                     if (i, k) != (1, 0):
-                        part.polygon("plaster", [
-                            (xs[i], GALLERY_M, zs[k]), (xs[i + 1], GALLERY_M, zs[k]),
-                            (xs[i + 1], GALLERY_M, zs[k + 1]), (xs[i], GALLERY_M, zs[k + 1])])
+                        part.polygon("plaster", [(xs[i], GALLERY_M, zs[k]),
+                                                 (xs[i + 1], GALLERY_M, zs[k]),
+                                                 (xs[i + 1], GALLERY_M, zs[k + 1]),
+                                                 (xs[i], GALLERY_M, zs[k + 1])])
     with part.density(1.0):
         part.polygon("wood", [(0, GALLERY_M, CEILING_M), (LENGTH_M, GALLERY_M, CEILING_M),
                               (LENGTH_M, WALL_M, CEILING_M), (0, WALL_M, CEILING_M)])
-    part.polygon("paving", [(0, -0.35, FLOOR_M), (LENGTH_M, -0.35, FLOOR_M),
-                            (LENGTH_M, GALLERY_M, FLOOR_M), (0, GALLERY_M, FLOOR_M)])
+    with part.sheet("xy"):
+        for c in centres():
+            x0, x1 = c - BAY_M / 2, c + BAY_M / 2
+            part.polygon("paving", [(x0, -0.35, FLOOR_M), (x1, -0.35, FLOOR_M),
+                                    (x1, GALLERY_M, FLOOR_M), (x0, GALLERY_M, FLOOR_M)])
     part.moulding("carved", 0, LENGTH_M, [(-0.35, 0.0), (-0.35, 0.09), (-0.37, 0.10),
                                           (-0.37, FLOOR_M), (-0.30, FLOOR_M + 0.001)])
 
 
 def cornices(part):
-    part.moulding("carved", 0, LENGTH_M, [
-        (0, 4.84), (-0.05, 4.86), (-0.05, 4.93), (-0.08, 4.95), (-0.14, 5.01), (-0.14, 5.08),
-        (-0.10, 5.12), (0, 5.16)])
-    part.moulding("carved", 0, LENGTH_M, [
-        (0, 7.90), (-0.04, 7.93), (-0.04, 8.02), (-0.08, 8.05), (-0.16, 8.14), (-0.20, 8.22),
-        (-0.20, 8.34), (0, 8.37)])
+    part.moulding("carved", 0, LENGTH_M, [(0, 4.84), (-0.05, 4.86), (-0.05, 4.93), (-0.08, 4.95),
+                                          (-0.14, 5.01), (-0.14, 5.08), (-0.10, 5.12), (0, 5.16)])
+    part.moulding("carved", 0, LENGTH_M, [(0, 7.90), (-0.04, 7.93), (-0.04, 8.02), (-0.08, 8.05),
+                                          (-0.16, 8.14), (-0.20, 8.22), (-0.20, 8.34), (0, 8.37)])
 
 
 def wing():
@@ -115,10 +120,8 @@ def wing():
 
 def medallion():
     """A turned boss on the wall between two arches; its axis is -y, its middle the origin."""
-    import numpy as np
     part = Part("medallion")
-    tilt = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], float)
-    with part.placed(matrix=tilt):
+    with part.placed(matrix=TILTED):
         part.lathe("carved", [(0.34, 0.0), (0.34, 0.05), (0.31, 0.075), (0.26, 0.075),
                               (0.24, 0.045), (0.17, 0.045), (0.15, 0.08), (0.0, 0.11)], 14)
     return part
@@ -152,22 +155,22 @@ def corner():
 def corner_pier():
     """Carries the last arches of both wings; with clasping pilasters towards the court."""
     part = Part("corner_pier")
-    part.box("ashlar", (-0.02, -0.02, 0), (0.5, 0.5, SPRING_M), "dt")
+    part.box("ashlar", (-0.04, -0.04, 0), (0.5, 0.5, SPRING_M), "dt")
     part.box("carved", (-0.45, -0.10, 0), (0.55, 0.5, FLOOR_M + 0.16), "d")
     part.box("carved", (-0.10, -0.45, 0), (0.5, -0.10, FLOOR_M + 0.16), "d")
-    part.box("ashlar", (-0.38, -0.04, FLOOR_M + 0.16), (0.5, 0.5, 2.55), "dt")
-    part.box("ashlar", (-0.04, -0.38, FLOOR_M + 0.16), (0.5, -0.04, 2.55), "dtb")
+    part.box("ashlar", (-0.38, -0.06, FLOOR_M + 0.16), (-0.04, 0.46, 2.55), "dtr")
+    part.box("ashlar", (-0.06, -0.38, FLOOR_M + 0.16), (0.46, -0.04, 2.55), "dtb")
     part.box("carved", (-0.48, -0.12, 2.55), (0.55, 0.55, SPRING_M), "")
     part.box("carved", (-0.12, -0.48, 2.55), (0.55, -0.12, SPRING_M), "b")
     return part
 
 
-def gable(eave_slope, ridge_y):
+def gable(slope, ridge_y):
     """A wing's south end: the wall under the roof, from y = 0 to the ridge, at x = 0, facing -x."""
     part = Part("gable")
     with part.sheet("yz", 0.6):
-        part.polygon("plaster", [(0, ridge_y, 0), (0, 0.6, 0), (0, 0.6, EAVE_M - 0.1 + 0.6 * eave_slope),
-                                 (0, ridge_y, EAVE_M - 0.1 + ridge_y * eave_slope)])
+        part.polygon("plaster", [(0, ridge_y, 0), (0, 0.6, 0), (0, 0.6, EAVE_M - 0.1 + 0.6 * slope),
+                                 (0, ridge_y, EAVE_M - 0.1 + ridge_y * slope)])
     part.box("ashlar", (-0.12, -0.12, 0), (0.42, 0.62, STRING_M - 0.1), "d")
     part.polygon("plaster", [(0, 0.6, STRING_M - 0.1), (0, 0, STRING_M - 0.1), (0, 0, EAVE_M),
                              (0, 0.6, EAVE_M + 0.2)])
