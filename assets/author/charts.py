@@ -42,9 +42,9 @@ def pack(sizes, side):
         w, h = sizes[i]
         slack = np.minimum(free[:, 2] - w, free[:, 3] - h)
         room = np.where(slack >= 0, slack, side + 1)
-        best = int(np.argmin(room))
-        if slack[best] < 0:
+        if not (slack >= 0).any():
             return None
+        best = int(np.argmin(room))
         x, y, width, height = free[best]
         places[i] = (x, y)
         if width - w < height - h:
@@ -76,6 +76,8 @@ def lay_out(scene, side):
         return sizes
 
     low, high = 1.0, 64.0
+    if pack(sizes_at(low), side) is None:
+        raise ValueError(f"{len(charts)} charts do not fit into {side} x {side} texels")
     while high / low > 1.01:
         middle = (low + high) / 2
         if pack(sizes_at(middle), side) is None:
