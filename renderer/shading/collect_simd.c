@@ -81,16 +81,21 @@ static void push_whole(const SubBlock *sub, uint32_t triangle) {
     }
 }
 
-// The triangle's pixels as fragments of its draw; samples and sub-pixel places per vector.
-static void push(const SubBlock *sub, uint32_t triangle, unsigned pixels, const Vu *samples,
-                 const Vu *places) {
+// The triangle's pixels as fragments of its draw; samples and places per vector. uniform: all lanes
+// have the same samples.
+VEC_INLINE void push(const SubBlock *sub, uint32_t triangle, unsigned pixels, const Vu *samples,
+                     const Vu *places, bool uniform) {
     DipTileShading *shading = sub->shading;
     const uint32_t draw = draw_of(shading, triangle);
     DipFragmentList *list = &shading->lists[draw];
     set_triangles(list, triangle);
     for (int v = 0; v < VECTORS; v++) {
         const unsigned bits = pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
-        vu_compress(list->samples + list->count, bits, samples[v]);
+        if (uniform) {
+            vu_store(list->samples + list->count, samples[v]);
+        } else {
+            vu_compress(list->samples + list->count, bits, samples[v]);
+        }
         list->count += vu_compress(list->place + list->count, bits, places[v]);
     }
     if (list->count >= DIP_FRAGMENT_BATCH) {
@@ -110,7 +115,7 @@ VEC_INLINE void push_uniform(const SubBlock *sub, unsigned left) {
         const uint32_t id = sub->ids[__builtin_ctz(left)];
         const unsigned pixels = pixels_with(sub->ids, id) & left;
         left &= ~pixels;
-        push(sub, id - 1, pixels, samples, places);
+        push(sub, id - 1, pixels, samples, places, true);
     }
 }
 
@@ -139,7 +144,7 @@ VEC_INLINE void push_mixed_triangle(const SubBlock *sub, unsigned *left, int fir
     for (int v = 0; v < VECTORS; v++) {
         places[v] += (Vu)vi_load(pixel_place + v * DIP_LANES);
     }
-    push(sub, id - 1, pixels, samples, places);
+    push(sub, id - 1, pixels, samples, places, false);
 }
 
 // Starts a pixel's sum with its uncovered samples.
