@@ -91,7 +91,7 @@ static int shade_batch(Worker *worker, uint32_t draw_index, DipFragmentList *lis
     DipFragmentBatch *batch = &worker->batch;
     pad_list(list);
     pipeline->kernels->dip_kernel_interpolate(&worker->shading.input, list, draw->slot_count,
-                                              batch);
+                                              draw->plain_slot_count, batch);
     bind_batch(worker, draw, batch);
     draw->fragment_shader(batch);
     pipeline->kernels->dip_kernel_encode(batch, pipeline->srgb->code, &worker->encoded);
@@ -126,7 +126,7 @@ static const uint8_t *clip_test(void *context, const DipTriangle *triangle) {
     const DipDraw *draw = &pipeline->pass->draws[triangle->draw];
     DipFragmentBatch *batch = &worker->clip_batch;
     pipeline->kernels->dip_kernel_interpolate(&worker->shading.input, &worker->clip_list,
-                                              draw->clip_slot_count, batch);
+                                              draw->clip_slot_count, 0, batch);
     bind_batch(worker, draw, batch);
     draw->clip_shader(batch);
     worker->work->clip_tested += (uint64_t)worker->clip_list.count;
@@ -424,6 +424,8 @@ bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *
     DIP_ASSERT(pass->clip_plane_count >= 0 && pass->clip_plane_count <= DIP_MAX_CLIP_PLANES);
     for (int d = 0; d < pass->draw_count; d++) {
         DIP_ASSERT(pass->draws[d].slot_count >= 0 && pass->draws[d].slot_count <= DIP_MAX_SLOTS);
+        DIP_ASSERT(pass->draws[d].plain_slot_count >= 0 &&
+                   pass->draws[d].plain_slot_count <= pass->draws[d].slot_count);
     }
     if (!make_lists(pipeline, pass->draw_count, err)) {
         return false;

@@ -27,6 +27,7 @@ typedef struct DipDraw {
     DipFragmentShader *clip_shader; // NULL: opaque. Runs while coverage is decided
     int slot_count;                 // 0..DIP_MAX_SLOTS
     int clip_slot_count;            // 0..slot_count: the clip shader gets the first ones only
+    int plain_slot_count;           // 0..slot_count: of the last ones no shader reads derivatives
     const void *uniforms;
     const DipSampler *samplers; // up to DIP_MAX_SAMPLERS
     // 4x4, row-major: takes mesh positions to clip space, only to cull what is out of view by its

@@ -277,6 +277,8 @@ static void set_draw(DipRenderer *renderer, const DipScene *scene, int index,
         .fragment_shader = kernels->dip_kernel_surface_fragment,
         .clip_shader = clipped ? kernels->dip_kernel_surface_clip : NULL,
         .slot_count = mesh->slot_count,
+        .plain_slot_count =
+            uniforms->light_slot == DIP_NO_SLOT ? 0 : mesh->slot_count - uniforms->light_slot,
         .clip_slot_count = clipped ? uniforms->colour_slot + 2 : 0,
         .uniforms = uniforms,
         .samplers = renderer->samplers[mesh->material],

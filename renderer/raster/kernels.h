@@ -26,9 +26,9 @@
       (DipTile * tile, const DipTriangle *triangle, uint32_t id, const DipClipTest *clip))         \
     /* The surfaces of every pixel of a tile, pushed to the lists of their draws. */               \
     X(void, dip_kernel_collect, (DipTileShading * shading))                                        \
-    /* Varyings and derivatives of a list's fragments. */                                          \
+    /* Varyings of a list's fragments, and derivatives but for those of the last plain_count. */   \
     X(void, dip_kernel_interpolate,                                                                \
-      (const DipShadingInput *input, const DipFragmentList *list, int slot_count,                  \
+      (const DipShadingInput *input, const DipFragmentList *list, int slot_count, int plain_count, \
        DipFragmentBatch *batch))                                                                   \
     /* Shaded colours to 16-bit linear light and to sRGB pixels. */                                \
     X(void, dip_kernel_encode,                                                                     \

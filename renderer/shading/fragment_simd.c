@@ -70,13 +70,18 @@ VEC_INLINE Vf target_coordinate(Vi pixel, Vi sub, int tile_first) {
 }
 
 // u = (u/w) / (1/w); du/dx = (d(u/w)/dx - u d(1/w)/dx) / (1/w): exact, by the quotient rule.
-VEC_INLINE void interpolate(const Surfaces *surfaces, Vf x, Vf y, int slot_count, int i,
-                            DipFragmentBatch *batch) {
+VEC_INLINE void interpolate(const Surfaces *surfaces, Vf x, Vf y, int slot_count, int plain_count,
+                            int i, DipFragmentBatch *batch) {
     const Vf from_x = x - value_of(surfaces, DIP_SURFACE_ANCHOR);
     const Vf from_y = y - value_of(surfaces, DIP_SURFACE_ANCHOR + 1);
     const Plane q = plane_at(surfaces, DIP_SURFACE_RW, from_x, from_y);
     const Vf w = vf_splat(1.0f) / q.at;
-    for (int s = 0; s < slot_count; s++) {
+    const int gradient_count = slot_count - plain_count;
+    for (int s = gradient_count; s < slot_count; s++) {
+        const Plane over_w = plane_at(surfaces, DIP_SURFACE_SLOTS + 3 * s, from_x, from_y);
+        vf_store(batch->slot[s] + i, over_w.at * w);
+    }
+    for (int s = 0; s < gradient_count; s++) {
         const Plane over_w = plane_at(surfaces, DIP_SURFACE_SLOTS + 3 * s, from_x, from_y);
         const Vf value = over_w.at * w;
         vf_store(batch->slot[s] + i, value);
@@ -86,7 +91,7 @@ VEC_INLINE void interpolate(const Surfaces *surfaces, Vf x, Vf y, int slot_count
 }
 
 void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipFragmentList *list,
-                                        int slot_count, DipFragmentBatch *batch) {
+                                        int slot_count, int plain_count, DipFragmentBatch *batch) {
     batch->count = list->count < DIP_FRAGMENT_BATCH ? list->count : DIP_FRAGMENT_BATCH;
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         const Vi place = vi_load((const int32_t *)list->place + i);
@@ -102,12 +107,12 @@ void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipF
             mask_bits(vi_eq(ids, vi_splat((int32_t)triangle[0]))) ^ VEC_ALL_LANES;
         if (!others) {
             const Surfaces surfaces = {surface_of(input, triangle[0]), NULL};
-            interpolate(&surfaces, x, y, slot_count, i, batch);
+            interpolate(&surfaces, x, y, slot_count, plain_count, i, batch);
         } else {
             Vf rows[MAX_ROWS];
             const Surfaces surfaces = {NULL, rows};
             read_rows(input, triangle, others, dip_surface_floats(slot_count), rows);
-            interpolate(&surfaces, x, y, slot_count, i, batch);
+            interpolate(&surfaces, x, y, slot_count, plain_count, i, batch);
         }
     }
 }

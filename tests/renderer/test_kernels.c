@@ -252,8 +252,8 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
         list.place[i] = (uint32_t)random_int(random, 0, (1 << 28) - 1);
     }
     const DipShadingInput input = {triangles, surfaces, dip_surface_stride(SLOTS), 576, 448};
-    scalar->dip_kernel_interpolate(&input, &list, SLOTS, &expected);
-    other->dip_kernel_interpolate(&input, &list, SLOTS, &found);
+    scalar->dip_kernel_interpolate(&input, &list, SLOTS, 0, &expected);
+    other->dip_kernel_interpolate(&input, &list, SLOTS, 0, &found);
     for (int s = 0; s < SLOTS; s++) {
         for (int i = 0; i < list.count; i++) {
             // Any NaN equals any NaN: its bits depend on the instruction's operand order.
