@@ -10,6 +10,7 @@
 #include "renderer/base/fp_mode.h"
 #include "renderer/geometry/setup.h"
 #include "renderer/raster/kernels.h"
+#include "renderer/texture/texture.h"
 #include "tests/renderer/random.h"
 
 #include <stdio.h>
@@ -123,6 +124,87 @@ static double run_small(const DipKernels *kernels) {
     return raster.triangle_count;
 }
 
+// --- texture reads -----------------------------------------------------------------------------
+
+enum { TEXELS = 1024, BATCHES_X = 80, BATCHES = 10 * BATCHES_X };
+
+// A strip of 640x80 fragments that look at one texture; a batch is 8x8 of them.
+typedef struct Reads {
+    DipTexture *texture;
+    DipSampler sampler;
+    DipFragmentBatch batch;
+    float u[BATCHES][DIP_FRAGMENT_BATCH];
+    float v[BATCHES][DIP_FRAGMENT_BATCH];
+} Reads;
+
+static Reads reads;
+
+// Texels of level 0 per pixel along x and y.
+typedef struct Footprint {
+    float x;
+    float y;
+    int max_anisotropy;
+    bool advanced;
+} Footprint;
+
+enum { MAGNIFIED, TRILINEAR, AF_2, AF_4, AF_16, AF_16_ADVANCED };
+
+static const Footprint footprints[] = {
+    [MAGNIFIED] = {0.3f, 0.3f, 1, false}, [TRILINEAR] = {2.8f, 2.8f, 1, false},
+    [AF_2] = {2.8f, 1.4f, 16, false},     [AF_4] = {5.6f, 1.4f, 16, false},
+    [AF_16] = {22.4f, 1.4f, 16, false},   [AF_16_ADVANCED] = {22.4f, 1.4f, 16, true},
+};
+
+static void make_texture(void) {
+    static uint8_t rgba8[TEXELS * TEXELS * 4];
+    Random random = {SEED};
+    for (size_t i = 0; i < sizeof rgba8; i++) {
+        rgba8[i] = i % 4 == 3 ? 255 : (uint8_t)random_u64(&random);
+    }
+    const DipTextureDef def = {.name = "noise",
+                               .width = TEXELS,
+                               .height = TEXELS,
+                               .rgba8 = rgba8,
+                               .encoding = DIP_ENCODING_SRGB};
+    reads.texture = dip_texture_create(&def, NULL);
+    DIP_ASSERT(reads.texture);
+}
+
+static void prepare_reads(int kind) {
+    const Footprint *footprint = &footprints[kind];
+    if (!reads.texture) {
+        make_texture();
+    }
+    reads.sampler = (DipSampler){.texture = reads.texture,
+                                 .max_anisotropy = footprint->max_anisotropy,
+                                 .advanced = footprint->advanced};
+    const float step_x = footprint->x / TEXELS;
+    const float step_y = footprint->y / TEXELS;
+    reads.batch.count = DIP_FRAGMENT_BATCH;
+    for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
+        reads.batch.slot_dx[0][i] = step_x;
+        reads.batch.slot_dx[1][i] = 0.0f;
+        reads.batch.slot_dy[0][i] = 0.0f;
+        reads.batch.slot_dy[1][i] = step_y;
+        for (int b = 0; b < BATCHES; b++) {
+            const int x = b % BATCHES_X * DIP_BLOCK + dip_block_x(i);
+            const int y = b / BATCHES_X * DIP_BLOCK + dip_block_y(i);
+            reads.u[b][i] = (float)x * step_x + 0.013f;
+            reads.v[b][i] = (float)y * step_y + 0.017f;
+        }
+    }
+}
+
+static double run_reads(const DipKernels *kernels) {
+    static float out[3][DIP_FRAGMENT_BATCH];
+    for (int b = 0; b < BATCHES; b++) {
+        memcpy(reads.batch.slot[0], reads.u[b], sizeof reads.u[b]);
+        memcpy(reads.batch.slot[1], reads.v[b], sizeof reads.v[b]);
+        kernels->dip_kernel_sample_colour(&reads.batch, &reads.sampler, 0, out);
+    }
+    return BATCHES * DIP_FRAGMENT_BATCH;
+}
+
 // --- the table ---------------------------------------------------------------------------------
 
 static const Row rows[] = {
@@ -135,6 +217,12 @@ static const Row rows[] = {
     {"3-pixel triangles, 4 samples", "triangle", prepare_3_pixels, run_small, 4},
     {"60-pixel triangles, 1 sample", "triangle", prepare_60_pixels, run_small, 1},
     {"60-pixel triangles, 4 samples", "triangle", prepare_60_pixels, run_small, 4},
+    {"texture, magnified", "fragment", prepare_reads, run_reads, MAGNIFIED},
+    {"texture, trilinear", "fragment", prepare_reads, run_reads, TRILINEAR},
+    {"texture, AF 16 at 2:1", "fragment", prepare_reads, run_reads, AF_2},
+    {"texture, AF 16 at 4:1", "fragment", prepare_reads, run_reads, AF_4},
+    {"texture, AF 16 at 16:1", "fragment", prepare_reads, run_reads, AF_16},
+    {"texture, advanced AF 16 at 16:1", "fragment", prepare_reads, run_reads, AF_16_ADVANCED},
 };
 
 static double least_ns_per_unit(const Row *row, const DipKernels *kernels) {
