@@ -147,28 +147,39 @@ VEC_INLINE void push_mixed_triangle(const SubBlock *sub, unsigned *left, int fir
     push(sub, id - 1, pixels, samples, places, false);
 }
 
-// Starts a pixel's sum with its uncovered samples.
-static void begin_sum(const SubBlock *sub, int pixel) {
+// Starts the sums of mixed pixels with their uncovered samples, of which there are mostly none.
+VEC_INLINE void begin_sums(const SubBlock *sub, unsigned mixed,
+                           const unsigned empty[DIP_MAX_SAMPLES], unsigned any_empty) {
     DipTileShading *shading = sub->shading;
-    int empty = 0;
-    for (int s = 0; s < sub->sample_count; s++) {
-        empty += sub->ids[s * DIP_BLOCK_PIXELS + pixel] == 0;
+    const int corner = sub->y0 * DIP_TILE + sub->x0;
+    for (unsigned left = mixed; left; left &= left - 1) {
+        const int pixel = __builtin_ctz(left);
+        const int at = corner + pixel_place[pixel];
+        shading->mixed[shading->mixed_count++] = (uint16_t)at;
+        memset(shading->sum[at], 0, sizeof shading->sum[at]);
     }
-    const int at = sub->y0 * DIP_TILE + sub->x0 + pixel_place[pixel];
-    for (int c = 0; c < 3; c++) {
-        shading->sum[at][c] = shading->clear_linear16[c] * empty;
+    for (unsigned left = any_empty; left; left &= left - 1) {
+        const int pixel = __builtin_ctz(left);
+        for (int s = 0; s < sub->sample_count; s++) {
+            const int32_t uncovered = (int32_t)(empty[s] >> pixel & 1);
+            for (int c = 0; c < 3; c++) {
+                shading->sum[corner + pixel_place[pixel]][c] +=
+                    shading->clear_linear16[c] * uncovered;
+            }
+        }
     }
-    shading->mixed[shading->mixed_count++] = (uint16_t)at;
 }
 
-static void push_mixed(const SubBlock *sub, unsigned mixed) {
-    for (unsigned left = mixed; left; left &= left - 1) {
-        begin_sum(sub, __builtin_ctz(left));
-    }
+VEC_INLINE void push_mixed(const SubBlock *sub, unsigned mixed) {
     unsigned left[DIP_MAX_SAMPLES];
+    unsigned empty[DIP_MAX_SAMPLES];
+    unsigned any_empty = 0;
     for (int s = 0; s < sub->sample_count; s++) {
-        left[s] = ~pixels_with(sub->ids + s * DIP_BLOCK_PIXELS, 0) & mixed;
+        empty[s] = pixels_with(sub->ids + s * DIP_BLOCK_PIXELS, 0) & mixed;
+        left[s] = mixed & ~empty[s];
+        any_empty |= empty[s];
     }
+    begin_sums(sub, mixed, empty, any_empty);
     for (int s = 0; s < sub->sample_count; s++) {
         while (left[s]) {
             push_mixed_triangle(sub, left, s);
