@@ -88,10 +88,12 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, bool mip_colours) 
     }
 }
 
-static bool matches(Pair *pair, DipTestSceneKind kind, const char *settings) {
+static bool matches(Pair *pair, DipTestSceneKind kind, const char *settings, int frame_index) {
     DipError err = {0};
     DipQuality quality;
     DipFrame frame;
+    dip_reference_set_frame_index(pair->reference, (uint64_t)frame_index);
+    dip_renderer_set_frame_index(pair->renderer, (uint64_t)frame_index);
     if (!dip_quality_parse(settings, &quality, &err) ||
         !dip_reference_draw(pair->reference, &quality, &pair->scene.pose, pair->width, pair->height,
                             pair->expected, &err) ||
@@ -100,21 +102,23 @@ static bool matches(Pair *pair, DipTestSceneKind kind, const char *settings) {
         fail_with(&err);
     }
     char name[160];
-    snprintf(name, sizeof name, "%s_%dx%d_%s", dip_test_scene_name(kind), pair->width, pair->height,
-             settings);
+    snprintf(name, sizeof name, "%s_%dx%d_%s_%d", dip_test_scene_name(kind), pair->width,
+             pair->height, settings, frame_index);
     return dip_image_check(name, pair->expected, &frame,
                            bounds_of(kind, quality.step[DIP_SETTING_MIPDEBUG] != 0));
 }
 
-// All settings of the list over all scenes and sizes, before any failure is told.
-static void check_all(const char *const *settings, size_t count) {
+// All settings of the list over all scenes and sizes, in the first frames of each, before any
+// failure is told.
+static void check_all(const char *const *settings, size_t count, int frame_count) {
     int missed = 0;
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
         for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
             Pair pair;
             open_pair(&pair, (DipTestSceneKind)kind, sizes[s][0], sizes[s][1]);
-            for (size_t i = 0; i < count; i++) {
-                missed += !matches(&pair, (DipTestSceneKind)kind, settings[i]);
+            for (size_t i = 0; i < count * (size_t)frame_count; i++) {
+                missed +=
+                    !matches(&pair, (DipTestSceneKind)kind, settings[i % count], (int)(i / count));
             }
             close_pair(&pair);
         }
@@ -122,41 +126,54 @@ static void check_all(const char *const *settings, size_t count) {
     assert_int_equal(missed, 0);
 }
 
-#define CHECK_ALL(...)                                                                             \
+#define CHECK_ALL(frame_count, ...)                                                                \
     do {                                                                                           \
         static const char *const settings[] = {__VA_ARGS__};                                       \
-        check_all(settings, sizeof settings / sizeof settings[0]);                                 \
+        check_all(settings, sizeof settings / sizeof settings[0], frame_count);                    \
     } while (0)
 
 static void test_antialiasing(void **state) {
     (void)state;
-    CHECK_ALL("aa=none", "aa=2", "aa=4", "aa=6", "aa=8", "aa=4,af=16,aaf=on", "aa=6,af=4");
+    CHECK_ALL(1, "aa=none", "aa=2", "aa=4", "aa=6", "aa=8", "aa=4,af=16,aaf=on", "aa=6,af=4");
+}
+
+static void test_temporal_antialiasing(void **state) {
+    (void)state;
+    CHECK_ALL(2, "aa=2,taa=on", "aa=4,taa=on", "aa=6,taa=on", "aa=8,taa=on",
+              "aa=8,taa=on,aaa=on,asd=2,af=4");
+}
+
+static void test_adaptive_antialiasing(void **state) {
+    (void)state;
+    CHECK_ALL(1, "aaa=on", "aa=2,aaa=on", "aa=2,aaa=on,asd=2", "aa=4,aaa=on", "aa=4,aaa=on,asd=2",
+              "aa=6,aaa=on", "aa=6,aaa=on,asd=2", "aa=6,aaa=on,asd=3", "aa=8,aaa=on",
+              "aa=8,aaa=on,asd=2", "aa=8,aaa=on,asd=4", "aa=8,aaa=on,asd=4,mipdebug=on",
+              "aa=4,aaa=on,asd=2,af=16,aaf=on", "aa=6,aaa=on,miplod=high-performance");
 }
 
 static void test_anisotropy(void **state) {
     (void)state;
-    CHECK_ALL("af=2", "af=4", "af=8", "af=16", "af=2,aaf=on", "af=4,aaf=on", "af=8,aaf=on",
+    CHECK_ALL(1, "af=2", "af=4", "af=8", "af=16", "af=2,aaf=on", "af=4,aaf=on", "af=8,aaf=on",
               "af=16,aaf=on", "aaf=on");
 }
 
 static void test_mip_level_of_detail(void **state) {
     (void)state;
-    CHECK_ALL("miplod=quality", "miplod=performance", "miplod=high-performance",
+    CHECK_ALL(1, "miplod=quality", "miplod=performance", "miplod=high-performance",
               "miplod=high-performance,af=16,aaf=on", "miplod=quality,af=8,aa=2");
 }
 
 static void test_mip_colours(void **state) {
     (void)state;
-    CHECK_ALL("mipdebug=on", "mipdebug=on,af=16", "mipdebug=on,af=16,aaf=on,aa=4",
+    CHECK_ALL(1, "mipdebug=on", "mipdebug=on,af=16", "mipdebug=on,af=16,aaf=on,aa=4",
               "mipdebug=on,miplod=high-performance");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_antialiasing),
-        cmocka_unit_test(test_anisotropy),
-        cmocka_unit_test(test_mip_level_of_detail),
-        cmocka_unit_test(test_mip_colours),
+        cmocka_unit_test(test_antialiasing),          cmocka_unit_test(test_temporal_antialiasing),
+        cmocka_unit_test(test_adaptive_antialiasing), cmocka_unit_test(test_anisotropy),
+        cmocka_unit_test(test_mip_level_of_detail),   cmocka_unit_test(test_mip_colours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
