@@ -70,8 +70,8 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // A clipped pixel whose alpha is close to the cutoff may come or go.
     static const DipImageBounds fence = {0.004, 0.01, 0.0015, 1.0};
     static const DipImageBounds fence_mips = {0.010, 0.01, 0.0015, 1.0};
-    // With passes there are more columns of places that may lie on the edge of an upright bar, where
-    // u is the same along the bar's length; each weighs a pass' samples only.
+    // With passes there are more columns of places that may lie on the edge of an upright bar,
+    // where u is the same along the bar's length; each weighs a pass' samples only.
     static const DipImageBounds fence_passes = {0.004, 0.01, 0.006, 0.5};
     // A position that falls between two steps may be rounded to either; a sliver shows that most.
     static const DipImageBounds slivers = {0.004, 0.01, 0.001, 0.5};
@@ -80,8 +80,7 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.05};
     static const DipImageBounds huge_mips = {0.06, 0.01, 0.03, 1.0};
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
-    const bool passes =
-        dip_quality_samples_per_pass(quality) < dip_quality_sample_count(quality);
+    const bool passes = dip_quality_samples_per_pass(quality) < dip_quality_sample_count(quality);
     switch (kind) {
     case DIP_TEST_SCENE_fence:
         return mip_colours ? &fence_mips : passes ? &fence_passes : &fence;
@@ -110,8 +109,7 @@ static bool matches(Pair *pair, DipTestSceneKind kind, const char *settings, int
     char name[160];
     snprintf(name, sizeof name, "%s_%dx%d_%s_%d", dip_test_scene_name(kind), pair->width,
              pair->height, settings, frame_index);
-    return dip_image_check(name, pair->expected, &frame,
-                           bounds_of(kind, &quality));
+    return dip_image_check(name, pair->expected, &frame, bounds_of(kind, &quality));
 }
 
 // All settings of the list over all scenes and sizes, in the first frames of each, before any
