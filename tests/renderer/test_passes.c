@@ -257,11 +257,13 @@ static void black(DipFragmentBatch *batch) {
     memset(batch->colour, 0, sizeof batch->colour);
 }
 
-// Red and green tell the place in the pixel.
+// Red and green tell the place in the pixel, squared: the mean over passes is not the centre's.
 static void place_as_colour(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
-        batch->colour[0][i] = batch->x[i] - (float)(int)batch->x[i];
-        batch->colour[1][i] = batch->y[i] - (float)(int)batch->y[i];
+        const float x = batch->x[i] - (float)(int)batch->x[i];
+        const float y = batch->y[i] - (float)(int)batch->y[i];
+        batch->colour[0][i] = x * x;
+        batch->colour[1][i] = y * y;
         batch->colour[2][i] = 1.0f;
     }
 }
@@ -331,8 +333,8 @@ static void expect(const DipSamplePattern *pattern, int samples_per_pass, const 
             }
             centroid_of(pattern, held, at);
             const double weight = (double)__builtin_popcount(held) / pattern->count;
-            out->rgb[p][0] += weight * at[0] / 256.0;
-            out->rgb[p][1] += weight * at[1] / 256.0;
+            out->rgb[p][0] += weight * at[0] * at[0] / 65536.0;
+            out->rgb[p][1] += weight * at[1] * at[1] / 65536.0;
             out->rgb[p][2] += weight;
         }
     }
