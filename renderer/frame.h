@@ -49,6 +49,7 @@ typedef struct DipStageTimes {
 // X(name, "Title")
 #define DIP_EFFECT_LIST(X)                                                                         \
     X(alpha_clip, "alpha-clipped surfaces")                                                        \
+    X(adaptive_aa, "adaptive antialiasing")                                                        \
     X(light_map, "light map")
 
 typedef struct DipEffect {

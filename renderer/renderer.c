@@ -339,6 +339,17 @@ static DipEffects effects_of(const DipScene *scene, const DipCounters *counters)
     return effects;
 }
 
+static DipEffect adaptive_aa_of(const DipQuality *quality, DipEffect alpha_clip) {
+    if (!quality->step[DIP_SETTING_AAA]) {
+        return (DipEffect){false, "adaptive AA is off"};
+    }
+    if (dip_quality_samples_per_pass(quality) == dip_quality_sample_count(quality)) {
+        return (DipEffect){false, "one pass holds all samples"};
+    }
+    return alpha_clip.run ? (DipEffect){true, "alpha-clipped surfaces are drawn in several passes"}
+                          : alpha_clip;
+}
+
 static bool check_pose(const DipPose *pose, DipError *err) {
     bool finite = isfinite(pose->fov_y_deg);
     for (int i = 0; i < 3; i++) {
@@ -388,5 +399,6 @@ bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPo
         return false;
     }
     frame->effects = effects_of(scene, &frame->counters);
+    frame->effects.adaptive_aa = adaptive_aa_of(&renderer->quality, frame->effects.alpha_clip);
     return true;
 }
