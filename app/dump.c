@@ -41,7 +41,7 @@ static bool dump_frame(DipSession *session, const DipOptions *options, int index
     char hashes[DIP_PANE_COUNT][33];
     DipQuality qualities[DIP_PANE_COUNT];
     DipRecordPane panes[DIP_PANE_COUNT];
-    if (!dip_session_draw(session, time_ns, &pose, frames, err)) {
+    if (!dip_session_draw(session, time_ns, (uint64_t)index, &pose, frames, err)) {
         return false;
     }
     for (int p = 0; p < DIP_PANE_COUNT; p++) {

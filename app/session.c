@@ -380,12 +380,13 @@ void dip_session_close(DipSession *session) {
     *session = (DipSession){.isa = DIP_ISA_SCALAR};
 }
 
-bool dip_session_draw(DipSession *session, int64_t play_ns, DipPose *pose,
+bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index, DipPose *pose,
                       DipFrame frames[DIP_PANE_COUNT], DipError *err) {
     if (!dip_camtrack_pose(&session->track, play_ns, pose)) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
     }
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        dip_renderer_set_frame_index(session->renderers[p], frame_index);
         if (!dip_renderer_draw(session->renderers[p], session->scene, pose, play_ns, &frames[p],
                                err)) {
             return false;

@@ -34,8 +34,8 @@ void dip_session_close(DipSession *session);
 // "DEFAULT", "AA", ...: the ini's category that a slot of the track plays.
 const char *dip_session_category(int slot);
 
-// Draws both panes at a time on the active path.
-bool dip_session_draw(DipSession *session, int64_t play_ns, DipPose *pose,
+// Draws both panes at a time on the active path. frame_index: see dip_renderer_set_frame_index.
+bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index, DipPose *pose,
                       DipFrame frames[DIP_PANE_COUNT], DipError *err);
 
 #endif

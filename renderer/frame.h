@@ -16,9 +16,10 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(tile_triangles, "triangles times the tiles they are binned to")                              \
     X(sub_blocks_tested, "4x4-pixel blocks tested against a triangle's edges")                     \
     X(sub_blocks_accepted, "of these, blocks wholly inside the triangle")                          \
-    X(fragments_clip_tested, "pixels of alpha-clipped surfaces whose clip map was read")           \
+    X(fragments_clip_tested, "places of alpha-clipped surfaces whose clip map was read")           \
+    X(clip_passes, "passes over alpha-clipped triangles, tile by tile")                            \
     X(fragments_shaded, "fragments shaded: pixels times the surfaces seen in them")                \
-    X(pixels_resolved, "pixels whose samples show more than one surface")                          \
+    X(pixels_resolved, "pixels whose samples show more than one surface or pass")                  \
     X(texture_probes, "filtered texture reads, trilinear or bilinear")                             \
     X(texels_fetched, "texels read by these")
 
@@ -48,6 +49,7 @@ typedef struct DipStageTimes {
 // X(name, "Title")
 #define DIP_EFFECT_LIST(X)                                                                         \
     X(alpha_clip, "alpha-clipped surfaces")                                                        \
+    X(adaptive_aa, "adaptive antialiasing")                                                        \
     X(light_map, "light map")
 
 typedef struct DipEffect {

@@ -23,6 +23,7 @@ typedef struct TileWork {
     uint64_t sub_blocks_tested;
     uint64_t sub_blocks_accepted;
     uint64_t clip_tested;
+    uint64_t clip_passes;
     uint64_t fragments;
     uint64_t mixed;
     int64_t stage_ns[STAGE_COUNT];
@@ -53,6 +54,8 @@ struct DipPipeline {
     int draw_room; // lists per worker
     DipSrgbEncodeTable *srgb;
     const DipPass *pass;
+    DipSamplePasses passes_made;
+    const DipSamplePasses *passes; // NULL: alpha-clipped draws have one pass
     uint32_t clear_rgba8;
     int32_t clear_linear16[3];
 };
@@ -133,11 +136,17 @@ static const uint8_t *clip_test(void *context, const DipTriangle *triangle) {
     return batch->keep;
 }
 
+// Of alpha-clipped draws.
+static int pass_count(const DipPipeline *pipeline) {
+    return pipeline->passes ? pipeline->passes->count : 1;
+}
+
 static void draw_triangle(Worker *worker, uint32_t index) {
     const DipPipeline *pipeline = worker->pipeline;
     const DipTriangle *triangle = &pipeline->geometry.triangles[index];
-    const DipClipTest clip = {&worker->clip_list, clip_test, worker};
+    const DipClipTest clip = {&worker->clip_list, clip_test, worker, pipeline->passes};
     const bool clipped = pipeline->pass->draws[triangle->draw].clip_shader != NULL;
+    worker->work->clip_passes += clipped ? (uint64_t)pass_count(pipeline) : 0;
     pipeline->kernels->dip_kernel_draw_triangle(&worker->tile, triangle, index + 1,
                                                 clipped ? &clip : NULL);
 }
@@ -261,12 +270,15 @@ static void begin_tile(Worker *worker, int index) {
     tile->y0 = index / geometry->tiles_x * DIP_TILE;
     tile->pattern = geometry->pattern;
     tile->touched = 0;
+    tile->passed = 0;
     tile->sub_blocks_tested = 0;
     tile->sub_blocks_accepted = 0;
     DipTileShading *shading = &worker->shading;
     shading->tile = tile;
     shading->input = (DipShadingInput){geometry->triangles, geometry->surfaces,
                                        geometry->surface_stride, tile->x0, tile->y0};
+    shading->draws = pipeline->pass->draws;
+    shading->passes = pipeline->passes;
     shading->flush = flush_list;
     shading->flush_whole = flush_whole_list;
     shading->context = worker;
@@ -354,6 +366,7 @@ static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
         counters->sub_blocks_tested += work->sub_blocks_tested;
         counters->sub_blocks_accepted += work->sub_blocks_accepted;
         counters->fragments_clip_tested += work->clip_tested;
+        counters->clip_passes += work->clip_passes;
         counters->fragments_shaded += work->fragments;
         counters->pixels_resolved += work->mixed;
         counters->texture_probes += work->sampling.probes;
@@ -388,6 +401,17 @@ static void set_clear(DipPipeline *pipeline, const float clear_lin[3]) {
         pipeline->clear_linear16[c] = (int32_t)(light * 65535.0f + 0.5f);
         pipeline->clear_rgba8 |= (uint32_t)pipeline->srgb->code[pipeline->clear_linear16[c]]
                                  << (8 * c);
+    }
+}
+
+static void set_passes(DipPipeline *pipeline, const DipPass *pass) {
+    pipeline->passes = NULL;
+    if (pass->samples_per_pass && pass->samples_per_pass < pass->sample_count) {
+        DIP_ASSERT(dip_sample_passes_exist(pass->sample_count, pass->samples_per_pass));
+        dip_sample_passes_make(&pipeline->passes_made,
+                               dip_sample_pattern_of(pass->sample_count, pass->pattern),
+                               pass->samples_per_pass);
+        pipeline->passes = &pipeline->passes_made;
     }
 }
 
@@ -432,6 +456,7 @@ bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *
     }
     pipeline->pass = pass;
     set_clear(pipeline, pass->clear_lin);
+    set_passes(pipeline, pass);
     const int64_t begin = dip_clock_ns();
     if (!run_geometry(pipeline, pass, err)) {
         return false;

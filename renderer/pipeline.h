@@ -10,6 +10,7 @@
 #include "renderer/frame.h"
 #include "renderer/isa.h"
 #include "renderer/mesh.h"
+#include "renderer/raster/pattern.h"
 #include "renderer/shader.h"
 
 #include <stdbool.h>
@@ -48,6 +49,10 @@ typedef struct DipPass {
     const DipDraw *draws; // in submission order: of coplanar surfaces the first stays
     int draw_count;
     int sample_count; // 1, 2, 4, 6 or 8
+    DipPatternKind pattern;
+    // Of alpha-clipped draws: 0 or sample_count: one pass, shaded as any other surface; else one of
+    // dip_sample_passes_exist, each pass clipped and shaded at the centroid of its own samples.
+    int samples_per_pass;
     float clear_lin[3];
     // User planes in clip space: seen where dot(plane, clip position) >= 0.
     float clip_planes[DIP_MAX_CLIP_PLANES][4];

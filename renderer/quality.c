@@ -2,6 +2,7 @@
 #include "renderer/quality.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/raster/pattern.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -125,6 +126,26 @@ size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_b
     return length;
 }
 
+// The divisor must be one that the number of samples has passes for, in use or not.
+static bool check_passes(const DipQuality *quality, DipError *err) {
+    const DipSettingInfo *info = &infos[DIP_SETTING_ASD];
+    const int aa = quality->step[DIP_SETTING_AA];
+    const int sample_count = dip_quality_sample_count(quality);
+    unsigned fitting = 0;
+    for (int i = 0; i < info->step_count; i++) {
+        fitting |= (unsigned)dip_sample_passes_exist(sample_count, i + 1) << i;
+    }
+    if (fitting >> quality->step[DIP_SETTING_ASD] & 1) {
+        return true;
+    }
+    char accepted[96];
+    list_steps(info, fitting, accepted, sizeof accepted);
+    return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, info->key,
+                         "'%s' samples per pass do not fit aa=%s, accepted %s",
+                         info->steps[quality->step[DIP_SETTING_ASD]],
+                         infos[DIP_SETTING_AA].steps[aa], accepted);
+}
+
 bool dip_quality_check(const DipQuality *quality, DipError *err) {
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         const int step = quality->step[s];
@@ -137,7 +158,7 @@ bool dip_quality_check(const DipQuality *quality, DipError *err) {
             return unavailable_step((DipSetting)s, step, err);
         }
     }
-    return true;
+    return check_passes(quality, err);
 }
 
 int dip_quality_sample_count(const DipQuality *quality) {
@@ -147,4 +168,9 @@ int dip_quality_sample_count(const DipQuality *quality) {
 
 int dip_quality_max_anisotropy(const DipQuality *quality) {
     return 1 << quality->step[DIP_SETTING_AF];
+}
+
+int dip_quality_samples_per_pass(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_AAA] ? quality->step[DIP_SETTING_ASD] + 1
+                                          : dip_quality_sample_count(quality);
 }

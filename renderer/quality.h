@@ -18,12 +18,12 @@
 #define DIP_SETTING_LIST(X)                                                                        \
     X(aa, AA, "Antialiasing", 0, ("none", "2", "4", "6", "8"), 0x1f,                               \
       "coverage and depth samples per pixel; shading stays once per pixel and surface")            \
-    X(taa, TAA, "Temporal AA", 0, ("off", "on"), 0x1,                                              \
+    X(taa, TAA, "Temporal AA", 0, ("off", "on"), 0x3,                                              \
       "the sample pattern alternates from frame to frame")                                         \
-    X(aaa, AAA, "Adaptive AA", 0, ("off", "on"), 0x1,                                              \
+    X(aaa, AAA, "Adaptive AA", 0, ("off", "on"), 0x3,                                              \
       "alpha-clipped surfaces are sampled at more than one place per pixel")                       \
-    X(asd, ASD, "Adaptive AA divisor", 0, ("1", "2", "3", "4"), 0x1,                               \
-      "samples that share one pass of adaptive AA")                                                \
+    X(asd, ASD, "Adaptive AA divisor", 0, ("1", "2", "3", "4"), 0xf,                               \
+      "samples that share one pass of adaptive AA; aa=2: 1 2, 4: 1 2, 6: 1 2 3, 8: 1 2 4")         \
     X(af, AF, "Anisotropic filtering", 0, ("none", "2", "4", "8", "16"), 0x1f,                     \
       "texture probes along the long axis of a pixel's footprint, at most this many")              \
     X(aaf, AAF, "Advanced AF", 0, ("off", "on"), 0x3,                                              \
@@ -82,10 +82,14 @@ bool dip_quality_parse(const char *text, DipQuality *quality, DipError *err);
 // Writes all settings in list order, "aa=none,taa=off,..."; returns the length as snprintf does.
 size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_bytes);
 
-// Fails when a step is out of range, not in this version, or does not fit another setting.
+// Fails when a step is out of range (RANGE), not in this version (UNSUPPORTED), or does not fit
+// another setting (CONFLICT: an asd that aa has no passes for).
 bool dip_quality_check(const DipQuality *quality, DipError *err);
 
 int dip_quality_sample_count(const DipQuality *quality);   // 1, 2, 4, 6 or 8
 int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (trilinear), 2, 4, 8 or 16
+
+// Of alpha-clipped surfaces: all samples, unless adaptive AA makes passes.
+int dip_quality_samples_per_pass(const DipQuality *quality);
 
 #endif

@@ -20,6 +20,7 @@ struct DipRenderer {
     int width;
     int height;
     DipQuality quality;
+    uint64_t frame_index;
     DipPipeline *pipeline;
     uint8_t *rgba8;
     size_t stride_bytes;
@@ -106,6 +107,10 @@ bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality, 
 
 DipQuality dip_renderer_quality(const DipRenderer *renderer) {
     return renderer->quality;
+}
+
+void dip_renderer_set_frame_index(DipRenderer *renderer, uint64_t frame_index) {
+    renderer->frame_index = frame_index;
 }
 
 bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError *err) {
@@ -240,12 +245,23 @@ static DipSampler colour_sampler(const DipRenderer *renderer, const DipTexture *
     return sampler;
 }
 
+// A pass' share of the pixel is smaller, so it may read finer levels: by log2(sqrt(passes)), which
+// keeps thin parts of clip maps from being averaged away.
+static int32_t pass_bias_lod8(const DipQuality *quality) {
+    static const int32_t bias_lod8[DIP_MAX_SAMPLES + 1] = {
+        [2] = -128, [3] = -203, [4] = -256, [6] = -331, [8] = -384};
+    return bias_lod8[dip_quality_sample_count(quality) / dip_quality_samples_per_pass(quality)];
+}
+
 static void set_samplers(DipRenderer *renderer, const DipScene *scene) {
     for (int i = 0; i < scene->material_count; i++) {
         const DipSceneMaterial *material = &scene->materials[i];
         if (material->colour_texture != DIP_NO_TEXTURE) {
-            renderer->samplers[i][DIP_SURFACE_SAMPLER_COLOUR] =
-                colour_sampler(renderer, scene->textures[material->colour_texture]);
+            DipSampler *sampler = &renderer->samplers[i][DIP_SURFACE_SAMPLER_COLOUR];
+            *sampler = colour_sampler(renderer, scene->textures[material->colour_texture]);
+            if (material->surface == DIP_SURFACE_CLIPPED) {
+                sampler->bias_lod8 += pass_bias_lod8(&renderer->quality);
+            }
         }
         if (material->light_map != DIP_NO_TEXTURE) {
             renderer->samplers[i][DIP_SURFACE_SAMPLER_LIGHT_MAP] =
@@ -325,6 +341,17 @@ static DipEffects effects_of(const DipScene *scene, const DipCounters *counters)
     return effects;
 }
 
+static DipEffect adaptive_aa_of(const DipQuality *quality, DipEffect alpha_clip) {
+    if (!quality->step[DIP_SETTING_AAA]) {
+        return (DipEffect){false, "adaptive AA is off"};
+    }
+    if (dip_quality_samples_per_pass(quality) == dip_quality_sample_count(quality)) {
+        return (DipEffect){false, "one pass holds all samples"};
+    }
+    return alpha_clip.run ? (DipEffect){true, "alpha-clipped surfaces are drawn in several passes"}
+                          : alpha_clip;
+}
+
 static bool check_pose(const DipPose *pose, DipError *err) {
     bool finite = isfinite(pose->fov_y_deg);
     for (int i = 0; i < 3; i++) {
@@ -358,6 +385,9 @@ bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPo
         .draws = renderer->draws,
         .draw_count = scene->object_count,
         .sample_count = dip_quality_sample_count(&renderer->quality),
+        .pattern =
+            dip_pattern_kind(renderer->quality.step[DIP_SETTING_TAA] != 0, renderer->frame_index),
+        .samples_per_pass = dip_quality_samples_per_pass(&renderer->quality),
         .target = {renderer->rgba8, renderer->stride_bytes, renderer->width, renderer->height},
     };
     memcpy(pass.clear_lin, scene->background_lin, sizeof pass.clear_lin);
@@ -371,5 +401,6 @@ bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPo
         return false;
     }
     frame->effects = effects_of(scene, &frame->counters);
+    frame->effects.adaptive_aa = adaptive_aa_of(&renderer->quality, frame->effects.alpha_clip);
     return true;
 }

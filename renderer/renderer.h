@@ -37,6 +37,10 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
 
 DipQuality dip_renderer_quality(const DipRenderer *renderer);
 
+// The number of the next frames, 0 at first; the caller counts. Only its parity matters, and only
+// to temporal antialiasing: which of the two sample patterns is drawn with.
+void dip_renderer_set_frame_index(DipRenderer *renderer, uint64_t frame_index);
+
 // Pictures for mip debugging instead of the flat colours: up to one per level size 1024, 512, ...,
 // 8 (index 0..7). A NULL picture keeps the flat colour. Copied.
 enum { DIP_MIP_DEBUG_LEVELS = 8 };

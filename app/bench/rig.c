@@ -163,6 +163,7 @@ bool dip_bench_rig_draw(DipBenchRig *rig, int combination, int frame, DipFrame *
         dip_campath_info(view->path).duration_ns / rig->plan->options.frames * frame;
     DipPose pose = {.fov_y_deg = view->fov_y_deg};
     dip_campath_sample(view->path, time_ns, &pose);
+    dip_renderer_set_frame_index(rig->renderers[combination], (uint64_t)frame);
     return dip_renderer_draw(rig->renderers[combination], view->scene, &pose, time_ns, picture,
                              err);
 }

@@ -30,6 +30,7 @@ typedef struct Preview {
     bool flying; // the camera moved by hand in this turn
     double speed_m_per_s;
     unsigned drawn_changes;
+    uint64_t frame_index; // of the pictures shown
     bool full_screen;
     bool redraw; // the overlay or the window changed
 } Preview;
@@ -136,6 +137,7 @@ static bool draw_panes(Preview *preview, DipError *err) {
     }
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         DipFrame frame;
+        dip_renderer_set_frame_index(session->renderers[p], preview->frame_index);
         if (!dip_renderer_draw(session->renderers[p], session->scene, &preview->pose, play_ns,
                                &frame, err) ||
             !dip_window_set_picture(preview->window, p, &frame, err)) {
@@ -143,7 +145,18 @@ static bool draw_panes(Preview *preview, DipError *err) {
         }
         dip_timing_add(&preview->timing[p], dip_clock_ns(), frame.stages.total_ms);
     }
+    ++preview->frame_index;
     return true;
+}
+
+// Whether a pane's picture changes from frame to frame though nothing moves.
+static bool alternates(const Preview *preview) {
+    bool found = false;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipQuality *quality = &preview->state.quality[p];
+        found |= quality->step[DIP_SETTING_TAA] != 0 && dip_quality_sample_count(quality) > 1;
+    }
+    return found;
 }
 
 static void update_figures(Preview *preview, int64_t now_ns) {
@@ -184,7 +197,8 @@ static bool turn(Preview *preview, int64_t now_ns, int64_t elapsed_ns, bool *sho
         dip_window_full_screen(preview->window, state->full_screen);
         preview->redraw = true;
     }
-    const bool new_scene = state->scene_changes != preview->drawn_changes || preview->redraw;
+    const bool new_scene =
+        state->scene_changes != preview->drawn_changes || preview->redraw || alternates(preview);
     *shown = new_scene || state->screenshot || (had_notice && !state->notice[0]);
     if (!*shown) {
         return true;

@@ -63,14 +63,19 @@ int dip_preview_path_of(DipSetting setting) {
     }
 }
 
-// The next step that this version has and that fits the other settings.
+// The next step that this version has and that fits the other settings. A number of samples takes
+// the divisor back to its default where it has no such passes.
 static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     const DipSettingInfo *info = dip_setting_info(setting);
-    DipQuality candidate = *quality;
+    DipQuality candidate;
     for (int i = 1; i < info->step_count; ++i) {
         const int offset = reverse ? info->step_count - i : i;
         const int step = (quality->step[setting] + offset) % info->step_count;
+        candidate = *quality;
         candidate.step[setting] = (uint8_t)step;
+        if (setting == DIP_SETTING_AA && !dip_quality_check(&candidate, NULL)) {
+            candidate.step[DIP_SETTING_ASD] = dip_quality_default().step[DIP_SETTING_ASD];
+        }
         if ((info->available_mask >> step & 1) && dip_quality_check(&candidate, NULL)) {
             *quality = candidate;
             return true;
@@ -91,7 +96,9 @@ static void change_setting(DipPreviewState *state, DipSetting setting, bool reve
         }
     }
     if (!changed) {
-        dip_preview_notice(state, now_ns, "%s: no other step in this version", info->title);
+        const bool single = (info->available_mask & (info->available_mask - 1)) == 0;
+        dip_preview_notice(state, now_ns, "%s: no other step %s", info->title,
+                           single ? "in this version" : "fits");
         return;
     }
     const int path = dip_preview_path_of(setting);

@@ -143,7 +143,7 @@ static void cut_jobs(DipGeometry *geometry) {
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err) {
     geometry->pass = pass;
     geometry->mapping = dip_screen_mapping(pass);
-    geometry->pattern = dip_sample_pattern(pass->sample_count);
+    geometry->pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
     if (!geometry->slack) {
         geometry->slack = LEAST_SLACK;
     }

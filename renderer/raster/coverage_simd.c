@@ -288,6 +288,7 @@ typedef struct Waiting {
     int first;                         // index of its first value in the tile's arrays
     float depth;                       // at its corner
     uint16_t pixels;                   // its fragments in the list, in order
+    uint8_t samples;                   // that they may hold, one bit each
     uint16_t visible[DIP_MAX_SAMPLES]; // pixels by sample
 } Waiting;
 
@@ -332,12 +333,43 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
         places[v] = vi_select(centre, sub_place(128, 128), places[v]);
     }
     waiting->pixels = (uint16_t)pixels;
+    waiting->samples = (uint8_t)((1u << sample_count) - 1);
+}
+
+// The same for the samples of one pass, shaded at the centroid of those that are covered.
+VEC_INLINE void test_pass(const InTile *in, const Region *region, int n, const DipTile *tile,
+                          const DipSamplePasses *passes, int pass, Waiting *waiting,
+                          Vi places[VECTORS]) {
+    const float *const depths = tile->depth + waiting->first;
+    const unsigned samples = passes->samples[pass];
+    unsigned pixels = 0;
+    for (unsigned left = samples; left; left &= left - 1) {
+        waiting->visible[__builtin_ctz(left)] = 0;
+    }
+    for (int v = 0; v < VECTORS; v++) {
+        const PixelEdges edges = pixel_edges(in, region, n, v);
+        Vi held = vi_splat(0);
+        for (unsigned left = samples; left; left &= left - 1) {
+            const int s = __builtin_ctz(left);
+            const Vf old = vf_load(depths + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
+            const Mask covered = covered_lanes(in, &edges, s, DIP_MAX_SAMPLES);
+            const Mask nearer = vf_lt(old, depth_lanes(in, waiting->depth, v, s));
+            const unsigned visible = mask_bits(covered & nearer) << (v * DIP_LANES);
+            waiting->visible[s] |= (uint16_t)visible;
+            pixels |= visible;
+            held |= vi_select(covered, vi_splat(1 << s), vi_splat(0));
+        }
+        places[v] = vi_gather(passes->centroid, held) << DIP_PLACE_SUB_X;
+    }
+    waiting->pixels = (uint16_t)pixels;
+    waiting->samples = (uint8_t)samples;
 }
 
 // Stores the visible samples of the pixels that are kept.
 VEC_INLINE void keep_sub_block(const InTile *in, DipTile *tile, const Waiting *waiting,
                                unsigned keep, uint32_t id) {
-    for (int s = 0; s < tile->pattern->count; s++) {
+    for (unsigned left = waiting->samples; left; left &= left - 1) {
+        const int s = __builtin_ctz(left);
         for (int v = 0; v < VECTORS; v++) {
             const int at = waiting->first + s * DIP_BLOCK_PIXELS + v * DIP_LANES;
             const unsigned bits = (waiting->visible[s] & keep) >> (v * DIP_LANES);
@@ -347,6 +379,10 @@ VEC_INLINE void keep_sub_block(const InTile *in, DipTile *tile, const Waiting *w
             vi_store_lanes((int32_t *)tile->id + at, mask, vi_splat((int32_t)id));
         }
     }
+}
+
+static uint64_t block_bit(const DipTile *tile, const Waiting *waiting) {
+    return (uint64_t)1 << (waiting->first / (tile->pattern->count * DIP_BLOCK_PIXELS));
 }
 
 // Asks about the waiting fragments and draws those that are there.
@@ -367,21 +403,29 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
         }
         if (keep) {
             keep_sub_block(in, tile, &queue->waiting[i], keep, id);
+            if (queue->clip->passes) {
+                tile->passed |= block_bit(tile, &queue->waiting[i]);
+            }
         }
     }
     list->count = 0;
     queue->count = 0;
 }
 
-// Adds the visible pixels of sub-block n to the queue.
+// Adds the visible pixels of sub-block n to the queue: those of a pass, where there are passes.
 VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region *region, int n,
-                                int sample_count, DipTile *tile) {
+                                int pass, int sample_count, DipTile *tile) {
+    const DipSamplePasses *passes = queue->clip->passes;
     DipFragmentList *list = queue->clip->list;
     Waiting *waiting = &queue->waiting[queue->count];
     waiting->first = touch_sub_block(tile, region, n, sample_count);
     waiting->depth = region->depth[n];
     Vi places[VECTORS];
-    test_sub_block(in, region, n, tile, sample_count, waiting, places);
+    if (sample_count > 1 && passes) {
+        test_pass(in, region, n, tile, passes, pass, waiting, places);
+    } else {
+        test_sub_block(in, region, n, tile, sample_count, waiting, places);
+    }
     if (!waiting->pixels) {
         return;
     }
@@ -399,11 +443,14 @@ VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region
 VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *region,
                             const DipTriangle *triangle, int sample_count, DipTile *tile,
                             uint32_t id) {
+    const int pass_count = queue->clip->passes ? queue->clip->passes->count : 1;
     for (unsigned left = region->reached; left; left &= left - 1) {
-        if (queue->clip->list->count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
-            flush_clip_queue(queue, in, triangle, tile, id);
+        for (int pass = 0; pass < pass_count; pass++) {
+            if (queue->clip->list->count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
+                flush_clip_queue(queue, in, triangle, tile, id);
+            }
+            queue_sub_block(queue, in, region, __builtin_ctz(left), pass, sample_count, tile);
         }
-        queue_sub_block(queue, in, region, __builtin_ctz(left), sample_count, tile);
     }
 }
 

@@ -36,6 +36,7 @@ typedef struct DipTile {
     int y0;
     const DipSamplePattern *pattern;
     uint64_t touched; // bit b: block b has been cleared and holds something since
+    uint64_t passed;  // bit b: block b has held samples of an alpha-clipped triangle's passes
     float *depth;     // [block][sample][64]; 0 is infinitely far
     uint32_t *id;     // likewise; triangle index + 1, or 0 for none
     uint64_t sub_blocks_tested;

@@ -3,6 +3,7 @@
 
 #include "renderer/raster/pattern.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 __extension__ typedef __int128 Int128;
@@ -18,8 +19,10 @@ typedef struct Samples {
 typedef struct Drawing {
     const DipReference *reference;
     const DipSamplePattern *pattern;
+    DipSamplePasses passes; // of clipped surfaces
     DipRefTriangles triangles;
     DipRefFilter filter;
+    DipRefFilter pass_filter; // of clipped surfaces in several passes
     Samples samples;
     int width;
     int height;
@@ -85,6 +88,51 @@ static DipRefPlace place_to_shade(const Drawing *drawing, const DipRefTriangle *
     return place_at_sample(drawing, triangle, x, y, lowest);
 }
 
+static bool has_passes(const Drawing *drawing, const DipRefTriangle *triangle) {
+    return triangle->clipped && drawing->passes.count > 1;
+}
+
+static const DipRefFilter *filter_of(const Drawing *drawing, const DipRefTriangle *triangle) {
+    return has_passes(drawing, triangle) ? &drawing->pass_filter : &drawing->filter;
+}
+
+// Where a pass that has these samples of a pixel is shaded: their centroid, rounded down.
+static DipRefPlace place_of_pass(const Drawing *drawing, const DipRefTriangle *triangle, int x,
+                                 int y, unsigned mask) {
+    int sum_x = 0, sum_y = 0, count = 0;
+    for (int s = 0; s < drawing->pattern->count; s++) {
+        if (mask >> s & 1) {
+            sum_x += drawing->pattern->x[s];
+            sum_y += drawing->pattern->y[s];
+            count++;
+        }
+    }
+    return place_at(triangle, (int64_t)x * 256 + sum_x / count, (int64_t)y * 256 + sum_y / count);
+}
+
+static bool alpha_keeps(const Drawing *drawing, const DipRefPlace *place) {
+    const double alpha = dip_reference_alpha(place, filter_of(drawing, place->triangle));
+    return (float)alpha >= place->triangle->material->alpha_cutoff;
+}
+
+// Of the covered samples those that alpha leaves, pass by pass.
+static unsigned clip_samples(const Drawing *drawing, const DipRefTriangle *triangle, int x, int y,
+                             unsigned mask) {
+    if (!has_passes(drawing, triangle)) {
+        const DipRefPlace place = place_to_shade(drawing, triangle, x, y, mask);
+        return alpha_keeps(drawing, &place) ? mask : 0;
+    }
+    unsigned kept = 0;
+    for (int p = 0; p < drawing->passes.count; p++) {
+        const unsigned covered = mask & drawing->passes.samples[p];
+        if (covered) {
+            const DipRefPlace place = place_of_pass(drawing, triangle, x, y, covered);
+            kept |= alpha_keeps(drawing, &place) ? covered : 0;
+        }
+    }
+    return kept;
+}
+
 static void draw_in_pixel(Drawing *drawing, int32_t index, int x, int y) {
     const DipRefTriangle *triangle = &drawing->triangles.items[index];
     const DipSamplePattern *pattern = drawing->pattern;
@@ -94,15 +142,8 @@ static void draw_in_pixel(Drawing *drawing, int32_t index, int x, int y) {
             covers(triangle, (int64_t)x * 256 + pattern->x[s], (int64_t)y * 256 + pattern->y[s]);
         mask |= (unsigned)covered << s;
     }
-    if (!mask) {
-        return;
-    }
-    if (triangle->clipped) {
-        const DipRefPlace place = place_to_shade(drawing, triangle, x, y, mask);
-        if ((float)dip_reference_alpha(&place, &drawing->filter) <
-            triangle->material->alpha_cutoff) {
-            return;
-        }
+    if (mask && triangle->clipped) {
+        mask = clip_samples(drawing, triangle, x, y, mask);
     }
     const size_t first = ((size_t)y * (size_t)drawing->width + (size_t)x) * (size_t)pattern->count;
     for (int s = 0; s < pattern->count; s++) {
@@ -128,7 +169,29 @@ static void draw_triangles(Drawing *drawing) {
     }
 }
 
-// The mean over a pixel's samples, each surface among them shaded once.
+// A surface that has these samples of a pixel, or of one pass over it.
+static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigned mask,
+                  double colour[3]) {
+    const DipRefTriangle *triangle = &drawing->triangles.items[surface];
+    const DipRefPlace place = has_passes(drawing, triangle)
+                                  ? place_of_pass(drawing, triangle, x, y, mask)
+                                  : place_to_shade(drawing, triangle, x, y, mask);
+    dip_reference_shade(&place, filter_of(drawing, triangle), colour);
+}
+
+// The samples that are shaded together with sample s.
+static unsigned shaded_with(const Drawing *drawing, const int32_t *surfaces, int s) {
+    unsigned mask = 0;
+    for (int other = 0; other < drawing->pattern->count; other++) {
+        mask |= (unsigned)(surfaces[other] == surfaces[s]) << other;
+    }
+    if (surfaces[s] != NOTHING && has_passes(drawing, &drawing->triangles.items[surfaces[s]])) {
+        mask &= drawing->passes.sharing[s];
+    }
+    return mask;
+}
+
+// The mean over a pixel's samples, each surface among them shaded once, or once per pass.
 static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
     const int count = drawing->pattern->count;
     const int32_t *surfaces = drawing->samples.triangles +
@@ -136,17 +199,10 @@ static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
     double sum[3] = {0};
     unsigned done = 0;
     for (int s = 0; s < count; s++) {
-        unsigned mask = 0;
-        int held = 0;
-        for (int other = s; other < count && !(done >> s & 1); other++) {
-            if (surfaces[other] == surfaces[s]) {
-                mask |= 1u << other;
-                held++;
-            }
-        }
-        if (!mask) {
+        if (done >> s & 1) {
             continue;
         }
+        const unsigned mask = shaded_with(drawing, surfaces, s);
         done |= mask;
         double colour[3];
         if (surfaces[s] == NOTHING) {
@@ -154,12 +210,10 @@ static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
                 colour[c] = drawing->reference->def->background_lin[c];
             }
         } else {
-            const DipRefPlace place =
-                place_to_shade(drawing, &drawing->triangles.items[surfaces[s]], x, y, mask);
-            dip_reference_shade(&place, &drawing->filter, colour);
+            shade(drawing, surfaces[s], x, y, mask, colour);
         }
         for (int c = 0; c < 3; c++) {
-            sum[c] += colour[c] * held;
+            sum[c] += colour[c] * __builtin_popcount(mask);
         }
     }
     for (int c = 0; c < 3; c++) {
@@ -190,11 +244,16 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
     }
     Drawing drawing = {
         .reference = reference,
-        .pattern = dip_sample_pattern(dip_quality_sample_count(quality)),
+        .pattern = dip_sample_pattern_of(
+            dip_quality_sample_count(quality),
+            dip_pattern_kind(quality->step[DIP_SETTING_TAA] != 0, reference->frame_index)),
         .filter = dip_reference_colour_filter(quality),
         .width = width,
         .height = height,
     };
+    dip_sample_passes_make(&drawing.passes, drawing.pattern, dip_quality_samples_per_pass(quality));
+    drawing.pass_filter = drawing.filter;
+    drawing.pass_filter.bias -= round(128.0 * log2(drawing.passes.count)) / 256.0;
     const bool drawn =
         make_samples(&drawing, err) && dip_reference_build_triangles(reference, pose, width, height,
                                                                      true, &drawing.triangles, err);

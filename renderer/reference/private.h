@@ -8,7 +8,8 @@
 #include <stddef.h>
 
 struct DipReference {
-    const DipSceneDef *def;  // borrowed
+    const DipSceneDef *def; // borrowed
+    uint64_t frame_index;
     DipRefTexture *textures; // by the description's index; those that nothing shows have no levels
 };
 

@@ -97,6 +97,10 @@ void dip_reference_destroy(DipReference **reference) {
     *reference = NULL;
 }
 
+void dip_reference_set_frame_index(DipReference *reference, uint64_t frame_index) {
+    reference->frame_index = frame_index;
+}
+
 bool dip_reference_check_size(int width, int height, DipError *err) {
     return (width >= 1 && width <= DIP_MAX_FRAME_SIZE && height >= 1 &&
             height <= DIP_MAX_FRAME_SIZE) ||

@@ -17,6 +17,9 @@ typedef struct DipReference DipReference;
 DipReference *dip_reference_create(const DipSceneDef *def, DipError *err);
 void dip_reference_destroy(DipReference **reference);
 
+// The number of the frames drawn next, as dip_renderer_set_frame_index.
+void dip_reference_set_frame_index(DipReference *reference, uint64_t frame_index);
+
 // What the fast path should draw with these settings. rgb_lin: width*height*3 doubles, linear
 // light, resolved but not encoded, the top row first.
 bool dip_reference_draw(const DipReference *reference, const DipQuality *quality,

@@ -119,11 +119,20 @@ VEC_INLINE void push_uniform(const SubBlock *sub, unsigned left) {
     }
 }
 
+// The passes of a triangle's draw, NULL where it has but one.
+static inline const DipSamplePasses *passes_of(const DipTileShading *shading, uint32_t triangle) {
+    const uint32_t draw = shading->input.triangles[triangle].draw;
+    return shading->passes && shading->draws[draw].clip_shader ? shading->passes : NULL;
+}
+
 // Pixels whose samples differ, all those of the triangle that the first of `left` holds in sample
-// `first`: shaded at their first sample of it. Takes them out of `left`.
+// `first`: shaded at their first sample of it. Of a triangle with passes only those of the sample's
+// pass, shaded at the centroid of what they hold of it. Takes them out of `left`.
 VEC_INLINE void push_mixed_triangle(const SubBlock *sub, unsigned *left, int first) {
     const DipSamplePattern *pattern = sub->shading->tile->pattern;
     const uint32_t id = sub->ids[first * DIP_BLOCK_PIXELS + __builtin_ctz(left[first])];
+    const DipSamplePasses *passes = passes_of(sub->shading, id - 1);
+    const unsigned shared = passes ? passes->sharing[first] : ~0u;
     Vu samples[VECTORS];
     Vu places[VECTORS];
     unsigned pixels = 0;
@@ -131,7 +140,8 @@ VEC_INLINE void push_mixed_triangle(const SubBlock *sub, unsigned *left, int fir
         samples[v] = places[v] = vu_splat(0);
     }
     for (int s = sub->sample_count - 1; s >= first; s--) {
-        const unsigned held = pixels_with(sub->ids + s * DIP_BLOCK_PIXELS, id) & left[s];
+        const unsigned held =
+            shared >> s & 1 ? pixels_with(sub->ids + s * DIP_BLOCK_PIXELS, id) & left[s] : 0;
         left[s] &= ~held;
         pixels |= held;
         const Vi place = vi_splat(place_of(sub, pattern->x[s], pattern->y[s]));
@@ -142,6 +152,10 @@ VEC_INLINE void push_mixed_triangle(const SubBlock *sub, unsigned *left, int fir
         }
     }
     for (int v = 0; v < VECTORS; v++) {
+        if (passes) {
+            const Vi centroid = vi_gather(passes->centroid, (Vi)samples[v]);
+            places[v] = (Vu)((centroid << DIP_PLACE_SUB_X) + place_of(sub, 0, 0));
+        }
         places[v] += (Vu)vi_load(pixel_place + v * DIP_LANES);
     }
     push(sub, id - 1, pixels, samples, places, false);
@@ -207,9 +221,25 @@ static unsigned pixels_in_target(const SubBlock *sub) {
     return inside;
 }
 
-static void collect_sub_block(const SubBlock *sub) {
+// Pixels among `left`, held by one triangle each, whose triangle has passes.
+static unsigned pixels_in_passes(const SubBlock *sub, unsigned left) {
+    unsigned found = 0;
+    while (left) {
+        const uint32_t id = sub->ids[__builtin_ctz(left)];
+        const unsigned pixels = pixels_with(sub->ids, id) & left;
+        left &= ~pixels;
+        found |= id && passes_of(sub->shading, id - 1) ? pixels : 0;
+    }
+    return found;
+}
+
+// passed: may hold triangles with passes.
+static void collect_sub_block(const SubBlock *sub, bool passed) {
     const bool within = sub->x0 + 4 <= sub->shading->width && sub->y0 + 4 <= sub->shading->height;
-    const unsigned mixed = sub->sample_count > 1 ? mixed_pixels(sub) : 0;
+    unsigned mixed = sub->sample_count > 1 ? mixed_pixels(sub) : 0;
+    if (passed) {
+        mixed |= pixels_in_passes(sub, ~mixed & ALL_PIXELS);
+    }
     if (within && !mixed && sub->ids[0] && pixels_with(sub->ids, sub->ids[0]) == ALL_PIXELS) {
         push_whole(sub, sub->ids[0] - 1);
         return;
@@ -246,7 +276,7 @@ void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
             const SubBlock sub = {shading, ids + quarter * 16, tile->pattern->count,
                                   block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * 4,
                                   block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * 4};
-            collect_sub_block(&sub);
+            collect_sub_block(&sub, tile->passed >> block & 1);
         }
     }
 }

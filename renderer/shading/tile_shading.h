@@ -39,11 +39,12 @@ typedef struct DipFragmentList {
 // How coverage asks which fragments of an alpha-clipped triangle are there: it fills the list's
 // count, x, y and triangle (one for all; these three up to a multiple of DIP_BATCH_ALIGN) and calls
 // test, which returns a byte per fragment, 0 where the surface is not. `samples` and `pixel` are
-// not used.
+// not used. With passes, a pixel is asked about once in each that it has samples of.
 typedef struct DipClipTest {
     DipFragmentList *list;
     const uint8_t *(*test)(void *context, const DipTriangle *triangle);
     void *context;
+    const DipSamplePasses *passes; // NULL: one pass of all samples
 } DipClipTest;
 
 // A batch after shading.
@@ -69,6 +70,8 @@ typedef void DipFlushList(DipTileShading *shading, uint32_t draw);
 struct DipTileShading {
     DipTile *tile;
     DipShadingInput input;
+    const DipDraw *draws;
+    const DipSamplePasses *passes; // of alpha-clipped draws; NULL: one pass of all samples
     DipFlushList *flush;
     DipFlushList *flush_whole;
     void *context;                // of both

@@ -49,11 +49,14 @@ static int draw_everything(DipRenderer *renderer, const DipScene *scene, DipPose
     for (int i = 0; i < 60; i++) {
         DipQuality quality = dip_quality_default();
         quality.step[DIP_SETTING_AA] = (uint8_t)(i % 5);
+        quality.step[DIP_SETTING_TAA] = (uint8_t)(i / 2 % 2);
+        quality.step[DIP_SETTING_AAA] = (uint8_t)(i / 3 % 2);
         quality.step[DIP_SETTING_AF] = (uint8_t)(i / 5 % 5);
         quality.step[DIP_SETTING_AAF] = (uint8_t)(i % 2);
         quality.step[DIP_SETTING_MIPLOD] = (uint8_t)(i % 4);
         quality.step[DIP_SETTING_MIPDEBUG] = (uint8_t)(i / 30);
         pose.position_world[0] += 0.05;
+        dip_renderer_set_frame_index(renderer, (uint64_t)i);
         DipFrame frame;
         assert_true(dip_renderer_set_quality(renderer, &quality, NULL));
         assert_true(dip_renderer_draw(renderer, scene, &pose, i, &frame, NULL));

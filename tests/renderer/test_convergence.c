@@ -61,6 +61,15 @@ static const Sweep sweeps[] = {
      4,
      {"aa=8,miplod=high-performance", "aa=8,miplod=performance", "aa=8,miplod=quality",
       "aa=8,miplod=high-quality"}},
+    {"aaa", 45.0, 2, {"aa=2", "aa=2,aaa=on"}},
+    {"aaa", 45.0, 3, {"aa=4", "aa=4,aaa=on,asd=2", "aa=4,aaa=on"}},
+    {"aaa", 45.0, 4, {"aa=6", "aa=6,aaa=on,asd=3", "aa=6,aaa=on,asd=2", "aa=6,aaa=on"}},
+    {"aaa", 45.0, 4, {"aa=8", "aa=8,aaa=on,asd=4", "aa=8,aaa=on,asd=2", "aa=8,aaa=on"}},
+    {"aaa", 45.0, 5, {"aaa=on", "aa=2,aaa=on", "aa=4,aaa=on", "aa=6,aaa=on", "aa=8,aaa=on"}},
+    {"aaa",
+     45.0,
+     4,
+     {"aa=8,af=16", "aa=8,aaa=on,asd=4,af=16", "aa=8,aaa=on,asd=2,af=16", "aa=8,aaa=on,af=16"}},
 };
 
 static bool fail(const char *what, const DipError *err) {

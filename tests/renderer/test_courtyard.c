@@ -21,6 +21,8 @@ static const char *const settings[] = {
     "aa=4,af=16",
     "aa=6,miplod=high-performance",
     "aa=2,af=4,aaf=on,mipdebug=on",
+    "aa=8,taa=on,aaa=on,asd=2",
+    "aa=6,aaa=on,af=16",
 };
 
 // Rounding of positions and of alpha near the cutoff moves single samples of the fence and of far,

@@ -296,7 +296,7 @@ static void test_clip_test_is_asked_and_obeyed(void **state) {
             memset(&chequer, 0, sizeof chequer);
             chequer.c = &c;
             chequer.covered = expected;
-            const DipClipTest clip = {&chequer.list, ask_chequer, &chequer};
+            const DipClipTest clip = {&chequer.list, ask_chequer, &chequer, NULL};
             DipTile tile;
             draw_fast(dip_kernels((DipIsa)isa), &c, &clip, &tile);
             read_masks(&c, &tile, found);

@@ -61,7 +61,20 @@ static void list_settings(Stage *stage) {
                                        "aa=4,miplod=quality",
                                        "af=8,miplod=performance",
                                        "miplod=high-performance",
-                                       "mipdebug=on"};
+                                       "mipdebug=on",
+                                       "aa=2,taa=on",
+                                       "aa=4,taa=on",
+                                       "aa=6,taa=on",
+                                       "aa=8,taa=on",
+                                       "aa=2,aaa=on",
+                                       "aa=4,aaa=on",
+                                       "aa=4,aaa=on,asd=2",
+                                       "aa=6,aaa=on",
+                                       "aa=6,aaa=on,asd=2",
+                                       "aa=6,aaa=on,asd=3",
+                                       "aa=8,aaa=on",
+                                       "aa=8,aaa=on,asd=2,af=16",
+                                       "aa=8,taa=on,aaa=on,asd=4"};
     const DipSettingInfo *aa = dip_setting_info(DIP_SETTING_AA);
     const DipSettingInfo *af = dip_setting_info(DIP_SETTING_AF);
     for (int a = 0; a < aa->step_count; a++) {
@@ -111,6 +124,7 @@ static bool draw_all(const Stage *stage, DipIsa isa, int threads, Hash *hashes) 
             DipPose pose = {.fov_y_deg = 45.0};
             DipFrame frame;
             dip_campath_sample(stage->path, time_ns, &pose);
+            dip_renderer_set_frame_index(renderer, (uint64_t)stage->frames[f]);
             drawn = dip_renderer_draw(renderer, stage->scene, &pose, time_ns, &frame, &err);
             if (drawn) {
                 dip_frame_hash(&frame, hashes[s * stage->frame_count + f]);

@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -19,7 +20,7 @@ static void defaults_are_those_of_the_specification(void **state) {
 
 static void text_comes_back_as_it_went_in(void **state) {
     (void)state;
-    static const char text[] = "aa=6,taa=off,aaa=off,asd=1,af=16,aaf=on,opt=off,"
+    static const char text[] = "aa=6,taa=on,aaa=on,asd=3,af=16,aaf=on,opt=off,"
                                "miplod=performance,gi=on,mipdebug=on";
     DipQuality quality;
     char back[256];
@@ -57,7 +58,7 @@ static void bad_settings_are_refused(void **state) {
         {"aa=4,,af=2", DIP_ERROR_UNKNOWN, "", "miplod"},
         {"AA=4", DIP_ERROR_UNKNOWN, "AA", "aa taa"},
         {"aa=4 ", DIP_ERROR_UNKNOWN, "aa", "none|2|4|6|8"},
-        {"aaa=on", DIP_ERROR_UNSUPPORTED, "aaa", "accepted off"},
+        {"opt=standard", DIP_ERROR_UNSUPPORTED, "opt", "accepted off"},
         {"gi=off", DIP_ERROR_UNSUPPORTED, "gi", "accepted on"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -79,6 +80,39 @@ static void bad_settings_are_refused(void **state) {
     assert_int_equal(err.code, DIP_ERROR_OVERSIZED);
 }
 
+// Table 3 of the seed: passes per number of samples and samples per pass; 0: not in it.
+static void pairs_of_aa_and_asd_are_those_of_the_table(void **state) {
+    (void)state;
+    static const char *const aa[] = {"none", "2", "4", "6", "8"};
+    static const int passes[5][4] = {
+        {1, 0, 0, 0}, {2, 1, 0, 0}, {4, 2, 0, 0}, {6, 3, 2, 0}, {8, 4, 0, 2}};
+    for (int a = 0; a < 5; a++) {
+        for (int d = 0; d < 4; d++) {
+            char text[64];
+            DipQuality quality;
+            DipError err = {0};
+            snprintf(text, sizeof text, "aa=%s,aaa=on,asd=%d", aa[a], d + 1);
+            const bool parsed = dip_quality_parse(text, &quality, &err);
+            assert_int_equal(parsed, passes[a][d] != 0);
+            if (parsed) {
+                assert_int_equal(dip_quality_sample_count(&quality) /
+                                     dip_quality_samples_per_pass(&quality),
+                                 passes[a][d]);
+                quality.step[DIP_SETTING_AAA] = 0;
+                assert_int_equal(dip_quality_samples_per_pass(&quality),
+                                 dip_quality_sample_count(&quality));
+                continue;
+            }
+            assert_int_equal(err.code, DIP_ERROR_CONFLICT);
+            assert_string_equal(err.key, "asd");
+            snprintf(text, sizeof text, "'%d' samples per pass do not fit aa=%s", d + 1, aa[a]);
+            assert_non_null(strstr(err.message, text));
+            snprintf(text, sizeof text, "aa=%s,asd=%d", aa[a], d + 1);
+            assert_false(dip_quality_parse(text, &quality, NULL)); // in use or not
+        }
+    }
+}
+
 static void format_measures_like_snprintf(void **state) {
     (void)state;
     const DipQuality quality = dip_quality_default();
@@ -98,6 +132,7 @@ int main(void) {
         cmocka_unit_test(text_comes_back_as_it_went_in),
         cmocka_unit_test(what_is_left_out_keeps_its_default),
         cmocka_unit_test(bad_settings_are_refused),
+        cmocka_unit_test(pairs_of_aa_and_asd_are_those_of_the_table),
         cmocka_unit_test(format_measures_like_snprintf),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,10 +11,11 @@
 
 #include <cmocka.h>
 
-static const char *const settings[] = {"aa=none", "aa=8,af=16,aaf=on", "aa=6,mipdebug=on"};
+static const char *const settings[] = {"aa=none", "aa=8,af=16,aaf=on", "aa=6,mipdebug=on",
+                                       "aa=8,aaa=on,asd=2"};
 static const int sizes[][2] = {{200, 150}, {1, 1}, {65, 3}};
 
-enum { MAX_THREADS = 4, SETTINGS = 3, SIZES = 3, DRAWN_TWICE = 2 };
+enum { MAX_THREADS = 4, SETTINGS = 4, SIZES = 3, DRAWN_TWICE = 2 };
 
 typedef struct Result {
     char hash[33];

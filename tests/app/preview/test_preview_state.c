@@ -68,6 +68,20 @@ static void settings_cycle(void **state) {
     assert_int_equal(f->state.scene_changes, 6);
 }
 
+// 8 samples may share passes of 4, no other number may: the divisor goes back to its default.
+static void samples_take_the_divisor_along(void **state) {
+    Fixture *f = *state;
+    f->state.quality[DIP_PANE_REQUESTED] = parse("aa=8,aaa=on,asd=2");
+    press(f, DIP_ACTION_SETTING, DIP_SETTING_ASD, false);
+    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD), 3); // 3 is passed over
+    press(f, DIP_ACTION_SETTING, DIP_SETTING_AA, true);
+    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_AA), 3);
+    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD), 0);
+    press(f, DIP_ACTION_SETTING, DIP_SETTING_ASD, false);
+    press(f, DIP_ACTION_SETTING, DIP_SETTING_AA, false);
+    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD), 1); // 2 fits 8 too
+}
+
 // Every setting comes round to where it began, through valid settings only.
 static void every_setting_comes_round(void **state) {
     Fixture *f = *state;
@@ -214,6 +228,7 @@ static void median_of_the_last_second(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(settings_cycle, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(samples_take_the_divisor_along, set_up, tear_down),
         cmocka_unit_test_setup_teardown(every_setting_comes_round, set_up, tear_down),
         cmocka_unit_test_setup_teardown(panes_and_apply, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_setting_brings_its_path, set_up, tear_down),
