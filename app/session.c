@@ -122,7 +122,7 @@ static bool load_scene(DipSession *session, const DipOptions *options, DipErrorL
         files[count++] = named->items[i].path;
     }
     DipError err = {0};
-    DipModel *model = dip_model_load(files, count, session->pool, faults, &err);
+    DipModel *model = dip_model_load_with_normals(files, count, session->pool, faults, &err);
     if (model) {
         DipSceneDef def = *dip_model_scene_def(model);
         set_surroundings(session, options, &def);
