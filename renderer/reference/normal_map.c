@@ -33,43 +33,56 @@ bool dip_reference_is_bumpy(const DipMaterialDef *material) {
     return is_solid && has_light && material->normal_map != DIP_NO_TEXTURE;
 }
 
-// The direction in which one coordinate grows while the other stays, at right angles to the normal:
-// dP/du = (dP/dx dv/dy - dP/dy dv/dx) / (du/dx dv/dy - du/dy dv/dx), and alike for v.
-static void find_tangent(const DipRefVaryings *varyings, int grows, int stays, double area,
-                         const double normal[3], double tangent[3]) {
+// The direction in which u grows while v stays, at right angles to the normal, and square to both
+// the one in which v shrinks: dP/du = (dP/dx dv/dy - dP/dy dv/dx) / (du/dx dv/dy - du/dy dv/dx),
+// and alike for v. False where there is none.
+static bool find_tangents(const DipRefVaryings *varyings, const double normal[3], double along_u[3],
+                          double against_v[3]) {
     const double *dx = varyings->ddx;
     const double *dy = varyings->ddy;
-    const double sign = grows == DIP_REF_U0 ? 1.0 : -1.0;
-    for (int i = 0; i < 3; i++) {
-        tangent[i] = sign * (dx[DIP_REF_X + i] * dy[stays] - dy[DIP_REF_X + i] * dx[stays]) / area;
+    const double area = dx[DIP_REF_U0] * dy[DIP_REF_V0] - dy[DIP_REF_U0] * dx[DIP_REF_V0];
+    double down[3]; // dP/dv
+    for (int i = 0; i < 3 && area != 0.0; i++) {
+        const double p_dx = dx[DIP_REF_X + i], p_dy = dy[DIP_REF_X + i];
+        along_u[i] = (p_dx * dy[DIP_REF_V0] - p_dy * dx[DIP_REF_V0]) / area;
+        down[i] = (p_dy * dx[DIP_REF_U0] - p_dx * dy[DIP_REF_U0]) / area;
     }
-    const double along = dot(tangent, normal);
-    for (int i = 0; i < 3; i++) {
-        tangent[i] -= along * normal[i];
+    if (area == 0.0) {
+        return false;
     }
-    normalise(tangent);
+    const double along = dot(along_u, normal);
+    for (int i = 0; i < 3; i++) {
+        along_u[i] -= along * normal[i];
+    }
+    normalise(along_u);
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        against_v[i] = normal[j] * along_u[k] - normal[k] * along_u[j];
+    }
+    if (dot(against_v, down) > 0.0) {
+        for (int i = 0; i < 3; i++) {
+            against_v[i] = -against_v[i];
+        }
+    }
+    return dot(along_u, along_u) > 0.0;
 }
 
 // Returns the length that the map's filtered normal has.
 static double map_normal(const DipRefVaryings *varyings, const double texel[3],
                          const double normal[3], double mapped[3]) {
-    const double *dx = varyings->ddx;
-    const double *dy = varyings->ddy;
-    const double area = dx[DIP_REF_U0] * dy[DIP_REF_V0] - dy[DIP_REF_U0] * dx[DIP_REF_V0];
+    double along_u[3];
+    double against_v[3];
     double m[3];
-    double along_u[3] = {0.0};
-    double along_v[3] = {0.0};
     for (int i = 0; i < 3; i++) {
         m[i] = (255.0 * texel[i] - 128.0) / 127.0;
+        mapped[i] = normal[i];
     }
-    if (area != 0.0) {
-        find_tangent(varyings, DIP_REF_U0, DIP_REF_V0, area, normal, along_u);
-        find_tangent(varyings, DIP_REF_V0, DIP_REF_U0, area, normal, along_v);
+    if (find_tangents(varyings, normal, along_u, against_v)) {
+        for (int i = 0; i < 3; i++) {
+            mapped[i] = m[0] * along_u[i] + m[1] * against_v[i] + m[2] * normal[i];
+        }
+        normalise(mapped);
     }
-    for (int i = 0; i < 3; i++) { // green is up, v grows down
-        mapped[i] = m[0] * along_u[i] - m[1] * along_v[i] + m[2] * normal[i];
-    }
-    normalise(mapped);
     return sqrt(dot(m, m));
 }
 
