@@ -77,6 +77,7 @@ static double map_normal(const DipRefVaryings *varyings, const double texel[3],
         m[i] = (255.0 * texel[i] - 128.0) / 127.0;
         mapped[i] = normal[i];
     }
+    m[2] = fmax(m[2], 0.125);
     if (find_tangents(varyings, normal, along_u, against_v)) {
         for (int i = 0; i < 3; i++) {
             mapped[i] = m[0] * along_u[i] + m[1] * against_v[i] + m[2] * normal[i];

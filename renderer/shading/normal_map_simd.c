@@ -9,6 +9,8 @@
 // Bounds of what a mapped normal may change the light map by.
 #define LEAST_RATIO    0.25f
 #define GREATEST_RATIO 2.5f
+// Least part along the mesh's normal: where a map's normals cancel out, rounding has no say.
+#define LEAST_RISE 0.125f
 // Reflection of a dielectric seen along its normal, and the least width of its highlight.
 #define REFLECTANCE 0.04f
 #define LEAST_ALPHA 0.1f
@@ -96,7 +98,7 @@ VEC_INLINE Facing find_facing(DipFragmentBatch *batch, int i, Vf3 ray,
     Vf3 m = vf3_load(map, i);
     m.x = m.x * (255.0f / 127.0f) - (128.0f / 127.0f);
     m.y = m.y * (255.0f / 127.0f) - (128.0f / 127.0f);
-    m.z = m.z * (255.0f / 127.0f) - (128.0f / 127.0f);
+    m.z = vf_max(m.z * (255.0f / 127.0f) - (128.0f / 127.0f), vf_splat(LEAST_RISE));
     facing.inverse_length = inverse_length(vf3_dot(m, m));
     m = vf3_scale(m, facing.inverse_length);
     const Vf x = vf_select(tangents.there, m.x, vf_splat(0.0f));

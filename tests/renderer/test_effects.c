@@ -159,6 +159,20 @@ static void mapped_normals_are_lit_as_the_definition_says(void **state) {
     check_wall(short_one, upright, false, 1, 1);
 }
 
+// Normals that cancel out: the mesh's own, with the widest highlight.
+static void a_zero_vector_leaves_the_meshs_normal(void **state) {
+    (void)state;
+    make_wall((const int[]){128, 128, 128}, upright, false);
+    Stage stage = open_stage(false);
+    const DipFrame frame = draw(&stage, 0);
+    const double expected = expected_light((Vec){0.0, 0.0, 1.0}, 0.125);
+    const uint8_t *pixel =
+        frame.rgba8 + (size_t)(SIZE / 2) * frame.stride_bytes + (size_t)(SIZE / 2) * 4;
+    assert_float_equal(decode(pixel[1]), expected, 0.006);
+    close_stage(&stage);
+    dip_test_scene_free(&scene);
+}
+
 static void hard_coordinates_leave_the_meshs_normal(void **state) {
     (void)state;
     static const int leaning[3] = {204, 64, 214};
@@ -299,6 +313,7 @@ static void effects_out_of_view_say_so(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mapped_normals_are_lit_as_the_definition_says),
+        cmocka_unit_test(a_zero_vector_leaves_the_meshs_normal),
         cmocka_unit_test(hard_coordinates_leave_the_meshs_normal),
         cmocka_unit_test(both_sides_have_one_normal),
         cmocka_unit_test(phases_repeat_to_the_bit_and_run_evenly),
