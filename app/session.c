@@ -100,15 +100,40 @@ static bool place_in_config(DipSession *session, const DipConfigFile *file, DipE
     return add_fault(faults, &placed);
 }
 
+static void set_colour(const DipConfigColor *colour, double scale, float lin[3]) {
+    for (int c = 0; c < 3; c++) {
+        lin[c] = (float)(scale * dip_srgb_decode(colour->rgb[c] / 255.0));
+    }
+}
+
+static DipSkyDef sky_of(const DipConfig *config) {
+    DipSkyDef sky = {
+        .layers = {{(float)config->sky_layer1_scale, config->sky_layer1_speed,
+                    (float)config->sky_layer1_perturbation},
+                   {(float)config->sky_layer2_scale, config->sky_layer2_speed,
+                    (float)config->sky_layer2_perturbation}},
+        .perturbation_scale = (float)config->sky_perturbation_scale,
+        .blend = (float)config->sky_blend,
+        .clear = (float)config->sky_clear,
+        .dense = (float)config->sky_dense,
+        .overcast = (float)config->sky_overcast,
+    };
+    set_colour(&config->sky_color, 1.0, sky.zenith_lin);
+    set_colour(&config->sky_horizon_color, 1.0, sky.horizon_lin);
+    set_colour(&config->sky_cloud_color, 1.0, sky.cloud_lin);
+    set_colour(&config->sky_glare_color, config->sky_glare, sky.glare_lin);
+    set_colour(&config->sky_tint, config->sky_brightness, sky.tint_lin);
+    return sky;
+}
+
 static void set_surroundings(const DipSession *session, const DipOptions *options,
                              DipSceneDef *def) {
     if (options->model_count) {
         return; // a model of the user's own brings its own
     }
-    for (int c = 0; c < 3; c++) {
-        def->background_lin[c] = (float)dip_srgb_decode(session->config.background.rgb[c] / 255.0);
-    }
+    set_colour(&session->config.background, 1.0, def->background_lin);
     def->near_m = (float)session->config.near_m;
+    def->sky = sky_of(&session->config);
 }
 
 static bool load_scene(DipSession *session, const DipOptions *options, DipErrorList *faults) {
@@ -122,7 +147,7 @@ static bool load_scene(DipSession *session, const DipOptions *options, DipErrorL
         files[count++] = named->items[i].path;
     }
     DipError err = {0};
-    DipModel *model = dip_model_load(files, count, session->pool, faults, &err);
+    DipModel *model = dip_model_load_with_normals(files, count, session->pool, faults, &err);
     if (model) {
         DipSceneDef def = *dip_model_scene_def(model);
         set_surroundings(session, options, &def);

@@ -10,6 +10,7 @@
 #include <string.h>
 
 static const float default_cutoff = 0.5f;
+static const float default_roughness = 0.6f;
 static const float light_map_scale = 2.0f; // of object-tagged light maps: stored as light / 2
 
 float dip_model_colour_to_linear(float value, bool linear) {
@@ -169,6 +170,8 @@ static void fill_material(DipModel *model, int file_index, const struct aiMesh *
     const bool says =
         aiGetMaterialIntegerArray(material, AI_MATKEY_TWOSIDED, &two_sided, NULL) == AI_SUCCESS;
     def->double_sided = says ? two_sided != 0 : !file->linear_colours;
+    const float roughness = float_property(material, AI_MATKEY_ROUGHNESS_FACTOR, default_roughness);
+    def->roughness = fminf(fmaxf(roughness, 0.0f), 1.0f);
     def->light_map_scale = plan->light_mapped ? light_map_scale : 1.0f;
     def->colour_texture = def->light_map = def->normal_map = DIP_NO_TEXTURE;
 }
@@ -291,8 +294,9 @@ bool dip_model_finish_materials(DipModel *model, DipError *err) {
     for (int i = 0; i < model->def.material_count; ++i) {
         const DipMaterialPlan *plan = &model->plans[i];
         DipMaterialDef *def = &model->materials[i];
-        def->colour_texture =
-            texture_of(model, &plan->colour, &plan->opacity, DIP_ENCODING_SRGB, &ok);
+        const DipEncoding encoding =
+            plan->tag == DIP_TAG_SKY ? DIP_ENCODING_LINEAR : DIP_ENCODING_SRGB;
+        def->colour_texture = texture_of(model, &plan->colour, &plan->opacity, encoding, &ok);
         def->light_map = texture_of(model, &plan->light, NULL, DIP_ENCODING_SRGB, &ok);
         def->normal_map = texture_of(model, &plan->normal, NULL, DIP_ENCODING_LINEAR, &ok);
         if (!ok) {

@@ -290,6 +290,7 @@ static void finish(DipModel *model) {
     model->def.objects = model->objects;
     memcpy(model->def.background_lin, background_lin, sizeof background_lin);
     model->def.near_m = near_distance(model);
+    model->def.sky = dip_sky_default();
 }
 
 static DipModel *load(const char *const *files, int file_count, bool normal_maps, DipPool *pool,

@@ -16,6 +16,8 @@
 //   mask, glass, water or sky, and `lightmapped` = 1 when the material's occlusion picture is a
 //   light map stored as light / 2. Other formats' light maps are taken as they are.
 // - Lit by the renderer's fixed light: what has no light map and is not sky, water or glass.
+// - Roughness is glTF's; 0.6 where a file does not say. A sky's picture is data (DipSkyDef), not
+//   colour, and is read as linear.
 // - Texture coordinates have v = 0 at the picture's upper edge.
 #ifndef DIP_ASSETS_MODEL_H
 #define DIP_ASSETS_MODEL_H
@@ -38,8 +40,7 @@ enum { DIP_MAX_MODEL_FILES = 256 };
 // range; a position or transform that is not finite; no triangle at all; a picture that is there
 // but broken or larger than 8192 pixels. Different models may be loaded on different threads.
 //
-// Normal maps, which the renderer does not draw, are neither looked for nor decoded: materials then
-// have none.
+// Normal maps are neither looked for nor decoded: materials then have none.
 DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
                          DipErrorList *warnings, DipError *err);
 

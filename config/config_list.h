@@ -53,6 +53,37 @@
     KEY(NEAR, near_m, NUMBER, "0.1", 0.001, 100, "distance of the near plane, metres")             \
     KEY(BACKGROUND, background, COLOR, "64,64,64", 0, 255,                                         \
         "colour where nothing is: red, green, blue, sRGB")                                         \
+    KEY(SKY_OVERCAST, sky_overcast, NUMBER, "0.5", 0, 1,                                           \
+        "how much of the sky is cloud, 0: none, 1: all")                                           \
+    KEY(SKY_COLOR, sky_color, COLOR, "88,135,199", 0, 255,                                         \
+        "colour of the clear sky overhead: red, green, blue, sRGB")                                \
+    KEY(SKY_HORIZON_COLOR, sky_horizon_color, COLOR, "142,171,211", 0, 255,                        \
+        "colour of the haze at the horizon")                                                       \
+    KEY(SKY_CLOUD_COLOR, sky_cloud_color, COLOR, "243,244,247", 0, 255, "colour of the clouds")    \
+    KEY(SKY_GLARE_COLOR, sky_glare_color, COLOR, "243,225,188", 0, 255,                            \
+        "colour of the sun's glare")                                                               \
+    KEY(SKY_GLARE, sky_glare, NUMBER, "0.8", 0, 10, "strength of the sun's glare")                 \
+    KEY(SKY_BRIGHTNESS, sky_brightness, NUMBER, "1", 0, 10, "brightness of all of the sky")        \
+    KEY(SKY_TINT, sky_tint, COLOR, "255,255,255", 0, 255, "tint of all of the sky")                \
+    KEY(SKY_CLEAR, sky_clear, NUMBER, "0.75", 0, 1,                                                \
+        "blue of the sky's texture where there is no cloud")                                       \
+    KEY(SKY_DENSE, sky_dense, NUMBER, "1", 0, 1,                                                   \
+        "blue where cloud is densest, more than SKY_CLEAR")                                        \
+    KEY(SKY_BLEND, sky_blend, NUMBER, "0.4", 0, 1, "share of the second layer")                    \
+    KEY(SKY_PERTURBATION_SCALE, sky_perturbation_scale, NUMBER, "1", 0.001, 1000,                  \
+        "repeats of red and green, which displace clouds, per unit of texture coordinates")        \
+    KEY(SKY_LAYER1_SCALE, sky_layer1_scale, NUMBER, "1", 0.001, 1000,                              \
+        "repeats of the first layer per unit of texture coordinates")                              \
+    KEY(SKY_LAYER1_SPEED, sky_layer1_speed, NUMBER, "0.3", -600, 600,                              \
+        "its speed, texture widths a minute; negative: the other way")                             \
+    KEY(SKY_LAYER1_PERTURBATION, sky_layer1_perturbation, NUMBER, "0.03", -1, 1,                   \
+        "how far its clouds are displaced at most, texture widths")                                \
+    KEY(SKY_LAYER2_SCALE, sky_layer2_scale, NUMBER, "1.7", 0.001, 1000,                            \
+        "repeats of the second layer per unit of texture coordinates")                             \
+    KEY(SKY_LAYER2_SPEED, sky_layer2_speed, NUMBER, "-0.2", -600, 600,                             \
+        "its speed, texture widths a minute; negative: the other way")                             \
+    KEY(SKY_LAYER2_PERTURBATION, sky_layer2_perturbation, NUMBER, "0.05", -1, 1,                   \
+        "how far its clouds are displaced at most, texture widths")                                \
     KEY(LOG, log, FILE, "", 0, 0, "file that warnings and errors are also written to")
 
 #endif

@@ -201,6 +201,20 @@ static void settle_cameras(Loader *loader) {
     }
 }
 
+static void compare_sky(Loader *loader) {
+    const DipConfig *config = loader->config;
+    if (loader->failed[DIP_KEY_SKY_CLEAR] || loader->failed[DIP_KEY_SKY_DENSE] ||
+        config->sky_dense > config->sky_clear) {
+        return;
+    }
+    const DipConfigKey key =
+        config->line[DIP_KEY_SKY_DENSE] ? DIP_KEY_SKY_DENSE : DIP_KEY_SKY_CLEAR;
+    dip_config_add_fault(&loader->reader, DIP_ERROR_CONFLICT, DIP_SEVERITY_ERROR, config->line[key],
+                         dip_config_key_name(key),
+                         "SKY_DENSE is %g and SKY_CLEAR %g, accepted the former greater",
+                         config->sky_dense, config->sky_clear);
+}
+
 static bool read_file(Loader *loader) {
     DipConfigReader *reader = &loader->reader;
     reader->stream = fopen(reader->file, "rb");
@@ -238,6 +252,7 @@ bool dip_config_load(const char *file, DipConfig *config, DipErrorList *faults) 
     if (read_file(&loader)) {
         require_keys(&loader);
         settle_cameras(&loader);
+        compare_sky(&loader);
     }
     if (faults->error_count == errors_before) {
         return true;

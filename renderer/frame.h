@@ -21,7 +21,9 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(fragments_shaded, "fragments shaded: pixels times the surfaces seen in them")                \
     X(pixels_resolved, "pixels whose samples show more than one surface or pass")                  \
     X(texture_probes, "filtered texture reads, trilinear or bilinear")                             \
-    X(texels_fetched, "texels read by these")
+    X(texels_fetched, "texels read by these")                                                      \
+    X(fragments_normal_mapped, "fragments whose normal came from a map")                           \
+    X(fragments_sky, "fragments of sky with moving clouds")
 
 typedef struct DipCounters {
 #define DIP_COUNTER_FIELD(name, text) uint64_t name;
@@ -50,7 +52,9 @@ typedef struct DipStageTimes {
 #define DIP_EFFECT_LIST(X)                                                                         \
     X(alpha_clip, "alpha-clipped surfaces")                                                        \
     X(adaptive_aa, "adaptive antialiasing")                                                        \
-    X(light_map, "light map")
+    X(light_map, "light map")                                                                      \
+    X(normal_map, "normal maps with highlights")                                                   \
+    X(sky, "moving clouds")
 
 typedef struct DipEffect {
     bool run;

@@ -334,6 +334,8 @@ static void run_tile(void *context, int index, int worker_index) {
     work->mixed = (uint64_t)worker->shading.mixed_count;
     work->sampling.probes = worker->batch.work.probes + worker->clip_batch.work.probes;
     work->sampling.texels = worker->batch.work.texels + worker->clip_batch.work.texels;
+    work->sampling.normal_mapped = worker->batch.work.normal_mapped;
+    work->sampling.sky = worker->batch.work.sky;
 }
 
 // --- one pass ----------------------------------------------------------------------------------
@@ -371,6 +373,8 @@ static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
         counters->pixels_resolved += work->mixed;
         counters->texture_probes += work->sampling.probes;
         counters->texels_fetched += work->sampling.texels;
+        counters->fragments_normal_mapped += work->sampling.normal_mapped;
+        counters->fragments_sky += work->sampling.sky;
     }
 }
 

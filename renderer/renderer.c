@@ -6,6 +6,7 @@
 #include "renderer/pipeline.h"
 #include "renderer/raster/kernels.h"
 #include "renderer/scene_internal.h"
+#include "renderer/sky.h"
 #include "renderer/texture/mip_debug.h"
 
 #include <math.h>
@@ -24,7 +25,10 @@ struct DipRenderer {
     DipPipeline *pipeline;
     uint8_t *rgba8;
     size_t stride_bytes;
+    bool plain_surfaces;
     DipTexture *mip_colours; // levels 1024 .. 8 of mip debugging
+    DipViewRays rays;        // of the frame, where a shader needs them
+    DipSkyUniforms sky;      // likewise
 
     // For the scene drawn last.
     uint64_t scene_serial;
@@ -73,6 +77,7 @@ DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
     renderer->width = def->width;
     renderer->height = def->height;
     renderer->quality = def->quality;
+    renderer->plain_surfaces = def->plain_surfaces;
     renderer->mip_colours = dip_mip_debug_create(NULL, err);
     if (!renderer->mip_colours ||
         !make_target(def->pool, def->isa, def->width, def->height, &renderer->pipeline,
@@ -225,6 +230,27 @@ static void normal_matrix(const float t[12], float out[9]) {
     }
 }
 
+// The rays through the target's places. The rows of x, y and w are at right angles in their first
+// three elements, so that a point is the sum of them, each times its coordinate over its squared
+// length.
+static DipViewRays view_rays(const double m[16], int width, int height) {
+    DipViewRays rays;
+    double inverse2[4];
+    for (int row = 0; row < 4; row++) {
+        const double *r = m + 4 * row;
+        inverse2[row] = row == 2 ? 0.0 : 1.0 / (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    }
+    for (int c = 0; c < 3; c++) {
+        const double right = m[c] * inverse2[0];
+        const double up = m[4 + c] * inverse2[1];
+        const double ahead = m[12 + c] * inverse2[3];
+        rays.origin[c] = (float)(ahead - right + up);
+        rays.per_x[c] = (float)(2.0 * right / width);
+        rays.per_y[c] = (float)(-2.0 * up / height);
+    }
+    return rays;
+}
+
 static DipSampler colour_sampler(const DipRenderer *renderer, const DipTexture *texture) {
     // Per step of miplod, from high performance to high quality: bias in levels, times 256.
     static const int32_t bias_lod8[] = {384, 256, 128, 0};
@@ -267,7 +293,30 @@ static void set_samplers(DipRenderer *renderer, const DipScene *scene) {
             renderer->samplers[i][DIP_SURFACE_SAMPLER_LIGHT_MAP] =
                 (DipSampler){.texture = scene->textures[material->light_map], .max_anisotropy = 1};
         }
+        if (material->normal_map != DIP_NO_TEXTURE) {
+            DipSampler *sampler = &renderer->samplers[i][DIP_SURFACE_SAMPLER_NORMAL_MAP];
+            *sampler = colour_sampler(renderer, scene->textures[material->normal_map]);
+            sampler->shown = NULL; // mip debugging colours the colour texture
+        }
     }
+}
+
+// Turns a draw into one with an effect's shaders. Mip debugging shows a sky's own texture.
+static void set_effect(const DipRenderer *renderer, const DipSceneMesh *mesh,
+                       DipSurfaceUniforms *uniforms, DipDraw *draw) {
+    const DipKernels *kernels = dip_kernels(renderer->isa);
+    if (renderer->plain_surfaces) {
+        return;
+    }
+    if (mesh->normal_mapped) {
+        draw->vertex_shader = kernels->dip_kernel_normal_map_vertex;
+        draw->fragment_shader = kernels->dip_kernel_normal_map_fragment;
+        draw->slot_count = mesh->mapped_slot_count;
+    } else if (mesh->sky && !renderer->quality.step[DIP_SETTING_MIPDEBUG]) {
+        draw->fragment_shader = kernels->dip_kernel_sky_fragment;
+    }
+    uniforms->rays = &renderer->rays;
+    uniforms->sky = &renderer->sky;
 }
 
 static void set_draw(DipRenderer *renderer, const DipScene *scene, int index,
@@ -277,7 +326,8 @@ static void set_draw(DipRenderer *renderer, const DipScene *scene, int index,
     const DipSceneMesh *mesh = &scene->meshes[object->mesh];
     const DipSceneMaterial *material = &scene->materials[mesh->material];
     DipSurfaceUniforms *uniforms = &renderer->uniforms[index];
-    *uniforms = mesh->layout;
+    *uniforms =
+        mesh->normal_mapped && !renderer->plain_surfaces ? mesh->mapped_layout : mesh->layout;
     place(world_to_clip, object->transform, uniforms->to_clip);
     normal_matrix(object->transform, uniforms->normal_to_world);
     if (renderer->quality.step[DIP_SETTING_MIPDEBUG] && uniforms->colour_slot != DIP_NO_SLOT) {
@@ -303,6 +353,7 @@ static void set_draw(DipRenderer *renderer, const DipScene *scene, int index,
                 : mirrors(object->transform) ? DIP_CULL_FRONT
                                              : DIP_CULL_BACK,
     };
+    set_effect(renderer, mesh, uniforms, &renderer->draws[index]);
 }
 
 // Makes the arrays for a scene not drawn before.
@@ -338,6 +389,15 @@ static DipEffects effects_of(const DipScene *scene, const DipCounters *counters)
     } else {
         effects.alpha_clip = (DipEffect){true, "alpha-clipped surfaces are in view"};
     }
+    effects.normal_map = !scene->has_normal_map
+                             ? (DipEffect){false, "the scene has no normal-mapped surface"}
+                         : !counters->fragments_normal_mapped
+                             ? (DipEffect){false, "no normal-mapped surface is in view"}
+                             : (DipEffect){true, "normal-mapped surfaces are in view"};
+    effects.sky = !scene->has_sky ? (DipEffect){false, "the scene has no sky with clouds"}
+                  : !counters->fragments_sky
+                      ? (DipEffect){false, "no sky is in view, or it is drawn plain"}
+                      : (DipEffect){true, "sky is in view"};
     return effects;
 }
 
@@ -371,13 +431,16 @@ static bool check_pose(const DipPose *pose, DipError *err) {
 
 bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                        int64_t time_ns, DipFrame *frame, DipError *err) {
-    (void)time_ns; // nothing in a scene moves by itself yet
     if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err)) {
         return false;
     }
     double world_to_clip[16];
     view_projection(pose, scene, (double)renderer->width / renderer->height, world_to_clip);
     set_samplers(renderer, scene);
+    if (scene->has_normal_map || scene->has_sky) {
+        renderer->rays = view_rays(world_to_clip, renderer->width, renderer->height);
+        renderer->sky = dip_sky_at(&scene->sky, time_ns);
+    }
     for (int i = 0; i < scene->object_count; i++) {
         set_draw(renderer, scene, i, world_to_clip);
     }

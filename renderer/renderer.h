@@ -21,6 +21,9 @@ typedef struct DipRendererDef {
     int width;  // pixels, 1..DIP_MAX_FRAME_SIZE
     int height; // likewise
     DipQuality quality;
+    // Normal maps and moving clouds are left out: a measuring aid, for pictures of what other
+    // renderers can draw too.
+    bool plain_surfaces;
 } DipRendererDef;
 
 typedef struct DipRenderer DipRenderer;

@@ -22,7 +22,22 @@ static bool check_material(const DipSceneDef *def, const DipMaterialDef *materia
            check_index(material->normal_map, def->texture_count, material->name, "normal_map", err);
 }
 
+static bool check_sky(const DipSkyDef *sky, DipError *err) {
+    for (int i = 0; i < 2; i++) {
+        const double speed = sky->layers[i].speed_per_min;
+        if (!(speed >= -DIP_MAX_SKY_SPEED && speed <= DIP_MAX_SKY_SPEED)) {
+            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "sky",
+                                 "a speed of %g, accepted -%d..%d", speed, DIP_MAX_SKY_SPEED,
+                                 DIP_MAX_SKY_SPEED);
+        }
+    }
+    return true;
+}
+
 static bool check_def(const DipSceneDef *def, DipError *err) {
+    if (!check_sky(&def->sky, err)) {
+        return false;
+    }
     if (!(def->near_m > 0.0f) || !isfinite(def->near_m)) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "near_m",
                              "%g is out of range, accepted more than 0", (double)def->near_m);
@@ -75,6 +90,32 @@ static int add_source(VertexLayout *layout, const float *source, int size) {
     return first;
 }
 
+// Whether a material's normal map is drawn: on solid surfaces that have light to change. Water and
+// sky have shaders of their own.
+static bool draws_normal_map(const DipMaterialDef *material) {
+    const bool solid =
+        material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;
+    return solid && material->normal_map != DIP_NO_TEXTURE &&
+           (material->lit || material->light_map != DIP_NO_TEXTURE);
+}
+
+// The slots of a normal-mapped mesh: coordinates, normal, depth and, where there are, vertex
+// colours.
+static void lay_out_normal_map(DipSceneMesh *out, int normal_attribute) {
+    out->mapped_layout = out->layout;
+    DipSurfaceUniforms *uniforms = &out->mapped_layout;
+    uniforms->normal_attribute = normal_attribute;
+    uniforms->normal_map_slot = 0;
+    uniforms->normal_slot = uniforms->pass_count;
+    uniforms->depth_slot = uniforms->pass_count + 3;
+    out->mapped_slot_count = uniforms->pass_count + 4;
+    uniforms->light_slot = DIP_NO_SLOT;
+    if (uniforms->colour_attribute != DIP_NO_SLOT) {
+        uniforms->light_slot = out->mapped_slot_count;
+        out->mapped_slot_count += 3;
+    }
+}
+
 // Decides what the mesh's material needs of its vertices; nothing else is kept.
 static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *material,
                             DipSceneMesh *out) {
@@ -86,22 +127,34 @@ static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *materi
         .light_slot = DIP_NO_SLOT,
         .colour_slot = DIP_NO_SLOT,
         .light_map_slot = DIP_NO_SLOT,
+        .normal_map_slot = DIP_NO_SLOT,
+        .normal_slot = DIP_NO_SLOT,
+        .depth_slot = DIP_NO_SLOT,
+        .roughness = material->roughness,
         .light_map_scale = material->light_map_scale,
         .alpha_cutoff = material->alpha_cutoff,
     };
     memcpy(uniforms->base_colour_lin, material->base_colour_lin, sizeof uniforms->base_colour_lin);
     add_source(&layout, mesh->positions, 3);
-    if (material->colour_texture != DIP_NO_TEXTURE && mesh->uv0) {
-        uniforms->colour_slot = add_source(&layout, mesh->uv0, 2) - 3;
-    }
     const bool light_mapped = material->light_map != DIP_NO_TEXTURE && mesh->uv1;
+    out->normal_mapped =
+        draws_normal_map(material) && mesh->uv0 && mesh->normals && (light_mapped || material->lit);
+    const bool textured = material->colour_texture != DIP_NO_TEXTURE && mesh->uv0;
+    out->sky = material->surface == DIP_SURFACE_SKY && textured;
+    if (textured || out->normal_mapped) {
+        const int slot = add_source(&layout, mesh->uv0, 2) - 3;
+        uniforms->colour_slot = textured ? slot : DIP_NO_SLOT;
+    }
     if (light_mapped) {
         uniforms->light_map_slot = add_source(&layout, mesh->uv1, 2) - 3;
     }
     uniforms->pass_count = layout.attribute_count - 3;
     out->slot_count = uniforms->pass_count;
-    if (!light_mapped && material->lit && mesh->normals) {
-        uniforms->normal_attribute = add_source(&layout, mesh->normals, 3);
+    const bool lit = !light_mapped && material->lit && mesh->normals;
+    int normal_attribute = DIP_NO_SLOT;
+    if (lit || out->normal_mapped) {
+        normal_attribute = add_source(&layout, mesh->normals, 3);
+        uniforms->normal_attribute = lit ? normal_attribute : DIP_NO_SLOT;
     }
     if (mesh->colours_lin) {
         uniforms->colour_attribute = add_source(&layout, mesh->colours_lin, 3);
@@ -109,6 +162,9 @@ static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *materi
     if (uniforms->normal_attribute != DIP_NO_SLOT || uniforms->colour_attribute != DIP_NO_SLOT) {
         uniforms->light_slot = out->slot_count;
         out->slot_count += 3;
+    }
+    if (out->normal_mapped) {
+        lay_out_normal_map(out, normal_attribute);
     }
     return layout;
 }
@@ -145,6 +201,8 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
     };
     out->mesh = dip_mesh_create(&data, err);
     out->material = mesh->material;
+    scene->has_normal_map |= out->normal_mapped;
+    scene->has_sky |= out->sky;
     free(rows);
     return out->mesh != NULL;
 }
@@ -153,8 +211,10 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
 
 static void mark_used_textures(const DipSceneDef *def, bool *used) {
     for (int i = 0; i < def->material_count; i++) {
-        const int textures[] = {def->materials[i].colour_texture, def->materials[i].light_map};
-        for (int k = 0; k < 2; k++) {
+        const DipMaterialDef *material = &def->materials[i];
+        const int textures[] = {material->colour_texture, material->light_map,
+                                draws_normal_map(material) ? material->normal_map : DIP_NO_TEXTURE};
+        for (size_t k = 0; k < sizeof textures / sizeof *textures; k++) {
             if (textures[k] != DIP_NO_TEXTURE) {
                 used[textures[k]] = true;
             }
@@ -233,8 +293,13 @@ static void place_objects(const DipSceneDef *def, DipScene *scene) {
 static void copy_materials(const DipSceneDef *def, DipScene *scene) {
     for (int i = 0; i < def->material_count; i++) {
         const DipMaterialDef *material = &def->materials[i];
-        scene->materials[i] = (DipSceneMaterial){material->surface, material->colour_texture,
-                                                 material->light_map, material->double_sided};
+        scene->materials[i] = (DipSceneMaterial){
+            .surface = material->surface,
+            .colour_texture = material->colour_texture,
+            .light_map = material->light_map,
+            .normal_map = draws_normal_map(material) ? material->normal_map : DIP_NO_TEXTURE,
+            .double_sided = material->double_sided,
+        };
         scene->has_light_map |= material->light_map != DIP_NO_TEXTURE;
         scene->has_clipped |= material->surface == DIP_SURFACE_CLIPPED;
     }
@@ -252,6 +317,7 @@ static DipScene *allocate_scene(const DipSceneDef *def) {
     scene->mesh_count = def->mesh_count;
     scene->object_count = def->object_count;
     scene->near_m = def->near_m;
+    scene->sky = def->sky;
     memcpy(scene->background_lin, def->background_lin, sizeof scene->background_lin);
     scene->textures = calloc((size_t)def->texture_count + 1, sizeof *scene->textures);
     scene->materials = calloc((size_t)def->material_count + 1, sizeof *scene->materials);

@@ -41,15 +41,17 @@ enum { DIP_NO_TEXTURE = -1 };
 
 // Colour = base colour * colour texture * light, all in linear light, clamped to 0..1 at the end.
 // Light is light_map * light_map_scale where there is a light map; else, for a surface that is
-// `lit`, a fixed sky-and-sun light from the vertex normals; else 1.
+// `lit`, a fixed sky-and-sun light from the vertex normals; else 1. A normal map changes the light
+// of opaque and clipped surfaces that have one of the two and adds a highlight of the sun.
 typedef struct DipMaterialDef {
     const char *name;
     DipSurface surface;
     float base_colour_lin[3]; // 0..1
     int colour_texture;       // index of a texture or DIP_NO_TEXTURE; uses the first coordinates
     int light_map;            // likewise; uses the second coordinates
-    int normal_map;           // likewise; uses the first coordinates
+    int normal_map;           // likewise; uses the first coordinates, green up, linear encoding
     float light_map_scale;    // 2 for light maps stored as light / 2
+    float roughness;          // 0..1, of the highlight on normal-mapped surfaces
     float alpha_cutoff;       // 0..1, for DIP_SURFACE_CLIPPED; alpha >= cutoff is there
     bool double_sided;        // false: seen only where the winding is counter-clockwise
     bool lit;
@@ -76,6 +78,34 @@ typedef struct DipObjectDef {
     float transform[12];
 } DipObjectDef;
 
+enum { DIP_MAX_SKY_SPEED = 600 };
+
+// A layer of clouds: the sky's texture, scrolled and displaced.
+typedef struct DipSkyLayer {
+    float scale;               // repeats of the texture per unit of the surface's coordinates
+    double speed_per_min;      // texture widths that u grows a minute, +-DIP_MAX_SKY_SPEED
+    float perturbation_widths; // displacement where red and green are 1 (0: as much back)
+} DipSkyLayer;
+
+// How sky surfaces with a texture and coordinates look: docs/picture.md, Sky. Of the texture red
+// and green displace, blue is cloud; it should repeat and be of linear encoding.
+typedef struct DipSkyDef {
+    DipSkyLayer layers[2];
+    float perturbation_scale; // repeats of red and green per unit of the surface's coordinates
+    float blend;              // share of the second layer, 0..1
+    float clear;              // blue where there is no cloud
+    float dense;              // blue where it is densest, more than clear
+    float overcast;           // 0: no cloud, 1: nothing but cloud
+    float zenith_lin[3];
+    float horizon_lin[3];
+    float cloud_lin[3];
+    float glare_lin[3]; // added at the sun
+    float tint_lin[3];  // multiplies all of it, brightness included
+} DipSkyDef;
+
+// Blue sky, half overcast.
+DipSkyDef dip_sky_default(void);
+
 typedef struct DipSceneDef {
     const DipTextureDef *textures;
     const DipMaterialDef *materials;
@@ -87,6 +117,7 @@ typedef struct DipSceneDef {
     int object_count;
     float background_lin[3]; // seen where nothing is
     float near_m;            // distance of the near plane, > 0; there is no far plane
+    DipSkyDef sky;           // of surfaces of kind sky
 } DipSceneDef;
 
 typedef struct DipScene DipScene;

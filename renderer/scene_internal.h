@@ -12,6 +12,10 @@ typedef struct DipSceneMesh {
     int material;
     DipSurfaceUniforms layout; // attributes, slots and material; matrices are filled in per frame
     int slot_count;
+    bool normal_mapped;
+    DipSurfaceUniforms mapped_layout; // of normal_mapped, likewise
+    int mapped_slot_count;
+    bool sky; // with the texture and coordinates that the effect needs
 } DipSceneMesh;
 
 typedef struct DipSceneObject {
@@ -23,6 +27,7 @@ typedef struct DipSceneMaterial {
     DipSurface surface;
     int colour_texture; // index or DIP_NO_TEXTURE
     int light_map;
+    int normal_map; // DIP_NO_TEXTURE too where it is not drawn
     bool double_sided;
 } DipSceneMaterial;
 
@@ -43,6 +48,9 @@ struct DipScene {
     uint64_t triangle_count;
     bool has_light_map;
     bool has_clipped;
+    bool has_normal_map; // some mesh is normal-mapped
+    bool has_sky;
+    DipSkyDef sky;
     DipSceneTimes times;
 };
 

@@ -47,10 +47,12 @@ typedef struct DipSampler {
     int32_t shown_level[16];
 } DipSampler;
 
-// Work done for texture reads, added up per tile.
+// Work done for texture reads and effects, added up per tile.
 typedef struct DipSampleWork {
     uint64_t probes;
     uint64_t texels;
+    uint64_t normal_mapped; // fragments
+    uint64_t sky;           // likewise
 } DipSampleWork;
 
 typedef struct DipFragmentBatch DipFragmentBatch;

@@ -41,7 +41,10 @@
     /* The scene's own materials, ordinary shaders. */                                             \
     X(void, dip_kernel_surface_vertex, (const DipVertexBatch *batch))                              \
     X(void, dip_kernel_surface_fragment, (DipFragmentBatch * batch))                               \
-    X(void, dip_kernel_surface_clip, (DipFragmentBatch * batch))
+    X(void, dip_kernel_surface_clip, (DipFragmentBatch * batch))                                   \
+    X(void, dip_kernel_normal_map_vertex, (const DipVertexBatch *batch))                           \
+    X(void, dip_kernel_normal_map_fragment, (DipFragmentBatch * batch))                            \
+    X(void, dip_kernel_sky_fragment, (DipFragmentBatch * batch))
 
 typedef struct DipKernels {
 #define DIP_KERNEL_FIELD(result, name, parameters) result(*name) parameters;

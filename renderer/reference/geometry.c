@@ -78,21 +78,21 @@ static Turn find_turn(const float matrix[12]) {
     return turn;
 }
 
-// The light of sky and sun on a normal of the mesh.
-static double light_vertex(const Turn *turn, const float normal[3]) {
+// A normal of the mesh in the world, of length 1.
+static void turn_normal(const Turn *turn, const float normal[3], double turned[3]) {
     const double local[3] = {normal[0], normal[1], normal[2]};
-    const double turned[3] = {dot3(turn->rows[0], local), dot3(turn->rows[1], local),
-                              dot3(turn->rows[2], local)};
-    static const double sun[3] = {-0.42, 0.67, 0.61};
+    for (int i = 0; i < 3; i++) {
+        turned[i] = dot3(turn->rows[i], local);
+    }
     const double length = sqrt(dot3(turned, turned));
-    const double inv_length = length > 0.0 ? 1.0 / length : 0.0;
-    const double to_sun = dot3(turned, sun) * inv_length / sqrt(dot3(sun, sun));
-    return 0.35 + 0.15 * turned[1] * inv_length + 0.65 * fmax(0.0, to_sun);
+    for (int i = 0; i < 3; i++) {
+        turned[i] *= length > 0.0 ? 1.0 / length : 0.0;
+    }
 }
 
-// turn NULL: no light from normals.
+// lit: by the vertices' normals.
 static ClipVertex transform_vertex(const Camera *camera, const float m[12], const DipMeshDef *mesh,
-                                   const Turn *turn, uint32_t index) {
+                                   const Turn *turn, bool lit, uint32_t index) {
     const float *p = mesh->positions + 3 * (size_t)index;
     double from_camera[3];
     for (int i = 0; i < 3; i++) {
@@ -109,8 +109,12 @@ static ClipVertex transform_vertex(const Camera *camera, const float m[12], cons
         vertex.varyings[DIP_REF_U0 + i] = mesh->uv0 ? mesh->uv0[2 * (size_t)index + i] : 0.0;
         vertex.varyings[DIP_REF_U1 + i] = mesh->uv1 ? mesh->uv1[2 * (size_t)index + i] : 0.0;
     }
-    const double light =
-        turn && mesh->normals ? light_vertex(turn, mesh->normals + 3 * (size_t)index) : 1.0;
+    double *normal = vertex.varyings + DIP_REF_NORMAL_X;
+    if (mesh->normals) {
+        turn_normal(turn, mesh->normals + 3 * (size_t)index, normal);
+    }
+    memcpy(vertex.varyings + DIP_REF_X, from_camera, sizeof from_camera);
+    const double light = lit && mesh->normals ? dip_reference_light(normal, 1.0) : 1.0;
     for (int i = 0; i < 3; i++) {
         vertex.varyings[DIP_REF_RED + i] =
             mesh->colours_lin ? light * mesh->colours_lin[3 * (size_t)index + i] : light;
@@ -262,6 +266,14 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
     if (material->light_map != DIP_NO_TEXTURE && mesh->uv1) {
         like.light_map = &reference->textures[material->light_map];
     }
+    const bool lit = like.light_map || material->lit;
+    if (dip_reference_is_bumpy(material) && mesh->uv0 && mesh->normals && lit) {
+        like.normal_map = &reference->textures[material->normal_map];
+    }
+    if (material->surface == DIP_SURFACE_SKY && like.colour) {
+        like.sky = &reference->def->sky;
+        like.time_ns = reference->time_ns;
+    }
     like.clipped = material->surface == DIP_SURFACE_CLIPPED && like.colour;
     return like;
 }
@@ -276,9 +288,9 @@ static bool add_object(const DipReference *reference, const Camera *camera,
     if (!vertices) {
         return false;
     }
-    const bool lit = like.material->lit && !like.light_map;
+    const bool lit = like.material->lit && !like.light_map && !like.normal_map;
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        vertices[i] = transform_vertex(camera, object->transform, mesh, lit ? &turn : NULL, i);
+        vertices[i] = transform_vertex(camera, object->transform, mesh, &turn, lit, i);
     }
     const bool added = add_mesh(camera, mesh, vertices, &like, triangles);
     free(vertices);

@@ -10,6 +10,7 @@
 struct DipReference {
     const DipSceneDef *def; // borrowed
     uint64_t frame_index;
+    int64_t time_ns;
     DipRefTexture *textures; // by the description's index; those that nothing shows have no levels
 };
 
@@ -19,13 +20,19 @@ enum {
     DIP_REF_V0,
     DIP_REF_U1,
     DIP_REF_V1,
+    DIP_REF_X, // from the eye, world axes, metres
+    DIP_REF_Y,
+    DIP_REF_Z,
+    DIP_REF_NORMAL_X, // unit at the vertices; of normal-mapped surfaces
+    DIP_REF_NORMAL_Y,
+    DIP_REF_NORMAL_Z,
     DIP_REF_RED, // vertex colour times vertex light
     DIP_REF_GREEN,
     DIP_REF_BLUE,
     DIP_REF_VARYINGS
 };
 
-enum { DIP_REF_COORDINATES = 4 }; // the first of them, which also need derivatives
+enum { DIP_REF_DERIVED = 7 }; // the first of them, which also need derivatives
 
 typedef struct DipRefVertex {
     double x; // screen, 1/256 pixel, right
@@ -39,11 +46,14 @@ typedef struct DipRefTriangle {
     DipRefVertex vertices[3];
     double area; // twice the area, in 1/256 pixel squared
     const DipMaterialDef *material;
-    const DipRefTexture *colour;    // NULL: no colour texture, or no coordinates for it
-    const DipRefTexture *light_map; // likewise
-    bool mirrored;                  // by its object's transform, which turns the winding around
-    bool clipped;                   // by the alpha of `colour`
-    int min_x, max_x;               // pixels of the frame that it may touch, inclusive
+    const DipRefTexture *colour;     // NULL: no colour texture, or no coordinates for it
+    const DipRefTexture *light_map;  // likewise
+    const DipRefTexture *normal_map; // likewise; and no normals or nothing that lights it
+    const DipSkyDef *sky;            // of sky with clouds; NULL: of other surfaces
+    int64_t time_ns;                 // of the sky
+    bool mirrored;                   // by its object's transform, which turns the winding around
+    bool clipped;                    // by the alpha of `colour`
+    int min_x, max_x;                // pixels of the frame that it may touch, inclusive
     int min_y, max_y;
 } DipRefTriangle;
 
@@ -73,6 +83,29 @@ double dip_reference_alpha(const DipRefPlace *place, const DipRefFilter *filter)
 
 // Linear light, 0..1. filter is the colour texture's; NULL: bilinear, level 0, for all textures.
 void dip_reference_shade(const DipRefPlace *place, const DipRefFilter *filter, double rgb[3]);
+
+// The light of sun and sky on a unit normal, with a part of the sun.
+extern const double dip_reference_sun[3]; // direction to it, not normalised
+double dip_reference_light(const double normal[3], double sunlit);
+
+// Whether a material's normal map is drawn.
+bool dip_reference_is_bumpy(const DipMaterialDef *material);
+
+// Varyings at a place, and the derivatives per pixel of those that need them.
+typedef struct DipRefVaryings {
+    double value[DIP_REF_VARYINGS];
+    double ddx[DIP_REF_DERIVED];
+    double ddy[DIP_REF_DERIVED];
+} DipRefVaryings;
+
+// normal_map.c: lights a surface's own colour by a map's texel (0..1 each); light: of the light
+// map, NULL: none.
+void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryings *varyings,
+                               const double texel[3], const double light[3], double rgb[3]);
+
+// sky.c: filter NULL: bilinear, level 0.
+void dip_reference_shade_sky(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                             const DipRefVaryings *varyings, double rgb[3]);
 
 // The size is one that a frame may have.
 bool dip_reference_check_size(int width, int height, DipError *err);

@@ -35,6 +35,8 @@ static bool check_scene(const DipSceneDef *def, DipError *err) {
         if (!check_index(material->name, "colour texture", material->colour_texture,
                          def->texture_count, DIP_NO_TEXTURE, err) ||
             !check_index(material->name, "light map", material->light_map, def->texture_count,
+                         DIP_NO_TEXTURE, err) ||
+            !check_index(material->name, "normal map", material->normal_map, def->texture_count,
                          DIP_NO_TEXTURE, err)) {
             return false;
         }
@@ -77,7 +79,9 @@ DipReference *dip_reference_create(const DipSceneDef *def, DipError *err) {
     }
     for (int m = 0; loaded && m < def->material_count; m++) {
         loaded = load_texture(reference, def->materials[m].colour_texture, err) &&
-                 load_texture(reference, def->materials[m].light_map, err);
+                 load_texture(reference, def->materials[m].light_map, err) &&
+                 (!dip_reference_is_bumpy(&def->materials[m]) ||
+                  load_texture(reference, def->materials[m].normal_map, err));
     }
     if (!loaded) {
         dip_reference_destroy(&reference);
@@ -99,6 +103,10 @@ void dip_reference_destroy(DipReference **reference) {
 
 void dip_reference_set_frame_index(DipReference *reference, uint64_t frame_index) {
     reference->frame_index = frame_index;
+}
+
+void dip_reference_set_time(DipReference *reference, int64_t time_ns) {
+    reference->time_ns = time_ns;
 }
 
 bool dip_reference_check_size(int width, int height, DipError *err) {

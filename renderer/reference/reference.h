@@ -20,6 +20,9 @@ void dip_reference_destroy(DipReference **reference);
 // The number of the frames drawn next, as dip_renderer_set_frame_index.
 void dip_reference_set_frame_index(DipReference *reference, uint64_t frame_index);
 
+// The time of the pictures drawn after: nanoseconds since the path's start, 0 at first.
+void dip_reference_set_time(DipReference *reference, int64_t time_ns);
+
 // What the fast path should draw with these settings. rgb_lin: width*height*3 doubles, linear
 // light, resolved but not encoded, the top row first.
 bool dip_reference_draw(const DipReference *reference, const DipQuality *quality,

@@ -12,18 +12,11 @@ double dip_reference_depth(const DipRefPlace *place, double near_m) {
     return near_m * sum / triangle->area;
 }
 
-// Varyings at a place, and the derivatives of the texture coordinates per pixel.
-typedef struct Varyings {
-    double value[DIP_REF_VARYINGS];
-    double ddx[DIP_REF_COORDINATES];
-    double ddy[DIP_REF_COORDINATES];
-} Varyings;
-
 // With U = u/w and Q = 1/w linear on the screen: u = U/Q and du/dx = (dU/dx - u dQ/dx) / Q. The
 // edge functions weigh the vertices; edge i, opposite vertex i, goes from vertex i+1 to i+2 and
 // changes by -dy per step in x and by +dx per step in y. Their common factor cancels out.
 static void interpolate(const DipRefPlace *place, int first, int count, bool derive,
-                        Varyings *out) {
+                        DipRefVaryings *out) {
     const DipRefVertex *v = place->triangle->vertices;
     double weights[3], weights_dx[3], weights_dy[3];
     double q = 0.0, q_dx = 0.0, q_dy = 0.0;
@@ -42,7 +35,7 @@ static void interpolate(const DipRefPlace *place, int first, int count, bool der
         const double a = v[0].varyings[k], b = v[1].varyings[k], c = v[2].varyings[k];
         const double value = (weights[0] * a + weights[1] * b + weights[2] * c) / q;
         out->value[k] = value;
-        if (derive && k < DIP_REF_COORDINATES) {
+        if (derive && k < DIP_REF_DERIVED) {
             out->ddx[k] =
                 (weights_dx[0] * a + weights_dx[1] * b + weights_dx[2] * c - value * q_dx) / q;
             out->ddy[k] =
@@ -52,7 +45,7 @@ static void interpolate(const DipRefPlace *place, int first, int count, bool der
 }
 
 static void read_texture(const DipRefTexture *texture, const DipRefFilter *filter,
-                         const Varyings *varyings, int coordinate, double rgba[4]) {
+                         const DipRefVaryings *varyings, int coordinate, double rgba[4]) {
     if (filter) {
         dip_reference_sample(texture, filter, &varyings->value[coordinate],
                              &varyings->ddx[coordinate], &varyings->ddy[coordinate], rgba);
@@ -62,18 +55,31 @@ static void read_texture(const DipRefTexture *texture, const DipRefFilter *filte
 }
 
 double dip_reference_alpha(const DipRefPlace *place, const DipRefFilter *filter) {
-    Varyings varyings;
+    DipRefVaryings varyings;
     double rgba[4];
     interpolate(place, DIP_REF_U0, 2, filter != NULL, &varyings);
     read_texture(place->triangle->colour, filter, &varyings, DIP_REF_U0, rgba);
     return rgba[3];
 }
 
+// Read as the colour texture is, but for mip colours.
+static void read_normal_map(const DipRefTexture *map, const DipRefFilter *filter,
+                            const DipRefVaryings *varyings, double texel[4]) {
+    DipRefFilter own = filter ? *filter : (DipRefFilter){0};
+    own.mip_colours = false;
+    read_texture(map, filter ? &own : NULL, varyings, DIP_REF_U0, texel);
+}
+
 void dip_reference_shade(const DipRefPlace *place, const DipRefFilter *filter, double rgb[3]) {
     const DipRefTriangle *triangle = place->triangle;
     const DipMaterialDef *material = triangle->material;
-    Varyings varyings;
-    interpolate(place, 0, DIP_REF_VARYINGS, filter != NULL, &varyings);
+    DipRefVaryings varyings;
+    interpolate(place, 0, DIP_REF_VARYINGS, filter || triangle->normal_map, &varyings);
+    const bool mip_colours = filter && filter->mip_colours && triangle->colour;
+    if (triangle->sky && !mip_colours) {
+        dip_reference_shade_sky(triangle, filter, &varyings, rgb);
+        return;
+    }
     double colour[4] = {1.0, 1.0, 1.0, 1.0};
     double light[4] = {1.0, 1.0, 1.0, 1.0};
     double scale = 1.0;
@@ -85,10 +91,19 @@ void dip_reference_shade(const DipRefPlace *place, const DipRefFilter *filter, d
         read_texture(triangle->light_map, filter ? &trilinear : NULL, &varyings, DIP_REF_U1, light);
         scale = material->light_map_scale;
     }
-    const bool mip_colours = filter && filter->mip_colours && triangle->colour;
     for (int c = 0; c < 3; c++) {
         const double base = mip_colours ? 1.0 : material->base_colour_lin[c];
-        const double value = base * varyings.value[DIP_REF_RED + c] * colour[c] * light[c] * scale;
+        rgb[c] = base * varyings.value[DIP_REF_RED + c] * colour[c];
+        light[c] *= scale;
+    }
+    if (triangle->normal_map) {
+        double texel[4];
+        read_normal_map(triangle->normal_map, filter, &varyings, texel);
+        dip_reference_light_bumps(material, &varyings, texel, triangle->light_map ? light : NULL,
+                                  rgb);
+    }
+    for (int c = 0; c < 3; c++) {
+        const double value = triangle->normal_map ? rgb[c] : rgb[c] * light[c];
         rgb[c] = fmin(fmax(value, 0.0), 1.0);
     }
 }

@@ -38,6 +38,7 @@ static bool open_session(Session *session, DipError *err) {
         return false;
     }
     const DipRendererDef def = {.pool = session->pool,
+                                .plain_surfaces = true,
                                 .isa = options->isa,
                                 .width = options->width,
                                 .height = options->height,

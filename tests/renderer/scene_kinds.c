@@ -280,6 +280,94 @@ static void make_light_map(DipTestScene *scene) {
     }
 }
 
+// A quad with normals along +z or, lying, +y, and all arrays; corners as positions go.
+static void add_bumpy_quad(DipTestScene *scene, int material, const float positions[12],
+                           const float uv0[8], bool lies) {
+    const DipTestMesh mesh = dip_test_scene_add_mesh(
+        scene, 4, 6, DIP_TEST_UV0 | DIP_TEST_UV1 | DIP_TEST_NORMALS | DIP_TEST_COLOURS, material);
+    static const float uv1[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const float colours[12] = {1, 0.8f, 0.6f, 1, 1, 1, 0.7f, 0.9f, 1, 1, 1, 1};
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    memcpy(mesh.positions, positions, 12 * sizeof *positions);
+    memcpy(mesh.uv0, uv0, 8 * sizeof *uv0);
+    memcpy(mesh.uv1, uv1, sizeof uv1);
+    memcpy(mesh.colours_lin, colours, sizeof colours);
+    memcpy(mesh.indices, indices, sizeof indices);
+    for (int v = 0; v < 4; v++) {
+        mesh.normals[3 * v + (lies ? 1 : 2)] = 1.0f;
+    }
+}
+
+// Longitude along u, latitude along v; at the poles coordinates have no area.
+static void wrap_sphere(const DipTestMesh *mesh) {
+    for (int r = 0; r <= RINGS; r++) {
+        for (int s = 0; s <= SECTORS; s++) {
+            const int v = r * (SECTORS + 1) + s;
+            mesh->uv0[2 * v] = 3.0f * (float)s / SECTORS;
+            mesh->uv0[2 * v + 1] = 2.0f * (float)r / RINGS;
+        }
+    }
+}
+
+static int add_bumpy_material(DipTestScene *scene, int colour, int bumps) {
+    const int material = dip_test_scene_add_material(scene, colour);
+    scene->materials[material].normal_map = bumps;
+    scene->materials[material].roughness = 0.5f;
+    scene->materials[material].lit = true;
+    return material;
+}
+
+static void make_normal_map(DipTestScene *scene) {
+    dip_test_scene_begin(scene);
+    const int colour = dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 64, 64);
+    const int light = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 8, 8);
+    scene->textures[light].wrap_u = scene->textures[light].wrap_v = DIP_WRAP_CLAMP;
+    const int bumps = dip_test_scene_add_bumps(scene, 128);
+    const int floor = add_bumpy_material(scene, colour, bumps);
+    scene->materials[floor].light_map = light;
+    scene->materials[floor].light_map_scale = 2.0f;
+    const int wall = add_bumpy_material(scene, colour, bumps);
+    const int sheet = add_bumpy_material(scene, DIP_NO_TEXTURE, bumps);
+    scene->materials[sheet].double_sided = true;
+    scene->materials[sheet].base_colour_lin[0] = 0.4f;
+    static const float floor_at[12] = {-3, -1, -1, 3, -1, -1, 3, -1, -12, -3, -1, -12};
+    static const float wall_at[12] = {-3, -1, -8, 0, -1, -8, 0, 2, -8, -3, 2, -8};
+    static const float flat_at[12] = {0, -1, -8, 1, -1, -8, 1, 2, -8, 0, 2, -8};
+    static const float sheet_at[12] = {3, -1, -7, 1, -1, -7, 1, 2, -7, 3, 2, -7}; // from behind
+    static const float tiled[8] = {0, 5, 3, 5, 3, 0, 0, 0};
+    static const float mirrored[8] = {2, 2, 0, 2, 0, 0, 2, 0};
+    static const float nowhere[8] = {0.3f, 0.6f, 0.3f, 0.6f, 0.3f, 0.6f, 0.3f, 0.6f};
+    add_bumpy_quad(scene, floor, floor_at, tiled, true);
+    add_bumpy_quad(scene, wall, wall_at, mirrored, false);
+    add_bumpy_quad(scene, wall, flat_at, nowhere, false);
+    add_bumpy_quad(scene, sheet, sheet_at, tiled, false);
+    const DipTestMesh sphere =
+        dip_test_scene_add_mesh(scene, (RINGS + 1) * (SECTORS + 1), 6 * RINGS * SECTORS,
+                                DIP_TEST_NORMALS | DIP_TEST_UV0, wall);
+    fill_sphere(&sphere);
+    wrap_sphere(&sphere);
+    static const float placed[12] = {-0.6f, 0, 0, -0.4f, 0,    0.8f,
+                                     0.1f,  0, 0, 0,     0.6f, -4}; // mirrored
+    memcpy(scene->objects[scene->def.object_count - 1].transform, placed, sizeof placed);
+}
+
+static void make_sky(DipTestScene *scene) {
+    dip_test_scene_begin(scene);
+    const int material = dip_test_scene_add_material(scene, dip_test_scene_add_clouds(scene, 128));
+    scene->materials[material].surface = DIP_SURFACE_SKY;
+    dip_test_scene_add_quad(scene, material, (const float[]){-400, 60, 120},
+                            (const float[]){800, 0, 0}, (const float[]){0, 0, 1080}, 4, 6);
+    scene->def.sky = dip_sky_default();
+    scene->def.sky.clear = 0.2f;
+    scene->def.sky.dense = 0.8f;
+    // Round, and up by 35 degrees: the sun stands to the right.
+    const double up = 35.0 * pi / 360.0;
+    scene->pose.orientation[0] = 0.0;
+    scene->pose.orientation[1] = cos(up);
+    scene->pose.orientation[2] = -sin(up);
+    scene->pose.orientation[3] = 0.0;
+}
+
 void dip_test_scene_make(DipTestScene *scene, DipTestSceneKind kind) {
     static void (*const makers[])(DipTestScene *) = {
 #define DIP_TEST_SCENE_MAKER(name, text) make_##name,

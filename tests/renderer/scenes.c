@@ -89,6 +89,45 @@ int dip_test_scene_add_material(DipTestScene *scene, int colour_texture) {
     return scene->def.material_count++;
 }
 
+// A texture of linear encoding with size x size texels of zero.
+static uint8_t *add_data(DipTestScene *scene, int size) {
+    uint8_t *rgba8 = dip_test_scene_alloc(scene, (size_t)size * (size_t)size, 4);
+    scene->textures[scene->def.texture_count++] = (DipTextureDef){.name = "test",
+                                                                  .width = size,
+                                                                  .height = size,
+                                                                  .rgba8 = rgba8,
+                                                                  .encoding = DIP_ENCODING_LINEAR};
+    return rgba8;
+}
+
+int dip_test_scene_add_bumps(DipTestScene *scene, int size) {
+    uint8_t *rgba8 = add_data(scene, size);
+    for (int i = 0; i < size * size; i++) {
+        const double x = 0.5 * sin(8.0 * pi * (i % size + 0.5) / size);
+        const double y = 0.5 * sin(6.0 * pi * (i / size + 0.5) / size);
+        rgba8[4 * i] = (uint8_t)lround(128.0 + 127.0 * x);
+        rgba8[4 * i + 1] = (uint8_t)lround(128.0 + 127.0 * y);
+        rgba8[4 * i + 2] = (uint8_t)lround(128.0 + 127.0 * sqrt(1.0 - x * x - y * y));
+        rgba8[4 * i + 3] = 255;
+    }
+    return scene->def.texture_count - 1;
+}
+
+int dip_test_scene_add_clouds(DipTestScene *scene, int size) {
+    uint8_t *rgba8 = add_data(scene, size);
+    for (int i = 0; i < size * size; i++) {
+        const double x = 2.0 * pi * (i % size) / size;
+        const double y = 2.0 * pi * (i / size) / size;
+        for (int c = 0; c < 3; c++) {
+            const double wave =
+                sin(x * (1 + c) + c) * sin(y * 2 + 0.7 * c) + sin(x * 3 - y * (c + 1));
+            rgba8[4 * i + c] = (uint8_t)lround(127.5 + 60.0 * wave);
+        }
+        rgba8[4 * i + 3] = 255;
+    }
+    return scene->def.texture_count - 1;
+}
+
 static float *maybe_alloc(DipTestScene *scene, uint32_t count, size_t floats, int wanted) {
     return wanted ? dip_test_scene_alloc(scene, count, floats * sizeof(float)) : NULL;
 }

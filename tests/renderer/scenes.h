@@ -18,7 +18,10 @@
     X(odd_textures, "1x1, 7x5, 1x9 texels, repeat and clamp, coordinates beyond 0..1")             \
     X(vertex_colours, "vertex colours over a perspective quad, no texture")                        \
     X(lit_sphere, "smooth normals, also scaled unevenly, mirrored and very small")                 \
-    X(light_map, "second coordinates, scaled light map, linear encoding")
+    X(light_map, "second coordinates, scaled light map, linear encoding")                          \
+    X(normal_map,                                                                                  \
+      "bumps under light map and sun; coordinates mirrored, without area, on a sphere")            \
+    X(sky, "two layers of cloud over a quad to the horizon")
 
 typedef enum DipTestSceneKind {
 #define DIP_TEST_SCENE_ENUM(name, text) DIP_TEST_SCENE_##name,
@@ -63,6 +66,10 @@ void *dip_test_scene_alloc(DipTestScene *scene, size_t count, size_t size);
 // Each returns the index of what it added. Texels are opaque; they may be written after.
 int dip_test_scene_add_texture(DipTestScene *scene, DipTestTexture texture, int width, int height);
 int dip_test_scene_add_material(DipTestScene *scene, int colour_texture);
+
+// A normal map of round bumps that repeats, and a sky's data: soft noise. Linear encoding.
+int dip_test_scene_add_bumps(DipTestScene *scene, int size);
+int dip_test_scene_add_clouds(DipTestScene *scene, int size);
 uint8_t *dip_test_scene_texels(DipTestScene *scene, int texture);
 
 // Arrays of a mesh that is being made; those of a kind not asked for are NULL.

@@ -89,7 +89,8 @@ static bool open_bench(Bench *bench) {
     dip_srgb_decode_table(&bench->srgb);
     bench->truth = malloc((size_t)bench->options.frames * values * sizeof *bench->truth);
     bench->pool = dip_pool_create(0, &err);
-    bench->model = bench->pool ? dip_model_load(&file, 1, bench->pool, NULL, &err) : NULL;
+    bench->model =
+        bench->pool ? dip_model_load_with_normals(&file, 1, bench->pool, NULL, &err) : NULL;
     if (!bench->model || !bench->truth) {
         return fail("cannot load:", &err);
     }

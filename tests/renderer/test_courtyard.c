@@ -54,7 +54,8 @@ static bool open_court(Court *court) {
     court->expected =
         malloc((size_t)court->width * (size_t)court->height * 3 * sizeof *court->expected);
     court->pool = dip_pool_create(0, &err);
-    court->model = court->pool ? dip_model_load(&file, 1, court->pool, NULL, &err) : NULL;
+    court->model =
+        court->pool ? dip_model_load_with_normals(&file, 1, court->pool, NULL, &err) : NULL;
     if (!court->model || !court->expected) {
         return tell(file, &err);
     }

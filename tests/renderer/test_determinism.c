@@ -46,7 +46,7 @@ static bool load(Stage *stage) {
     const char *file = DIP_SOURCE_DIR "/assets/courtyard/court.gltf";
     DipError err;
     DipPool *pool = dip_pool_create(0, &err);
-    DipModel *model = pool ? dip_model_load(&file, 1, pool, NULL, &err) : NULL;
+    DipModel *model = pool ? dip_model_load_with_normals(&file, 1, pool, NULL, &err) : NULL;
     stage->scene = model ? dip_scene_create(dip_model_scene_def(model), pool, &err) : NULL;
     const bool loaded = stage->scene && dip_campath_load(DIP_SOURCE_DIR "/campaths/ambient.pth",
                                                          &stage->path, &err);

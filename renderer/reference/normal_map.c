@@ -1,0 +1,132 @@
+// Light and highlight of normal-mapped surfaces: docs/picture.md, "Normal maps".
+#include "renderer/reference/private.h"
+
+#include <math.h>
+
+const double dip_reference_sun[3] = {-0.42, 0.67, 0.61};
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void normalise(double v[3]) {
+    const double length = sqrt(dot(v, v));
+    for (int i = 0; i < 3; i++) {
+        v[i] = length > 0.0 ? v[i] / length : 0.0;
+    }
+}
+
+// How steeply the sun meets a surface.
+static double meet_sun(const double normal[3]) {
+    return fmax(0.0,
+                dot(normal, dip_reference_sun) / sqrt(dot(dip_reference_sun, dip_reference_sun)));
+}
+
+double dip_reference_light(const double normal[3], double sunlit) {
+    return 0.35 + 0.15 * normal[1] + 0.65 * sunlit * meet_sun(normal);
+}
+
+bool dip_reference_is_bumpy(const DipMaterialDef *material) {
+    const bool is_solid =
+        material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;
+    const bool has_light = material->lit || material->light_map != DIP_NO_TEXTURE;
+    return is_solid && has_light && material->normal_map != DIP_NO_TEXTURE;
+}
+
+// The direction in which u grows while v stays, at right angles to the normal, and square to both
+// the one in which v shrinks: dP/du = (dP/dx dv/dy - dP/dy dv/dx) / (du/dx dv/dy - du/dy dv/dx),
+// and alike for v. False where there is none.
+static bool find_tangents(const DipRefVaryings *varyings, const double normal[3], double along_u[3],
+                          double against_v[3]) {
+    const double *dx = varyings->ddx;
+    const double *dy = varyings->ddy;
+    const double area = dx[DIP_REF_U0] * dy[DIP_REF_V0] - dy[DIP_REF_U0] * dx[DIP_REF_V0];
+    double down[3]; // dP/dv
+    for (int i = 0; i < 3 && area != 0.0; i++) {
+        const double p_dx = dx[DIP_REF_X + i], p_dy = dy[DIP_REF_X + i];
+        along_u[i] = (p_dx * dy[DIP_REF_V0] - p_dy * dx[DIP_REF_V0]) / area;
+        down[i] = (p_dy * dx[DIP_REF_U0] - p_dx * dy[DIP_REF_U0]) / area;
+    }
+    if (area == 0.0) {
+        return false;
+    }
+    const double along = dot(along_u, normal);
+    for (int i = 0; i < 3; i++) {
+        along_u[i] -= along * normal[i];
+    }
+    normalise(along_u);
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        against_v[i] = normal[j] * along_u[k] - normal[k] * along_u[j];
+    }
+    if (dot(against_v, down) > 0.0) {
+        for (int i = 0; i < 3; i++) {
+            against_v[i] = -against_v[i];
+        }
+    }
+    return dot(along_u, along_u) > 0.0;
+}
+
+// Returns the length that the map's filtered normal has.
+static double map_normal(const DipRefVaryings *varyings, const double texel[3],
+                         const double normal[3], double mapped[3]) {
+    double along_u[3];
+    double against_v[3];
+    double m[3];
+    for (int i = 0; i < 3; i++) {
+        m[i] = (255.0 * texel[i] - 128.0) / 127.0;
+        mapped[i] = normal[i];
+    }
+    m[2] = fmax(m[2], 0.125);
+    if (find_tangents(varyings, normal, along_u, against_v)) {
+        for (int i = 0; i < 3; i++) {
+            mapped[i] = m[0] * along_u[i] + m[1] * against_v[i] + m[2] * normal[i];
+        }
+        normalise(mapped);
+    }
+    return sqrt(dot(m, m));
+}
+
+static double find_highlight(double roughness, double length, const double place[3],
+                             const double mapped[3], double sunlit) {
+    double sun[3] = {dip_reference_sun[0], dip_reference_sun[1], dip_reference_sun[2]};
+    double half[3] = {-place[0], -place[1], -place[2]};
+    normalise(sun);
+    normalise(half);
+    for (int i = 0; i < 3; i++) {
+        half[i] += sun[i];
+    }
+    normalise(half);
+    const double alpha = fmax(roughness * roughness, 0.1);
+    const double spread = 2.0 * fmax(0.0, 1.0 / fmax(length, 0.1) - 1.0);
+    const double alpha2 = fmin(alpha * alpha + spread, 1.0);
+    const double n_h = fmax(0.0, dot(mapped, half));
+    const double l_h = dot(sun, half);
+    const double d = n_h * n_h * (alpha2 - 1.0) + 1.0;
+    const double lobe = alpha2 / (d * d * fmax(0.1, l_h * l_h) * (4.0 * sqrt(alpha2) + 2.0));
+    return 0.04 * 0.65 * meet_sun(mapped) * sunlit * lobe;
+}
+
+void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryings *varyings,
+                               const double texel[3], const double light[3], double rgb[3]) {
+    double normal[3];
+    double mapped[3];
+    for (int i = 0; i < 3; i++) {
+        normal[i] = varyings->value[DIP_REF_NORMAL_X + i];
+    }
+    normalise(normal);
+    const double length = map_normal(varyings, texel, normal, mapped);
+    double sunlit = 1.0;
+    double ratio = 1.0;
+    if (light) {
+        const double luminance = 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2];
+        sunlit = fmin(fmax((luminance - 0.4) / 0.5, 0.0), 1.0);
+        ratio = dip_reference_light(mapped, sunlit) / dip_reference_light(normal, sunlit);
+        ratio = fmin(fmax(ratio, 0.25), 2.5);
+    }
+    const double shine =
+        find_highlight(material->roughness, length, &varyings->value[DIP_REF_X], mapped, sunlit);
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = rgb[c] * (light ? light[c] * ratio : dip_reference_light(mapped, 1.0)) + shine;
+    }
+}
