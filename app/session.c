@@ -301,6 +301,21 @@ static DipQuality pane_quality(const DipSession *session, const DipOptions *opti
     return quality;
 }
 
+// A model of the user's own brings its own level: that of its lowest water.
+static DipReflectionDef reflection_of(const DipSession *session, const DipOptions *options) {
+    const DipConfig *config = &session->config;
+    DipReflectionDef reflection = {
+        .width = config->reflection_res.width,
+        .height = config->reflection_res.height,
+        .level_m = config->fountain_water_level,
+        .show = config->debug_show_reflection,
+    };
+    if (options->model_count) {
+        dip_scene_water_level(session->scene, &reflection.level_m);
+    }
+    return reflection;
+}
+
 static bool make_renderers(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     DipError err;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
@@ -310,6 +325,7 @@ static bool make_renderers(DipSession *session, const DipOptions *options, DipEr
             .width = pane_size(session, options).width,
             .height = pane_size(session, options).height,
             .quality = pane_quality(session, options, p),
+            .reflection = reflection_of(session, options),
         };
         session->renderers[p] = dip_renderer_create(&def, &err);
         if (!session->renderers[p]) {

@@ -11,6 +11,9 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
 // Work done, exact: the same for any thread count, SIMD width and machine.
 // X(name, "what it counts")
 #define DIP_COUNTER_LIST(X)                                                                        \
+    X(passes, "passes drawn")                                                                      \
+    X(tiles_drawn, "64x64-pixel tiles of these that were drawn")                                   \
+    X(tiles_spared, "tiles that the plan left out, whole passes included")                         \
     X(triangles_in, "triangles of the chunks (up to 128 each) that are not culled whole")          \
     X(triangles_drawn, "triangles left after culling and clipping")                                \
     X(tile_triangles, "triangles times the tiles they are binned to")                              \
@@ -20,7 +23,9 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(fragments_shaded, "fragments shaded: pixels times the surfaces seen in them")                \
     X(pixels_resolved, "pixels whose samples show more than one surface")                          \
     X(texture_probes, "filtered texture reads, trilinear or bilinear")                             \
-    X(texels_fetched, "texels read by these")
+    X(texels_fetched, "texels read by these")                                                      \
+    X(reflection_fragments, "of the fragments shaded, those of the reflection")                    \
+    X(reflection_bytes, "memory of the reflection's target")
 
 typedef struct DipCounters {
 #define DIP_COUNTER_FIELD(name, text) uint64_t name;
@@ -48,7 +53,8 @@ typedef struct DipStageTimes {
 // X(name, "Title")
 #define DIP_EFFECT_LIST(X)                                                                         \
     X(alpha_clip, "alpha-clipped surfaces")                                                        \
-    X(light_map, "light map")
+    X(light_map, "light map")                                                                      \
+    X(reflection, "reflection in water")
 
 typedef struct DipEffect {
     bool run;

@@ -2,10 +2,13 @@
 #include "renderer/renderer.h"
 
 #include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
+#include "renderer/geometry/view.h"
 #include "renderer/pipeline.h"
+#include "renderer/plan/plan.h"
 #include "renderer/raster/kernels.h"
+#include "renderer/resolve/inset.h"
 #include "renderer/scene_internal.h"
+#include "renderer/shading/water.h"
 #include "renderer/texture/mip_debug.h"
 
 #include <math.h>
@@ -13,6 +16,21 @@
 #include <string.h>
 
 enum { PIXEL_ALIGN = 64 };
+
+// What a pass draws of the scene.
+typedef struct DrawSet {
+    DipDraw *draws;               // one per object, or fewer
+    DipSurfaceUniforms *uniforms; // of each
+    int count;
+} DrawSet;
+
+// What the reflection takes; empty while the scene has no water.
+typedef struct Mirror {
+    DipPipeline *pipeline;
+    DipTarget target;
+    DrawSet set;
+    DipWaterUniforms *water; // per object
+} Mirror;
 
 struct DipRenderer {
     DipPool *pool;
@@ -24,11 +42,13 @@ struct DipRenderer {
     uint8_t *rgba8;
     size_t stride_bytes;
     DipTexture *mip_colours; // levels 1024 .. 8 of mip debugging
+    DipReflectionDef reflection;
+    bool force_all_effects;
 
     // For the scene drawn last.
     uint64_t scene_serial;
-    DipDraw *draws;                                    // per object
-    DipSurfaceUniforms *uniforms;                      // per object
+    DrawSet set;
+    Mirror mirror;
     DipSampler (*samplers)[DIP_SURFACE_SAMPLER_COUNT]; // per material
 };
 
@@ -58,8 +78,24 @@ static bool make_target(DipPool *pool, DipIsa isa, int width, int height, DipPip
     return true;
 }
 
+static bool check_reflection(const DipReflectionDef *reflection, DipError *err) {
+    if (!reflection->width) {
+        return true;
+    }
+    if (reflection->width < 1 || reflection->height < 1 || reflection->width > DIP_MAX_FRAME_SIZE ||
+        reflection->height > DIP_MAX_FRAME_SIZE) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "reflection",
+                             "%dx%d pixels, accepted 1x1 to %dx%d, or width 0 for none",
+                             reflection->width, reflection->height, DIP_MAX_FRAME_SIZE,
+                             DIP_MAX_FRAME_SIZE);
+    }
+    return isfinite(reflection->level_m) ||
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "reflection",
+                         "a level of %g m, accepted finite numbers", reflection->level_m);
+}
+
 DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
-    if (!dip_quality_check(&def->quality, err)) {
+    if (!dip_quality_check(&def->quality, err) || !check_reflection(&def->reflection, err)) {
         return NULL;
     }
     DipRenderer *renderer = calloc(1, sizeof *renderer);
@@ -72,6 +108,8 @@ DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
     renderer->width = def->width;
     renderer->height = def->height;
     renderer->quality = def->quality;
+    renderer->reflection = def->reflection;
+    renderer->force_all_effects = def->force_all_effects;
     renderer->mip_colours = dip_mip_debug_create(NULL, err);
     if (!renderer->mip_colours ||
         !make_target(def->pool, def->isa, def->width, def->height, &renderer->pipeline,
@@ -79,6 +117,29 @@ DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
         dip_renderer_destroy(&renderer);
     }
     return renderer;
+}
+
+static void free_set(DrawSet *set) {
+    free(set->draws);
+    free(set->uniforms);
+    *set = (DrawSet){0};
+}
+
+static void free_mirror(Mirror *mirror) {
+    dip_pipeline_destroy(&mirror->pipeline);
+    free(mirror->target.rgba8);
+    free_set(&mirror->set);
+    free(mirror->water);
+    *mirror = (Mirror){0};
+}
+
+// Everything made for a scene.
+static void forget_scene(DipRenderer *renderer) {
+    renderer->scene_serial = 0;
+    free_set(&renderer->set);
+    free_mirror(&renderer->mirror);
+    free(renderer->samplers);
+    renderer->samplers = NULL;
 }
 
 void dip_renderer_destroy(DipRenderer **renderer_pointer) {
@@ -89,9 +150,7 @@ void dip_renderer_destroy(DipRenderer **renderer_pointer) {
     dip_pipeline_destroy(&renderer->pipeline);
     dip_texture_destroy(&renderer->mip_colours);
     free(renderer->rgba8);
-    free(renderer->draws);
-    free(renderer->uniforms);
-    free(renderer->samplers);
+    forget_scene(renderer);
     free(renderer);
     *renderer_pointer = NULL;
 }
@@ -101,6 +160,19 @@ bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality, 
         return false;
     }
     renderer->quality = *quality;
+    return true;
+}
+
+bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *reflection,
+                                 DipError *err) {
+    if (!check_reflection(reflection, err)) {
+        return false;
+    }
+    if (reflection->width != renderer->reflection.width ||
+        reflection->height != renderer->reflection.height) {
+        forget_scene(renderer); // its target is made anew with the next frame
+    }
+    renderer->reflection = *reflection;
     return true;
 }
 
@@ -142,48 +214,6 @@ bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
 }
 
 // --- a frame's draws ---------------------------------------------------------------------------
-
-// World to clip space, row-major, in double: see docs/picture.md, Camera.
-static void view_projection(const DipPose *pose, const DipScene *scene, double aspect,
-                            double m[16]) {
-    const double x = pose->orientation[0];
-    const double y = pose->orientation[1];
-    const double z = pose->orientation[2];
-    const double w = pose->orientation[3];
-    // Rows of the world-to-camera rotation are the camera's axes in the world.
-    const double axis[3][3] = {
-        {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-        {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-        {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)},
-    };
-    const double half_fov = pose->fov_y_deg * (3.14159265358979323846 / 360.0);
-    const double f = dip_cos(half_fov) / dip_sin(half_fov);
-    const double scale[4] = {f / aspect, f, 0.0, -1.0};
-    const int camera_axis[4] = {0, 1, 0, 2};
-    for (int row = 0; row < 4; row++) {
-        const double *a = axis[camera_axis[row]];
-        double shift = 0.0;
-        for (int c = 0; c < 3; c++) {
-            m[4 * row + c] = scale[row] * a[c];
-            shift -= a[c] * pose->position_world[c];
-        }
-        m[4 * row + 3] = scale[row] * shift;
-    }
-    m[11] = (double)scene->near_m; // clip z is the near distance everywhere
-}
-
-// product = m * transform, with transform's last row (0, 0, 0, 1).
-static void place(const double m[16], const float transform[12], float product[16]) {
-    for (int row = 0; row < 4; row++) {
-        for (int c = 0; c < 4; c++) {
-            double sum = c == 3 ? m[4 * row + 3] : 0.0;
-            for (int k = 0; k < 3; k++) {
-                sum += m[4 * row + k] * (double)transform[4 * k + c];
-            }
-            product[4 * row + c] = (float)sum;
-        }
-    }
-}
 
 // The cofactors of the transform's 3x3 part, which turn normals as the inverse transpose does but
 // for length and, where the transform mirrors, sign.
@@ -254,15 +284,16 @@ static void set_samplers(DipRenderer *renderer, const DipScene *scene) {
     }
 }
 
-static void set_draw(DipRenderer *renderer, const DipScene *scene, int index,
-                     const double world_to_clip[16]) {
+// Appends an object's draw to a set.
+static void add_draw(const DipRenderer *renderer, const DipScene *scene, int index,
+                     const DipView *view, DrawSet *set) {
     const DipKernels *kernels = dip_kernels(renderer->isa);
     const DipSceneObject *object = &scene->objects[index];
     const DipSceneMesh *mesh = &scene->meshes[object->mesh];
     const DipSceneMaterial *material = &scene->materials[mesh->material];
-    DipSurfaceUniforms *uniforms = &renderer->uniforms[index];
+    DipSurfaceUniforms *uniforms = &set->uniforms[set->count];
     *uniforms = mesh->layout;
-    place(world_to_clip, object->transform, uniforms->to_clip);
+    dip_view_place(view, object->transform, uniforms->to_clip);
     normal_matrix(object->transform, uniforms->normal_to_world);
     if (renderer->quality.step[DIP_SETTING_MIPDEBUG] && uniforms->colour_slot != DIP_NO_SLOT) {
         for (int c = 0; c < 3; c++) {
@@ -271,7 +302,7 @@ static void set_draw(DipRenderer *renderer, const DipScene *scene, int index,
     }
     const bool clipped =
         material->surface == DIP_SURFACE_CLIPPED && uniforms->colour_slot != DIP_NO_SLOT;
-    renderer->draws[index] = (DipDraw){
+    set->draws[set->count++] = (DipDraw){
         .mesh = mesh->mesh,
         .vertex_shader = kernels->dip_kernel_surface_vertex,
         .fragment_shader = kernels->dip_kernel_surface_fragment,
@@ -287,40 +318,116 @@ static void set_draw(DipRenderer *renderer, const DipScene *scene, int index,
     };
 }
 
+static bool is_water(const DipScene *scene, int object) {
+    return scene->materials[scene->meshes[scene->objects[object].mesh].material].surface ==
+           DIP_SURFACE_WATER;
+}
+
+// How far each pixel place of the frame looks down; see DipWaterUniforms.
+static void set_rays(const DipRenderer *renderer, const DipView *view, DipWaterUniforms *water) {
+    const double a[2] = {-1.0 / view->scale[0], 2.0 / (renderer->width * view->scale[0])};
+    const double b[2] = {1.0 / view->scale[1], -2.0 / (renderer->height * view->scale[1])};
+    const double up[3] = {view->axis[0][1], view->axis[1][1], view->axis[2][1]};
+    water->inverse_size[0] = 1.0f / (float)renderer->width;
+    water->inverse_size[1] = 1.0f / (float)renderer->height;
+    for (int i = 0; i < 2; i++) {
+        water->a[i] = (float)a[i];
+        water->b[i] = (float)b[i];
+    }
+    water->down[0] = (float)(up[2] - (a[0] * up[0] + b[0] * up[1]));
+    water->down[1] = (float)(-a[1] * up[0]);
+    water->down[2] = (float)(-b[1] * up[1]);
+    water->mirrored = &renderer->mirror.target;
+    water->schlick = renderer->reflection.schlick;
+}
+
+// Makes the draw added last one of water that reflects.
+static void make_reflecting(DipRenderer *renderer, const DipView *view) {
+    const int last = renderer->set.count - 1;
+    DipDraw *draw = &renderer->set.draws[last];
+    DipWaterUniforms *water = &renderer->mirror.water[last];
+    water->surface = renderer->set.uniforms[last];
+    set_rays(renderer, view, water);
+    draw->uniforms = water;
+    draw->fragment_shader = dip_kernels(renderer->isa)->dip_kernel_water_fragment;
+}
+
+static void set_draws(DipRenderer *renderer, const DipScene *scene, const DipView *view,
+                      const DipFramePlan *plan) {
+    renderer->set.count = 0;
+    for (int i = 0; i < scene->object_count; i++) {
+        add_draw(renderer, scene, i, view, &renderer->set);
+        if (plan->water_reflects && is_water(scene, i)) {
+            make_reflecting(renderer, view);
+        }
+    }
+}
+
+// The mirrored scene without its water, whose windings turn around.
+static void set_mirrored_draws(DipRenderer *renderer, const DipScene *scene, const DipView *view) {
+    static const DipCull turned[] = {DIP_CULL_NONE, DIP_CULL_FRONT, DIP_CULL_BACK};
+    DrawSet *set = &renderer->mirror.set;
+    set->count = 0;
+    for (int i = 0; i < scene->object_count; i++) {
+        if (!is_water(scene, i)) {
+            add_draw(renderer, scene, i, view, set);
+            set->draws[set->count - 1].cull = turned[set->draws[set->count - 1].cull];
+        }
+    }
+}
+
+static bool make_set(DrawSet *set, int object_count, DipError *err) {
+    const size_t room = (size_t)object_count + 1;
+    set->draws = calloc(room, sizeof *set->draws);
+    set->uniforms = calloc(room, sizeof *set->uniforms);
+    return (set->draws && set->uniforms) || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene",
+                                                          "no memory for %d objects", object_count);
+}
+
+// Makes the reflection's target and room for its pass.
+static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+    Mirror *mirror = &renderer->mirror;
+    DipTarget *target = &mirror->target;
+    target->width = renderer->reflection.width;
+    target->height = renderer->reflection.height;
+    if (!make_set(&mirror->set, scene->object_count, err) ||
+        !make_target(renderer->pool, renderer->isa, target->width, target->height,
+                     &mirror->pipeline, &target->rgba8, &target->stride_bytes, err)) {
+        return false;
+    }
+    memset(target->rgba8, 0, target->stride_bytes * (size_t)target->height);
+    mirror->water = calloc((size_t)scene->object_count + 1, sizeof *mirror->water);
+    if (!mirror->water) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "no memory for %d objects",
+                             scene->object_count);
+    }
+    const DipPose pose = {.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
+    const DipView view = dip_view_make(&pose, (double)scene->near_m, 1.0);
+    set_mirrored_draws(renderer, scene, &view);
+    const DipPass pass = {.draws = mirror->set.draws, .draw_count = mirror->set.count};
+    return dip_pipeline_reserve(mirror->pipeline, &pass, err);
+}
+
 // Makes the arrays for a scene not drawn before.
 static bool adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     if (renderer->scene_serial == scene->serial) {
         return true;
     }
-    renderer->scene_serial = 0;
-    free(renderer->draws);
-    free(renderer->uniforms);
-    free(renderer->samplers);
-    const size_t objects = (size_t)scene->object_count + 1;
-    renderer->draws = calloc(objects, sizeof *renderer->draws);
-    renderer->uniforms = calloc(objects, sizeof *renderer->uniforms);
+    forget_scene(renderer);
     renderer->samplers = calloc((size_t)scene->material_count + 1, sizeof *renderer->samplers);
-    if (!renderer->draws || !renderer->uniforms || !renderer->samplers) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "no memory for %d objects",
-                             scene->object_count);
+    bool made =
+        renderer->samplers || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene",
+                                            "no memory for %d materials", scene->material_count);
+    made = made && make_set(&renderer->set, scene->object_count, err);
+    if (made && scene->has_water && renderer->reflection.width) {
+        made = make_mirror(renderer, scene, err);
+    }
+    if (!made) {
+        forget_scene(renderer);
+        return false;
     }
     renderer->scene_serial = scene->serial;
     return true;
-}
-
-static DipEffects effects_of(const DipScene *scene, const DipCounters *counters) {
-    DipEffects effects;
-    effects.light_map = scene->has_light_map
-                            ? (DipEffect){true, "the scene has light-mapped surfaces"}
-                            : (DipEffect){false, "the scene has no light map"};
-    if (!scene->has_clipped) {
-        effects.alpha_clip = (DipEffect){false, "the scene has no alpha-clipped surface"};
-    } else if (!counters->fragments_clip_tested) {
-        effects.alpha_clip = (DipEffect){false, "no alpha-clipped surface is in view"};
-    } else {
-        effects.alpha_clip = (DipEffect){true, "alpha-clipped surfaces are in view"};
-    }
-    return effects;
 }
 
 static bool check_pose(const DipPose *pose, DipError *err) {
@@ -340,34 +447,93 @@ static bool check_pose(const DipPose *pose, DipError *err) {
     return true;
 }
 
+// --- passes ------------------------------------------------------------------------------------
+
+// The mirrored scene above the water. A texel of the picture from there on counts as above, so that
+// no background shows between the shore and its reflection.
+static bool draw_mirrored(DipRenderer *renderer, const DipScene *scene, const DipView *view,
+                          const DipFramePlan *plan, DipFrame *frame, DipError *err) {
+    Mirror *mirror = &renderer->mirror;
+    const DipView mirrored = dip_view_mirror(view, renderer->reflection.level_m);
+    const double above[4] = {0.0, 1.0, 0.0, -renderer->reflection.level_m};
+    const double texel = 2.0 / (view->scale[1] * mirror->target.height); // at a distance of 1
+    double plane[4];
+    dip_view_plane(&mirrored, above, plane);
+    plane[3] += texel;
+    set_mirrored_draws(renderer, scene, &mirrored);
+    DipPass pass = {
+        .draws = mirror->set.draws,
+        .draw_count = mirror->set.count,
+        .sample_count = dip_quality_sample_count(&renderer->quality),
+        .clip_plane_count = 1,
+        .target = mirror->target,
+        .region = plan->mirrored_region,
+    };
+    memcpy(pass.clear_lin, scene->background_lin, sizeof pass.clear_lin);
+    for (int i = 0; i < 4; i++) {
+        pass.clip_planes[0][i] = (float)plane[i];
+    }
+    const bool drawn =
+        dip_pipeline_draw(mirror->pipeline, &pass, &frame->counters, &frame->stages, err);
+    frame->counters.reflection_fragments = frame->counters.fragments_shaded;
+    return drawn;
+}
+
+static bool draw_scene(DipRenderer *renderer, const DipScene *scene, const DipView *view,
+                       const DipFramePlan *plan, DipFrame *frame, DipError *err) {
+    set_draws(renderer, scene, view, plan);
+    DipPass pass = {
+        .draws = renderer->set.draws,
+        .draw_count = renderer->set.count,
+        .sample_count = dip_quality_sample_count(&renderer->quality),
+        .target = {renderer->rgba8, renderer->stride_bytes, renderer->width, renderer->height},
+    };
+    memcpy(pass.clear_lin, scene->background_lin, sizeof pass.clear_lin);
+    return dip_pipeline_draw(renderer->pipeline, &pass, &frame->counters, &frame->stages, err);
+}
+
+static void count_mirror(const Mirror *mirror, bool drawn, DipCounters *counters) {
+    const uint64_t across = (uint64_t)(mirror->target.width + DIP_TILE - 1) / DIP_TILE;
+    const uint64_t down = (uint64_t)(mirror->target.height + DIP_TILE - 1) / DIP_TILE;
+    counters->reflection_bytes = mirror->target.stride_bytes * (uint64_t)mirror->target.height;
+    counters->tiles_spared += drawn ? 0 : across * down;
+}
+
 bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                        int64_t time_ns, DipFrame *frame, DipError *err) {
     (void)time_ns; // nothing in a scene moves by itself yet
     if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err)) {
         return false;
     }
-    double world_to_clip[16];
-    view_projection(pose, scene, (double)renderer->width / renderer->height, world_to_clip);
-    set_samplers(renderer, scene);
-    for (int i = 0; i < scene->object_count; i++) {
-        set_draw(renderer, scene, i, world_to_clip);
-    }
-    DipPass pass = {
-        .draws = renderer->draws,
-        .draw_count = scene->object_count,
-        .sample_count = dip_quality_sample_count(&renderer->quality),
-        .target = {renderer->rgba8, renderer->stride_bytes, renderer->width, renderer->height},
+    const DipView view =
+        dip_view_make(pose, (double)scene->near_m, (double)renderer->width / renderer->height);
+    const DipPlanInput input = {
+        .scene = scene,
+        .view = &view,
+        .reflection = &renderer->reflection,
+        .width = renderer->width,
+        .height = renderer->height,
+        .force_all = renderer->force_all_effects,
     };
-    memcpy(pass.clear_lin, scene->background_lin, sizeof pass.clear_lin);
+    const DipFramePlan plan = dip_plan_frame(&input);
+    const bool mirrored = plan.effects.reflection.run;
+    set_samplers(renderer, scene);
     *frame = (DipFrame){
         .rgba8 = renderer->rgba8,
         .stride_bytes = renderer->stride_bytes,
         .width = renderer->width,
         .height = renderer->height,
+        .effects = plan.effects,
     };
-    if (!dip_pipeline_draw(renderer->pipeline, &pass, &frame->counters, &frame->stages, err)) {
+    if ((mirrored && !draw_mirrored(renderer, scene, &view, &plan, frame, err)) ||
+        !draw_scene(renderer, scene, &view, &plan, frame, err)) {
         return false;
     }
-    frame->effects = effects_of(scene, &frame->counters);
+    count_mirror(&renderer->mirror, mirrored, &frame->counters);
+    if (mirrored && renderer->reflection.show) {
+        dip_inset_draw(&(DipTarget){renderer->rgba8, renderer->stride_bytes, renderer->width,
+                                    renderer->height},
+                       &renderer->mirror.target);
+    }
     return true;
 }

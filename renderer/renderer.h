@@ -11,6 +11,7 @@
 #include "renderer/isa.h"
 #include "renderer/pose.h"
 #include "renderer/quality.h"
+#include "renderer/reflection.h"
 #include "renderer/scene.h"
 
 #include <stdint.h>
@@ -21,11 +22,13 @@ typedef struct DipRendererDef {
     int width;  // pixels, 1..DIP_MAX_FRAME_SIZE
     int height; // likewise
     DipQuality quality;
+    DipReflectionDef reflection;
+    bool force_all_effects; // also where the plan finds that they cannot be seen; the same picture
 } DipRendererDef;
 
 typedef struct DipRenderer DipRenderer;
 
-// Default settings, 640x480, the best instruction set; the pool must be filled in.
+// Default settings, 640x480, the best instruction set, no reflection; the pool must be filled in.
 DipRendererDef dip_renderer_default_def(void);
 
 DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err);
@@ -33,6 +36,8 @@ void dip_renderer_destroy(DipRenderer **renderer);
 
 // Each takes effect in the next frame. On failure nothing changes.
 bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality, DipError *err);
+bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *reflection,
+                                 DipError *err);
 bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError *err);
 
 DipQuality dip_renderer_quality(const DipRenderer *renderer);

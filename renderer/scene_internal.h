@@ -43,6 +43,8 @@ struct DipScene {
     uint64_t triangle_count;
     bool has_light_map;
     bool has_clipped;
+    bool has_water;     // some object is water;
+    double water_level; // the least world y of these
     DipSceneTimes times;
 };
 
