@@ -430,20 +430,16 @@ bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *
            dip_geometry_reserve(&pipeline->geometry, pass, err);
 }
 
-static bool region_in_target(const DipPass *pass) {
-    const DipRegion *region = &pass->region;
-    return (!region->x0 && !region->y0 && !region->x1 && !region->y1) ||
-           (region->x0 >= 0 && region->x0 < region->x1 && region->x1 <= pass->target.width &&
-            region->y0 >= 0 && region->y0 < region->y1 && region->y1 <= pass->target.height);
-}
-
 bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
                        DipStageTimes *times, DipError *err) {
     DIP_ASSERT(pass->target.width == pipeline->width && pass->target.height == pipeline->height);
     DIP_ASSERT(pass->target.stride_bytes % 4 == 0);
     DIP_ASSERT(pass->target.stride_bytes >= 4 * (size_t)pass->target.width);
     DIP_ASSERT(pass->clip_plane_count >= 0 && pass->clip_plane_count <= DIP_MAX_CLIP_PLANES);
-    DIP_ASSERT(region_in_target(pass));
+    DIP_ASSERT(pass->region.x0 >= 0 && pass->region.x1 <= pass->target.width);
+    DIP_ASSERT(pass->region.y0 >= 0 && pass->region.y1 <= pass->target.height);
+    DIP_ASSERT(!pass->region.x1 ||
+               (pass->region.x0 < pass->region.x1 && pass->region.y0 < pass->region.y1));
     for (int d = 0; d < pass->draw_count; d++) {
         DIP_ASSERT(pass->draws[d].slot_count >= 0 && pass->draws[d].slot_count <= DIP_MAX_SLOTS);
     }

@@ -449,17 +449,17 @@ static bool check_pose(const DipPose *pose, DipError *err) {
 
 // --- passes ------------------------------------------------------------------------------------
 
-// The mirrored scene above the water. A texel of the picture from there on counts as above, so that
-// no background shows between the shore and its reflection.
+// The mirrored scene above the water. What is less than two texels of the picture below it counts
+// as above, so that no background is read between a shore and its reflection.
 static bool draw_mirrored(DipRenderer *renderer, const DipScene *scene, const DipView *view,
                           const DipFramePlan *plan, DipFrame *frame, DipError *err) {
     Mirror *mirror = &renderer->mirror;
     const DipView mirrored = dip_view_mirror(view, renderer->reflection.level_m);
     const double above[4] = {0.0, 1.0, 0.0, -renderer->reflection.level_m};
-    const double texel = 2.0 / (view->scale[1] * mirror->target.height); // at a distance of 1
+    const double texel = 2.0 / (view->scale[1] * mirror->target.height); // high, at a distance of 1
     double plane[4];
     dip_view_plane(&mirrored, above, plane);
-    plane[3] += texel;
+    plane[3] += 2.0 * texel;
     set_mirrored_draws(renderer, scene, &mirrored);
     DipPass pass = {
         .draws = mirror->set.draws,
@@ -511,8 +511,6 @@ bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPo
         .scene = scene,
         .view = &view,
         .reflection = &renderer->reflection,
-        .width = renderer->width,
-        .height = renderer->height,
         .force_all = renderer->force_all_effects,
     };
     const DipFramePlan plan = dip_plan_frame(&input);

@@ -1,37 +1,17 @@
-// Projecting boxes to the rectangle that they can touch.
+// Projecting shapes to the rectangle that they can touch.
 #include "renderer/plan/extent.h"
 
-enum { CORNERS = 8 };
-
-// x, y and w of a box' corners in clip space, corner bit k: the far end of axis k.
-typedef struct Corners {
-    double clip[CORNERS][3];
-} Corners;
-
-static double corner_axis(const float transform[12], const DipBox *box, int corner, int axis) {
-    double sum = transform[4 * axis + 3];
-    for (int k = 0; k < 3; k++) {
-        const double end = corner >> k & 1 ? box->extent[k] : -(double)box->extent[k];
-        sum += (double)transform[4 * axis + k] * (box->centre[k] + end);
-    }
-    return sum;
+DipExtent dip_extent_none(void) {
+    return (DipExtent){{1e300, 1e300}, {-1e300, -1e300}};
 }
 
-static Corners project(const DipView *view, const float transform[12], const DipBox *box) {
+// x, y and w in clip space.
+static void project(const DipView *view, const double world[3], double clip[3]) {
     static const int rows[3] = {0, 1, 3};
-    Corners corners;
-    for (int corner = 0; corner < CORNERS; corner++) {
-        double world[3];
-        for (int axis = 0; axis < 3; axis++) {
-            world[axis] = corner_axis(transform, box, corner, axis);
-        }
-        for (int r = 0; r < 3; r++) {
-            const double *m = view->world_to_clip + 4 * rows[r];
-            corners.clip[corner][r] =
-                ((m[0] * world[0] + m[1] * world[1]) + m[2] * world[2]) + m[3];
-        }
+    for (int r = 0; r < 3; r++) {
+        const double *m = view->world_to_clip + 4 * rows[r];
+        clip[r] = ((m[0] * world[0] + m[1] * world[1]) + m[2] * world[2]) + m[3];
     }
-    return corners;
 }
 
 static void take_in(DipExtent *extent, const double clip[3]) {
@@ -42,37 +22,70 @@ static void take_in(DipExtent *extent, const double clip[3]) {
     }
 }
 
-DipExtent dip_extent_none(void) {
-    return (DipExtent){{1e300, 1e300}, {-1e300, -1e300}};
-}
-
-double dip_extent_lowest(const float transform[12], const DipBox *box) {
-    double lowest = 1e300;
-    for (int corner = 0; corner < CORNERS; corner++) {
-        const double y = corner_axis(transform, box, corner, 1);
-        lowest = y < lowest ? y : lowest;
+// The ends of an edge that lie beyond the near plane, and where it crosses it.
+static void add_edge(DipExtent *extent, const DipView *view, const double a[3], const double b[3]) {
+    double from[3];
+    double to[3];
+    project(view, a, from);
+    project(view, b, to);
+    if (from[2] >= view->near_m) {
+        take_in(extent, from);
     }
-    return lowest;
+    if (to[2] >= view->near_m) {
+        take_in(extent, to);
+    }
+    if ((from[2] < view->near_m) != (to[2] < view->near_m)) {
+        const double t = (view->near_m - from[2]) / (to[2] - from[2]);
+        const double cut[3] = {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]),
+                               view->near_m};
+        take_in(extent, cut);
+    }
 }
 
-// The corners beyond the near plane, and where edges cross it.
-void dip_extent_add(DipExtent *extent, const DipView *view, const float transform[12],
-                    const DipBox *box) {
-    const Corners corners = project(view, transform, box);
-    for (int corner = 0; corner < CORNERS; corner++) {
-        const double *from = corners.clip[corner];
-        if (from[2] >= view->near_m) {
-            take_in(extent, from);
+// Adds the part of a shape's extent that is in the picture.
+static void join(DipExtent *extent, const DipExtent *shape) {
+    for (int axis = 0; axis < 2; axis++) {
+        if (shape->min[axis] > 1.0 || shape->max[axis] < -1.0) {
+            return;
         }
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        const double min = shape->min[axis] > -1.0 ? shape->min[axis] : -1.0;
+        const double max = shape->max[axis] < 1.0 ? shape->max[axis] : 1.0;
+        extent->min[axis] = min < extent->min[axis] ? min : extent->min[axis];
+        extent->max[axis] = max > extent->max[axis] ? max : extent->max[axis];
+    }
+}
+
+void dip_extent_add_box(DipExtent *extent, const DipView *view, const double corners[8][3]) {
+    DipExtent shape = dip_extent_none();
+    for (int corner = 0; corner < 8; corner++) {
         for (int axis = 0; axis < 3; axis++) {
-            const double *to = corners.clip[corner | 1 << axis];
-            if ((from[2] < view->near_m) == (to[2] < view->near_m)) {
-                continue;
+            if (!(corner >> axis & 1)) {
+                add_edge(&shape, view, corners[corner], corners[corner | 1 << axis]);
             }
-            const double t = (view->near_m - from[2]) / (to[2] - from[2]);
-            const double cut[3] = {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]),
-                                   view->near_m};
-            take_in(extent, cut);
+        }
+    }
+    join(extent, &shape);
+}
+
+void dip_extent_add_triangle(DipExtent *extent, const DipView *view, const double corners[3][3]) {
+    DipExtent shape = dip_extent_none();
+    for (int i = 0; i < 3; i++) {
+        add_edge(&shape, view, corners[i], corners[(i + 1) % 3]);
+    }
+    join(extent, &shape);
+}
+
+void dip_extent_place_box(const float transform[12], const DipBox *box, double corners[8][3]) {
+    for (int corner = 0; corner < 8; corner++) {
+        for (int axis = 0; axis < 3; axis++) {
+            const float *m = transform + 4 * axis;
+            corners[corner][axis] = m[3];
+            for (int k = 0; k < 3; k++) {
+                const double end = corner >> k & 1 ? box->extent[k] : -(double)box->extent[k];
+                corners[corner][axis] += (double)m[k] * (box->centre[k] + end);
+            }
         }
     }
 }

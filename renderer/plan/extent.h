@@ -1,4 +1,4 @@
-// The part of the picture that boxes in the world can touch.
+// The part of the picture that boxes and triangles in the world can touch.
 #ifndef DIP_RENDERER_PLAN_EXTENT_H
 #define DIP_RENDERER_PLAN_EXTENT_H
 
@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-// In x / w and y / w, up positive; empty where min > max.
+// In x / w and y / w, up positive, within -1..1; empty where min > max.
 typedef struct DipExtent {
     double min[2];
     double max[2];
@@ -16,12 +16,12 @@ typedef struct DipExtent {
 
 DipExtent dip_extent_none(void);
 
-// Takes in the part of a placed box that lies beyond the near plane.
-void dip_extent_add(DipExtent *extent, const DipView *view, const float transform[12],
-                    const DipBox *box);
+// Each takes in what of a shape lies beyond the near plane and in the picture's rectangle.
+void dip_extent_add_box(DipExtent *extent, const DipView *view, const double corners[8][3]);
+void dip_extent_add_triangle(DipExtent *extent, const DipView *view, const double corners[3][3]);
 
-// World y of a placed box' lowest corner.
-double dip_extent_lowest(const float transform[12], const DipBox *box);
+// A placed box' corners in the world; corner bit k: the far end of axis k.
+void dip_extent_place_box(const float transform[12], const DipBox *box, double corners[8][3]);
 
 // The pixels of a picture of that size which the extent touches, and `margin` more to each side.
 // False where there are none.

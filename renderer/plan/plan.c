@@ -70,6 +70,53 @@ static DipEffect plan_light_map(const DipPlanInput *input, DipFramePlan *plan) {
                : skip("no light-mapped surface is in view");
 }
 
+// Whether the eye looks down on some corner: only there does water reflect.
+static bool is_below(const DipView *view, const double (*corners)[3], int count) {
+    for (int i = 0; i < count; i++) {
+        if (corners[i][1] < view->eye[1]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void add_chunk_box(DipExtent *extent, const DipView *view, const float transform[12],
+                          const DipBox *box) {
+    double corners[8][3];
+    dip_extent_place_box(transform, box, corners);
+    if (is_below(view, (const double(*)[3])corners, 8)) {
+        dip_extent_add_box(extent, view, (const double(*)[3])corners);
+    }
+}
+
+static void place_vertex(const DipMesh *mesh, const float transform[12], uint32_t vertex,
+                         double world[3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        const float *m = transform + 4 * axis;
+        world[axis] = m[3];
+        for (uint32_t k = 0; k < 3; k++) {
+            world[axis] += (double)m[k] * mesh->attributes[k * mesh->vertex_total + vertex];
+        }
+    }
+}
+
+static void add_chunk_triangles(DipExtent *extent, const DipView *view, const float transform[12],
+                                const DipMesh *mesh, const DipChunk *chunk) {
+    const uint8_t *corner = mesh->indices + chunk->first_index;
+    const uint32_t stride = dip_corner_stride(chunk);
+    for (uint32_t t = 0; t < chunk->triangle_count; t++) {
+        double corners[3][3];
+        for (uint32_t k = 0; k < 3; k++) {
+            place_vertex(mesh, transform, chunk->first_vertex + corner[k * stride + t], corners[k]);
+        }
+        if (is_below(view, (const double(*)[3])corners, 3)) {
+            dip_extent_add_triangle(extent, view, (const double(*)[3])corners);
+        }
+    }
+}
+
+enum { FEW_CHUNKS = 8 }; // of a mesh: its triangles are looked at one by one
+
 // Where the water that the eye looks down on may be in the picture.
 static DipExtent water_extent(const DipPlanInput *input) {
     DipExtent extent = dip_extent_none();
@@ -81,8 +128,10 @@ static DipExtent water_extent(const DipPlanInput *input) {
         const float *transform = input->scene->objects[i].transform;
         const DipMesh *mesh = mesh_of(input->scene, i);
         for (uint32_t c = 0; c < mesh->chunk_count; c++) {
-            if (dip_extent_lowest(transform, &mesh->chunks[c].box) < input->view->eye[1]) {
-                dip_extent_add(&extent, input->view, transform, &mesh->chunks[c].box);
+            if (mesh->chunk_count <= FEW_CHUNKS) {
+                add_chunk_triangles(&extent, input->view, transform, mesh, &mesh->chunks[c]);
+            } else {
+                add_chunk_box(&extent, input->view, transform, &mesh->chunks[c].box);
             }
         }
     }

@@ -18,8 +18,6 @@ typedef struct DipPlanInput {
     const DipScene *scene;
     const DipView *view;
     const DipReflectionDef *reflection;
-    int width; // of the frame, pixels
-    int height;
     bool force_all; // every effect that the scene has, everywhere: the same picture
 } DipPlanInput;
 

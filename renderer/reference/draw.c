@@ -3,7 +3,10 @@
 
 #include "renderer/raster/pattern.h"
 
+#include <math.h>
 #include <stdlib.h>
+
+static const double pi = 3.14159265358979323846;
 
 __extension__ typedef __int128 Int128;
 
@@ -21,8 +24,10 @@ typedef struct Drawing {
     DipRefTriangles triangles;
     DipRefFilter filter;
     Samples samples;
+    DipRefShot shot;
     int width;
     int height;
+    const double *mirrored; // the mirrored scene's picture; NULL: water does not reflect
 } Drawing;
 
 // Twice the area of (from, to, place), exactly; positions in 1/256 pixel.
@@ -61,7 +66,8 @@ static bool covers(const DipRefTriangle *triangle, int64_t x, int64_t y) {
 static DipRefPlace place_at(const DipRefTriangle *triangle, int64_t x, int64_t y) {
     Int128 edges[3];
     find_edges(triangle, x, y, edges);
-    return (DipRefPlace){triangle, {(double)edges[0], (double)edges[1], (double)edges[2]}};
+    return (DipRefPlace){
+        triangle, {(double)edges[0], (double)edges[1], (double)edges[2]}, (double)x, (double)y};
 }
 
 // A sample of a pixel.
@@ -128,6 +134,17 @@ static void draw_triangles(Drawing *drawing) {
     }
 }
 
+static void shade(const Drawing *drawing, const DipRefPlace *place, double rgb[3]) {
+    dip_reference_shade(place, &drawing->filter, rgb);
+    if (drawing->mirrored && place->triangle->material->surface == DIP_SURFACE_WATER) {
+        double mirrored[3];
+        dip_reference_read_mirrored(drawing->reference, drawing->mirrored, drawing->width,
+                                    drawing->height, place, mirrored);
+        dip_reference_blend_water(drawing->reference, drawing->shot.pose, drawing->width,
+                                  drawing->height, place, mirrored, rgb);
+    }
+}
+
 // The mean over a pixel's samples, each surface among them shaded once.
 static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
     const int count = drawing->pattern->count;
@@ -156,7 +173,7 @@ static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
         } else {
             const DipRefPlace place =
                 place_to_shade(drawing, &drawing->triangles.items[surfaces[s]], x, y, mask);
-            dip_reference_shade(&place, &drawing->filter, colour);
+            shade(drawing, &place, colour);
         }
         for (int c = 0; c < 3; c++) {
             sum[c] += colour[c] * held;
@@ -182,6 +199,58 @@ static bool make_samples(Drawing *drawing, DipError *err) {
     return true;
 }
 
+static bool sees_water(const Drawing *drawing) {
+    for (size_t t = 0; t < drawing->triangles.count; t++) {
+        if (drawing->triangles.items[t].material->surface == DIP_SURFACE_WATER) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The picture of a shot whose triangles are built.
+static bool draw_built(Drawing *drawing, double *rgb_lin, DipError *err) {
+    const bool made = make_samples(drawing, err);
+    if (made) {
+        draw_triangles(drawing);
+        for (int y = 0; y < drawing->height; y++) {
+            for (int x = 0; x < drawing->width; x++) {
+                resolve_pixel(drawing, x, y,
+                              rgb_lin + 3 * ((size_t)y * (size_t)drawing->width + (size_t)x));
+            }
+        }
+    }
+    free(drawing->samples.depths);
+    free(drawing->samples.triangles);
+    return made;
+}
+
+// The mirrored scene's picture as the same settings draw it; NULL on failure.
+static double *draw_mirrored(const Drawing *drawing, DipError *err) {
+    const DipReflectionDef *reflection = &drawing->reference->reflection;
+    Drawing mirrored = *drawing;
+    mirrored.width = mirrored.shot.width = reflection->width;
+    mirrored.height = mirrored.shot.height = reflection->height;
+    mirrored.shot.mirrored = true;
+    // Two pixels of the picture, at a distance of 1.
+    mirrored.shot.margin =
+        4.0 * tan(drawing->shot.pose->fov_y_deg * (pi / 360.0)) / reflection->height;
+    double *rgb_lin = malloc((size_t)mirrored.width * (size_t)mirrored.height * 3 * sizeof(double));
+    if (!rgb_lin) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reflection");
+        return NULL;
+    }
+    const bool drawn = dip_reference_build_triangles(drawing->reference, &mirrored.shot,
+                                                     &mirrored.triangles, err) &&
+                       draw_built(&mirrored, rgb_lin, err);
+    dip_reference_triangles_free(&mirrored.triangles);
+    if (!drawn) {
+        free(rgb_lin);
+        return NULL;
+    }
+    return rgb_lin;
+}
+
 bool dip_reference_draw(const DipReference *reference, const DipQuality *quality,
                         const DipPose *pose, int width, int height, double *rgb_lin,
                         DipError *err) {
@@ -192,23 +261,19 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
         .reference = reference,
         .pattern = dip_sample_pattern(dip_quality_sample_count(quality)),
         .filter = dip_reference_colour_filter(quality),
+        .shot = {pose, width, height, (double)width / height, .rounded = true},
         .width = width,
         .height = height,
     };
-    const bool drawn =
-        make_samples(&drawing, err) && dip_reference_build_triangles(reference, pose, width, height,
-                                                                     true, &drawing.triangles, err);
-    if (drawn) {
-        draw_triangles(&drawing);
-        for (int y = 0; y < height; y++) {
-            for (int x = 0; x < width; x++) {
-                resolve_pixel(&drawing, x, y,
-                              rgb_lin + 3 * ((size_t)y * (size_t)width + (size_t)x));
-            }
-        }
+    bool drawn = dip_reference_build_triangles(reference, &drawing.shot, &drawing.triangles, err);
+    double *mirrored = NULL;
+    if (drawn && dip_reference_reflects(reference, pose) && sees_water(&drawing)) {
+        mirrored = draw_mirrored(&drawing, err);
+        drawing.mirrored = mirrored;
+        drawn = mirrored != NULL;
     }
+    drawn = drawn && draw_built(&drawing, rgb_lin, err);
     dip_reference_triangles_free(&drawing.triangles);
-    free(drawing.samples.depths);
-    free(drawing.samples.triangles);
+    free(mirrored);
     return drawn;
 }

@@ -7,6 +7,7 @@
 #include "renderer/base/error.h"
 #include "renderer/pose.h"
 #include "renderer/quality.h"
+#include "renderer/reflection.h"
 #include "renderer/scene.h"
 
 #include <stdint.h>
@@ -16,6 +17,9 @@ typedef struct DipReference DipReference;
 // Builds its own decoded mip chains from *def, which is borrowed until destroy.
 DipReference *dip_reference_create(const DipSceneDef *def, DipError *err);
 void dip_reference_destroy(DipReference **reference);
+
+// Without it water does not reflect. The def's `show` has no meaning here. Not checked.
+void dip_reference_set_reflection(DipReference *reference, const DipReflectionDef *reflection);
 
 // What the fast path should draw with these settings. rgb_lin: width*height*3 doubles, linear
 // light, resolved but not encoded, the top row first.

@@ -3,6 +3,7 @@
 #define DIP_TESTS_RENDERER_SCENES_H
 
 #include "renderer/pose.h"
+#include "renderer/reflection.h"
 #include "renderer/scene.h"
 
 // X(name, "what it is about")
@@ -18,7 +19,8 @@
     X(odd_textures, "1x1, 7x5, 1x9 texels, repeat and clamp, coordinates beyond 0..1")             \
     X(vertex_colours, "vertex colours over a perspective quad, no texture")                        \
     X(lit_sphere, "smooth normals, also scaled unevenly, mirrored and very small")                 \
-    X(light_map, "second coordinates, scaled light map, linear encoding")
+    X(light_map, "second coordinates, scaled light map, linear encoding")                          \
+    X(water, "pools at two heights that reflect what stands in and around them")
 
 typedef enum DipTestSceneKind {
 #define DIP_TEST_SCENE_ENUM(name, text) DIP_TEST_SCENE_##name,
@@ -33,6 +35,7 @@ enum { DIP_TEST_SCENE_PARTS = 8, DIP_TEST_SCENE_BLOCKS = 64 };
 typedef struct DipTestScene {
     DipSceneDef def;
     DipPose pose;
+    DipReflectionDef reflection; // width 0 unless the scene is about it
     DipTextureDef textures[DIP_TEST_SCENE_PARTS];
     DipMaterialDef materials[DIP_TEST_SCENE_PARTS];
     DipMeshDef meshes[DIP_TEST_SCENE_PARTS];
