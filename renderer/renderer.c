@@ -312,6 +312,7 @@ static void set_effect(const DipRenderer *renderer, const DipSceneMesh *mesh,
         draw->vertex_shader = kernels->dip_kernel_normal_map_vertex;
         draw->fragment_shader = kernels->dip_kernel_normal_map_fragment;
         draw->slot_count = mesh->mapped_slot_count;
+        draw->plain_slot_count = 0;
     } else if (mesh->sky && !renderer->quality.step[DIP_SETTING_MIPDEBUG]) {
         draw->fragment_shader = kernels->dip_kernel_sky_fragment;
     }
@@ -344,7 +345,7 @@ static void set_draw(DipRenderer *renderer, const DipScene *scene, int index,
         .clip_shader = clipped ? kernels->dip_kernel_surface_clip : NULL,
         .slot_count = mesh->slot_count,
         .plain_slot_count =
-            uniforms->light_slot == DIP_NO_SLOT ? 0 : mesh->slot_count - uniforms->light_slot,
+            mesh->layout.light_slot == DIP_NO_SLOT ? 0 : mesh->slot_count - mesh->layout.light_slot,
         .clip_slot_count = clipped ? uniforms->colour_slot + 2 : 0,
         .uniforms = uniforms,
         .samplers = renderer->samplers[mesh->material],
