@@ -27,14 +27,6 @@ VEC_INLINE Hi hi_splat(int32_t x) {
     return x - (Hi){0};
 }
 
-VEC_INLINE Hi hi_iota(void) {
-    Hi v;
-    for (int i = 0; i < (int)(sizeof v / sizeof v[0]); i++) {
-        v[i] = i;
-    }
-    return v;
-}
-
 VEC_INLINE Hi hi_load(const int32_t *p) {
     Hi v = {0};
     memcpy(&v, p, DIP_HALF_LANES * sizeof *p);

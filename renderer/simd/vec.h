@@ -196,10 +196,6 @@ VEC_INLINE bool mask_any(Mask m) {
 
 #define VEC_ALL_LANES ((1u << (DIP_LANES - 1) << 1) - 1u)
 
-VEC_INLINE bool mask_all(Mask m) {
-    return mask_bits(m) == VEC_ALL_LANES;
-}
-
 // --- min, max, sqrt, floor ---------------------------------------------------------------------
 
 // a < b ? a : b, so b where either is NaN.

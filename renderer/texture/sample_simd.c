@@ -306,29 +306,22 @@ VEC_INLINE void store_light(float (*out)[DIP_FRAGMENT_BATCH], int n, const Colou
     }
 }
 
-VEC_INLINE void read_isotropic(const DipSampler *sampler, const DipTexture *texture, Way way,
-                               const Footprints *footprints, int vectors,
-                               float (*out)[DIP_FRAGMENT_BATCH]) {
+VEC_INLINE void read_vectors(const DipSampler *sampler, const DipTexture *texture, Way way,
+                             const Footprints *footprints, int vectors,
+                             float (*out)[DIP_FRAGMENT_BATCH]) {
     for (int n = 0; n < vectors; n++) {
         Reader reader;
         begin_reader(&reader, sampler, texture, way, footprints, n);
         const bool blend = mask_any(vi_lt(vi_splat(0), reader.levels.fraction));
-        read_probe(&reader, texture, way, blend);
-        store_light(out, n, &reader.total, vf_splat(1.0f));
-    }
-}
-
-VEC_INLINE void read_anisotropic(const DipSampler *sampler, const DipTexture *texture, Way way,
-                                 const Footprints *footprints, int vectors,
-                                 float (*out)[DIP_FRAGMENT_BATCH]) {
-    for (int n = 0; n < vectors; n++) {
-        Reader reader;
-        begin_reader(&reader, sampler, texture, way, footprints, n);
-        const bool blend = mask_any(vi_lt(vi_splat(0), reader.levels.fraction));
-        for (int left = vi_greatest(reader.probes_left); left > 0; left--) {
+        if (way.anisotropic) {
+            for (int left = vi_greatest(reader.probes_left); left > 0; left--) {
+                read_probe(&reader, texture, way, blend);
+            }
+            store_light(out, n, &reader.total, footprints->inverse_probes[n]);
+        } else {
             read_probe(&reader, texture, way, blend);
+            store_light(out, n, &reader.total, vf_splat(1.0f));
         }
-        store_light(out, n, &reader.total, footprints->inverse_probes[n]);
     }
 }
 
@@ -338,11 +331,7 @@ VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler
     const int vectors = (batch->count + DIP_LANES - 1) / DIP_LANES;
     Footprints footprints;
     find_footprints(batch, sampler, way, u_slot, &footprints);
-    if (way.anisotropic) {
-        read_anisotropic(sampler, texture, way, &footprints, vectors, out);
-    } else {
-        read_isotropic(sampler, texture, way, &footprints, vectors, out);
-    }
+    read_vectors(sampler, texture, way, &footprints, vectors, out);
 }
 
 // --- alpha -------------------------------------------------------------------------------------
