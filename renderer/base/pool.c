@@ -105,12 +105,11 @@ static void *worker_main(void *argument) {
     uint32_t run = 0;
     for (;;) {
         await_run(pool, run);
-        if (atomic_load_explicit(&pool->stop, memory_order_acquire)) {
-            return NULL;
-        }
         if (enter(pool, &run)) {
             work(pool, self->index);
             atomic_fetch_sub_explicit(&pool->state, 1, memory_order_release);
+        } else if (atomic_load_explicit(&pool->stop, memory_order_acquire)) {
+            return NULL; // asked after entering: this may be the very run that stops
         }
     }
 }

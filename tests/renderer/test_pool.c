@@ -78,6 +78,23 @@ static void short_runs_follow_each_other(void **state) {
     dip_pool_destroy(&pool);
 }
 
+// A pool that is destroyed while its workers still look for the run before ends all of them.
+static void ends_in_the_middle_of_a_run(void **state) {
+    (void)state;
+    enum { THREADS = 4, POOLS = 4000, RUNS_EACH = 2 };
+    static Tally all;
+    all = (Tally){.thread_count = THREADS};
+    for (int i = 0; i < POOLS; i++) {
+        DipPool *pool = dip_pool_create(THREADS, NULL);
+        assert_non_null(pool);
+        for (int run = 0; run < RUNS_EACH; run++) {
+            dip_pool_run(pool, 1, tally, &all);
+        }
+        dip_pool_destroy(&pool);
+    }
+    assert_int_equal(all.runs[0], POOLS * RUNS_EACH);
+}
+
 static void refuses_impossible_thread_counts(void **state) {
     (void)state;
     DipError err = {0};
@@ -92,6 +109,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_index_runs_once),
         cmocka_unit_test(short_runs_follow_each_other),
+        cmocka_unit_test(ends_in_the_middle_of_a_run),
         cmocka_unit_test(refuses_impossible_thread_counts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
