@@ -2,6 +2,7 @@
 #include "renderer/texture/texture.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/pages.h"
 #include "renderer/texture/mip.h"
 #include "renderer/texture/srgb.h"
 
@@ -99,7 +100,7 @@ static void place_chain(DipTexture *texture) {
 
 // Reads past the end by one vector element stay inside: 8 spare texels, 32 spare bytes of alpha.
 static bool allocate_texels(DipTexture *texture, bool with_alpha) {
-    texture->texels = malloc((texture->texel_count + 8) * sizeof *texture->texels);
+    texture->texels = dip_pages_alloc((texture->texel_count + 8) * sizeof *texture->texels);
     if (with_alpha) {
         texture->alpha = calloc(texture->texel_count + 32, 1);
     }
