@@ -326,6 +326,21 @@ static DipQuality pane_quality(const DipSession *session, const DipOptions *opti
     return quality;
 }
 
+static void set_reflection(DipSession *session, const DipOptions *options) {
+    const DipConfig *config = &session->config;
+    session->force_all_effects = options->force_all_effects;
+    session->reflection = (DipReflectionDef){
+        .width = config->reflection_res.width,
+        .height = config->reflection_res.height,
+        .level_m = config->fountain_water_level,
+        .schlick = config->water_schlick,
+        .show = config->debug_show_reflection,
+    };
+    if (options->model_count && session->scene) {
+        dip_scene_water_level(session->scene, &session->reflection.level_m);
+    }
+}
+
 static bool make_renderers(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     DipError err;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
@@ -335,6 +350,8 @@ static bool make_renderers(DipSession *session, const DipOptions *options, DipEr
             .width = pane_size(session, options).width,
             .height = pane_size(session, options).height,
             .quality = pane_quality(session, options, p),
+            .reflection = session->reflection,
+            .force_all_effects = session->force_all_effects,
         };
         session->renderers[p] = dip_renderer_create(&def, &err);
         if (!session->renderers[p]) {
@@ -379,6 +396,9 @@ bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorLi
     bool opened = load_config(session, options, faults) && make_pool(session, options, faults);
     session->times.ini_ms = dip_start_times_since_ms(options->begin_ns);
     opened = opened && load_what_is_drawn(session, options, faults);
+    if (opened) {
+        set_reflection(session, options);
+    }
     if (opened && options->command != DIP_COMMAND_BENCH) {
         const int64_t begin_ns = dip_clock_ns();
         opened = make_renderers(session, options, faults);

@@ -18,6 +18,8 @@ typedef struct DipSession {
     DipPool *pool;
     DipIsa isa;
     DipScene *scene;
+    DipReflectionDef reflection; // the ini's, at the level of the user's own model if there is one
+    bool force_all_effects;
     DipCamTrack track;  // slots are the ini's categories
     DipCamPath **paths; // loaded once each, by file
     int path_count;

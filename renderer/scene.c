@@ -254,12 +254,24 @@ static void add_bounds(DipScene *scene, const DipSceneObject *object) {
     }
 }
 
-static bool is_sky(const DipScene *scene, const DipSceneObject *object) {
-    return scene->materials[scene->meshes[object->mesh].material].surface == DIP_SURFACE_SKY;
+static bool is_sky(DipSurface surface) {
+    return surface == DIP_SURFACE_SKY;
 }
 
-// Bounds of the objects that are sky, or of those that are not. False when there is none.
-static bool bound_objects(DipScene *scene, bool sky) {
+static bool is_not_sky(DipSurface surface) {
+    return surface != DIP_SURFACE_SKY;
+}
+
+static bool is_water(DipSurface surface) {
+    return surface == DIP_SURFACE_WATER;
+}
+
+static DipSurface surface_of(const DipScene *scene, const DipSceneObject *object) {
+    return scene->materials[scene->meshes[object->mesh].material].surface;
+}
+
+// Bounds of the objects of such surfaces. False when there is none.
+static bool bound_objects(DipScene *scene, bool (*is)(DipSurface)) {
     bool any = false;
     for (int axis = 0; axis < 3; axis++) {
         scene->min_world[axis] = INFINITY;
@@ -267,7 +279,7 @@ static bool bound_objects(DipScene *scene, bool sky) {
     }
     for (int i = 0; i < scene->object_count; i++) {
         const DipSceneObject *object = &scene->objects[i];
-        if (is_sky(scene, object) == sky &&
+        if (is(surface_of(scene, object)) &&
             dip_mesh_triangle_count(scene->meshes[object->mesh].mesh)) {
             add_bounds(scene, object);
             any = true;
@@ -283,7 +295,9 @@ static void place_objects(const DipSceneDef *def, DipScene *scene) {
         memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
         scene->triangle_count += dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
     }
-    if (!bound_objects(scene, false) && !bound_objects(scene, true)) {
+    scene->has_water = bound_objects(scene, is_water);
+    scene->water_level = scene->has_water ? (double)scene->min_world[1] : 0.0;
+    if (!bound_objects(scene, is_not_sky) && !bound_objects(scene, is_sky)) {
         for (int axis = 0; axis < 3; axis++) {
             scene->min_world[axis] = scene->max_world[axis] = 0.0f;
         }
@@ -381,6 +395,11 @@ void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world
 
 DipSceneTimes dip_scene_times(const DipScene *scene) {
     return scene->times;
+}
+
+bool dip_scene_water_level(const DipScene *scene, double *level_m) {
+    *level_m = scene->water_level;
+    return scene->has_water;
 }
 
 uint64_t dip_scene_triangle_count(const DipScene *scene) {

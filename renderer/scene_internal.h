@@ -51,6 +51,8 @@ struct DipScene {
     bool has_normal_map; // some mesh is normal-mapped
     bool has_sky;
     DipSkyDef sky;
+    bool has_water;     // some object is water;
+    double water_level; // the least world y of these
     DipSceneTimes times;
 };
 

@@ -163,6 +163,7 @@ same_hashes() {
 same_hashes --threads 1
 same_hashes --threads 3
 same_hashes --isa scalar
+same_hashes --force-all-effects
 same_hashes --config good.ini
 same_hashes --path "$source/campaths/ambient.pth" --fps 30
 check "settings change the picture" test \
@@ -183,7 +184,8 @@ expect 0 'plot written: plots/time_samples.svg' "$diptych" bench $quick --size 3
 check "the heading tells the seed" grep -q 'order by seed 7$' out.txt
 check "a row per combination" test "$(grep -cE '^ +[1-8]  .*median' out.txt)" = 8
 check "each with its p95 and least" test "$(grep -cE '^ +(p95|min) ' out.txt)" = 16
-check "and its work" test "$(awk '$1 == "fragments_shaded" { print $2 }' out.txt)" = 768
+check "and its work" test "$(awk '$1 == "fragments_shaded" { all = $2 }
+    $1 == "fragments_mirrored" { print all - $2 }' out.txt)" = 768
 check "a line of CSV per combination, round and frame" test "$(wc -l <all.csv)" = 33
 check "units in its names" grep -q '^settings,width_px,.*,total_ms,.*_count' all.csv
 for axis in pixels samples threads; do
