@@ -368,6 +368,37 @@ static void make_sky(DipTestScene *scene) {
     scene->pose.orientation[3] = 0.0;
 }
 
+static int add_pool(DipTestScene *scene, int texture, const float corner[3], float size) {
+    const int material = dip_test_scene_add_material(scene, texture);
+    scene->materials[material].surface = DIP_SURFACE_WATER;
+    scene->materials[material].base_colour_lin[0] = 0.1f;
+    scene->materials[material].base_colour_lin[1] = 0.3f;
+    dip_test_scene_add_quad(scene, material, corner, (const float[]){size, 0, 0},
+                            (const float[]){0, 0, -size}, 2, 2);
+    return material;
+}
+
+static void make_water(DipTestScene *scene) {
+    dip_test_scene_begin(scene);
+    const int ground = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 256, 256);
+    dip_test_scene_add_ground(scene, dip_test_scene_add_material(scene, ground));
+    const int wall = dip_test_scene_add_material(
+        scene, dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 64, 64));
+    dip_test_scene_add_quad(scene, wall, (const float[]){-6, -1, -9}, (const float[]){12, 0, 0},
+                            (const float[]){0, 3.5f, 0}, 6, 2);
+    const int sides = dip_test_scene_add_material(
+        scene, dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 64, 64));
+    scene->materials[sides].lit = true;
+    add_cube(scene, sides, (const float[]){0.3f, -0.6f, -3.4f});
+    add_pool(scene, DIP_NO_TEXTURE, (const float[]){-2.2f, -0.8f, -1.2f}, 4.5f);
+    const int high = add_pool(scene, ground, (const float[]){-1.6f, -0.35f, -3.1f}, 0.9f);
+    scene->materials[high].double_sided = true;
+    scene->reflection = (DipReflectionDef){.width = 96, .height = 72, .level_m = -0.8};
+    scene->pose.position_world[1] = 0.5;
+    scene->pose.orientation[0] = sin(-0.22);
+    scene->pose.orientation[3] = cos(-0.22);
+}
+
 void dip_test_scene_make(DipTestScene *scene, DipTestSceneKind kind) {
     static void (*const makers[])(DipTestScene *) = {
 #define DIP_TEST_SCENE_MAKER(name, text) make_##name,

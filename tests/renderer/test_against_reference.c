@@ -51,11 +51,13 @@ static void open_pair(Pair *pair, DipTestSceneKind kind, int width, int height) 
     def.pool = pair->pool;
     def.width = width;
     def.height = height;
+    def.reflection = pair->scene.reflection;
     pair->renderer = pair->pool ? dip_renderer_create(&def, &err) : NULL;
     if (!pair->renderer) {
         fail_with(&err);
     }
     assert_non_null(pair->expected);
+    dip_reference_set_reflection(pair->reference, &pair->scene.reflection);
 }
 
 static void close_pair(Pair *pair) {
