@@ -4,11 +4,13 @@
 
 #include "app/preview/state.h"
 #include "app/preview/text.h"
+#include "renderer/frame.h"
 
 // A pane's figures, as they are shown.
 typedef struct DipPaneFigures {
     double ms; // median frame time
     int fps;   // frames shown in the last second; 0: not shown
+    DipEffects effects;
 } DipPaneFigures;
 
 // Draws over the whole window. panes: where the two pictures are.

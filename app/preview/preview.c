@@ -143,6 +143,7 @@ static bool draw_panes(Preview *preview, DipError *err) {
             !dip_window_set_picture(preview->window, p, &frame, err)) {
             return false;
         }
+        preview->figures[p].effects = frame.effects;
         dip_timing_add(&preview->timing[p], dip_clock_ns(), frame.stages.total_ms);
     }
     ++preview->frame_index;
