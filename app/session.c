@@ -425,17 +425,40 @@ void dip_session_close(DipSession *session) {
     *session = (DipSession){.isa = DIP_ISA_SCALAR};
 }
 
+static DipFrame copy_of(const DipFrame *frame) {
+    DipFrame copy = *frame;
+    copy.counters = (DipCounters){0};
+    copy.stages = (DipStageTimes){0};
+    return copy;
+}
+
+bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
+                           uint64_t frame_index, DipSessionFrame *frame, DipError *err) {
+    const DipQuality current = dip_renderer_quality(session->renderers[DIP_PANE_CURRENT]);
+    const DipQuality requested = dip_renderer_quality(session->renderers[DIP_PANE_REQUESTED]);
+    frame->copied =
+        !session->force_all_effects && memcmp(&current, &requested, sizeof current) == 0;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        DipRenderer *renderer = session->renderers[p];
+        if (p == DIP_PANE_REQUESTED && frame->copied) {
+            frame->panes[p] = copy_of(&frame->panes[DIP_PANE_CURRENT]);
+            continue;
+        }
+        dip_renderer_set_frame_index(renderer, frame_index);
+        if (!dip_renderer_draw(renderer, session->scene, pose, play_ns, &frame->panes[p], err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index, DipPose *pose,
-                      DipFrame frames[DIP_PANE_COUNT], DipError *err) {
+                      DipSessionFrame *frame, DipError *err) {
     if (!dip_camtrack_pose(&session->track, play_ns, pose)) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
     }
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        dip_renderer_set_frame_index(session->renderers[p], frame_index);
-        if (!dip_renderer_draw(session->renderers[p], session->scene, pose, play_ns, &frames[p],
-                               err)) {
-            return false;
-        }
+    if (!dip_session_draw_pose(session, pose, play_ns, frame_index, frame, err)) {
+        return false;
     }
     dip_start_times_frame(&session->times);
     return true;

@@ -56,12 +56,12 @@ typedef struct DipStageTimes {
 // (renderer/plan/).
 // X(name, "Title")
 #define DIP_EFFECT_LIST(X)                                                                         \
-    X(reflection, "reflection in water")                                                           \
-    X(alpha_clip, "alpha-clipped surfaces")                                                        \
-    X(adaptive_aa, "adaptive antialiasing")                                                        \
+    X(reflection, "reflection")                                                                    \
+    X(alpha_clip, "alpha clip")                                                                    \
+    X(adaptive_aa, "adaptive AA")                                                                  \
     X(light_map, "light map")                                                                      \
-    X(normal_map, "normal maps with highlights")                                                   \
-    X(sky, "moving clouds")
+    X(normal_map, "normal maps")                                                                   \
+    X(sky, "clouds")
 
 typedef struct DipEffect {
     bool run;

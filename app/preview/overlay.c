@@ -32,6 +32,10 @@ static int label_size(const SDL_Rect *pane) {
 // The figures with fewer words where there is little room.
 static void format_figures(DipText *text, int size, int room, const DipPaneFigures *figures,
                            char *line, size_t size_bytes) {
+    if (figures->copied) {
+        snprintf(line, size_bytes, "copied");
+        return;
+    }
     snprintf(line, size_bytes, "%.1f ms", figures->ms);
     if (figures->fps > 0) {
         char longer[64];
@@ -44,11 +48,13 @@ static void format_figures(DipText *text, int size, int room, const DipPaneFigur
 
 static void append(char *line, size_t size_bytes, const char *between, const char *text) {
     const size_t length = strlen(line);
-    snprintf(line + length, size_bytes - length, "%s%s", length ? between : "", text);
+    if (text) {
+        snprintf(line + length, size_bytes - length, "%s%s", between, text);
+    }
 }
 
-// The effects that ran, then those that did not with the reason.
-static void format_effects(const DipEffects *effects, char *line, size_t size_bytes) {
+// The effects that ran, then those that did not, with the reasons or without.
+static void list_effects(const DipEffects *effects, bool reasons, char *line, size_t size_bytes) {
     snprintf(line, size_bytes, "Effects");
     const char *between = ": ";
 #define APPEND_RUN(name, text)                                                                     \
@@ -61,13 +67,23 @@ static void format_effects(const DipEffects *effects, char *line, size_t size_by
     if (strcmp(between, ": ") == 0) {
         append(line, size_bytes, between, "none");
     }
+    between = "; no ";
 #define APPEND_SKIPPED(name, text)                                                                 \
     if (!effects->name.run && effects->name.why) {                                                 \
-        append(line, size_bytes, "; ", "no " text ": ");                                           \
-        append(line, size_bytes, "", effects->name.why);                                           \
+        append(line, size_bytes, between, text);                                                   \
+        append(line, size_bytes, ": ", reasons ? effects->name.why : NULL);                        \
+        between = reasons ? between : ", ";                                                        \
     }
     DIP_EFFECT_LIST(APPEND_SKIPPED)
 #undef APPEND_SKIPPED
+}
+
+static void format_effects(DipText *text, int size, int room, const DipEffects *effects, char *line,
+                           size_t size_bytes) {
+    list_effects(effects, true, line, size_bytes);
+    if (dip_text_width(text, size, line) > room) {
+        list_effects(effects, false, line, size_bytes);
+    }
 }
 
 // Three lines in a dark strip: whose pane and how fast; which settings; which effects.
@@ -98,7 +114,7 @@ static void draw_label(SDL_Renderer *renderer, DipText *text, const DipPreviewSt
     dip_text_draw(text, size, soft, DIP_ALIGN_LEFT, left, rect->y + pad + line, right - left,
                   line_text);
     char effects[512];
-    format_effects(&figures->effects, effects, sizeof effects);
+    format_effects(text, size, right - left, &figures->effects, effects, sizeof effects);
     dip_text_draw(text, size, soft, DIP_ALIGN_LEFT, left, rect->y + pad + 2 * line, right - left,
                   effects);
 }

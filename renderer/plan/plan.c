@@ -178,7 +178,7 @@ static DipEffect plan_adaptive_aa(const DipPlanInput *input, DipFramePlan *plan)
     const int sample_count = dip_quality_sample_count(input->quality);
     plan->samples_per_pass = sample_count;
     if (!input->quality->step[DIP_SETTING_AAA]) {
-        return skip("adaptive AA is off");
+        return skip("it is off");
     }
     if (dip_quality_samples_per_pass(input->quality) == sample_count) {
         return skip("one pass holds all samples");

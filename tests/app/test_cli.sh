@@ -168,6 +168,20 @@ same_hashes --config good.ini
 same_hashes --path "$source/campaths/ambient.pth" --fps 30
 check "settings change the picture" test \
     "$(sed -n '1s/.* //p' hashes.txt)" != "$(sed -n '2s/.* //p' hashes.txt)"
+
+# --- panes with the same settings: drawn once
+equal="dump $small --hash --frames 4:6 --current aa=4,taa=on --requested aa=4,taa=on"
+expect 0 '' "$diptych" $equal --json copied.json
+cp out.txt copied.txt
+check "the requested pane is the current one's picture" \
+    test "$(sed -n '1s/.* //p' out.txt)" = "$(sed -n '2s/.* //p' out.txt)"
+check "the record says that it is copied" test "$(grep -c '"copied":	true' copied.json)" = 2
+check "and took no time" test "$(grep -c '"ms":	0,' copied.json)" = 2
+check "panes with settings of their own are not" sh -c '! grep -q "\"copied\":	true" c.json'
+expect 0 '' "$diptych" $equal --json forced.json --force-all-effects
+check "the same pictures with both drawn" cmp out.txt copied.txt
+check "as the record says" sh -c '! grep -q "\"copied\":	true" forced.json'
+
 expect 0 '' "$diptych" dump $small --hash --fps 15 --frames 0:3
 check "frame 1 at 15 per second is frame 2 at 30" test \
     "$(sed -n '3s/.* //p' out.txt)" = "$(sed -n '3s/.* //p' hashes.txt)"
