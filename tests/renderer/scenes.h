@@ -23,7 +23,8 @@
     X(normal_map,                                                                                  \
       "bumps under light map and sun; coordinates mirrored, without area, on a sphere")            \
     X(sky, "two layers of cloud over a quad to the horizon")                                       \
-    X(water, "pools at two heights that reflect what stands in and around them")
+    X(water, "pools at two heights that reflect what stands in and around them")                   \
+    X(water_effects, "a pool under clouds, before a fence and bumps: all effects, mirrored too")
 
 typedef enum DipTestSceneKind {
 #define DIP_TEST_SCENE_ENUM(name, text) DIP_TEST_SCENE_##name,
