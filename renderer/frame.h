@@ -27,8 +27,12 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(texels_fetched, "texels read by these")                                                      \
     X(fragments_normal_mapped, "fragments whose normal came from a map")                           \
     X(fragments_sky, "fragments of sky with moving clouds")                                        \
+    X(fragments_reflecting, "fragments of water that show the reflection")                         \
     X(fragments_mirrored, "of the fragments shaded, those of the reflection")                      \
-    X(reflection_bytes, "memory of the reflection's target")
+    X(reflection_bytes, "memory of the reflection's target")                                       \
+    X(normal_map_bytes, "memory of normal maps")                                                   \
+    X(clip_map_bytes, "memory of the alpha of clip maps")                                          \
+    X(cloud_bytes, "memory of the sky's clouds")
 
 typedef struct DipCounters {
 #define DIP_COUNTER_FIELD(name, text) uint64_t name;

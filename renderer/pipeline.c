@@ -340,6 +340,7 @@ static void run_tile(void *context, int region_index, int worker_index) {
     work->sampling.texels = worker->batch.work.texels + worker->clip_batch.work.texels;
     work->sampling.normal_mapped = worker->batch.work.normal_mapped;
     work->sampling.sky = worker->batch.work.sky;
+    work->sampling.reflecting = worker->batch.work.reflecting;
 }
 
 // --- one pass ----------------------------------------------------------------------------------
@@ -383,6 +384,7 @@ static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
         counters->texels_fetched += work->sampling.texels;
         counters->fragments_normal_mapped += work->sampling.normal_mapped;
         counters->fragments_sky += work->sampling.sky;
+        counters->fragments_reflecting += work->sampling.reflecting;
     }
 }
 

@@ -345,6 +345,13 @@ static bool draw_scene(DipRenderer *renderer, const DipScene *scene, const DipVi
     return dip_pipeline_draw(renderer->pipeline, &pass, &frame->counters, &frame->stages, err);
 }
 
+// What the effects hold, used in this frame or not.
+static void count_bytes(const DipScene *scene, DipCounters *counters) {
+    counters->normal_map_bytes = scene->normal_map_bytes;
+    counters->clip_map_bytes = scene->clip_map_bytes;
+    counters->cloud_bytes = scene->cloud_bytes;
+}
+
 static void count_mirror(const Mirror *mirror, bool drawn, DipCounters *counters) {
     const uint64_t across = (uint64_t)(mirror->target.width + DIP_TILE - 1) / DIP_TILE;
     const uint64_t down = (uint64_t)(mirror->target.height + DIP_TILE - 1) / DIP_TILE;
@@ -387,6 +394,7 @@ bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPo
         return false;
     }
     count_mirror(&renderer->mirror, reflects, &frame->counters);
+    count_bytes(scene, &frame->counters);
     dip_plan_settle(&input, &frame->counters, &frame->effects);
     if (reflects && renderer->reflection.show) {
         const DipTarget target = target_of(renderer);

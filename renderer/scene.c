@@ -209,7 +209,7 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
 
 // --- textures ----------------------------------------------------------------------------------
 
-static void mark_used_textures(const DipSceneDef *def, bool *used) {
+static void mark_used_textures(const DipSceneDef *def, bool *used, bool *clip) {
     for (int i = 0; i < def->material_count; i++) {
         const DipMaterialDef *material = &def->materials[i];
         const int textures[] = {material->colour_texture, material->light_map,
@@ -219,20 +219,66 @@ static void mark_used_textures(const DipSceneDef *def, bool *used) {
                 used[textures[k]] = true;
             }
         }
+        if (material->surface == DIP_SURFACE_CLIPPED &&
+            material->colour_texture != DIP_NO_TEXTURE) {
+            clip[material->colour_texture] = true;
+        }
     }
 }
 
-// Those that no material as it is drawn uses are not made.
+// Those that no material as it is drawn uses are not made, nor alpha that clips nothing.
 static bool create_textures(const DipSceneDef *def, DipScene *scene, DipPool *pool, DipError *err) {
-    bool *used = calloc((size_t)def->texture_count + 1, sizeof *used);
+    bool *used = calloc(2 * (size_t)def->texture_count + 1, sizeof *used);
     if (!used) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "textures", "out of memory");
     }
-    mark_used_textures(def, used);
-    const bool made =
-        dip_textures_create(def->textures, used, def->texture_count, pool, scene->textures, err);
+    bool *clip = used + def->texture_count;
+    mark_used_textures(def, used, clip);
+    const bool made = dip_textures_create(def->textures, used, clip, def->texture_count, pool,
+                                          scene->textures, err);
     free(used);
     return made;
+}
+
+static uint64_t texel_bytes(const DipTexture *texture) {
+    return texture ? texture->texel_count * sizeof *texture->texels : 0;
+}
+
+static uint64_t alpha_bytes(const DipTexture *texture) {
+    return texture && texture->alpha ? texture->texel_count : 0;
+}
+
+// Whether a material shows a texture so.
+typedef bool TextureUse(const DipSceneMaterial *material, int texture);
+
+static bool is_normal_map(const DipSceneMaterial *material, int texture) {
+    return material->normal_map == texture;
+}
+
+static bool is_clouds(const DipSceneMaterial *material, int texture) {
+    return material->surface == DIP_SURFACE_SKY && material->colour_texture == texture;
+}
+
+static uint64_t bytes_used(const DipScene *scene, TextureUse *uses) {
+    uint64_t bytes = 0;
+    for (int i = 0; i < scene->texture_count; i++) {
+        for (int m = 0; m < scene->material_count; m++) {
+            if (uses(&scene->materials[m], i)) {
+                bytes += texel_bytes(scene->textures[i]);
+                break;
+            }
+        }
+    }
+    return bytes;
+}
+
+// Alpha is kept of clip maps only.
+static void add_effect_bytes(DipScene *scene) {
+    scene->normal_map_bytes = bytes_used(scene, is_normal_map);
+    scene->cloud_bytes = scene->has_sky ? bytes_used(scene, is_clouds) : 0;
+    for (int i = 0; i < scene->texture_count; i++) {
+        scene->clip_map_bytes += alpha_bytes(scene->textures[i]);
+    }
 }
 
 // --- the scene ---------------------------------------------------------------------------------
@@ -364,6 +410,7 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
         return NULL;
     }
     place_objects(def, scene);
+    add_effect_bytes(scene);
     scene->times = (DipSceneTimes){1e-6 * (double)(textured_ns - begin_ns),
                                    1e-6 * (double)(dip_clock_ns() - textured_ns)};
     return scene;
@@ -409,10 +456,7 @@ uint64_t dip_scene_triangle_count(const DipScene *scene) {
 uint64_t dip_scene_texture_bytes(const DipScene *scene) {
     uint64_t bytes = 0;
     for (int i = 0; i < scene->texture_count; i++) {
-        const DipTexture *texture = scene->textures[i];
-        if (texture) {
-            bytes += texture->texel_count * (sizeof *texture->texels + (texture->alpha ? 1 : 0));
-        }
+        bytes += texel_bytes(scene->textures[i]) + alpha_bytes(scene->textures[i]);
     }
     return bytes;
 }

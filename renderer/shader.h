@@ -53,6 +53,7 @@ typedef struct DipSampleWork {
     uint64_t texels;
     uint64_t normal_mapped; // fragments
     uint64_t sky;           // likewise
+    uint64_t reflecting;    // likewise
 } DipSampleWork;
 
 typedef struct DipFragmentBatch DipFragmentBatch;
