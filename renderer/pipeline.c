@@ -264,6 +264,18 @@ static void draw_jobs(Worker *worker, size_t tile) {
     }
 }
 
+static int positive(int value) {
+    return value > 0 ? value : 0;
+}
+
+// What of the tile is not drawn.
+static void set_margins(const DipRegion *region, DipTile *tile) {
+    tile->left = positive(region->x0 - tile->x0);
+    tile->top = positive(region->y0 - tile->y0);
+    tile->right = positive(tile->x0 + DIP_TILE - region->x1);
+    tile->bottom = positive(tile->y0 + DIP_TILE - region->y1);
+}
+
 static void begin_tile(Worker *worker, int index) {
     const DipPipeline *pipeline = worker->pipeline;
     const DipGeometry *geometry = &pipeline->geometry;
@@ -271,6 +283,7 @@ static void begin_tile(Worker *worker, int index) {
     DipTile *tile = &worker->tile;
     tile->x0 = index % geometry->tiles_x * DIP_TILE;
     tile->y0 = index / geometry->tiles_x * DIP_TILE;
+    set_margins(&geometry->region, tile);
     tile->pattern = geometry->pattern;
     tile->touched = 0;
     tile->passed = 0;

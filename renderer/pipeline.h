@@ -64,7 +64,7 @@ typedef struct DipPass {
     float clip_planes[DIP_MAX_CLIP_PLANES][4];
     int clip_plane_count;
     DipTarget target;
-    // The part of the target that is wanted. Tiles (64x64 pixels from the corner) that it does not
+    // The part of the target that is wanted. Blocks (8x8 pixels from the corner) that it does not
     // meet are neither drawn nor cleared; the others hold what they would without it, to the bit.
     DipRegion region;
 } DipPass;

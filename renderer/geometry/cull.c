@@ -22,23 +22,33 @@ static void place_plane(const float *m, const float clip[4], double normal[4]) {
     }
 }
 
+static int blocks_end(int end) {
+    return (end + DIP_BLOCK - 1) / DIP_BLOCK * DIP_BLOCK;
+}
+
+DipRegion dip_drawn_region(const DipPass *pass) {
+    const DipRegion *region = &pass->region;
+    if (!region->x1) {
+        return (DipRegion){0, 0, blocks_end(pass->target.width), blocks_end(pass->target.height)};
+    }
+    return (DipRegion){region->x0 / DIP_BLOCK * DIP_BLOCK, region->y0 / DIP_BLOCK * DIP_BLOCK,
+                       blocks_end(region->x1), blocks_end(region->y1)};
+}
+
 // The picture's region in x / w and y / w, from -1 to 1 where it is whole.
 typedef struct NdcRegion {
     float left, right, bottom, top;
 } NdcRegion;
 
 static NdcRegion ndc_region(const DipPass *pass) {
-    const DipRegion *region = &pass->region;
-    if (!region->x1) {
+    if (!pass->region.x1) {
         return (NdcRegion){-1.0f, 1.0f, -1.0f, 1.0f};
     }
-    // To whole tiles, since these are drawn.
-    const float x = 2.0f * DIP_TILE / (float)pass->target.width;
-    const float y = 2.0f * DIP_TILE / (float)pass->target.height;
-    const int end_x = (region->x1 + DIP_TILE - 1) / DIP_TILE;
-    const int end_y = (region->y1 + DIP_TILE - 1) / DIP_TILE;
-    return (NdcRegion){(float)(region->x0 / DIP_TILE) * x - 1.0f, (float)end_x * x - 1.0f,
-                       1.0f - (float)end_y * y, 1.0f - (float)(region->y0 / DIP_TILE) * y};
+    const DipRegion region = dip_drawn_region(pass);
+    const float x = 2.0f / (float)pass->target.width;
+    const float y = 2.0f / (float)pass->target.height;
+    return (NdcRegion){(float)region.x0 * x - 1.0f, (float)region.x1 * x - 1.0f,
+                       1.0f - (float)region.y1 * y, 1.0f - (float)region.y0 * y};
 }
 
 static void place_view(const float *m, const NdcRegion *region, double (*normal)[4]) {

@@ -12,4 +12,7 @@ uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible);
 // Whether a box may be in view: false only where it lies outside one plane of the view volume.
 bool dip_cull_in_view(const float to_clip[16], const DipBox *box);
 
+// The pixels that a pass draws: its region, or all of the target, to whole blocks.
+DipRegion dip_drawn_region(const DipPass *pass);
+
 #endif

@@ -160,10 +160,7 @@ bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *
     return true;
 }
 
-static DipRegion tiles_of(const DipGeometry *geometry, const DipRegion *region) {
-    if (!region->x1) {
-        return (DipRegion){0, 0, geometry->tiles_x, geometry->tiles_y};
-    }
+static DipRegion tiles_of(const DipRegion *region) {
     return (DipRegion){region->x0 / DIP_TILE, region->y0 / DIP_TILE,
                        (region->x1 + DIP_TILE - 1) / DIP_TILE,
                        (region->y1 + DIP_TILE - 1) / DIP_TILE};
@@ -173,7 +170,8 @@ bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *er
     geometry->pass = pass;
     geometry->mapping = dip_screen_mapping(pass);
     geometry->pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
-    geometry->tile_region = tiles_of(geometry, &pass->region);
+    geometry->region = dip_drawn_region(pass);
+    geometry->tile_region = tiles_of(&geometry->region);
     if (!dip_geometry_reserve(geometry, pass, err)) {
         return false;
     }
@@ -447,12 +445,12 @@ static void run_chunk(JobRun *run, const DipChunk *chunk) {
 }
 
 static DipSetupTarget setup_target(const DipGeometry *geometry) {
-    const DipRegion *region = &geometry->tile_region;
+    const DipRegion *region = &geometry->region;
     DipSetupTarget target = {
         .width = geometry->pass->target.width,
         .height = geometry->pass->target.height,
-        .region_first = {region->x0 * DIP_TILE, region->y0 * DIP_TILE},
-        .region_last = {region->x1 * DIP_TILE - 1, region->y1 * DIP_TILE - 1},
+        .region_first = {region->x0, region->y0},
+        .region_last = {region->x1 - 1, region->y1 - 1},
         .surface_stride = geometry->surface_stride,
         .pattern = geometry->pattern,
         .sample_min = {255, 255},

@@ -66,7 +66,8 @@ typedef struct DipGeometry {
     const DipSamplePattern *pattern;
     int tiles_x;
     int tiles_y;
-    DipRegion tile_region; // tiles that the pass' region meets
+    DipRegion region;      // pixels that are drawn, see dip_drawn_region
+    DipRegion tile_region; // tiles that these lie in
     int surface_stride;    // floats per triangle: that of the pass' largest slot count
     int job_count;
     DipGeometryJob jobs[DIP_MAX_JOBS];

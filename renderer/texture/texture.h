@@ -47,8 +47,8 @@ typedef struct DipTexture {
 
 // Builds textures with their whole mip chains into textures[0..count-1], all or none. defs are only
 // read; those that are not used (NULL: all are) are left out and their textures are NULL, and alpha
-// is kept of those that clip (NULL: of all that have any). On the pool (may be NULL), across textures
-// and within them: the same texels for every number of threads.
+// is kept of those that clip (NULL: of all that have any). On the pool (may be NULL), across
+// textures and within them: the same texels for every number of threads.
 bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool *clip, int count,
                          DipPool *pool, DipTexture **textures, DipError *err);
 
