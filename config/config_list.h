@@ -16,7 +16,7 @@
 #define DIP_CONFIG_LIST(KEY, CAMERA, PICTURE)                                                      \
     KEY(RES, res, SIZE, DIP_CONFIG_REQUIRED, 1, 8192, "resolution of each of the two panes")       \
     KEY(REFLECTION_RES, reflection_res, SIZE, DIP_CONFIG_REQUIRED, 1, 8192,                        \
-        "resolution of the reflection's texture")                                                  \
+        "resolution of the reflection's texture; beyond the pane's own it shows nothing more")     \
     KEY(FOUNTAIN_WATER_LEVEL, fountain_water_level, NUMBER, DIP_CONFIG_REQUIRED, -1e9, 1e9,        \
         "height (y) of the water that reflects, metres")                                           \
     KEY(DEBUG_SHOW_REFLECTION, debug_show_reflection, FLAG, DIP_CONFIG_REQUIRED, 0, 0,             \
