@@ -228,6 +228,37 @@ static void no_background_shows_at_the_waterline(void **state) {
     dip_test_scene_free(&scene);
 }
 
+// Seen along the surface, water is as thin as the eye is near to its plane: from both sides
+// pictures come to that of an eye in it.
+static void pictures_are_continuous_through_the_plane(void **state) {
+    (void)state;
+    static DipTestScene scene;
+    static double in_plane[WIDTH * HEIGHT * 3];
+    static double beside[WIDTH * HEIGHT * 3];
+    static const double heights[] = {1e-5, 1e-7, 1e-12, -1e-12, -1e-7, -1e-5};
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_water_effects);
+    Stage stage = open_stage(&scene.def, WIDTH, HEIGHT, &scene.reflection, false);
+    Random random = {13};
+    for (int i = 0; i < 40; i++) {
+        DipPose pose = scene.pose;
+        turn(&pose, random_real(&random, -180.0, 180.0), random_real(&random, -50.0, 50.0));
+        pose.position_world[0] = random_real(&random, -3.0, 3.0);
+        pose.position_world[2] = random_real(&random, -8.0, 1.0);
+        pose.position_world[1] = scene.reflection.level_m;
+        const DipFrame frame = draw(&stage, &pose);
+        decode_frame(&frame, in_plane);
+        for (size_t h = 0; h < sizeof heights / sizeof *heights; h++) {
+            pose.position_world[1] = scene.reflection.level_m + heights[h];
+            const DipFrame other = draw(&stage, &pose);
+            decode_frame(&other, beside);
+            const double rms = dip_image_rms(beside, in_plane, (size_t)WIDTH * HEIGHT * 3);
+            assert_true(rms < (fabs(heights[h]) < 1e-6 ? 0.0005 : 0.005));
+        }
+    }
+    close_stage(&stage);
+    dip_test_scene_free(&scene);
+}
+
 // --- the plan ----------------------------------------------------------------------------------
 
 static DipPose random_pose(Random *random, const DipPose *like, double level) {
@@ -241,13 +272,17 @@ static DipPose random_pose(Random *random, const DipPose *like, double level) {
     return pose;
 }
 
-static void forcing_all_effects_changes_nothing(void **state) {
-    (void)state;
+static void force_all(DipTestSceneKind kind, const char *settings) {
     static DipTestScene scene;
-    dip_test_scene_make(&scene, DIP_TEST_SCENE_water);
+    DipQuality quality;
+    dip_test_scene_make(&scene, kind);
+    assert_true(dip_quality_parse(settings, &quality, NULL));
     DipReflectionDef reflection = {333, 251, -0.8, false, false};
     Stage stages[2] = {open_stage(&scene.def, 320, 200, &reflection, false),
                        open_stage(&scene.def, 320, 200, &reflection, true)};
+    for (int k = 0; k < 2; k++) {
+        assert_true(dip_renderer_set_quality(stages[k].renderer, &quality, NULL));
+    }
     Random random = {21};
     uint64_t spared = 0;
     int skipped = 0;
@@ -287,6 +322,12 @@ static void add_fence(DipTestScene *scene) {
     scene->materials[fence].surface = DIP_SURFACE_CLIPPED;
     dip_test_scene_add_quad(scene, fence, (const float[]){-1, -0.5f, -4}, (const float[]){2, 0, 0},
                             (const float[]){0, 1, 0}, 1, 1);
+}
+
+static void forcing_all_effects_changes_nothing(void **state) {
+    (void)state;
+    force_all(DIP_TEST_SCENE_water, "aa=none");
+    force_all(DIP_TEST_SCENE_water_effects, "aa=4,taa=on,aaa=on,af=4");
 }
 
 static void effects_give_their_reasons(void **state) {
@@ -434,6 +475,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mirrored_picture_is_the_mirrored_scene),
         cmocka_unit_test(no_background_shows_at_the_waterline),
+        cmocka_unit_test(pictures_are_continuous_through_the_plane),
         cmocka_unit_test(forcing_all_effects_changes_nothing),
         cmocka_unit_test(effects_give_their_reasons),
         cmocka_unit_test(a_scene_without_water_pays_nothing),
