@@ -37,21 +37,22 @@ static bool dump_frame(DipSession *session, const DipOptions *options, int index
                        DipError *err) {
     const int64_t time_ns = index * INT64_C(1000000000000) / options->fps_milli;
     DipPose pose;
-    DipFrame frames[DIP_PANE_COUNT];
+    DipSessionFrame frame;
     char hashes[DIP_PANE_COUNT][33];
     DipQuality qualities[DIP_PANE_COUNT];
     DipRecordPane panes[DIP_PANE_COUNT];
-    if (!dip_session_draw(session, time_ns, (uint64_t)index, &pose, frames, err)) {
+    if (!dip_session_draw(session, time_ns, (uint64_t)index, &pose, &frame, err)) {
         return false;
     }
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        dip_frame_hash(&frames[p], hashes[p]);
+        dip_frame_hash(&frame.panes[p], hashes[p]);
         qualities[p] = dip_renderer_quality(session->renderers[p]);
-        panes[p] = (DipRecordPane){&qualities[p], &frames[p], hashes[p]};
+        panes[p] = (DipRecordPane){&qualities[p], &frame.panes[p], hashes[p],
+                                   p == DIP_PANE_REQUESTED && frame.copied};
         if (options->hash) {
             printf("%04d %s %s\n", index, dip_pane_names[p], hashes[p]);
         }
-        if (options->out && !write_picture(options->out, index, p, &frames[p], err)) {
+        if (options->out && !write_picture(options->out, index, p, &frame.panes[p], err)) {
             return false;
         }
     }

@@ -91,6 +91,15 @@ static bool set_timing(DipOptions *options, const char *key, const char *value, 
     return true;
 }
 
+static bool set_force_all_effects(DipOptions *options, const char *key, const char *value,
+                                  DipError *err) {
+    (void)key;
+    (void)value;
+    (void)err;
+    options->force_all_effects = true;
+    return true;
+}
+
 static bool set_help(DipOptions *options, const char *key, const char *value, DipError *err) {
     (void)key;
     (void)value;
@@ -261,6 +270,8 @@ static const OptionRow rows[] = {
      "plot time against pixels, samples, triangles, threads there"},
     {"--serve", NULL, BENCH, dip_bench_set_serve,
      "draw what standard input asks for: what --vs starts"},
+    {"--force-all-effects", NULL, SCENE, set_force_all_effects,
+     "also run effects where they cannot be seen: the same picture, at a greater cost"},
     {"--timing", NULL, PANES, set_timing,
      "at the end say how long start and end took, and the most memory that was used"},
     {"--log", "FILE", SCENE, set_log, "also write warnings and errors there"},

@@ -33,6 +33,7 @@ typedef struct DipOptions {
     DipCommand command;
     int64_t begin_ns; // when the command line was read: as good as the program's start
     bool timing;
+    bool force_all_effects;
     bool help;
     bool version;
     const char *config;

@@ -86,6 +86,7 @@ static bool add_pane(cJSON *frame, const char *name, const DipRecordPane *pane) 
     cJSON *object = cJSON_AddObjectToObject(frame, name);
     return object && cJSON_AddStringToObject(object, "settings", settings) &&
            cJSON_AddStringToObject(object, "hash", pane->hash) &&
+           cJSON_AddBoolToObject(object, "copied", pane->copied) &&
            cJSON_AddNumberToObject(object, "ms", pane->frame->stages.total_ms) &&
            add_stages(object, &pane->frame->stages) &&
            add_counters(object, &pane->frame->counters) &&

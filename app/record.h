@@ -1,9 +1,10 @@
 // The record of drawn frames as JSON: what each pane drew, what it cost and which effects ran.
 //
 // {"frames":[{"index":0,"time_s":0,"pose":{"position":[x,y,z],"orientation":[x,y,z,w],
-// "fov_y_deg":45},"current":{"settings":"aa=..","hash":"..","ms":1.5,"stages_ms":{..},
+// "fov_y_deg":45},"current":{"settings":"aa=..","hash":"..","copied":false,"ms":1.5,"stages_ms":{..},
 // "counters":{..},"effects":{"light_map":{"run":true,"why":".."},..}},"requested":{..}},..],
 // "load_ms":{"ini":0.3,..},"peak_rss_bytes":123456}
+// A pane that is copied from the one before took no time and did no work: 0 in all of these.
 #ifndef DIP_APP_RECORD_H
 #define DIP_APP_RECORD_H
 
@@ -13,6 +14,8 @@
 #include "renderer/pose.h"
 #include "renderer/quality.h"
 
+#include <stdbool.h>
+
 typedef struct DipRecord DipRecord;
 
 // One pane of a frame.
@@ -20,6 +23,7 @@ typedef struct DipRecordPane {
     const DipQuality *quality;
     const DipFrame *frame;
     const char *hash;
+    bool copied; // from the pane before, with the same settings
 } DipRecordPane;
 
 DipRecord *dip_record_create(DipError *err);

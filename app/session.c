@@ -326,6 +326,21 @@ static DipQuality pane_quality(const DipSession *session, const DipOptions *opti
     return quality;
 }
 
+static void set_reflection(DipSession *session, const DipOptions *options) {
+    const DipConfig *config = &session->config;
+    session->force_all_effects = options->force_all_effects;
+    session->reflection = (DipReflectionDef){
+        .width = config->reflection_res.width,
+        .height = config->reflection_res.height,
+        .level_m = config->fountain_water_level,
+        .schlick = config->water_schlick,
+        .show = config->debug_show_reflection,
+    };
+    if (options->model_count && session->scene) {
+        dip_scene_water_level(session->scene, &session->reflection.level_m);
+    }
+}
+
 static bool make_renderers(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     DipError err;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
@@ -335,6 +350,8 @@ static bool make_renderers(DipSession *session, const DipOptions *options, DipEr
             .width = pane_size(session, options).width,
             .height = pane_size(session, options).height,
             .quality = pane_quality(session, options, p),
+            .reflection = session->reflection,
+            .force_all_effects = session->force_all_effects,
         };
         session->renderers[p] = dip_renderer_create(&def, &err);
         if (!session->renderers[p]) {
@@ -379,6 +396,9 @@ bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorLi
     bool opened = load_config(session, options, faults) && make_pool(session, options, faults);
     session->times.ini_ms = dip_start_times_since_ms(options->begin_ns);
     opened = opened && load_what_is_drawn(session, options, faults);
+    if (opened) {
+        set_reflection(session, options);
+    }
     if (opened && options->command != DIP_COMMAND_BENCH) {
         const int64_t begin_ns = dip_clock_ns();
         opened = make_renderers(session, options, faults);
@@ -405,17 +425,40 @@ void dip_session_close(DipSession *session) {
     *session = (DipSession){.isa = DIP_ISA_SCALAR};
 }
 
+static DipFrame copy_of(const DipFrame *frame) {
+    DipFrame copy = *frame;
+    copy.counters = (DipCounters){0};
+    copy.stages = (DipStageTimes){0};
+    return copy;
+}
+
+bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
+                           uint64_t frame_index, DipSessionFrame *frame, DipError *err) {
+    const DipQuality current = dip_renderer_quality(session->renderers[DIP_PANE_CURRENT]);
+    const DipQuality requested = dip_renderer_quality(session->renderers[DIP_PANE_REQUESTED]);
+    frame->copied =
+        !session->force_all_effects && memcmp(&current, &requested, sizeof current) == 0;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        DipRenderer *renderer = session->renderers[p];
+        if (p == DIP_PANE_REQUESTED && frame->copied) {
+            frame->panes[p] = copy_of(&frame->panes[DIP_PANE_CURRENT]);
+            continue;
+        }
+        dip_renderer_set_frame_index(renderer, frame_index);
+        if (!dip_renderer_draw(renderer, session->scene, pose, play_ns, &frame->panes[p], err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index, DipPose *pose,
-                      DipFrame frames[DIP_PANE_COUNT], DipError *err) {
+                      DipSessionFrame *frame, DipError *err) {
     if (!dip_camtrack_pose(&session->track, play_ns, pose)) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
     }
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        dip_renderer_set_frame_index(session->renderers[p], frame_index);
-        if (!dip_renderer_draw(session->renderers[p], session->scene, pose, play_ns, &frames[p],
-                               err)) {
-            return false;
-        }
+    if (!dip_session_draw_pose(session, pose, play_ns, frame_index, frame, err)) {
+        return false;
     }
     dip_start_times_frame(&session->times);
     return true;

@@ -18,6 +18,8 @@ typedef struct DipSession {
     DipPool *pool;
     DipIsa isa;
     DipScene *scene;
+    DipReflectionDef reflection; // the ini's, at the level of the user's own model if there is one
+    bool force_all_effects;
     DipCamTrack track;  // slots are the ini's categories
     DipCamPath **paths; // loaded once each, by file
     int path_count;
@@ -34,8 +36,21 @@ void dip_session_close(DipSession *session);
 // "DEFAULT", "AA", ...: the ini's category that a slot of the track plays.
 const char *dip_session_category(int slot);
 
-// Draws both panes at a time on the active path. frame_index: see dip_renderer_set_frame_index.
+// What the panes show of one frame.
+typedef struct DipSessionFrame {
+    DipFrame panes[DIP_PANE_COUNT];
+    // The requested pane is a copy of the current one, whose settings are the same: it took neither
+    // time nor work, and shares its pixels. Never when all effects are forced.
+    bool copied;
+} DipSessionFrame;
+
+// Draws both panes from a pose. frame_index: see dip_renderer_set_frame_index. Both renderers must
+// have one size.
+bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
+                           uint64_t frame_index, DipSessionFrame *frame, DipError *err);
+
+// Likewise from the pose at a time on the active path.
 bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index, DipPose *pose,
-                      DipFrame frames[DIP_PANE_COUNT], DipError *err);
+                      DipSessionFrame *frame, DipError *err);
 
 #endif

@@ -16,11 +16,13 @@
 #define DIP_CONFIG_LIST(KEY, CAMERA, PICTURE)                                                      \
     KEY(RES, res, SIZE, DIP_CONFIG_REQUIRED, 1, 8192, "resolution of each of the two panes")       \
     KEY(REFLECTION_RES, reflection_res, SIZE, DIP_CONFIG_REQUIRED, 1, 8192,                        \
-        "resolution of the reflection's texture")                                                  \
+        "resolution of the reflection's texture; beyond the pane's own it shows nothing more")     \
     KEY(FOUNTAIN_WATER_LEVEL, fountain_water_level, NUMBER, DIP_CONFIG_REQUIRED, -1e9, 1e9,        \
         "height (y) of the water that reflects, metres")                                           \
     KEY(DEBUG_SHOW_REFLECTION, debug_show_reflection, FLAG, DIP_CONFIG_REQUIRED, 0, 0,             \
         "show the reflection's texture in the picture's corner")                                   \
+    KEY(WATER_SCHLICK, water_schlick, FLAG, "false", 0, 0,                                         \
+        "water reflects by Schlick's approximation instead of Fresnel's equations")                \
     KEY(XFILE, xfile, FILES, DIP_CONFIG_REQUIRED, 0, 0,                                            \
         "model file; repeat the key to load several, all about the origin")                        \
     KEY(CAMPATH_RESET_ON_SWITCH, campath_reset_on_switch, FLAG, DIP_CONFIG_REQUIRED, 0, 0,         \

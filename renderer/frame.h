@@ -11,6 +11,9 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
 // Work done, exact: the same for any thread count, SIMD width and machine.
 // X(name, "what it counts")
 #define DIP_COUNTER_LIST(X)                                                                        \
+    X(passes, "passes drawn")                                                                      \
+    X(tiles_drawn, "64x64-pixel tiles of these that were drawn")                                   \
+    X(tiles_spared, "tiles that the plan left out, whole passes included")                         \
     X(triangles_in, "triangles of the chunks (up to 128 each) that are not culled whole")          \
     X(triangles_drawn, "triangles left after culling and clipping")                                \
     X(tile_triangles, "triangles times the tiles they are binned to")                              \
@@ -23,7 +26,13 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(texture_probes, "filtered texture reads, trilinear or bilinear")                             \
     X(texels_fetched, "texels read by these")                                                      \
     X(fragments_normal_mapped, "fragments whose normal came from a map")                           \
-    X(fragments_sky, "fragments of sky with moving clouds")
+    X(fragments_sky, "fragments of sky with moving clouds")                                        \
+    X(fragments_reflecting, "fragments of water that show the reflection")                         \
+    X(fragments_mirrored, "of the fragments shaded, those of the reflection")                      \
+    X(reflection_bytes, "memory of the reflection's target")                                       \
+    X(normal_map_bytes, "memory of normal maps")                                                   \
+    X(clip_map_bytes, "memory of the alpha of clip maps")                                          \
+    X(cloud_bytes, "memory of the sky's clouds")
 
 typedef struct DipCounters {
 #define DIP_COUNTER_FIELD(name, text) uint64_t name;
@@ -47,14 +56,16 @@ typedef struct DipStageTimes {
     double total_ms;
 } DipStageTimes;
 
-// Whether an effect ran in this frame, and why.
+// Whether an effect ran in this frame, and why; in the order in which the plan decides them
+// (renderer/plan/).
 // X(name, "Title")
 #define DIP_EFFECT_LIST(X)                                                                         \
-    X(alpha_clip, "alpha-clipped surfaces")                                                        \
-    X(adaptive_aa, "adaptive antialiasing")                                                        \
+    X(reflection, "reflection")                                                                    \
+    X(alpha_clip, "alpha clip")                                                                    \
+    X(adaptive_aa, "adaptive AA")                                                                  \
     X(light_map, "light map")                                                                      \
-    X(normal_map, "normal maps with highlights")                                                   \
-    X(sky, "moving clouds")
+    X(normal_map, "normal maps")                                                                   \
+    X(sky, "clouds")
 
 typedef struct DipEffect {
     bool run;

@@ -53,6 +53,7 @@ struct DipPipeline {
     TileWork *tile_work;
     int draw_room; // lists per worker
     DipSrgbEncodeTable *srgb;
+    float srgb_light[256]; // of the codes
     const DipPass *pass;
     DipSamplePasses passes_made;
     const DipSamplePasses *passes; // NULL: alpha-clipped draws have one pass
@@ -85,6 +86,8 @@ static void bind_batch(const Worker *worker, const DipDraw *draw, DipFragmentBat
     batch->uniforms = draw->uniforms;
     batch->sample_colour = worker->pipeline->kernels->dip_kernel_sample_colour;
     batch->sample_alpha = worker->pipeline->kernels->dip_kernel_sample_alpha;
+    batch->sample_target = worker->pipeline->kernels->dip_kernel_sample_target;
+    batch->srgb_light = worker->pipeline->srgb_light;
 }
 
 // Shades the first fragments of a list, at most a batch, into the worker's encoded batch.
@@ -261,6 +264,18 @@ static void draw_jobs(Worker *worker, size_t tile) {
     }
 }
 
+static int positive(int value) {
+    return value > 0 ? value : 0;
+}
+
+// What of the tile is not drawn.
+static void set_margins(const DipRegion *region, DipTile *tile) {
+    tile->left = positive(region->x0 - tile->x0);
+    tile->top = positive(region->y0 - tile->y0);
+    tile->right = positive(tile->x0 + DIP_TILE - region->x1);
+    tile->bottom = positive(tile->y0 + DIP_TILE - region->y1);
+}
+
 static void begin_tile(Worker *worker, int index) {
     const DipPipeline *pipeline = worker->pipeline;
     const DipGeometry *geometry = &pipeline->geometry;
@@ -268,6 +283,7 @@ static void begin_tile(Worker *worker, int index) {
     DipTile *tile = &worker->tile;
     tile->x0 = index % geometry->tiles_x * DIP_TILE;
     tile->y0 = index / geometry->tiles_x * DIP_TILE;
+    set_margins(&geometry->region, tile);
     tile->pattern = geometry->pattern;
     tile->touched = 0;
     tile->passed = 0;
@@ -311,8 +327,9 @@ static void shade_tile(Worker *worker) {
     shading->active_count = 0;
 }
 
-static void run_tile(void *context, int index, int worker_index) {
+static void run_tile(void *context, int region_index, int worker_index) {
     DipPipeline *pipeline = context;
+    const int index = dip_geometry_region_tile(&pipeline->geometry, region_index);
     Worker *worker = pipeline->workers[worker_index];
     TileWork *work = &pipeline->tile_work[index];
     *work = (TileWork){0};
@@ -336,6 +353,7 @@ static void run_tile(void *context, int index, int worker_index) {
     work->sampling.texels = worker->batch.work.texels + worker->clip_batch.work.texels;
     work->sampling.normal_mapped = worker->batch.work.normal_mapped;
     work->sampling.sky = worker->batch.work.sky;
+    work->sampling.reflecting = worker->batch.work.reflecting;
 }
 
 // --- one pass ----------------------------------------------------------------------------------
@@ -363,8 +381,12 @@ static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
         counters->triangles_drawn += geometry->jobs[j].triangles_drawn;
         counters->tile_triangles += geometry->jobs[j].tile_triangles;
     }
-    for (int t = 0; t < geometry->tiles_x * geometry->tiles_y; t++) {
-        const TileWork *work = &pipeline->tile_work[t];
+    const int tiles = dip_geometry_region_tiles(geometry);
+    counters->passes++;
+    counters->tiles_drawn += (uint64_t)tiles;
+    counters->tiles_spared += dip_geometry_tiles(geometry) - (uint64_t)tiles;
+    for (int t = 0; t < tiles; t++) {
+        const TileWork *work = &pipeline->tile_work[dip_geometry_region_tile(geometry, t)];
         counters->sub_blocks_tested += work->sub_blocks_tested;
         counters->sub_blocks_accepted += work->sub_blocks_accepted;
         counters->fragments_clip_tested += work->clip_tested;
@@ -375,6 +397,7 @@ static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
         counters->texels_fetched += work->sampling.texels;
         counters->fragments_normal_mapped += work->sampling.normal_mapped;
         counters->fragments_sky += work->sampling.sky;
+        counters->fragments_reflecting += work->sampling.reflecting;
     }
 }
 
@@ -383,10 +406,12 @@ static void add_times(const DipPipeline *pipeline, int64_t geometry_ns, int64_t 
                       DipStageTimes *times) {
     int64_t stage_ns[STAGE_COUNT] = {0};
     int64_t sum_ns = 0;
-    for (int t = 0; t < pipeline->geometry.tiles_x * pipeline->geometry.tiles_y; t++) {
+    for (int t = 0; t < dip_geometry_region_tiles(&pipeline->geometry); t++) {
+        const TileWork *work =
+            &pipeline->tile_work[dip_geometry_region_tile(&pipeline->geometry, t)];
         for (int s = 0; s < STAGE_COUNT; s++) {
-            stage_ns[s] += pipeline->tile_work[t].stage_ns[s];
-            sum_ns += pipeline->tile_work[t].stage_ns[s];
+            stage_ns[s] += work->stage_ns[s];
+            sum_ns += work->stage_ns[s];
         }
     }
     const double scale = sum_ns ? 1e-6 * (double)tiles_ns / (double)sum_ns : 0.0;
@@ -444,12 +469,21 @@ static bool make_lists(DipPipeline *pipeline, int draw_count, DipError *err) {
     return true;
 }
 
+bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
+    return make_lists(pipeline, pass->draw_count, err) &&
+           dip_geometry_reserve(&pipeline->geometry, pass, err);
+}
+
 bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
                        DipStageTimes *times, DipError *err) {
     DIP_ASSERT(pass->target.width == pipeline->width && pass->target.height == pipeline->height);
     DIP_ASSERT(pass->target.stride_bytes % 4 == 0);
     DIP_ASSERT(pass->target.stride_bytes >= 4 * (size_t)pass->target.width);
     DIP_ASSERT(pass->clip_plane_count >= 0 && pass->clip_plane_count <= DIP_MAX_CLIP_PLANES);
+    DIP_ASSERT(pass->region.x0 >= 0 && pass->region.x1 <= pass->target.width);
+    DIP_ASSERT(pass->region.y0 >= 0 && pass->region.y1 <= pass->target.height);
+    DIP_ASSERT(!pass->region.x1 ||
+               (pass->region.x0 < pass->region.x1 && pass->region.y0 < pass->region.y1));
     for (int d = 0; d < pass->draw_count; d++) {
         DIP_ASSERT(pass->draws[d].slot_count >= 0 && pass->draws[d].slot_count <= DIP_MAX_SLOTS);
         DIP_ASSERT(pass->draws[d].plain_slot_count >= 0 &&
@@ -466,7 +500,7 @@ bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *
         return false;
     }
     const int64_t middle = dip_clock_ns();
-    dip_pool_run(pipeline->pool, pipeline->geometry.tiles_x * pipeline->geometry.tiles_y, run_tile,
+    dip_pool_run(pipeline->pool, dip_geometry_region_tiles(&pipeline->geometry), run_tile,
                  pipeline);
     const int64_t end = dip_clock_ns();
     add_counters(pipeline, counters);
@@ -553,6 +587,11 @@ DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int heigh
         return NULL;
     }
     dip_srgb_encode_table(pipeline->srgb);
+    DipSrgbDecodeTable decode;
+    dip_srgb_decode_table(&decode);
+    for (int i = 0; i < 256; i++) {
+        pipeline->srgb_light[i] = (float)decode.linear[i];
+    }
     return pipeline;
 }
 

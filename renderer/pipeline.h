@@ -38,12 +38,18 @@ typedef struct DipDraw {
 } DipDraw;
 
 // Where the picture goes: sRGB bytes R, G, B, 255; the top row first.
-typedef struct DipTarget {
+// A pass' fragment shaders may sample the target of a pass before (DipSampleTarget in shader.h).
+struct DipTarget {
     uint8_t *rgba8;
     size_t stride_bytes; // a multiple of 4, at least 4 * width
     int width;           // as the pipeline's
     int height;
-} DipTarget;
+};
+
+// Pixels x0..x1-1 by y0..y1-1. All 0: the whole target.
+typedef struct DipRegion {
+    int x0, y0, x1, y1;
+} DipRegion;
 
 typedef struct DipPass {
     const DipDraw *draws; // in submission order: of coplanar surfaces the first stays
@@ -58,6 +64,9 @@ typedef struct DipPass {
     float clip_planes[DIP_MAX_CLIP_PLANES][4];
     int clip_plane_count;
     DipTarget target;
+    // The part of the target that is wanted. Blocks (8x8 pixels from the corner) that it does not
+    // meet are neither drawn nor cleared; the others hold what they would without it, to the bit.
+    DipRegion region;
 } DipPass;
 
 typedef struct DipPipeline DipPipeline;
@@ -74,5 +83,9 @@ void dip_pipeline_destroy(DipPipeline **pipeline);
 // the target's content is undefined.
 bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
                        DipStageTimes *times, DipError *err);
+
+// Makes the room that drawing the pass takes, so that drawing it later allocates nothing (but for
+// what clipping may add). The pass' target and uniforms are not read.
+bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err);
 
 #endif

@@ -11,6 +11,7 @@
 #include "renderer/isa.h"
 #include "renderer/pose.h"
 #include "renderer/quality.h"
+#include "renderer/reflection.h"
 #include "renderer/scene.h"
 
 #include <stdint.h>
@@ -24,11 +25,13 @@ typedef struct DipRendererDef {
     // Normal maps and moving clouds are left out: a measuring aid, for pictures of what other
     // renderers can draw too.
     bool plain_surfaces;
+    DipReflectionDef reflection;
+    bool force_all_effects; // also where the plan finds that they cannot be seen; the same picture
 } DipRendererDef;
 
 typedef struct DipRenderer DipRenderer;
 
-// Default settings, 640x480, the best instruction set; the pool must be filled in.
+// Default settings, 640x480, the best instruction set, no reflection; the pool must be filled in.
 DipRendererDef dip_renderer_default_def(void);
 
 DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err);
@@ -36,6 +39,8 @@ void dip_renderer_destroy(DipRenderer **renderer);
 
 // Each takes effect in the next frame. On failure nothing changes.
 bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality, DipError *err);
+bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *reflection,
+                                 DipError *err);
 bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError *err);
 
 DipQuality dip_renderer_quality(const DipRenderer *renderer);

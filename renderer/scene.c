@@ -209,7 +209,7 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
 
 // --- textures ----------------------------------------------------------------------------------
 
-static void mark_used_textures(const DipSceneDef *def, bool *used) {
+static void mark_used_textures(const DipSceneDef *def, bool *used, bool *clip) {
     for (int i = 0; i < def->material_count; i++) {
         const DipMaterialDef *material = &def->materials[i];
         const int textures[] = {material->colour_texture, material->light_map,
@@ -219,20 +219,66 @@ static void mark_used_textures(const DipSceneDef *def, bool *used) {
                 used[textures[k]] = true;
             }
         }
+        if (material->surface == DIP_SURFACE_CLIPPED &&
+            material->colour_texture != DIP_NO_TEXTURE) {
+            clip[material->colour_texture] = true;
+        }
     }
 }
 
-// Those that no material as it is drawn uses are not made.
+// Those that no material as it is drawn uses are not made, nor alpha that clips nothing.
 static bool create_textures(const DipSceneDef *def, DipScene *scene, DipPool *pool, DipError *err) {
-    bool *used = calloc((size_t)def->texture_count + 1, sizeof *used);
+    bool *used = calloc(2 * (size_t)def->texture_count + 1, sizeof *used);
     if (!used) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "textures", "out of memory");
     }
-    mark_used_textures(def, used);
-    const bool made =
-        dip_textures_create(def->textures, used, def->texture_count, pool, scene->textures, err);
+    bool *clip = used + def->texture_count;
+    mark_used_textures(def, used, clip);
+    const bool made = dip_textures_create(def->textures, used, clip, def->texture_count, pool,
+                                          scene->textures, err);
     free(used);
     return made;
+}
+
+static uint64_t texel_bytes(const DipTexture *texture) {
+    return texture ? texture->texel_count * sizeof *texture->texels : 0;
+}
+
+static uint64_t alpha_bytes(const DipTexture *texture) {
+    return texture && texture->alpha ? texture->texel_count : 0;
+}
+
+// Whether a material shows a texture so.
+typedef bool TextureUse(const DipSceneMaterial *material, int texture);
+
+static bool is_normal_map(const DipSceneMaterial *material, int texture) {
+    return material->normal_map == texture;
+}
+
+static bool is_clouds(const DipSceneMaterial *material, int texture) {
+    return material->surface == DIP_SURFACE_SKY && material->colour_texture == texture;
+}
+
+static uint64_t bytes_used(const DipScene *scene, TextureUse *uses) {
+    uint64_t bytes = 0;
+    for (int i = 0; i < scene->texture_count; i++) {
+        for (int m = 0; m < scene->material_count; m++) {
+            if (uses(&scene->materials[m], i)) {
+                bytes += texel_bytes(scene->textures[i]);
+                break;
+            }
+        }
+    }
+    return bytes;
+}
+
+// Alpha is kept of clip maps only.
+static void add_effect_bytes(DipScene *scene) {
+    scene->normal_map_bytes = bytes_used(scene, is_normal_map);
+    scene->cloud_bytes = scene->has_sky ? bytes_used(scene, is_clouds) : 0;
+    for (int i = 0; i < scene->texture_count; i++) {
+        scene->clip_map_bytes += alpha_bytes(scene->textures[i]);
+    }
 }
 
 // --- the scene ---------------------------------------------------------------------------------
@@ -254,12 +300,24 @@ static void add_bounds(DipScene *scene, const DipSceneObject *object) {
     }
 }
 
-static bool is_sky(const DipScene *scene, const DipSceneObject *object) {
-    return scene->materials[scene->meshes[object->mesh].material].surface == DIP_SURFACE_SKY;
+static bool is_sky(DipSurface surface) {
+    return surface == DIP_SURFACE_SKY;
 }
 
-// Bounds of the objects that are sky, or of those that are not. False when there is none.
-static bool bound_objects(DipScene *scene, bool sky) {
+static bool is_not_sky(DipSurface surface) {
+    return surface != DIP_SURFACE_SKY;
+}
+
+static bool is_water(DipSurface surface) {
+    return surface == DIP_SURFACE_WATER;
+}
+
+static DipSurface surface_of(const DipScene *scene, const DipSceneObject *object) {
+    return scene->materials[scene->meshes[object->mesh].material].surface;
+}
+
+// Bounds of the objects of such surfaces. False when there is none.
+static bool bound_objects(DipScene *scene, bool (*is)(DipSurface)) {
     bool any = false;
     for (int axis = 0; axis < 3; axis++) {
         scene->min_world[axis] = INFINITY;
@@ -267,7 +325,7 @@ static bool bound_objects(DipScene *scene, bool sky) {
     }
     for (int i = 0; i < scene->object_count; i++) {
         const DipSceneObject *object = &scene->objects[i];
-        if (is_sky(scene, object) == sky &&
+        if (is(surface_of(scene, object)) &&
             dip_mesh_triangle_count(scene->meshes[object->mesh].mesh)) {
             add_bounds(scene, object);
             any = true;
@@ -283,7 +341,9 @@ static void place_objects(const DipSceneDef *def, DipScene *scene) {
         memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
         scene->triangle_count += dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
     }
-    if (!bound_objects(scene, false) && !bound_objects(scene, true)) {
+    scene->has_water = bound_objects(scene, is_water);
+    scene->water_level = scene->has_water ? (double)scene->min_world[1] : 0.0;
+    if (!bound_objects(scene, is_not_sky) && !bound_objects(scene, is_sky)) {
         for (int axis = 0; axis < 3; axis++) {
             scene->min_world[axis] = scene->max_world[axis] = 0.0f;
         }
@@ -350,6 +410,7 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
         return NULL;
     }
     place_objects(def, scene);
+    add_effect_bytes(scene);
     scene->times = (DipSceneTimes){1e-6 * (double)(textured_ns - begin_ns),
                                    1e-6 * (double)(dip_clock_ns() - textured_ns)};
     return scene;
@@ -383,6 +444,11 @@ DipSceneTimes dip_scene_times(const DipScene *scene) {
     return scene->times;
 }
 
+bool dip_scene_water_level(const DipScene *scene, double *level_m) {
+    *level_m = scene->water_level;
+    return scene->has_water;
+}
+
 uint64_t dip_scene_triangle_count(const DipScene *scene) {
     return scene->triangle_count;
 }
@@ -390,10 +456,7 @@ uint64_t dip_scene_triangle_count(const DipScene *scene) {
 uint64_t dip_scene_texture_bytes(const DipScene *scene) {
     uint64_t bytes = 0;
     for (int i = 0; i < scene->texture_count; i++) {
-        const DipTexture *texture = scene->textures[i];
-        if (texture) {
-            bytes += texture->texel_count * (sizeof *texture->texels + (texture->alpha ? 1 : 0));
-        }
+        bytes += texel_bytes(scene->textures[i]) + alpha_bytes(scene->textures[i]);
     }
     return bytes;
 }

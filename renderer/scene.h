@@ -137,6 +137,10 @@ DipSceneTimes dip_scene_times(const DipScene *scene);
 // Axis-aligned bounds of all objects in world space; of sky only where there is nothing else, so
 // that a camera made for the bounds does not look at a sky dome from outside.
 void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]);
+
+// Height (world y) of the scene's lowest water; false when it has none.
+bool dip_scene_water_level(const DipScene *scene, double *level_m);
+
 uint64_t dip_scene_triangle_count(const DipScene *scene);
 uint64_t dip_scene_texture_bytes(const DipScene *scene);
 

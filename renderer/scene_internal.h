@@ -51,6 +51,11 @@ struct DipScene {
     bool has_normal_map; // some mesh is normal-mapped
     bool has_sky;
     DipSkyDef sky;
+    bool has_water;     // some object is water;
+    double water_level; // the least world y of these
+    uint64_t normal_map_bytes;
+    uint64_t clip_map_bytes; // of their alpha
+    uint64_t cloud_bytes;
     DipSceneTimes times;
 };
 

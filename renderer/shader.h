@@ -53,6 +53,7 @@ typedef struct DipSampleWork {
     uint64_t texels;
     uint64_t normal_mapped; // fragments
     uint64_t sky;           // likewise
+    uint64_t reflecting;    // likewise
 } DipSampleWork;
 
 typedef struct DipFragmentBatch DipFragmentBatch;
@@ -63,6 +64,12 @@ typedef void DipSampleColour(DipFragmentBatch *batch, const DipSampler *sampler,
                              float (*out)[DIP_FRAGMENT_BATCH]);
 typedef void DipSampleAlpha(DipFragmentBatch *batch, const DipSampler *sampler, int u_slot,
                             float *out);
+
+// Reads a target that a pass before drew (renderer/pipeline.h) at (u[i], v[i]), fractions of its
+// size from the top left corner, clamped to it: bilinear in linear light, out[0..2][i].
+typedef struct DipTarget DipTarget;
+typedef void DipSampleTarget(DipFragmentBatch *batch, const DipTarget *target, const float *u,
+                             const float *v, float (*out)[DIP_FRAGMENT_BATCH]);
 
 struct DipFragmentBatch {
     int count; // 1..DIP_FRAGMENT_BATCH
@@ -76,6 +83,8 @@ struct DipFragmentBatch {
     const void *uniforms;       // likewise
     DipSampleColour *sample_colour;
     DipSampleAlpha *sample_alpha;
+    DipSampleTarget *sample_target;
+    const float *srgb_light; // linear light of the 256 codes, for sample_target
     DipSampleWork work;
     // A fragment shader writes linear light, 0..1 (clamped after).
     float colour[3][DIP_FRAGMENT_BATCH];

@@ -95,7 +95,7 @@ static DipPool *pool_of(DipBenchRig *rig, int threads_index, DipError *err) {
     return rig->pools[threads_index];
 }
 
-static bool make_renderer(DipBenchRig *rig, int index, DipError *err) {
+static bool make_renderer(DipBenchRig *rig, int index, const DipSession *session, DipError *err) {
     const DipBenchOptions *options = &rig->plan->options;
     const int *at = rig->plan->combinations[index].at;
     const DipBenchSize size = options->sizes[at[DIP_BENCH_AXIS_SIZE]];
@@ -105,6 +105,8 @@ static bool make_renderer(DipBenchRig *rig, int index, DipError *err) {
         .width = size.width,
         .height = size.height,
         .quality = options->sets[at[DIP_BENCH_AXIS_SET]].quality,
+        .reflection = session->reflection,
+        .force_all_effects = session->force_all_effects,
     };
     rig->renderers[index] = def.pool ? dip_renderer_create(&def, err) : NULL;
     return rig->renderers[index] != NULL;
@@ -125,7 +127,7 @@ DipBenchRig *dip_bench_rig_create(const DipBenchPlan *plan, const DipSession *se
     rig->view_of = calloc(count, sizeof(int));
     bool made = (rig->pools && rig->views && rig->renderers && rig->view_of) || out_of_memory(err);
     for (int i = 0; made && i < plan->count; i++) {
-        made = choose_view(rig, i, session, err) && make_renderer(rig, i, err);
+        made = choose_view(rig, i, session, err) && make_renderer(rig, i, session, err);
     }
     if (!made) {
         dip_bench_rig_destroy(&rig);

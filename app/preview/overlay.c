@@ -4,6 +4,7 @@
 #include "app/preview/keys.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static const SDL_Color white = {255, 255, 255, 255};
 static const SDL_Color soft = {196, 202, 210, 255};
@@ -31,6 +32,10 @@ static int label_size(const SDL_Rect *pane) {
 // The figures with fewer words where there is little room.
 static void format_figures(DipText *text, int size, int room, const DipPaneFigures *figures,
                            char *line, size_t size_bytes) {
+    if (figures->copied) {
+        snprintf(line, size_bytes, "copied");
+        return;
+    }
     snprintf(line, size_bytes, "%.1f ms", figures->ms);
     if (figures->fps > 0) {
         char longer[64];
@@ -41,7 +46,47 @@ static void format_figures(DipText *text, int size, int room, const DipPaneFigur
     }
 }
 
-// Two lines in a dark strip: whose pane and how fast; which settings.
+static void append(char *line, size_t size_bytes, const char *between, const char *text) {
+    const size_t length = strlen(line);
+    if (text) {
+        snprintf(line + length, size_bytes - length, "%s%s", between, text);
+    }
+}
+
+// The effects that ran, then those that did not, with the reasons or without.
+static void list_effects(const DipEffects *effects, bool reasons, char *line, size_t size_bytes) {
+    snprintf(line, size_bytes, "Effects");
+    const char *between = ": ";
+#define APPEND_RUN(name, text)                                                                     \
+    if (effects->name.run) {                                                                       \
+        append(line, size_bytes, between, text);                                                   \
+        between = ", ";                                                                            \
+    }
+    DIP_EFFECT_LIST(APPEND_RUN)
+#undef APPEND_RUN
+    if (strcmp(between, ": ") == 0) {
+        append(line, size_bytes, between, "none");
+    }
+    between = "; no ";
+#define APPEND_SKIPPED(name, text)                                                                 \
+    if (!effects->name.run && effects->name.why) {                                                 \
+        append(line, size_bytes, between, text);                                                   \
+        append(line, size_bytes, ": ", reasons ? effects->name.why : NULL);                        \
+        between = reasons ? between : ", ";                                                        \
+    }
+    DIP_EFFECT_LIST(APPEND_SKIPPED)
+#undef APPEND_SKIPPED
+}
+
+static void format_effects(DipText *text, int size, int room, const DipEffects *effects, char *line,
+                           size_t size_bytes) {
+    list_effects(effects, true, line, size_bytes);
+    if (dip_text_width(text, size, line) > room) {
+        list_effects(effects, false, line, size_bytes);
+    }
+}
+
+// Three lines in a dark strip: whose pane and how fast; which settings; which effects.
 static void draw_label(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state,
                        int pane, const SDL_Rect *rect, const DipPaneFigures *figures) {
     static const char *const titles[DIP_PANE_COUNT] = {"Current", "Requested"};
@@ -50,7 +95,7 @@ static void draw_label(SDL_Renderer *renderer, DipText *text, const DipPreviewSt
     const int margin = larger(6, size * 2 / 3);
     const int pad = larger(3, size / 3);
     const bool edited = state->edited[pane];
-    const SDL_Rect strip = {rect->x, rect->y, rect->w, 2 * line + 2 * pad};
+    const SDL_Rect strip = {rect->x, rect->y, rect->w, 3 * line + 2 * pad};
     fill(renderer, strip, (SDL_Color){12, 14, 18, 168});
     if (edited) {
         fill(renderer, (SDL_Rect){rect->x, rect->y, 3, strip.h}, accent);
@@ -68,6 +113,10 @@ static void draw_label(SDL_Renderer *renderer, DipText *text, const DipPreviewSt
     dip_preview_describe(&state->quality[pane], line_text, sizeof line_text);
     dip_text_draw(text, size, soft, DIP_ALIGN_LEFT, left, rect->y + pad + line, right - left,
                   line_text);
+    char effects[512];
+    format_effects(text, size, right - left, &figures->effects, effects, sizeof effects);
+    dip_text_draw(text, size, soft, DIP_ALIGN_LEFT, left, rect->y + pad + 2 * line, right - left,
+                  effects);
 }
 
 // One line along the window's lower edge: path and time, what just happened, how to get help.

@@ -4,11 +4,16 @@
 
 #include "app/preview/state.h"
 #include "app/preview/text.h"
+#include "renderer/frame.h"
+
+#include <stdbool.h>
 
 // A pane's figures, as they are shown.
 typedef struct DipPaneFigures {
     double ms; // median frame time
     int fps;   // frames shown in the last second; 0: not shown
+    DipEffects effects;
+    bool copied; // from the pane before, with the same settings
 } DipPaneFigures;
 
 // Draws over the whole window. panes: where the two pictures are.

@@ -135,15 +135,18 @@ static bool draw_panes(Preview *preview, DipError *err) {
     if (on_path && !dip_camtrack_pose(&session->track, play_ns, &preview->pose)) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
     }
+    DipSessionFrame frame;
+    if (!dip_session_draw_pose(session, &preview->pose, play_ns, preview->frame_index, &frame,
+                               err)) {
+        return false;
+    }
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        DipFrame frame;
-        dip_renderer_set_frame_index(session->renderers[p], preview->frame_index);
-        if (!dip_renderer_draw(session->renderers[p], session->scene, &preview->pose, play_ns,
-                               &frame, err) ||
-            !dip_window_set_picture(preview->window, p, &frame, err)) {
+        if (!dip_window_set_picture(preview->window, p, &frame.panes[p], err)) {
             return false;
         }
-        dip_timing_add(&preview->timing[p], dip_clock_ns(), frame.stages.total_ms);
+        preview->figures[p].effects = frame.panes[p].effects;
+        preview->figures[p].copied = p == DIP_PANE_REQUESTED && frame.copied;
+        dip_timing_add(&preview->timing[p], dip_clock_ns(), frame.panes[p].stages.total_ms);
     }
     ++preview->frame_index;
     return true;

@@ -22,13 +22,50 @@ static void place_plane(const float *m, const float clip[4], double normal[4]) {
     }
 }
 
-static Planes place_planes(const DipPass *pass, const float *m) {
-    static const float view[VIEW_PLANES][4] = {{1, 0, 0, 1},  {-1, 0, 0, 1}, {0, 1, 0, 1},
-                                               {0, -1, 0, 1}, {0, 0, 1, 0},  {0, 0, -1, 1}};
-    Planes planes = {.count = VIEW_PLANES + pass->clip_plane_count};
-    for (int p = 0; p < VIEW_PLANES; p++) {
-        place_plane(m, view[p], planes.normal[p]);
+static int blocks_end(int end) {
+    return (end + DIP_BLOCK - 1) / DIP_BLOCK * DIP_BLOCK;
+}
+
+DipRegion dip_drawn_region(const DipPass *pass) {
+    const DipRegion *region = &pass->region;
+    if (!region->x1) {
+        return (DipRegion){0, 0, blocks_end(pass->target.width), blocks_end(pass->target.height)};
     }
+    return (DipRegion){region->x0 / DIP_BLOCK * DIP_BLOCK, region->y0 / DIP_BLOCK * DIP_BLOCK,
+                       blocks_end(region->x1), blocks_end(region->y1)};
+}
+
+// The picture's region in x / w and y / w, from -1 to 1 where it is whole.
+typedef struct NdcRegion {
+    float left, right, bottom, top;
+} NdcRegion;
+
+static NdcRegion ndc_region(const DipPass *pass) {
+    if (!pass->region.x1) {
+        return (NdcRegion){-1.0f, 1.0f, -1.0f, 1.0f};
+    }
+    const DipRegion region = dip_drawn_region(pass);
+    const float x = 2.0f / (float)pass->target.width;
+    const float y = 2.0f / (float)pass->target.height;
+    return (NdcRegion){(float)region.x0 * x - 1.0f, (float)region.x1 * x - 1.0f,
+                       1.0f - (float)region.y1 * y, 1.0f - (float)region.y0 * y};
+}
+
+static void place_view(const float *m, const NdcRegion *region, double (*normal)[4]) {
+    const float view[VIEW_PLANES][4] = {{1, 0, 0, -region->left},
+                                        {-1, 0, 0, region->right},
+                                        {0, 1, 0, -region->bottom},
+                                        {0, -1, 0, region->top},
+                                        {0, 0, 1, 0},
+                                        {0, 0, -1, 1}};
+    for (int p = 0; p < VIEW_PLANES; p++) {
+        place_plane(m, view[p], normal[p]);
+    }
+}
+
+static Planes place_planes(const DipPass *pass, const NdcRegion *region, const float *m) {
+    Planes planes = {.count = VIEW_PLANES + pass->clip_plane_count};
+    place_view(m, region, planes.normal);
     for (int p = 0; p < pass->clip_plane_count; p++) {
         place_plane(m, pass->clip_planes[p], planes.normal[VIEW_PLANES + p]);
     }
@@ -66,6 +103,14 @@ static bool outside(const Planes *planes, const DipBox *box, unsigned *crossed) 
     return false;
 }
 
+bool dip_cull_in_view(const float to_clip[16], const DipBox *box) {
+    static const NdcRegion whole = {-1.0f, 1.0f, -1.0f, 1.0f};
+    Planes planes = {.count = VIEW_PLANES};
+    unsigned crossed = (1u << VIEW_PLANES) - 1;
+    place_view(to_clip, &whole, planes.normal);
+    return !outside(&planes, box, &crossed);
+}
+
 static uint32_t cull_draw(const Planes *planes, const DipMesh *mesh, uint32_t draw,
                           DipVisibleChunk *visible) {
     uint32_t count = 0;
@@ -91,6 +136,7 @@ static uint32_t cull_draw(const Planes *planes, const DipMesh *mesh, uint32_t dr
 }
 
 uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible) {
+    const NdcRegion region = ndc_region(pass);
     uint32_t count = 0;
     for (uint32_t d = 0; d < (uint32_t)pass->draw_count; d++) {
         const DipDraw *draw = &pass->draws[d];
@@ -99,7 +145,7 @@ uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible) {
             continue;
         }
         if (draw->bounds_to_clip) {
-            planes = place_planes(pass, draw->bounds_to_clip);
+            planes = place_planes(pass, &region, draw->bounds_to_clip);
         }
         count += cull_draw(&planes, draw->mesh, d, visible + count);
     }

@@ -48,6 +48,10 @@ static uint64_t least(uint64_t a, uint64_t b) {
     return a < b ? a : b;
 }
 
+static uint64_t greatest(uint64_t a, uint64_t b) {
+    return a > b ? a : b;
+}
+
 static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
     Needs needs = {0};
     int slots = 0;
@@ -140,10 +144,7 @@ static void cut_jobs(DipGeometry *geometry) {
     }
 }
 
-bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err) {
-    geometry->pass = pass;
-    geometry->mapping = dip_screen_mapping(pass);
-    geometry->pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
+bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *err) {
     if (!geometry->slack) {
         geometry->slack = LEAST_SLACK;
     }
@@ -156,6 +157,24 @@ bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *er
                              "no memory for the triangles of %d draws", pass->draw_count);
     }
     geometry->surface_stride = needs.surface_stride;
+    return true;
+}
+
+static DipRegion tiles_of(const DipRegion *region) {
+    return (DipRegion){region->x0 / DIP_TILE, region->y0 / DIP_TILE,
+                       (region->x1 + DIP_TILE - 1) / DIP_TILE,
+                       (region->y1 + DIP_TILE - 1) / DIP_TILE};
+}
+
+bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err) {
+    geometry->pass = pass;
+    geometry->mapping = dip_screen_mapping(pass);
+    geometry->pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
+    geometry->region = dip_drawn_region(pass);
+    geometry->tile_region = tiles_of(&geometry->region);
+    if (!dip_geometry_reserve(geometry, pass, err)) {
+        return false;
+    }
     geometry->visible_count = dip_cull_chunks(pass, geometry->visible);
     cut_jobs(geometry);
     atomic_store_explicit(&geometry->triangles_taken, 0, memory_order_relaxed);
@@ -243,11 +262,12 @@ static void add_to_bin(JobRun *run, uint32_t triangle, size_t index) {
 
 static void bin_triangle(JobRun *run, uint32_t index) {
     const DipTriangle *triangle = &run->geometry->triangles[index];
+    const DipRegion *region = &run->geometry->tile_region;
     const size_t tiles_x = (size_t)run->geometry->tiles_x;
-    const size_t x0 = (size_t)triangle->x0 / DIP_TILE;
-    const size_t y0 = (size_t)triangle->y0 / DIP_TILE;
-    const size_t x1 = (size_t)triangle->x1 / DIP_TILE;
-    const size_t y1 = (size_t)triangle->y1 / DIP_TILE;
+    const size_t x0 = greatest((size_t)triangle->x0 / DIP_TILE, (size_t)region->x0);
+    const size_t y0 = greatest((size_t)triangle->y0 / DIP_TILE, (size_t)region->y0);
+    const size_t x1 = least((size_t)triangle->x1 / DIP_TILE, (size_t)region->x1 - 1);
+    const size_t y1 = least((size_t)triangle->y1 / DIP_TILE, (size_t)region->y1 - 1);
     const size_t tiles = (x1 - x0 + 1) * (y1 - y0 + 1);
     run->job.tile_triangles += tiles;
     if (tiles > DIP_MAX_BIN_TILES) {
@@ -425,9 +445,12 @@ static void run_chunk(JobRun *run, const DipChunk *chunk) {
 }
 
 static DipSetupTarget setup_target(const DipGeometry *geometry) {
+    const DipRegion *region = &geometry->region;
     DipSetupTarget target = {
         .width = geometry->pass->target.width,
         .height = geometry->pass->target.height,
+        .region_first = {region->x0, region->y0},
+        .region_last = {region->x1 - 1, region->y1 - 1},
         .surface_stride = geometry->surface_stride,
         .pattern = geometry->pattern,
         .sample_min = {255, 255},

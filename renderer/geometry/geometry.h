@@ -66,7 +66,9 @@ typedef struct DipGeometry {
     const DipSamplePattern *pattern;
     int tiles_x;
     int tiles_y;
-    int surface_stride; // floats per triangle: that of the pass' largest slot count
+    DipRegion region;      // pixels that are drawn, see dip_drawn_region
+    DipRegion tile_region; // tiles that these lie in
+    int surface_stride;    // floats per triangle: that of the pass' largest slot count
     int job_count;
     DipGeometryJob jobs[DIP_MAX_JOBS];
     uint32_t visible_count;
@@ -106,6 +108,21 @@ static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, in
                ? &geometry->bins[(size_t)job * (dip_geometry_tiles(geometry) + 1) + bin]
                : NULL;
 }
+
+static inline int dip_geometry_region_tiles(const DipGeometry *geometry) {
+    const DipRegion *region = &geometry->tile_region;
+    return (region->x1 - region->x0) * (region->y1 - region->y0);
+}
+
+// Tile i of the region, as an index of all tiles.
+static inline int dip_geometry_region_tile(const DipGeometry *geometry, int i) {
+    const DipRegion *region = &geometry->tile_region;
+    const int width = region->x1 - region->x0;
+    return (region->y0 + i / width) * geometry->tiles_x + region->x0 + i % width;
+}
+
+// Makes room for the pass.
+bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *err);
 
 // Finds the chunks in view, cuts them into jobs and makes room for the pass.
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err);

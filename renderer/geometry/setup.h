@@ -18,6 +18,8 @@ enum {
 typedef struct DipSetupTarget {
     int width; // pixels
     int height;
+    int region_first[2]; // pixels x, y: triangles without a pixel in this part of the target go
+    int region_last[2];  // inclusive
     int slot_count;
     int surface_stride; // floats per triangle, see dip_surface_stride
     uint32_t draw;

@@ -101,7 +101,12 @@ VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch
                 &last[1]);
     const Hi facing = (front & hi_splat(target->cull == DIP_CULL_FRONT ? 0 : -1)) |
                       (back & hi_splat(target->cull == DIP_CULL_BACK ? 0 : -1));
-    const Hi kept = facing & (first[0] <= last[0]) & (first[1] <= last[1]);
+    // The box itself is not cut to the region, since shading planes depend on it.
+    Hi kept = facing & (first[0] <= last[0]) & (first[1] <= last[1]);
+    for (int axis = 0; axis < 2; axis++) {
+        kept &= (first[axis] <= hi_splat(target->region_last[axis])) &
+                (last[axis] >= hi_splat(target->region_first[axis]));
+    }
     unsigned bits = hi_mask_bits(kept);
     if (batch->count - at < DIP_HALF_LANES) {
         bits &= (1u << (batch->count - at)) - 1;

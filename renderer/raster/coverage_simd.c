@@ -140,10 +140,10 @@ typedef struct Box {
 } Box;
 
 VEC_INLINE Box box_of(const DipTriangle *triangle, const DipTile *tile) {
-    return (Box){max_int(triangle->x0 - tile->x0, 0) / DIP_SUB_BLOCK,
-                 max_int(triangle->y0 - tile->y0, 0) / DIP_SUB_BLOCK,
-                 min_int(triangle->x1 - tile->x0, DIP_TILE - 1) / DIP_SUB_BLOCK,
-                 min_int(triangle->y1 - tile->y0, DIP_TILE - 1) / DIP_SUB_BLOCK};
+    return (Box){max_int(triangle->x0 - tile->x0, tile->left) / DIP_SUB_BLOCK,
+                 max_int(triangle->y0 - tile->y0, tile->top) / DIP_SUB_BLOCK,
+                 min_int(triangle->x1 - tile->x0, DIP_TILE - 1 - tile->right) / DIP_SUB_BLOCK,
+                 min_int(triangle->y1 - tile->y0, DIP_TILE - 1 - tile->bottom) / DIP_SUB_BLOCK};
 }
 
 // Bits of the region's sub-blocks x0..x1, y0..y1 of the tile.

@@ -38,13 +38,17 @@
        float(*out)[DIP_FRAGMENT_BATCH]))                                                           \
     X(void, dip_kernel_sample_alpha,                                                               \
       (DipFragmentBatch * batch, const DipSampler *sampler, int u_slot, float *out))               \
+    X(void, dip_kernel_sample_target,                                                              \
+      (DipFragmentBatch * batch, const DipTarget *target, const float *u, const float *v,          \
+       float(*out)[DIP_FRAGMENT_BATCH]))                                                           \
     /* The scene's own materials, ordinary shaders. */                                             \
     X(void, dip_kernel_surface_vertex, (const DipVertexBatch *batch))                              \
     X(void, dip_kernel_surface_fragment, (DipFragmentBatch * batch))                               \
     X(void, dip_kernel_surface_clip, (DipFragmentBatch * batch))                                   \
     X(void, dip_kernel_normal_map_vertex, (const DipVertexBatch *batch))                           \
     X(void, dip_kernel_normal_map_fragment, (DipFragmentBatch * batch))                            \
-    X(void, dip_kernel_sky_fragment, (DipFragmentBatch * batch))
+    X(void, dip_kernel_sky_fragment, (DipFragmentBatch * batch))                                   \
+    X(void, dip_kernel_water_fragment, (DipFragmentBatch * batch))
 
 typedef struct DipKernels {
 #define DIP_KERNEL_FIELD(result, name, parameters) result(*name) parameters;

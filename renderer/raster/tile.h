@@ -34,6 +34,10 @@ static inline int dip_block_y(int i) {
 typedef struct DipTile {
     int x0; // of the first pixel, in the target
     int y0;
+    int left; // pixels at each side that are not drawn: multiples of DIP_BLOCK, 0: all are
+    int top;
+    int right;
+    int bottom;
     const DipSamplePattern *pattern;
     uint64_t touched; // bit b: block b has been cleared and holds something since
     uint64_t passed;  // bit b: block b has held samples of an alpha-clipped triangle's passes

@@ -16,8 +16,10 @@ typedef struct Plane {
 
 typedef struct Converging {
     const DipReference *reference;
+    const DipPose *pose;
     DipRefTriangles triangles;
     Plane plane;
+    const struct Converging *mirrored; // the mirrored scene at the same places; NULL: none
     int width;
     int height;
 } Converging;
@@ -53,7 +55,9 @@ static DipRefPlace place_at(const DipRefTriangle *triangle, double x, double y) 
     return (DipRefPlace){triangle,
                          {(v[2].x - v[1].x) * (y - v[1].y) - (v[2].y - v[1].y) * (x - v[1].x),
                           (v[0].x - v[2].x) * (y - v[2].y) - (v[0].y - v[2].y) * (x - v[2].x),
-                          (v[1].x - v[0].x) * (y - v[0].y) - (v[1].y - v[0].y) * (x - v[0].x)}};
+                          (v[1].x - v[0].x) * (y - v[0].y) - (v[1].y - v[0].y) * (x - v[0].x)},
+                         x,
+                         y};
 }
 
 static void draw_in_pixel(Converging *c, int32_t index, size_t pixel) {
@@ -85,16 +89,31 @@ static void draw_plane(Converging *c) {
     }
 }
 
+// The colour of a pixel's sample.
+static void shade(const Converging *c, size_t pixel, double rgb[3]) {
+    const int32_t index = c->plane.triangles[pixel];
+    for (int i = 0; i < 3; i++) {
+        rgb[i] = c->reference->def->background_lin[i];
+    }
+    if (index == NOTHING) {
+        return;
+    }
+    const DipRefPlace place =
+        place_at(&c->triangles.items[index], c->plane.x[pixel], c->plane.y[pixel]);
+    dip_reference_shade(&place, NULL, rgb);
+    if (c->mirrored && place.triangle->material->surface == DIP_SURFACE_WATER) {
+        double mirrored[3];
+        shade(c->mirrored, pixel, mirrored);
+        dip_reference_blend_water(c->reference, c->pose, c->width, c->height, &place, mirrored,
+                                  rgb);
+    }
+}
+
 static void add_plane(const Converging *c, double weight, double *rgb_lin) {
     const size_t pixel_count = (size_t)c->width * (size_t)c->height;
     for (size_t pixel = 0; pixel < pixel_count; pixel++) {
-        const float *background = c->reference->def->background_lin;
-        double rgb[3] = {background[0], background[1], background[2]};
-        if (c->plane.triangles[pixel] != NOTHING) {
-            const DipRefPlace place = place_at(&c->triangles.items[c->plane.triangles[pixel]],
-                                               c->plane.x[pixel], c->plane.y[pixel]);
-            dip_reference_shade(&place, NULL, rgb);
-        }
+        double rgb[3];
+        shade(c, pixel, rgb);
         for (size_t i = 0; i < 3; i++) {
             rgb_lin[3 * pixel + i] += weight * rgb[i];
         }
@@ -112,6 +131,19 @@ static bool make_plane(Converging *c, DipError *err) {
            dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for %zu samples", count);
 }
 
+static bool start(Converging *c, const DipRefShot *shot, DipError *err) {
+    return make_plane(c, err) &&
+           dip_reference_build_triangles(c->reference, shot, &c->triangles, err);
+}
+
+static void finish(Converging *c) {
+    dip_reference_triangles_free(&c->triangles);
+    free(c->plane.x);
+    free(c->plane.y);
+    free(c->plane.depths);
+    free(c->plane.triangles);
+}
+
 bool dip_reference_converge(const DipReference *reference, const DipPose *pose, int width,
                             int height, int sample_count, uint32_t seed, double *rgb_lin,
                             DipError *err) {
@@ -123,22 +155,28 @@ bool dip_reference_converge(const DipReference *reference, const DipPose *pose, 
     if (!dip_reference_check_size(width, height, err)) {
         return false;
     }
-    Converging c = {.reference = reference, .width = width, .height = height};
-    const bool converged =
-        make_plane(&c, err) &&
-        dip_reference_build_triangles(reference, pose, width, height, false, &c.triangles, err);
+    DipRefShot shot = {pose, width, height, (double)width / height, .rounded = false};
+    Converging mirrored = {.reference = reference, .pose = pose, .width = width, .height = height};
+    Converging c = mirrored;
+    bool converged = start(&c, &shot, err);
+    if (converged && dip_reference_reflects(reference, pose)) {
+        shot.mirrored = true;
+        c.mirrored = &mirrored;
+        converged = start(&mirrored, &shot, err);
+    }
     for (size_t i = 0; converged && i < (size_t)width * (size_t)height * 3; i++) {
         rgb_lin[i] = 0.0;
     }
     for (int s = 0; converged && s < sample_count; s++) {
+        if (c.mirrored) {
+            start_plane(&mirrored, s, side, seed);
+            draw_plane(&mirrored);
+        }
         start_plane(&c, s, side, seed);
         draw_plane(&c);
         add_plane(&c, 1.0 / sample_count, rgb_lin);
     }
-    dip_reference_triangles_free(&c.triangles);
-    free(c.plane.x);
-    free(c.plane.y);
-    free(c.plane.depths);
-    free(c.plane.triangles);
+    finish(&c);
+    finish(&mirrored);
     return converged;
 }

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+static const double pi = 3.14159265358979323846;
+
 __extension__ typedef __int128 Int128;
 
 enum { NOTHING = -1 };
@@ -24,8 +26,10 @@ typedef struct Drawing {
     DipRefFilter filter;
     DipRefFilter pass_filter; // of clipped surfaces in several passes
     Samples samples;
+    DipRefShot shot;
     int width;
     int height;
+    const double *mirrored; // the mirrored scene's picture; NULL: water does not reflect
 } Drawing;
 
 // Twice the area of (from, to, place), exactly; positions in 1/256 pixel.
@@ -64,7 +68,8 @@ static bool covers(const DipRefTriangle *triangle, int64_t x, int64_t y) {
 static DipRefPlace place_at(const DipRefTriangle *triangle, int64_t x, int64_t y) {
     Int128 edges[3];
     find_edges(triangle, x, y, edges);
-    return (DipRefPlace){triangle, {(double)edges[0], (double)edges[1], (double)edges[2]}};
+    return (DipRefPlace){
+        triangle, {(double)edges[0], (double)edges[1], (double)edges[2]}, (double)x, (double)y};
 }
 
 // A sample of a pixel.
@@ -177,6 +182,13 @@ static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigne
                                   ? place_of_pass(drawing, triangle, x, y, mask)
                                   : place_to_shade(drawing, triangle, x, y, mask);
     dip_reference_shade(&place, filter_of(drawing, triangle), colour);
+    if (drawing->mirrored && triangle->material->surface == DIP_SURFACE_WATER) {
+        double mirrored[3];
+        dip_reference_read_mirrored(drawing->reference, drawing->mirrored, drawing->width,
+                                    drawing->height, &place, mirrored);
+        dip_reference_blend_water(drawing->reference, drawing->shot.pose, drawing->width,
+                                  drawing->height, &place, mirrored, colour);
+    }
 }
 
 // The samples that are shaded together with sample s.
@@ -236,6 +248,58 @@ static bool make_samples(Drawing *drawing, DipError *err) {
     return true;
 }
 
+static bool sees_water(const Drawing *drawing) {
+    for (size_t t = 0; t < drawing->triangles.count; t++) {
+        if (drawing->triangles.items[t].material->surface == DIP_SURFACE_WATER) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The picture of a shot whose triangles are built.
+static bool draw_built(Drawing *drawing, double *rgb_lin, DipError *err) {
+    const bool made = make_samples(drawing, err);
+    if (made) {
+        draw_triangles(drawing);
+        for (int y = 0; y < drawing->height; y++) {
+            for (int x = 0; x < drawing->width; x++) {
+                resolve_pixel(drawing, x, y,
+                              rgb_lin + 3 * ((size_t)y * (size_t)drawing->width + (size_t)x));
+            }
+        }
+    }
+    free(drawing->samples.depths);
+    free(drawing->samples.triangles);
+    return made;
+}
+
+// The mirrored scene's picture as the same settings draw it; NULL on failure.
+static double *draw_mirrored(const Drawing *drawing, DipError *err) {
+    const DipReflectionDef *reflection = &drawing->reference->reflection;
+    Drawing mirrored = *drawing;
+    mirrored.width = mirrored.shot.width = reflection->width;
+    mirrored.height = mirrored.shot.height = reflection->height;
+    mirrored.shot.mirrored = true;
+    // Two pixels of the picture, at a distance of 1.
+    mirrored.shot.margin =
+        4.0 * tan(drawing->shot.pose->fov_y_deg * (pi / 360.0)) / reflection->height;
+    double *rgb_lin = malloc((size_t)mirrored.width * (size_t)mirrored.height * 3 * sizeof(double));
+    if (!rgb_lin) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reflection");
+        return NULL;
+    }
+    const bool drawn = dip_reference_build_triangles(drawing->reference, &mirrored.shot,
+                                                     &mirrored.triangles, err) &&
+                       draw_built(&mirrored, rgb_lin, err);
+    dip_reference_triangles_free(&mirrored.triangles);
+    if (!drawn) {
+        free(rgb_lin);
+        return NULL;
+    }
+    return rgb_lin;
+}
+
 bool dip_reference_draw(const DipReference *reference, const DipQuality *quality,
                         const DipPose *pose, int width, int height, double *rgb_lin,
                         DipError *err) {
@@ -248,26 +312,22 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
             dip_quality_sample_count(quality),
             dip_pattern_kind(quality->step[DIP_SETTING_TAA] != 0, reference->frame_index)),
         .filter = dip_reference_colour_filter(quality),
+        .shot = {pose, width, height, (double)width / height, .rounded = true},
         .width = width,
         .height = height,
     };
     dip_sample_passes_make(&drawing.passes, drawing.pattern, dip_quality_samples_per_pass(quality));
     drawing.pass_filter = drawing.filter;
     drawing.pass_filter.bias -= round(128.0 * log2(drawing.passes.count)) / 256.0;
-    const bool drawn =
-        make_samples(&drawing, err) && dip_reference_build_triangles(reference, pose, width, height,
-                                                                     true, &drawing.triangles, err);
-    if (drawn) {
-        draw_triangles(&drawing);
-        for (int y = 0; y < height; y++) {
-            for (int x = 0; x < width; x++) {
-                resolve_pixel(&drawing, x, y,
-                              rgb_lin + 3 * ((size_t)y * (size_t)width + (size_t)x));
-            }
-        }
+    bool drawn = dip_reference_build_triangles(reference, &drawing.shot, &drawing.triangles, err);
+    double *mirrored = NULL;
+    if (drawn && dip_reference_reflects(reference, pose) && sees_water(&drawing)) {
+        mirrored = draw_mirrored(&drawing, err);
+        drawing.mirrored = mirrored;
+        drawn = mirrored != NULL;
     }
+    drawn = drawn && draw_built(&drawing, rgb_lin, err);
     dip_reference_triangles_free(&drawing.triangles);
-    free(drawing.samples.depths);
-    free(drawing.samples.triangles);
+    free(mirrored);
     return drawn;
 }

@@ -11,7 +11,8 @@ static const double pi = 3.14159265358979323846;
 typedef struct ClipVertex {
     double x; // clip space
     double y;
-    double w; // distance along the view axis, metres
+    double w;     // distance along the view axis, metres
+    double above; // what is below 0 is cut off
     double varyings[DIP_REF_VARYINGS];
 } ClipVertex;
 
@@ -24,9 +25,13 @@ typedef struct Camera {
     double height_px;
     double near_m;
     bool rounded;
+    bool mirrored;
+    double level_m;
+    double margin;
 } Camera;
 
-static Camera make_camera(const DipPose *pose, int width, int height, double near_m, bool rounded) {
+static Camera make_camera(const DipReference *reference, const DipRefShot *shot) {
+    const DipPose *pose = shot->pose;
     const double *q = pose->orientation;
     const double s = 2.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     const double focal = 1.0 / tan(pose->fov_y_deg * (pi / 360.0));
@@ -37,12 +42,15 @@ static Camera make_camera(const DipPose *pose, int width, int height, double nea
         .rows = {{1.0 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)},
                  {s * (x * y - z * w), 1.0 - s * (x * x + z * z), s * (y * z + x * w)},
                  {s * (x * z + y * w), s * (y * z - x * w), 1.0 - s * (x * x + y * y)}},
-        .scale_x = focal * height / width,
+        .scale_x = focal / shot->aspect,
         .scale_y = focal,
-        .width_px = width,
-        .height_px = height,
-        .near_m = near_m,
-        .rounded = rounded,
+        .width_px = shot->width,
+        .height_px = shot->height,
+        .near_m = reference->def->near_m,
+        .rounded = shot->rounded,
+        .mirrored = shot->mirrored,
+        .level_m = reference->reflection.level_m,
+        .margin = shot->margin,
     };
     return camera;
 }
@@ -94,10 +102,18 @@ static void turn_normal(const Turn *turn, const float normal[3], double turned[3
 static ClipVertex transform_vertex(const Camera *camera, const float m[12], const DipMeshDef *mesh,
                                    const Turn *turn, bool lit, uint32_t index) {
     const float *p = mesh->positions + 3 * (size_t)index;
+    double world[3];
+    for (int i = 0; i < 3; i++) {
+        world[i] = (double)m[4 * i] * p[0] + (double)m[4 * i + 1] * p[1] +
+                   (double)m[4 * i + 2] * p[2] + m[4 * i + 3];
+    }
+    const double above = world[1] - camera->level_m;
+    if (camera->mirrored) {
+        world[1] = camera->level_m - above;
+    }
     double from_camera[3];
     for (int i = 0; i < 3; i++) {
-        from_camera[i] = (double)m[4 * i] * p[0] + (double)m[4 * i + 1] * p[1] +
-                         (double)m[4 * i + 2] * p[2] + m[4 * i + 3] - camera->position[i];
+        from_camera[i] = world[i] - camera->position[i];
     }
     ClipVertex vertex = {
         .x = camera->scale_x * dot3(camera->rows[0], from_camera),
@@ -105,6 +121,7 @@ static ClipVertex transform_vertex(const Camera *camera, const float m[12], cons
         .w = -dot3(camera->rows[2], from_camera),
         .varyings = {0.0},
     };
+    vertex.above = camera->mirrored ? above + camera->margin * vertex.w : 0.0;
     for (int i = 0; i < 2; i++) {
         vertex.varyings[DIP_REF_U0 + i] = mesh->uv0 ? mesh->uv0[2 * (size_t)index + i] : 0.0;
         vertex.varyings[DIP_REF_U1 + i] = mesh->uv1 ? mesh->uv1[2 * (size_t)index + i] : 0.0;
@@ -114,6 +131,9 @@ static ClipVertex transform_vertex(const Camera *camera, const float m[12], cons
         turn_normal(turn, mesh->normals + 3 * (size_t)index, normal);
     }
     memcpy(vertex.varyings + DIP_REF_X, from_camera, sizeof from_camera);
+    if (camera->mirrored) {
+        vertex.varyings[DIP_REF_Y] = -from_camera[1]; // what lights the surface is not mirrored
+    }
     const double light = lit && mesh->normals ? dip_reference_light(normal, 1.0) : 1.0;
     for (int i = 0; i < 3; i++) {
         vertex.varyings[DIP_REF_RED + i] =
@@ -126,20 +146,30 @@ static bool is_finite(const ClipVertex *vertex) {
     return isfinite(vertex->x) && isfinite(vertex->y) && isfinite(vertex->w);
 }
 
-// Where an edge that leaves through the near plane meets it.
-static ClipVertex cut_edge(const ClipVertex *inside, const ClipVertex *outside, double near_m) {
-    const double t = (inside->w - near_m) / (inside->w - outside->w);
+// A place on an edge that leaves through a plane.
+static ClipVertex cut_edge(const ClipVertex *inside, const ClipVertex *outside, double t) {
     ClipVertex cut = {.x = inside->x + (outside->x - inside->x) * t,
                       .y = inside->y + (outside->y - inside->y) * t,
-                      .w = near_m};
+                      .w = inside->w + (outside->w - inside->w) * t,
+                      .above = inside->above + (outside->above - inside->above) * t};
     for (int i = 0; i < DIP_REF_VARYINGS; i++) {
         cut.varyings[i] = inside->varyings[i] + (outside->varyings[i] - inside->varyings[i]) * t;
     }
     return cut;
 }
 
+enum { MAX_CORNERS = 5 }; // a triangle cut at two planes
+
+// Where an edge that leaves through the near plane meets it.
+static ClipVertex cut_near(const ClipVertex *inside, const ClipVertex *outside, double near_m) {
+    ClipVertex cut = cut_edge(inside, outside, (inside->w - near_m) / (inside->w - outside->w));
+    cut.w = near_m;
+    return cut;
+}
+
 // Keeps what is at the near plane or beyond it; returns the number of corners, 0, 3 or 4.
-static int clip_near(const ClipVertex *const corners[3], double near_m, ClipVertex polygon[4]) {
+static int clip_near(const ClipVertex *const corners[3], double near_m,
+                     ClipVertex polygon[MAX_CORNERS]) {
     int count = 0;
     for (int i = 0; i < 3; i++) {
         const ClipVertex *here = corners[i];
@@ -151,7 +181,7 @@ static int clip_near(const ClipVertex *const corners[3], double near_m, ClipVert
         }
         if (here_inside != next_inside) {
             polygon[count++] =
-                here_inside ? cut_edge(here, next, near_m) : cut_edge(next, here, near_m);
+                here_inside ? cut_near(here, next, near_m) : cut_near(next, here, near_m);
         }
     }
     return count >= 3 ? count : 0;
@@ -236,6 +266,28 @@ static bool add_piece(const Camera *camera, const ClipVertex *a, const ClipVerte
     return append(triangles, &piece);
 }
 
+// Keeps what is above the level where the scene is mirrored there; returns the number of corners,
+// at most one more.
+static int clip_below(int count, ClipVertex polygon[MAX_CORNERS]) {
+    ClipVertex from[MAX_CORNERS];
+    memcpy(from, polygon, sizeof from);
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        const ClipVertex *here = &from[i];
+        const ClipVertex *next = &from[(i + 1) % count];
+        if (here->above >= 0.0) {
+            polygon[kept++] = *here;
+        }
+        if ((here->above >= 0.0) != (next->above >= 0.0)) {
+            const ClipVertex *inside = here->above >= 0.0 ? here : next;
+            const ClipVertex *outside = here->above >= 0.0 ? next : here;
+            polygon[kept++] =
+                cut_edge(inside, outside, inside->above / (inside->above - outside->above));
+        }
+    }
+    return kept >= 3 ? kept : 0;
+}
+
 static bool add_mesh(const Camera *camera, const DipMeshDef *mesh, const ClipVertex *vertices,
                      const DipRefTriangle *like, DipRefTriangles *triangles) {
     for (uint32_t i = 0; i < mesh->index_count; i += 3) {
@@ -245,8 +297,8 @@ static bool add_mesh(const Camera *camera, const DipMeshDef *mesh, const ClipVer
         if (!is_finite(corners[0]) || !is_finite(corners[1]) || !is_finite(corners[2])) {
             continue;
         }
-        ClipVertex polygon[4];
-        const int count = clip_near(corners, camera->near_m, polygon);
+        ClipVertex polygon[MAX_CORNERS];
+        const int count = clip_below(clip_near(corners, camera->near_m, polygon), polygon);
         for (int k = 2; k < count; k++) {
             if (!add_piece(camera, &polygon[0], &polygon[k - 1], &polygon[k], like, triangles)) {
                 return false;
@@ -283,7 +335,7 @@ static bool add_object(const DipReference *reference, const Camera *camera,
     const DipMeshDef *mesh = &reference->def->meshes[object->mesh];
     const Turn turn = find_turn(object->transform);
     DipRefTriangle like = describe_mesh(reference, mesh);
-    like.mirrored = turn.mirrored;
+    like.mirrored = turn.mirrored != camera->mirrored;
     ClipVertex *vertices = malloc(((size_t)mesh->vertex_count + 1) * sizeof *vertices);
     if (!vertices) {
         return false;
@@ -297,12 +349,19 @@ static bool add_object(const DipReference *reference, const Camera *camera,
     return added;
 }
 
-bool dip_reference_build_triangles(const DipReference *reference, const DipPose *pose, int width,
-                                   int height, bool rounded, DipRefTriangles *triangles,
-                                   DipError *err) {
-    const Camera camera = make_camera(pose, width, height, reference->def->near_m, rounded);
+static bool is_water(const DipReference *reference, const DipObjectDef *object) {
+    const DipMeshDef *mesh = &reference->def->meshes[object->mesh];
+    return reference->def->materials[mesh->material].surface == DIP_SURFACE_WATER;
+}
+
+bool dip_reference_build_triangles(const DipReference *reference, const DipRefShot *shot,
+                                   DipRefTriangles *triangles, DipError *err) {
+    const Camera camera = make_camera(reference, shot);
     *triangles = (DipRefTriangles){0};
     for (int o = 0; o < reference->def->object_count; o++) {
+        if (shot->mirrored && is_water(reference, &reference->def->objects[o])) {
+            continue;
+        }
         if (!add_object(reference, &camera, &reference->def->objects[o], triangles)) {
             dip_reference_triangles_free(triangles);
             return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for triangles");

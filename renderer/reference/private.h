@@ -11,6 +11,7 @@ struct DipReference {
     const DipSceneDef *def; // borrowed
     uint64_t frame_index;
     int64_t time_ns;
+    DipReflectionDef reflection;
     DipRefTexture *textures; // by the description's index; those that nothing shows have no levels
 };
 
@@ -63,17 +64,30 @@ typedef struct DipRefTriangles {
     size_t capacity;
 } DipRefTriangles;
 
-// All triangles that may be seen, in submission order. rounded: positions are rounded to whole
-// steps of 1/256 pixel before anything is decided on them.
-bool dip_reference_build_triangles(const DipReference *reference, const DipPose *pose, int width,
-                                   int height, bool rounded, DipRefTriangles *triangles,
-                                   DipError *err);
+// A picture of the scene.
+typedef struct DipRefShot {
+    const DipPose *pose;
+    int width; // pixels
+    int height;
+    double aspect; // width / height of what is seen, whatever the pixels' shape
+    bool rounded;  // positions, to whole steps of 1/256 pixel, before anything is decided on them
+    // The scene turned upside down at the reflection's level, without its water, cut at the level;
+    // what is `margin` times its distance along the view axis below it stays.
+    bool mirrored;
+    double margin;
+} DipRefShot;
+
+// All triangles that may be seen, in submission order.
+bool dip_reference_build_triangles(const DipReference *reference, const DipRefShot *shot,
+                                   DipRefTriangles *triangles, DipError *err);
 void dip_reference_triangles_free(DipRefTriangles *triangles);
 
 // A triangle at one place: edge functions there (the weights of its vertices, up to a factor).
 typedef struct DipRefPlace {
     const DipRefTriangle *triangle;
     double edges[3];
+    double x; // in the picture, 1/256 pixel
+    double y;
 } DipRefPlace;
 
 double dip_reference_depth(const DipRefPlace *place, double near_m);
@@ -106,6 +120,18 @@ void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryi
 // sky.c: filter NULL: bilinear, level 0.
 void dip_reference_shade_sky(const DipRefTriangle *triangle, const DipRefFilter *filter,
                              const DipRefVaryings *varyings, double rgb[3]);
+// Water shows the mirrored scene: the eye is above it.
+bool dip_reference_reflects(const DipReference *reference, const DipPose *pose);
+
+// Turns water's own colour at a place of a frame into what is seen, with the mirrored scene's
+// colour there.
+void dip_reference_blend_water(const DipReference *reference, const DipPose *pose, int width,
+                               int height, const DipRefPlace *place, const double mirrored[3],
+                               double rgb[3]);
+
+// The mirrored scene's colour at a place of a frame, bilinearly from its picture.
+void dip_reference_read_mirrored(const DipReference *reference, const double *mirrored, int width,
+                                 int height, const DipRefPlace *place, double rgb[3]);
 
 // The size is one that a frame may have.
 bool dip_reference_check_size(int width, int height, DipError *err);

@@ -89,6 +89,10 @@ DipReference *dip_reference_create(const DipSceneDef *def, DipError *err) {
     return reference;
 }
 
+void dip_reference_set_reflection(DipReference *reference, const DipReflectionDef *reflection) {
+    reference->reflection = *reflection;
+}
+
 void dip_reference_destroy(DipReference **reference) {
     if (!*reference) {
         return;

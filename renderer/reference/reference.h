@@ -7,6 +7,7 @@
 #include "renderer/base/error.h"
 #include "renderer/pose.h"
 #include "renderer/quality.h"
+#include "renderer/reflection.h"
 #include "renderer/scene.h"
 
 #include <stdint.h>
@@ -22,6 +23,8 @@ void dip_reference_set_frame_index(DipReference *reference, uint64_t frame_index
 
 // The time of the pictures drawn after: nanoseconds since the path's start, 0 at first.
 void dip_reference_set_time(DipReference *reference, int64_t time_ns);
+// Without it water does not reflect. The def's `show` has no meaning here. Not checked.
+void dip_reference_set_reflection(DipReference *reference, const DipReflectionDef *reflection);
 
 // What the fast path should draw with these settings. rgb_lin: width*height*3 doubles, linear
 // light, resolved but not encoded, the top row first.

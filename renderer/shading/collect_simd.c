@@ -264,9 +264,19 @@ static void clear_block(DipTileShading *shading, int block) {
     }
 }
 
+VEC_INLINE bool is_drawn(const DipTile *tile, int block) {
+    const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK;
+    const int y = block / DIP_TILE_BLOCKS * DIP_BLOCK;
+    return x >= tile->left && y >= tile->top && x < DIP_TILE - tile->right &&
+           y < DIP_TILE - tile->bottom;
+}
+
 void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
     const DipTile *tile = shading->tile;
     for (int block = 0; block < DIP_BLOCKS; block++) {
+        if (!is_drawn(tile, block)) {
+            continue;
+        }
         if (!(tile->touched >> block & 1)) {
             clear_block(shading, block);
             continue;

@@ -300,7 +300,7 @@ static DipTexture *out_of_memory(DipTexture *texture, const char *name, DipError
 }
 
 // A texture with its levels' places, without texels in them.
-static DipTexture *begin_texture(const DipTextureDef *def, DipError *err) {
+static DipTexture *begin_texture(const DipTextureDef *def, bool clips, DipError *err) {
     if (!check_def(def, err)) {
         return NULL;
     }
@@ -314,13 +314,14 @@ static DipTexture *begin_texture(const DipTextureDef *def, DipError *err) {
     texture->wrap_v = def->wrap_v;
     texture->wraps_in_bits = repeats(def);
     place_chain(texture);
-    return allocate_texels(texture, has_alpha(def)) ? texture
-                                                    : out_of_memory(texture, def->name, err);
+    return allocate_texels(texture, clips && has_alpha(def))
+               ? texture
+               : out_of_memory(texture, def->name, err);
 }
 
-static bool begin_chain(Chain *chain, const DipTextureDef *def, const CodeTables tables[2],
-                        DipError *err) {
-    DipTexture *texture = begin_texture(def, err);
+static bool begin_chain(Chain *chain, const DipTextureDef *def, bool clips,
+                        const CodeTables tables[2], DipError *err) {
+    DipTexture *texture = begin_texture(def, clips, err);
     *chain = (Chain){def, texture, &tables[def->encoding], NULL, NULL, 0, 0};
     if (!texture || texture->level_count == 1) {
         return texture != NULL;
@@ -372,8 +373,8 @@ static void run_chains(ChainJobs *jobs, DipPool *pool) {
     jobs->bands = NULL;
 }
 
-bool dip_textures_create(const DipTextureDef *defs, const bool *used, int count, DipPool *pool,
-                         DipTexture **textures, DipError *err) {
+bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool *clip, int count,
+                         DipPool *pool, DipTexture **textures, DipError *err) {
     ChainJobs jobs = {NULL, NULL, NULL, 0};
     CodeTables *tables = NULL;
     Chain chains[2];
@@ -389,7 +390,7 @@ bool dip_textures_create(const DipTextureDef *defs, const bool *used, int count,
             continue;
         }
         Chain *chain = &chains[turn++ & 1];
-        made = begin_chain(chain, &defs[i], tables, err);
+        made = begin_chain(chain, &defs[i], !clip || clip[i], tables, err);
         textures[i] = chain->texture;
         if (made && chain->level1) {
             jobs.bands = chain;
@@ -410,7 +411,7 @@ bool dip_textures_create(const DipTextureDef *defs, const bool *used, int count,
 
 DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err) {
     DipTexture *texture;
-    return dip_textures_create(def, NULL, 1, NULL, &texture, err) ? texture : NULL;
+    return dip_textures_create(def, NULL, NULL, 1, NULL, &texture, err) ? texture : NULL;
 }
 
 DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,

@@ -41,15 +41,16 @@ typedef struct DipTexture {
     int32_t level_log2_width[DIP_LEVEL_TABLE];
     int32_t level_log2_height[DIP_LEVEL_TABLE];
     uint32_t *texels;
-    uint8_t *alpha;     // the same layout; NULL when all texels are opaque
+    uint8_t *alpha;     // the same layout; NULL when all texels are opaque or nothing asks
     size_t texel_count; // padding included
 } DipTexture;
 
 // Builds textures with their whole mip chains into textures[0..count-1], all or none. defs are only
-// read; those that are not used (NULL: all are) are left out and their textures are NULL. On the
-// pool (may be NULL), across textures and within them: the same texels for every number of threads.
-bool dip_textures_create(const DipTextureDef *defs, const bool *used, int count, DipPool *pool,
-                         DipTexture **textures, DipError *err);
+// read; those that are not used (NULL: all are) are left out and their textures are NULL, and alpha
+// is kept of those that clip (NULL: of all that have any). On the pool (may be NULL), across
+// textures and within them: the same texels for every number of threads.
+bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool *clip, int count,
+                         DipPool *pool, DipTexture **textures, DipError *err);
 
 // One texture, on the caller's thread.
 DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err);

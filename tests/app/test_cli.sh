@@ -163,10 +163,25 @@ same_hashes() {
 same_hashes --threads 1
 same_hashes --threads 3
 same_hashes --isa scalar
+same_hashes --force-all-effects
 same_hashes --config good.ini
 same_hashes --path "$source/campaths/ambient.pth" --fps 30
 check "settings change the picture" test \
     "$(sed -n '1s/.* //p' hashes.txt)" != "$(sed -n '2s/.* //p' hashes.txt)"
+
+# --- panes with the same settings: drawn once
+equal="dump $small --hash --frames 4:6 --current aa=4,taa=on --requested aa=4,taa=on"
+expect 0 '' "$diptych" $equal --json copied.json
+cp out.txt copied.txt
+check "the requested pane is the current one's picture" \
+    test "$(sed -n '1s/.* //p' out.txt)" = "$(sed -n '2s/.* //p' out.txt)"
+check "the record says that it is copied" test "$(grep -c '"copied":	true' copied.json)" = 2
+check "and took no time" test "$(grep -c '"ms":	0,' copied.json)" = 2
+check "panes with settings of their own are not" sh -c '! grep -q "\"copied\":	true" c.json'
+expect 0 '' "$diptych" $equal --json forced.json --force-all-effects
+check "the same pictures with both drawn" cmp out.txt copied.txt
+check "as the record says" sh -c '! grep -q "\"copied\":	true" forced.json'
+
 expect 0 '' "$diptych" dump $small --hash --fps 15 --frames 0:3
 check "frame 1 at 15 per second is frame 2 at 30" test \
     "$(sed -n '3s/.* //p' out.txt)" = "$(sed -n '3s/.* //p' hashes.txt)"
@@ -183,7 +198,8 @@ expect 0 'plot written: plots/time_samples.svg' "$diptych" bench $quick --size 3
 check "the heading tells the seed" grep -q 'order by seed 7$' out.txt
 check "a row per combination" test "$(grep -cE '^ +[1-8]  .*median' out.txt)" = 8
 check "each with its p95 and least" test "$(grep -cE '^ +(p95|min) ' out.txt)" = 16
-check "and its work" test "$(awk '$1 == "fragments_shaded" { print $2 }' out.txt)" = 768
+check "and its work" test "$(awk '$1 == "fragments_shaded" { all = $2 }
+    $1 == "fragments_mirrored" { print all - $2 }' out.txt)" = 768
 check "a line of CSV per combination, round and frame" test "$(wc -l <all.csv)" = 33
 check "units in its names" grep -q '^settings,width_px,.*,total_ms,.*_count' all.csv
 for axis in pixels samples threads; do

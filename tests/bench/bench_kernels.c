@@ -63,6 +63,7 @@ static void add_triangle(const double x[3], const double y[3]) {
     }
     const DipSetupTarget target = {.width = DIP_TILE,
                                    .height = DIP_TILE,
+                                   .region_last = {DIP_TILE - 1, DIP_TILE - 1},
                                    .surface_stride = DIP_SURFACE_ALIGN,
                                    .cull = DIP_CULL_NONE,
                                    .sample_max = {255, 255}};

@@ -65,10 +65,7 @@ static void make_cube_on_plane(DipTestScene *scene) {
     scene->pose.orientation[3] = cos(-0.1);
 }
 
-static void make_fence(DipTestScene *scene) {
-    dip_test_scene_begin(scene);
-    const int ground = dip_test_scene_add_material(
-        scene, dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 256, 256));
+static int add_bars(DipTestScene *scene) {
     const int bars = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 128, 128);
     uint8_t *texels = dip_test_scene_texels(scene, bars);
     for (int i = 0; i < 128 * 128; i++) {
@@ -77,6 +74,14 @@ static void make_fence(DipTestScene *scene) {
     const int fence = dip_test_scene_add_material(scene, bars);
     scene->materials[fence].surface = DIP_SURFACE_CLIPPED;
     scene->materials[fence].double_sided = true;
+    return fence;
+}
+
+static void make_fence(DipTestScene *scene) {
+    dip_test_scene_begin(scene);
+    const int ground = dip_test_scene_add_material(
+        scene, dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 256, 256));
+    const int fence = add_bars(scene);
     dip_test_scene_add_ground(scene, ground);
     dip_test_scene_add_quad(scene, fence, (const float[]){-2.5f, -1, -2}, (const float[]){7, 0, -6},
                             (const float[]){0, 2, 0}, 8, 2);
@@ -351,21 +356,73 @@ static void make_normal_map(DipTestScene *scene) {
     memcpy(scene->objects[scene->def.object_count - 1].transform, placed, sizeof placed);
 }
 
-static void make_sky(DipTestScene *scene) {
-    dip_test_scene_begin(scene);
+static void add_clouds(DipTestScene *scene, const float corner[3]) {
     const int material = dip_test_scene_add_material(scene, dip_test_scene_add_clouds(scene, 128));
     scene->materials[material].surface = DIP_SURFACE_SKY;
-    dip_test_scene_add_quad(scene, material, (const float[]){-400, 60, 120},
-                            (const float[]){800, 0, 0}, (const float[]){0, 0, 1080}, 4, 6);
+    dip_test_scene_add_quad(scene, material, corner, (const float[]){800, 0, 0},
+                            (const float[]){0, 0, 1080}, 4, 6);
     scene->def.sky = dip_sky_default();
     scene->def.sky.clear = 0.2f;
     scene->def.sky.dense = 0.8f;
+}
+
+static void make_sky(DipTestScene *scene) {
+    dip_test_scene_begin(scene);
+    add_clouds(scene, (const float[]){-400, 60, 120});
     // Round, and up by 35 degrees: the sun stands to the right.
     const double up = 35.0 * pi / 360.0;
     scene->pose.orientation[0] = 0.0;
     scene->pose.orientation[1] = cos(up);
     scene->pose.orientation[2] = -sin(up);
     scene->pose.orientation[3] = 0.0;
+}
+
+static int add_pool(DipTestScene *scene, int texture, const float corner[3], float size) {
+    const int material = dip_test_scene_add_material(scene, texture);
+    scene->materials[material].surface = DIP_SURFACE_WATER;
+    scene->materials[material].base_colour_lin[0] = 0.1f;
+    scene->materials[material].base_colour_lin[1] = 0.3f;
+    dip_test_scene_add_quad(scene, material, corner, (const float[]){size, 0, 0},
+                            (const float[]){0, 0, -size}, 2, 2);
+    return material;
+}
+
+static void make_water(DipTestScene *scene) {
+    dip_test_scene_begin(scene);
+    const int ground = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 256, 256);
+    dip_test_scene_add_ground(scene, dip_test_scene_add_material(scene, ground));
+    const int wall = dip_test_scene_add_material(
+        scene, dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 64, 64));
+    dip_test_scene_add_quad(scene, wall, (const float[]){-6, -1, -9}, (const float[]){12, 0, 0},
+                            (const float[]){0, 3.5f, 0}, 6, 2);
+    const int sides = dip_test_scene_add_material(
+        scene, dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 64, 64));
+    scene->materials[sides].lit = true;
+    add_cube(scene, sides, (const float[]){0.3f, -0.6f, -3.4f});
+    add_pool(scene, DIP_NO_TEXTURE, (const float[]){-2.2f, -0.8f, -1.2f}, 4.5f);
+    const int high = add_pool(scene, ground, (const float[]){-1.6f, -0.35f, -3.1f}, 0.9f);
+    scene->materials[high].double_sided = true;
+    scene->reflection = (DipReflectionDef){.width = 96, .height = 72, .level_m = -0.8};
+    scene->pose.position_world[1] = 0.5;
+    scene->pose.orientation[0] = sin(-0.22);
+    scene->pose.orientation[3] = cos(-0.22);
+}
+
+static void make_water_effects(DipTestScene *scene) {
+    dip_test_scene_begin(scene);
+    const int colour = dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 64, 64);
+    const int wall = add_bumpy_material(scene, colour, dip_test_scene_add_bumps(scene, 128));
+    static const float wall_at[12] = {-3, -1, -9, 1, -1, -9, 1, 2, -9, -3, 2, -9};
+    static const float mirrored[8] = {2, 2, 0, 2, 0, 0, 2, 0};
+    add_bumpy_quad(scene, wall, wall_at, mirrored, false);
+    dip_test_scene_add_quad(scene, add_bars(scene), (const float[]){0.3f, -1, -2.6f},
+                            (const float[]){1.8f, 0, -0.6f}, (const float[]){0, 1.1f, 0}, 1, 1);
+    add_clouds(scene, (const float[]){-400, 60, -1200});
+    add_pool(scene, DIP_NO_TEXTURE, (const float[]){-4.0f, -0.8f, -1.2f}, 12.0f);
+    scene->reflection = (DipReflectionDef){.width = 120, .height = 90, .level_m = -0.8};
+    scene->pose.position_world[1] = 0.4;
+    scene->pose.orientation[0] = sin(-0.1);
+    scene->pose.orientation[3] = cos(-0.1);
 }
 
 void dip_test_scene_make(DipTestScene *scene, DipTestSceneKind kind) {

@@ -3,6 +3,7 @@
 #define DIP_TESTS_RENDERER_SCENES_H
 
 #include "renderer/pose.h"
+#include "renderer/reflection.h"
 #include "renderer/scene.h"
 
 // X(name, "what it is about")
@@ -21,7 +22,9 @@
     X(light_map, "second coordinates, scaled light map, linear encoding")                          \
     X(normal_map,                                                                                  \
       "bumps under light map and sun; coordinates mirrored, without area, on a sphere")            \
-    X(sky, "two layers of cloud over a quad to the horizon")
+    X(sky, "two layers of cloud over a quad to the horizon")                                       \
+    X(water, "pools at two heights that reflect what stands in and around them")                   \
+    X(water_effects, "a pool under clouds, before a fence and bumps: all effects, mirrored too")
 
 typedef enum DipTestSceneKind {
 #define DIP_TEST_SCENE_ENUM(name, text) DIP_TEST_SCENE_##name,
@@ -36,6 +39,7 @@ enum { DIP_TEST_SCENE_PARTS = 8, DIP_TEST_SCENE_BLOCKS = 64 };
 typedef struct DipTestScene {
     DipSceneDef def;
     DipPose pose;
+    DipReflectionDef reflection; // width 0 unless the scene is about it
     DipTextureDef textures[DIP_TEST_SCENE_PARTS];
     DipMaterialDef materials[DIP_TEST_SCENE_PARTS];
     DipMeshDef meshes[DIP_TEST_SCENE_PARTS];

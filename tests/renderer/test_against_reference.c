@@ -51,11 +51,13 @@ static void open_pair(Pair *pair, DipTestSceneKind kind, int width, int height) 
     def.pool = pair->pool;
     def.width = width;
     def.height = height;
+    def.reflection = pair->scene.reflection;
     pair->renderer = pair->pool ? dip_renderer_create(&def, &err) : NULL;
     if (!pair->renderer) {
         fail_with(&err);
     }
     assert_non_null(pair->expected);
+    dip_reference_set_reflection(pair->reference, &pair->scene.reflection);
 }
 
 static void close_pair(Pair *pair) {
@@ -75,6 +77,8 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // A clipped pixel whose alpha is close to the cutoff may come or go.
     static const DipImageBounds fence = {0.004, 0.01, 0.0015, 1.0};
     static const DipImageBounds fence_mips = {0.010, 0.01, 0.0015, 1.0};
+    // Bright, and so are its few that flip.
+    static const DipImageBounds mirrored_fence = {0.008, 0.01, 0.0015, 1.0};
     // With passes there are more columns of places that may lie on the edge of an upright bar,
     // where u is the same along the bar's length; each weighs a pass' samples only.
     static const DipImageBounds fence_passes = {0.004, 0.01, 0.006, 0.5};
@@ -91,6 +95,8 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     switch (kind) {
     case DIP_TEST_SCENE_sky:
         return mip_colours ? &steady : &sky;
+    case DIP_TEST_SCENE_water_effects:
+        return mip_colours ? &fence_mips : &mirrored_fence;
     case DIP_TEST_SCENE_fence:
         return mip_colours ? &fence_mips : passes ? &fence_passes : &fence;
     case DIP_TEST_SCENE_slivers:

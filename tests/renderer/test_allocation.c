@@ -76,11 +76,16 @@ static void frames_allocate_nothing(void **state) {
         def.pool = pool;
         def.width = 160;
         def.height = 120;
+        def.reflection = scene.reflection;
         DipRenderer *renderer = dip_renderer_create(&def, NULL);
         DipFrame frame;
         assert_non_null(renderer);
         assert_true(atomic_load(&calls) > before); // the count works
-        assert_true(dip_renderer_draw(renderer, fast, &scene.pose, 0, &frame, NULL));
+        // The first frame sees nothing: what it makes room for does not depend on the view.
+        DipPose away = scene.pose;
+        away.position_world[1] += 1000.0;
+        away.orientation[0] = away.orientation[3] = 0.7071067811865476;
+        assert_true(dip_renderer_draw(renderer, fast, &away, 0, &frame, NULL));
         assert_int_equal(draw_everything(renderer, fast, scene.pose), 0);
         dip_renderer_destroy(&renderer);
         dip_pool_destroy(&pool);

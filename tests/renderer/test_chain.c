@@ -139,7 +139,7 @@ static void check_all(DipPool *pool) {
                                   i % 4 < 2 ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT};
         used[i] = i != 4;
     }
-    assert_true(dip_textures_create(defs, used, COUNT, pool, textures, NULL));
+    assert_true(dip_textures_create(defs, used, NULL, COUNT, pool, textures, NULL));
     for (int i = 0; i < COUNT; i++) {
         assert_int_equal(textures[i] != NULL, used[i]);
         if (textures[i]) {
@@ -175,7 +175,7 @@ static void all_or_none(void **state) {
         {"c", 2, 2, codes, DIP_ENCODING_SRGB, DIP_WRAP_REPEAT, DIP_WRAP_REPEAT}};
     DipTexture *textures[3];
     DipError err = {0};
-    assert_false(dip_textures_create(defs, NULL, 3, NULL, textures, &err));
+    assert_false(dip_textures_create(defs, NULL, NULL, 3, NULL, textures, &err));
     assert_int_equal(err.code, DIP_ERROR_RANGE);
     assert_string_equal(err.file, "b");
     for (int i = 0; i < 3; i++) {

@@ -29,6 +29,8 @@ static const char *const settings[] = {
 // small triangles; all else is as near as eight bits allow.
 static const DipImageBounds bounds = {0.012, 0.02, 0.002, 1.0};
 
+static const DipReflectionDef reflection = {.width = 80, .height = 60, .level_m = 0.66};
+
 typedef struct Court {
     int width;
     int height;
@@ -64,9 +66,13 @@ static bool open_court(Court *court) {
     renderer_def.pool = court->pool;
     renderer_def.width = court->width;
     renderer_def.height = court->height;
+    renderer_def.reflection = reflection;
     court->scene = dip_scene_create(def, court->pool, &err);
     court->reference = court->scene ? dip_reference_create(def, &err) : NULL;
     court->renderer = court->reference ? dip_renderer_create(&renderer_def, &err) : NULL;
+    if (court->reference) {
+        dip_reference_set_reflection(court->reference, &reflection);
+    }
     return court->renderer || tell(file, &err);
 }
 

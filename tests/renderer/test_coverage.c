@@ -40,6 +40,7 @@ typedef struct Case {
 static DipSetupTarget target_of(const DipSamplePattern *pattern) {
     DipSetupTarget target = {.width = TARGET_WIDTH,
                              .height = TARGET_HEIGHT,
+                             .region_last = {TARGET_WIDTH - 1, TARGET_HEIGHT - 1},
                              .surface_stride = DIP_SURFACE_ALIGN,
                              .pattern = pattern,
                              .cull = DIP_CULL_NONE,

@@ -113,6 +113,7 @@ static bool draw_all(const Stage *stage, DipIsa isa, int threads, Hash *hashes) 
     def.isa = isa;
     def.width = stage->options.width;
     def.height = stage->options.height;
+    def.reflection = (DipReflectionDef){.width = 160, .height = 120, .level_m = 0.66};
     DipRenderer *renderer = pool ? dip_renderer_create(&def, &err) : NULL;
     bool drawn = renderer != NULL;
     for (int s = 0; drawn && s < stage->settings_count; s++) {

@@ -290,6 +290,30 @@ static void without_effects_nothing_is_spent(void **state) {
     dip_test_scene_free(&scene);
 }
 
+static void only_what_the_scene_has_takes_memory(void **state) {
+    (void)state;
+    for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
+        dip_test_scene_make(&scene, (DipTestSceneKind)kind);
+        Stage stage = open_stage(false);
+        const DipCounters counters = draw(&stage, 0).counters;
+        const bool all = kind == DIP_TEST_SCENE_water_effects;
+        assert_int_equal(counters.normal_map_bytes > 0, all || kind == DIP_TEST_SCENE_normal_map);
+        assert_int_equal(counters.cloud_bytes > 0, all || kind == DIP_TEST_SCENE_sky);
+        assert_int_equal(counters.clip_map_bytes > 0, all || kind == DIP_TEST_SCENE_fence);
+        close_stage(&stage);
+        // Alpha that clips nothing is not kept.
+        for (int i = 0; i < scene.def.material_count; i++) {
+            if (scene.materials[i].surface == DIP_SURFACE_CLIPPED) {
+                scene.materials[i].surface = DIP_SURFACE_OPAQUE;
+            }
+        }
+        stage = open_stage(false);
+        assert_int_equal(draw(&stage, 0).counters.clip_map_bytes, 0);
+        close_stage(&stage);
+        dip_test_scene_free(&scene);
+    }
+}
+
 static void effects_out_of_view_say_so(void **state) {
     (void)state;
     static const DipTestSceneKind kinds[] = {DIP_TEST_SCENE_normal_map, DIP_TEST_SCENE_sky};
@@ -319,6 +343,7 @@ int main(void) {
         cmocka_unit_test(phases_repeat_to_the_bit_and_run_evenly),
         cmocka_unit_test(clouds_repeat_to_the_bit_and_move_between),
         cmocka_unit_test(without_effects_nothing_is_spent),
+        cmocka_unit_test(only_what_the_scene_has_takes_memory),
         cmocka_unit_test(effects_out_of_view_say_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -126,6 +126,8 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
     const int slot_count = random_int(random, 0, DIP_MAX_SLOTS);
     const DipSetupTarget target = {.width = random_int(random, 1, 8192),
                                    .height = random_int(random, 1, 8192),
+                                   .region_first = {random_int(random, 0, 99), 0},
+                                   .region_last = {random_int(random, 99, 8191), 8191},
                                    .slot_count = slot_count,
                                    .surface_stride = dip_surface_stride(slot_count),
                                    .draw = 17,

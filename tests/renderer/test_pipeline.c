@@ -232,6 +232,106 @@ static void varyings_follow_the_perspective(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
+// Blocks that the region meets hold what they do without it, the others what they held before.
+static void a_region_spares_the_other_blocks(void **state) {
+    (void)state;
+    enum { TILE = 64, BLOCK = 8 };
+    static uint8_t whole[sizeof picture];
+    const float scale = 50.0f;
+    const Vertex vertices[4] = {{{-3, -1.5f, 0.2f, 2}, 0},
+                                {{2, -2, 0.3f, 1}, 1},
+                                {{9, 14, 0.1f, 8}, 0.7f},
+                                {{-1, 1, 1, 1}, 0}};
+    DipMesh *mesh = mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3, 1, 3, 0}, 9);
+    const Vertex small[3] = {
+        {{0.4f, 0.1f, 0.9f, 1}, 0}, {{0.5f, 0.2f, 0.9f, 1}, 1}, {{0.3f, 0.6f, 0.8f, 1}, 0}};
+    DipMesh *bounded = mesh_of(small, 3, (const uint32_t[]){0, 1, 2}, 3);
+    DipDraw draws[2] = {draw_of(mesh, varying), draw_of(bounded, varying)};
+    draws[0].uniforms = draws[1].uniforms = &scale;
+    static const float as_it_is[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    draws[1].bounds_to_clip = as_it_is;
+    DipPass pass = pass_of(draws, 2, 4);
+    run(&pass);
+    memcpy(whole, picture, sizeof whole);
+    static const DipRegion regions[] = {{0, 0, 1, 1},      {70, 0, 71, 3},   {3, 66, 60, 70},
+                                        {64, 64, 100, 70}, {63, 63, 65, 65}, {65, 8, 80, 40}};
+    for (size_t r = 0; r < sizeof regions / sizeof *regions; r++) {
+        pass.region = regions[r];
+        const DipCounters counters = run(&pass);
+        const int across = (regions[r].x1 - 1) / TILE - regions[r].x0 / TILE + 1;
+        const int down = (regions[r].y1 - 1) / TILE - regions[r].y0 / TILE + 1;
+        const int x0 = regions[r].x0 / BLOCK;
+        const int y0 = regions[r].y0 / BLOCK;
+        const int x1 = (regions[r].x1 - 1) / BLOCK;
+        const int y1 = (regions[r].y1 - 1) / BLOCK;
+        assert_int_equal(counters.tiles_drawn, across * down);
+        assert_int_equal(counters.tiles_spared, 4 - counters.tiles_drawn);
+        // The small triangle is in the last region only.
+        const bool last = r + 1 == sizeof regions / sizeof *regions;
+        assert_int_equal(counters.triangles_in, last ? 4 : 3);
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            const int x = i % WIDTH / BLOCK;
+            const int y = i / WIDTH / BLOCK;
+            for (int c = 0; c < 4; c++) {
+                const bool within = x >= x0 && x <= x1 && y >= y0 && y <= y1;
+                assert_int_equal(picture[4 * i + c], within ? whole[4 * i + c] : 77);
+            }
+        }
+    }
+    dip_mesh_destroy(&mesh);
+    dip_mesh_destroy(&bounded);
+}
+
+// The target given as uniforms, turned by half a turn.
+static void turned_copy(DipFragmentBatch *batch) {
+    float u[DIP_FRAGMENT_BATCH] = {0};
+    float v[DIP_FRAGMENT_BATCH] = {0};
+    for (int i = 0; i < batch->count; i++) {
+        u[i] = 1.0f - batch->x[i] / WIDTH;
+        v[i] = 1.0f - batch->y[i] / HEIGHT;
+    }
+    batch->sample_target(batch, batch->uniforms, u, v, batch->colour);
+}
+
+// Between centres it is the mean of the neighbours' light, at the edge the edge's.
+static void halfway(DipFragmentBatch *batch) {
+    float u[DIP_FRAGMENT_BATCH] = {0};
+    float v[DIP_FRAGMENT_BATCH] = {0};
+    for (int i = 0; i < batch->count; i++) {
+        const float far = batch->y[i] < 10.0f ? NAN : batch->y[i] < 20.0f ? 1e30f : -INFINITY;
+        u[i] = batch->x[i] < 50.0f ? 1.0f / WIDTH : far;
+        v[i] = 0.5f / HEIGHT;
+    }
+    batch->sample_target(batch, batch->uniforms, u, v, batch->colour);
+}
+
+static void a_pass_samples_the_target_of_a_pass_before(void **state) {
+    (void)state;
+    static uint8_t before[sizeof picture];
+    for (size_t i = 0; i < sizeof before; i++) {
+        before[i] = i % 4 == 3 ? 255 : (uint8_t)(i * 2654435761u >> 13);
+    }
+    before[0] = 0; // the first row's red begins black, white and ends at 200
+    before[4] = 255;
+    before[4 * (WIDTH - 1)] = 200;
+    const DipTarget target = {before, (size_t)WIDTH * 4, WIDTH, HEIGHT};
+    DipMesh *mesh = screen(0.5f);
+    DipDraw draw = draw_of(mesh, turned_copy);
+    draw.uniforms = &target;
+    const DipPass pass = pass_of(&draw, 1, 1);
+    run(&pass);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        assert_memory_equal(picture + 4 * i, before + 4 * (WIDTH * HEIGHT - 1 - i), 4);
+    }
+    draw.fragment_shader = halfway;
+    run(&pass);
+    assert_int_equal(red(10, 30), 188); // half of white's light
+    assert_int_equal(red(60, 5), 0);
+    assert_int_equal(red(60, 15), 200);
+    assert_int_equal(red(60, 50), 0);
+    dip_mesh_destroy(&mesh);
+}
+
 // A floor that begins behind the eye: what lies before the near plane (z = w) is seen, no more.
 static void near_plane_cuts_exactly(void **state) {
     (void)state;
@@ -329,6 +429,8 @@ int main(void) {
         cmocka_unit_test(nearer_wins_and_the_first_of_equals_stays),
         cmocka_unit_test(varyings_follow_the_perspective),
         cmocka_unit_test(near_plane_cuts_exactly),
+        cmocka_unit_test(a_region_spares_the_other_blocks),
+        cmocka_unit_test(a_pass_samples_the_target_of_a_pass_before),
         cmocka_unit_test(impossible_vertices_draw_nothing),
         cmocka_unit_test(meshes_of_bad_numbers_are_refused),
     };

@@ -31,6 +31,7 @@ static Result draw(const DipTestScene *scene, const DipScene *fast, int threads,
     def.pool = pool;
     def.width = size[0];
     def.height = size[1];
+    def.reflection = scene->reflection;
     assert_true(dip_quality_parse(text, &def.quality, NULL));
     DipRenderer *renderer = dip_renderer_create(&def, NULL);
     assert_non_null(renderer);

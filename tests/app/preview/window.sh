@@ -33,8 +33,8 @@ await() {
 # Both panes without the strips above and below, as left.png and right.png.
 shoot() {
     import -window root screen.png
-    convert screen.png -crop 640x370+0+60 +repage left.png
-    convert screen.png -crop 640x370+642+60 +repage right.png
+    convert screen.png -crop 640x360+0+70 +repage left.png
+    convert screen.png -crop 640x360+642+70 +repage right.png
 }
 
 differing() { # pixels that differ between two pictures

@@ -1,0 +1,43 @@
+// The plan of a frame: which passes and which parts of their targets it needs, which effects run in
+// them, and why not the rest. Made before anything is drawn, from the scene, the views, the
+// settings and what is coarsely in view.
+//
+// Every row of DIP_EFFECT_LIST (renderer/frame.h) has one function in plan.c that decides it; an
+// effect that the plan skips could not change the picture.
+#ifndef DIP_RENDERER_PLAN_PLAN_H
+#define DIP_RENDERER_PLAN_PLAN_H
+
+#include "renderer/frame.h"
+#include "renderer/geometry/view.h"
+#include "renderer/pipeline.h"
+#include "renderer/quality.h"
+#include "renderer/reflection.h"
+#include "renderer/scene.h"
+
+#include <stdbool.h>
+
+typedef struct DipPlanInput {
+    const DipScene *scene;
+    const DipView *view;
+    const DipView *mirrored; // as water shows it
+    const DipReflectionDef *reflection;
+    const DipQuality *quality;
+    bool plain_surfaces;
+    bool force_all; // every effect that the scene has, everywhere: the same picture
+} DipPlanInput;
+
+typedef struct DipFramePlan {
+    DipEffects effects;
+    // Water shows the mirrored scene: the eye is above the plane. Does not depend on what is in
+    // view.
+    bool water_reflects;
+    DipRegion mirrored_region; // what the mirrored pass draws of its target, if it runs
+    int samples_per_pass;      // of alpha-clipped surfaces
+} DipFramePlan;
+
+DipFramePlan dip_plan_frame(const DipPlanInput *input);
+
+// After the frame is drawn: says of what was in view, but wholly covered, that it did not run.
+void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, DipEffects *effects);
+
+#endif
