@@ -174,6 +174,32 @@ static DipConfigSize pane_size(const DipSession *session, const DipOptions *opti
                              : session->config.res;
 }
 
+static DipQuality pane_quality(const DipSession *session, const DipOptions *options, int pane) {
+    DipQuality quality;
+    if (pane == DIP_PANE_CURRENT) {
+        quality = options->has_current ? options->current : session->config.current;
+    } else {
+        quality = options->has_requested ? options->requested : session->config.requested;
+    }
+    const bool given = pane == DIP_PANE_CURRENT ? options->has_current : options->has_requested;
+    if (session->config.mipdebug && !given) {
+        quality.step[DIP_SETTING_MIPDEBUG] = 1;
+    }
+    return quality;
+}
+
+// What the panes' settings need is made before the first frame rather than in it.
+static bool prepare_scene(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    bool compresses = false;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const DipQuality quality = pane_quality(session, options, p);
+        compresses |= dip_quality_compresses(&quality);
+    }
+    DipError err;
+    return !compresses || dip_scene_compress_textures(session->scene, session->pool, &err) ||
+           add_fault(faults, &err);
+}
+
 // --- camera paths ------------------------------------------------------------------------------
 
 // Takes a path over and plays it in a slot.
@@ -312,20 +338,6 @@ static bool load_paths(DipSession *session, const DipOptions *options, DipErrorL
 
 // --- renderers ---------------------------------------------------------------------------------
 
-static DipQuality pane_quality(const DipSession *session, const DipOptions *options, int pane) {
-    DipQuality quality;
-    if (pane == DIP_PANE_CURRENT) {
-        quality = options->has_current ? options->current : session->config.current;
-    } else {
-        quality = options->has_requested ? options->requested : session->config.requested;
-    }
-    const bool given = pane == DIP_PANE_CURRENT ? options->has_current : options->has_requested;
-    if (session->config.mipdebug && !given) {
-        quality.step[DIP_SETTING_MIPDEBUG] = 1;
-    }
-    return quality;
-}
-
 static bool make_renderers(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     DipError err;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
@@ -381,8 +393,11 @@ bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorLi
     opened = opened && load_what_is_drawn(session, options, faults);
     if (opened && options->command != DIP_COMMAND_BENCH) {
         const int64_t begin_ns = dip_clock_ns();
-        opened = make_renderers(session, options, faults);
-        session->times.renderers_ms = dip_start_times_since_ms(begin_ns);
+        opened = prepare_scene(session, options, faults);
+        const int64_t prepared_ns = dip_clock_ns();
+        opened = opened && make_renderers(session, options, faults);
+        session->times.textures_ms += 1e-6 * (double)(prepared_ns - begin_ns);
+        session->times.renderers_ms = dip_start_times_since_ms(prepared_ns);
     }
     session->times.opened_ns = dip_clock_ns();
     if (!opened) {

@@ -174,3 +174,7 @@ int dip_quality_samples_per_pass(const DipQuality *quality) {
     return quality->step[DIP_SETTING_AAA] ? quality->step[DIP_SETTING_ASD] + 1
                                           : dip_quality_sample_count(quality);
 }
+
+bool dip_quality_compresses(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_OPT] != DIP_OPT_OFF && !quality->step[DIP_SETTING_MIPDEBUG];
+}

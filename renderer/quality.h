@@ -28,8 +28,8 @@
       "texture probes along the long axis of a pixel's footprint, at most this many")              \
     X(aaf, AAF, "Advanced AF", 0, ("off", "on"), 0x3,                                              \
       "footprints from the exact ellipse, the same at every angle")                                \
-    X(opt, OPT, "Texture optimisation", 0, ("off", "standard", "advanced"), 0x1,                   \
-      "compressed textures and cheaper filtering")                                                 \
+    X(opt, OPT, "Texture optimisation", 0, ("off", "standard", "advanced"), 0x7,                   \
+      "standard: BC1 colour textures; advanced: also cheaper filtering")                           \
     X(miplod, MIPLOD, "Mip level of detail", 3,                                                    \
       ("high-performance", "performance", "quality", "high-quality"), 0xf,                         \
       "bias towards smaller mip levels; high-performance also drops the largest levels")           \
@@ -47,6 +47,7 @@ typedef enum DipSetting {
 enum { DIP_MAX_STEPS = 5 };
 
 // Step indices that code compares with.
+enum { DIP_OPT_OFF, DIP_OPT_STANDARD, DIP_OPT_ADVANCED };
 enum {
     DIP_MIPLOD_HIGH_PERFORMANCE,
     DIP_MIPLOD_PERFORMANCE,
@@ -88,6 +89,9 @@ bool dip_quality_check(const DipQuality *quality, DipError *err);
 
 int dip_quality_sample_count(const DipQuality *quality);   // 1, 2, 4, 6 or 8
 int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (trilinear), 2, 4, 8 or 16
+
+// Whether colour textures are shown compressed. Mip colours hide them.
+bool dip_quality_compresses(const DipQuality *quality);
 
 // Of alpha-clipped surfaces: all samples, unless adaptive AA makes passes.
 int dip_quality_samples_per_pass(const DipQuality *quality);

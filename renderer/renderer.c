@@ -260,6 +260,7 @@ static DipSampler colour_sampler(const DipRenderer *renderer, const DipTexture *
         .max_anisotropy = dip_quality_max_anisotropy(&renderer->quality),
         .advanced = renderer->quality.step[DIP_SETTING_AAF] != 0,
         .bias_lod8 = bias_lod8[miplod],
+        .cheap = renderer->quality.step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
     };
     if (miplod == DIP_MIPLOD_HIGH_PERFORMANCE) {
         sampler.min_lod8 = texture->width >= 1024 || texture->height >= 1024 ? 512 : 256;
@@ -279,12 +280,20 @@ static int32_t pass_bias_lod8(const DipQuality *quality) {
     return bias_lod8[dip_quality_sample_count(quality) / dip_quality_samples_per_pass(quality)];
 }
 
+static const DipTexture *colour_texture(const DipRenderer *renderer, const DipScene *scene,
+                                        const DipSceneMaterial *material) {
+    const bool compressed =
+        dip_quality_compresses(&renderer->quality) && material->surface != DIP_SURFACE_SKY;
+    return compressed ? dip_late_texture(scene->late, material->colour_texture)
+                      : scene->textures[material->colour_texture];
+}
+
 static void set_samplers(DipRenderer *renderer, const DipScene *scene) {
     for (int i = 0; i < scene->material_count; i++) {
         const DipSceneMaterial *material = &scene->materials[i];
         if (material->colour_texture != DIP_NO_TEXTURE) {
             DipSampler *sampler = &renderer->samplers[i][DIP_SURFACE_SAMPLER_COLOUR];
-            *sampler = colour_sampler(renderer, scene->textures[material->colour_texture]);
+            *sampler = colour_sampler(renderer, colour_texture(renderer, scene, material));
             if (material->surface == DIP_SURFACE_CLIPPED) {
                 sampler->bias_lod8 += pass_bias_lod8(&renderer->quality);
             }
@@ -432,7 +441,9 @@ static bool check_pose(const DipPose *pose, DipError *err) {
 
 bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                        int64_t time_ns, DipFrame *frame, DipError *err) {
-    if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err)) {
+    if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err) ||
+        (dip_quality_compresses(&renderer->quality) &&
+         !dip_scene_compress_textures(scene, renderer->pool, err))) {
         return false;
     }
     double world_to_clip[16];

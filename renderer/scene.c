@@ -290,6 +290,16 @@ static void place_objects(const DipSceneDef *def, DipScene *scene) {
     }
 }
 
+// Colour textures alone: BC1 would dent normals, displace clouds and put steps into a light map.
+static void mark_compressible(const DipSceneDef *def, DipScene *scene) {
+    for (int i = 0; i < def->material_count; i++) {
+        const DipMaterialDef *material = &def->materials[i];
+        if (material->colour_texture != DIP_NO_TEXTURE && material->surface != DIP_SURFACE_SKY) {
+            scene->compressible[material->colour_texture] = true;
+        }
+    }
+}
+
 static void copy_materials(const DipSceneDef *def, DipScene *scene) {
     for (int i = 0; i < def->material_count; i++) {
         const DipMaterialDef *material = &def->materials[i];
@@ -320,10 +330,13 @@ static DipScene *allocate_scene(const DipSceneDef *def) {
     scene->sky = def->sky;
     memcpy(scene->background_lin, def->background_lin, sizeof scene->background_lin);
     scene->textures = calloc((size_t)def->texture_count + 1, sizeof *scene->textures);
+    scene->compressible = calloc((size_t)def->texture_count + 1, sizeof *scene->compressible);
+    scene->late = dip_late_textures_create();
     scene->materials = calloc((size_t)def->material_count + 1, sizeof *scene->materials);
     scene->meshes = calloc((size_t)def->mesh_count + 1, sizeof *scene->meshes);
     scene->objects = calloc((size_t)def->object_count + 1, sizeof *scene->objects);
-    if (!scene->textures || !scene->materials || !scene->meshes || !scene->objects) {
+    if (!scene->textures || !scene->compressible || !scene->late || !scene->materials ||
+        !scene->meshes || !scene->objects) {
         dip_scene_destroy(&scene);
     }
     return scene;
@@ -339,6 +352,7 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
         return NULL;
     }
     copy_materials(def, scene);
+    mark_compressible(def, scene);
     const int64_t begin_ns = dip_clock_ns();
     bool made = create_textures(def, scene, pool, err);
     const int64_t textured_ns = dip_clock_ns();
@@ -360,6 +374,7 @@ void dip_scene_destroy(DipScene **scene_pointer) {
     if (!scene) {
         return;
     }
+    dip_late_textures_destroy(&scene->late);
     for (int i = 0; scene->textures && i < scene->texture_count; i++) {
         dip_texture_destroy(&scene->textures[i]);
     }
@@ -367,6 +382,7 @@ void dip_scene_destroy(DipScene **scene_pointer) {
         dip_mesh_destroy(&scene->meshes[i].mesh);
     }
     free(scene->textures);
+    free(scene->compressible);
     free(scene->materials);
     free(scene->meshes);
     free(scene->objects);
@@ -387,13 +403,21 @@ uint64_t dip_scene_triangle_count(const DipScene *scene) {
     return scene->triangle_count;
 }
 
+bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError *err) {
+    return dip_late_textures_make(scene->late, scene->textures, scene->compressible,
+                                  scene->texture_count, pool, err);
+}
+
+static uint64_t texture_bytes(const DipTexture *texture) {
+    const bool own_alpha = texture && texture->alpha && !texture->shares_alpha;
+    return texture ? texture->texel_count * (sizeof *texture->texels + own_alpha) : 0;
+}
+
 uint64_t dip_scene_texture_bytes(const DipScene *scene) {
     uint64_t bytes = 0;
     for (int i = 0; i < scene->texture_count; i++) {
-        const DipTexture *texture = scene->textures[i];
-        if (texture) {
-            bytes += texture->texel_count * (sizeof *texture->texels + (texture->alpha ? 1 : 0));
-        }
+        bytes += texture_bytes(scene->textures[i]);
+        bytes += texture_bytes(dip_late_texture(scene->late, i));
     }
     return bytes;
 }

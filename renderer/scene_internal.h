@@ -2,6 +2,7 @@
 #ifndef DIP_RENDERER_SCENE_INTERNAL_H
 #define DIP_RENDERER_SCENE_INTERNAL_H
 
+#include "renderer/late_textures.h"
 #include "renderer/mesh.h"
 #include "renderer/scene.h"
 #include "renderer/shading/surface.h"
@@ -38,6 +39,8 @@ struct DipScene {
     int mesh_count;
     int object_count;
     DipTexture **textures; // NULL where nothing that is drawn uses it
+    bool *compressible;    // per texture: a colour texture of what is no sky
+    DipLateTextures *late; // the one part that may grow after
     DipSceneMaterial *materials;
     DipSceneMesh *meshes;
     DipSceneObject *objects;
