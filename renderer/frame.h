@@ -23,7 +23,9 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(texture_probes, "filtered texture reads, trilinear or bilinear")                             \
     X(texels_fetched, "texels read by these")                                                      \
     X(fragments_normal_mapped, "fragments whose normal came from a map")                           \
-    X(fragments_sky, "fragments of sky with moving clouds")
+    X(fragments_sky, "fragments of sky with moving clouds")                                        \
+    X(meshes, "meshes that the scene's objects are drawn from, in view or not")                    \
+    X(geometry_bytes, "memory of these: vertices, indices, bounds")
 
 typedef struct DipCounters {
 #define DIP_COUNTER_FIELD(name, text) uint64_t name;

@@ -3,6 +3,7 @@
 
 #include "renderer/base/assert.h"
 #include "renderer/base/trig.h"
+#include "renderer/instancing.h"
 #include "renderer/pipeline.h"
 #include "renderer/raster/kernels.h"
 #include "renderer/scene_internal.h"
@@ -35,6 +36,7 @@ struct DipRenderer {
     DipDraw *draws;                                    // per object
     DipSurfaceUniforms *uniforms;                      // per object
     DipSampler (*samplers)[DIP_SURFACE_SAMPLER_COUNT]; // per material
+    DipExpanded *expanded;                             // gi=off; else NULL
 };
 
 DipRendererDef dip_renderer_default_def(void) {
@@ -98,6 +100,7 @@ void dip_renderer_destroy(DipRenderer **renderer_pointer) {
     free(renderer->draws);
     free(renderer->uniforms);
     free(renderer->samplers);
+    dip_expanded_destroy(&renderer->expanded);
     free(renderer);
     *renderer_pointer = NULL;
 }
@@ -348,7 +351,7 @@ static void set_draw(DipRenderer *renderer, const DipScene *scene, int index,
     const bool clipped =
         material->surface == DIP_SURFACE_CLIPPED && uniforms->colour_slot != DIP_NO_SLOT;
     renderer->draws[index] = (DipDraw){
-        .mesh = mesh->mesh,
+        .mesh = renderer->expanded ? dip_expanded_mesh(renderer->expanded, index) : mesh->mesh,
         .vertex_shader = kernels->dip_kernel_surface_vertex,
         .fragment_shader = kernels->dip_kernel_surface_fragment,
         .clip_shader = clipped ? kernels->dip_kernel_surface_clip : NULL,
@@ -375,6 +378,7 @@ static bool adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *
     free(renderer->draws);
     free(renderer->uniforms);
     free(renderer->samplers);
+    dip_expanded_destroy(&renderer->expanded);
     const size_t objects = (size_t)scene->object_count + 1;
     renderer->draws = calloc(objects, sizeof *renderer->draws);
     renderer->uniforms = calloc(objects, sizeof *renderer->uniforms);
@@ -384,6 +388,22 @@ static bool adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *
                              scene->object_count);
     }
     renderer->scene_serial = scene->serial;
+    return true;
+}
+
+// Makes what the settings need of the scene beside it, or gives it back.
+static bool follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+    const DipQuality *quality = &renderer->quality;
+    if (dip_quality_compresses(quality) &&
+        !dip_scene_compress_textures(scene, renderer->pool, err)) {
+        return false;
+    }
+    if (quality->step[DIP_SETTING_GI]) {
+        dip_expanded_destroy(&renderer->expanded);
+    } else if (!renderer->expanded) {
+        renderer->expanded = dip_expanded_create(scene, renderer->pool, err);
+        return renderer->expanded != NULL;
+    }
     return true;
 }
 
@@ -442,8 +462,7 @@ static bool check_pose(const DipPose *pose, DipError *err) {
 bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                        int64_t time_ns, DipFrame *frame, DipError *err) {
     if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err) ||
-        (dip_quality_compresses(&renderer->quality) &&
-         !dip_scene_compress_textures(scene, renderer->pool, err))) {
+        !follow_settings(renderer, scene, err)) {
         return false;
     }
     double world_to_clip[16];
@@ -475,6 +494,7 @@ bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPo
     if (!dip_pipeline_draw(renderer->pipeline, &pass, &frame->counters, &frame->stages, err)) {
         return false;
     }
+    dip_count_geometry(scene, renderer->expanded, &frame->counters);
     frame->effects = effects_of(scene, &frame->counters);
     frame->effects.adaptive_aa = adaptive_aa_of(&renderer->quality, frame->effects.alpha_clip);
     return true;

@@ -2,6 +2,7 @@
 #include "renderer/scene_internal.h"
 
 #include "renderer/base/clock.h"
+#include "renderer/geometry/mesh.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -276,11 +277,21 @@ static bool bound_objects(DipScene *scene, bool sky) {
     return any;
 }
 
-static void place_objects(const DipSceneDef *def, DipScene *scene) {
+static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err) {
+    bool *placed = calloc((size_t)def->mesh_count + 1, sizeof *placed);
+    if (!placed) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "objects", "out of memory");
+    }
     for (int i = 0; i < def->object_count; i++) {
         DipSceneObject *object = &scene->objects[i];
         object->mesh = def->objects[i].mesh;
         memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
+        object->first_of_mesh = !placed[object->mesh];
+        if (object->first_of_mesh) {
+            placed[object->mesh] = true;
+            scene->drawn_mesh_count++;
+            scene->geometry_bytes += dip_mesh_bytes(scene->meshes[object->mesh].mesh);
+        }
         scene->triangle_count += dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
     }
     if (!bound_objects(scene, false) && !bound_objects(scene, true)) {
@@ -288,6 +299,8 @@ static void place_objects(const DipSceneDef *def, DipScene *scene) {
             scene->min_world[axis] = scene->max_world[axis] = 0.0f;
         }
     }
+    free(placed);
+    return true;
 }
 
 // Colour textures alone: BC1 would dent normals, displace clouds and put steps into a light map.
@@ -359,11 +372,10 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
     for (int i = 0; made && i < def->mesh_count; i++) {
         made = create_mesh(def, i, scene, err);
     }
-    if (!made) {
+    if (!made || !place_objects(def, scene, err)) {
         dip_scene_destroy(&scene);
         return NULL;
     }
-    place_objects(def, scene);
     scene->times = (DipSceneTimes){1e-6 * (double)(textured_ns - begin_ns),
                                    1e-6 * (double)(dip_clock_ns() - textured_ns)};
     return scene;

@@ -22,6 +22,7 @@ typedef struct DipSceneMesh {
 typedef struct DipSceneObject {
     int mesh;
     float transform[12];
+    bool first_of_mesh; // no object before it uses its mesh
 } DipSceneObject;
 
 typedef struct DipSceneMaterial {
@@ -49,6 +50,8 @@ struct DipScene {
     float min_world[3];
     float max_world[3];
     uint64_t triangle_count;
+    int drawn_mesh_count;    // those that some object uses
+    uint64_t geometry_bytes; // likewise
     bool has_light_map;
     bool has_clipped;
     bool has_normal_map; // some mesh is normal-mapped

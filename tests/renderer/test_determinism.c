@@ -75,6 +75,8 @@ static void list_settings(Stage *stage) {
                                        "aa=8,aaa=on",
                                        "aa=8,aaa=on,asd=2,af=16",
                                        "aa=8,taa=on,aaa=on,asd=4",
+                                       "gi=off",
+                                       "gi=off,aa=4,af=16,opt=advanced",
                                        "opt=standard",
                                        "opt=standard,aa=4,af=16",
                                        "opt=advanced",
