@@ -126,10 +126,22 @@ static DipSkyDef sky_of(const DipConfig *config) {
     return sky;
 }
 
+static bool has_sky(const DipSceneDef *def) {
+    bool found = false;
+    for (int i = 0; i < def->object_count; i++) {
+        const int material = def->meshes[def->objects[i].mesh].material;
+        found |= def->materials[material].surface == DIP_SURFACE_SKY;
+    }
+    return found;
+}
+
 static void set_surroundings(const DipSession *session, const DipOptions *options,
                              DipSceneDef *def) {
-    if (options->model_count) {
-        return; // a model of the user's own brings its own
+    if (options->model_count) { // a model of the user's own brings its own; beside a sky is haze
+        if (has_sky(def)) {
+            memcpy(def->background_lin, def->sky.horizon_lin, sizeof def->background_lin);
+        }
+        return;
     }
     set_colour(&session->config.background, 1.0, def->background_lin);
     def->near_m = (float)session->config.near_m;
