@@ -155,8 +155,7 @@ VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
     const Vi lod8 = vi_from_float(vf_floor(lambda * 256.0f + 0.5f)) + sampler->bias_lod8;
     const int32_t last = (sampler->texture->level_count - 1) * 256;
     const int32_t min = sampler->min_lod8 < last ? sampler->min_lod8 : last;
-    const Vi clamped = vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
-    return sampler->cheap ? narrow_blend(clamped) : clamped;
+    return vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
 }
 
 // The probes of an anisotropic footprint, relative to its middle, texture coordinates.
@@ -169,14 +168,15 @@ typedef struct Probes {
 
 // Probes of equal weight at (k + 1/2) / N - 1/2 of the major axis, but none closer than a texel of
 // the finest level that may be read: more would read the same texels again.
-VEC_INLINE Probes place_probes(const DipSampler *sampler, const Axis *axis) {
+// halve: 1: half of them, rounded up; 0: all.
+VEC_INLINE Probes place_probes(const DipSampler *sampler, const Axis *axis, int halve) {
     const int last = sampler->texture->level_count - 1;
     const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
     const float finest = 1.0f / (float)(1 << min);
     const Vf texels2 = axis->length2 * (finest * finest);
     const Vf ratio2 = axis->length2 / vf_max(axis->minor2, vf_splat(MIN_LENGTH * MIN_LENGTH));
     const Vi full = probe_count(vf_sqrt(vf_max(vf_min(ratio2, texels2), vf_splat(1.0f))));
-    const Vi count = sampler->cheap ? (full + 1) >> 1 : full;
+    const Vi count = (full + halve) >> halve;
     const Vf inverse = inverse_of(count);
     const Vf line_u = axis->u * (1.0f / (float)sampler->texture->width);
     const Vf line_v = axis->v * (1.0f / (float)sampler->texture->height);
