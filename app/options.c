@@ -474,11 +474,8 @@ static void print_settings(FILE *out) {
         const DipSettingInfo *info = dip_setting_info((DipSetting)s);
         char steps[128] = "";
         for (int i = 0; i < info->step_count; i++) {
-            const bool available = info->available_mask >> i & 1;
-            strcat(strcat(strcat(steps, i ? "|" : ""), info->steps[i]), i == info->default_step
-                                                                            ? "*"
-                                                                        : available ? ""
-                                                                                    : "(later)");
+            strcat(strcat(strcat(steps, i ? "|" : ""), info->steps[i]),
+                   i == info->default_step ? "*" : "");
         }
         fprintf(out, "  %-8s %s\n           %s\n", info->key, steps, info->text);
     }

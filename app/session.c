@@ -126,10 +126,22 @@ static DipSkyDef sky_of(const DipConfig *config) {
     return sky;
 }
 
+static bool has_sky(const DipSceneDef *def) {
+    bool found = false;
+    for (int i = 0; i < def->object_count; i++) {
+        const int material = def->meshes[def->objects[i].mesh].material;
+        found |= def->materials[material].surface == DIP_SURFACE_SKY;
+    }
+    return found;
+}
+
 static void set_surroundings(const DipSession *session, const DipOptions *options,
                              DipSceneDef *def) {
-    if (options->model_count) {
-        return; // a model of the user's own brings its own
+    if (options->model_count) { // a model of the user's own brings its own; beside a sky is haze
+        if (has_sky(def)) {
+            memcpy(def->background_lin, def->sky.horizon_lin, sizeof def->background_lin);
+        }
+        return;
     }
     set_colour(&session->config.background, 1.0, def->background_lin);
     def->near_m = (float)session->config.near_m;
@@ -172,6 +184,32 @@ static bool load_scene(DipSession *session, const DipOptions *options, DipErrorL
 static DipConfigSize pane_size(const DipSession *session, const DipOptions *options) {
     return options->has_size ? (DipConfigSize){options->width, options->height}
                              : session->config.res;
+}
+
+static DipQuality pane_quality(const DipSession *session, const DipOptions *options, int pane) {
+    DipQuality quality;
+    if (pane == DIP_PANE_CURRENT) {
+        quality = options->has_current ? options->current : session->config.current;
+    } else {
+        quality = options->has_requested ? options->requested : session->config.requested;
+    }
+    const bool given = pane == DIP_PANE_CURRENT ? options->has_current : options->has_requested;
+    if (session->config.mipdebug && !given) {
+        quality.step[DIP_SETTING_MIPDEBUG] = 1;
+    }
+    return quality;
+}
+
+// What the panes' settings need is made before the first frame rather than in it.
+static bool prepare_scene(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    bool compresses = false;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const DipQuality quality = pane_quality(session, options, p);
+        compresses |= dip_quality_compresses(&quality);
+    }
+    DipError err;
+    return !compresses || dip_scene_compress_textures(session->scene, session->pool, &err) ||
+           add_fault(faults, &err);
 }
 
 // --- camera paths ------------------------------------------------------------------------------
@@ -312,20 +350,6 @@ static bool load_paths(DipSession *session, const DipOptions *options, DipErrorL
 
 // --- renderers ---------------------------------------------------------------------------------
 
-static DipQuality pane_quality(const DipSession *session, const DipOptions *options, int pane) {
-    DipQuality quality;
-    if (pane == DIP_PANE_CURRENT) {
-        quality = options->has_current ? options->current : session->config.current;
-    } else {
-        quality = options->has_requested ? options->requested : session->config.requested;
-    }
-    const bool given = pane == DIP_PANE_CURRENT ? options->has_current : options->has_requested;
-    if (session->config.mipdebug && !given) {
-        quality.step[DIP_SETTING_MIPDEBUG] = 1;
-    }
-    return quality;
-}
-
 static void set_reflection(DipSession *session, const DipOptions *options) {
     const DipConfig *config = &session->config;
     session->force_all_effects = options->force_all_effects;
@@ -401,8 +425,11 @@ bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorLi
     }
     if (opened && options->command != DIP_COMMAND_BENCH) {
         const int64_t begin_ns = dip_clock_ns();
-        opened = make_renderers(session, options, faults);
-        session->times.renderers_ms = dip_start_times_since_ms(begin_ns);
+        opened = prepare_scene(session, options, faults);
+        const int64_t prepared_ns = dip_clock_ns();
+        opened = opened && make_renderers(session, options, faults);
+        session->times.textures_ms += 1e-6 * (double)(prepared_ns - begin_ns);
+        session->times.renderers_ms = dip_start_times_since_ms(prepared_ns);
     }
     session->times.opened_ns = dip_clock_ns();
     if (!opened) {

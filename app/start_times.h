@@ -10,7 +10,7 @@
     X(ini, "reading the ini, starting the threads")                                                \
     X(import, "model files to meshes and materials")                                               \
     X(pictures, "reading and decoding pictures")                                                   \
-    X(textures, "mip chains")                                                                      \
+    X(textures, "mip chains, and compressed ones where a pane shows them")                         \
     X(meshes, "meshes to chunks")                                                                  \
     X(paths, "camera paths")                                                                       \
     X(renderers, "both panes' renderers")                                                          \

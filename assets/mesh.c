@@ -158,35 +158,30 @@ static uint32_t join_vertices(const VertexArrays *arrays, uint32_t count, uint32
     return kept;
 }
 
-// A mirroring transform turns the winding round; reversing it here turns it back.
-static uint32_t *pack_indices(DipModel *model, const struct aiMesh *mesh, const uint32_t *remap,
-                              bool mirrored) {
+static uint32_t *pack_indices(DipModel *model, const struct aiMesh *mesh, const uint32_t *remap) {
     uint32_t *to = dip_model_alloc(model, mesh->mNumFaces, 3 * sizeof *to);
     const bool by_corner = vertex_source(mesh).by_corner;
     for (unsigned f = 0; to && f < mesh->mNumFaces; ++f) {
-        const unsigned corners[3] = {3 * f, 3 * f + 1, 3 * f + 2};
-        const unsigned *from = by_corner ? corners : mesh->mFaces[f].mIndices;
-        to[3 * (size_t)f + 0] = remap[from[0]];
-        to[3 * (size_t)f + 1] = remap[from[mirrored ? 2 : 1]];
-        to[3 * (size_t)f + 2] = remap[from[mirrored ? 1 : 2]];
+        for (unsigned k = 0; k < 3; ++k) {
+            to[3 * (size_t)f + k] = remap[by_corner ? 3 * f + k : mesh->mFaces[f].mIndices[k]];
+        }
     }
     return to;
 }
 
-static int find_mesh(const DipModel *model, const DipMeshKey *key, bool any_mirroring) {
+static int find_mesh(const DipModel *model, const DipMeshKey *key) {
     for (int i = 0; i < model->def.mesh_count; ++i) {
         const DipMeshKey *other = &model->mesh_keys[i];
         if (other->file == key->file && other->source == key->source &&
-            other->material == key->material &&
-            (any_mirroring || other->mirrored == key->mirrored)) {
+            other->material == key->material) {
             return i;
         }
     }
     return DIP_NOT_FOUND;
 }
 
-static bool fill_vertices(DipModel *model, const struct aiMesh *mesh, DipMeshKey *key,
-                          DipMeshDef *def) {
+static bool fill_arrays(DipModel *model, const struct aiMesh *mesh, const DipMeshKey *key,
+                        DipMeshDef *def) {
     const DipMaterialPlan *plan = &model->plans[key->material];
     const bool linear = model->files[key->file].linear_colours;
     const int uv0 = plan->colour.picture >= 0    ? plan->colour.uv_channel
@@ -210,8 +205,8 @@ static bool fill_vertices(DipModel *model, const struct aiMesh *mesh, DipMeshKey
     def->uv0 = uvs0;
     def->uv1 = uvs1;
     def->colours_lin = colours;
-    key->remap = remap;
-    return def->vertex_count > 0;
+    def->indices = pack_indices(model, mesh, remap);
+    return def->vertex_count > 0 && def->indices;
 }
 
 static bool add_room(DipModel *model) {
@@ -230,10 +225,9 @@ static bool add_room(DipModel *model) {
     return true;
 }
 
-int dip_model_mesh(DipModel *model, int file, unsigned source, int material, bool mirrored,
-                   DipError *err) {
-    DipMeshKey key = {file, source, material, mirrored, NULL};
-    const int known = find_mesh(model, &key, false);
+int dip_model_mesh(DipModel *model, int file, unsigned source, int material, DipError *err) {
+    const DipMeshKey key = {file, source, material};
+    const int known = find_mesh(model, &key);
     if (known >= 0) {
         return known;
     }
@@ -244,20 +238,12 @@ int dip_model_mesh(DipModel *model, int file, unsigned source, int material, boo
                       mesh->mNumFaces);
         return DIP_NOT_FOUND;
     }
-    DipMeshDef def = {0};
-    const int twin = find_mesh(model, &key, true);
-    bool ok = add_room(model);
-    if (twin >= 0) {
-        def = model->meshes[twin];
-        key.remap = model->mesh_keys[twin].remap;
-    } else {
-        def.name = dip_model_copy_text(model, mesh->mName.data);
-        def.index_count = 3 * mesh->mNumFaces;
-        def.material = material;
-        ok = ok && def.name && fill_vertices(model, mesh, &key, &def);
-    }
-    ok = ok && (def.indices = pack_indices(model, mesh, key.remap, mirrored)) != NULL;
-    if (!ok) {
+    DipMeshDef def = {
+        .name = dip_model_copy_text(model, mesh->mName.data),
+        .index_count = 3 * mesh->mNumFaces,
+        .material = material,
+    };
+    if (!def.name || !add_room(model) || !fill_arrays(model, mesh, &key, &def)) {
         dip_model_out_of_memory(err, path);
         return DIP_NOT_FOUND;
     }

@@ -141,11 +141,6 @@ static void multiply(const double a[12], const struct aiMatrix4x4 *b, double to[
     }
 }
 
-static double determinant(const double m[12]) {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
-           m[2] * (m[4] * m[9] - m[5] * m[8]);
-}
-
 static bool add_object(DipModel *model, int file, const struct aiNode *node, unsigned source,
                        const NodeState *state, DipError *err) {
     const struct aiMesh *mesh = model->files[file].scene->mMeshes[source];
@@ -165,8 +160,7 @@ static bool add_object(DipModel *model, int file, const struct aiNode *node, uns
         return dip_error_set(err, DIP_ERROR_RANGE, path, 0, NULL, "model has more than %d objects",
                              MAX_OBJECTS);
     }
-    const bool mirrored = determinant(state->world) < 0.0;
-    DipObjectDef object = {.mesh = dip_model_mesh(model, file, source, material, mirrored, err)};
+    DipObjectDef object = {.mesh = dip_model_mesh(model, file, source, material, err)};
     if (object.mesh < 0) {
         return false;
     }

@@ -78,9 +78,6 @@ typedef struct DipMeshKey {
     int file;
     unsigned source;
     int material;
-    bool mirrored;
-    const uint32_t
-        *remap; // the file's vertex (of meshes without normals: corner) to the joined one
 } DipMeshKey;
 
 typedef struct DipModelFile {
@@ -136,8 +133,7 @@ bool dip_model_precheck(const char *path, DipError *err);
 bool dip_model_import(DipModel *model, DipModelFile *file, DipError *err);
 
 // mesh.c: the index of a mesh for one placement; DIP_NOT_FOUND when it fails.
-int dip_model_mesh(DipModel *model, int file, unsigned source, int material, bool mirrored,
-                   DipError *err);
+int dip_model_mesh(DipModel *model, int file, unsigned source, int material, DipError *err);
 
 // mesh.c: n to length 1; one that is zero or not finite (of a face without area) points up.
 void dip_model_unit_normal(const double n[3], float to[3]);

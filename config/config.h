@@ -113,9 +113,8 @@ typedef struct DipConfig {
 // view.
 //
 // Codes: IO, FORMAT (a line without a value, a section, a NUL byte), OVERSIZED, UNKNOWN, TYPE,
-// RANGE, MISSING, CONFLICT (two fields of view; as a warning: a repeated key), UNSUPPORTED (a
-// setting not in this version), MEMORY. Reads no other file: whether the named ones exist is for
-// who opens them, see dip_config_file_fault.
+// RANGE, MISSING, CONFLICT (two fields of view; as a warning: a repeated key), MEMORY. Reads no
+// other file: whether the named ones exist is for who opens them, see dip_config_file_fault.
 bool dip_config_load(const char *file, DipConfig *config, DipErrorList *faults);
 
 // Accepts a zeroed config; zeroes it.

@@ -37,6 +37,7 @@ static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *sh
         .max_anisotropy = dip_quality_max_anisotropy(quality),
         .advanced = quality->step[DIP_SETTING_AAF] != 0,
         .bias_lod8 = bias_lod8[miplod],
+        .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
     };
     if (miplod == DIP_MIPLOD_HIGH_PERFORMANCE) {
         sampler.min_lod8 = texture->width >= 1024 || texture->height >= 1024 ? 512 : 256;
@@ -56,13 +57,20 @@ static int32_t pass_bias_lod8(const DipQuality *quality) {
     return bias_lod8[dip_quality_sample_count(quality) / dip_quality_samples_per_pass(quality)];
 }
 
+static const DipTexture *colour_texture(const DipScene *scene, const DipQuality *quality,
+                                        const DipSceneMaterial *material) {
+    const bool compressed = dip_quality_compresses(quality) && material->surface != DIP_SURFACE_SKY;
+    return compressed ? dip_late_texture(scene->late, material->colour_texture)
+                      : scene->textures[material->colour_texture];
+}
+
 void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const DipTexture *shown,
                       DipMaterialSamplers *samplers) {
     for (int i = 0; i < scene->material_count; i++) {
         const DipSceneMaterial *material = &scene->materials[i];
         if (material->colour_texture != DIP_NO_TEXTURE) {
             DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_COLOUR];
-            *sampler = colour_sampler(quality, shown, scene->textures[material->colour_texture]);
+            *sampler = colour_sampler(quality, shown, colour_texture(scene, quality, material));
             if (material->surface == DIP_SURFACE_CLIPPED) {
                 sampler->bias_lod8 += pass_bias_lod8(quality);
             }
@@ -178,8 +186,9 @@ static DipCull cull_of(const DipSceneMaterial *material, const DipSceneObject *o
     return mirrors(object->transform) != mirrored ? DIP_CULL_FRONT : DIP_CULL_BACK;
 }
 
-static void add_draw(const DipDrawInput *input, const DipDrawView *pass,
-                     const DipSceneObject *object, DipDrawSet *set) {
+static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int index,
+                     DipDrawSet *set) {
+    const DipSceneObject *object = &input->scene->objects[index];
     const DipSceneMesh *mesh = &input->scene->meshes[object->mesh];
     const DipSceneMaterial *material = &input->scene->materials[mesh->material];
     DipDraw *draw = &set->draws[set->count];
@@ -195,7 +204,7 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass,
     const bool clipped =
         material->surface == DIP_SURFACE_CLIPPED && uniforms->colour_slot != DIP_NO_SLOT;
     *draw = (DipDraw){
-        .mesh = mesh->mesh,
+        .mesh = input->expanded ? dip_expanded_mesh(input->expanded, index) : mesh->mesh,
         .vertex_shader = input->kernels->dip_kernel_surface_vertex,
         .fragment_shader = input->kernels->dip_kernel_surface_fragment,
         .clip_shader = clipped ? input->kernels->dip_kernel_surface_clip : NULL,
@@ -223,7 +232,7 @@ void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDraw
         const bool water =
             scene->materials[scene->meshes[object->mesh].material].surface == DIP_SURFACE_WATER;
         if (!(pass->mirrored && water)) {
-            add_draw(input, pass, object, set);
+            add_draw(input, pass, i, set);
         }
     }
 }

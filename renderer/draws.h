@@ -5,6 +5,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/geometry/view.h"
+#include "renderer/instancing.h"
 #include "renderer/pipeline.h"
 #include "renderer/quality.h"
 #include "renderer/raster/kernels.h"
@@ -23,6 +24,7 @@ typedef struct DipDrawInput {
     const DipQuality *quality;
     const DipMaterialSamplers *samplers; // per material
     const DipSkyUniforms *sky;
+    const DipExpanded *expanded; // NULL: objects share the scene's meshes
     bool plain_surfaces;
 } DipDrawInput;
 

@@ -11,8 +11,8 @@
 #define COUNT_OF(...) (sizeof((const char *[]){__VA_ARGS__}) / sizeof(const char *))
 
 static const DipSettingInfo infos[DIP_SETTING_COUNT] = {
-#define DIP_SETTING_INFO(key, NAME, title, def, steps, mask, text)                                 \
-    {#key, title, text, (int)(COUNT_OF steps), def, {STEPS steps}, mask},
+#define DIP_SETTING_INFO(key, NAME, title, def, steps, text)                                       \
+    {#key, title, text, (int)(COUNT_OF steps), def, {STEPS steps}},
     DIP_SETTING_LIST(DIP_SETTING_INFO)
 #undef DIP_SETTING_INFO
 };
@@ -52,14 +52,6 @@ static bool unknown_setting(const char *name, DipError *err) {
                          "no setting of this name, accepted %s", known);
 }
 
-static bool unavailable_step(DipSetting setting, int step, DipError *err) {
-    char accepted[96];
-    list_steps(&infos[setting], infos[setting].available_mask, accepted, sizeof accepted);
-    return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, infos[setting].key,
-                         "'%s' is not in this version, accepted %s", infos[setting].steps[step],
-                         accepted);
-}
-
 // Applies one "key=step".
 static bool parse_assignment(const char *text, DipQuality *quality, unsigned *seen, DipError *err) {
     char key[64];
@@ -83,7 +75,7 @@ static bool parse_assignment(const char *text, DipQuality *quality, unsigned *se
         for (int i = 0; i < infos[s].step_count; i++) {
             if (strcmp(equals + 1, infos[s].steps[i]) == 0) {
                 quality->step[s] = (uint8_t)i;
-                return infos[s].available_mask >> i & 1 || unavailable_step(s, i, err);
+                return true;
             }
         }
         return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, key, "'%s' is no step, accepted %s",
@@ -154,9 +146,6 @@ bool dip_quality_check(const DipQuality *quality, DipError *err) {
                                  "step %d is out of range, accepted 0..%d", step,
                                  infos[s].step_count - 1);
         }
-        if (!(infos[s].available_mask >> step & 1)) {
-            return unavailable_step((DipSetting)s, step, err);
-        }
     }
     return check_passes(quality, err);
 }
@@ -173,4 +162,8 @@ int dip_quality_max_anisotropy(const DipQuality *quality) {
 int dip_quality_samples_per_pass(const DipQuality *quality) {
     return quality->step[DIP_SETTING_AAA] ? quality->step[DIP_SETTING_ASD] + 1
                                           : dip_quality_sample_count(quality);
+}
+
+bool dip_quality_compresses(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_OPT] != DIP_OPT_OFF && !quality->step[DIP_SETTING_MIPDEBUG];
 }

@@ -3,6 +3,7 @@
 
 #include "renderer/draws.h"
 #include "renderer/geometry/view.h"
+#include "renderer/instancing.h"
 #include "renderer/pipeline.h"
 #include "renderer/plan/plan.h"
 #include "renderer/raster/kernels.h"
@@ -45,6 +46,7 @@ struct DipRenderer {
     DipDrawSet set;
     Mirror mirror;
     DipMaterialSamplers *samplers; // per material
+    DipExpanded *expanded;         // gi=off; else NULL
 };
 
 DipRendererDef dip_renderer_default_def(void) {
@@ -129,6 +131,7 @@ static void forget_scene(DipRenderer *renderer) {
     free_mirror(&renderer->mirror);
     free(renderer->samplers);
     renderer->samplers = NULL;
+    dip_expanded_destroy(&renderer->expanded);
 }
 
 void dip_renderer_destroy(DipRenderer **renderer_pointer) {
@@ -215,6 +218,7 @@ static DipDrawInput draw_input(const DipRenderer *renderer, const DipScene *scen
         .quality = &renderer->quality,
         .samplers = (const DipMaterialSamplers *)renderer->samplers,
         .sky = &renderer->sky,
+        .expanded = renderer->expanded,
         .plain_surfaces = renderer->plain_surfaces,
     };
 }
@@ -264,6 +268,22 @@ static bool adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *
         return false;
     }
     renderer->scene_serial = scene->serial;
+    return true;
+}
+
+// Makes what the settings need of the scene beside it, or gives it back.
+static bool follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+    const DipQuality *quality = &renderer->quality;
+    if (dip_quality_compresses(quality) &&
+        !dip_scene_compress_textures(scene, renderer->pool, err)) {
+        return false;
+    }
+    if (quality->step[DIP_SETTING_GI]) {
+        dip_expanded_destroy(&renderer->expanded);
+    } else if (!renderer->expanded) {
+        renderer->expanded = dip_expanded_create(scene, renderer->pool, err);
+        return renderer->expanded != NULL;
+    }
     return true;
 }
 
@@ -361,7 +381,8 @@ static void count_mirror(const Mirror *mirror, bool drawn, DipCounters *counters
 
 bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                        int64_t time_ns, DipFrame *frame, DipError *err) {
-    if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err)) {
+    if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err) ||
+        !follow_settings(renderer, scene, err)) {
         return false;
     }
     const DipView view =
@@ -395,6 +416,7 @@ bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPo
     }
     count_mirror(&renderer->mirror, reflects, &frame->counters);
     count_bytes(scene, &frame->counters);
+    dip_count_geometry(scene, renderer->expanded, &frame->counters);
     dip_plan_settle(&input, &frame->counters, &frame->effects);
     if (reflects && renderer->reflection.show) {
         const DipTarget target = target_of(renderer);

@@ -2,6 +2,7 @@
 #include "renderer/scene_internal.h"
 
 #include "renderer/base/clock.h"
+#include "renderer/geometry/mesh.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -334,11 +335,21 @@ static bool bound_objects(DipScene *scene, bool (*is)(DipSurface)) {
     return any;
 }
 
-static void place_objects(const DipSceneDef *def, DipScene *scene) {
+static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err) {
+    bool *placed = calloc((size_t)def->mesh_count + 1, sizeof *placed);
+    if (!placed) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "objects", "out of memory");
+    }
     for (int i = 0; i < def->object_count; i++) {
         DipSceneObject *object = &scene->objects[i];
         object->mesh = def->objects[i].mesh;
         memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
+        object->first_of_mesh = !placed[object->mesh];
+        if (object->first_of_mesh) {
+            placed[object->mesh] = true;
+            scene->drawn_mesh_count++;
+            scene->geometry_bytes += dip_mesh_bytes(scene->meshes[object->mesh].mesh);
+        }
         scene->triangle_count += dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
     }
     scene->has_water = bound_objects(scene, is_water);
@@ -346,6 +357,18 @@ static void place_objects(const DipSceneDef *def, DipScene *scene) {
     if (!bound_objects(scene, is_not_sky) && !bound_objects(scene, is_sky)) {
         for (int axis = 0; axis < 3; axis++) {
             scene->min_world[axis] = scene->max_world[axis] = 0.0f;
+        }
+    }
+    free(placed);
+    return true;
+}
+
+// Colour textures alone: BC1 would dent normals, displace clouds and put steps into a light map.
+static void mark_compressible(const DipSceneDef *def, DipScene *scene) {
+    for (int i = 0; i < def->material_count; i++) {
+        const DipMaterialDef *material = &def->materials[i];
+        if (material->colour_texture != DIP_NO_TEXTURE && material->surface != DIP_SURFACE_SKY) {
+            scene->compressible[material->colour_texture] = true;
         }
     }
 }
@@ -380,10 +403,13 @@ static DipScene *allocate_scene(const DipSceneDef *def) {
     scene->sky = def->sky;
     memcpy(scene->background_lin, def->background_lin, sizeof scene->background_lin);
     scene->textures = calloc((size_t)def->texture_count + 1, sizeof *scene->textures);
+    scene->compressible = calloc((size_t)def->texture_count + 1, sizeof *scene->compressible);
+    scene->late = dip_late_textures_create();
     scene->materials = calloc((size_t)def->material_count + 1, sizeof *scene->materials);
     scene->meshes = calloc((size_t)def->mesh_count + 1, sizeof *scene->meshes);
     scene->objects = calloc((size_t)def->object_count + 1, sizeof *scene->objects);
-    if (!scene->textures || !scene->materials || !scene->meshes || !scene->objects) {
+    if (!scene->textures || !scene->compressible || !scene->late || !scene->materials ||
+        !scene->meshes || !scene->objects) {
         dip_scene_destroy(&scene);
     }
     return scene;
@@ -399,17 +425,17 @@ DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err)
         return NULL;
     }
     copy_materials(def, scene);
+    mark_compressible(def, scene);
     const int64_t begin_ns = dip_clock_ns();
     bool made = create_textures(def, scene, pool, err);
     const int64_t textured_ns = dip_clock_ns();
     for (int i = 0; made && i < def->mesh_count; i++) {
         made = create_mesh(def, i, scene, err);
     }
-    if (!made) {
+    if (!made || !place_objects(def, scene, err)) {
         dip_scene_destroy(&scene);
         return NULL;
     }
-    place_objects(def, scene);
     add_effect_bytes(scene);
     scene->times = (DipSceneTimes){1e-6 * (double)(textured_ns - begin_ns),
                                    1e-6 * (double)(dip_clock_ns() - textured_ns)};
@@ -421,6 +447,7 @@ void dip_scene_destroy(DipScene **scene_pointer) {
     if (!scene) {
         return;
     }
+    dip_late_textures_destroy(&scene->late);
     for (int i = 0; scene->textures && i < scene->texture_count; i++) {
         dip_texture_destroy(&scene->textures[i]);
     }
@@ -428,6 +455,7 @@ void dip_scene_destroy(DipScene **scene_pointer) {
         dip_mesh_destroy(&scene->meshes[i].mesh);
     }
     free(scene->textures);
+    free(scene->compressible);
     free(scene->materials);
     free(scene->meshes);
     free(scene->objects);
@@ -453,10 +481,16 @@ uint64_t dip_scene_triangle_count(const DipScene *scene) {
     return scene->triangle_count;
 }
 
+bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError *err) {
+    return dip_late_textures_make(scene->late, scene->textures, scene->compressible,
+                                  scene->texture_count, pool, err);
+}
+
 uint64_t dip_scene_texture_bytes(const DipScene *scene) {
     uint64_t bytes = 0;
     for (int i = 0; i < scene->texture_count; i++) {
         bytes += texel_bytes(scene->textures[i]) + alpha_bytes(scene->textures[i]);
+        bytes += texel_bytes(dip_late_texture(scene->late, i)); // alpha is shared
     }
     return bytes;
 }

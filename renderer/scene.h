@@ -1,5 +1,5 @@
-// A scene: textures, materials, meshes and the objects that place them. Immutable once made, so
-// that any number of renderers on any thread may draw it.
+// A scene: textures, materials, meshes and the objects that place them. What it shows never
+// changes, so that any number of renderers on any thread may draw it.
 //
 // DipSceneDef is the plain description that loaders fill; dip_scene_create copies what it needs,
 // builds mip chains and splits the meshes into chunks. The reference path reads the same
@@ -127,6 +127,12 @@ typedef struct DipScene DipScene;
 DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err);
 void dip_scene_destroy(DipScene **scene);
 
+// Makes the textures that opt=standard and opt=advanced show, unless they are there already; else
+// the first frame that shows them does, and takes as long. They stay until the scene is destroyed.
+// Beside it other threads may draw the scene, with a pool of their own; those that need the
+// textures wait for them. Without a pool (NULL) the caller's thread does all the work.
+bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError *err);
+
 // How long the parts of making it took, milliseconds.
 typedef struct DipSceneTimes {
     double textures_ms; // mip chains
@@ -142,6 +148,6 @@ void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world
 bool dip_scene_water_level(const DipScene *scene, double *level_m);
 
 uint64_t dip_scene_triangle_count(const DipScene *scene);
-uint64_t dip_scene_texture_bytes(const DipScene *scene);
+uint64_t dip_scene_texture_bytes(const DipScene *scene); // held now
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef DIP_RENDERER_SCENE_INTERNAL_H
 #define DIP_RENDERER_SCENE_INTERNAL_H
 
+#include "renderer/late_textures.h"
 #include "renderer/mesh.h"
 #include "renderer/scene.h"
 #include "renderer/shading/surface.h"
@@ -21,6 +22,7 @@ typedef struct DipSceneMesh {
 typedef struct DipSceneObject {
     int mesh;
     float transform[12];
+    bool first_of_mesh; // no object before it uses its mesh
 } DipSceneObject;
 
 typedef struct DipSceneMaterial {
@@ -38,6 +40,8 @@ struct DipScene {
     int mesh_count;
     int object_count;
     DipTexture **textures; // NULL where nothing that is drawn uses it
+    bool *compressible;    // per texture: a colour texture of what is no sky
+    DipLateTextures *late; // the one part that may grow after
     DipSceneMaterial *materials;
     DipSceneMesh *meshes;
     DipSceneObject *objects;
@@ -46,6 +50,8 @@ struct DipScene {
     float min_world[3];
     float max_world[3];
     uint64_t triangle_count;
+    int drawn_mesh_count;    // those that some object uses
+    uint64_t geometry_bytes; // likewise
     bool has_light_map;
     bool has_clipped;
     bool has_normal_map; // some mesh is normal-mapped

@@ -42,6 +42,7 @@ typedef struct DipSampler {
     bool advanced;      // the exact ellipse rather than the two-frame estimate
     int32_t bias_lod8;
     int32_t min_lod8;
+    bool cheap; // levels blend over a quarter of the way between them; half the probes
     // Mip debugging: level l of `texture` shows level shown_level[l] of `shown`. NULL: itself.
     const DipTexture *shown;
     int32_t shown_level[16];

@@ -160,7 +160,6 @@ typedef struct HelpRow {
     char text[64];
 } HelpRow;
 
-// Settings that cannot be changed in this version are left out.
 static int help_rows(HelpRow rows[MAX_HELP_ROWS]) {
     int count = 0;
     for (int i = 0; i < dip_key_row_count && count < MAX_HELP_ROWS; ++i) {
@@ -169,12 +168,8 @@ static int help_rows(HelpRow rows[MAX_HELP_ROWS]) {
             continue;
         }
         if (key->action == DIP_ACTION_SETTING) {
-            const DipSettingInfo *info = dip_setting_info((DipSetting)key->argument);
-            const unsigned mask = info->available_mask;
-            if ((mask & (mask - 1)) == 0) {
-                continue;
-            }
-            snprintf(rows[count].text, sizeof rows[count].text, "%s", info->title);
+            snprintf(rows[count].text, sizeof rows[count].text, "%s",
+                     dip_setting_info((DipSetting)key->argument)->title);
         } else {
             snprintf(rows[count].text, sizeof rows[count].text, "%s", key->text);
         }

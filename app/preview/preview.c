@@ -1,6 +1,7 @@
 // The preview's loop: events, time, pictures.
 #include "app/preview/preview.h"
 
+#include "app/preview/ahead.h"
 #include "app/preview/camera.h"
 #include "app/preview/keys.h"
 #include "app/preview/state.h"
@@ -33,6 +34,7 @@ typedef struct Preview {
     uint64_t frame_index; // of the pictures shown
     bool full_screen;
     bool redraw; // the overlay or the window changed
+    DipAhead ahead;
 } Preview;
 
 // A model of the user's own is crossed in four seconds, whatever its unit.
@@ -217,6 +219,7 @@ static bool turn(Preview *preview, int64_t now_ns, int64_t elapsed_ns, bool *sho
     }
     dip_window_present(preview->window, state, preview->figures);
     dip_start_times_frame(&preview->session->times);
+    dip_ahead_begin(&preview->ahead, preview->session->scene);
     dip_timing_add(&preview->presented, dip_clock_ns(), 0.0);
     return true;
 }
@@ -271,6 +274,7 @@ bool dip_preview_run(DipSession *session, const DipOptions *options, DipError *e
         return false;
     }
     const bool done = run_loop(&preview, err);
+    dip_ahead_end(&preview.ahead);
     session->times.ended_ns = dip_clock_ns();
     dip_window_destroy(&preview.window);
     return done;

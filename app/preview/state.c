@@ -63,7 +63,7 @@ int dip_preview_path_of(DipSetting setting) {
     }
 }
 
-// The next step that this version has and that fits the other settings. A number of samples takes
+// The next step that fits the other settings. A number of samples takes
 // the divisor back to its default where it has no such passes.
 static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     const DipSettingInfo *info = dip_setting_info(setting);
@@ -76,7 +76,7 @@ static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
         if (setting == DIP_SETTING_AA && !dip_quality_check(&candidate, NULL)) {
             candidate.step[DIP_SETTING_ASD] = dip_quality_default().step[DIP_SETTING_ASD];
         }
-        if ((info->available_mask >> step & 1) && dip_quality_check(&candidate, NULL)) {
+        if (dip_quality_check(&candidate, NULL)) {
             *quality = candidate;
             return true;
         }
@@ -96,9 +96,7 @@ static void change_setting(DipPreviewState *state, DipSetting setting, bool reve
         }
     }
     if (!changed) {
-        const bool single = (info->available_mask & (info->available_mask - 1)) == 0;
-        dip_preview_notice(state, now_ns, "%s: no other step %s", info->title,
-                           single ? "in this version" : "fits");
+        dip_preview_notice(state, now_ns, "%s: no other step fits", info->title);
         return;
     }
     const int path = dip_preview_path_of(setting);

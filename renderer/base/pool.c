@@ -198,8 +198,7 @@ int dip_pool_thread_count(const DipPool *pool) {
     return pool->thread_count;
 }
 
-void dip_pool_run(DipPool *pool, int count, DipTask task, void *context) {
-    const DipFpMode saved = dip_fp_mode_set();
+static void run_on_all(DipPool *pool, int count, DipTask task, void *context) {
     pool->task = task;
     pool->context = context;
     pool->count = count;
@@ -210,6 +209,16 @@ void dip_pool_run(DipPool *pool, int count, DipTask task, void *context) {
     work(pool, 0);
     if (pool->started) {
         end_run(pool);
+    }
+}
+
+void dip_pool_run(DipPool *pool, int count, DipTask task, void *context) {
+    const DipFpMode saved = dip_fp_mode_set();
+    if (pool) {
+        run_on_all(pool, count, task, context);
+    }
+    for (int i = 0; !pool && i < count; i++) {
+        task(context, i, 0);
     }
     dip_fp_mode_restore(saved);
 }

@@ -19,6 +19,7 @@ void dip_pool_destroy(DipPool **pool);
 int dip_pool_thread_count(const DipPool *pool);
 
 // Returns when all are done. One run at a time: not to be called from a task or by two threads.
+// Without a pool (NULL) the caller runs them all, as worker 0.
 void dip_pool_run(DipPool *pool, int count, DipTask task, void *context);
 
 #endif

@@ -233,6 +233,56 @@ DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err) {
     return mesh;
 }
 
+// The sizes of a mesh's arrays in bytes.
+typedef struct MeshSizes {
+    size_t chunks;
+    size_t groups;
+    size_t attributes;
+    size_t indices;
+} MeshSizes;
+
+static MeshSizes sizes_of(const DipMesh *mesh) {
+    const size_t groups = (mesh->chunk_count + DIP_GROUP_CHUNKS - 1) / DIP_GROUP_CHUNKS;
+    size_t indices = 0;
+    if (mesh->chunk_count) {
+        const DipChunk *last = &mesh->chunks[mesh->chunk_count - 1];
+        indices = last->first_index + 3 * (size_t)dip_corner_stride(last);
+    }
+    return (MeshSizes){mesh->chunk_count * sizeof *mesh->chunks, groups * sizeof *mesh->groups,
+                       (size_t)mesh->vertex_total * (size_t)mesh->attribute_count *
+                           sizeof *mesh->attributes,
+                       indices * sizeof *mesh->indices};
+}
+
+static void *copy_array(const void *from, size_t size_bytes) {
+    void *copy = malloc(size_bytes + 1);
+    if (copy) {
+        memcpy(copy, from, size_bytes);
+    }
+    return copy;
+}
+
+DipMesh *dip_mesh_copy(const DipMesh *mesh) {
+    DipMesh *copy = copy_array(mesh, sizeof *mesh);
+    if (!copy) {
+        return NULL;
+    }
+    const MeshSizes sizes = sizes_of(mesh);
+    copy->chunks = copy_array(mesh->chunks, sizes.chunks);
+    copy->groups = copy_array(mesh->groups, sizes.groups);
+    copy->attributes = copy_array(mesh->attributes, sizes.attributes);
+    copy->indices = copy_array(mesh->indices, sizes.indices);
+    if (!copy->chunks || !copy->groups || !copy->attributes || !copy->indices) {
+        dip_mesh_destroy(&copy);
+    }
+    return copy;
+}
+
+size_t dip_mesh_bytes(const DipMesh *mesh) {
+    const MeshSizes sizes = sizes_of(mesh);
+    return sizeof *mesh + sizes.chunks + sizes.groups + sizes.attributes + sizes.indices;
+}
+
 void dip_mesh_destroy(DipMesh **mesh) {
     if (*mesh) {
         free((*mesh)->chunks);

@@ -43,4 +43,9 @@ struct DipMesh {
     float max[3];
 };
 
+// A mesh with arrays of its own; NULL when memory runs out.
+DipMesh *dip_mesh_copy(const DipMesh *mesh);
+
+size_t dip_mesh_bytes(const DipMesh *mesh);
+
 #endif

@@ -62,6 +62,16 @@ static bool load_texture(DipReference *reference, int index, DipError *err) {
                                       err);
 }
 
+// Colour textures of all but skies.
+static bool compress_texture(DipReference *reference, const DipMaterialDef *material,
+                             DipError *err) {
+    if (material->surface == DIP_SURFACE_SKY || material->colour_texture == DIP_NO_TEXTURE) {
+        return true;
+    }
+    DipRefTexture *texture = &reference->textures[material->colour_texture];
+    return texture->blocks[0] || dip_reference_texture_compress(texture, err);
+}
+
 DipReference *dip_reference_create(const DipSceneDef *def, DipError *err) {
     if (!check_scene(def, err)) {
         return NULL;
@@ -81,7 +91,8 @@ DipReference *dip_reference_create(const DipSceneDef *def, DipError *err) {
         loaded = load_texture(reference, def->materials[m].colour_texture, err) &&
                  load_texture(reference, def->materials[m].light_map, err) &&
                  (!dip_reference_is_bumpy(&def->materials[m]) ||
-                  load_texture(reference, def->materials[m].normal_map, err));
+                  load_texture(reference, def->materials[m].normal_map, err)) &&
+                 compress_texture(reference, &def->materials[m], err);
     }
     if (!loaded) {
         dip_reference_destroy(&reference);

@@ -34,14 +34,15 @@ static Pair find_pair(double coordinate, int size, DipWrap wrap, double grain) {
                   isfinite(place) ? place - first : 0.0};
 }
 
-static void sample_bilinear(const DipRefTexture *texture, int level, const double uv[2],
-                            double grain, double rgba[4]) {
+static void sample_bilinear(const DipRefTexture *texture, bool compressed, int level,
+                            const double uv[2], double grain, double rgba[4]) {
     const Pair x = find_pair(uv[0], texture->widths[level], texture->def->wrap_u, grain);
     const Pair y = find_pair(uv[1], texture->heights[level], texture->def->wrap_v, grain);
     double corner[2][2][4];
     for (int j = 0; j < 2; j++) {
         for (int i = 0; i < 2; i++) {
-            dip_reference_texel(texture, level, x.index[i], y.index[j], corner[j][i]);
+            (compressed ? dip_reference_compressed_texel : dip_reference_texel)(
+                texture, level, x.index[i], y.index[j], corner[j][i]);
         }
     }
     for (int c = 0; c < 4; c++) {
@@ -52,17 +53,17 @@ static void sample_bilinear(const DipRefTexture *texture, int level, const doubl
 }
 
 void dip_reference_sample_finest(const DipRefTexture *texture, const double uv[2], double rgba[4]) {
-    sample_bilinear(texture, 0, uv, 0.0, rgba);
+    sample_bilinear(texture, false, 0, uv, 0.0, rgba);
 }
 
-static void sample_trilinear(const DipRefTexture *texture, double level, const double uv[2],
-                             double rgba[4]) {
+static void sample_trilinear(const DipRefTexture *texture, bool compressed, double level,
+                             const double uv[2], double rgba[4]) {
     const int finer = (int)level;
     const double fraction = level - finer;
-    sample_bilinear(texture, finer, uv, 256.0, rgba);
+    sample_bilinear(texture, compressed, finer, uv, 256.0, rgba);
     if (fraction > 0.0) {
         double coarser[4];
-        sample_bilinear(texture, finer + 1, uv, 256.0, coarser);
+        sample_bilinear(texture, compressed, finer + 1, uv, 256.0, coarser);
         for (int c = 0; c < 4; c++) {
             rgba[c] += (coarser[c] - rgba[c]) * fraction;
         }
@@ -109,6 +110,12 @@ static int find_min_level(const DipRefTexture *texture, const DipRefFilter *filt
     return dropped < texture->level_count ? dropped : texture->level_count - 1;
 }
 
+// All of the blend takes place in the middle quarter of the way to the next level.
+static double narrow_blend(double level) {
+    const double finer = floor(level);
+    return finer + fmin(fmax((level - finer - 0.375) * 4.0, 0.0), 1.0);
+}
+
 void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filter,
                           const double uv[2], const double duv_dx[2], const double duv_dy[2],
                           double rgba[4]) {
@@ -117,17 +124,21 @@ void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filt
     const double ddx[2] = {duv_dx[0] * width, duv_dx[1] * height};
     const double ddy[2] = {duv_dy[0] * width, duv_dy[1] * height};
     const int min_level = find_min_level(texture, filter);
-    const DipFootprint footprint =
+    DipFootprint footprint =
         dip_reference_footprint(ddx, ddy, filter->max_anisotropy, filter->advanced, min_level);
-    const double level =
+    double level =
         dip_reference_level(footprint.lambda, filter->bias, min_level, texture->level_count - 1);
+    if (filter->cheap) {
+        footprint.probe_count = (footprint.probe_count + 1) / 2;
+        level = narrow_blend(level);
+    }
     double sum[4] = {0};
     for (int i = 0; i < footprint.probe_count; i++) {
         const double t = (i + 0.5) / footprint.probe_count - 0.5;
         const double place[2] = {uv[0] + t * footprint.major_texels[0] / width,
                                  uv[1] + t * footprint.major_texels[1] / height};
         double probe[4];
-        sample_trilinear(texture, level, place, probe);
+        sample_trilinear(texture, filter->compressed, level, place, probe);
         for (int c = 0; c < 4; c++) {
             sum[c] += probe[c];
         }
@@ -154,7 +165,16 @@ DipRefFilter dip_reference_colour_filter(const DipQuality *quality) {
         .bias = bias[miplod],
         .drop_levels = miplod == DIP_MIPLOD_HIGH_PERFORMANCE,
         .mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0,
+        .compressed = dip_quality_compresses(quality),
+        .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
     };
+}
+
+DipRefFilter dip_reference_data_filter(const DipRefFilter *colour) {
+    DipRefFilter filter = *colour;
+    filter.mip_colours = false;
+    filter.compressed = false;
+    return filter;
 }
 
 DipRefFilter dip_reference_light_map_filter(void) {

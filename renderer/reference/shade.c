@@ -62,11 +62,9 @@ double dip_reference_alpha(const DipRefPlace *place, const DipRefFilter *filter)
     return rgba[3];
 }
 
-// Read as the colour texture is, but for mip colours.
 static void read_normal_map(const DipRefTexture *map, const DipRefFilter *filter,
                             const DipRefVaryings *varyings, double texel[4]) {
-    DipRefFilter own = filter ? *filter : (DipRefFilter){0};
-    own.mip_colours = false;
+    const DipRefFilter own = filter ? dip_reference_data_filter(filter) : (DipRefFilter){0};
     read_texture(map, filter ? &own : NULL, varyings, DIP_REF_U0, texel);
 }
 

@@ -23,7 +23,8 @@ static void read_sky(const DipRefTriangle *triangle, const DipRefFilter *filter,
         dy[k] = varyings->ddy[DIP_REF_U0 + k] * scale * slope;
     }
     if (filter) {
-        dip_reference_sample(triangle->colour, filter, uv, dx, dy, rgba);
+        const DipRefFilter own = dip_reference_data_filter(filter);
+        dip_reference_sample(triangle->colour, &own, uv, dx, dy, rgba);
     } else {
         dip_reference_sample_finest(triangle->colour, uv, rgba);
     }

@@ -104,5 +104,9 @@ void dip_reference_texture_free(DipRefTexture *texture) {
         free(texture->levels[l]);
         texture->levels[l] = NULL;
     }
+    for (int l = 0; l < DIP_REF_MAX_LEVELS; l++) {
+        free(texture->blocks[l]);
+        texture->blocks[l] = NULL;
+    }
     texture->level_count = 0;
 }

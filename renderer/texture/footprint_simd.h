@@ -142,6 +142,13 @@ VEC_INLINE Axis anisotropic_axis(const DipSampler *sampler, Jacobian j) {
                              : two_frame_axis(bounds, sampler->max_anisotropy);
 }
 
+// The middle quarter of the way from a level to the next takes all of the blend between them;
+// before it the finer level is read alone, after it the coarser.
+VEC_INLINE Vi narrow_blend(Vi lod8) {
+    const Vi fraction = ((lod8 & 255) - 96) * 4;
+    return (lod8 & ~255) + vi_min(vi_max(fraction, vi_splat(0)), vi_splat(256));
+}
+
 // lambda = log2 of the minor axis, from its square, rounded to 1/256 level, biased, clamped.
 VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
     const Vf lambda = log2_of(vf_max(minor2, vf_splat(MIN_LENGTH * MIN_LENGTH))) * 0.5f;
@@ -161,13 +168,15 @@ typedef struct Probes {
 
 // Probes of equal weight at (k + 1/2) / N - 1/2 of the major axis, but none closer than a texel of
 // the finest level that may be read: more would read the same texels again.
-VEC_INLINE Probes place_probes(const DipSampler *sampler, const Axis *axis) {
+// halve: 1: half of them, rounded up; 0: all.
+VEC_INLINE Probes place_probes(const DipSampler *sampler, const Axis *axis, int halve) {
     const int last = sampler->texture->level_count - 1;
     const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
     const float finest = 1.0f / (float)(1 << min);
     const Vf texels2 = axis->length2 * (finest * finest);
     const Vf ratio2 = axis->length2 / vf_max(axis->minor2, vf_splat(MIN_LENGTH * MIN_LENGTH));
-    const Vi count = probe_count(vf_sqrt(vf_max(vf_min(ratio2, texels2), vf_splat(1.0f))));
+    const Vi full = probe_count(vf_sqrt(vf_max(vf_min(ratio2, texels2), vf_splat(1.0f))));
+    const Vi count = (full + halve) >> halve;
     const Vf inverse = inverse_of(count);
     const Vf line_u = axis->u * (1.0f / (float)sampler->texture->width);
     const Vf line_v = axis->v * (1.0f / (float)sampler->texture->height);

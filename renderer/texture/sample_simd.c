@@ -76,13 +76,17 @@ VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampl
     for (int n = 0; n < count; n++) {
         out->lod8[n] = find_level(sampler, axes[n].minor2);
     }
+    const int cheap = sampler->cheap;
+    for (int n = 0; cheap && n < count; n++) {
+        out->lod8[n] = narrow_blend(out->lod8[n]);
+    }
     LaneWork work = {vi_splat(0), vi_splat(0)};
     for (int n = 0; n < count; n++) {
         Vf u = vf_load(batch->slot[slot] + n * DIP_LANES);
         Vf v = vf_load(batch->slot[slot + 1] + n * DIP_LANES);
         Vi probe_count = vi_splat(1);
         if (way.anisotropic) {
-            const Probes probes = place_probes(sampler, &axes[n]);
+            const Probes probes = place_probes(sampler, &axes[n], cheap);
             u += probes.first_u;
             v += probes.first_v;
             out->step_u[n] = way.in_bits ? step32(probes.step_u) : (Vu)probes.step_u;

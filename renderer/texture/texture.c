@@ -204,28 +204,33 @@ static void decode_row(const uint8_t *codes, int width, const CodeTables *tables
     }
 }
 
-// Packs a row of a filtered level with its padding column, and the row of padding where this is the
-// row that it repeats.
-static void store_row(DipTexture *texture, int level, int y, const float *row) {
+void dip_texture_pad_row(DipTexture *texture, int level, int y) {
     const int width = texture->level_width[level];
     const int height = texture->level_height[level];
     const size_t stride = (size_t)width + 1;
     const size_t base = (size_t)texture->level_offset[level];
     const size_t place = base + (size_t)y * stride;
-    uint8_t *alpha = texture->alpha;
-    const size_t last = (size_t)padding_source(width, width, texture->wrap_u);
-    pack_row(row, width, texture->texels + place, alpha ? alpha + place : NULL);
-    texture->texels[place + (size_t)width] = texture->texels[place + last];
-    if (alpha) {
-        alpha[place + (size_t)width] = alpha[place + last];
-    }
-    if (y == padding_source(height, height, texture->wrap_v)) {
-        const size_t below = base + (size_t)height * stride;
+    const size_t source = place + (size_t)padding_source(width, width, texture->wrap_u);
+    const size_t below = base + (size_t)height * stride;
+    const bool repeated = y == padding_source(height, height, texture->wrap_v);
+    texture->texels[place + (size_t)width] = texture->texels[source];
+    if (repeated) {
         memcpy(texture->texels + below, texture->texels + place, stride * sizeof(uint32_t));
-        if (alpha) {
-            memcpy(alpha + below, alpha + place, stride);
+    }
+    if (texture->alpha) {
+        texture->alpha[place + (size_t)width] = texture->alpha[source];
+        if (repeated) {
+            memcpy(texture->alpha + below, texture->alpha + place, stride);
         }
     }
+}
+
+// Packs a row of a filtered level, with the padding that repeats it.
+static void store_row(DipTexture *texture, int level, int y, const float *row) {
+    const int width = texture->level_width[level];
+    const size_t place = (size_t)texture->level_offset[level] + (size_t)y * ((size_t)width + 1);
+    pack_row(row, width, texture->texels + place, texture->alpha ? texture->alpha + place : NULL);
+    dip_texture_pad_row(texture, level, y);
 }
 
 // Level 0's rows that belong to a band of level 1, and that band.
@@ -280,16 +285,6 @@ static void run_chain_task(void *context, int index, int worker) {
         make_band(jobs->bands, index - 1, jobs->rows + (size_t)worker * jobs->row_floats);
     } else if (jobs->rest) {
         make_rest(jobs->rest);
-    }
-}
-
-static void run_tasks(DipPool *pool, int count, DipTask task, void *context) {
-    if (pool) {
-        dip_pool_run(pool, count, task, context);
-        return;
-    }
-    for (int i = 0; i < count; i++) {
-        task(context, i, 0);
     }
 }
 
@@ -365,7 +360,7 @@ static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef
 
 // Runs a chain's bands beside the rest of the one before, whose memory is then given back.
 static void run_chains(ChainJobs *jobs, DipPool *pool) {
-    run_tasks(pool, 1 + (jobs->bands ? jobs->bands->band_count : 0), run_chain_task, jobs);
+    dip_pool_run(pool, 1 + (jobs->bands ? jobs->bands->band_count : 0), run_chain_task, jobs);
     if (jobs->rest) {
         free(jobs->rest->level1);
     }
@@ -449,7 +444,9 @@ DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int leve
 void dip_texture_destroy(DipTexture **texture) {
     if (*texture) {
         free((*texture)->texels);
-        free((*texture)->alpha);
+        if (!(*texture)->shares_alpha) {
+            free((*texture)->alpha);
+        }
         free(*texture);
         *texture = NULL;
     }

@@ -42,6 +42,7 @@ typedef struct DipTexture {
     int32_t level_log2_height[DIP_LEVEL_TABLE];
     uint32_t *texels;
     uint8_t *alpha;     // the same layout; NULL when all texels are opaque or nothing asks
+    bool shares_alpha;  // with the texture it was made from
     size_t texel_count; // padding included
 } DipTexture;
 
@@ -60,6 +61,9 @@ DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err);
 DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
                                            DipError *err);
 void dip_texture_destroy(DipTexture **texture);
+
+// Fills in the padding that repeats texels of a level's row; the row is complete.
+void dip_texture_pad_row(DipTexture *texture, int level, int y);
 
 // Linear light 0..1 to a packed texel, rounded.
 uint32_t dip_texel_pack(const double rgb_lin[3]);

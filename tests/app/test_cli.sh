@@ -70,7 +70,7 @@ expect 2 "\[--threads\] '-1'" "$diptych" dump --hash --threads -1
 expect 2 "\[--threads\] 'many'" "$diptych" dump --hash --threads many
 expect 2 "\[--isa\] 'mmx', accepted auto\|scalar" "$diptych" dump --hash --isa mmx
 expect 2 "\[aa\] '3' is no step, accepted none\|2\|4\|6\|8" "$diptych" dump --hash --current aa=3
-expect 2 "\[opt\] 'standard' is not in this version" "$diptych" dump --hash --requested opt=standard
+expect 2 "\[opt\] 'on' is no step" "$diptych" dump --hash --requested opt=on
 expect 2 "\[asd\] '3' samples per pass do not fit aa=4, accepted 1|2" \
     "$diptych" dump --hash --requested aa=4,aaa=on,asd=3
 expect 2 "\[--requested\] no value" "$diptych" dump --hash --requested

@@ -115,8 +115,8 @@ static const BadIni bad_inis[] = {
      "af: "},
     {"a setting without a step", NULL, "CURRENT: af\n", DIP_ERROR_MISSING, 27, "CURRENT",
      "af: no v"},
-    {"a step not in this version", NULL, "REQUESTED: opt=advanced\n", DIP_ERROR_UNSUPPORTED, 27,
-     "REQUESTED", "opt: "},
+    {"a step of another setting", NULL, "REQUESTED: opt=high-quality\n", DIP_ERROR_UNKNOWN, 27,
+     "REQUESTED", "opt: 'high-quality' is no step, accepted off|standard|advanced"},
     // Keys.
     {"a key misspelt", NULL, "REFLECTON_RES: 1x1\n", DIP_ERROR_UNKNOWN, 27, "REFLECTON_RES",
      "the similar REFLECTION_RES"},

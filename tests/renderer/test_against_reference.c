@@ -88,9 +88,13 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // horizon 1/512 pixel there moves 1/w by a tenth at the far edge, hence the level of detail.
     static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.05};
     static const DipImageBounds huge_mips = {0.06, 0.01, 0.03, 1.0};
+    // The narrow blend between levels makes four times of a difference in the level of detail.
+    static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
+    static const DipImageBounds huge_narrow = {0.0025, 0.025, 0.0005, 0.1};
     // A displacement read from rounded texels moves the clouds, whose edges the cover steepens.
     static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
+    const bool narrow = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
     const bool passes = dip_quality_samples_per_pass(quality) < dip_quality_sample_count(quality);
     switch (kind) {
     case DIP_TEST_SCENE_sky:
@@ -102,9 +106,9 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     case DIP_TEST_SCENE_slivers:
         return &slivers;
     case DIP_TEST_SCENE_huge:
-        return mip_colours ? &huge_mips : &huge;
+        return mip_colours ? &huge_mips : narrow ? &huge_narrow : &huge;
     default:
-        return &steady;
+        return mip_colours && narrow ? &narrow_mips : &steady;
     }
 }
 
@@ -189,11 +193,20 @@ static void test_mip_colours(void **state) {
               "mipdebug=on,miplod=high-performance");
 }
 
+static void test_texture_optimisation(void **state) {
+    (void)state;
+    CHECK_ALL(1, "opt=standard", "opt=standard,af=16,aaf=on,aa=4", "opt=advanced",
+              "opt=advanced,af=2", "opt=advanced,af=8", "opt=advanced,af=16,aaf=on",
+              "opt=advanced,aa=8,aaa=on,asd=2,miplod=quality", "opt=advanced,mipdebug=on,af=4",
+              "opt=advanced,miplod=high-performance,af=4");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_antialiasing),          cmocka_unit_test(test_temporal_antialiasing),
         cmocka_unit_test(test_adaptive_antialiasing), cmocka_unit_test(test_anisotropy),
         cmocka_unit_test(test_mip_level_of_detail),   cmocka_unit_test(test_mip_colours),
+        cmocka_unit_test(test_texture_optimisation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

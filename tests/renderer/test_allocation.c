@@ -44,7 +44,8 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size) {
 }
 
 // Draws with the steps of every setting from several places; returns the allocations that took.
-static int draw_everything(DipRenderer *renderer, const DipScene *scene, DipPose pose) {
+static int draw_everything(DipRenderer *renderer, const DipScene *scene, DipPose pose,
+                           bool instancing) {
     const int before = atomic_load(&calls);
     for (int i = 0; i < 60; i++) {
         DipQuality quality = dip_quality_default();
@@ -53,6 +54,8 @@ static int draw_everything(DipRenderer *renderer, const DipScene *scene, DipPose
         quality.step[DIP_SETTING_AAA] = (uint8_t)(i / 3 % 2);
         quality.step[DIP_SETTING_AF] = (uint8_t)(i / 5 % 5);
         quality.step[DIP_SETTING_AAF] = (uint8_t)(i % 2);
+        quality.step[DIP_SETTING_OPT] = (uint8_t)(i / 2 % 3);
+        quality.step[DIP_SETTING_GI] = instancing;
         quality.step[DIP_SETTING_MIPLOD] = (uint8_t)(i % 4);
         quality.step[DIP_SETTING_MIPDEBUG] = (uint8_t)(i / 30);
         pose.position_world[0] += 0.05;
@@ -86,7 +89,12 @@ static void frames_allocate_nothing(void **state) {
         away.position_world[1] += 1000.0;
         away.orientation[0] = away.orientation[3] = 0.7071067811865476;
         assert_true(dip_renderer_draw(renderer, fast, &away, 0, &frame, NULL));
-        assert_int_equal(draw_everything(renderer, fast, scene.pose), 0);
+        // Made ahead; then a frame of either kind finds what it needs.
+        assert_true(dip_scene_compress_textures(fast, pool, NULL));
+        assert_int_equal(draw_everything(renderer, fast, scene.pose, true), 0);
+        // The first frame without instancing makes the objects' own meshes.
+        (void)draw_everything(renderer, fast, scene.pose, false);
+        assert_int_equal(draw_everything(renderer, fast, scene.pose, false), 0);
         dip_renderer_destroy(&renderer);
         dip_pool_destroy(&pool);
         dip_scene_destroy(&fast);

@@ -23,6 +23,8 @@ static const char *const settings[] = {
     "aa=2,af=4,aaf=on,mipdebug=on",
     "aa=8,taa=on,aaa=on,asd=2",
     "aa=6,aaa=on,af=16",
+    "opt=standard,aa=4",
+    "opt=advanced,aa=2,af=16",
 };
 
 // Rounding of positions and of alpha near the cutoff moves single samples of the fence and of far,

@@ -74,7 +74,16 @@ static void list_settings(Stage *stage) {
                                        "aa=6,aaa=on,asd=3",
                                        "aa=8,aaa=on",
                                        "aa=8,aaa=on,asd=2,af=16",
-                                       "aa=8,taa=on,aaa=on,asd=4"};
+                                       "aa=8,taa=on,aaa=on,asd=4",
+                                       "gi=off",
+                                       "gi=off,aa=4,af=16,opt=advanced",
+                                       "opt=standard",
+                                       "opt=standard,aa=4,af=16",
+                                       "opt=advanced",
+                                       "opt=advanced,af=4",
+                                       "opt=advanced,af=16,aaf=on",
+                                       "opt=advanced,aa=8,aaa=on,asd=2,miplod=quality",
+                                       "opt=advanced,mipdebug=on"};
     const DipSettingInfo *aa = dip_setting_info(DIP_SETTING_AA);
     const DipSettingInfo *af = dip_setting_info(DIP_SETTING_AF);
     for (int a = 0; a < aa->step_count; a++) {
