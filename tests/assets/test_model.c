@@ -137,8 +137,8 @@ static void courtyard_arrives_whole(void **state) {
     }
     assert_int_equal(triangles, 73703);
     assert_int_equal(stored, 29499);
-    // Every picture of the folder's 29 is one texture.
-    assert_int_equal(def->texture_count, 29);
+    // Every picture of the folder's 27 is one texture.
+    assert_int_equal(def->texture_count, 27);
     static const struct {
         const char *name;
         DipSurface surface;

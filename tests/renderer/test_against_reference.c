@@ -91,6 +91,8 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // The narrow blend between levels makes four times of a difference in the level of detail.
     static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
     static const DipImageBounds huge_narrow = {0.0025, 0.025, 0.0005, 0.1};
+    // What water shows is rounded to 8 bits twice, and sharper than with the wide blend.
+    static const DipImageBounds water_narrow = {0.0018, 0.01, 0.0, 0.01};
     // A displacement read from rounded texels moves the clouds, whose edges the cover steepens.
     static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
@@ -99,6 +101,8 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     switch (kind) {
     case DIP_TEST_SCENE_sky:
         return mip_colours ? &steady : &sky;
+    case DIP_TEST_SCENE_water:
+        return mip_colours && narrow ? &narrow_mips : narrow ? &water_narrow : &steady;
     case DIP_TEST_SCENE_water_effects:
         return mip_colours ? &fence_mips : &mirrored_fence;
     case DIP_TEST_SCENE_fence:
