@@ -3,6 +3,7 @@
 #include "renderer/renderer.h"
 #include "tests/renderer/scenes.h"
 
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -131,6 +132,8 @@ static void changes_show_in_the_next_frame(void **state) {
                                           "af=16",
                                           "af=16,aaf=on",
                                           "mipdebug=on",
+                                          "opt=standard",
+                                          "opt=advanced",
                                           "miplod=quality",
                                           "miplod=performance",
                                           "miplod=high-performance"};
@@ -170,11 +173,39 @@ static void changes_show_in_the_next_frame(void **state) {
     dip_test_scene_free(&scene);
 }
 
+static void *compress(void *scene) {
+    return dip_scene_compress_textures(scene, NULL, NULL) ? scene : NULL;
+}
+
+// Textures are compressed beside the frames of one renderer; another asks for them meanwhile.
+static void textures_are_compressed_beside_frames(void **state) {
+    (void)state;
+    static DipTestScene scene;
+    static const int size[2] = {64, 48};
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_grazing_noise);
+    for (int round = 0; round < 3; round++) {
+        DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
+        pthread_t thread;
+        void *made = NULL;
+        assert_int_equal(pthread_create(&thread, NULL, compress, fast), 0);
+        const Result plain = draw(&scene, fast, 2, size, "aa=none");
+        const Result meanwhile = draw(&scene, fast, 2, size, "opt=standard");
+        assert_int_equal(pthread_join(thread, &made), 0);
+        assert_ptr_equal(made, fast);
+        const Result after = draw(&scene, fast, 1, size, "opt=standard");
+        assert_string_equal(meanwhile.hash, after.hash);
+        assert_string_not_equal(plain.hash, after.hash);
+        dip_scene_destroy(&fast);
+    }
+    dip_test_scene_free(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(panes_share_a_scene),
         cmocka_unit_test(changes_show_in_the_next_frame),
+        cmocka_unit_test(textures_are_compressed_beside_frames),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
