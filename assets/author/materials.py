@@ -33,6 +33,7 @@ MATERIALS = {
     "shutter": Material((0.56, 1.66), "shutter.jpg", True, roughness=0.5, density=0.8),
     "terracotta": Material((0.5, 0.5), "terracotta.jpg", True, roughness=0.7),
     "soil": Material(colour_lin=(0.060, 0.038, 0.022), density=0.2),
+    "joint": Material(colour_lin=(0.030, 0.020, 0.012), lightmapped=False),
     "iron": Material(colour_lin=(0.020, 0.024, 0.026), roughness=0.4, density=0.4),
     "bronze": Material(colour_lin=(0.16, 0.10, 0.04), roughness=0.35, density=0.4),
     "lamp": Material(colour_lin=(0.80, 0.62, 0.34), roughness=0.3, density=0.4),

@@ -96,6 +96,15 @@ def gallery(part):
             x0, x1 = c - BAY_M / 2, c + BAY_M / 2
             part.polygon("paving", [(x0, -0.35, FLOOR_M), (x1, -0.35, FLOOR_M),
                                     (x1, GALLERY_M, FLOOR_M), (x0, GALLERY_M, FLOOR_M)])
+    # Seen through the joints of floor and walls, whose edges are cut at different places.
+    y, z = GALLERY_M, FLOOR_M - 0.02
+    for x0, x1, y0, y1 in ((-0.6, LENGTH_M + 0.6, y - 0.05, y + 0.6), (-0.6, 0.05, 0.1, y),
+                           (LENGTH_M - 0.05, LENGTH_M + 0.6, 0.1, y)):
+        part.polygon("joint", [(x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)])
+    for x in (0.0, LENGTH_M):
+        x0, x1, behind = x - 0.1, x + 0.1, y + 0.03
+        part.polygon("joint", [(x0, behind, z), (x1, behind, z), (x1, behind, CEILING_M),
+                               (x0, behind, CEILING_M)])
     part.moulding("carved", 0, LENGTH_M, [(-0.35, 0.0), (-0.35, 0.09), (-0.37, 0.10),
                                           (-0.37, FLOOR_M), (-0.30, FLOOR_M + 0.001)])
 
@@ -146,6 +155,8 @@ def corner():
         part.polygon("paving", [(0, 0, FLOOR_M), (g, 0, FLOOR_M), (g, g, FLOOR_M), (0, g, FLOOR_M)])
         part.polygon("wood", [(0, g, CEILING_M), (g, g, CEILING_M), (g, 0, CEILING_M),
                               (0, 0, CEILING_M)])
+        z, end = FLOOR_M - 0.02, g + 0.6
+        part.polygon("joint", [(0.1, 0.1, z), (end, 0.1, z), (end, end, z), (0.1, end, z)])
         for a, b in (((0, g), (g, g)), ((g, g), (g, 0))):
             part.polygon("plaster", [(*a, FLOOR_M), (*b, FLOOR_M), (*b, CEILING_M),
                                      (*a, CEILING_M)])
