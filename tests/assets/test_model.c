@@ -125,8 +125,8 @@ static void courtyard_arrives_whole(void **state) {
     const DipSceneDef *def = dip_model_scene_def(model);
     assert_int_equal(warnings.count, 0);
     // As assets/author/gltf.py says that it wrote them; each primitive of a mesh is a mesh here.
-    assert_int_equal(def->mesh_count, 168);
-    assert_int_equal(def->object_count, 509);
+    assert_int_equal(def->mesh_count, 173);
+    assert_int_equal(def->object_count, 514);
     uint64_t triangles = 0;
     uint64_t stored = 0;
     for (int i = 0; i < def->object_count; ++i) {
