@@ -63,6 +63,8 @@ static int run(const DipOptions *options) {
         return run_with_session(options, dip_dump_run);
     case DIP_COMMAND_BENCH:
         return run_with_session(options, dip_bench_run);
+    case DIP_COMMAND_COST:
+        return run_with_session(options, dip_cost_run);
     case DIP_COMMAND_PATH_INFO:
         return run_on_path(options, dip_path_info_run);
     case DIP_COMMAND_PATH_CONVERT:

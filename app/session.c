@@ -154,7 +154,12 @@ static bool load_scene(DipSession *session, const DipOptions *options, DipErrorL
         session->scene = dip_scene_create(&def, session->pool, &err);
         session->times.import_ms = dip_model_times(model).import_ms;
         session->times.pictures_ms = dip_model_times(model).pictures_ms;
-        dip_model_destroy(&model);
+        if (session->scene && options->command == DIP_COMMAND_COST) {
+            session->model = model;
+            session->scene_def = def;
+        } else {
+            dip_model_destroy(&model);
+        }
     }
     if (session->scene) {
         session->times.textures_ms = dip_scene_times(session->scene).textures_ms;
@@ -379,7 +384,7 @@ bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorLi
     bool opened = load_config(session, options, faults) && make_pool(session, options, faults);
     session->times.ini_ms = dip_start_times_since_ms(options->begin_ns);
     opened = opened && load_what_is_drawn(session, options, faults);
-    if (opened && options->command != DIP_COMMAND_BENCH) {
+    if (opened && options->command != DIP_COMMAND_BENCH && options->command != DIP_COMMAND_COST) {
         const int64_t begin_ns = dip_clock_ns();
         opened = make_renderers(session, options, faults);
         session->times.renderers_ms = dip_start_times_since_ms(begin_ns);
@@ -400,6 +405,7 @@ void dip_session_close(DipSession *session) {
     }
     free(session->paths);
     dip_scene_destroy(&session->scene);
+    dip_model_destroy(&session->model);
     dip_pool_destroy(&session->pool);
     dip_config_free(&session->config);
     *session = (DipSession){.isa = DIP_ISA_SCALAR};

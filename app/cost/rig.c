@@ -1,0 +1,60 @@
+// Renderer, reference and poses.
+#include "app/cost/rig.h"
+
+#include "app/interrupt.h"
+
+bool dip_cost_rig_open(DipCostRig *rig, const DipSession *session, DipCostReport *report,
+                       DipCostState *state, const char *cache, DipError *err) {
+    *rig = (DipCostRig){session, report, state, cache, NULL, NULL};
+    const DipRendererDef def = {
+        .pool = session->pool,
+        .isa = session->isa,
+        .width = report->width,
+        .height = report->height,
+        .quality = report->options.baseline,
+    };
+    rig->reference = dip_reference_create(&session->scene_def, err);
+    rig->renderer = rig->reference ? dip_renderer_create(&def, err) : NULL;
+    if (!rig->renderer) {
+        dip_cost_rig_close(rig);
+    }
+    return rig->renderer != NULL;
+}
+
+void dip_cost_rig_close(DipCostRig *rig) {
+    dip_reference_destroy(&rig->reference);
+    dip_renderer_destroy(&rig->renderer);
+}
+
+bool dip_cost_draw(DipCostRig *rig, int row, int64_t time_ns, int frame_index, DipFrame *frame,
+                   DipError *err) {
+    const DipCostRow *drawn = &rig->report->rows[row];
+    const DipPose pose = dip_cost_pose(rig->report, rig->session, drawn->path, time_ns);
+    dip_renderer_set_frame_index(rig->renderer, (uint64_t)frame_index);
+    return dip_renderer_set_quality(rig->renderer, &drawn->quality, err) &&
+           dip_renderer_draw(rig->renderer, rig->session->scene, &pose, time_ns, frame, err);
+}
+
+bool dip_cost_rig_truth(DipCostRig *rig, int path, int place, int frame,
+                        DipCostTruthProgress *progress, void *context, DipCostTruth *truth,
+                        DipError *err) {
+    const DipCostReport *report = rig->report;
+    const int64_t time_ns = dip_cost_place_time_ns(report, rig->session, path, place, frame);
+    const DipCostTruthDef def = {
+        .reference = rig->reference,
+        .scene_hash = report->scene_hash,
+        .pose = dip_cost_pose(report, rig->session, path, time_ns),
+        .time_ns = time_ns,
+        .width = report->width,
+        .height = report->height,
+        .samples = report->options.samples,
+        .pixels_per_degree = report->options.pixels_per_degree,
+    };
+    return dip_cost_truth_get(truth, &def, rig->cache, rig->session->pool, progress, context, err);
+}
+
+bool dip_cost_interrupted(const DipCostRig *rig, DipError *err) {
+    (void)rig;
+    return dip_interrupted() && !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "cost",
+                                               "interrupted; the same command goes on from here");
+}
