@@ -269,10 +269,10 @@ static const OptionRow rows[] = {
     {"--baseline", "SET", COST, dip_cost_set_baseline,
      "what every step is set in and measured against (default: all settings' defaults)"},
     {"--combine", "LIST", COST, dip_cost_set_combine,
-     "also every combination of these settings' steps, such as aa,aaa,asd,af,aaf"},
+     "measure every combination of these settings' steps too (default: aa,af; none)"},
     {"--budget-ms", "LIST", COST, dip_cost_set_budget,
-     "advise the least error within so many ms per frame, such as 4,8,16.6; combines aa, aaa, asd, "
-     "af, aaf unless --combine says otherwise"},
+     "advise the least error within so many ms per frame, such as 8,16.6; combines "
+     "aa,aaa,asd,af,aaf"},
     {"--places", "N", COST, dip_cost_set_places,
      "places of each path where errors are measured (default 3)"},
     {"--burst", "N", COST, dip_cost_set_burst,

@@ -232,16 +232,23 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, bool
         write_line(out, at, pixel(y, series->low[i]), at, pixel(y, series->high[i]),
                    "stroke-opacity=\"0.4\" stroke-width=\"5\"");
     }
-    fprintf(out, "<polyline fill=\"none\" stroke-width=\"2\"%s points=\"", dash_of(index));
-    for (int i = 0; i < series->count; i++) {
-        fprintf(out, "%s%.1f,%.1f", i ? " " : "", pixel(x, series->x[i]), pixel(y, series->y[i]));
+    if (!series->marks_only) {
+        fprintf(out, "<polyline fill=\"none\" stroke-width=\"2\"%s points=\"", dash_of(index));
+        for (int i = 0; i < series->count; i++) {
+            fprintf(out, "%s%.1f,%.1f", i ? " " : "", pixel(x, series->x[i]),
+                    pixel(y, series->y[i]));
+        }
+        fprintf(out, "\"/>\n");
     }
-    fprintf(out, "\"/>\n");
     for (int i = 0; i < series->count; i++) {
         fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/>\n", pixel(x, series->x[i]),
                 pixel(y, series->y[i]));
     }
     fprintf(out, "</g>\n");
+    for (int i = 0; series->labels && i < series->count; i++) {
+        write_text(out, pixel(x, series->x[i]) + 5.0, pixel(y, series->y[i]) - 6.0,
+                   "font-size=\"12\"", series->labels[i]);
+    }
 }
 
 // In two columns, row by row.
@@ -256,7 +263,7 @@ static void write_legend_entry(FILE *out, const char *name, int index) {
     write_text(out, x + 44, y + 4.5, "", name);
 }
 
-static void write_plot(FILE *out, const DipPlot *plot) {
+void dip_plot_print(FILE *out, const DipPlot *plot) {
     const Axis x = make_x(plot);
     const Axis y = make_y(plot);
     const int shown = shown_series(plot);
@@ -290,7 +297,7 @@ bool dip_plot_write(const char *file, const DipPlot *plot, DipError *err) {
     if (!out) {
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
-    write_plot(out, plot);
+    dip_plot_print(out, plot);
     const bool made = !ferror(out);
     const bool written = fclose(out) == 0 && made
                              ? dip_whole_file_write(file, text, size_bytes, err)

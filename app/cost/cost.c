@@ -1,6 +1,8 @@
 // `diptych cost`: truths, errors, times, report.
 #include "app/commands.h"
 
+#include "app/cost/gallery.h"
+#include "app/cost/html.h"
 #include "app/cost/rig.h"
 #include "app/cost/write.h"
 #include "app/folder.h"
@@ -21,9 +23,24 @@ static bool write_file(const DipCostReport *report, const char *folder, const ch
     return write(report, file, err);
 }
 
-static bool write_report(const DipCostReport *report, const char *folder, DipError *err) {
-    return write_file(report, folder, "cost.json", dip_cost_write_json, err) &&
-           write_file(report, folder, "cost.csv", dip_cost_write_csv, err);
+static bool write_page(DipCostRig *rig, const char *folder, DipError *err) {
+    char file[PATH_MAX];
+    DipCostGallery gallery;
+    if (snprintf(file, sizeof file, "%s/cost.html", folder) >= (int)sizeof file) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+    }
+    if (!dip_cost_gallery_make(&gallery, rig, err)) {
+        return false;
+    }
+    const bool written = dip_cost_write_html(rig->report, &gallery, file, err);
+    dip_cost_gallery_free(&gallery);
+    return written;
+}
+
+static bool write_report(DipCostRig *rig, const char *folder, DipError *err) {
+    return write_page(rig, folder, err) &&
+           write_file(rig->report, folder, "cost.csv", dip_cost_write_csv, err) &&
+           write_file(rig->report, folder, "cost.json", dip_cost_write_json, err);
 }
 
 // The folder of the truths: as given, else the user's; "" for none.
@@ -38,7 +55,8 @@ static bool find_cache(const DipOptions *options, char folder[PATH_MAX], DipErro
 
 static bool measure(DipCostRig *rig, DipError *err) {
     return dip_cost_make_truths(rig, err) && dip_cost_judge(rig, err) &&
-           (rig->report->options.errors_only || dip_cost_take_times(rig, err));
+           (rig->report->options.errors_only ||
+            (dip_cost_take_times(rig, err) && dip_cost_advise(rig, err)));
 }
 
 static bool run(DipSession *session, const DipOptions *options, DipCostReport *report,
@@ -55,12 +73,12 @@ static bool run(DipSession *session, const DipOptions *options, DipCostReport *r
         dip_cost_state_close(&state, false);
         return false;
     }
-    const bool done = measure(&rig, err) && write_report(report, options->out, err);
+    const bool done = measure(&rig, err) && write_report(&rig, options->out, err);
     dip_cost_rig_close(&rig);
     dip_cost_state_close(&state, done);
     if (done) {
         dip_cost_print(report, stdout);
-        printf("\nWritten: %s/cost.json, cost.csv\n", options->out);
+        printf("\nWritten: %s/cost.html, cost.csv, cost.json\n", options->out);
     }
     return done;
 }

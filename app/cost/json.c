@@ -1,11 +1,11 @@
-// The report as JSON, and back.
+// The report as JSON.
 #include "app/cost/write.h"
 
 #include "app/cost/fit.h"
+#include "app/cost/json_fields.h"
 #include "app/whole_file.h"
 
 #include <cjson/cJSON.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -161,22 +161,18 @@ static void add_advice(cJSON *root, const DipCostReport *report) {
     }
 }
 
-// X(field): numbers and texts that are written and read as they are.
-#define HEADER_TEXTS(X)   X(version) X(scene) X(scene_hash) X(processor) X(isa)
-#define HEADER_NUMBERS(X) X(threads) X(width) X(height) X(rounds) X(same_row) X(combined_first)
-#define OPTION_NUMBERS(X) X(places) X(burst) X(samples) X(timed_frames) X(seed) X(pixels_per_degree)
-
 static void add_header(cJSON *root, const DipCostReport *report) {
     char baseline[256];
 #define ADD_TEXT(field) cJSON_AddStringToObject(root, #field, report->field);
-    HEADER_TEXTS(ADD_TEXT)
+    DIP_COST_HEADER_TEXTS(ADD_TEXT)
 #undef ADD_TEXT
-#define ADD_NUMBER(field) cJSON_AddNumberToObject(root, #field, report->field);
-    HEADER_NUMBERS(ADD_NUMBER)
+#define ADD_NUMBER(field, most) cJSON_AddNumberToObject(root, #field, report->field);
+    DIP_COST_HEADER_NUMBERS(ADD_NUMBER)
 #undef ADD_NUMBER
-#define ADD_OPTION(field) cJSON_AddNumberToObject(root, #field, report->options.field);
-    OPTION_NUMBERS(ADD_OPTION)
+#define ADD_OPTION(field, most) cJSON_AddNumberToObject(root, #field, report->options.field);
+    DIP_COST_OPTION_NUMBERS(ADD_OPTION)
 #undef ADD_OPTION
+    cJSON_AddNumberToObject(root, "pixels_per_degree", report->options.pixels_per_degree);
     dip_quality_format(&report->options.baseline, baseline, sizeof baseline);
     cJSON_AddStringToObject(root, "baseline", baseline);
     cJSON *paths = cJSON_AddArrayToObject(root, "paths");

@@ -119,11 +119,13 @@ static bool add_combined(DipOptions *options, const char *key, const char *item,
         }
     }
     return dip_option_refuse(err, DIP_ERROR_UNKNOWN, key, item,
-                             "settings: aa, aaa, asd, af, aaf, opt, miplod, ...");
+                             "none, or settings: aa,aaa,asd,af,aaf,opt,miplod,...");
 }
 
 bool dip_cost_set_combine(DipOptions *options, const char *key, const char *value, DipError *err) {
-    return for_each(key, value, options, add_combined, err);
+    options->cost.has_combined = true;
+    options->cost.combined = 0;
+    return strcmp(value, "none") == 0 || for_each(key, value, options, add_combined, err);
 }
 
 static bool add_budget(DipOptions *options, const char *key, const char *item, DipError *err) {

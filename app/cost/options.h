@@ -27,6 +27,7 @@ typedef struct DipCostOptions {
     bool errors_only;
     bool has_seed;
     int seed;
+    bool has_combined;
     unsigned combined; // bit s: every step of setting s with every step of the other ones
     double budgets_ms[DIP_COST_MAX_BUDGETS];
     int budget_count;

@@ -317,6 +317,15 @@ static void describe(DipCostReport *report, const DipSession *session, const Dip
     report->height = options->has_size ? options->height : session->config.res.height;
 }
 
+// Two settings make a front worth a plot; advice looks at those that are chosen in scenes of all
+// kinds.
+static unsigned default_combined(const DipCostOptions *options) {
+    const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
+    return options->budget_count
+               ? two | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD | 1u << DIP_SETTING_AAF
+               : two;
+}
+
 bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipOptions *options,
                    DipError *err) {
     *report = (DipCostReport){.options = options->cost};
@@ -324,10 +333,8 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipOp
     if (!report->rows) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
     }
-    if (report->options.budget_count && !report->options.combined) {
-        report->options.combined = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA |
-                                   1u << DIP_SETTING_ASD | 1u << DIP_SETTING_AF |
-                                   1u << DIP_SETTING_AAF;
+    if (!report->options.has_combined) {
+        report->options.combined = default_combined(&report->options);
     }
     if (!report->options.end_place) {
         report->options.end_place = report->options.places;

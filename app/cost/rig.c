@@ -35,6 +35,14 @@ bool dip_cost_draw(DipCostRig *rig, int row, int64_t time_ns, int frame_index, D
            dip_renderer_draw(rig->renderer, rig->session->scene, &pose, time_ns, frame, err);
 }
 
+bool dip_cost_draw_timed(DipCostRig *rig, int row, int index, DipFrame *frame, DipError *err) {
+    const DipCostReport *report = rig->report;
+    const int64_t duration_ns =
+        dip_cost_path_duration_ns(report, rig->session, report->rows[row].path);
+    return dip_cost_draw(rig, row, duration_ns / report->options.timed_frames * index, index, frame,
+                         err);
+}
+
 bool dip_cost_rig_truth(DipCostRig *rig, int path, int place, int frame,
                         DipCostTruthProgress *progress, void *context, DipCostTruth *truth,
                         DipError *err) {

@@ -23,6 +23,9 @@ void dip_cost_rig_close(DipCostRig *rig);
 bool dip_cost_draw(DipCostRig *rig, int row, int64_t time_ns, int frame_index, DipFrame *frame,
                    DipError *err);
 
+// Draws one of the frames that are timed.
+bool dip_cost_draw_timed(DipCostRig *rig, int row, int index, DipFrame *frame, DipError *err);
+
 // The truth of a burst's frame at a place of a path.
 bool dip_cost_rig_truth(DipCostRig *rig, int path, int place, int frame,
                         DipCostTruthProgress *progress, void *context, DipCostTruth *truth,

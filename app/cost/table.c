@@ -97,6 +97,27 @@ static void print_fit(const DipCostReport *report, FILE *out) {
     }
 }
 
+static void print_advice(const DipCostReport *report, FILE *out) {
+    for (int i = 0; i < report->advice_count; i++) {
+        const DipCostAdvice *advice = &report->advice[i];
+        if (i == 0) {
+            fprintf(out, "\nAdvice, path %s: the least FLIP within a time, timed again:\n",
+                    report->paths[0]);
+        }
+        if (advice->row < 0) {
+            fprintf(out, "  %6g ms: nothing measured is that fast\n", advice->budget_ms);
+            continue;
+        }
+        int places;
+        char text[DIP_COST_TEXT];
+        const DipCostSums sums = dip_cost_row_sums(report, advice->row, &places);
+        dip_cost_settings_text(&report->rows[advice->row].quality, text);
+        fprintf(out, "  %6g ms: %s  (%.2f ms, %.2f..%.2f; FLIP %.5f)\n", advice->budget_ms, text,
+                advice->checked_ms, advice->checked_low, advice->checked_high,
+                dip_cost_figures(&sums, 0).flip);
+    }
+}
+
 void dip_cost_print(const DipCostReport *report, FILE *out) {
     print_heading(report, out);
     fputc('\n', out);
@@ -118,5 +139,6 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
         fprintf(out, "%s  %s\n", i ? "" : "\nLeft out:\n", report->refused[i]);
     }
     print_front(report, out);
+    print_advice(report, out);
     print_fit(report, out);
 }

@@ -30,12 +30,8 @@ static void shuffle(Timing *t, int count) {
 }
 
 static bool draw(Timing *t, int row, int index, double *ms, DipFrame *frame, DipError *err) {
-    const DipCostReport *report = t->rig->report;
-    const int64_t duration_ns =
-        dip_cost_path_duration_ns(report, t->rig->session, report->rows[row].path);
-    const int64_t time_ns = duration_ns / report->options.timed_frames * index;
     const int64_t begin_ns = dip_clock_ns();
-    const bool drawn = dip_cost_draw(t->rig, row, time_ns, index, frame, err);
+    const bool drawn = dip_cost_draw_timed(t->rig, row, index, frame, err);
     *ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
     dip_progress_show(&t->progress, t->drawn++);
     return drawn && !dip_cost_interrupted(t->rig, err);
