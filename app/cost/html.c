@@ -15,11 +15,11 @@ static const char style[] =
     "max-width:1100px;margin:0 auto;padding:1rem}"
     "h1{font-size:1.7rem;margin:.5rem 0}h2{font-size:1.3rem;margin:2.2rem 0 .4rem}"
     "h3{font-size:1.05rem;margin:1.6rem 0 .3rem}"
-    "svg{max-width:100%;height:auto;display:block}"
+    "svg{max-width:100%;min-width:600px;height:auto;display:block}"
     ".scroll{overflow-x:auto}"
     "table{border-collapse:collapse;font-size:.9rem;margin:.4rem 0}"
     "th,td{padding:.2rem .6rem;text-align:right;border-bottom:1px solid #ddd;white-space:nowrap}"
-    "th:first-child,td:first-child{text-align:left}"
+    "th:first-child,td:first-child,.l{text-align:left}"
     "th{border-bottom:2px solid #999}"
     ".pictures{display:flex;flex-wrap:wrap;gap:.8rem;margin:.6rem 0}"
     "figure{margin:0;width:200px}figure img{width:200px;display:block;image-rendering:pixelated;"
@@ -91,12 +91,13 @@ static void write_advice(const DipCostReport *report, FILE *out) {
     fprintf(out,
             "<h2>Advice</h2>\n<p>Of %d combinations on path %s, the one with the least FLIP "
             "within each time, timed again.</p>\n<div class=\"scroll\"><table>\n"
-            "<tr><th>budget, ms</th><th>settings</th><th>ms again</th><th>95 %% interval</th>"
+            "<tr><th>budget, ms</th><th class=\"l\">settings</th><th>ms again</th><th>95 %% "
+            "interval</th>"
             "<th>FLIP</th><th>RMSE, linear</th></tr>\n",
             report->row_count - report->combined_first, report->paths[0]);
     for (int i = 0; i < report->advice_count; i++) {
         const DipCostAdvice *advice = &report->advice[i];
-        fprintf(out, "<tr><td>%g</td><td>", advice->budget_ms);
+        fprintf(out, "<tr><td>%g</td><td class=\"l\">", advice->budget_ms);
         if (advice->row < 0) {
             fprintf(out, "nothing measured is that fast</td><td></td><td></td><td></td><td></td>"
                          "</tr>\n");
@@ -139,13 +140,14 @@ static void fill_points(const DipCostReport *report, const int *rows, int count,
 }
 
 static void write_front_table(const DipCostReport *report, const int *front, int count, FILE *out) {
-    fprintf(out, "<div class=\"scroll\"><table>\n<tr><th>#</th><th>settings</th><th>ms</th>"
-                 "<th>FLIP</th><th>RMSE, linear</th><th>the step costs, ms</th>"
-                 "<th>and buys, FLIP</th></tr>\n");
+    fprintf(out,
+            "<div class=\"scroll\"><table>\n<tr><th>#</th><th class=\"l\">settings</th><th>ms</th>"
+            "<th>FLIP</th><th>RMSE, linear</th><th>the step costs, ms</th>"
+            "<th>and buys, FLIP</th></tr>\n");
     for (int i = 0; i < count; i++) {
         const DipCostFigures f = figures_of(report, front[i], 0);
         const double ms = dip_cost_ms(report, front[i]);
-        fprintf(out, "<tr><td>%d</td><td>", i + 1);
+        fprintf(out, "<tr><td>%d</td><td class=\"l\">", i + 1);
         write_row_text(report, front[i], out);
         fprintf(out, "</td><td>%.2f</td><td>%.4f</td><td>%.5f</td>", ms, f.flip, f.rmse_lin);
         if (i > 0) {
@@ -171,12 +173,12 @@ static void write_scatter(const DipCostReport *report, const int *rows, int coun
     snprintf(subtitle, sizeof subtitle, "%d combinations, path %s, %dx%d; medians of %d rounds",
              count, report->paths[0], report->width, report->height, report->rounds);
     const DipPlotSeries series[2] = {
-        {.name = "those that nothing beats (numbers: table below)",
+        {.name = "all combinations", .x = all->x, .y = all->y, .count = count, .marks_only = true},
+        {.name = "those that nothing beats (numbers: table)",
          .x = best->x,
          .y = best->y,
          .count = kept,
          .labels = best->labels},
-        {.name = "all combinations", .x = all->x, .y = all->y, .count = count, .marks_only = true},
     };
     const DipPlot plot = {
         .title = "Time against error",
@@ -186,7 +188,9 @@ static void write_scatter(const DipCostReport *report, const int *rows, int coun
         .series = series,
         .series_count = 2,
     };
+    fprintf(out, "<div class=\"scroll\">\n");
     dip_plot_print(out, &plot);
+    fprintf(out, "</div>\n");
 }
 
 static void write_front(const DipCostReport *report, FILE *out) {
@@ -270,7 +274,8 @@ static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, F
     const Scale scale = find_scale(report, sweep);
     const int height = BAR_TOP + sweep->row_count * BAR_LINE + 4;
     fprintf(out,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
+            "<div class=\"scroll\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d "
+            "%d\" width=\"%d\" "
             "height=\"%d\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" "
             "font-size=\"13\" fill=\"#202020\">\n"
             "<text x=\"%d\" y=\"20\" font-weight=\"bold\">time, ratio to %s</text>"
@@ -290,7 +295,7 @@ static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, F
         write_bar(out, BAR_SECOND, y, (BAR_ROOM - 40.0) * flip / scale.most_flip, "#d55e00",
                   number);
     }
-    fprintf(out, "</svg>\n");
+    fprintf(out, "</svg>\n</div>\n");
 }
 
 static void write_step_row(const DipCostReport *report, const DipCostSweep *sweep, int row,
@@ -370,7 +375,7 @@ static void write_sweeps(const DipCostReport *report, const DipCostGallery *gall
 static void write_regions(const DipCostReport *report, FILE *out) {
     fprintf(out, "<h2>Where the errors are</h2>\n<p class=\"note\">FLIP, mean over the pixels that "
                  "show each; in brackets their share of all pixels.</p>\n"
-                 "<div class=\"scroll\"><table>\n<tr><th>setting</th><th>step</th>");
+                 "<div class=\"scroll\"><table>\n<tr><th>setting</th><th class=\"l\">step</th>");
     for (int r = 0; r < DIP_COST_REGIONS; r++) {
         fprintf(out, "<th>%s</th>", dip_cost_region_names[r]);
     }
@@ -382,7 +387,7 @@ static void write_regions(const DipCostReport *report, FILE *out) {
             char step[DIP_COST_TEXT];
             const DipCostSums sums = dip_cost_row_sums(report, sweep->rows[i], &places);
             dip_cost_step_text(report, sweep, sweep->rows[i], step);
-            fprintf(out, "<tr><td>%s</td><td>%s</td>", sweep->title, step);
+            fprintf(out, "<tr><td>%s</td><td class=\"l\">%s</td>", sweep->title, step);
             for (int r = 0; r < DIP_COST_REGIONS; r++) {
                 const double share = sums.regions[r].pixels / fmax(sums.regions[0].pixels, 1.0);
                 if (share > 0.0) {
@@ -401,7 +406,7 @@ static void write_regions(const DipCostReport *report, FILE *out) {
 static void write_counters(const DipCostReport *report, FILE *out) {
     fprintf(out, "<h2>Work</h2>\n<p class=\"note\">Exact, the same on every machine and for any "
                  "number of threads: mean per frame of the timed frames, in thousands.</p>\n"
-                 "<div class=\"scroll\"><table>\n<tr><th>setting</th><th>step</th>");
+                 "<div class=\"scroll\"><table>\n<tr><th>setting</th><th class=\"l\">step</th>");
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         fprintf(out, "<th>");
         for (const char *name = dip_cost_counter_names[c]; *name; name++) {
@@ -415,7 +420,7 @@ static void write_counters(const DipCostReport *report, FILE *out) {
         for (int i = 0; i < sweep->row_count; i++) {
             char step[DIP_COST_TEXT];
             dip_cost_step_text(report, sweep, sweep->rows[i], step);
-            fprintf(out, "<tr><td>%s</td><td>%s</td>", sweep->title, step);
+            fprintf(out, "<tr><td>%s</td><td class=\"l\">%s</td>", sweep->title, step);
             for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
                 fprintf(out, "<td>%.4g</td>", report->rows[sweep->rows[i]].counters[c] / 1000.0);
             }
