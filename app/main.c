@@ -79,6 +79,8 @@ static int run(const DipOptions *options) {
         return run_with_session(options, dip_bench_run);
     case DIP_COMMAND_COST:
         return run_with_session(options, dip_cost_run);
+    case DIP_COMMAND_COST_ASSETS:
+        return run_with_session(options, dip_cost_assets_run);
     case DIP_COMMAND_COST_MERGE:
         return run_merge(options);
     case DIP_COMMAND_PATH_INFO:

@@ -17,7 +17,8 @@ enum {
     BENCH = 1 << DIP_COMMAND_BENCH,
     COST = 1 << DIP_COMMAND_COST,
     MERGE = 1 << DIP_COMMAND_COST_MERGE,
-    SCENE = PANES | BENCH | COST, // those that draw
+    ASSETS = 1 << DIP_COMMAND_COST_ASSETS,
+    SCENE = PANES | BENCH | COST | ASSETS, // those that draw, or load what is drawn
     ALL = (1 << DIP_COMMAND_COUNT) - 1,
     MAX_FRAME = 1000000
 };
@@ -222,7 +223,7 @@ static const OptionRow rows[] = {
     {"--config", "FILE", SCENE, set_config, "the ini to read (default: the shipped courtyard)"},
     {"--model", "FILE", SCENE, set_model,
      "a model instead of the ini's, any format assimp reads; may be repeated"},
-    {"--path", "FILE", SCENE, set_path,
+    {"--path", "FILE", PANES | BENCH | COST, set_path,
      "a camera path (.pth, .bth) instead of the ini's, with CAMPATH_DEFAULT_FOV"},
     {"--category", "NAME", PANES | BENCH, set_category,
      "which of the ini's paths to fly: DEFAULT, AA, AF, AAA, MIPLOD, WATER, ..."},
@@ -238,7 +239,8 @@ static const OptionRow rows[] = {
      "write current_0000.png, requested_0000.png, ... and frames.json there"},
     {"--json", "FILE", DUMP, set_json, "write the record of all frames there"},
     {"--hash", NULL, DUMP, set_hash, "print a line per frame and pane: 0000 current HASH"},
-    {"--threads", "N", PANES | COST, set_threads, "worker threads (default: all processors)"},
+    {"--threads", "N", PANES | COST | ASSETS, set_threads,
+     "worker threads (default: all processors)"},
     {"--isa", "NAME", PANES | COST, set_isa,
      "auto, scalar, sse2, avx2, avx512: the same picture each"},
     {"--sets", "LIST", BENCH, dip_bench_set_sets,
@@ -365,6 +367,21 @@ static bool unknown_command(const char *word, DipError *err) {
                          dip_nearest_name(word, names, DIP_ARRAY_COUNT(names)), word);
 }
 
+// "cost merge", "cost assets": a second word that makes another command of the first.
+static void take_second_word(int argc, char *const *argv, int *index, DipOptions *options) {
+    const char *first = commands[options->command].typed;
+    for (int c = 0; c < DIP_COMMAND_COUNT && argc > 2; c++) {
+        const char *typed = commands[c].typed;
+        const size_t length = strlen(first);
+        if (strncmp(typed, first, length) == 0 && typed[length] == ' ' &&
+            strcmp(typed + length + 1, argv[2]) == 0) {
+            options->command = (DipCommand)c;
+            *index = 3;
+            return;
+        }
+    }
+}
+
 // Takes the command's words off the front; without one it is the preview.
 static bool parse_command(int argc, char *const *argv, int *index, DipOptions *options,
                           DipError *err) {
@@ -392,10 +409,7 @@ static bool parse_command(int argc, char *const *argv, int *index, DipOptions *o
         if (strcmp(argv[1], commands[c].typed) == 0) {
             options->command = (DipCommand)c;
             *index = 2;
-            if (c == DIP_COMMAND_COST && argc > 2 && strcmp(argv[2], "merge") == 0) {
-                options->command = DIP_COMMAND_COST_MERGE;
-                *index = 3;
-            }
+            take_second_word(argc, argv, index, options);
             return true;
         }
     }
@@ -537,8 +551,10 @@ static const char *usage_of(DipCommand command) {
         return "diptych bench [OPTION]...";
     case DIP_COMMAND_COST:
     case DIP_COMMAND_COST_MERGE:
+    case DIP_COMMAND_COST_ASSETS:
         return "diptych cost --out DIR [OPTION]...\n"
-               "       diptych cost merge --out DIR PART/cost.json...";
+               "       diptych cost merge --out DIR PART/cost.json...\n"
+               "       diptych cost assets [OPTION]...";
     case DIP_COMMAND_PATH_INFO:
     case DIP_COMMAND_PATH_CONVERT:
         return "diptych path info FILE\n       diptych path convert IN OUT.pth|OUT.bth";
@@ -563,12 +579,14 @@ static const char *examples_of(DipCommand command) {
                "\nTimes are wall-clock milliseconds; docs/bench.md tells how to read them.\n";
     case DIP_COMMAND_COST:
     case DIP_COMMAND_COST_MERGE:
+    case DIP_COMMAND_COST_ASSETS:
         return "  diptych cost --out report\n"
                "  diptych cost --out report --budget-ms 8,16.6\n"
                "  diptych cost --out report --model scene.glb --size 1280x720\n"
                "  diptych cost --out part0 --places 8 --part 0:4   # on one machine\n"
                "  diptych cost --out part1 --places 8 --part 4:8 --errors-only   # on another\n"
                "  diptych cost merge --out report part0/cost.json part1/cost.json\n"
+               "  diptych cost assets --model scene.glb\n"
                "\nTimes are wall-clock milliseconds; docs/cost.md defines every figure.\n";
     case DIP_COMMAND_PATH_INFO:
     case DIP_COMMAND_PATH_CONVERT:

@@ -19,6 +19,7 @@
     X(BENCH, "bench", "measure frames: every combination of settings, threads, sizes, ...")        \
     X(COST, "cost", "report what each step of each setting costs in time and buys in accuracy")    \
     X(COST_MERGE, "cost merge", "join the parts of a cost report that several machines measured")  \
+    X(COST_ASSETS, "cost assets", "size, zipped size and load time of the forms assets can take")  \
     X(PATH_INFO, "path info", "say what is in a camera path")                                      \
     X(PATH_CONVERT, "path convert", "rewrite a camera path as .pth (text) or .bth (binary)")
 

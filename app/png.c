@@ -1,8 +1,10 @@
-// PNG through stb_image_write, into a buffer, then to a file at once.
+// PNG through stb_image_write, into a buffer, then to a file at once; its deflate on its own.
 #include "app/png.h"
 
 #include "app/whole_file.h"
+#include "app/zip.h"
 
+#include <limits.h>
 #include <stdlib.h>
 
 #define STBI_WRITE_NO_STDIO
@@ -68,4 +70,21 @@ bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
     const bool written = dip_whole_file_write(file, bytes, size_bytes, err);
     free(bytes);
     return written;
+}
+
+size_t dip_zip_size(const unsigned char *bytes, size_t size_bytes) {
+    int size = 0;
+    unsigned char *zipped = NULL;
+    if (size_bytes > 0 && size_bytes < INT_MAX) {
+        // The library takes what it only reads as not const.
+        unsigned char *copy = malloc(size_bytes);
+        if (copy) {
+            memcpy(copy, bytes, size_bytes);
+            zipped = stbi_zlib_compress(copy, (int)size_bytes, &size, 8);
+        }
+        free(copy);
+    }
+    const size_t zipped_size = zipped ? (size_t)size : 0;
+    free(zipped);
+    return zipped_size;
 }

@@ -136,6 +136,10 @@ static void set_surroundings(const DipSession *session, const DipOptions *option
     def->sky = sky_of(&session->config);
 }
 
+static bool keeps_model(const DipOptions *options) {
+    return options->command == DIP_COMMAND_COST || options->command == DIP_COMMAND_COST_ASSETS;
+}
+
 static bool load_scene(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     const char *files[DIP_MAX_OPTION_MODELS];
     int count = options->model_count;
@@ -154,7 +158,7 @@ static bool load_scene(DipSession *session, const DipOptions *options, DipErrorL
         session->scene = dip_scene_create(&def, session->pool, &err);
         session->times.import_ms = dip_model_times(model).import_ms;
         session->times.pictures_ms = dip_model_times(model).pictures_ms;
-        if (session->scene && options->command == DIP_COMMAND_COST) {
+        if (session->scene && keeps_model(options)) {
             session->model = model;
             session->scene_def = def;
         } else {
@@ -378,13 +382,17 @@ static bool load_what_is_drawn(DipSession *session, const DipOptions *options,
     return scene && paths;
 }
 
+static bool has_panes(const DipOptions *options) {
+    return options->command == DIP_COMMAND_PREVIEW || options->command == DIP_COMMAND_DUMP;
+}
+
 bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     *session = (DipSession){.isa = DIP_ISA_SCALAR};
     session->times.begin_ns = options->begin_ns;
     bool opened = load_config(session, options, faults) && make_pool(session, options, faults);
     session->times.ini_ms = dip_start_times_since_ms(options->begin_ns);
     opened = opened && load_what_is_drawn(session, options, faults);
-    if (opened && options->command != DIP_COMMAND_BENCH && options->command != DIP_COMMAND_COST) {
+    if (opened && has_panes(options)) {
         const int64_t begin_ns = dip_clock_ns();
         opened = make_renderers(session, options, faults);
         session->times.renderers_ms = dip_start_times_since_ms(begin_ns);

@@ -268,6 +268,10 @@ sed 's/"samples":4,/"samples":9,/' part1/cost.json >else.json
 expect 2 'else.json: is no part of the same report' \
     "$diptych" cost merge --out x part0/cost.json else.json
 
+expect 0 '' "$diptych" cost assets --model "$source/tests/assets/data/square.gltf"
+check "forms of a mesh" grep -qE 'glTF, one binary file +[0-9.]+ +[0-9.]+ +[0-9.]+$' out.txt
+check "shutdown is timed" grep -qE 'shutdown [0-9.]+$' out.txt
+
 # --- cost, ended at any time
 for wait in 0.4 0.8 1.2; do
     timeout -s KILL $wait $cost --out killed --rounds 8 >out.txt 2>err.txt
