@@ -252,15 +252,17 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, bool
 }
 
 // In two columns, row by row.
-static void write_legend_entry(FILE *out, const char *name, int index) {
+static void write_legend_entry(FILE *out, const DipPlotSeries *series, int index) {
     const char *colour = colours[index % COLOUR_COUNT];
     const double x = LEFT + LEGEND_WIDTH * (index % 2);
     const double y = LEGEND_TOP + LEGEND_LINE * (index / 2);
-    fprintf(out,
-            "<g stroke=\"%s\" fill=\"%s\"><line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" "
-            "y2=\"%.1f\" stroke-width=\"2\"%s/><circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/></g>\n",
-            colour, colour, x, y, x + 34, y, dash_of(index), x + 17, y);
-    write_text(out, x + 44, y + 4.5, "", name);
+    fprintf(out, "<g stroke=\"%s\" fill=\"%s\">", colour, colour);
+    if (!series->marks_only) {
+        fprintf(out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke-width=\"2\"%s/>",
+                x, y, x + 34, y, dash_of(index));
+    }
+    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/></g>\n", x + 17, y);
+    write_text(out, x + 44, y + 4.5, "", series->name);
 }
 
 void dip_plot_print(FILE *out, const DipPlot *plot) {
@@ -280,7 +282,7 @@ void dip_plot_print(FILE *out, const DipPlot *plot) {
     write_axes(out, plot, &x, &y);
     for (int s = 0; s < shown; s++) {
         write_series(out, &plot->series[s], s, shown <= MOST_BARRED, &x, &y);
-        write_legend_entry(out, plot->series[s].name, s);
+        write_legend_entry(out, &plot->series[s], s);
     }
     if (left_out > 0) {
         char text[64];

@@ -84,6 +84,19 @@ static void write_facts(const DipCostReport *report, FILE *out) {
 
 // --- advice ------------------------------------------------------------------------------------
 
+static void write_step_up(const DipCostReport *report, int row, double flip, FILE *out) {
+    const int next = dip_cost_next(report, row);
+    if (next < 0) {
+        fprintf(out, "<td class=\"l\">none</td><td colspan=\"2\"></td></tr>\n");
+        return;
+    }
+    fprintf(out, "<td class=\"l\">");
+    write_row_text(report, next, out);
+    fprintf(out, "</td><td>%+.2f</td><td>%+.4f</td></tr>\n",
+            dip_cost_ms(report, next) - dip_cost_ms(report, row),
+            figures_of(report, next, 0).flip - flip);
+}
+
 static void write_advice(const DipCostReport *report, FILE *out) {
     if (report->advice_count == 0) {
         return;
@@ -93,20 +106,21 @@ static void write_advice(const DipCostReport *report, FILE *out) {
             "within each time, timed again.</p>\n<div class=\"scroll\"><table>\n"
             "<tr><th>budget, ms</th><th class=\"l\">settings</th><th>ms again</th><th>95 %% "
             "interval</th>"
-            "<th>FLIP</th><th>RMSE, linear</th></tr>\n",
+            "<th>FLIP</th><th>RMSE, linear</th><th class=\"l\">one step up</th><th>costs, ms</th>"
+            "<th>buys, FLIP</th></tr>\n",
             report->row_count - report->combined_first, report->paths[0]);
     for (int i = 0; i < report->advice_count; i++) {
         const DipCostAdvice *advice = &report->advice[i];
         fprintf(out, "<tr><td>%g</td><td class=\"l\">", advice->budget_ms);
         if (advice->row < 0) {
-            fprintf(out, "nothing measured is that fast</td><td></td><td></td><td></td><td></td>"
-                         "</tr>\n");
+            fprintf(out, "nothing measured is that fast</td><td colspan=\"7\"></td></tr>\n");
             continue;
         }
         const DipCostFigures f = figures_of(report, advice->row, 0);
         write_row_text(report, advice->row, out);
-        fprintf(out, "</td><td>%.2f</td><td>%.2f to %.2f</td><td>%.4f</td><td>%.5f</td></tr>\n",
+        fprintf(out, "</td><td>%.2f</td><td>%.2f to %.2f</td><td>%.4f</td><td>%.5f</td>",
                 advice->checked_ms, advice->checked_low, advice->checked_high, f.flip, f.rmse_lin);
+        write_step_up(report, advice->row, f.flip, out);
     }
     fprintf(out, "</table></div>\n");
 }
@@ -174,7 +188,7 @@ static void write_scatter(const DipCostReport *report, const int *rows, int coun
              count, report->paths[0], report->width, report->height, report->rounds);
     const DipPlotSeries series[2] = {
         {.name = "all combinations", .x = all->x, .y = all->y, .count = count, .marks_only = true},
-        {.name = "those that nothing beats (numbers: table)",
+        {.name = "those that nothing beats",
          .x = best->x,
          .y = best->y,
          .count = kept,
@@ -185,6 +199,8 @@ static void write_scatter(const DipCostReport *report, const int *rows, int coun
         .subtitle = subtitle,
         .x_title = "time of a frame, ms",
         .y_title = "FLIP against the truth, mean",
+        .log_x = true,
+        .log_y = true,
         .series = series,
         .series_count = 2,
     };
@@ -202,10 +218,13 @@ static void write_front(const DipCostReport *report, FILE *out) {
     const int count = rows ? list_combinations(report, rows) : 0;
     if (rows && values && labels && label_texts && count > 1) {
         int *front = rows + room;
-        const int kept = dip_cost_front(report, rows, count, front);
+        const int kept =
+            dip_cost_front_steps(report, front, dip_cost_front(report, rows, count, front));
         Points all = {values, values + room, NULL, NULL};
         Points best = {values + 2 * room, values + 3 * room, labels, label_texts};
-        fprintf(out, "<h2>Time against error</h2>\n");
+        fprintf(out, "<h2>Time against error</h2>\n<p>Both axes are logarithmic. Of the settings "
+                     "that no others beat in both time and error, those are numbered that buy at "
+                     "least 1 %% of FLIP over the one before.</p>\n");
         write_scatter(report, rows, count, front, kept, &all, &best, out);
         write_front_table(report, front, kept, out);
     }

@@ -116,9 +116,40 @@ static int compare(const void *a, const void *b) {
 typedef double Figure(const DipCostReport *report, int row, int base, const int *rounds,
                       double *scratch);
 
+// The value that would stand at a place if they were sorted, by Hoare's selection: the bootstrap
+// asks for it thousands of times. Orders the values in part.
+static double select_value(double *values, int count, int place) {
+    int low = 0, high = count - 1;
+    while (low < high) {
+        const double pivot = values[(low + high) / 2];
+        int i = low, j = high;
+        while (i <= j) {
+            while (values[i] < pivot) {
+                i++;
+            }
+            while (values[j] > pivot) {
+                j--;
+            }
+            if (i <= j) {
+                const double swap = values[i];
+                values[i++] = values[j];
+                values[j--] = swap;
+            }
+        }
+        if (place <= j) {
+            high = j;
+        } else if (place >= i) {
+            low = i;
+        } else {
+            break;
+        }
+    }
+    return values[place];
+}
+
 static double median(double *values, int count) {
-    qsort(values, (size_t)count, sizeof *values, compare);
-    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
+    const double below = select_value(values, count, (count - 1) / 2);
+    return count % 2 ? below : 0.5 * (below + select_value(values, count, count / 2));
 }
 
 static double mean_of_medians(const DipCostReport *report, int row, int base, const int *rounds,
@@ -232,4 +263,36 @@ int dip_cost_front(const DipCostReport *report, const int *rows, int count, int 
     }
     free(candidates);
     return kept;
+}
+
+static double flip_of(const DipCostReport *report, int row) {
+    int places;
+    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
+    return dip_cost_figures(&sums, 0).flip;
+}
+
+int dip_cost_front_steps(const DipCostReport *report, int *front, int count) {
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        if (i == 0 || flip_of(report, front[i]) <= 0.99 * flip_of(report, front[kept - 1])) {
+            front[kept++] = front[i];
+        }
+    }
+    return kept;
+}
+
+int dip_cost_next(const DipCostReport *report, int row) {
+    const double enough = 0.99 * flip_of(report, row);
+    int next = -1;
+    double least_ms = INFINITY;
+    for (int r = report->combined_first; r < report->row_count; r++) {
+        int places;
+        const DipCostSums sums = dip_cost_row_sums(report, r, &places);
+        const double ms = places > 0 ? dip_cost_ms(report, r) : INFINITY;
+        if (ms < least_ms && dip_cost_figures(&sums, 0).flip <= enough) {
+            least_ms = ms;
+            next = r;
+        }
+    }
+    return next;
 }

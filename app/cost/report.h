@@ -121,4 +121,10 @@ DipCostTime dip_cost_ratio(const DipCostReport *report, int row, int base);
 // time. Rows without both are left out. Returns how many.
 int dip_cost_front(const DipCostReport *report, const int *rows, int count, int *front);
 
+// The fastest combination that buys at least 1 % of FLIP over a row; -1: none.
+int dip_cost_next(const DipCostReport *report, int row);
+
+// Leaves of a front its first row and those that buy at least 1 % of FLIP over the last one left.
+int dip_cost_front_steps(const DipCostReport *report, int *front, int count);
+
 #endif

@@ -69,8 +69,11 @@ static void print_front(const DipCostReport *report, FILE *out) {
     for (int i = 0; i < count; i++) {
         rows[i] = report->combined_first + i;
     }
-    const int kept = dip_cost_front(report, rows, count, front);
-    fprintf(out, "\nOf %d combinations on path %s, those that nothing beats in time and FLIP:\n",
+    const int kept =
+        dip_cost_front_steps(report, front, dip_cost_front(report, rows, count, front));
+    fprintf(out,
+            "\nOf %d combinations on path %s, those that nothing beats in time and FLIP, by steps "
+            "of 1 %% of FLIP:\n",
             count, report->paths[0]);
     for (int i = 0; i < kept; i++) {
         int places;
@@ -115,6 +118,14 @@ static void print_advice(const DipCostReport *report, FILE *out) {
         fprintf(out, "  %6g ms: %s  (%.2f ms, %.2f..%.2f; FLIP %.5f)\n", advice->budget_ms, text,
                 advice->checked_ms, advice->checked_low, advice->checked_high,
                 dip_cost_figures(&sums, 0).flip);
+        const int next = dip_cost_next(report, advice->row);
+        if (next >= 0) {
+            const DipCostSums better = dip_cost_row_sums(report, next, &places);
+            dip_cost_settings_text(&report->rows[next].quality, text);
+            fprintf(out, "  %9s  one step up: %s (%+.2f ms, FLIP %+.5f)\n", "", text,
+                    dip_cost_ms(report, next) - dip_cost_ms(report, advice->row),
+                    dip_cost_figures(&better, 0).flip - dip_cost_figures(&sums, 0).flip);
+        }
     }
 }
 

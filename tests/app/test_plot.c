@@ -57,6 +57,21 @@ static void names_and_marks_are_there(void **state) {
     assert_int_equal(count_of("nan") + count_of("inf"), 0);
 }
 
+// Marks without a line, in the legend either; each with its label.
+static void marks_alone_have_labels(void **state) {
+    (void)state;
+    const double x[] = {1, 2, 4};
+    const char *const labels[] = {"p", "<q>", "r"};
+    const DipPlotSeries series = {
+        .name = "s", .x = x, .y = x, .count = 3, .marks_only = true, .labels = labels};
+    const DipPlot plot = make(&series, 1, true);
+    written(&plot);
+    assert_int_equal(count_of("<circle"), 3 + 1);
+    assert_int_equal(count_of("<polyline"), 0);
+    assert_int_equal(count_of("stroke-width=\"2\""), 0);
+    assert_int_equal(count_of(">p<") + count_of(">&lt;q&gt;<") + count_of(">r<"), 3);
+}
+
 // Equal factors are equal distances on logarithmic axes: three points on one line.
 static void powers_lie_on_a_line(void **state) {
     (void)state;
@@ -104,6 +119,7 @@ static void a_folder_that_is_not_there_is_an_error(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_and_marks_are_there),
+        cmocka_unit_test(marks_alone_have_labels),
         cmocka_unit_test(powers_lie_on_a_line),
         cmocka_unit_test(one_point_and_many_series),
         cmocka_unit_test(a_folder_that_is_not_there_is_an_error),

@@ -132,6 +132,12 @@ static void the_front_is_what_nothing_beats(void **state) {
     assert_int_equal(front[0], 3);
     assert_int_equal(front[1], 1);
     assert_int_equal(front[2], 0);
+    set_place(&report, 1, 2.0, 0.101); // row 0 buys less than 1 % over it
+    assert_int_equal(dip_cost_front_steps(&report, front, 3), 2);
+    assert_int_equal(front[1], 1);
+    report.combined_first = 0;
+    assert_int_equal(dip_cost_next(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
+    assert_int_equal(dip_cost_next(&report, 1), -1);
     report.rounds = 0; // without times there is none
     assert_int_equal(dip_cost_front(&report, rows, 4, front), 0);
     dip_cost_report_free(&report);
