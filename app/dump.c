@@ -2,6 +2,7 @@
 #include "app/commands.h"
 
 #include "app/folder.h"
+#include "app/interrupt.h"
 #include "app/machine.h"
 #include "app/png.h"
 #include "app/progress.h"
@@ -9,18 +10,9 @@
 
 #include <errno.h>
 #include <limits.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
-
-// Set by Ctrl-C: the frame in hand is finished, so that no file is left half-written.
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-}
 
 static bool write_picture(const char *folder, int index, int pane, const DipFrame *frame,
                           DipError *err) {
@@ -81,11 +73,10 @@ bool dip_dump_run(DipSession *session, const DipOptions *options, DipError *err)
     // On a terminal the hashes are progress enough.
     const bool quiet_output = options->out || options->json || !isatty(STDOUT_FILENO);
     DipProgress progress = dip_progress_begin("frames", total);
-    const struct sigaction on_interrupt = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &on_interrupt, NULL);
+    dip_interrupt_watch();
     int drawn = 0;
     for (int i = 0; done && i < total; i++) {
-        if (interrupted) {
+        if (dip_interrupted()) {
             done =
                 dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "dump",
                               "interrupted after %d of %d frames; no record was written", i, total);

@@ -57,12 +57,32 @@ static int run_on_path(const DipOptions *options, bool (*command)(const DipOptio
     return fail(&err, output ? EXIT_FAILED : EXIT_BAD_INPUT);
 }
 
+// The parts are input; only what is written to --out can fail while running.
+static int run_merge(const DipOptions *options) {
+    DipError err = {0};
+    if (dip_cost_merge_run(options, &err)) {
+        return EXIT_DONE;
+    }
+    for (int i = 0; i < options->cost.part_count; i++) {
+        if (strcmp(err.file, options->cost.parts[i]) == 0) {
+            return fail(&err, EXIT_BAD_INPUT);
+        }
+    }
+    return fail(&err, EXIT_FAILED);
+}
+
 static int run(const DipOptions *options) {
     switch (options->command) {
     case DIP_COMMAND_DUMP:
         return run_with_session(options, dip_dump_run);
     case DIP_COMMAND_BENCH:
         return run_with_session(options, dip_bench_run);
+    case DIP_COMMAND_COST:
+        return run_with_session(options, dip_cost_run);
+    case DIP_COMMAND_COST_ASSETS:
+        return run_with_session(options, dip_cost_assets_run);
+    case DIP_COMMAND_COST_MERGE:
+        return run_merge(options);
     case DIP_COMMAND_PATH_INFO:
         return run_on_path(options, dip_path_info_run);
     case DIP_COMMAND_PATH_CONVERT:

@@ -15,7 +15,10 @@ enum {
     DUMP = 1 << DIP_COMMAND_DUMP,
     PANES = PREVIEW | DUMP, // those that draw two panes
     BENCH = 1 << DIP_COMMAND_BENCH,
-    SCENE = PANES | BENCH, // those that draw
+    COST = 1 << DIP_COMMAND_COST,
+    MERGE = 1 << DIP_COMMAND_COST_MERGE,
+    ASSETS = 1 << DIP_COMMAND_COST_ASSETS,
+    SCENE = PANES | BENCH | COST | ASSETS, // those that draw, or load what is drawn
     ALL = (1 << DIP_COMMAND_COUNT) - 1,
     MAX_FRAME = 1000000
 };
@@ -229,15 +232,15 @@ static const OptionRow rows[] = {
     {"--config", "FILE", SCENE, set_config, "the ini to read (default: the shipped courtyard)"},
     {"--model", "FILE", SCENE, set_model,
      "a model instead of the ini's, any format assimp reads; may be repeated"},
-    {"--path", "FILE", SCENE, set_path,
+    {"--path", "FILE", PANES | BENCH | COST, set_path,
      "a camera path (.pth, .bth) instead of the ini's, with CAMPATH_DEFAULT_FOV"},
-    {"--category", "NAME", SCENE, set_category,
+    {"--category", "NAME", PANES | BENCH, set_category,
      "which of the ini's paths to fly: DEFAULT, AA, AF, AAA, MIPLOD, WATER, ..."},
     {"--current", "SET", PANES, set_current,
      "settings of the left pane, such as aa=none (default: the ini's)"},
     {"--requested", "SET", PANES, set_requested,
      "settings of the right pane, such as aa=4,af=16 (likewise)"},
-    {"--size", "WxH", PANES, set_size, "pixels of each pane (default: the ini's RES)"},
+    {"--size", "WxH", PANES | COST, set_size, "pixels of each pane (default: the ini's RES)"},
     {"--frames", "A:B[:S]", DUMP, set_frames,
      "frames A up to, not including, B, every S-th (default 0:1)"},
     {"--fps", "N", DUMP, set_fps, "frame n shows time n / N seconds (default 30)"},
@@ -245,8 +248,10 @@ static const OptionRow rows[] = {
      "write current_0000.png, requested_0000.png, ... and frames.json there"},
     {"--json", "FILE", DUMP, set_json, "write the record of all frames there"},
     {"--hash", NULL, DUMP, set_hash, "print a line per frame and pane: 0000 current HASH"},
-    {"--threads", "N", PANES, set_threads, "worker threads (default: all processors)"},
-    {"--isa", "NAME", PANES, set_isa, "auto, scalar, sse2, avx2, avx512: the same picture each"},
+    {"--threads", "N", PANES | COST | ASSETS, set_threads,
+     "worker threads (default: all processors)"},
+    {"--isa", "NAME", PANES | COST, set_isa,
+     "auto, scalar, sse2, avx2, avx512: the same picture each"},
     {"--sets", "LIST", BENCH, dip_bench_set_sets,
      "settings to measure, SET;SET;... in quotes (default: aa none, 4, 8, without and with af=16)"},
     {"--size", "LIST", BENCH, dip_bench_set_size, "WxH,WxH,... pixels (default: the ini's RES)"},
@@ -270,6 +275,32 @@ static const OptionRow rows[] = {
      "plot time against pixels, samples, triangles, threads there"},
     {"--serve", NULL, BENCH, dip_bench_set_serve,
      "draw what standard input asks for: what --vs starts"},
+    {"--out", "DIR", COST | MERGE, set_out,
+     "write cost.json, cost.csv and cost.html there; an interrupted run goes on there"},
+    {"--baseline", "SET", COST, dip_cost_set_baseline,
+     "what every step is set in and measured against (default: all settings' defaults)"},
+    {"--combine", "LIST", COST, dip_cost_set_combine,
+     "measure every combination of these settings' steps too (default: aa,af; none)"},
+    {"--budget-ms", "LIST", COST, dip_cost_set_budget,
+     "advise the least error within so many ms per frame, such as 8,16.6; combines "
+     "aa,aaa,asd,af,aaf"},
+    {"--places", "N", COST, dip_cost_set_places,
+     "places of each path where errors are measured (default 3)"},
+    {"--burst", "N", COST, dip_cost_set_burst,
+     "frames in a row at each place, for flicker (default 2)"},
+    {"--samples", "N", COST, dip_cost_set_samples,
+     "per pixel of each of the truth's two halves, a square (default 64)"},
+    {"--pixels-per-degree", "X", COST, dip_cost_set_pixels_per_degree,
+     "of the screen FLIP looks at (default 67.02: 3840 pixels on 0.7 m, from 0.7 m)"},
+    {"--rounds", "N", COST, dip_cost_set_rounds, "how often times are taken (default 16)"},
+    {"--timed", "N", COST, dip_cost_set_timed,
+     "frames along the path that are timed in each round (default 4)"},
+    {"--seed", "N", COST, dip_cost_set_seed, "of the order in the rounds (default: the clock's)"},
+    {"--part", "A:B", COST, dip_cost_set_part,
+     "errors only at places A up to, not including, B: one machine's share"},
+    {"--errors-only", NULL, COST, dip_cost_set_errors_only, "take no times"},
+    {"--cache", "DIR", COST, dip_cost_set_cache,
+     "keep truths there (default: $XDG_CACHE_HOME/diptych or ~/.cache/diptych)"},
     {"--force-all-effects", NULL, SCENE, set_force_all_effects,
      "also run effects where they cannot be seen: the same picture, at a greater cost"},
     {"--timing", NULL, PANES, set_timing,
@@ -340,11 +371,26 @@ static bool parse_option(int argc, char *const *argv, int *index, DipOptions *op
 }
 
 static bool unknown_command(const char *word, DipError *err) {
-    static const char *const names[] = {"preview", "dump", "bench", "path"};
+    static const char *const names[] = {"preview", "dump", "bench", "cost", "path"};
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, word,
                          "no such command, nearest %s; --help lists them, and a model of this name "
                          "is opened as ./%s",
                          dip_nearest_name(word, names, DIP_ARRAY_COUNT(names)), word);
+}
+
+// "cost merge", "cost assets": a second word that makes another command of the first.
+static void take_second_word(int argc, char *const *argv, int *index, DipOptions *options) {
+    const char *first = commands[options->command].typed;
+    for (int c = 0; c < DIP_COMMAND_COUNT && argc > 2; c++) {
+        const char *typed = commands[c].typed;
+        const size_t length = strlen(first);
+        if (strncmp(typed, first, length) == 0 && typed[length] == ' ' &&
+            strcmp(typed + length + 1, argv[2]) == 0) {
+            options->command = (DipCommand)c;
+            *index = 3;
+            return;
+        }
+    }
 }
 
 // Takes the command's words off the front; without one it is the preview.
@@ -374,6 +420,7 @@ static bool parse_command(int argc, char *const *argv, int *index, DipOptions *o
         if (strcmp(argv[1], commands[c].typed) == 0) {
             options->command = (DipCommand)c;
             *index = 2;
+            take_second_word(argc, argv, index, options);
             return true;
         }
     }
@@ -388,6 +435,12 @@ static bool parse_operand(DipOptions *options, const char *operand, DipError *er
     switch (options->command) {
     case DIP_COMMAND_PREVIEW:
         return set_model(options, operand, operand, err);
+    case DIP_COMMAND_COST_MERGE:
+        if (options->cost.part_count < DIP_COST_MAX_PARTS) {
+            options->cost.parts[options->cost.part_count++] = operand;
+            return true;
+        }
+        break;
     case DIP_COMMAND_PATH_INFO:
     case DIP_COMMAND_PATH_CONVERT:
         if (options->operand_count <
@@ -429,6 +482,10 @@ static bool check_complete(const DipOptions *options, DipError *err) {
     if (options->command == DIP_COMMAND_BENCH && !dip_bench_options_check(&options->bench, err)) {
         return false;
     }
+    if ((options->command == DIP_COMMAND_COST || options->command == DIP_COMMAND_COST_MERGE) &&
+        !dip_cost_options_check(options, err)) {
+        return false;
+    }
     if (options->command == DIP_COMMAND_PATH_INFO && options->operand_count != 1) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path info",
                              "no file, accepted path info FILE");
@@ -444,6 +501,7 @@ bool dip_options_parse(int argc, char *const *argv, DipOptions *options, DipErro
     *options = (DipOptions){
         .begin_ns = dip_clock_ns(), .end_frame = 1, .frame_step = 1, .fps_milli = 30000};
     dip_bench_options_default(&options->bench);
+    dip_cost_options_default(&options->cost);
     options->bench.argc = argc;
     options->bench.argv = argv;
     int index = 1;
@@ -499,6 +557,12 @@ static const char *usage_of(DipCommand command) {
         return "diptych dump --out DIR | --json FILE | --hash [OPTION]...";
     case DIP_COMMAND_BENCH:
         return "diptych bench [OPTION]...";
+    case DIP_COMMAND_COST:
+    case DIP_COMMAND_COST_MERGE:
+    case DIP_COMMAND_COST_ASSETS:
+        return "diptych cost --out DIR [OPTION]...\n"
+               "       diptych cost merge --out DIR PART/cost.json...\n"
+               "       diptych cost assets [OPTION]...";
     case DIP_COMMAND_PATH_INFO:
     case DIP_COMMAND_PATH_CONVERT:
         return "diptych path info FILE\n       diptych path convert IN OUT.pth|OUT.bth";
@@ -521,6 +585,17 @@ static const char *examples_of(DipCommand command) {
                "  diptych bench --grid 1000,10000,100000 --sets aa=none --grid-out-of-view\n"
                "  diptych bench --vs ../before/build/release/diptych --threads 1 --rounds 40\n"
                "\nTimes are wall-clock milliseconds; docs/bench.md tells how to read them.\n";
+    case DIP_COMMAND_COST:
+    case DIP_COMMAND_COST_MERGE:
+    case DIP_COMMAND_COST_ASSETS:
+        return "  diptych cost --out report\n"
+               "  diptych cost --out report --budget-ms 8,16.6\n"
+               "  diptych cost --out report --model scene.glb --size 1280x720\n"
+               "  diptych cost --out part0 --places 8 --part 0:4   # on one machine\n"
+               "  diptych cost --out part1 --places 8 --part 4:8 --errors-only   # on another\n"
+               "  diptych cost merge --out report part0/cost.json part1/cost.json\n"
+               "  diptych cost assets --model scene.glb\n"
+               "\nTimes are wall-clock milliseconds; docs/cost.md defines every figure.\n";
     case DIP_COMMAND_PATH_INFO:
     case DIP_COMMAND_PATH_CONVERT:
         return "  diptych path info campaths/ambient.pth\n"
@@ -532,13 +607,16 @@ static const char *examples_of(DipCommand command) {
     }
 }
 
-// What the command does; both of the path's, which share a help.
+// What the command does; all that share its first word share a help.
 static void print_tasks(DipCommand command, FILE *out) {
-    const bool path = command == DIP_COMMAND_PATH_INFO || command == DIP_COMMAND_PATH_CONVERT;
-    const int first = path ? DIP_COMMAND_PATH_INFO : (int)command;
-    const int last = path ? DIP_COMMAND_PATH_CONVERT : (int)command;
+    const char *typed = commands[command].typed;
+    const size_t word = strcspn(typed, " ");
     fputc('\n', out);
-    for (int c = first; c <= last; c++) {
+    for (int c = 0; c < DIP_COMMAND_COUNT; c++) {
+        if (strncmp(commands[c].typed, typed, word) != 0 ||
+            (commands[c].typed[word] != ' ' && commands[c].typed[word] != '\0')) {
+            continue;
+        }
         fprintf(out, "  %-14s %s\n", commands[c].typed, commands[c].text);
     }
 }

@@ -3,6 +3,7 @@
 #define DIP_APP_OPTIONS_H
 
 #include "app/bench/options.h"
+#include "app/cost/options.h"
 #include "renderer/base/error.h"
 #include "renderer/isa.h"
 #include "renderer/quality.h"
@@ -16,6 +17,9 @@
     X(PREVIEW, "preview", "open the window: two panes, one camera path (the default)")             \
     X(DUMP, "dump", "draw frames without a display: pictures, hashes, a record in JSON")           \
     X(BENCH, "bench", "measure frames: every combination of settings, threads, sizes, ...")        \
+    X(COST, "cost", "report what each step of each setting costs in time and buys in accuracy")    \
+    X(COST_MERGE, "cost merge", "join the parts of a cost report that several machines measured")  \
+    X(COST_ASSETS, "cost assets", "size, zipped size and load time of the forms assets can take")  \
     X(PATH_INFO, "path info", "say what is in a camera path")                                      \
     X(PATH_CONVERT, "path convert", "rewrite a camera path as .pth (text) or .bth (binary)")
 
@@ -63,6 +67,7 @@ typedef struct DipOptions {
     const char *operands[DIP_MAX_OPERANDS]; // files of the path commands
     int operand_count;
     DipBenchOptions bench;
+    DipCostOptions cost;
 } DipOptions;
 
 // Reads argv[1..]. Fails with the option at fault as key: found, accepted.

@@ -37,4 +37,21 @@ DipOptionSetter dip_bench_set_svg;
 DipOptionSetter dip_bench_set_vs;
 DipOptionSetter dip_bench_set_serve;
 
+// cost/options.c
+void dip_cost_options_default(DipCostOptions *cost);
+bool dip_cost_options_check(const DipOptions *options, DipError *err);
+DipOptionSetter dip_cost_set_baseline;
+DipOptionSetter dip_cost_set_places;
+DipOptionSetter dip_cost_set_burst;
+DipOptionSetter dip_cost_set_part;
+DipOptionSetter dip_cost_set_samples;
+DipOptionSetter dip_cost_set_pixels_per_degree;
+DipOptionSetter dip_cost_set_rounds;
+DipOptionSetter dip_cost_set_timed;
+DipOptionSetter dip_cost_set_errors_only;
+DipOptionSetter dip_cost_set_seed;
+DipOptionSetter dip_cost_set_combine;
+DipOptionSetter dip_cost_set_budget;
+DipOptionSetter dip_cost_set_cache;
+
 #endif

@@ -232,31 +232,40 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, bool
         write_line(out, at, pixel(y, series->low[i]), at, pixel(y, series->high[i]),
                    "stroke-opacity=\"0.4\" stroke-width=\"5\"");
     }
-    fprintf(out, "<polyline fill=\"none\" stroke-width=\"2\"%s points=\"", dash_of(index));
-    for (int i = 0; i < series->count; i++) {
-        fprintf(out, "%s%.1f,%.1f", i ? " " : "", pixel(x, series->x[i]), pixel(y, series->y[i]));
+    if (!series->marks_only) {
+        fprintf(out, "<polyline fill=\"none\" stroke-width=\"2\"%s points=\"", dash_of(index));
+        for (int i = 0; i < series->count; i++) {
+            fprintf(out, "%s%.1f,%.1f", i ? " " : "", pixel(x, series->x[i]),
+                    pixel(y, series->y[i]));
+        }
+        fprintf(out, "\"/>\n");
     }
-    fprintf(out, "\"/>\n");
     for (int i = 0; i < series->count; i++) {
         fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/>\n", pixel(x, series->x[i]),
                 pixel(y, series->y[i]));
     }
     fprintf(out, "</g>\n");
+    for (int i = 0; series->labels && i < series->count; i++) {
+        write_text(out, pixel(x, series->x[i]) + 5.0, pixel(y, series->y[i]) - 6.0,
+                   "font-size=\"12\"", series->labels[i]);
+    }
 }
 
 // In two columns, row by row.
-static void write_legend_entry(FILE *out, const char *name, int index) {
+static void write_legend_entry(FILE *out, const DipPlotSeries *series, int index) {
     const char *colour = colours[index % COLOUR_COUNT];
     const double x = LEFT + LEGEND_WIDTH * (index % 2);
     const double y = LEGEND_TOP + LEGEND_LINE * (index / 2);
-    fprintf(out,
-            "<g stroke=\"%s\" fill=\"%s\"><line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" "
-            "y2=\"%.1f\" stroke-width=\"2\"%s/><circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/></g>\n",
-            colour, colour, x, y, x + 34, y, dash_of(index), x + 17, y);
-    write_text(out, x + 44, y + 4.5, "", name);
+    fprintf(out, "<g stroke=\"%s\" fill=\"%s\">", colour, colour);
+    if (!series->marks_only) {
+        fprintf(out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke-width=\"2\"%s/>",
+                x, y, x + 34, y, dash_of(index));
+    }
+    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/></g>\n", x + 17, y);
+    write_text(out, x + 44, y + 4.5, "", series->name);
 }
 
-static void write_plot(FILE *out, const DipPlot *plot) {
+void dip_plot_print(FILE *out, const DipPlot *plot) {
     const Axis x = make_x(plot);
     const Axis y = make_y(plot);
     const int shown = shown_series(plot);
@@ -273,7 +282,7 @@ static void write_plot(FILE *out, const DipPlot *plot) {
     write_axes(out, plot, &x, &y);
     for (int s = 0; s < shown; s++) {
         write_series(out, &plot->series[s], s, shown <= MOST_BARRED, &x, &y);
-        write_legend_entry(out, plot->series[s].name, s);
+        write_legend_entry(out, &plot->series[s], s);
     }
     if (left_out > 0) {
         char text[64];
@@ -290,7 +299,7 @@ bool dip_plot_write(const char *file, const DipPlot *plot, DipError *err) {
     if (!out) {
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
-    write_plot(out, plot);
+    dip_plot_print(out, plot);
     const bool made = !ferror(out);
     const bool written = fclose(out) == 0 && made
                              ? dip_whole_file_write(file, text, size_bytes, err)

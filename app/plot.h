@@ -6,6 +6,7 @@
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 
 enum { DIP_PLOT_MAX_SERIES = 12 };
 
@@ -18,6 +19,8 @@ typedef struct DipPlotSeries {
     const double *low;
     const double *high;
     int count;
+    bool marks_only;           // no line between the points
+    const char *const *labels; // beside each point; NULL: none
 } DipPlotSeries;
 
 // All texts are borrowed. On a logarithmic axis every value is above 0; a linear y begins at 0.
@@ -31,6 +34,9 @@ typedef struct DipPlot {
     const DipPlotSeries *series; // only the first DIP_PLOT_MAX_SERIES are drawn; the file says so
     int series_count;            // at least 1, with at least one point each
 } DipPlot;
+
+// The <svg> element alone, for a page that has more.
+void dip_plot_print(FILE *out, const DipPlot *plot);
 
 // Writes the file whole or not at all.
 bool dip_plot_write(const char *file, const DipPlot *plot, DipError *err);

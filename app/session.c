@@ -148,6 +148,10 @@ static void set_surroundings(const DipSession *session, const DipOptions *option
     def->sky = sky_of(&session->config);
 }
 
+static bool keeps_model(const DipOptions *options) {
+    return options->command == DIP_COMMAND_COST || options->command == DIP_COMMAND_COST_ASSETS;
+}
+
 static bool load_scene(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     const char *files[DIP_MAX_OPTION_MODELS];
     int count = options->model_count;
@@ -166,7 +170,12 @@ static bool load_scene(DipSession *session, const DipOptions *options, DipErrorL
         session->scene = dip_scene_create(&def, session->pool, &err);
         session->times.import_ms = dip_model_times(model).import_ms;
         session->times.pictures_ms = dip_model_times(model).pictures_ms;
-        dip_model_destroy(&model);
+        if (session->scene && keeps_model(options)) {
+            session->model = model;
+            session->scene_def = def;
+        } else {
+            dip_model_destroy(&model);
+        }
     }
     if (session->scene) {
         session->times.textures_ms = dip_scene_times(session->scene).textures_ms;
@@ -414,6 +423,10 @@ static bool load_what_is_drawn(DipSession *session, const DipOptions *options,
     return scene && paths;
 }
 
+static bool has_panes(const DipOptions *options) {
+    return options->command == DIP_COMMAND_PREVIEW || options->command == DIP_COMMAND_DUMP;
+}
+
 bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorList *faults) {
     *session = (DipSession){.isa = DIP_ISA_SCALAR};
     session->times.begin_ns = options->begin_ns;
@@ -423,7 +436,7 @@ bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorLi
     if (opened) {
         set_reflection(session, options);
     }
-    if (opened && options->command != DIP_COMMAND_BENCH) {
+    if (opened && has_panes(options)) {
         const int64_t begin_ns = dip_clock_ns();
         opened = prepare_scene(session, options, faults);
         const int64_t prepared_ns = dip_clock_ns();
@@ -447,6 +460,7 @@ void dip_session_close(DipSession *session) {
     }
     free(session->paths);
     dip_scene_destroy(&session->scene);
+    dip_model_destroy(&session->model);
     dip_pool_destroy(&session->pool);
     dip_config_free(&session->config);
     *session = (DipSession){.isa = DIP_ISA_SCALAR};

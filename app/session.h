@@ -4,6 +4,7 @@
 
 #include "app/options.h"
 #include "app/start_times.h"
+#include "assets/model.h"
 #include "campaths/camtrack.h"
 #include "config/config.h"
 #include "renderer/renderer.h"
@@ -20,10 +21,12 @@ typedef struct DipSession {
     DipScene *scene;
     DipReflectionDef reflection; // the ini's, at the level of the user's own model if there is one
     bool force_all_effects;
-    DipCamTrack track;  // slots are the ini's categories
-    DipCamPath **paths; // loaded once each, by file
+    DipModel *model;       // kept for commands that need the reference, else NULL
+    DipSceneDef scene_def; // of it, with the ini's surroundings
+    DipCamTrack track;     // slots are the ini's categories
+    DipCamPath **paths;    // loaded once each, by file
     int path_count;
-    DipRenderer *renderers[DIP_PANE_COUNT]; // not for the bench, which makes its own
+    DipRenderer *renderers[DIP_PANE_COUNT]; // not for bench and cost, which make their own
     DipStartTimes times;
     bool orbiting; // a model of the user's own, without a path
 } DipSession;

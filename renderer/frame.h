@@ -22,9 +22,11 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(fragments_clip_tested, "places of alpha-clipped surfaces whose clip map was read")           \
     X(clip_passes, "passes over alpha-clipped triangles, tile by tile")                            \
     X(fragments_shaded, "fragments shaded: pixels times the surfaces seen in them")                \
+    X(samples_shown, "samples that show a surface: covered, nearest, kept by its clip map")        \
     X(pixels_resolved, "pixels whose samples show more than one surface or pass")                  \
     X(texture_probes, "filtered texture reads, trilinear or bilinear")                             \
     X(texels_fetched, "texels read by these")                                                      \
+    X(target_bytes, "bytes of colour that are written to targets")                                 \
     X(fragments_normal_mapped, "fragments whose normal came from a map")                           \
     X(fragments_sky, "fragments of sky with moving clouds")                                        \
     X(fragments_reflecting, "fragments of water that show the reflection")                         \

@@ -25,6 +25,7 @@ typedef struct TileWork {
     uint64_t clip_tested;
     uint64_t clip_passes;
     uint64_t fragments;
+    uint64_t samples;
     uint64_t mixed;
     int64_t stage_ns[STAGE_COUNT];
 } TileWork;
@@ -307,6 +308,7 @@ static void begin_tile(Worker *worker, int index) {
     memcpy(shading->clear_linear16, pipeline->clear_linear16, sizeof shading->clear_linear16);
     shading->mixed_count = 0;
     shading->fragments = 0;
+    shading->samples = 0;
     worker->batch.work = (DipSampleWork){0};
     worker->clip_batch.work = (DipSampleWork){0};
 }
@@ -348,6 +350,7 @@ static void run_tile(void *context, int region_index, int worker_index) {
     work->sub_blocks_tested = worker->tile.sub_blocks_tested;
     work->sub_blocks_accepted = worker->tile.sub_blocks_accepted;
     work->fragments = worker->shading.fragments;
+    work->samples = worker->shading.samples;
     work->mixed = (uint64_t)worker->shading.mixed_count;
     work->sampling.probes = worker->batch.work.probes + worker->clip_batch.work.probes;
     work->sampling.texels = worker->batch.work.texels + worker->clip_batch.work.texels;
@@ -374,7 +377,9 @@ static bool run_geometry(DipPipeline *pipeline, const DipPass *pass, DipError *e
     return true;
 }
 
-static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
+static void add_counters(const DipPipeline *pipeline, const DipTarget *target,
+                         DipCounters *counters) {
+    counters->target_bytes += 4 * (uint64_t)target->width * (uint64_t)target->height;
     const DipGeometry *geometry = &pipeline->geometry;
     for (int j = 0; j < geometry->job_count; j++) {
         counters->triangles_in += geometry->jobs[j].triangles_in;
@@ -392,6 +397,7 @@ static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
         counters->fragments_clip_tested += work->clip_tested;
         counters->clip_passes += work->clip_passes;
         counters->fragments_shaded += work->fragments;
+        counters->samples_shown += work->samples;
         counters->pixels_resolved += work->mixed;
         counters->texture_probes += work->sampling.probes;
         counters->texels_fetched += work->sampling.texels;
@@ -503,7 +509,7 @@ bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *
     dip_pool_run(pipeline->pool, dip_geometry_region_tiles(&pipeline->geometry), run_tile,
                  pipeline);
     const int64_t end = dip_clock_ns();
-    add_counters(pipeline, counters);
+    add_counters(pipeline, &pass->target, counters);
     add_times(pipeline, middle - begin, end - middle, times);
     return true;
 }

@@ -171,8 +171,12 @@ static bool write_kind(const char *folder, const struct Kind *kind, const DipBen
         return true;
     }
     for (int s = 0; s < shown; s++) {
-        lines[s] = (DipPlotSeries){series[s].name, series[s].x,    series[s].y,
-                                   series[s].low,  series[s].high, series[s].count};
+        lines[s] = (DipPlotSeries){.name = series[s].name,
+                                   .x = series[s].x,
+                                   .y = series[s].y,
+                                   .low = series[s].low,
+                                   .high = series[s].high,
+                                   .count = series[s].count};
     }
     dip_machine_processor(processor, sizeof processor);
     dip_bench_fixed_label(plan, fixed);

@@ -32,18 +32,30 @@ static uint64_t mix(uint64_t z) {
     return z ^ (z >> 31);
 }
 
-// Places sample `index` of a side x side grid, jittered within its cell, in every pixel.
+void dip_reference_place_sample(int index, int side, uint32_t seed, size_t pixel, int x, int y,
+                                double *place_x, double *place_y) {
+    const uint64_t key = mix(((uint64_t)seed << 32) + (uint64_t)index + 0x9e3779b97f4a7c15u);
+    const uint64_t random = mix(key ^ mix(pixel + 1));
+    const double jitter_x = (double)(random >> 32) * 0x1p-32;
+    const double jitter_y = (double)(random & 0xffffffffu) * 0x1p-32;
+    *place_x = 256.0 * (x + (index % side + jitter_x) / side);
+    *place_y = 256.0 * (y + (index / side + jitter_y) / side);
+}
+
+bool dip_reference_check_samples(int sample_count, int *side, DipError *err) {
+    *side = sample_count > 0 ? (int)lround(sqrt(sample_count)) : 0;
+    return (sample_count >= 1 && *side * *side == sample_count) ||
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "samples", "%d per pixel, accepted squares",
+                         sample_count);
+}
+
 static void start_plane(Converging *c, int index, int side, uint32_t seed) {
     Plane *plane = &c->plane;
-    const uint64_t key = mix(((uint64_t)seed << 32) + (uint64_t)index + 0x9e3779b97f4a7c15u);
     for (int y = 0; y < c->height; y++) {
         for (int x = 0; x < c->width; x++) {
             const size_t pixel = (size_t)y * (size_t)c->width + (size_t)x;
-            const uint64_t random = mix(key ^ mix(pixel + 1));
-            const double jitter_x = (double)(random >> 32) * 0x1p-32;
-            const double jitter_y = (double)(random & 0xffffffffu) * 0x1p-32;
-            plane->x[pixel] = 256.0 * (x + (index % side + jitter_x) / side);
-            plane->y[pixel] = 256.0 * (y + (index / side + jitter_y) / side);
+            dip_reference_place_sample(index, side, seed, pixel, x, y, &plane->x[pixel],
+                                       &plane->y[pixel]);
             plane->depths[pixel] = 0.0;
             plane->triangles[pixel] = NOTHING;
         }
@@ -147,10 +159,9 @@ static void finish(Converging *c) {
 bool dip_reference_converge(const DipReference *reference, const DipPose *pose, int width,
                             int height, int sample_count, uint32_t seed, double *rgb_lin,
                             DipError *err) {
-    const int side = sample_count > 0 ? (int)lround(sqrt(sample_count)) : 0;
-    if (sample_count < 1 || side * side != sample_count) {
-        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "samples",
-                             "%d per pixel, accepted squares", sample_count);
+    int side;
+    if (!dip_reference_check_samples(sample_count, &side, err)) {
+        return false;
     }
     if (!dip_reference_check_size(width, height, err)) {
         return false;

@@ -133,6 +133,14 @@ void dip_reference_blend_water(const DipReference *reference, const DipPose *pos
 void dip_reference_read_mirrored(const DipReference *reference, const double *mirrored, int width,
                                  int height, const DipRefPlace *place, double rgb[3]);
 
+// The converged picture's sample `index` of a pixel: jittered within its cell of a side x side
+// grid. pixel: y * width + x. The place is in the frame, in 1/256 pixel.
+void dip_reference_place_sample(int index, int side, uint32_t seed, size_t pixel, int x, int y,
+                                double *place_x, double *place_y);
+
+// The count is a square; *side is its root.
+bool dip_reference_check_samples(int sample_count, int *side, DipError *err);
+
 // The size is one that a frame may have.
 bool dip_reference_check_size(int width, int height, DipError *err);
 

@@ -13,6 +13,10 @@ static int address(double texel, int size, DipWrap wrap) {
     if (wrap == DIP_WRAP_CLAMP) {
         return (int)fmin(fmax(texel, 0.0), size - 1.0);
     }
+    if (fabs(texel) < 0x1p30) {
+        const int wrapped = (int)texel % size;
+        return wrapped < 0 ? wrapped + size : wrapped;
+    }
     const double wrapped = fmod(texel, size); // exact
     return (int)(wrapped < 0.0 ? wrapped + size : wrapped);
 }

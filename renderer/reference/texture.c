@@ -13,19 +13,6 @@ double dip_reference_encode_srgb(double linear) {
     return linear <= 0.0031308 ? linear * 12.92 : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-void dip_reference_texel(const DipRefTexture *texture, int level, int x, int y, double rgba[4]) {
-    const size_t index = 4 * ((size_t)y * (size_t)texture->widths[level] + (size_t)x);
-    if (level > 0) {
-        memcpy(rgba, texture->levels[level] + index, 4 * sizeof *rgba);
-        return;
-    }
-    const uint8_t *bytes = texture->def->rgba8 + index;
-    for (int c = 0; c < 3; c++) {
-        rgba[c] = texture->decode[bytes[c]];
-    }
-    rgba[3] = bytes[3] / 255.0;
-}
-
 // The mean of a row's texels over [from, to), in texels: every texel weighs as much as the part of
 // it that is covered. Columns are averaged alike by the caller.
 static void average_box(const DipRefTexture *texture, int level, const double from[2],

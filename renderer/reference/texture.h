@@ -7,6 +7,8 @@
 #include "renderer/scene.h"
 
 #include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
 
 enum { DIP_REF_MAX_LEVELS = 14 }; // 8192 down to 1
 
@@ -40,7 +42,19 @@ bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def
 void dip_reference_texture_free(DipRefTexture *texture);
 
 // One texel, indices within the level; r, g, b in linear light, a.
-void dip_reference_texel(const DipRefTexture *texture, int level, int x, int y, double rgba[4]);
+static inline void dip_reference_texel(const DipRefTexture *texture, int level, int x, int y,
+                                       double rgba[4]) {
+    const size_t index = 4 * ((size_t)y * (size_t)texture->widths[level] + (size_t)x);
+    if (level > 0) {
+        memcpy(rgba, texture->levels[level] + index, 4 * sizeof *rgba);
+        return;
+    }
+    const uint8_t *bytes = texture->def->rgba8 + index;
+    for (int c = 0; c < 3; c++) {
+        rgba[c] = texture->decode[bytes[c]];
+    }
+    rgba[3] = bytes[3] / 255.0;
+}
 
 // Makes the blocks of every level.
 bool dip_reference_texture_compress(DipRefTexture *texture, DipError *err);

@@ -191,6 +191,7 @@ VEC_INLINE void push_mixed(const SubBlock *sub, unsigned mixed) {
     for (int s = 0; s < sub->sample_count; s++) {
         empty[s] = pixels_with(sub->ids + s * DIP_BLOCK_PIXELS, 0) & mixed;
         left[s] = mixed & ~empty[s];
+        sub->shading->samples += (unsigned)__builtin_popcount(left[s]);
         any_empty |= empty[s];
     }
     begin_sums(sub, mixed, empty, any_empty);
@@ -241,6 +242,7 @@ static void collect_sub_block(const SubBlock *sub, bool passed) {
         mixed |= pixels_in_passes(sub, ~mixed & ALL_PIXELS);
     }
     if (within && !mixed && sub->ids[0] && pixels_with(sub->ids, sub->ids[0]) == ALL_PIXELS) {
+        sub->shading->samples += 16 * (unsigned)sub->sample_count;
         push_whole(sub, sub->ids[0] - 1);
         return;
     }
@@ -248,6 +250,8 @@ static void collect_sub_block(const SubBlock *sub, bool passed) {
     const unsigned uniform = inside & ~mixed;
     const unsigned empty = pixels_with(sub->ids, 0) & uniform;
     clear_pixels(sub, empty);
+    sub->shading->samples +=
+        (unsigned)__builtin_popcount(uniform & ~empty) * (unsigned)sub->sample_count;
     push_uniform(sub, uniform & ~empty);
     if (mixed & inside) {
         push_mixed(sub, mixed & inside);

@@ -90,6 +90,7 @@ struct DipTileShading {
     uint16_t *mixed;   // such pixels
     int mixed_count;
     uint64_t fragments;
+    uint64_t samples; // that show a surface
 };
 
 #endif

@@ -242,5 +242,69 @@ head -c 100 aa.bth >cut.bth
 expect 2 'cut.bth: ' "$diptych" path info cut.bth
 expect 1 'none/x.bth: ' "$diptych" path convert aa.pth none/x.bth
 
+# --- what cost makes
+expect 2 "\[--out\] no folder for the report" "$diptych" cost
+expect 2 "\[--samples\] '50', accepted squares" "$diptych" cost --out x --samples 50
+expect 2 "\[--part\] '3:2', accepted A:B" "$diptych" cost --out x --part 3:2
+expect 2 "\[--part\] ends at 4 of 3 places" "$diptych" cost --out x --part 0:4
+expect 2 "\[--budget-ms\] 'x', accepted milliseconds" "$diptych" cost --out x --budget-ms 8,x
+expect 2 "\[--budget-ms\] advice needs times" "$diptych" cost --out x --budget-ms 8 --errors-only
+expect 2 "\[--combine\] 'ab', accepted none, or settings" "$diptych" cost --out x --combine aa,ab
+expect 2 "\[--pixels-per-degree\] '2', accepted 5..500" "$diptych" cost --out x --pixels-per-degree 2
+expect 2 "\[cost merge\] no parts" "$diptych" cost merge --out x
+expect 2 'none.json: cannot be read' "$diptych" cost merge --out x none.json
+echo '{}' >empty.json
+expect 2 'empty.json: \[header\] is missing' "$diptych" cost merge --out x empty.json
+rm -rf x
+expect 0 '' "$diptych" cost --help
+check "help on cost gives examples" grep -q 'cost merge --out report' out.txt
+cost="$diptych cost --size 48x32 --places 2 --samples 4 --cache truths"
+expect 0 '' $cost --out whole --rounds 3 --combine aa --budget-ms 0.01,1000
+check "the report is there" test -s whole/cost.html -a -s whole/cost.csv -a -s whole/cost.json
+check "its state is not" test ! -e whole/cost.state
+check "nothing is as fast as the least budget" grep -q '0.01 ms: nothing measured' out.txt
+check "everything is as fast as the greatest" grep -qE '1000 ms: .*aa=' out.txt
+check "the page's pictures are in it" grep -q 'data:image/png;base64' whole/cost.html
+check "steps that are not there are named" grep -q 'opt=standard' out.txt
+expect 0 '' $cost --out part0 --part 0:1 --rounds 2 --combine aa
+expect 0 '' $cost --out part1 --part 1:2 --errors-only --rounds 2 --combine aa
+expect 0 '' "$diptych" cost merge --out merged part1/cost.json part0/cost.json
+sums_of() {
+    grep -oE '"(sums|half_against_half)":\[[^]]*\]' "$1/cost.json" | sort
+}
+expect 0 '' $cost --out once --rounds 2 --combine aa
+sums_of once >once.txt
+sums_of merged >merged.txt
+check "errors are there" test "$(wc -l <once.txt)" -gt 50
+check "parts make the whole" cmp once.txt merged.txt
+expect 0 '' $cost --out one-thread --errors-only --combine aa --threads 1 --isa scalar
+sums_of one-thread >other.txt
+check "errors are the same on one thread, without vectors" cmp once.txt other.txt
+sed 's/"samples":4,/"samples":9,/' part1/cost.json >else.json
+expect 2 'else.json: is no part of the same report' \
+    "$diptych" cost merge --out x part0/cost.json else.json
+
+expect 0 '' "$diptych" cost assets --model "$source/tests/assets/data/square.gltf"
+check "forms of a mesh" grep -qE 'glTF, one binary file +[0-9.]+ +[0-9.]+ +[0-9.]+$' out.txt
+check "shutdown is timed" grep -qE 'shutdown [0-9.]+$' out.txt
+
+# --- cost, ended at any time
+for wait in 0.4 0.8 1.2; do
+    timeout -s KILL $wait $cost --out killed --rounds 8 >out.txt 2>err.txt
+    check "no half report after $wait s" test ! -e killed/cost.json -o -s killed/cost.html
+done
+$cost --out killed --rounds 5000 >out.txt 2>err.txt &
+for tenth in $(seq 600); do
+    [ "$(wc -l <killed/cost.state 2>/dev/null || echo 0)" -gt 3 ] && break
+    sleep 0.1
+done
+kill -INT $!
+wait $!
+check "Ctrl-C says that it goes on" grep -q 'interrupted; the same command goes on' err.txt
+check "what is measured stays" test -s killed/cost.state
+expect 0 '' $cost --out killed --rounds 8
+sums_of killed >killed.txt
+check "the report after it is whole" test -s killed/cost.html -a ! -e killed/cost.state
+
 echo "$checks checks, $failures failed"
 [ "$failures" = 0 ]

@@ -44,7 +44,8 @@ static void names_and_marks_are_there(void **state) {
     (void)state;
     const double x[] = {1, 2, 4};
     const double y[] = {3, 5, 9};
-    const DipPlotSeries series[] = {{"a < b & c", x, y, NULL, NULL, 3}, {"d", x, y, x, y, 2}};
+    const DipPlotSeries series[] = {{.name = "a < b & c", .x = x, .y = y, .count = 3},
+                                    {.name = "d", .x = x, .y = y, .low = x, .high = y, .count = 2}};
     const DipPlot plot = make(series, 2, false);
     written(&plot);
     assert_int_equal(count_of(">a &lt; b &amp; c<"), 1);
@@ -56,12 +57,27 @@ static void names_and_marks_are_there(void **state) {
     assert_int_equal(count_of("nan") + count_of("inf"), 0);
 }
 
+// Marks without a line, in the legend either; each with its label.
+static void marks_alone_have_labels(void **state) {
+    (void)state;
+    const double x[] = {1, 2, 4};
+    const char *const labels[] = {"p", "<q>", "r"};
+    const DipPlotSeries series = {
+        .name = "s", .x = x, .y = x, .count = 3, .marks_only = true, .labels = labels};
+    const DipPlot plot = make(&series, 1, true);
+    written(&plot);
+    assert_int_equal(count_of("<circle"), 3 + 1);
+    assert_int_equal(count_of("<polyline"), 0);
+    assert_int_equal(count_of("stroke-width=\"2\""), 0);
+    assert_int_equal(count_of(">p<") + count_of(">&lt;q&gt;<") + count_of(">r<"), 3);
+}
+
 // Equal factors are equal distances on logarithmic axes: three points on one line.
 static void powers_lie_on_a_line(void **state) {
     (void)state;
     const double x[] = {10, 100, 1000};
     const double y[] = {1, 2, 4};
-    const DipPlotSeries series = {"s", x, y, NULL, NULL, 3};
+    const DipPlotSeries series = {.name = "s", .x = x, .y = y, .count = 3};
     const DipPlot plot = make(&series, 1, true);
     double at[6];
     const char *points = strstr(written(&plot), "points=");
@@ -81,7 +97,7 @@ static void one_point_and_many_series(void **state) {
     const double one[] = {5};
     DipPlotSeries series[DIP_PLOT_MAX_SERIES + 2];
     for (int i = 0; i < DIP_PLOT_MAX_SERIES + 2; i++) {
-        series[i] = (DipPlotSeries){"s", one, one, NULL, NULL, 1};
+        series[i] = (DipPlotSeries){.name = "s", .x = one, .y = one, .count = 1};
     }
     const DipPlot plot = make(series, DIP_PLOT_MAX_SERIES + 2, true);
     written(&plot);
@@ -92,7 +108,7 @@ static void one_point_and_many_series(void **state) {
 static void a_folder_that_is_not_there_is_an_error(void **state) {
     (void)state;
     const double one[] = {5};
-    const DipPlotSeries series = {"s", one, one, NULL, NULL, 1};
+    const DipPlotSeries series = {.name = "s", .x = one, .y = one, .count = 1};
     const DipPlot plot = make(&series, 1, false);
     DipError err = {0};
     assert_false(dip_plot_write("/none/at/all.svg", &plot, &err));
@@ -103,6 +119,7 @@ static void a_folder_that_is_not_there_is_an_error(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_and_marks_are_there),
+        cmocka_unit_test(marks_alone_have_labels),
         cmocka_unit_test(powers_lie_on_a_line),
         cmocka_unit_test(one_point_and_many_series),
         cmocka_unit_test(a_folder_that_is_not_there_is_an_error),

@@ -1,6 +1,6 @@
 // The courtyard along the ambient path, every antialiasing and filtering step, drawn with every
 // thread count and instruction set: all must give the hashes of one list, which gcc and clang
-// builds share. A missing or changed hash fails.
+// builds share. A missing or changed hash fails, and so does a difference in any work counter.
 //
 // Usage: test_determinism LIST [--write] [--every N] [--size WxH]
 // --write makes the list with the scalar kernels on one thread. --every N draws every N-th frame of
@@ -31,6 +31,8 @@ typedef struct Stage {
     int frames[4096];
     int frame_count;
     Options options;
+    DipCounters *work; // of the first run, per setting and frame
+    bool work_known;
 } Stage;
 
 static int fail(const char *what, const DipError *err) {
@@ -114,7 +116,20 @@ static void list_frames(Stage *stage) {
 // One hash per setting and frame, 33 characters each.
 typedef char Hash[33];
 
-static bool draw_all(const Stage *stage, DipIsa isa, int threads, Hash *hashes) {
+// Counters are the same everywhere, too: those of the first run are kept, others held to them.
+static bool check_work(Stage *stage, int index, const DipCounters *counters) {
+    if (!stage->work_known) {
+        stage->work[index] = *counters;
+    }
+    if (memcmp(&stage->work[index], counters, sizeof *counters) == 0) {
+        return true;
+    }
+    fprintf(stderr, "%s frame %d: its counters differ from the first run's\n",
+            stage->settings[index / stage->frame_count], stage->frames[index % stage->frame_count]);
+    return false;
+}
+
+static bool draw_all(Stage *stage, DipIsa isa, int threads, Hash *hashes) {
     DipError err;
     DipPool *pool = dip_pool_create(threads, &err);
     DipRendererDef def = dip_renderer_default_def();
@@ -125,6 +140,7 @@ static bool draw_all(const Stage *stage, DipIsa isa, int threads, Hash *hashes) 
     def.reflection = (DipReflectionDef){.width = 160, .height = 120, .level_m = 0.66};
     DipRenderer *renderer = pool ? dip_renderer_create(&def, &err) : NULL;
     bool drawn = renderer != NULL;
+    bool same_work = true;
     for (int s = 0; drawn && s < stage->settings_count; s++) {
         DipQuality quality;
         drawn = dip_quality_parse(stage->settings[s], &quality, &err) &&
@@ -138,12 +154,15 @@ static bool draw_all(const Stage *stage, DipIsa isa, int threads, Hash *hashes) 
             drawn = dip_renderer_draw(renderer, stage->scene, &pose, time_ns, &frame, &err);
             if (drawn) {
                 dip_frame_hash(&frame, hashes[s * stage->frame_count + f]);
+                same_work =
+                    check_work(stage, s * stage->frame_count + f, &frame.counters) && same_work;
             }
         }
     }
+    stage->work_known = true;
     dip_renderer_destroy(&renderer);
     dip_pool_destroy(&pool);
-    return drawn || !fail("cannot draw:", &err);
+    return drawn ? same_work : !fail("cannot draw:", &err);
 }
 
 static bool write_list(const Stage *stage, const Hash *hashes) {
@@ -245,9 +264,11 @@ int main(int argc, char **argv) {
     const size_t count = (size_t)stage.settings_count * (size_t)stage.frame_count;
     Hash *expected = calloc(count, sizeof *expected);
     Hash *found = calloc(count, sizeof *found);
-    const int result = expected && found ? run(&stage, expected, found) : 1;
+    stage.work = calloc(count, sizeof *stage.work);
+    const int result = expected && found && stage.work ? run(&stage, expected, found) : 1;
     free(expected);
     free(found);
+    free(stage.work);
     dip_scene_destroy(&stage.scene);
     dip_campath_destroy(&stage.path);
     return result;

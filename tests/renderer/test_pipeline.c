@@ -1,6 +1,7 @@
 // The pipeline as its callers see it: shaders of their own, culling, user clip planes, clip
 // shaders, the near plane, and what must never be drawn.
 #include "renderer/pipeline.h"
+#include "renderer/texture/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -127,6 +128,30 @@ static void every_pixel_is_drawn_once(void **state) {
         assert_in_range(counters.fragments_shaded, WIDTH * HEIGHT,
                         WIDTH * HEIGHT + (samples > 1 ? WIDTH + HEIGHT : 0));
         assert_int_equal(counters.triangles_drawn, 2);
+        assert_int_equal(counters.samples_shown, WIDTH * HEIGHT * samples);
+        assert_int_equal(counters.target_bytes, WIDTH * HEIGHT * 4);
+    }
+    dip_mesh_destroy(&mesh);
+}
+
+// Samples of a white triangle before black, counted in the picture.
+static void samples_are_counted(void **state) {
+    (void)state;
+    const Vertex vertices[3] = {
+        {{-0.9f, -0.7f, 0.5f, 1}, 0}, {{0.8f, -0.4f, 0.5f, 1}, 0}, {{-0.2f, 0.9f, 0.5f, 1}, 0}};
+    DipMesh *mesh = mesh_of(vertices, 3, (const uint32_t[]){0, 1, 2}, 3);
+    const DipDraw draw = draw_of(mesh, white);
+    const DipPass single = pass_of(&draw, 1, 1);
+    const uint64_t shown = run(&single).samples_shown;
+    assert_int_equal(shown, lit_pixels());
+    for (int samples = 2; samples <= 8; samples += 2) {
+        const DipPass pass = pass_of(&draw, 1, samples);
+        const DipCounters counters = run(&pass);
+        uint64_t expected = 0; // a pixel's light is how many of its samples are white
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            expected += (uint64_t)lround(samples * dip_srgb_decode(picture[4 * i] / 255.0));
+        }
+        assert_int_equal(counters.samples_shown, expected);
     }
     dip_mesh_destroy(&mesh);
 }
@@ -423,6 +448,7 @@ static void meshes_of_bad_numbers_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pixel_is_drawn_once),
+        cmocka_unit_test(samples_are_counted),
         cmocka_unit_test(culling_knows_the_front),
         cmocka_unit_test(user_planes_cut_where_they_stand),
         cmocka_unit_test(clip_shader_decides_what_is_there),

@@ -1,4 +1,5 @@
 // The converged picture: right on the mean, and better with more samples.
+#include "renderer/reference/convergence.h"
 #include "tests/renderer/image.h"
 #include "tests/renderer/screen.h"
 
@@ -146,6 +147,118 @@ static void test_antialiasing_approaches_the_converged_picture(void **state) {
     dip_test_scene_free(&scene);
 }
 
+static uint8_t classes[DIP_SCREEN * DIP_SCREEN];
+
+// The picture and classes by tiles, from last to first; rows are packed.
+static void converge_tiles(const DipTestScene *scene, int width, int height, int sample_count,
+                           DipScreenPicture rgb_lin) {
+    DipError err = {0};
+    DipReference *reference = dip_reference_create(&scene->def, &err);
+    DipConvergence *convergence =
+        dip_convergence_create(reference, &scene->pose, width, height, &err);
+    assert_non_null(convergence);
+    memset(rgb_lin, 0, sizeof(DipScreenPicture));
+    for (int tile = dip_convergence_tile_count(convergence) - 1; tile >= 0; tile--) {
+        assert_true(dip_convergence_add_tile(convergence, tile, sample_count, 6, 1.0,
+                                             &rgb_lin[0][0][0], classes, &err));
+    }
+    assert_false(dip_convergence_add_tile(convergence, 0, sample_count + 1, 6, 1.0,
+                                          &rgb_lin[0][0][0], NULL, &err));
+    assert_int_equal(err.code, DIP_ERROR_RANGE);
+    dip_convergence_destroy(&convergence);
+    dip_reference_destroy(&reference);
+}
+
+static void test_tiles_make_the_same_picture(void **state) {
+    (void)state;
+    for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
+        DipTestScene scene;
+        DipError err = {0};
+        dip_test_scene_make(&scene, (DipTestSceneKind)kind);
+        DipReference *reference = dip_reference_create(&scene.def, &err);
+        memset(picture, 0, sizeof picture);
+        assert_true(
+            dip_reference_converge(reference, &scene.pose, 61, 45, 9, 6, &picture[0][0][0], &err));
+        dip_reference_destroy(&reference);
+        converge_tiles(&scene, 61, 45, 9, other);
+        assert_memory_equal(picture, other, sizeof picture);
+        dip_test_scene_free(&scene);
+    }
+}
+
+static int count_class(DipSeen seen) {
+    int count = 0;
+    for (int i = 0; i < DIP_SCREEN * DIP_SCREEN; i++) {
+        count += classes[i] == seen;
+    }
+    return count;
+}
+
+// A textured square of 32x32 pixels from (10.5, 8) before a white one of 40x40 at twice the
+// distance; nothing behind both.
+static void make_squares(DipTestScene *scene, DipSurface surface) {
+    dip_screen_begin(scene);
+    const int texture = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 8, 8);
+    const DipScreenPoint far[4] = {{4, 4, 2}, {4, 44, 2}, {44, 44, 2}, {44, 4, 2}};
+    const DipScreenPoint near[4] = {{10.5, 8, 1}, {10.5, 40, 1}, {42.5, 40, 1}, {42.5, 8, 1}};
+    dip_screen_add_polygon(scene, dip_screen_add_white(scene), far, 4, 0);
+    const int material = dip_test_scene_add_material(scene, texture);
+    scene->materials[material].surface = surface;
+    scene->materials[material].double_sided = true;
+    scene->materials[material].alpha_cutoff = 0.5f;
+    const DipTestMesh mesh = dip_screen_add_polygon(scene, material, near, 4, DIP_TEST_UV0);
+    for (int i = 0; i < 8; i++) {
+        mesh.uv0[i] = (float)(i / 4);
+    }
+}
+
+static void test_pixels_are_what_is_seen(void **state) {
+    (void)state;
+    DipTestScene scene;
+    make_squares(&scene, DIP_SURFACE_OPAQUE);
+    converge_tiles(&scene, DIP_SCREEN, DIP_SCREEN, 16, picture);
+    // Only the upright sides of the near square cut pixels; two triangles' common edge does not.
+    assert_int_equal(count_class(DIP_SEEN_EDGE), 2 * 32);
+    assert_int_equal(count_class(DIP_SEEN_TEXTURED), 31 * 32);
+    assert_int_equal(count_class(DIP_SEEN_PLAIN), DIP_SCREEN * DIP_SCREEN - 33 * 32);
+    dip_test_scene_free(&scene);
+
+    make_squares(&scene, DIP_SURFACE_WATER);
+    converge_tiles(&scene, DIP_SCREEN, DIP_SCREEN, 16, picture);
+    assert_int_equal(count_class(DIP_SEEN_WATER), 33 * 32);
+    dip_test_scene_free(&scene);
+
+    // Where it is and, with half of its texels away, where it would be.
+    make_squares(&scene, DIP_SURFACE_CLIPPED);
+    uint8_t *texels = dip_test_scene_texels(&scene, 0);
+    for (int i = 0; i < 32; i++) {
+        texels[4 * i + 3] = 0;
+    }
+    converge_tiles(&scene, DIP_SCREEN, DIP_SCREEN, 16, picture);
+    assert_int_equal(count_class(DIP_SEEN_CLIPPED), 33 * 32);
+    assert_int_equal(count_class(DIP_SEEN_EDGE), 0);
+    dip_test_scene_free(&scene);
+}
+
+// A corner of two walls of one material goes on; a step in depth does not.
+static void test_corners_are_no_edges(void **state) {
+    (void)state;
+    for (int step = 0; step < 2; step++) {
+        DipTestScene scene;
+        dip_screen_begin(&scene);
+        const int white = dip_screen_add_white(&scene);
+        const double at = step ? 0.9 : 1.0;
+        const DipScreenPoint left[4] = {{-8, -8, 2}, {-8, 72, 2}, {30.25, 72, 1}, {30.25, -8, 1}};
+        const DipScreenPoint right[4] = {
+            {30.25, -8, at}, {30.25, 72, at}, {72, 72, 2}, {72, -8, 2}};
+        dip_screen_add_polygon(&scene, white, left, 4, 0);
+        dip_screen_add_polygon(&scene, white, right, 4, 0);
+        converge_tiles(&scene, DIP_SCREEN, DIP_SCREEN, 16, picture);
+        assert_int_equal(count_class(DIP_SEEN_EDGE), step ? DIP_SCREEN : 0);
+        dip_test_scene_free(&scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_texture_converges_to_its_mean),
@@ -154,6 +267,9 @@ int main(void) {
         cmocka_unit_test(test_seeds_agree_better_with_more_samples),
         cmocka_unit_test(test_a_seed_gives_one_picture),
         cmocka_unit_test(test_antialiasing_approaches_the_converged_picture),
+        cmocka_unit_test(test_tiles_make_the_same_picture),
+        cmocka_unit_test(test_pixels_are_what_is_seen),
+        cmocka_unit_test(test_corners_are_no_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,106 @@
+// The report as comma-separated values.
+#include "app/cost/write.h"
+
+#include "app/whole_file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
+                        char text[DIP_COST_TEXT]) {
+    const DipQuality *q = &report->rows[row].quality;
+    const DipSettingInfo *info = dip_setting_info(sweep->setting);
+    const char *step = info->steps[q->step[sweep->setting]];
+    if (sweep->setting == DIP_SETTING_AAA && q->step[DIP_SETTING_AAA]) {
+        snprintf(text, DIP_COST_TEXT, "on, asd=%s",
+                 dip_setting_info(DIP_SETTING_ASD)->steps[q->step[DIP_SETTING_ASD]]);
+    } else {
+        snprintf(text, DIP_COST_TEXT, "%s", step);
+    }
+}
+
+const char *dip_cost_floor_mark(const DipCostReport *report, int row) {
+    return dip_cost_at_floor(report, row) ? "at floor" : "";
+}
+
+static void write_head(FILE *out) {
+    fprintf(out, "kind,title,path,settings,ratio,ratio_low,ratio_high,ms,ms_low,ms_high");
+    for (int r = 0; r < DIP_COST_REGIONS; r++) {
+        const char *name = dip_cost_region_names[r];
+        fprintf(out, ",%s_pixels,%s_rmse_lin,%s_psnr_db,%s_ssim,%s_flip", name, name, name, name,
+                name);
+    }
+    fprintf(out, ",static_rms_lin,flicker_rms_lin,step_rms_lin,two_frame_mean_rms_lin,"
+                 "floor_rmse_lin,at_floor");
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        fprintf(out, ",%s", dip_cost_counter_names[c]);
+    }
+    fputc('\n', out);
+}
+
+static void write_errors(const DipCostReport *report, int row, FILE *out) {
+    int places;
+    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
+    const DipCostFlicker flicker = dip_cost_flicker(&sums);
+    for (int r = 0; r < DIP_COST_REGIONS; r++) {
+        const DipCostFigures f = dip_cost_figures(&sums, r);
+        if (sums.regions[r].pixels > 0.0) {
+            fprintf(out, ",%.0f,%.8g,%.6g,%.8g,%.8g", sums.regions[r].pixels, f.rmse_lin, f.psnr_db,
+                    f.ssim, f.flip);
+        } else {
+            fprintf(out, ",0,,,,");
+        }
+    }
+    fprintf(out, ",%.8g,%.8g,%.8g,%.8g,%.8g,%s", flicker.steady, flicker.flicker, flicker.step,
+            flicker.two_mean, dip_cost_floor_rmse(report, report->rows[row].path, 0),
+            dip_cost_floor_mark(report, row));
+}
+
+// Settings are in quotes, since they have commas.
+static void write_row(const DipCostReport *report, const char *kind, const char *title, int row,
+                      int base, FILE *out) {
+    char settings[256];
+    dip_quality_format(&report->rows[row].quality, settings, sizeof settings);
+    fprintf(out, "%s,\"%s\",%s,\"%s\"", kind, title, report->paths[report->rows[row].path],
+            settings);
+    if (dip_cost_is_timed(report, row)) {
+        const DipCostTime ratio = dip_cost_ratio(report, row, base);
+        const DipCostTime time = dip_cost_time(report, row);
+        fprintf(out, ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", ratio.ms, ratio.low, ratio.high, time.ms,
+                time.low, time.high);
+    } else {
+        fprintf(out, ",,,,,,");
+    }
+    write_errors(report, row, out);
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        fprintf(out, ",%.10g", report->rows[row].counters[c]);
+    }
+    fputc('\n', out);
+}
+
+bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError *err) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    }
+    write_head(out);
+    write_row(report, "a/a", "the baseline twice", report->same_row, 0, out);
+    for (int s = 0; s < report->sweep_count; s++) {
+        const DipCostSweep *sweep = &report->sweeps[s];
+        for (int i = 0; i < sweep->row_count; i++) {
+            write_row(report, "step", sweep->title, sweep->rows[i], sweep->base, out);
+        }
+    }
+    for (int r = report->combined_first; r < report->row_count; r++) {
+        write_row(report, "combination", "", r, 0, out);
+    }
+    const bool made = !ferror(out);
+    const bool written = fclose(out) == 0 && made
+                             ? dip_whole_file_write(file, text, size, err)
+                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    free(text);
+    return written;
+}

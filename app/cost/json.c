@@ -1,0 +1,203 @@
+// The report as JSON.
+#include "app/cost/write.h"
+
+#include "app/cost/fit.h"
+#include "app/cost/json_fields.h"
+#include "app/whole_file.h"
+
+#include <cjson/cJSON.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- writing -----------------------------------------------------------------------------------
+
+static void add_sums(cJSON *to, const char *name, const DipCostSums *sums) {
+    double values[DIP_COST_SUM_COUNT];
+    memcpy(values, sums, sizeof values);
+    cJSON_AddItemToObject(to, name, cJSON_CreateDoubleArray(values, DIP_COST_SUM_COUNT));
+}
+
+static void add_figures(cJSON *to, const DipCostSums *sums) {
+    for (int r = 0; r < DIP_COST_REGIONS; r++) {
+        const DipCostFigures figures = dip_cost_figures(sums, r);
+        cJSON *region = cJSON_AddObjectToObject(to, dip_cost_region_names[r]);
+        cJSON_AddNumberToObject(region, "pixels", sums->regions[r].pixels);
+        if (sums->regions[r].pixels > 0.0) {
+            cJSON_AddNumberToObject(region, "rmse_lin", figures.rmse_lin);
+            cJSON_AddNumberToObject(region, "psnr_db", figures.psnr_db);
+            cJSON_AddNumberToObject(region, "ssim", figures.ssim);
+            cJSON_AddNumberToObject(region, "flip", figures.flip);
+        }
+    }
+}
+
+static void add_flicker(cJSON *to, const DipCostSums *sums) {
+    const DipCostFlicker flicker = dip_cost_flicker(sums);
+    cJSON_AddNumberToObject(to, "static_rms_lin", flicker.steady);
+    cJSON_AddNumberToObject(to, "flicker_rms_lin", flicker.flicker);
+    cJSON_AddNumberToObject(to, "step_rms_lin", flicker.step);
+    cJSON_AddNumberToObject(to, "two_frame_mean_rms_lin", flicker.two_mean);
+}
+
+static void add_errors(cJSON *object, const DipCostReport *report, int row) {
+    int places;
+    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
+    cJSON *array = cJSON_AddArrayToObject(object, "places");
+    for (int p = 0; p < report->options.places; p++) {
+        if (report->rows[row].judged[p]) {
+            cJSON *place = cJSON_CreateObject();
+            cJSON_AddNumberToObject(place, "place", p);
+            add_sums(place, "sums", &report->rows[row].places[p]);
+            cJSON_AddItemToArray(array, place);
+        }
+    }
+    if (places > 0) {
+        add_figures(cJSON_AddObjectToObject(object, "figures"), &sums);
+        add_flicker(cJSON_AddObjectToObject(object, "over_time"), &sums);
+        cJSON_AddBoolToObject(object, "at_floor", dip_cost_at_floor(report, row));
+    }
+}
+
+static void add_times(cJSON *object, const DipCostReport *report, int row) {
+    if (!dip_cost_is_timed(report, row)) {
+        return;
+    }
+    const DipCostTime time = dip_cost_time(report, row);
+    cJSON_AddNumberToObject(object, "ms", time.ms);
+    cJSON_AddNumberToObject(object, "ms_low", time.low);
+    cJSON_AddNumberToObject(object, "ms_high", time.high);
+    cJSON *counters = cJSON_AddObjectToObject(object, "counters");
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        cJSON_AddNumberToObject(counters, dip_cost_counter_names[c], report->rows[row].counters[c]);
+    }
+    cJSON_AddItemToObject(object, "all_ms",
+                          cJSON_CreateDoubleArray(report->rows[row].ms,
+                                                  report->rounds * report->options.timed_frames));
+}
+
+static void add_rows(cJSON *root, const DipCostReport *report) {
+    cJSON *rows = cJSON_AddArrayToObject(root, "rows");
+    for (int r = 0; r < report->row_count; r++) {
+        char settings[256];
+        char text[DIP_COST_TEXT];
+        cJSON *object = cJSON_CreateObject();
+        dip_quality_format(&report->rows[r].quality, settings, sizeof settings);
+        dip_cost_settings_text(&report->rows[r].quality, text);
+        cJSON_AddStringToObject(object, "settings", settings);
+        cJSON_AddStringToObject(object, "text", text);
+        cJSON_AddNumberToObject(object, "path", report->rows[r].path);
+        add_errors(object, report, r);
+        add_times(object, report, r);
+        cJSON_AddItemToArray(rows, object);
+    }
+}
+
+static void add_sweeps(cJSON *root, const DipCostReport *report) {
+    cJSON *sweeps = cJSON_AddArrayToObject(root, "sweeps");
+    for (int s = 0; s < report->sweep_count; s++) {
+        const DipCostSweep *sweep = &report->sweeps[s];
+        cJSON *object = cJSON_CreateObject();
+        cJSON_AddStringToObject(object, "title", sweep->title);
+        cJSON_AddStringToObject(object, "setting", dip_setting_info(sweep->setting)->key);
+        cJSON_AddNumberToObject(object, "path", sweep->path);
+        cJSON_AddNumberToObject(object, "base", sweep->base);
+        cJSON *steps = cJSON_AddArrayToObject(object, "steps");
+        for (int i = 0; i < sweep->row_count; i++) {
+            cJSON *step = cJSON_CreateObject();
+            cJSON_AddNumberToObject(step, "row", sweep->rows[i]);
+            if (dip_cost_is_timed(report, sweep->rows[i])) {
+                const DipCostTime ratio = dip_cost_ratio(report, sweep->rows[i], sweep->base);
+                cJSON_AddNumberToObject(step, "ratio", ratio.ms);
+                cJSON_AddNumberToObject(step, "ratio_low", ratio.low);
+                cJSON_AddNumberToObject(step, "ratio_high", ratio.high);
+            }
+            cJSON_AddItemToArray(steps, step);
+        }
+        cJSON_AddItemToArray(sweeps, object);
+    }
+}
+
+static void add_floors(cJSON *root, const DipCostReport *report) {
+    cJSON *floors = cJSON_AddArrayToObject(root, "floors");
+    for (int path = 0; path < report->path_count; path++) {
+        for (int p = 0; p < report->options.places; p++) {
+            const int index = path * report->options.places + p;
+            if (report->has_floor[index]) {
+                cJSON *object = cJSON_CreateObject();
+                cJSON_AddNumberToObject(object, "path", path);
+                cJSON_AddNumberToObject(object, "place", p);
+                add_sums(object, "half_against_half", &report->floors[index]);
+                cJSON_AddItemToArray(floors, object);
+            }
+        }
+    }
+}
+
+static void add_fit(cJSON *root, const DipCostReport *report) {
+    const DipCostFit fit = dip_cost_fit(report);
+    if (fit.rows == 0) {
+        return;
+    }
+    cJSON *object = cJSON_AddObjectToObject(root, "fit");
+    cJSON *costs = cJSON_AddObjectToObject(object, "ns_per");
+    for (int i = 0; i < fit.count; i++) {
+        cJSON_AddNumberToObject(costs, fit.names[i], fit.ns[i]);
+    }
+    cJSON_AddNumberToObject(object, "r2", fit.r2);
+    cJSON_AddNumberToObject(object, "median_miss", fit.median_miss);
+}
+
+static void add_advice(cJSON *root, const DipCostReport *report) {
+    cJSON *advice = cJSON_AddArrayToObject(root, "advice");
+    for (int i = 0; i < report->advice_count; i++) {
+        const DipCostAdvice *a = &report->advice[i];
+        cJSON *object = cJSON_CreateObject();
+        cJSON_AddNumberToObject(object, "budget_ms", a->budget_ms);
+        cJSON_AddNumberToObject(object, "row", a->row);
+        cJSON_AddNumberToObject(object, "checked_ms", a->checked_ms);
+        cJSON_AddNumberToObject(object, "checked_ms_low", a->checked_low);
+        cJSON_AddNumberToObject(object, "checked_ms_high", a->checked_high);
+        cJSON_AddItemToArray(advice, object);
+    }
+}
+
+static void add_header(cJSON *root, const DipCostReport *report) {
+    char baseline[256];
+#define ADD_TEXT(field) cJSON_AddStringToObject(root, #field, report->field);
+    DIP_COST_HEADER_TEXTS(ADD_TEXT)
+#undef ADD_TEXT
+#define ADD_NUMBER(field, most) cJSON_AddNumberToObject(root, #field, report->field);
+    DIP_COST_HEADER_NUMBERS(ADD_NUMBER)
+#undef ADD_NUMBER
+#define ADD_OPTION(field, most) cJSON_AddNumberToObject(root, #field, report->options.field);
+    DIP_COST_OPTION_NUMBERS(ADD_OPTION)
+#undef ADD_OPTION
+    cJSON_AddNumberToObject(root, "pixels_per_degree", report->options.pixels_per_degree);
+    dip_quality_format(&report->options.baseline, baseline, sizeof baseline);
+    cJSON_AddStringToObject(root, "baseline", baseline);
+    cJSON *paths = cJSON_AddArrayToObject(root, "paths");
+    for (int p = 0; p < report->path_count; p++) {
+        cJSON_AddItemToArray(paths, cJSON_CreateString(report->paths[p]));
+    }
+    cJSON *refused = cJSON_AddArrayToObject(root, "left_out");
+    for (int i = 0; i < report->refused_count; i++) {
+        cJSON_AddItemToArray(refused, cJSON_CreateString(report->refused[i]));
+    }
+}
+
+bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError *err) {
+    cJSON *root = cJSON_CreateObject();
+    add_header(root, report);
+    add_floors(root, report);
+    add_rows(root, report);
+    add_sweeps(root, report);
+    add_fit(root, report);
+    add_advice(root, report);
+    char *text = cJSON_PrintUnformatted(root);
+    cJSON_Delete(root);
+    const bool written = text
+                             ? dip_whole_file_write(file, text, strlen(text), err)
+                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    cJSON_free(text);
+    return written;
+}

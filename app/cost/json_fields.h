@@ -1,0 +1,23 @@
+// Fields that the JSON report writes and reads as they are.
+#ifndef DIP_APP_COST_JSON_FIELDS_H
+#define DIP_APP_COST_JSON_FIELDS_H
+
+// X(field): texts of the report.
+#define DIP_COST_HEADER_TEXTS(X) X(version) X(scene) X(scene_hash) X(processor) X(isa)
+
+// X(field, greatest value): whole numbers of the report, and of its options.
+#define DIP_COST_HEADER_NUMBERS(X)                                                                 \
+    X(threads, 256)                                                                                \
+    X(width, 8192)                                                                                 \
+    X(height, 8192)                                                                                \
+    X(rounds, 10000)                                                                               \
+    X(same_row, DIP_COST_MAX_ROWS)                                                                 \
+    X(combined_first, DIP_COST_MAX_ROWS)
+#define DIP_COST_OPTION_NUMBERS(X)                                                                 \
+    X(places, DIP_COST_MAX_PLACES)                                                                 \
+    X(burst, DIP_COST_MAX_BURST)                                                                   \
+    X(samples, 4096)                                                                               \
+    X(timed_frames, 100)                                                                           \
+    X(seed, 0x7fffffff)
+
+#endif

@@ -1,0 +1,110 @@
+// `diptych cost merge`: the places that several machines have judged, in one report.
+#include "app/commands.h"
+
+#include "app/cost/html.h"
+#include "app/cost/write.h"
+#include "app/folder.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+// Parts of one report: the same rows, pictures and truths. Machines and times may differ.
+static bool belong(const DipCostReport *a, const DipCostReport *b) {
+    bool same = strcmp(a->scene_hash, b->scene_hash) == 0 && a->width == b->width &&
+                a->height == b->height && a->row_count == b->row_count &&
+                a->path_count == b->path_count && a->options.places == b->options.places &&
+                a->options.burst == b->options.burst && a->options.samples == b->options.samples &&
+                a->options.pixels_per_degree == b->options.pixels_per_degree;
+    for (int r = 0; same && r < a->row_count; r++) {
+        same = a->rows[r].path == b->rows[r].path &&
+               memcmp(&a->rows[r].quality, &b->rows[r].quality, sizeof a->rows[r].quality) == 0;
+    }
+    return same;
+}
+
+static void take_places(DipCostReport *to, const DipCostReport *from) {
+    const int places = to->options.places;
+    for (int r = 0; r < to->row_count; r++) {
+        for (int p = 0; p < places; p++) {
+            if (!to->rows[r].judged[p] && from->rows[r].judged[p]) {
+                to->rows[r].places[p] = from->rows[r].places[p];
+                to->rows[r].judged[p] = true;
+            }
+        }
+    }
+    for (int i = 0; i < to->path_count * places; i++) {
+        if (!to->has_floor[i] && from->has_floor[i]) {
+            to->floors[i] = from->floors[i];
+            to->has_floor[i] = true;
+        }
+    }
+}
+
+// Reads the parts into one. Times, advice and the machine's name are those of the first part that
+// has times, since times of several machines do not mix.
+static bool read_parts(const DipCostOptions *options, DipCostReport *report, DipError *err) {
+    if (!dip_cost_read_json(report, options->parts[0], err)) {
+        return false;
+    }
+    for (int i = 1; i < options->part_count; i++) {
+        DipCostReport part;
+        if (!dip_cost_read_json(&part, options->parts[i], err)) {
+            return false;
+        }
+        if (!belong(report, &part)) {
+            dip_cost_report_free(&part);
+            return dip_error_set(err, DIP_ERROR_CONFLICT, options->parts[i], 0, NULL,
+                                 "is no part of the same report as %s (scene, size, settings, "
+                                 "places or samples differ)",
+                                 options->parts[0]);
+        }
+        if (report->rounds == 0 && part.rounds > 0) {
+            const DipCostReport swap = *report;
+            *report = part;
+            part = swap;
+        }
+        take_places(report, &part);
+        dip_cost_report_free(&part);
+    }
+    return true;
+}
+
+static int count_missing(const DipCostReport *report) {
+    int count = 0;
+    for (int p = 0; p < report->options.places; p++) {
+        count += !report->rows[0].judged[p];
+    }
+    return count;
+}
+
+bool dip_cost_merge_run(const DipOptions *options, DipError *err) {
+    DipCostReport report = {0};
+    char file[PATH_MAX];
+    const char *const folder = options->out;
+    bool done = dip_folder_make(folder, "--out", err) && read_parts(&options->cost, &report, err);
+    if (done && count_missing(&report) > 0) {
+        printf("%d of %d places are in none of the parts\n", count_missing(&report),
+               report.options.places);
+    }
+    if (done && strlen(folder) + 16 > sizeof file) {
+        done = dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+    }
+    if (done) {
+        snprintf(file, sizeof file, "%.*s/cost.json", PATH_MAX - 16, folder);
+        done = dip_cost_write_json(&report, file, err);
+    }
+    if (done) {
+        snprintf(file, sizeof file, "%.*s/cost.csv", PATH_MAX - 16, folder);
+        done = dip_cost_write_csv(&report, file, err);
+    }
+    if (done) {
+        snprintf(file, sizeof file, "%.*s/cost.html", PATH_MAX - 16, folder);
+        done = dip_cost_write_html(&report, NULL, file, err);
+    }
+    if (done) {
+        dip_cost_print(&report, stdout);
+    }
+    dip_cost_report_free(&report);
+    return done;
+}

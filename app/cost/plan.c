@@ -1,0 +1,387 @@
+// Making the rows.
+#include "app/cost/plan.h"
+
+#include "app/hash.h"
+#include "app/machine.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The path that shows a setting at its best, and what else must be on for its steps to differ.
+typedef struct SettingPlan {
+    DipCategory category;
+    DipSetting needs;
+    int needed_step;
+} SettingPlan;
+
+static const SettingPlan plans[DIP_SETTING_COUNT] = {
+    [DIP_SETTING_AA] = {DIP_CATEGORY_AA, DIP_SETTING_AA, 0},
+    [DIP_SETTING_TAA] = {DIP_CATEGORY_TAA, DIP_SETTING_AA, 2},
+    [DIP_SETTING_AAA] = {DIP_CATEGORY_AAA, DIP_SETTING_AA, 0},
+    [DIP_SETTING_ASD] = {DIP_CATEGORY_AAA, DIP_SETTING_AA, 0},
+    [DIP_SETTING_AF] = {DIP_CATEGORY_AF, DIP_SETTING_AF, 0},
+    [DIP_SETTING_AAF] = {DIP_CATEGORY_AAF, DIP_SETTING_AF, 4},
+    [DIP_SETTING_OPT] = {DIP_CATEGORY_CAI, DIP_SETTING_OPT, 0},
+    [DIP_SETTING_MIPLOD] = {DIP_CATEGORY_MIPLOD, DIP_SETTING_MIPLOD, 0},
+    [DIP_SETTING_GI] = {DIP_CATEGORY_GI, DIP_SETTING_GI, 0},
+    [DIP_SETTING_MIPDEBUG] = {DIP_CATEGORY_DEFAULT, DIP_SETTING_MIPDEBUG, 0},
+};
+
+// --- paths -------------------------------------------------------------------------------------
+
+static int slot_of(const DipSession *session, int category) {
+    return session->track.slots[category].path ? category : 0;
+}
+
+// Categories that share a path and a field of view share its entry, named after the first.
+static int add_path(DipCostReport *report, const DipSession *session, int category) {
+    const DipCamSlot *slot = &session->track.slots[slot_of(session, category)];
+    for (int p = 0; p < report->path_count; p++) {
+        for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
+            const DipCamSlot *known = &session->track.slots[c];
+            if (strcmp(dip_session_category(c), report->paths[p]) == 0 &&
+                known->path == slot->path && known->fov_y_deg == slot->fov_y_deg) {
+                return p;
+            }
+        }
+    }
+    snprintf(report->paths[report->path_count], sizeof report->paths[0], "%s",
+             dip_session_category(slot_of(session, category)));
+    return report->path_count++;
+}
+
+static const DipCamSlot *slot_of_path(const DipCostReport *report, const DipSession *session,
+                                      int path) {
+    for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
+        if (strcmp(dip_session_category(c), report->paths[path]) == 0) {
+            return &session->track.slots[c];
+        }
+    }
+    return &session->track.slots[0];
+}
+
+int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession *session,
+                                  int path) {
+    return dip_campath_info(slot_of_path(report, session, path)->path).duration_ns;
+}
+
+DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, int path,
+                      int64_t time_ns) {
+    const DipCamSlot *slot = slot_of_path(report, session, path);
+    DipPose pose = {.fov_y_deg = slot->fov_y_deg};
+    dip_campath_sample(slot->path, time_ns, &pose);
+    return pose;
+}
+
+int64_t dip_cost_place_time_ns(const DipCostReport *report, const DipSession *session, int path,
+                               int place, int frame) {
+    // In the middles of as many equal parts of the path.
+    const int64_t duration_ns = dip_cost_path_duration_ns(report, session, path);
+    return duration_ns / (2 * report->options.places) * (2 * place + 1) +
+           frame * INT64_C(1000000000) / 30;
+}
+
+// --- rows --------------------------------------------------------------------------------------
+
+// The row of these settings on this path, made if it is not there; -1 when there is no room.
+static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
+    for (int r = 0; r < report->row_count; r++) {
+        if (report->rows[r].path == path &&
+            memcmp(&report->rows[r].quality, quality, sizeof *quality) == 0) {
+            return r;
+        }
+    }
+    if (report->row_count == DIP_COST_MAX_ROWS) {
+        return -1;
+    }
+    report->rows[report->row_count] = (DipCostRow){.quality = *quality, .path = path};
+    return report->row_count++;
+}
+
+static void refuse(DipCostReport *report, const char *what, const char *why) {
+    if (report->refused_count < DIP_COST_MAX_REFUSED) {
+        snprintf(report->refused[report->refused_count++], DIP_COST_REASON, "%.100s: %.380s", what,
+                 why);
+    }
+}
+
+static DipCostSweep *begin_sweep(DipCostReport *report, DipSetting setting, int path, int base,
+                                 const char *with) {
+    DipCostSweep *sweep = &report->sweeps[report->sweep_count++];
+    *sweep = (DipCostSweep){.setting = setting, .path = path, .base = base};
+    snprintf(sweep->title, sizeof sweep->title, "%s%s%s", dip_setting_info(setting)->title,
+             *with ? " with " : "", with);
+    return sweep;
+}
+
+static void add_to_sweep(DipCostSweep *sweep, int row) {
+    if (row >= 0 && sweep->row_count < DIP_COST_MAX_SWEEP_ROWS) {
+        sweep->rows[sweep->row_count++] = row;
+    }
+}
+
+// What a sweep's settings have on top of the defaults beside the swept one; "" for nothing.
+static void context_text(const DipQuality *quality, DipSetting setting, char text[DIP_COST_TEXT]) {
+    DipQuality context = *quality;
+    context.step[setting] = (uint8_t)dip_setting_info(setting)->default_step;
+    dip_cost_settings_text(&context, text);
+    if (strcmp(text, "defaults") == 0) {
+        text[0] = '\0';
+    }
+}
+
+static void plan_setting(DipCostReport *report, const DipSession *session, DipSetting setting) {
+    const DipSettingInfo *info = dip_setting_info(setting);
+    const SettingPlan *plan = &plans[setting];
+    DipQuality base = report->options.baseline;
+    if (plan->needs != setting && base.step[plan->needs] == 0) {
+        base.step[plan->needs] = (uint8_t)plan->needed_step;
+    }
+    DipQuality steps[DIP_MAX_STEPS];
+    int count = 0;
+    for (int step = 0; step < info->step_count; step++) {
+        DipError err = {0};
+        steps[count] = base;
+        steps[count].step[setting] = (uint8_t)step;
+        if (dip_quality_check(&steps[count], &err)) {
+            count++;
+        } else {
+            char what[DIP_COST_TEXT];
+            snprintf(what, sizeof what, "%s=%s", info->key, info->steps[step]);
+            refuse(report, what, err.message);
+        }
+    }
+    if (count < 2) {
+        return;
+    }
+    const int path = add_path(report, session, plan->category);
+    char with[DIP_COST_TEXT];
+    context_text(&base, setting, with);
+    DipCostSweep *sweep = begin_sweep(report, setting, path, add_row(report, &base, path), with);
+    for (int i = 0; i < count; i++) {
+        add_to_sweep(sweep, add_row(report, &steps[i], path));
+    }
+}
+
+// Adaptive AA's divisors belong to numbers of samples: a sweep for each, from few passes to many.
+static void plan_adaptive(DipCostReport *report, const DipSession *session) {
+    const DipSettingInfo *divisors = dip_setting_info(DIP_SETTING_ASD);
+    for (int aa = 1; aa < dip_setting_info(DIP_SETTING_AA)->step_count; aa++) {
+        DipQuality base = report->options.baseline;
+        base.step[DIP_SETTING_AA] = (uint8_t)aa;
+        base.step[DIP_SETTING_AAA] = 0;
+        base.step[DIP_SETTING_ASD] = 0;
+        if (!dip_quality_check(&base, NULL)) {
+            continue;
+        }
+        const int path = add_path(report, session, plans[DIP_SETTING_AAA].category);
+        const int base_row = add_row(report, &base, path);
+        char with[DIP_COST_TEXT];
+        context_text(&base, DIP_SETTING_AAA, with);
+        DipCostSweep *sweep = begin_sweep(report, DIP_SETTING_AAA, path, base_row, with);
+        add_to_sweep(sweep, base_row);
+        for (int asd = divisors->step_count - 1; asd >= 0; asd--) {
+            DipQuality on = base;
+            on.step[DIP_SETTING_AAA] = 1;
+            on.step[DIP_SETTING_ASD] = (uint8_t)asd;
+            if (dip_quality_check(&on, NULL) &&
+                dip_quality_samples_per_pass(&on) < dip_quality_sample_count(&on)) {
+                add_to_sweep(sweep, add_row(report, &on, path));
+            }
+        }
+    }
+}
+
+// --- combinations ------------------------------------------------------------------------------
+
+// Settings that say the same as others, with a step in use that changes nothing.
+static bool is_idle(const DipQuality *q) {
+    const bool adaptive = q->step[DIP_SETTING_AAA] != 0;
+    return (q->step[DIP_SETTING_AAF] && !q->step[DIP_SETTING_AF]) ||
+           (q->step[DIP_SETTING_TAA] && !q->step[DIP_SETTING_AA]) ||
+           (!adaptive && q->step[DIP_SETTING_ASD]) ||
+           (adaptive && dip_quality_samples_per_pass(q) == dip_quality_sample_count(q));
+}
+
+static bool add_combinations(DipCostReport *report, DipQuality quality, int setting,
+                             DipError *err) {
+    while (setting < DIP_SETTING_COUNT && !(report->options.combined >> setting & 1)) {
+        setting++;
+    }
+    if (setting == DIP_SETTING_COUNT) {
+        if (!dip_quality_check(&quality, NULL) || is_idle(&quality)) {
+            return true;
+        }
+        if (report->row_count == DIP_COST_MAX_ROWS) {
+            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--combine",
+                                 "more than %d combinations, accepted fewer settings",
+                                 DIP_COST_MAX_ROWS);
+        }
+        report->rows[report->row_count++] = (DipCostRow){.quality = quality, .path = 0};
+        return true;
+    }
+    for (int step = 0; step < dip_setting_info((DipSetting)setting)->step_count; step++) {
+        quality.step[setting] = (uint8_t)step;
+        if (!add_combinations(report, quality, setting + 1, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// --- the whole ---------------------------------------------------------------------------------
+
+static void hash_def(const DipSceneDef *def, DipHash *hash) {
+    for (int t = 0; t < def->texture_count; t++) {
+        const DipTextureDef *texture = &def->textures[t];
+        dip_hash_integer(hash, texture->width);
+        dip_hash_integer(hash, texture->height);
+        dip_hash_integer(hash, texture->encoding);
+        dip_hash_integer(hash, texture->wrap_u * 2 + texture->wrap_v);
+        dip_hash_bytes(hash, texture->rgba8, (size_t)texture->width * (size_t)texture->height * 4);
+    }
+    for (int m = 0; m < def->material_count; m++) {
+        const DipMaterialDef *material = &def->materials[m];
+        for (int c = 0; c < 3; c++) {
+            dip_hash_number(hash, (double)material->base_colour_lin[c]);
+        }
+        const int values[] = {(int)material->surface, material->colour_texture, material->light_map,
+                              material->normal_map,   material->double_sided,   material->lit};
+        dip_hash_bytes(hash, values, sizeof values);
+        dip_hash_number(hash, (double)material->light_map_scale);
+        dip_hash_number(hash, (double)material->roughness);
+        dip_hash_number(hash, (double)material->alpha_cutoff);
+    }
+    for (int m = 0; m < def->mesh_count; m++) {
+        const DipMeshDef *mesh = &def->meshes[m];
+        const struct {
+            const float *values;
+            size_t width;
+        } arrays[] = {{mesh->positions, 3},
+                      {mesh->normals, 3},
+                      {mesh->uv0, 2},
+                      {mesh->uv1, 2},
+                      {mesh->colours_lin, 3}};
+        dip_hash_integer(hash, mesh->vertex_count);
+        dip_hash_integer(hash, mesh->material);
+        for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++) {
+            dip_hash_integer(hash, arrays[a].values != NULL);
+            if (arrays[a].values) {
+                dip_hash_bytes(hash, arrays[a].values,
+                               mesh->vertex_count * arrays[a].width * sizeof(float));
+            }
+        }
+        dip_hash_integer(hash, mesh->index_count);
+        dip_hash_bytes(hash, mesh->indices, mesh->index_count * sizeof *mesh->indices);
+    }
+    for (int o = 0; o < def->object_count; o++) {
+        dip_hash_integer(hash, def->objects[o].mesh);
+        dip_hash_bytes(hash, def->objects[o].transform, sizeof def->objects[o].transform);
+    }
+    dip_hash_bytes(hash, def->background_lin, sizeof def->background_lin);
+    dip_hash_number(hash, (double)def->near_m);
+}
+
+static void hash_sky(const DipSkyDef *sky, DipHash *hash) {
+    for (int i = 0; i < 2; i++) {
+        dip_hash_number(hash, (double)sky->layers[i].scale);
+        dip_hash_number(hash, sky->layers[i].speed_per_min);
+        dip_hash_number(hash, (double)sky->layers[i].perturbation_widths);
+    }
+    const float values[] = {sky->perturbation_scale, sky->blend, sky->clear, sky->dense,
+                            sky->overcast};
+    dip_hash_bytes(hash, values, sizeof values);
+    dip_hash_bytes(hash, sky->zenith_lin, sizeof sky->zenith_lin);
+    dip_hash_bytes(hash, sky->horizon_lin, sizeof sky->horizon_lin);
+    dip_hash_bytes(hash, sky->cloud_lin, sizeof sky->cloud_lin);
+    dip_hash_bytes(hash, sky->glare_lin, sizeof sky->glare_lin);
+    dip_hash_bytes(hash, sky->tint_lin, sizeof sky->tint_lin);
+}
+
+static void hash_reflection(const DipReflectionDef *reflection, DipHash *hash) {
+    dip_hash_integer(hash, reflection->width);
+    dip_hash_integer(hash, reflection->height);
+    dip_hash_number(hash, reflection->level_m);
+    dip_hash_integer(hash, reflection->schlick);
+}
+
+static void describe(DipCostReport *report, const DipSession *session, const DipOptions *options) {
+    const char *file = options->model_count          ? options->models[0]
+                       : session->config.xfile.count ? session->config.xfile.items[0].path
+                                                     : "";
+    const char *slash = strrchr(file, '/');
+    snprintf(report->scene, sizeof report->scene, "%s", slash ? slash + 1 : file);
+    DipHash hash = dip_hash_begin();
+    hash_def(&session->scene_def, &hash);
+    hash_sky(&session->scene_def.sky, &hash);
+    hash_reflection(&session->reflection, &hash);
+    dip_hash_hex(&hash, report->scene_hash);
+    dip_machine_processor(report->processor, sizeof report->processor);
+    snprintf(report->isa, sizeof report->isa, "%s", dip_isa_name(session->isa));
+    snprintf(report->version, sizeof report->version, "%s", DIP_VERSION);
+    report->threads = dip_pool_thread_count(session->pool);
+    report->width = options->has_size ? options->width : session->config.res.width;
+    report->height = options->has_size ? options->height : session->config.res.height;
+}
+
+// Two settings make a front worth a plot; advice looks at those that are chosen in scenes of all
+// kinds.
+static unsigned default_combined(const DipCostOptions *options) {
+    const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
+    return options->budget_count
+               ? two | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD | 1u << DIP_SETTING_AAF
+               : two;
+}
+
+bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipOptions *options,
+                   DipError *err) {
+    *report = (DipCostReport){.options = options->cost};
+    report->rows = calloc(DIP_COST_MAX_ROWS, sizeof *report->rows);
+    if (!report->rows) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+    }
+    if (!report->options.has_combined) {
+        report->options.combined = default_combined(&report->options);
+    }
+    if (!report->options.end_place) {
+        report->options.end_place = report->options.places;
+    }
+    describe(report, session, options);
+    add_row(report, &report->options.baseline, add_path(report, session, DIP_CATEGORY_DEFAULT));
+    report->same_row = report->row_count;
+    report->rows[report->row_count++] = report->rows[0];
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        if (s == DIP_SETTING_AAA) {
+            plan_adaptive(report, session);
+        } else if (s != DIP_SETTING_ASD && s != DIP_SETTING_MIPDEBUG) {
+            plan_setting(report, session, (DipSetting)s);
+        }
+    }
+    report->combined_first = report->row_count;
+    if (report->options.combined && !add_combinations(report, report->options.baseline, 0, err)) {
+        return false;
+    }
+    return dip_cost_report_alloc(report, err);
+}
+
+void dip_cost_plan_hash(const DipCostReport *report, char hex[33]) {
+    DipHash hash = dip_hash_begin();
+    dip_hash_text(&hash, report->version);
+    dip_hash_text(&hash, report->scene_hash);
+    dip_hash_text(&hash, report->processor);
+    dip_hash_text(&hash, report->isa);
+    const int values[] = {report->threads,
+                          report->width,
+                          report->height,
+                          report->options.places,
+                          report->options.burst,
+                          report->options.samples,
+                          report->options.timed_frames};
+    dip_hash_bytes(&hash, values, sizeof values);
+    for (int r = 0; r < report->row_count; r++) {
+        dip_hash_text(&hash, report->paths[report->rows[r].path]);
+        dip_hash_bytes(&hash, &report->rows[r].quality, sizeof report->rows[r].quality);
+    }
+    dip_hash_hex(&hash, hex);
+}

@@ -1,0 +1,284 @@
+// A report back from its JSON.
+#include "app/cost/write.h"
+
+#include "app/cost/json_fields.h"
+
+#include <cjson/cJSON.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_FILE_BYTES = 1 << 29 };
+
+static bool missing(const char *file, const char *what, DipError *err) {
+    return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, what,
+                         "is missing or not as `diptych cost` writes it");
+}
+
+static char *read_text(const char *file, DipError *err) {
+    FILE *in = fopen(file, "rb");
+    if (!in) {
+        dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be read: %s", strerror(errno));
+        return NULL;
+    }
+    size_t size = 0, room = 1 << 16;
+    char *text = malloc(room);
+    for (size_t got = 1; text && got > 0 && size < MAX_FILE_BYTES;) {
+        got = fread(text + size, 1, room - size - 1, in);
+        size += got;
+        if (room - size < 2) {
+            char *grown = realloc(text, room *= 2);
+            if (!grown) {
+                free(text);
+            }
+            text = grown;
+        }
+    }
+    fclose(in);
+    if (text) {
+        text[size] = '\0';
+    } else {
+        dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    }
+    return text;
+}
+
+// --- fields ------------------------------------------------------------------------------------
+
+// A whole number of an object in least..most; else -1 and *ok false.
+static int integer(const cJSON *object, const char *name, int least, int most, bool *ok) {
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
+    const bool good = cJSON_IsNumber(item) && item->valuedouble >= least &&
+                      item->valuedouble <= most && floor(item->valuedouble) == item->valuedouble;
+    *ok = *ok && good;
+    return good ? (int)item->valuedouble : -1;
+}
+
+static void copy_text(const cJSON *item, char *to, size_t size, bool *ok) {
+    if (cJSON_IsString(item)) {
+        snprintf(to, size, "%s", item->valuestring);
+    } else {
+        *ok = false;
+    }
+}
+
+// An array of `count` finite numbers.
+static bool numbers(const cJSON *array, int count, double *to) {
+    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != count) {
+        return false;
+    }
+    const cJSON *item;
+    cJSON_ArrayForEach(item, array) {
+        if (!cJSON_IsNumber(item) || !isfinite(item->valuedouble)) {
+            return false;
+        }
+        *to++ = item->valuedouble;
+    }
+    return true;
+}
+
+static bool read_sums(const cJSON *object, const char *name, DipCostSums *sums) {
+    double values[DIP_COST_SUM_COUNT];
+    if (!numbers(cJSON_GetObjectItemCaseSensitive(object, name), DIP_COST_SUM_COUNT, values)) {
+        return false;
+    }
+    memcpy(sums, values, sizeof values);
+    return true;
+}
+
+// --- parts -------------------------------------------------------------------------------------
+
+static bool read_header(const cJSON *root, DipCostReport *report) {
+    bool ok = true;
+    DipCostOptions *options = &report->options;
+#define READ_TEXT(field)                                                                           \
+    copy_text(cJSON_GetObjectItemCaseSensitive(root, #field), report->field, sizeof report->field, \
+              &ok);
+    DIP_COST_HEADER_TEXTS(READ_TEXT)
+#undef READ_TEXT
+#define READ_NUMBER(field, most) report->field = integer(root, #field, 0, most, &ok);
+    DIP_COST_HEADER_NUMBERS(READ_NUMBER)
+#undef READ_NUMBER
+#define READ_OPTION(field, most) options->field = integer(root, #field, 0, most, &ok);
+    DIP_COST_OPTION_NUMBERS(READ_OPTION)
+#undef READ_OPTION
+    ok = ok && options->places > 0 && options->burst > 0 && options->timed_frames > 0;
+    options->rounds = report->rounds;
+    options->end_place = options->places;
+    const cJSON *ppd = cJSON_GetObjectItemCaseSensitive(root, "pixels_per_degree");
+    options->pixels_per_degree = cJSON_IsNumber(ppd) ? ppd->valuedouble : 0.0;
+    const cJSON *baseline = cJSON_GetObjectItemCaseSensitive(root, "baseline");
+    ok = ok && cJSON_IsString(baseline) &&
+         dip_quality_parse(baseline->valuestring, &options->baseline, NULL);
+    const cJSON *item;
+    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "paths")) {
+        if (report->path_count < DIP_COST_MAX_PATHS) {
+            copy_text(item, report->paths[report->path_count++], sizeof report->paths[0], &ok);
+        }
+    }
+    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "left_out")) {
+        if (report->refused_count < DIP_COST_MAX_REFUSED) {
+            copy_text(item, report->refused[report->refused_count++], DIP_COST_REASON, &ok);
+        }
+    }
+    return ok && report->path_count > 0;
+}
+
+static bool read_row(const cJSON *object, DipCostReport *report, DipCostRow *row) {
+    bool ok = true;
+    const cJSON *settings = cJSON_GetObjectItemCaseSensitive(object, "settings");
+    row->path = integer(object, "path", 0, report->path_count - 1, &ok);
+    ok = ok && cJSON_IsString(settings) &&
+         dip_quality_parse(settings->valuestring, &row->quality, NULL);
+    const cJSON *place;
+    cJSON_ArrayForEach(place, cJSON_GetObjectItemCaseSensitive(object, "places")) {
+        const int p = integer(place, "place", 0, report->options.places - 1, &ok);
+        if (!ok || !read_sums(place, "sums", &row->places[p])) {
+            return false;
+        }
+        row->judged[p] = true;
+    }
+    const int times = report->rounds * report->options.timed_frames;
+    if (ok && times > 0) {
+        const cJSON *counters = cJSON_GetObjectItemCaseSensitive(object, "counters");
+        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+            const cJSON *value =
+                cJSON_GetObjectItemCaseSensitive(counters, dip_cost_counter_names[c]);
+            row->counters[c] = cJSON_IsNumber(value) ? value->valuedouble : 0.0;
+        }
+        ok = numbers(cJSON_GetObjectItemCaseSensitive(object, "all_ms"), times, row->ms);
+    }
+    return ok;
+}
+
+static bool read_rows(const cJSON *root, DipCostReport *report) {
+    const cJSON *object;
+    int row = 0;
+    cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "rows")) {
+        if (!read_row(object, report, &report->rows[row++])) {
+            return false;
+        }
+    }
+    return report->same_row < row && report->combined_first <= row;
+}
+
+static bool read_sweep(const cJSON *object, DipCostReport *report, DipCostSweep *sweep) {
+    bool ok = true;
+    const cJSON *setting = cJSON_GetObjectItemCaseSensitive(object, "setting");
+    copy_text(cJSON_GetObjectItemCaseSensitive(object, "title"), sweep->title, sizeof sweep->title,
+              &ok);
+    sweep->path = integer(object, "path", 0, report->path_count - 1, &ok);
+    sweep->base = integer(object, "base", 0, report->row_count - 1, &ok);
+    int found = -1;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        if (cJSON_IsString(setting) &&
+            strcmp(setting->valuestring, dip_setting_info((DipSetting)s)->key) == 0) {
+            found = s;
+        }
+    }
+    sweep->setting = found >= 0 ? (DipSetting)found : DIP_SETTING_AA;
+    const cJSON *step;
+    cJSON_ArrayForEach(step, cJSON_GetObjectItemCaseSensitive(object, "steps")) {
+        if (sweep->row_count == DIP_COST_MAX_SWEEP_ROWS) {
+            return false;
+        }
+        sweep->rows[sweep->row_count++] = integer(step, "row", 0, report->row_count - 1, &ok);
+    }
+    return ok && found >= 0;
+}
+
+static bool read_sweeps(const cJSON *root, DipCostReport *report) {
+    const cJSON *object;
+    cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "sweeps")) {
+        if (report->sweep_count == DIP_COST_MAX_SWEEPS ||
+            !read_sweep(object, report, &report->sweeps[report->sweep_count])) {
+            return false;
+        }
+        report->sweep_count++;
+    }
+    return true;
+}
+
+static bool read_floors(const cJSON *root, DipCostReport *report) {
+    bool ok = true;
+    const cJSON *object;
+    cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "floors")) {
+        const int path = integer(object, "path", 0, report->path_count - 1, &ok);
+        const int place = integer(object, "place", 0, report->options.places - 1, &ok);
+        const int index = path * report->options.places + place;
+        if (!ok || !read_sums(object, "half_against_half", &report->floors[index])) {
+            return false;
+        }
+        report->has_floor[index] = true;
+    }
+    return ok;
+}
+
+static void read_advice(const cJSON *root, DipCostReport *report) {
+    const cJSON *object;
+    cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "advice")) {
+        bool ok = report->advice_count < DIP_COST_MAX_BUDGETS;
+        const char *const names[] = {"budget_ms", "checked_ms", "checked_ms_low",
+                                     "checked_ms_high"};
+        double values[4] = {0};
+        for (int i = 0; i < 4; i++) {
+            const cJSON *value = cJSON_GetObjectItemCaseSensitive(object, names[i]);
+            ok = ok && cJSON_IsNumber(value);
+            values[i] = ok ? value->valuedouble : 0.0;
+        }
+        const int row = integer(object, "row", -1, report->row_count - 1, &ok);
+        if (ok) {
+            report->advice[report->advice_count++] =
+                (DipCostAdvice){values[0], row, values[1], values[2], values[3]};
+        }
+    }
+}
+
+static bool read_report(const cJSON *root, DipCostReport *report, const char *file, DipError *err) {
+    if (!read_header(root, report)) {
+        return missing(file, "header", err);
+    }
+    const cJSON *rows = cJSON_GetObjectItemCaseSensitive(root, "rows");
+    const int count = cJSON_GetArraySize(rows);
+    if (count < 1 || count > DIP_COST_MAX_ROWS) {
+        return missing(file, "rows", err);
+    }
+    report->rows = calloc((size_t)count, sizeof *report->rows);
+    report->row_count = report->rows ? count : 0;
+    if (!report->rows) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    }
+    if (!dip_cost_report_alloc(report, err)) {
+        return false;
+    }
+    if (!read_rows(root, report)) {
+        return missing(file, "rows", err);
+    }
+    if (!read_sweeps(root, report)) {
+        return missing(file, "sweeps", err);
+    }
+    if (!read_floors(root, report)) {
+        return missing(file, "floors", err);
+    }
+    read_advice(root, report);
+    return true;
+}
+
+bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) {
+    *report = (DipCostReport){0};
+    char *text = read_text(file, err);
+    cJSON *root = text ? cJSON_Parse(text) : NULL;
+    const bool parsed = root != NULL;
+    if (text && !parsed) {
+        dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is no JSON");
+    }
+    const bool read = parsed && read_report(root, report, file, err);
+    cJSON_Delete(root);
+    free(text);
+    if (!read) {
+        dip_cost_report_free(report);
+    }
+    return read;
+}

@@ -1,0 +1,155 @@
+// The report as text for a terminal.
+#include "app/cost/write.h"
+
+#include "app/cost/fit.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static void print_heading(const DipCostReport *report, FILE *out) {
+    char baseline[DIP_COST_TEXT];
+    dip_cost_settings_text(&report->options.baseline, baseline);
+    fprintf(out, "scene    %s, %dx%d pixels\n", report->scene, report->width, report->height);
+    fprintf(out, "machine  %s, %d thread%s, %s\n", report->processor, report->threads,
+            report->threads == 1 ? "" : "s", report->isa);
+    fprintf(out, "times    %d frames of each path, %d rounds; ratios with 95 %% intervals\n",
+            report->options.timed_frames, report->rounds);
+    fprintf(out, "errors   %d places of each path, %d frames in a row; truth of 2 x %d samples\n",
+            report->options.places, report->options.burst, report->options.samples);
+    fprintf(out, "baseline %s\n", baseline);
+}
+
+static void print_times(const DipCostReport *report, int row, int base, FILE *out) {
+    if (!dip_cost_is_timed(report, row)) {
+        fprintf(out, " %8s %6s %-15s", "-", "-", "");
+        return;
+    }
+    const DipCostTime ratio = dip_cost_ratio(report, row, base);
+    char interval[32];
+    snprintf(interval, sizeof interval, "%.3f..%.3f", ratio.low, ratio.high);
+    fprintf(out, " %8.2f %6.3f %-15s", dip_cost_ms(report, row), ratio.ms, interval);
+}
+
+static void print_row(const DipCostReport *report, const char *name, int row, int base, FILE *out) {
+    int places;
+    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
+    fprintf(out, "  %-17s", name);
+    print_times(report, row, base, out);
+    if (places > 0) {
+        const DipCostFigures f = dip_cost_figures(&sums, 0);
+        const DipCostFlicker flicker = dip_cost_flicker(&sums);
+        fprintf(out, " %7.5f %6.2f %7.5f %7.5f %7.5f %7.5f  %s", f.rmse_lin, f.psnr_db, f.ssim,
+                f.flip, flicker.flicker, flicker.two_mean, dip_cost_floor_mark(report, row));
+    }
+    fputc('\n', out);
+}
+
+static void print_columns(FILE *out) {
+    fprintf(out, "  %-17s %8s %6s %-15s %7s %6s %7s %7s %7s %7s\n", "", "ms", "ratio",
+            "95 % interval", "RMSE", "PSNR", "SSIM", "FLIP", "flicker", "2-mean");
+}
+
+static void print_floors(const DipCostReport *report, FILE *out) {
+    fprintf(out, "\nThe truth's own floor (errors below three times its RMSE are \"at floor\"):\n");
+    for (int p = 0; p < report->path_count; p++) {
+        const DipCostSums sums = dip_cost_floor(report, p);
+        fprintf(out, "  %-9s RMSE %.5f; FLIP between its halves %.5f\n", report->paths[p],
+                dip_cost_floor_rmse(report, p, 0), dip_cost_figures(&sums, 0).flip);
+    }
+}
+
+static void print_front(const DipCostReport *report, FILE *out) {
+    const int count = report->row_count - report->combined_first;
+    int *rows = malloc(2 * ((size_t)count + 1) * sizeof *rows);
+    if (!rows || count == 0) {
+        free(rows);
+        return;
+    }
+    int *front = rows + count;
+    for (int i = 0; i < count; i++) {
+        rows[i] = report->combined_first + i;
+    }
+    const int kept =
+        dip_cost_front_steps(report, front, dip_cost_front(report, rows, count, front));
+    fprintf(out,
+            "\nOf %d combinations on path %s, those that nothing beats in time and FLIP, by steps "
+            "of 1 %% of FLIP:\n",
+            count, report->paths[0]);
+    for (int i = 0; i < kept; i++) {
+        int places;
+        char text[DIP_COST_TEXT];
+        const DipCostSums sums = dip_cost_row_sums(report, front[i], &places);
+        dip_cost_settings_text(&report->rows[front[i]].quality, text);
+        fprintf(out, "  %8.2f ms  FLIP %.5f  %s\n", dip_cost_ms(report, front[i]),
+                dip_cost_figures(&sums, 0).flip, text);
+    }
+    free(rows);
+}
+
+static void print_fit(const DipCostReport *report, FILE *out) {
+    const DipCostFit fit = dip_cost_fit(report);
+    if (fit.rows == 0) {
+        return;
+    }
+    fprintf(out, "\nTime by work (least squares over %d rows, R2 %.3f, median miss %.1f %%), ns:\n",
+            fit.rows, fit.r2, 100.0 * fit.median_miss);
+    for (int i = 0; i < fit.count; i++) {
+        if (fit.ns[i] > 0.0) {
+            fprintf(out, "  %10.3g per %s\n", fit.ns[i], fit.names[i]);
+        }
+    }
+}
+
+static void print_advice(const DipCostReport *report, FILE *out) {
+    for (int i = 0; i < report->advice_count; i++) {
+        const DipCostAdvice *advice = &report->advice[i];
+        if (i == 0) {
+            fprintf(out, "\nAdvice, path %s: the least FLIP within a time, timed again:\n",
+                    report->paths[0]);
+        }
+        if (advice->row < 0) {
+            fprintf(out, "  %6g ms: nothing measured is that fast\n", advice->budget_ms);
+            continue;
+        }
+        int places;
+        char text[DIP_COST_TEXT];
+        const DipCostSums sums = dip_cost_row_sums(report, advice->row, &places);
+        dip_cost_settings_text(&report->rows[advice->row].quality, text);
+        fprintf(out, "  %6g ms: %s  (%.2f ms, %.2f..%.2f; FLIP %.5f)\n", advice->budget_ms, text,
+                advice->checked_ms, advice->checked_low, advice->checked_high,
+                dip_cost_figures(&sums, 0).flip);
+        const int next = dip_cost_next(report, advice->row);
+        if (next >= 0) {
+            const DipCostSums better = dip_cost_row_sums(report, next, &places);
+            dip_cost_settings_text(&report->rows[next].quality, text);
+            fprintf(out, "  %9s  one step up: %s (%+.2f ms, FLIP %+.5f)\n", "", text,
+                    dip_cost_ms(report, next) - dip_cost_ms(report, advice->row),
+                    dip_cost_figures(&better, 0).flip - dip_cost_figures(&sums, 0).flip);
+        }
+    }
+}
+
+void dip_cost_print(const DipCostReport *report, FILE *out) {
+    print_heading(report, out);
+    fputc('\n', out);
+    print_columns(out);
+    if (dip_cost_is_timed(report, report->same_row)) {
+        print_row(report, "A/A: the baseline", report->same_row, 0, out);
+    }
+    for (int s = 0; s < report->sweep_count; s++) {
+        const DipCostSweep *sweep = &report->sweeps[s];
+        fprintf(out, "%s (path %s)\n", sweep->title, report->paths[sweep->path]);
+        for (int i = 0; i < sweep->row_count; i++) {
+            char text[DIP_COST_TEXT];
+            dip_cost_step_text(report, sweep, sweep->rows[i], text);
+            print_row(report, text, sweep->rows[i], sweep->base, out);
+        }
+    }
+    print_floors(report, out);
+    for (int i = 0; i < report->refused_count; i++) {
+        fprintf(out, "%s  %s\n", i ? "" : "\nLeft out:\n", report->refused[i]);
+    }
+    print_front(report, out);
+    print_advice(report, out);
+    print_fit(report, out);
+}

@@ -1,0 +1,437 @@
+// Tiles of the converged picture: the triangles that reach a tile, sample by sample of its pixels.
+// All arithmetic on samples is converge.c's; only what cannot be seen is skipped.
+#include "renderer/reference/convergence.h"
+
+#include "renderer/reference/private.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { NOTHING = -1, TILE = 8 }; // pixels; a tile's samples fit a second-level cache
+
+// Triangle i reaches the tiles from first[i]: items[first[tile]] .. items[first[tile + 1] - 1].
+typedef struct Bins {
+    size_t *first;
+    int32_t *items;
+} Bins;
+
+struct DipConvergence {
+    const DipReference *reference;
+    DipPose pose;
+    DipConvergence *mirrored; // what water shows: the same frame of the mirrored scene; or NULL
+    DipRefTriangles triangles;
+    Bins bins;
+    int width;
+    int height;
+    int tiles_x;
+    int tiles_y;
+};
+
+// A tile's samples, pixel by pixel.
+typedef struct Samples {
+    const DipConvergence *convergence;
+    const struct Samples *mirrored; // at the same places; NULL: no water is seen that reflects
+    double *x;                      // place within the frame, 1/256 pixel
+    double *y;
+    double *depths;
+    double *clip_depths; // of the nearest alpha-clipped surface, there or not
+    int32_t *triangles;
+    int per_pixel;
+    int x0; // the tile's pixels
+    int y0;
+    int x1; // exclusive
+    int y1;
+    void *memory;
+} Samples;
+
+// --- bins --------------------------------------------------------------------------------------
+
+// Calls for every tile that a triangle reaches, in submission order.
+static void fill_bins(DipConvergence *c, size_t *cursor, bool count_only) {
+    for (size_t t = 0; t < c->triangles.count; t++) {
+        const DipRefTriangle *triangle = &c->triangles.items[t];
+        for (int y = triangle->min_y / TILE; y <= triangle->max_y / TILE; y++) {
+            for (int x = triangle->min_x / TILE; x <= triangle->max_x / TILE; x++) {
+                size_t *at = &cursor[y * c->tiles_x + x];
+                if (!count_only) {
+                    c->bins.items[*at] = (int32_t)t;
+                }
+                ++*at;
+            }
+        }
+    }
+}
+
+static bool make_bins(DipConvergence *c) {
+    const size_t tiles = (size_t)dip_convergence_tile_count(c);
+    size_t *cursor = calloc(tiles, sizeof *cursor);
+    c->bins.first = calloc(tiles + 1, sizeof *c->bins.first);
+    if (!cursor || !c->bins.first) {
+        free(cursor);
+        return false;
+    }
+    fill_bins(c, cursor, true);
+    for (size_t t = 0; t < tiles; t++) {
+        c->bins.first[t + 1] = c->bins.first[t] + cursor[t];
+        cursor[t] = c->bins.first[t];
+    }
+    c->bins.items = malloc((c->bins.first[tiles] + 1) * sizeof *c->bins.items);
+    if (c->bins.items) {
+        fill_bins(c, cursor, false);
+    }
+    free(cursor);
+    return c->bins.items != NULL;
+}
+
+static DipConvergence *create(const DipReference *reference, const DipRefShot *shot,
+                              DipError *err) {
+    DipConvergence *c = calloc(1, sizeof *c);
+    if (!c) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the converged picture");
+        return NULL;
+    }
+    c->reference = reference;
+    c->pose = *shot->pose;
+    c->width = shot->width;
+    c->height = shot->height;
+    c->tiles_x = (c->width + TILE - 1) / TILE;
+    c->tiles_y = (c->height + TILE - 1) / TILE;
+    bool made = dip_reference_build_triangles(reference, shot, &c->triangles, err);
+    if (made && !make_bins(c)) {
+        made = dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL,
+                             "no memory for the converged picture");
+    }
+    if (!made) {
+        dip_convergence_destroy(&c);
+    }
+    return c;
+}
+
+DipConvergence *dip_convergence_create(const DipReference *reference, const DipPose *pose,
+                                       int width, int height, DipError *err) {
+    if (!dip_reference_check_size(width, height, err)) {
+        return NULL;
+    }
+    DipRefShot shot = {pose, width, height, (double)width / height, .rounded = false};
+    DipConvergence *c = create(reference, &shot, err);
+    if (c && dip_reference_reflects(reference, pose)) {
+        shot.mirrored = true;
+        c->mirrored = create(reference, &shot, err);
+        if (!c->mirrored) {
+            dip_convergence_destroy(&c);
+        }
+    }
+    return c;
+}
+
+void dip_convergence_destroy(DipConvergence **convergence) {
+    if (!*convergence) {
+        return;
+    }
+    dip_convergence_destroy(&(*convergence)->mirrored);
+    dip_reference_triangles_free(&(*convergence)->triangles);
+    free((*convergence)->bins.first);
+    free((*convergence)->bins.items);
+    free(*convergence);
+    *convergence = NULL;
+}
+
+int dip_convergence_tile_count(const DipConvergence *convergence) {
+    return convergence->tiles_x * convergence->tiles_y;
+}
+
+// --- samples -----------------------------------------------------------------------------------
+
+static bool make_samples(const DipConvergence *c, int tile, int per_pixel, Samples *samples) {
+    const size_t count = (size_t)TILE * TILE * (size_t)per_pixel;
+    double *memory = malloc(count * (4 * sizeof(double) + sizeof(int32_t)));
+    const int x0 = tile % c->tiles_x * TILE;
+    const int y0 = tile / c->tiles_x * TILE;
+    *samples = (Samples){
+        .convergence = c,
+        .per_pixel = per_pixel,
+        .x0 = x0,
+        .y0 = y0,
+        .x1 = x0 + TILE < c->width ? x0 + TILE : c->width,
+        .y1 = y0 + TILE < c->height ? y0 + TILE : c->height,
+        .memory = memory,
+    };
+    if (memory) {
+        samples->x = memory;
+        samples->y = memory + count;
+        samples->depths = memory + 2 * count;
+        samples->clip_depths = memory + 3 * count;
+        samples->triangles = (int32_t *)(memory + 4 * count);
+    }
+    return memory != NULL;
+}
+
+// Of the first sample of a pixel.
+static size_t first_of(const Samples *samples, int x, int y) {
+    return (size_t)((y - samples->y0) * TILE + (x - samples->x0)) * (size_t)samples->per_pixel;
+}
+
+static void place_samples(Samples *samples, int side, uint32_t seed) {
+    for (int y = samples->y0; y < samples->y1; y++) {
+        for (int x = samples->x0; x < samples->x1; x++) {
+            const size_t pixel = (size_t)y * (size_t)samples->convergence->width + (size_t)x;
+            const size_t first = first_of(samples, x, y);
+            for (int s = 0; s < samples->per_pixel; s++) {
+                const size_t i = first + (size_t)s;
+                dip_reference_place_sample(s, side, seed, pixel, x, y, &samples->x[i],
+                                           &samples->y[i]);
+                samples->depths[i] = 0.0;
+                samples->clip_depths[i] = 0.0;
+                samples->triangles[i] = NOTHING;
+            }
+        }
+    }
+}
+
+// --- triangles ---------------------------------------------------------------------------------
+
+// An edge function is a * (y - y0) - b * (x - x0). Rounding keeps it monotone in x and in y, so
+// that its greatest value within a box is that of one corner, to the bit.
+typedef struct Edge {
+    double a;
+    double b;
+    double x0;
+    double y0;
+} Edge;
+
+static double edge_at(const Edge *edge, double x, double y) {
+    return edge->a * (y - edge->y0) - edge->b * (x - edge->x0);
+}
+
+static void find_edges(const DipRefTriangle *triangle, Edge edges[3]) {
+    for (int i = 0; i < 3; i++) {
+        const DipRefVertex *from = &triangle->vertices[(i + 1) % 3];
+        const DipRefVertex *to = &triangle->vertices[(i + 2) % 3];
+        edges[i] = (Edge){to->x - from->x, to->y - from->y, from->x, from->y};
+    }
+}
+
+static bool misses_pixel(const Edge edges[3], int x, int y) {
+    for (int i = 0; i < 3; i++) {
+        const double greatest_x = edges[i].b > 0.0 ? 256.0 * x : 256.0 * (x + 1.0);
+        const double greatest_y = edges[i].a > 0.0 ? 256.0 * (y + 1.0) : 256.0 * y;
+        if (edge_at(&edges[i], greatest_x, greatest_y) < 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void draw_in_sample(Samples *samples, const DipRefTriangle *triangle, int32_t index,
+                           size_t i, const DipRefPlace *place) {
+    const double depth = dip_reference_depth(place, samples->convergence->reference->def->near_m);
+    if (triangle->clipped) {
+        samples->clip_depths[i] = fmax(samples->clip_depths[i], depth);
+    }
+    if (depth <= samples->depths[i]) {
+        return;
+    }
+    if (triangle->clipped &&
+        (float)dip_reference_alpha(place, NULL) < triangle->material->alpha_cutoff) {
+        return;
+    }
+    samples->depths[i] = depth;
+    samples->triangles[i] = index;
+}
+
+static void draw_in_pixel(Samples *samples, const DipRefTriangle *triangle, int32_t index,
+                          const Edge edges[3], size_t first) {
+    DipRefPlace place = {.triangle = triangle};
+    for (size_t i = first; i < first + (size_t)samples->per_pixel; i++) {
+        place.edges[0] = edge_at(&edges[0], samples->x[i], samples->y[i]);
+        place.edges[1] = edge_at(&edges[1], samples->x[i], samples->y[i]);
+        place.edges[2] = edge_at(&edges[2], samples->x[i], samples->y[i]);
+        if (place.edges[0] >= 0.0 && place.edges[1] >= 0.0 && place.edges[2] >= 0.0) {
+            draw_in_sample(samples, triangle, index, i, &place);
+        }
+    }
+}
+
+static int larger(int a, int b) {
+    return a > b ? a : b;
+}
+
+static int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
+static void draw_triangles(Samples *samples, int tile) {
+    const DipConvergence *c = samples->convergence;
+    for (size_t k = c->bins.first[tile]; k < c->bins.first[tile + 1]; k++) {
+        const int32_t index = c->bins.items[k];
+        const DipRefTriangle *triangle = &c->triangles.items[index];
+        Edge edges[3];
+        find_edges(triangle, edges);
+        const int last_x = smaller(triangle->max_x, samples->x1 - 1);
+        const int last_y = smaller(triangle->max_y, samples->y1 - 1);
+        for (int y = larger(triangle->min_y, samples->y0); y <= last_y; y++) {
+            for (int x = larger(triangle->min_x, samples->x0); x <= last_x; x++) {
+                if (!misses_pixel(edges, x, y)) {
+                    draw_in_pixel(samples, triangle, index, edges, first_of(samples, x, y));
+                }
+            }
+        }
+    }
+}
+
+// --- what is seen ------------------------------------------------------------------------------
+
+static DipRefPlace place_on(const DipRefTriangle *triangle, double x, double y) {
+    Edge edges[3];
+    DipRefPlace place = {.triangle = triangle, .x = x, .y = y};
+    find_edges(triangle, edges);
+    for (int e = 0; e < 3; e++) {
+        place.edges[e] = edge_at(&edges[e], x, y);
+    }
+    return place;
+}
+
+static bool shows_water(const Samples *samples, size_t i) {
+    const int32_t seen = samples->triangles[i];
+    const DipRefTriangle *triangles = samples->convergence->triangles.items;
+    return seen != NOTHING && triangles[seen].material->surface == DIP_SURFACE_WATER;
+}
+
+static void shade_sample(const Samples *samples, size_t i, double rgb[3]) {
+    const DipConvergence *c = samples->convergence;
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = c->reference->def->background_lin[k];
+    }
+    if (samples->triangles[i] == NOTHING) {
+        return;
+    }
+    const DipRefPlace place =
+        place_on(&c->triangles.items[samples->triangles[i]], samples->x[i], samples->y[i]);
+    dip_reference_shade(&place, NULL, rgb);
+    if (samples->mirrored && shows_water(samples, i)) {
+        double mirrored[3];
+        shade_sample(samples->mirrored, i, mirrored);
+        dip_reference_blend_water(c->reference, &c->pose, c->width, c->height, &place, mirrored,
+                                  rgb);
+    }
+}
+
+static void shade_pixel(const Samples *samples, size_t first, double share, double *rgb_lin) {
+    for (size_t i = first; i < first + (size_t)samples->per_pixel; i++) {
+        double rgb[3];
+        shade_sample(samples, i, rgb);
+        for (int k = 0; k < 3; k++) {
+            rgb_lin[k] += share / samples->per_pixel * rgb[k];
+        }
+    }
+}
+
+// How far the plane of one triangle is before that of another at a place, as depths.
+static double depth_between(const Samples *samples, const DipRefTriangle *a,
+                            const DipRefTriangle *b, double x, double y) {
+    const double near_m = samples->convergence->reference->def->near_m;
+    const DipRefPlace at_a = place_on(a, x, y);
+    const DipRefPlace at_b = place_on(b, x, y);
+    return dip_reference_depth(&at_a, near_m) - dip_reference_depth(&at_b, near_m);
+}
+
+// Whether what sample i sees goes on from what the first sample sees: one material, on planes that
+// meet within a pixel. Depths are linear on the screen, and so is their difference. Corners between
+// walls go on; edges with something behind do not.
+static bool goes_on(const Samples *samples, size_t first, size_t i) {
+    const DipConvergence *c = samples->convergence;
+    if (samples->triangles[i] == samples->triangles[first]) {
+        return true;
+    }
+    if (samples->triangles[i] == NOTHING || samples->triangles[first] == NOTHING) {
+        return false;
+    }
+    const DipRefTriangle *a = &c->triangles.items[samples->triangles[first]];
+    const DipRefTriangle *b = &c->triangles.items[samples->triangles[i]];
+    const double x = samples->x[i], y = samples->y[i];
+    const double gap = depth_between(samples, a, b, x, y);
+    const double per_x = depth_between(samples, a, b, x + 256.0, y) - gap;
+    const double per_y = depth_between(samples, a, b, x, y + 256.0) - gap;
+    const double rounding = 1e-9 * samples->depths[i];
+    return a->material == b->material &&
+           fabs(gap) <= sqrt(per_x * per_x + per_y * per_y) + rounding;
+}
+
+static DipSeen classify(const Samples *samples, size_t first) {
+    const DipConvergence *c = samples->convergence;
+    bool water = false, clipped = false, edge = false;
+    for (size_t i = first; i < first + (size_t)samples->per_pixel; i++) {
+        water = water || shows_water(samples, i);
+        clipped = clipped ||
+                  (samples->clip_depths[i] > 0.0 && samples->clip_depths[i] >= samples->depths[i]);
+        edge = edge || !goes_on(samples, first, i);
+    }
+    if (water || clipped || edge) {
+        return water ? DIP_SEEN_WATER : clipped ? DIP_SEEN_CLIPPED : DIP_SEEN_EDGE;
+    }
+    if (samples->triangles[first] == NOTHING) {
+        return DIP_SEEN_PLAIN;
+    }
+    const DipRefTriangle *triangle = &c->triangles.items[samples->triangles[first]];
+    return triangle->colour && triangle->material->surface != DIP_SURFACE_SKY ? DIP_SEEN_TEXTURED
+                                                                              : DIP_SEEN_PLAIN;
+}
+
+static bool any_water(const Samples *samples) {
+    for (int y = samples->y0; y < samples->y1; y++) {
+        for (int x = samples->x0; x < samples->x1; x++) {
+            const size_t first = first_of(samples, x, y);
+            for (size_t i = first; i < first + (size_t)samples->per_pixel; i++) {
+                if (shows_water(samples, i)) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+// Places a tile's samples and finds what each of them sees.
+static bool draw_samples(const DipConvergence *convergence, int tile, int sample_count, int side,
+                         uint32_t seed, Samples *samples) {
+    if (!make_samples(convergence, tile, sample_count, samples)) {
+        return false;
+    }
+    place_samples(samples, side, seed);
+    draw_triangles(samples, tile);
+    return true;
+}
+
+bool dip_convergence_add_tile(const DipConvergence *convergence, int tile, int sample_count,
+                              uint32_t seed, double share, double *rgb_lin, uint8_t *classes,
+                              DipError *err) {
+    int side;
+    Samples samples;
+    Samples mirrored = {0};
+    if (!dip_reference_check_samples(sample_count, &side, err)) {
+        return false;
+    }
+    bool drawn = draw_samples(convergence, tile, sample_count, side, seed, &samples);
+    if (drawn && convergence->mirrored && any_water(&samples)) {
+        drawn = draw_samples(convergence->mirrored, tile, sample_count, side, seed, &mirrored);
+        samples.mirrored = &mirrored;
+    }
+    if (!drawn) {
+        free(samples.memory);
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for %d samples",
+                             sample_count);
+    }
+    for (int y = samples.y0; y < samples.y1; y++) {
+        for (int x = samples.x0; x < samples.x1; x++) {
+            const size_t pixel = (size_t)y * (size_t)convergence->width + (size_t)x;
+            const size_t first = first_of(&samples, x, y);
+            shade_pixel(&samples, first, share, rgb_lin + 3 * pixel);
+            if (classes) {
+                classes[pixel] = (uint8_t)classify(&samples, first);
+            }
+        }
+    }
+    free(samples.memory);
+    free(mirrored.memory);
+    return true;
+}

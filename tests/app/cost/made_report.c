@@ -1,0 +1,85 @@
+// Filling in a report by formula.
+#include "tests/app/cost/made_report.h"
+
+#include <stdlib.h>
+#include <stdio.h>
+
+enum { ROWS = 4 };
+
+static void fill_sums(DipCostSums *sums, int seed) {
+    double *values = (double *)sums;
+    for (int i = 0; i < DIP_COST_SUM_COUNT; i++) {
+        values[i] = 1.0 / (1.0 + i + 100.0 * seed); // no short decimal
+    }
+    for (int r = 0; r < DIP_COST_REGIONS; r++) {
+        sums->regions[r].pixels = 10.0;
+        sums->regions[r].ssim_pixels = 9.0;
+    }
+    sums->bursts = 1.0;
+}
+
+static void fill_row(DipCostReport *report, int index) {
+    static const uint8_t steps[ROWS] = {0, 0, 1, 2};
+    DipCostRow *row = &report->rows[index];
+    row->quality = dip_quality_default();
+    row->quality.step[DIP_SETTING_AA] = steps[index];
+    row->path = index == ROWS - 1;
+    for (int p = 0; p < report->options.places; p++) {
+        row->judged[p] = p != 1; // one place is another machine's
+        if (row->judged[p]) {
+            fill_sums(&row->places[p], index * 3 + p);
+        }
+    }
+    for (int i = 0; i < report->rounds * report->options.timed_frames; i++) {
+        row->ms[i] = index + 1.0;
+    }
+    for (int c = 0; report->rounds > 0 && c < DIP_COST_COUNTER_COUNT; c++) { // timing counts them
+        row->counters[c] = 1000.0 * index + c;
+    }
+}
+
+void dip_made_report(DipCostReport *report, int rounds) {
+    *report = (DipCostReport){
+        .scene = "made up",
+        .scene_hash = "0123456789abcdef0123456789abcdef",
+        .processor = "none",
+        .isa = "scalar",
+        .version = "0",
+        .threads = 2,
+        .width = 64,
+        .height = 48,
+        .paths = {"DEFAULT", "AA"},
+        .path_count = 2,
+        .row_count = ROWS,
+        .same_row = 1,
+        .combined_first = ROWS,
+        .sweep_count = 1,
+        .refused = {{"opt=standard: not yet"}},
+        .refused_count = 1,
+        .rounds = rounds,
+        .advice = {{16.6, 2, 3.0, 2.9, 3.1}},
+        .advice_count = 1,
+    };
+    report->options = (DipCostOptions){.baseline = dip_quality_default(),
+                                       .places = 3,
+                                       .burst = 2,
+                                       .end_place = 3,
+                                       .samples = 64,
+                                       .pixels_per_degree = 67.0206451,
+                                       .rounds = rounds,
+                                       .timed_frames = 4,
+                                       .seed = 5};
+    report->sweeps[0] = (DipCostSweep){
+        .title = "Antialiasing", .setting = DIP_SETTING_AA, .rows = {0, 2, 3}, .row_count = 3};
+    report->rows = calloc(ROWS, sizeof *report->rows);
+    if (!report->rows || !dip_cost_report_alloc(report, NULL)) {
+        abort();
+    }
+    for (int r = 0; r < ROWS; r++) {
+        fill_row(report, r);
+    }
+    for (int path = 0; path < report->path_count; path++) {
+        report->has_floor[path * report->options.places] = true;
+        fill_sums(&report->floors[path * report->options.places], 50 + path);
+    }
+}

@@ -1,0 +1,325 @@
+// Figures from sums and times, the front, the fit, and the report through JSON and back.
+#include "app/cost/fit.h"
+#include "app/cost/html.h"
+#include "app/cost/write.h"
+#include "tests/app/cost/made_report.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+static const char *const file = "test_cost_report.json";
+
+static uint32_t random_state = 1;
+
+static double random_share(void) {
+    random_state = random_state * 1664525u + 1013904223u;
+    return (random_state >> 8) * 0x1p-24;
+}
+
+static void expect_near(double found, double expected, double tolerance) {
+    if (!(fabs(found - expected) <= tolerance)) {
+        fail_msg("%.9g, expected %.9g", found, expected);
+    }
+}
+
+// --- errors ------------------------------------------------------------------------------------
+
+static void figures_are_means(void **state) {
+    (void)state;
+    DipCostSums sums = {0};
+    sums.regions[0] = (DipCostRegionSums){100.0, 4.0, 2500.0, 40.0, 80.0, 25.0};
+    sums.bursts = 2.0;
+    sums.squared_flicker = 0.5;
+    DipCostSums twice = sums;
+    dip_cost_sums_add(&twice, &sums);
+    for (int i = 0; i < 2; i++) { // twice the same has the same means
+        const DipCostFigures f = dip_cost_figures(i ? &twice : &sums, 0);
+        expect_near(f.rmse_lin, 0.2, 1e-15);
+        expect_near(f.psnr_db, 20.0 * log10(255.0 / 5.0), 1e-12);
+        expect_near(f.ssim, 0.5, 1e-15);
+        expect_near(f.flip, 0.25, 1e-15);
+        expect_near(dip_cost_flicker(i ? &twice : &sums).flicker, 0.5, 1e-15);
+    }
+    const DipCostFigures none = dip_cost_figures(&sums, 1);
+    assert_true(none.rmse_lin == 0.0 && isinf(none.psnr_db) && none.ssim == 1.0);
+}
+
+static void errors_below_three_floors_say_nothing(void **state) {
+    (void)state;
+    DipCostReport report;
+    dip_made_report(&report, 2);
+    for (int p = 0; p < 3; p++) {
+        report.has_floor[p] = p == 0;
+        report.rows[0].judged[p] = p == 0;
+    }
+    report.floors[0].regions[0].squared_lin = 10.0 * 0.02 * 0.02; // halves differ by 0.02
+    expect_near(dip_cost_floor_rmse(&report, 0, 0), 0.01, 1e-15);
+    report.rows[0].places[0].regions[0].squared_lin = 10.0 * 0.0299 * 0.0299;
+    assert_true(dip_cost_at_floor(&report, 0));
+    report.rows[0].places[0].regions[0].squared_lin = 10.0 * 0.0301 * 0.0301;
+    assert_false(dip_cost_at_floor(&report, 0));
+    dip_cost_report_free(&report);
+}
+
+// --- times -------------------------------------------------------------------------------------
+
+enum { ROUNDS = 40 };
+
+// Frames differ tenfold and drift slows both rows down alike; row 2 takes 1.5 times as long.
+static void ratios_see_past_drift_and_frames(void **state) {
+    (void)state;
+    DipCostReport report;
+    dip_made_report(&report, ROUNDS);
+    const int frames = report.options.timed_frames;
+    for (int i = 0; i < ROUNDS * frames; i++) {
+        const double base = (1 + 9 * (i % frames)) * (1.0 + i / frames / 20.0);
+        report.rows[0].ms[i] = base * (1.0 + 0.05 * random_share());
+        report.rows[1].ms[i] = base * (1.0 + 0.05 * random_share());
+        report.rows[2].ms[i] = 1.5 * base * (1.0 + 0.05 * random_share());
+    }
+    report.rows[2].ms[7] *= 20.0; // something else ran
+    const DipCostTime ratio = dip_cost_ratio(&report, 2, 0);
+    expect_near(ratio.ms, 1.5, 0.015);
+    assert_true(ratio.low <= 1.5 + 0.01 && ratio.high >= 1.5 - 0.01);
+    assert_true(ratio.high - ratio.low < 0.03);
+    const DipCostTime same = dip_cost_ratio(&report, 1, 0);
+    assert_true(same.low <= 1.0 && same.high >= 1.0);
+    dip_cost_report_free(&report);
+}
+
+static void times_are_means_of_medians(void **state) {
+    (void)state;
+    DipCostReport report;
+    dip_made_report(&report, 5);
+    for (int i = 0; i < 5 * 4; i++) {
+        report.rows[0].ms[i] = i % 4 + 1.0 + (i / 4 == 2 ? 1000.0 : 0.0); // 1, 2, 3, 4; one spike
+    }
+    expect_near(dip_cost_ms(&report, 0), 2.5, 1e-12);
+    expect_near(dip_cost_time(&report, 0).ms, 2.5, 1e-12);
+    dip_cost_report_free(&report);
+}
+
+static void set_place(DipCostReport *report, int row, double ms, double flip) {
+    for (int i = 0; i < report->rounds * report->options.timed_frames; i++) {
+        report->rows[row].ms[i] = ms;
+    }
+    for (int p = 0; p < report->options.places; p++) {
+        report->rows[row].places[p].regions[0].flip =
+            flip * report->rows[row].places[p].regions[0].pixels;
+    }
+}
+
+static void the_front_is_what_nothing_beats(void **state) {
+    (void)state;
+    DipCostReport report;
+    const int rows[4] = {0, 1, 2, 3};
+    int front[4];
+    dip_made_report(&report, 3);
+    set_place(&report, 0, 4.0, 0.1);
+    set_place(&report, 1, 2.0, 0.3);
+    set_place(&report, 2, 3.0, 0.3); // slower and no better than row 1
+    set_place(&report, 3, 1.0, 0.5);
+    assert_int_equal(dip_cost_front(&report, rows, 4, front), 3);
+    assert_int_equal(front[0], 3);
+    assert_int_equal(front[1], 1);
+    assert_int_equal(front[2], 0);
+    set_place(&report, 1, 2.0, 0.101); // row 0 buys less than 1 % over it
+    assert_int_equal(dip_cost_front_steps(&report, front, 3), 2);
+    assert_int_equal(front[1], 1);
+    report.combined_first = 0;
+    assert_int_equal(dip_cost_next(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
+    assert_int_equal(dip_cost_next(&report, 1), -1);
+    report.rounds = 0; // without times there is none
+    assert_int_equal(dip_cost_front(&report, rows, 4, front), 0);
+    dip_cost_report_free(&report);
+}
+
+// Times that are made of work, with 1 % of noise, tell what the work cost.
+static void the_fit_finds_what_work_costs(void **state) {
+    (void)state;
+    enum { ROWS = 60 };
+    DipCostReport report = {.row_count = ROWS, .rounds = 1, .path_count = 1};
+    report.options = (DipCostOptions){.places = 1, .rounds = 1, .timed_frames = 1};
+    report.rows = calloc(ROWS, sizeof *report.rows);
+    assert_true(dip_cost_report_alloc(&report, NULL));
+    for (int r = 0; r < ROWS; r++) {
+        DipCostRow *row = &report.rows[r];
+        row->quality = dip_quality_default();
+        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+            row->counters[c] = 1e6 * random_share();
+        }
+        const double ns = 5e5 + 20.0 * row->counters[DIP_COST_COUNTER_fragments_shaded] +
+                          3.0 * row->counters[DIP_COST_COUNTER_texels_fetched];
+        row->ms[0] = 1e-6 * ns * (0.99 + 0.02 * random_share());
+    }
+    const DipCostFit fit = dip_cost_fit(&report);
+    assert_true(fit.r2 > 0.99 && fit.median_miss < 0.01);
+    for (int i = 0; i < fit.count; i++) {
+        if (strcmp(fit.names[i], "fragment shaded") == 0) {
+            expect_near(fit.ns[i], 20.0, 1.0);
+        } else if (strcmp(fit.names[i], "texel fetched") == 0) {
+            expect_near(fit.ns[i], 3.0, 0.6);
+        }
+        assert_true(fit.ns[i] >= 0.0);
+    }
+    dip_cost_report_free(&report);
+}
+
+// --- files -------------------------------------------------------------------------------------
+
+// The JSON library may round the last bit.
+static void check_values(const void *a, const void *b, size_t size) {
+    const double *x = a;
+    const double *y = b;
+    for (size_t i = 0; i < size / sizeof(double); i++) {
+        expect_near(x[i], y[i], 4e-16 * fabs(y[i]));
+    }
+}
+
+static void check_same(const DipCostReport *a, const DipCostReport *b) {
+    assert_string_equal(a->scene, b->scene);
+    assert_string_equal(a->scene_hash, b->scene_hash);
+    assert_int_equal(a->rounds, b->rounds);
+    assert_int_equal(a->combined_first, b->combined_first);
+    assert_string_equal(a->paths[1], b->paths[1]);
+    assert_string_equal(a->refused[0], b->refused[0]);
+    assert_int_equal(a->row_count, b->row_count);
+    for (int r = 0; r < a->row_count; r++) {
+        const DipCostRow *x = &a->rows[r];
+        const DipCostRow *y = &b->rows[r];
+        assert_memory_equal(&x->quality, &y->quality, sizeof x->quality);
+        assert_int_equal(x->path, y->path);
+        assert_memory_equal(x->judged, y->judged, 3 * sizeof(bool));
+        check_values(x->places, y->places, 3 * sizeof *x->places);
+        check_values(x->ms, y->ms, (size_t)a->rounds * 4 * sizeof(double));
+        check_values(x->counters, y->counters, sizeof x->counters);
+    }
+    check_values(a->floors, b->floors, 6 * sizeof *a->floors);
+    assert_memory_equal(a->sweeps[0].rows, b->sweeps[0].rows, sizeof a->sweeps[0].rows);
+    assert_int_equal(a->advice[0].row, b->advice[0].row);
+    assert_true(a->advice[0].budget_ms == b->advice[0].budget_ms);
+    assert_true(a->advice[0].checked_high == b->advice[0].checked_high);
+}
+
+static void json_keeps_everything(void **state) {
+    (void)state;
+    for (int rounds = 0; rounds < 3; rounds++) {
+        DipCostReport report;
+        DipCostReport read;
+        DipError err = {0};
+        dip_made_report(&report, rounds);
+        assert_true(dip_cost_write_json(&report, file, &err));
+        assert_true(dip_cost_read_json(&read, file, &err));
+        check_same(&report, &read);
+        dip_cost_report_free(&report);
+        dip_cost_report_free(&read);
+    }
+    remove(file);
+}
+
+static char *read_whole(size_t *size) {
+    FILE *in = fopen(file, "rb");
+    assert_non_null(in);
+    char *text = calloc(1, 1 << 20);
+    *size = fread(text, 1, 1 << 20, in);
+    fclose(in);
+    return text;
+}
+
+static void write_whole(const char *text, size_t size) {
+    FILE *out = fopen(file, "wb");
+    assert_non_null(out);
+    assert_int_equal(fwrite(text, 1, size, out), size);
+    fclose(out);
+}
+
+// Cut short anywhere, or with a field gone, it is refused with its name.
+static void broken_json_is_refused(void **state) {
+    (void)state;
+    static const char *const fields[] = {"\"width\"",   "\"rows\"", "\"sums\"",    "\"all_ms\"",
+                                         "\"setting\"", "\"path\"", "\"baseline\""};
+    DipCostReport report;
+    DipCostReport read;
+    DipError err = {0};
+    size_t size;
+    dip_made_report(&report, 2);
+    assert_true(dip_cost_write_json(&report, file, &err));
+    dip_cost_report_free(&report);
+    char *text = read_whole(&size);
+    for (size_t cut = 0; cut < size; cut += size / 37) {
+        write_whole(text, cut);
+        assert_false(dip_cost_read_json(&read, file, &err));
+        assert_string_equal(err.file, file);
+    }
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) {
+        char *at = strstr(text, fields[f]);
+        assert_non_null(at);
+        at[1] ^= 1;
+        write_whole(text, size);
+        assert_false(dip_cost_read_json(&read, file, &err));
+        at[1] ^= 1;
+    }
+    free(text);
+    remove(file);
+    assert_false(dip_cost_read_json(&read, "none.json", &err));
+    assert_int_equal(err.code, DIP_ERROR_IO);
+}
+
+// Rows of CSV have as many fields as the head; the page has its parts and names no other file.
+static void csv_and_page_are_whole(void **state) {
+    (void)state;
+    DipCostReport report;
+    DipError err = {0};
+    size_t size;
+    dip_made_report(&report, 2);
+    assert_true(dip_cost_write_csv(&report, file, &err));
+    char *text = read_whole(&size);
+    int lines = 0, commas = 0, first = 0;
+    bool quoted = false;
+    for (const char *c = text; *c; c++) {
+        quoted = quoted != (*c == '"');
+        commas += *c == ',' && !quoted;
+        if (*c == '\n') {
+            first = lines++ ? first : commas;
+            assert_int_equal(commas, first);
+            commas = 0;
+        }
+    }
+    assert_int_equal(lines, 1 + 1 + 3);
+    free(text);
+    assert_true(dip_cost_write_html(&report, NULL, file, &err));
+    text = read_whole(&size);
+    assert_non_null(strstr(text, "Antialiasing"));
+    assert_non_null(strstr(text, "opt=standard"));
+    assert_non_null(strstr(text, "</html>"));
+    assert_null(strstr(text, "http://www.w3.org/1999"));
+    assert_null(strstr(text, "href="));
+    assert_null(strstr(text, "nan"));
+    free(text);
+    remove(file);
+    dip_cost_report_free(&report);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(figures_are_means),
+        cmocka_unit_test(errors_below_three_floors_say_nothing),
+        cmocka_unit_test(ratios_see_past_drift_and_frames),
+        cmocka_unit_test(times_are_means_of_medians),
+        cmocka_unit_test(the_front_is_what_nothing_beats),
+        cmocka_unit_test(the_fit_finds_what_work_costs),
+        cmocka_unit_test(json_keeps_everything),
+        cmocka_unit_test(broken_json_is_refused),
+        cmocka_unit_test(csv_and_page_are_whole),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
