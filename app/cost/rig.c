@@ -9,8 +9,7 @@ static bool prepare_textures(const DipCostRig *rig, DipError *err) {
     for (int row = 0; row < rig->report->row_count; row++) {
         compresses |= dip_quality_compresses(&rig->report->rows[row].quality);
     }
-    return !compresses ||
-           dip_scene_compress_textures(rig->session->scene, rig->session->pool, err);
+    return !compresses || dip_scene_compress_textures(rig->session->scene, rig->session->pool, err);
 }
 
 bool dip_cost_rig_open(DipCostRig *rig, const DipSession *session, DipCostReport *report,

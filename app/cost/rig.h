@@ -12,8 +12,8 @@ typedef struct DipCostRig {
     DipCostState *state;
     const char *cache; // folder of the truths; NULL: none
     DipReference *reference;
-    // By the step of instancing: [1] for all settings that share meshes, so that none has its memory
-    // in a better place; [0] keeps the copies that the others would throw away.
+    // By the step of instancing: [1] for all settings that share meshes, so that none has its
+    // memory in a better place; [0] keeps the copies that the others would throw away.
     DipRenderer *renderers[2];
 } DipCostRig;
 
