@@ -246,8 +246,8 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, bool
     }
     fprintf(out, "</g>\n");
     for (int i = 0; series->labels && i < series->count; i++) {
-        write_text(out, pixel(x, series->x[i]) + 5.0, pixel(y, series->y[i]) - 6.0,
-                   "font-size=\"12\"", series->labels[i]);
+        write_text(out, pixel(x, series->x[i]) - 4.0, pixel(y, series->y[i]) + 14.0,
+                   "font-size=\"12\" text-anchor=\"end\"", series->labels[i]);
     }
 }
 

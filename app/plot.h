@@ -20,7 +20,7 @@ typedef struct DipPlotSeries {
     const double *high;
     int count;
     bool marks_only;           // no line between the points
-    const char *const *labels; // beside each point; NULL: none
+    const char *const *labels; // below and left of each point; NULL: none
 } DipPlotSeries;
 
 // All texts are borrowed. On a logarithmic axis every value is above 0; a linear y begins at 0.

@@ -53,8 +53,7 @@ bool dip_cost_make_truths(DipCostRig *rig, DipError *err) {
     const DipCostOptions *options = &rig->report->options;
     const int truths =
         rig->report->path_count * (options->end_place - options->first_place) * options->burst;
-    TruthProgress at = {dip_progress_begin("thousandths of a truth", (int64_t)truths * PER_TRUTH),
-                        0};
+    TruthProgress at = {dip_progress_begin("steps to the truth", (int64_t)truths * PER_TRUTH), 0};
     bool made = true;
     for (int path = 0; made && path < rig->report->path_count; path++) {
         made = make_path_truths(rig, path, &at, err);

@@ -93,18 +93,21 @@ static void add_row(Equations *equations, const double terms[TERMS], const doubl
 
 static void judge_fit(const DipCostReport *report, const double *ms, const double solution[TERMS],
                       DipCostFit *fit) {
-    double mean = 0.0, all = 0.0, left = 0.0;
+    // Relative, as the fit is: the share of what the best single time leaves unexplained.
+    double sum = 0.0, weight = 0.0, all = 0.0, left = 0.0;
     double *misses = malloc((size_t)report->row_count * sizeof *misses);
     for (int r = 0; r < report->row_count; r++) {
-        mean += ms[r] / report->row_count;
+        sum += 1.0 / ms[r];
+        weight += 1.0 / (ms[r] * ms[r]);
     }
     for (int r = 0; misses && r < report->row_count; r++) {
         double terms[TERMS];
         terms_of(&report->rows[r], terms);
-        const double found = fitted(terms, solution);
-        all += (ms[r] - mean) * (ms[r] - mean);
-        left += (ms[r] - found) * (ms[r] - found);
-        misses[r] = fabs(found / ms[r] - 1.0);
+        const double miss = fitted(terms, solution) / ms[r] - 1.0;
+        const double off = sum / weight / ms[r] - 1.0;
+        all += off * off;
+        left += miss * miss;
+        misses[r] = fabs(miss);
     }
     if (misses) {
         qsort(misses, (size_t)report->row_count, sizeof *misses, compare);

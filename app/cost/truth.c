@@ -9,6 +9,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,7 +51,7 @@ typedef struct Making {
     uint8_t *classes; // of the first half; NULL: of the second
     uint32_t seed;
     int first_tile;
-    bool failed;
+    atomic_bool failed;
 } Making;
 
 static void draw_tile(void *context, int index, int worker) {
@@ -59,7 +60,7 @@ static void draw_tile(void *context, int index, int worker) {
     if (!dip_convergence_add_tile(making->convergence, making->first_tile + index,
                                   making->def->samples, making->seed, 1.0, making->rgb_lin,
                                   making->classes, NULL)) {
-        making->failed = true; // the one value that is ever written
+        making->failed = true;
     }
 }
 

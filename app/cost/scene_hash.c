@@ -1,0 +1,98 @@
+// All that decides how a scene looks, in a fixed order.
+#include "app/cost/scene_hash.h"
+
+#include "app/hash.h"
+
+static void hash_textures(const DipSceneDef *def, DipHash *hash) {
+    for (int t = 0; t < def->texture_count; t++) {
+        const DipTextureDef *texture = &def->textures[t];
+        dip_hash_integer(hash, texture->width);
+        dip_hash_integer(hash, texture->height);
+        dip_hash_integer(hash, texture->encoding);
+        dip_hash_integer(hash, texture->wrap_u * 2 + texture->wrap_v);
+        dip_hash_bytes(hash, texture->rgba8, (size_t)texture->width * (size_t)texture->height * 4);
+    }
+}
+
+static void hash_materials(const DipSceneDef *def, DipHash *hash) {
+    for (int m = 0; m < def->material_count; m++) {
+        const DipMaterialDef *material = &def->materials[m];
+        for (int c = 0; c < 3; c++) {
+            dip_hash_number(hash, (double)material->base_colour_lin[c]);
+        }
+        const int values[] = {(int)material->surface, material->colour_texture, material->light_map,
+                              material->normal_map,   material->double_sided,   material->lit};
+        dip_hash_bytes(hash, values, sizeof values);
+        dip_hash_number(hash, (double)material->light_map_scale);
+        dip_hash_number(hash, (double)material->roughness);
+        dip_hash_number(hash, (double)material->alpha_cutoff);
+    }
+}
+
+static void hash_meshes(const DipSceneDef *def, DipHash *hash) {
+    for (int m = 0; m < def->mesh_count; m++) {
+        const DipMeshDef *mesh = &def->meshes[m];
+        const struct {
+            const float *values;
+            size_t width;
+        } arrays[] = {{mesh->positions, 3},
+                      {mesh->normals, 3},
+                      {mesh->uv0, 2},
+                      {mesh->uv1, 2},
+                      {mesh->colours_lin, 3}};
+        dip_hash_integer(hash, mesh->vertex_count);
+        dip_hash_integer(hash, mesh->material);
+        for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++) {
+            dip_hash_integer(hash, arrays[a].values != NULL);
+            if (arrays[a].values) {
+                dip_hash_bytes(hash, arrays[a].values,
+                               mesh->vertex_count * arrays[a].width * sizeof(float));
+            }
+        }
+        dip_hash_integer(hash, mesh->index_count);
+        dip_hash_bytes(hash, mesh->indices, mesh->index_count * sizeof *mesh->indices);
+    }
+}
+
+static void hash_objects(const DipSceneDef *def, DipHash *hash) {
+    for (int o = 0; o < def->object_count; o++) {
+        dip_hash_integer(hash, def->objects[o].mesh);
+        dip_hash_bytes(hash, def->objects[o].transform, sizeof def->objects[o].transform);
+    }
+    dip_hash_bytes(hash, def->background_lin, sizeof def->background_lin);
+    dip_hash_number(hash, (double)def->near_m);
+}
+
+static void hash_sky(const DipSkyDef *sky, DipHash *hash) {
+    for (int i = 0; i < 2; i++) {
+        dip_hash_number(hash, (double)sky->layers[i].scale);
+        dip_hash_number(hash, sky->layers[i].speed_per_min);
+        dip_hash_number(hash, (double)sky->layers[i].perturbation_widths);
+    }
+    const float values[] = {sky->perturbation_scale, sky->blend, sky->clear, sky->dense,
+                            sky->overcast};
+    dip_hash_bytes(hash, values, sizeof values);
+    dip_hash_bytes(hash, sky->zenith_lin, sizeof sky->zenith_lin);
+    dip_hash_bytes(hash, sky->horizon_lin, sizeof sky->horizon_lin);
+    dip_hash_bytes(hash, sky->cloud_lin, sizeof sky->cloud_lin);
+    dip_hash_bytes(hash, sky->glare_lin, sizeof sky->glare_lin);
+    dip_hash_bytes(hash, sky->tint_lin, sizeof sky->tint_lin);
+}
+
+static void hash_reflection(const DipReflectionDef *reflection, DipHash *hash) {
+    dip_hash_integer(hash, reflection->width);
+    dip_hash_integer(hash, reflection->height);
+    dip_hash_number(hash, reflection->level_m);
+    dip_hash_integer(hash, reflection->schlick);
+}
+
+void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflection, char hex[33]) {
+    DipHash hash = dip_hash_begin();
+    hash_textures(def, &hash);
+    hash_materials(def, &hash);
+    hash_meshes(def, &hash);
+    hash_objects(def, &hash);
+    hash_sky(&def->sky, &hash);
+    hash_reflection(reflection, &hash);
+    dip_hash_hex(&hash, hex);
+}
