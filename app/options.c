@@ -280,7 +280,7 @@ static const OptionRow rows[] = {
     {"--baseline", "SET", COST, dip_cost_set_baseline,
      "what every step is set in and measured against (default: all settings' defaults)"},
     {"--combine", "LIST", COST, dip_cost_set_combine,
-     "measure every combination of these settings' steps too (default: aa,af; none)"},
+     "measure every combination of these settings' steps, too; or none (default: aa,af)"},
     {"--budget-ms", "LIST", COST, dip_cost_set_budget,
      "advise the least error within so many ms per frame, such as 8,16.6; combines "
      "aa,aaa,asd,af,aaf"},
