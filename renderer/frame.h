@@ -34,7 +34,7 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(reflection_bytes, "memory of the reflection's target")                                       \
     X(normal_map_bytes, "memory of normal maps")                                                   \
     X(clip_map_bytes, "memory of the alpha of clip maps")                                          \
-    X(cloud_bytes, "memory of the sky's clouds") \
+    X(cloud_bytes, "memory of the sky's clouds")                                                   \
     X(meshes, "meshes that the scene's objects are drawn from, in view or not")                    \
     X(geometry_bytes, "memory of these: vertices, indices, bounds")
 

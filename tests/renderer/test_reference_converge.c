@@ -154,6 +154,7 @@ static void converge_tiles(const DipTestScene *scene, int width, int height, int
                            DipScreenPicture rgb_lin) {
     DipError err = {0};
     DipReference *reference = dip_reference_create(&scene->def, &err);
+    dip_reference_set_reflection(reference, &scene->reflection);
     DipConvergence *convergence =
         dip_convergence_create(reference, &scene->pose, width, height, &err);
     assert_non_null(convergence);
@@ -176,6 +177,7 @@ static void test_tiles_make_the_same_picture(void **state) {
         DipError err = {0};
         dip_test_scene_make(&scene, (DipTestSceneKind)kind);
         DipReference *reference = dip_reference_create(&scene.def, &err);
+        dip_reference_set_reflection(reference, &scene.reflection);
         memset(picture, 0, sizeof picture);
         assert_true(
             dip_reference_converge(reference, &scene.pose, 61, 45, 9, 6, &picture[0][0][0], &err));
