@@ -2,6 +2,7 @@
 #include "app/cost/html.h"
 
 #include "app/cost/fit.h"
+#include "app/cost/order.h"
 #include "app/cost/write.h"
 #include "app/plot.h"
 #include "app/whole_file.h"
@@ -383,6 +384,12 @@ static void write_sweeps(const DipCostReport *report, const DipCostGallery *gall
             write_step_row(report, sweep, sweep->rows[i], out);
         }
         fprintf(out, "</table></div>\n");
+        char order[2 * DIP_COST_TEXT];
+        if (dip_cost_order_text(report, sweep, order, sizeof order)) {
+            fprintf(out, "<p class=\"note\">");
+            text(out, order);
+            fprintf(out, "</p>\n");
+        }
         if (gallery) {
             write_crops(report, sweep, &gallery->sweeps[s], out);
         }

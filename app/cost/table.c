@@ -2,6 +2,7 @@
 #include "app/cost/write.h"
 
 #include "app/cost/fit.h"
+#include "app/cost/order.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -143,6 +144,10 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
             char text[DIP_COST_TEXT];
             dip_cost_step_text(report, sweep, sweep->rows[i], text);
             print_row(report, text, sweep->rows[i], sweep->base, out);
+        }
+        char order[2 * DIP_COST_TEXT];
+        if (dip_cost_order_text(report, sweep, order, sizeof order)) {
+            fprintf(out, "  %s\n", order);
         }
     }
     print_floors(report, out);

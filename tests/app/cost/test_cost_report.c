@@ -1,6 +1,7 @@
 // Figures from sums and times, the front, the fit, and the report through JSON and back.
 #include "app/cost/fit.h"
 #include "app/cost/html.h"
+#include "app/cost/order.h"
 #include "app/cost/write.h"
 #include "tests/app/cost/made_report.h"
 
@@ -67,6 +68,36 @@ static void errors_below_three_floors_say_nothing(void **state) {
     assert_true(dip_cost_at_floor(&report, 0));
     report.rows[0].places[0].regions[0].squared_lin = 10.0 * 0.0301 * 0.0301;
     assert_false(dip_cost_at_floor(&report, 0));
+    dip_cost_report_free(&report);
+}
+
+static void expect_order(const DipCostReport *report, const char *part) {
+    char text[2 * DIP_COST_TEXT];
+    assert_true(dip_cost_order_text(report, &report->sweeps[0], text, sizeof text));
+    if (!strstr(text, part)) {
+        fail_msg("\"%s\" is not in \"%s\"", part, text);
+    }
+}
+
+// FLIP of the made rows falls as their numbers rise, and all counters rise.
+static void steps_that_stray_are_named(void **state) {
+    (void)state;
+    DipCostReport report;
+    dip_made_report(&report, 1);
+    expect_order(&report, "In order: FLIP falls from step to step, samples_shown rises.");
+    double *counters = report.rows[3].counters;
+    counters[DIP_COST_COUNTER_samples_shown] =
+        report.rows[2].counters[DIP_COST_COUNTER_samples_shown];
+    expect_order(&report, "In order"); // the same work is no stray
+    counters[DIP_COST_COUNTER_samples_shown] -= 1.0;
+    expect_order(&report, "samples_shown should rise, and at \"4\" does not");
+    report.rows[2].places[0].regions[0].flip = 100.0;
+    expect_order(&report, "FLIP should fall, and at \"2\" does not");
+    report.sweeps[0].setting = DIP_SETTING_OPT; // whose errors rise
+    expect_order(&report, "FLIP should rise, and at \"off\" does not");
+    report.sweeps[0].setting = DIP_SETTING_MIPDEBUG;
+    char text[2 * DIP_COST_TEXT];
+    assert_false(dip_cost_order_text(&report, &report.sweeps[0], text, sizeof text));
     dip_cost_report_free(&report);
 }
 
@@ -313,6 +344,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figures_are_means),
         cmocka_unit_test(errors_below_three_floors_say_nothing),
+        cmocka_unit_test(steps_that_stray_are_named),
         cmocka_unit_test(ratios_see_past_drift_and_frames),
         cmocka_unit_test(times_are_means_of_medians),
         cmocka_unit_test(the_front_is_what_nothing_beats),
