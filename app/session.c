@@ -149,7 +149,8 @@ static void set_surroundings(const DipSession *session, const DipOptions *option
 }
 
 static bool keeps_model(const DipOptions *options) {
-    return options->command == DIP_COMMAND_COST || options->command == DIP_COMMAND_COST_ASSETS;
+    return options->command == DIP_COMMAND_PREVIEW || options->command == DIP_COMMAND_COST ||
+           options->command == DIP_COMMAND_COST_ASSETS;
 }
 
 static bool load_scene(DipSession *session, const DipOptions *options, DipErrorList *faults) {

@@ -5,7 +5,6 @@
 #include "app/folder.h"
 #include "app/hash.h"
 #include "app/whole_file.h"
-#include "renderer/texture/srgb.h"
 
 #include <limits.h>
 #include <math.h>
@@ -82,16 +81,21 @@ static bool draw_half(Making *making, int half, DipPool *pool, DipCostTruthProgr
     return true;
 }
 
-static void encode(const double *rgb_lin, size_t pixel_count, uint8_t *rgba8) {
-    static DipSrgbEncodeTable table;
-    dip_srgb_encode_table(&table);
+void dip_cost_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin,
+                           size_t pixel_count, uint8_t *rgba8) {
     for (size_t i = 0; i < pixel_count; i++) {
         for (size_t c = 0; c < 3; c++) {
             const double value = fmin(fmax(rgb_lin[3 * i + c], 0.0), 1.0);
-            rgba8[4 * i + c] = table.code[(int)(value * DIP_LINEAR16_MAX + 0.5)];
+            rgba8[4 * i + c] = table->code[(int)(value * DIP_LINEAR16_MAX + 0.5)];
         }
         rgba8[4 * i + 3] = 255;
     }
+}
+
+static void encode(const double *rgb_lin, size_t pixel_count, uint8_t *rgba8) {
+    static DipSrgbEncodeTable table;
+    dip_srgb_encode_table(&table);
+    dip_cost_truth_encode(&table, rgb_lin, pixel_count, rgba8);
 }
 
 static void round_to_floats(const double *rgb_lin, size_t count, float *out) {

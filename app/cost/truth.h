@@ -5,6 +5,7 @@
 #include "app/cost/sums.h"
 #include "app/metrics/flip.h"
 #include "renderer/base/pool.h"
+#include "renderer/texture/srgb.h"
 
 #include <stdbool.h>
 
@@ -39,6 +40,10 @@ bool dip_cost_truth_get(DipCostTruth *truth, const DipCostTruthDef *def, const c
                         DipPool *pool, DipCostTruthProgress *progress, void *context,
                         DipError *err);
 void dip_cost_truth_free(DipCostTruth *truth);
+
+// Linear light as sRGB codes of 8 bits, clamped and rounded.
+void dip_cost_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin,
+                           size_t pixel_count, uint8_t *rgba8);
 
 // The folder that is used when none is given, made if it is missing; false (and no fault) when
 // there is no home for it.

@@ -39,6 +39,7 @@ const DipKeyRow dip_key_rows[] = {
     {SDLK_9, SDLK_KP_9, DIP_ACTION_PATH, 9, false, "0 .. 9", "Path of a setting"},
     {SDLK_c, 0, DIP_ACTION_CAMERA, 0, false, "C", "Fly the camera:"},
     {0, 0, DIP_ACTION_CAMERA, 0, false, "W A S D Q E", "move (Shift: turn)"},
+    {SDLK_r, 0, DIP_ACTION_PANEL, 0, false, "R", "Times, error, work"},
     {SDLK_F1, SDLK_h, DIP_ACTION_HELP, 0, false, "F1  H", "This help"},
     {SDLK_F11, 0, DIP_ACTION_FULL_SCREEN, 0, false, "F11", "Full screen"},
     {SDLK_F12, 0, DIP_ACTION_SCREENSHOT, 0, false, "F12", "Screenshot"},

@@ -10,6 +10,8 @@ static const SDL_Color white = {255, 255, 255, 255};
 static const SDL_Color soft = {196, 202, 210, 255};
 static const SDL_Color accent = {255, 190, 92, 255};
 
+enum { PANEL_GAP = 4 };
+
 static void fill(SDL_Renderer *renderer, SDL_Rect rect, SDL_Color colour) {
     SDL_SetRenderDrawBlendMode(renderer, SDL_BLENDMODE_BLEND);
     SDL_SetRenderDrawColor(renderer, colour.r, colour.g, colour.b, colour.a);
@@ -86,9 +88,10 @@ static void format_effects(DipText *text, int size, int room, const DipEffects *
     }
 }
 
-// Three lines in a dark strip: whose pane and how fast; which settings; which effects.
-static void draw_label(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state,
-                       int pane, const SDL_Rect *rect, const DipPaneFigures *figures) {
+// Three lines in a dark strip: whose pane and how fast; which settings; which effects. Returns
+// where the strip ends.
+static int draw_label(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state, int pane,
+                      const SDL_Rect *rect, const DipPaneFigures *figures) {
     static const char *const titles[DIP_PANE_COUNT] = {"Current", "Requested"};
     const int size = label_size(rect);
     const int line = dip_text_line_height(text, size);
@@ -117,11 +120,43 @@ static void draw_label(SDL_Renderer *renderer, DipText *text, const DipPreviewSt
     format_effects(text, size, right - left, &figures->effects, effects, sizeof effects);
     dip_text_draw(text, size, soft, DIP_ALIGN_LEFT, left, rect->y + pad + 2 * line, right - left,
                   effects);
+    return strip.y + strip.h;
+}
+
+// The panel's lines that fit between the strips, in the largest letters that leave out the least.
+static void draw_panel(SDL_Renderer *renderer, DipText *text, const DipPanelLine *lines, int count,
+                       const SDL_Rect *room) {
+    int size = larger(10, smaller(14, room->w / 36));
+    while (size > DIP_TEXT_MIN_SIZE && count * dip_text_line_height(text, size) + size > room->h) {
+        size--;
+    }
+    const int line = dip_text_line_height(text, size);
+    const int shown = smaller(count, (room->h - size) / line);
+    int name_width = 0, value_width = 0;
+    for (int i = 0; i < shown; ++i) {
+        name_width = larger(name_width, dip_text_width(text, size, lines[i].name));
+        value_width = larger(value_width, dip_text_width(text, size, lines[i].value));
+    }
+    const int width = smaller(room->w, name_width + value_width + 3 * size);
+    if (shown < 1) {
+        return;
+    }
+    fill(renderer, (SDL_Rect){room->x, room->y, width, shown * line + size},
+         (SDL_Color){12, 14, 18, 190});
+    for (int i = 0; i < shown; ++i) {
+        const int y = room->y + size / 2 + i * line;
+        const SDL_Color colour = lines[i].head ? accent : white;
+        dip_text_draw(text, size, lines[i].head ? accent : soft, DIP_ALIGN_LEFT, room->x + size, y,
+                      name_width, lines[i].name);
+        dip_text_draw(text, size, colour, DIP_ALIGN_RIGHT, room->x + width - size, y,
+                      width - name_width - 3 * size, lines[i].value);
+    }
 }
 
 // One line along the window's lower edge: path and time, what just happened, how to get help.
-static void draw_status(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state,
-                        const SDL_Rect *window, int size) {
+// Returns where it begins.
+static int draw_status(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state,
+                       const SDL_Rect *window, int size) {
     const int line = dip_text_line_height(text, size);
     const int pad = larger(2, size / 4);
     const int margin = larger(6, size * 2 / 3);
@@ -147,6 +182,7 @@ static void draw_status(SDL_Renderer *renderer, DipText *text, const DipPreviewS
         dip_text_draw(text, size, accent, DIP_ALIGN_CENTRE, window->w / 2, y,
                       larger(0, window->w - 2 * side), state->notice);
     }
+    return strip.y;
 }
 
 static const char help_title[] = "Keys";
@@ -253,10 +289,18 @@ void dip_overlay_draw(SDL_Renderer *renderer, DipText *text, const DipPreviewSta
                       const DipPaneFigures figures[DIP_PANE_COUNT]) {
     SDL_Rect window = {0};
     SDL_GetRendererOutputSize(renderer, &window.w, &window.h);
+    const int status_y =
+        draw_status(renderer, text, state, &window, larger(10, label_size(&panes[0]) - 1));
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        draw_label(renderer, text, state, p, &panes[p], &figures[p]);
+        const int label_y = draw_label(renderer, text, state, p, &panes[p], &figures[p]);
+        if (state->panel) {
+            DipPanelLine lines[DIP_PANEL_MAX_LINES];
+            const int count = dip_panel_lines(&figures[p], p, lines);
+            draw_panel(renderer, text, lines, count,
+                       &(SDL_Rect){panes[p].x + PANEL_GAP, label_y + PANEL_GAP,
+                                   panes[p].w - 2 * PANEL_GAP, status_y - label_y - 2 * PANEL_GAP});
+        }
     }
-    draw_status(renderer, text, state, &window, larger(10, label_size(&panes[0]) - 1));
     if (state->help) {
         draw_help(renderer, text, &window);
     }

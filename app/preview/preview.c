@@ -4,6 +4,7 @@
 #include "app/preview/ahead.h"
 #include "app/preview/camera.h"
 #include "app/preview/keys.h"
+#include "app/preview/live.h"
 #include "app/preview/state.h"
 #include "app/preview/timing.h"
 #include "app/preview/window.h"
@@ -18,12 +19,22 @@ static const int64_t longest_step_ns = 250000000;   // a stall does not make the
 static const double courtyard_speed_m_per_s = 3.0;
 enum { IDLE_WAIT_MS = 30 };
 
+// All that decides what the pictures show.
+typedef struct Drawn {
+    DipPose pose;
+    int64_t play_ns;
+    DipQuality quality[DIP_PANE_COUNT];
+    int width;
+    int height;
+} Drawn;
+
 typedef struct Preview {
     DipSession *session;
     DipWindow *window;
     DipPreviewState state;
     DipQuality drawn_quality[DIP_PANE_COUNT]; // what the renderers are set to
     DipTiming timing[DIP_PANE_COUNT];
+    DipTiming stages[DIP_PANE_COUNT][DIP_STAGE_COUNT];
     DipTiming presented;
     DipPaneFigures figures[DIP_PANE_COUNT];
     int64_t figures_ns;
@@ -35,6 +46,10 @@ typedef struct Preview {
     bool full_screen;
     bool redraw; // the overlay or the window changed
     DipAhead ahead;
+    DipLive *live;
+    DipSessionFrame frame; // the last one drawn
+    Drawn drawn;
+    unsigned picture_number; // counts what the pictures show: not the turns of temporal AA
 } Preview;
 
 // A model of the user's own is crossed in four seconds, whatever its unit.
@@ -118,6 +133,9 @@ static bool follow_state(Preview *preview, DipError *err) {
             }
             preview->drawn_quality[p] = *wanted;
             dip_timing_clear(&preview->timing[p]);
+            for (int s = 0; s < DIP_STAGE_COUNT; ++s) {
+                dip_timing_clear(&preview->stages[p][s]);
+            }
             preview->figures_ns = 0;
         }
         if (!dip_renderer_resize(renderer, width, height, err)) {
@@ -125,6 +143,28 @@ static bool follow_state(Preview *preview, DipError *err) {
         }
     }
     return true;
+}
+
+static void count_picture(Preview *preview, int64_t play_ns) {
+    Drawn drawn;
+    memset(&drawn, 0, sizeof drawn); // compared with its padding
+    drawn.pose = preview->pose;
+    drawn.play_ns = play_ns;
+    drawn.width = preview->frame.panes[0].width;
+    drawn.height = preview->frame.panes[0].height;
+    memcpy(drawn.quality, preview->drawn_quality, sizeof drawn.quality);
+    if (memcmp(&drawn, &preview->drawn, sizeof drawn) != 0) {
+        preview->drawn = drawn;
+        ++preview->picture_number;
+    }
+}
+
+static void add_times(Preview *preview, int pane, const DipStageTimes *times, int64_t now_ns) {
+    DipTiming *stage = preview->stages[pane];
+    dip_timing_add(&preview->timing[pane], now_ns, times->total_ms);
+#define ADD_STAGE(name, text) dip_timing_add(stage++, now_ns, times->name##_ms);
+    DIP_STAGE_LIST(ADD_STAGE)
+#undef ADD_STAGE
 }
 
 static bool draw_panes(Preview *preview, DipError *err) {
@@ -137,18 +177,20 @@ static bool draw_panes(Preview *preview, DipError *err) {
     if (on_path && !dip_camtrack_pose(&session->track, play_ns, &preview->pose)) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
     }
-    DipSessionFrame frame;
-    if (!dip_session_draw_pose(session, &preview->pose, play_ns, preview->frame_index, &frame,
+    DipSessionFrame *frame = &preview->frame;
+    if (!dip_session_draw_pose(session, &preview->pose, play_ns, preview->frame_index, frame,
                                err)) {
         return false;
     }
+    count_picture(preview, play_ns);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        if (!dip_window_set_picture(preview->window, p, &frame.panes[p], err)) {
+        if (!dip_window_set_picture(preview->window, p, &frame->panes[p], err)) {
             return false;
         }
-        preview->figures[p].effects = frame.panes[p].effects;
-        preview->figures[p].copied = p == DIP_PANE_REQUESTED && frame.copied;
-        dip_timing_add(&preview->timing[p], dip_clock_ns(), frame.panes[p].stages.total_ms);
+        preview->figures[p].effects = frame->panes[p].effects;
+        preview->figures[p].counters = frame->panes[p].counters;
+        preview->figures[p].copied = p == DIP_PANE_REQUESTED && frame->copied;
+        add_times(preview, p, &frame->panes[p].stages, dip_clock_ns());
     }
     ++preview->frame_index;
     return true;
@@ -170,9 +212,12 @@ static void update_figures(Preview *preview, int64_t now_ns) {
     }
     preview->figures_ns = now_ns;
     // While nothing moves pictures are shown only when something changes: no rate to tell.
-    const bool moving = preview->state.manual ? preview->flying : !preview->state.paused;
+    const bool moving = !dip_preview_rests(&preview->state, preview->flying);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->figures[p].ms = dip_timing_median_ms(&preview->timing[p], now_ns);
+        for (int s = 0; s < DIP_STAGE_COUNT; ++s) {
+            preview->figures[p].stage_ms[s] = dip_timing_median_ms(&preview->stages[p][s], now_ns);
+        }
         preview->figures[p].fps = moving ? dip_timing_per_second(&preview->presented, now_ns) : 0;
     }
 }
@@ -191,6 +236,33 @@ static void take_screenshot(Preview *preview, int64_t now_ns) {
     }
 }
 
+// Has the pictures judged while the panel is there and the camera rests. Returns whether there is
+// something new to show.
+static bool judge_pictures(Preview *preview) {
+    const DipSessionFrame *frame = &preview->frame;
+    const DipFrame *current = &frame->panes[DIP_PANE_CURRENT];
+    if (preview->state.panel && dip_preview_rests(&preview->state, preview->flying)) {
+        const DipJudgeShot shot = {
+            .pose = preview->drawn.pose,
+            .time_ns = preview->drawn.play_ns,
+            .width = current->width,
+            .height = current->height,
+            .stride_bytes = current->stride_bytes,
+            .rgba8 = {current->rgba8,
+                      frame->copied ? NULL : frame->panes[DIP_PANE_REQUESTED].rgba8},
+        };
+        dip_live_show(preview->live, &shot, preview->picture_number);
+    } else {
+        dip_live_rest(preview->live);
+    }
+    DipLiveReading reading;
+    const bool news = dip_live_read(preview->live, &reading);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        preview->figures[p].live = reading;
+    }
+    return news;
+}
+
 // One turn of the loop. Returns whether something was shown.
 static bool turn(Preview *preview, int64_t now_ns, int64_t elapsed_ns, bool *shown, DipError *err) {
     DipPreviewState *state = &preview->state;
@@ -204,12 +276,13 @@ static bool turn(Preview *preview, int64_t now_ns, int64_t elapsed_ns, bool *sho
     }
     const bool new_scene =
         state->scene_changes != preview->drawn_changes || preview->redraw || alternates(preview);
-    *shown = new_scene || state->screenshot || (had_notice && !state->notice[0]);
-    if (!*shown) {
-        return true;
-    }
     if (new_scene && !draw_panes(preview, err)) {
         return false;
+    }
+    const bool news = judge_pictures(preview);
+    *shown = new_scene || news || state->screenshot || (had_notice && !state->notice[0]);
+    if (!*shown) {
+        return true;
     }
     preview->drawn_changes = state->scene_changes;
     preview->redraw = false;
@@ -268,14 +341,16 @@ bool dip_preview_run(DipSession *session, const DipOptions *options, DipError *e
     }
     preview.state = dip_preview_state_make(preview.drawn_quality, &session->track);
     preview.speed_m_per_s = flying_speed(session, options);
-    preview.window = dip_window_create(options->has_size ? options->width : res->width,
-                                       options->has_size ? options->height : res->height, err);
-    if (!preview.window) {
+    preview.live = dip_live_create(&session->scene_def, &session->reflection, err);
+    if (!preview.live) {
         return false;
     }
-    const bool done = run_loop(&preview, err);
-    dip_ahead_end(&preview.ahead);
+    preview.window = dip_window_create(options->has_size ? options->width : res->width,
+                                       options->has_size ? options->height : res->height, err);
+    const bool done = preview.window && run_loop(&preview, err);
     session->times.ended_ns = dip_clock_ns();
+    dip_live_destroy(&preview.live);
+    dip_ahead_end(&preview.ahead);
     dip_window_destroy(&preview.window);
     return done;
 }

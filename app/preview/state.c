@@ -204,6 +204,9 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
     case DIP_ACTION_HELP:
         state->help = !state->help;
         break;
+    case DIP_ACTION_PANEL:
+        state->panel = !state->panel;
+        break;
     case DIP_ACTION_SCREENSHOT:
         state->screenshot = true;
         break;
@@ -214,6 +217,10 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         state->quit = true;
         break;
     }
+}
+
+bool dip_preview_rests(const DipPreviewState *state, bool flying) {
+    return state->manual ? !flying : state->paused;
 }
 
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns) {

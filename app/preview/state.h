@@ -22,6 +22,7 @@ typedef enum DipAction {
     DIP_ACTION_PATH,
     DIP_ACTION_CAMERA,
     DIP_ACTION_HELP,
+    DIP_ACTION_PANEL,
     DIP_ACTION_SCREENSHOT,
     DIP_ACTION_FULL_SCREEN,
     DIP_ACTION_QUIT
@@ -38,6 +39,7 @@ typedef struct DipPreviewState {
     bool paused;
     bool manual; // the user flies; the path's time stands still
     bool help;
+    bool panel; // times, errors and work of each pane
     bool quit;
     bool full_screen;
     bool screenshot; // asked for; the window takes it and clears this
@@ -53,6 +55,9 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
 // reverse: Shift is held.
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns);
+
+// Whether nothing moves the camera or the scene. flying: the user does.
+bool dip_preview_rests(const DipPreviewState *state, bool flying);
 
 // Lets time go by: moves the path on unless paused, and drops an old notice.
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);

@@ -7,7 +7,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { NOTHING = -1, TILE = 8 }; // pixels; a tile's samples fit a second-level cache
+enum {
+    NOTHING = -1,
+    TILE = 8,           // pixels; a tile's samples fit a second-level cache
+    STOP_PERIOD = 4096, // triangles
+};
 
 // Triangle i reaches the tiles from first[i]: items[first[tile]] .. items[first[tile + 1] - 1].
 typedef struct Bins {
@@ -46,10 +50,14 @@ typedef struct Samples {
 
 // --- bins --------------------------------------------------------------------------------------
 
-// Calls for every tile that a triangle reaches, in submission order.
-static void fill_bins(DipConvergence *c, size_t *cursor, bool count_only) {
+// Goes through all tiles that each triangle reaches, in submission order. Returns false when it is
+// to stop.
+static bool fill_bins(DipConvergence *c, size_t *cursor, bool count_only) {
     for (size_t t = 0; t < c->triangles.count; t++) {
         const DipRefTriangle *triangle = &c->triangles.items[t];
+        if (t % STOP_PERIOD == 0 && dip_reference_stopped(c->reference, NULL)) {
+            return false;
+        }
         for (int y = triangle->min_y / TILE; y <= triangle->max_y / TILE; y++) {
             for (int x = triangle->min_x / TILE; x <= triangle->max_x / TILE; x++) {
                 size_t *at = &cursor[y * c->tiles_x + x];
@@ -60,6 +68,7 @@ static void fill_bins(DipConvergence *c, size_t *cursor, bool count_only) {
             }
         }
     }
+    return true;
 }
 
 static bool make_bins(DipConvergence *c) {
@@ -70,17 +79,15 @@ static bool make_bins(DipConvergence *c) {
         free(cursor);
         return false;
     }
-    fill_bins(c, cursor, true);
+    bool filled = fill_bins(c, cursor, true);
     for (size_t t = 0; t < tiles; t++) {
         c->bins.first[t + 1] = c->bins.first[t] + cursor[t];
         cursor[t] = c->bins.first[t];
     }
     c->bins.items = malloc((c->bins.first[tiles] + 1) * sizeof *c->bins.items);
-    if (c->bins.items) {
-        fill_bins(c, cursor, false);
-    }
+    filled = filled && c->bins.items && fill_bins(c, cursor, false);
     free(cursor);
-    return c->bins.items != NULL;
+    return filled;
 }
 
 static DipConvergence *create(const DipReference *reference, const DipRefShot *shot,
@@ -98,7 +105,8 @@ static DipConvergence *create(const DipReference *reference, const DipRefShot *s
     c->tiles_y = (c->height + TILE - 1) / TILE;
     bool made = dip_reference_build_triangles(reference, shot, &c->triangles, err);
     if (made && !make_bins(c)) {
-        made = dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL,
+        made = !dip_reference_stopped(reference, err) &&
+               dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL,
                              "no memory for the converged picture");
     }
     if (!made) {

@@ -362,6 +362,10 @@ bool dip_reference_build_triangles(const DipReference *reference, const DipRefSh
         if (shot->mirrored && is_water(reference, &reference->def->objects[o])) {
             continue;
         }
+        if (dip_reference_stopped(reference, err)) {
+            dip_reference_triangles_free(triangles);
+            return false;
+        }
         if (!add_object(reference, &camera, &reference->def->objects[o], triangles)) {
             dip_reference_triangles_free(triangles);
             return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for triangles");

@@ -12,6 +12,8 @@ struct DipReference {
     uint64_t frame_index;
     int64_t time_ns;
     DipReflectionDef reflection;
+    const atomic_bool *stop; // NULL: never
+    bool for_truth;          // textures have level 0 alone
     DipRefTexture *textures; // by the description's index; those that nothing shows have no levels
 };
 
@@ -140,6 +142,9 @@ void dip_reference_place_sample(int index, int side, uint32_t seed, size_t pixel
 
 // The count is a square; *side is its root.
 bool dip_reference_check_samples(int sample_count, int *side, DipError *err);
+
+// Whether work is to end early.
+bool dip_reference_stopped(const DipReference *reference, DipError *err);
 
 // The size is one that a frame may have.
 bool dip_reference_check_size(int width, int height, DipError *err);

@@ -59,7 +59,7 @@ static bool check_scene(const DipSceneDef *def, DipError *err) {
 static bool load_texture(DipReference *reference, int index, DipError *err) {
     return index == DIP_NO_TEXTURE || reference->textures[index].level_count > 0 ||
            dip_reference_texture_init(&reference->textures[index], &reference->def->textures[index],
-                                      err);
+                                      reference->for_truth ? 1 : DIP_REF_MAX_LEVELS, err);
 }
 
 // Colour textures of all but skies.
@@ -72,7 +72,21 @@ static bool compress_texture(DipReference *reference, const DipMaterialDef *mate
     return texture->blocks[0] || dip_reference_texture_compress(texture, err);
 }
 
-DipReference *dip_reference_create(const DipSceneDef *def, DipError *err) {
+bool dip_reference_stopped(const DipReference *reference, DipError *err) {
+    return reference->stop && atomic_load_explicit(reference->stop, memory_order_relaxed) &&
+           !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, NULL, "stopped");
+}
+
+static bool load_material(DipReference *reference, const DipMaterialDef *material, DipError *err) {
+    return !dip_reference_stopped(reference, err) &&
+           load_texture(reference, material->colour_texture, err) &&
+           load_texture(reference, material->light_map, err) &&
+           (!dip_reference_is_bumpy(material) ||
+            load_texture(reference, material->normal_map, err));
+}
+
+static DipReference *create(const DipSceneDef *def, const atomic_bool *stop, bool for_truth,
+                            DipError *err) {
     if (!check_scene(def, err)) {
         return NULL;
     }
@@ -82,22 +96,30 @@ DipReference *dip_reference_create(const DipSceneDef *def, DipError *err) {
         return NULL;
     }
     reference->def = def;
+    reference->stop = stop;
+    reference->for_truth = for_truth;
     reference->textures = calloc((size_t)def->texture_count + 1, sizeof *reference->textures);
     bool loaded = reference->textures != NULL;
     if (!loaded) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reference");
     }
     for (int m = 0; loaded && m < def->material_count; m++) {
-        loaded = load_texture(reference, def->materials[m].colour_texture, err) &&
-                 load_texture(reference, def->materials[m].light_map, err) &&
-                 (!dip_reference_is_bumpy(&def->materials[m]) ||
-                  load_texture(reference, def->materials[m].normal_map, err)) &&
-                 compress_texture(reference, &def->materials[m], err);
+        loaded = load_material(reference, &def->materials[m], err) &&
+                 (for_truth || compress_texture(reference, &def->materials[m], err));
     }
     if (!loaded) {
         dip_reference_destroy(&reference);
     }
     return reference;
+}
+
+DipReference *dip_reference_create(const DipSceneDef *def, DipError *err) {
+    return create(def, NULL, false, err);
+}
+
+DipReference *dip_reference_create_for_truth(const DipSceneDef *def, const atomic_bool *stop,
+                                             DipError *err) {
+    return create(def, stop, true, err);
 }
 
 void dip_reference_set_reflection(DipReference *reference, const DipReflectionDef *reflection) {

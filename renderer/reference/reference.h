@@ -10,12 +10,19 @@
 #include "renderer/reflection.h"
 #include "renderer/scene.h"
 
+#include <stdatomic.h>
 #include <stdint.h>
 
 typedef struct DipReference DipReference;
 
 // Builds its own decoded mip chains from *def, which is borrowed until destroy.
 DipReference *dip_reference_create(const DipSceneDef *def, DipError *err);
+
+// Likewise for converged pictures alone: it has neither smaller mip levels nor compressed
+// textures. Making it, and making a convergence with it, fail soon after *stop becomes true; stop
+// is
+DipReference *dip_reference_create_for_truth(const DipSceneDef *def, const atomic_bool *stop,
+                                             DipError *err);
 void dip_reference_destroy(DipReference **reference);
 
 // The number of the frames drawn next, as dip_renderer_set_frame_index.

@@ -53,7 +53,8 @@ static void fill_level(DipRefTexture *texture, int level) {
     }
 }
 
-bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def, DipError *err) {
+bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def, int most_levels,
+                                DipError *err) {
     memset(texture, 0, sizeof *texture);
     texture->def = def;
     if (!def->rgba8 || def->width < 1 || def->width > 8192 || def->height < 1 ||
@@ -70,7 +71,7 @@ bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def
     texture->widths[0] = def->width;
     texture->heights[0] = def->height;
     texture->level_count = 1;
-    for (int l = 1; (def->width >> l) > 0 || (def->height >> l) > 0; l++) {
+    for (int l = 1; l < most_levels && ((def->width >> l) > 0 || (def->height >> l) > 0); l++) {
         texture->widths[l] = def->width >> l > 1 ? def->width >> l : 1;
         texture->heights[l] = def->height >> l > 1 ? def->height >> l : 1;
         const size_t texels = (size_t)texture->widths[l] * (size_t)texture->heights[l];

@@ -38,7 +38,9 @@ typedef struct DipRefFilter {
 double dip_reference_decode_srgb(double code);
 double dip_reference_encode_srgb(double linear);
 
-bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def, DipError *err);
+// most_levels: the smaller ones are left out.
+bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def, int most_levels,
+                                DipError *err);
 void dip_reference_texture_free(DipRefTexture *texture);
 
 // One texel, indices within the level; r, g, b in linear light, a.

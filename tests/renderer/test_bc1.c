@@ -178,7 +178,7 @@ static void expect_texture(const DipTextureDef *def, DipPool *pool) {
     DipRefTexture reference;
     const bool wanted = true;
     assert_true(dip_textures_compress(&texture, &wanted, 1, pool, &compressed, NULL));
-    assert_true(dip_reference_texture_init(&reference, def, NULL));
+    assert_true(dip_reference_texture_init(&reference, def, DIP_REF_MAX_LEVELS, NULL));
     assert_true(dip_reference_texture_compress(&reference, NULL));
     assert_ptr_equal(compressed->alpha, texture->alpha);
     for (int level = 0; level < texture->level_count; level++) {

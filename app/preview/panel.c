@@ -1,0 +1,101 @@
+// Times, errors, work.
+#include "app/preview/panel.h"
+
+#include "renderer/base/assert.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+typedef struct Lines {
+    DipPanelLine *items;
+    int count;
+} Lines;
+
+__attribute__((format(printf, 4, 5))) static void add(Lines *lines, bool head, const char *name,
+                                                      const char *format, ...) {
+    DIP_ASSERT(lines->count < DIP_PANEL_MAX_LINES);
+    DipPanelLine *line = &lines->items[lines->count++];
+    va_list arguments;
+    line->head = head;
+    snprintf(line->name, sizeof line->name, "%s", name);
+    va_start(arguments, format);
+    vsnprintf(line->value, sizeof line->value, format, arguments);
+    va_end(arguments);
+}
+
+static void add_times(Lines *lines, const DipPaneFigures *figures) {
+    static const char *const names[DIP_STAGE_COUNT] = {"Geometry", "Raster", "Shading", "Resolve"};
+    double sum = 0.0;
+    for (int s = 0; s < DIP_STAGE_COUNT; s++) {
+        sum += figures->stage_ms[s];
+    }
+    add(lines, true, "Frame", "%.2f ms", figures->ms);
+    for (int s = 0; s < DIP_STAGE_COUNT; s++) {
+        add(lines, false, names[s], "%.2f ms %3.0f %%", figures->stage_ms[s],
+            sum > 0.0 ? 100.0 * figures->stage_ms[s] / sum : 0.0);
+    }
+}
+
+static void add_error(Lines *lines, const DipLiveReading *live, int pane) {
+    const DipJudgeResult *result = &live->result;
+    const DipPaneError *error = &result->panes[pane];
+    if (live->status == DIP_LIVE_RESTING) {
+        add(lines, true, "Error", "pause to measure");
+        return;
+    }
+    if (live->status == DIP_LIVE_FAILED) {
+        add(lines, true, "Error", "no memory to measure");
+        return;
+    }
+    if (result->samples == 0) {
+        add(lines, true, "Error", "measuring");
+        return;
+    }
+    add(lines, true, "Error", "%d samples%s", result->samples,
+        result->last ? "" : ", more to come");
+    add(lines, false, "RMSE, linear", "%.4f%s", error->rmse_lin,
+        error->at_floor ? " at floor" : "");
+    if (isinf(error->psnr_db)) {
+        add(lines, false, "PSNR", "no difference");
+    } else {
+        add(lines, false, "PSNR", "%.1f dB", error->psnr_db);
+    }
+    add(lines, false, "FLIP", "%.4f", error->flip);
+}
+
+static void add_count(Lines *lines, bool head, const char *name, uint64_t count) {
+    if (count < 100000) {
+        add(lines, head, name, "%llu", (unsigned long long)count);
+    } else if (count < 1000000) {
+        add(lines, head, name, "%.1f k", 1e-3 * (double)count);
+    } else {
+        add(lines, head, name, "%.2f M", 1e-6 * (double)count);
+    }
+}
+
+static void add_work(Lines *lines, const DipCounters *counters) {
+    add_count(lines, true, "Fragments shaded", counters->fragments_shaded);
+    add_count(lines, false, "Samples shown", counters->samples_shown);
+    add_count(lines, false, "Texels read", counters->texels_fetched);
+    add_count(lines, false, "Texture probes", counters->texture_probes);
+    add_count(lines, false, "Triangles drawn", counters->triangles_drawn);
+    add_count(lines, false, "Triangles in", counters->triangles_in);
+    add_count(lines, false, "Pixels resolved", counters->pixels_resolved);
+    add_count(lines, false, "Tiles drawn", counters->tiles_drawn);
+}
+
+int dip_panel_lines(const DipPaneFigures *figures, int pane,
+                    DipPanelLine lines[DIP_PANEL_MAX_LINES]) {
+    Lines all = {.items = lines};
+    if (figures->copied) {
+        add(&all, true, "Frame", "copied, same settings");
+    } else {
+        add_times(&all, figures);
+    }
+    add_error(&all, &figures->live, pane);
+    if (!figures->copied) {
+        add_work(&all, &figures->counters);
+    }
+    return all.count;
+}
