@@ -306,12 +306,17 @@ static void hash_reflection(const DipReflectionDef *reflection, DipHash *hash) {
     dip_hash_integer(hash, reflection->schlick);
 }
 
-static void describe(DipCostReport *report, const DipSession *session, const DipOptions *options) {
+void dip_cost_scene_name(const DipSession *session, const DipOptions *options,
+                         char name[DIP_COST_TEXT]) {
     const char *file = options->model_count          ? options->models[0]
                        : session->config.xfile.count ? session->config.xfile.items[0].path
                                                      : "";
     const char *slash = strrchr(file, '/');
-    snprintf(report->scene, sizeof report->scene, "%s", slash ? slash + 1 : file);
+    snprintf(name, DIP_COST_TEXT, "%s", slash ? slash + 1 : file);
+}
+
+static void describe(DipCostReport *report, const DipSession *session, const DipOptions *options) {
+    dip_cost_scene_name(session, options, report->scene);
     DipHash hash = dip_hash_begin();
     hash_def(&session->scene_def, &hash);
     hash_sky(&session->scene_def.sky, &hash);
