@@ -43,7 +43,8 @@ static int run_with_session(const DipOptions *options,
     if (options->timing) {
         say_times(&times, dip_start_times_since_ms(ended_ns));
     }
-    return done ? EXIT_DONE : fail(&err, EXIT_FAILED);
+    const bool bad_report = options->cost_report && strcmp(err.file, options->cost_report) == 0;
+    return done ? EXIT_DONE : fail(&err, bad_report ? EXIT_BAD_INPUT : EXIT_FAILED);
 }
 
 // The path commands' own files are their input; only what they write can fail while running.

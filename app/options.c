@@ -64,6 +64,14 @@ static bool set_category(DipOptions *options, const char *key, const char *value
     return true;
 }
 
+static bool set_cost_report(DipOptions *options, const char *key, const char *value,
+                            DipError *err) {
+    (void)key;
+    (void)err;
+    options->cost_report = value;
+    return true;
+}
+
 static bool set_out(DipOptions *options, const char *key, const char *value, DipError *err) {
     (void)key;
     (void)err;
@@ -241,6 +249,8 @@ static const OptionRow rows[] = {
     {"--requested", "SET", PANES, set_requested,
      "settings of the right pane, such as aa=4,af=16 (likewise)"},
     {"--size", "WxH", PANES | COST, set_size, "pixels of each pane (default: the ini's RES)"},
+    {"--cost", "FILE", PREVIEW, set_cost_report,
+     "the cost.json of a `diptych cost` on this scene: what settings cost, and advice"},
     {"--frames", "A:B[:S]", DUMP, set_frames,
      "frames A up to, not including, B, every S-th (default 0:1)"},
     {"--fps", "N", DUMP, set_fps, "frame n shows time n / N seconds (default 30)"},

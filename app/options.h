@@ -57,6 +57,7 @@ typedef struct DipOptions {
     bool has_size;
     int width; // of a pane, pixels
     int height;
+    const char *cost_report; // of the preview's scene
     const char *out;
     const char *json;
     bool hash;

@@ -4,24 +4,7 @@
 #include "app/progress.h"
 #include "renderer/base/clock.h"
 
-#include <math.h>
 #include <stdlib.h>
-
-// Of the combinations whose latest time is within the budget the one of least FLIP; -1: none.
-static int choose(const DipCostReport *report, const double *latest_ms, double budget_ms) {
-    int best = -1;
-    double least = INFINITY;
-    for (int r = report->combined_first; r < report->row_count; r++) {
-        int places;
-        const DipCostSums sums = dip_cost_row_sums(report, r, &places);
-        const double flip = dip_cost_figures(&sums, 0).flip;
-        if (places > 0 && latest_ms[r] <= budget_ms && flip < least) {
-            least = flip;
-            best = r;
-        }
-    }
-    return best;
-}
 
 // Times a row anew, as rounds of its own.
 static bool time_again(DipCostRig *rig, int row, DipCostTime *time, DipError *err) {
@@ -58,7 +41,7 @@ static bool advise(DipCostRig *rig, double budget_ms, double *latest_ms, DipErro
     DipCostReport *report = rig->report;
     DipCostAdvice advice = {.budget_ms = budget_ms, .row = -1};
     // What turns out slower than it seemed is no longer within the budget.
-    for (int row; (row = choose(report, latest_ms, budget_ms)) >= 0;) {
+    for (int row; (row = dip_cost_choose(report, latest_ms, budget_ms)) >= 0;) {
         DipCostTime time;
         if (!time_again(rig, row, &time, err)) {
             return false;

@@ -233,12 +233,17 @@ static bool add_combinations(DipCostReport *report, DipQuality quality, int sett
 
 // --- the whole ---------------------------------------------------------------------------------
 
-static void describe(DipCostReport *report, const DipSession *session, const DipOptions *options) {
+void dip_cost_scene_name(const DipSession *session, const DipOptions *options,
+                         char name[DIP_COST_TEXT]) {
     const char *file = options->model_count          ? options->models[0]
                        : session->config.xfile.count ? session->config.xfile.items[0].path
                                                      : "";
     const char *slash = strrchr(file, '/');
-    snprintf(report->scene, sizeof report->scene, "%s", slash ? slash + 1 : file);
+    snprintf(name, DIP_COST_TEXT, "%s", slash ? slash + 1 : file);
+}
+
+static void describe(DipCostReport *report, const DipSession *session, const DipOptions *options) {
+    dip_cost_scene_name(session, options, report->scene);
     dip_cost_scene_hash(&session->scene_def, &session->reflection, report->scene_hash);
     dip_machine_processor(report->processor, sizeof report->processor);
     snprintf(report->isa, sizeof report->isa, "%s", dip_isa_name(session->isa));

@@ -11,6 +11,10 @@
 bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipOptions *options,
                    DipError *err);
 
+// The first model's file, without folders.
+void dip_cost_scene_name(const DipSession *session, const DipOptions *options,
+                         char name[DIP_COST_TEXT]);
+
 // The pose at a time on one of the report's paths.
 int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession *session, int path);
 DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, int path,

@@ -225,6 +225,10 @@ DipCostTime dip_cost_ratio(const DipCostReport *report, int row, int base) {
     return bootstrap(report, row, base, median_ratio, RESAMPLES);
 }
 
+double dip_cost_median_ratio(const DipCostReport *report, int row, int base) {
+    return bootstrap(report, row, base, median_ratio, 0).ms;
+}
+
 // --- the front ---------------------------------------------------------------------------------
 
 typedef struct Candidate {
@@ -295,4 +299,19 @@ int dip_cost_next(const DipCostReport *report, int row) {
         }
     }
     return next;
+}
+
+int dip_cost_choose(const DipCostReport *report, const double *latest_ms, double budget_ms) {
+    int best = -1;
+    double least = INFINITY;
+    for (int r = report->combined_first; r < report->row_count; r++) {
+        int places;
+        const DipCostSums sums = dip_cost_row_sums(report, r, &places);
+        const double flip = dip_cost_figures(&sums, 0).flip;
+        if (places > 0 && latest_ms[r] <= budget_ms && flip < least) {
+            least = flip;
+            best = r;
+        }
+    }
+    return best;
 }

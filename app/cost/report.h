@@ -117,12 +117,19 @@ DipCostTime dip_cost_time(const DipCostReport *report, int row);
 // The median over rounds and frames of row / base, both of the same round.
 DipCostTime dip_cost_ratio(const DipCostReport *report, int row, int base);
 
+// Its ms alone, which is quick to find.
+double dip_cost_median_ratio(const DipCostReport *report, int row, int base);
+
 // Rows that no other one of the same list is at least as good as in time and in error; in order of
 // time. Rows without both are left out. Returns how many.
 int dip_cost_front(const DipCostReport *report, const int *rows, int count, int *front);
 
 // The fastest combination that buys at least 1 % of FLIP over a row; -1: none.
 int dip_cost_next(const DipCostReport *report, int row);
+
+// Of the combinations whose latest time, by row, is within a budget the one of least FLIP; -1:
+// none.
+int dip_cost_choose(const DipCostReport *report, const double *latest_ms, double budget_ms);
 
 // Leaves of a front its first row and those that buy at least 1 % of FLIP over the last one left.
 int dip_cost_front_steps(const DipCostReport *report, int *front, int count);

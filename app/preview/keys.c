@@ -40,6 +40,8 @@ const DipKeyRow dip_key_rows[] = {
     {SDLK_c, 0, DIP_ACTION_CAMERA, 0, false, "C", "Fly the camera:"},
     {0, 0, DIP_ACTION_CAMERA, 0, false, "W A S D Q E", "move (Shift: turn)"},
     {SDLK_r, 0, DIP_ACTION_PANEL, 0, false, "R", "Times, error, work"},
+    {SDLK_u, 0, DIP_ACTION_COSTS, 0, false, "U", "What settings cost"},
+    {SDLK_k, 0, DIP_ACTION_ADVICE, 0, false, "K", "Advice for a time"},
     {SDLK_F1, SDLK_h, DIP_ACTION_HELP, 0, false, "F1  H", "This help"},
     {SDLK_F11, 0, DIP_ACTION_FULL_SCREEN, 0, false, "F11", "Full screen"},
     {SDLK_F12, 0, DIP_ACTION_SCREENSHOT, 0, false, "F12", "Screenshot"},
@@ -58,9 +60,9 @@ bool dip_keys_press(DipPreviewState *state, const SDL_KeyboardEvent *event, int6
         }
         return false;
     }
-    // Escape leaves the help before it leaves the program.
-    if (key == SDLK_ESCAPE && state->help) {
-        state->help = false;
+    // Escape leaves what covers the panes before it leaves the program.
+    if (key == SDLK_ESCAPE && (state->help || state->show_costs)) {
+        state->help = state->show_costs = false;
         return true;
     }
     for (int i = 0; i < dip_key_row_count; ++i) {

@@ -2,6 +2,7 @@
 #include "app/preview/overlay.h"
 
 #include "app/preview/keys.h"
+#include "renderer/base/assert.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -185,6 +186,15 @@ static int draw_status(SDL_Renderer *renderer, DipText *text, const DipPreviewSt
     return strip.y;
 }
 
+// A dark sheet in the middle of a darkened window.
+static SDL_Rect draw_sheet(SDL_Renderer *renderer, const SDL_Rect *window, int width, int height) {
+    const SDL_Rect sheet = {(window->w - width) / 2, (window->h - height) / 2, width, height};
+    fill(renderer, (SDL_Rect){0, 0, window->w, window->h}, (SDL_Color){0, 0, 0, 90});
+    fill(renderer, sheet, (SDL_Color){14, 16, 21, 236});
+    fill(renderer, (SDL_Rect){sheet.x, sheet.y, sheet.w, 2}, accent);
+    return sheet;
+}
+
 static const char help_title[] = "Keys";
 static const char help_shift[] = "Shift goes backwards";
 static const char help_note[] = "A setting's key moves to the path that shows it best";
@@ -262,11 +272,7 @@ static void draw_help(SDL_Renderer *renderer, DipText *text, const SDL_Rect *win
     HelpRow rows[MAX_HELP_ROWS];
     const int count = help_rows(rows);
     const HelpLayout l = choose_layout(text, rows, count, window);
-    const SDL_Rect panel = {(window->w - l.width) / 2, (window->h - l.height) / 2, l.width,
-                            l.height};
-    fill(renderer, (SDL_Rect){0, 0, window->w, window->h}, (SDL_Color){0, 0, 0, 90});
-    fill(renderer, panel, (SDL_Color){14, 16, 21, 236});
-    fill(renderer, (SDL_Rect){panel.x, panel.y, panel.w, 2}, accent);
+    const SDL_Rect panel = draw_sheet(renderer, window, l.width, l.height);
     const int x0 = panel.x + l.size;
     const int y0 = panel.y + l.size;
     const int room = panel.w - 2 * l.size;
@@ -282,6 +288,105 @@ static void draw_help(SDL_Renderer *renderer, DipText *text, const SDL_Rect *win
     }
     dip_text_draw(text, l.size, soft, DIP_ALIGN_LEFT, x0, panel.y + panel.h - l.size - l.line, room,
                   help_note);
+}
+
+// --- what settings cost ------------------------------------------------------------------------
+
+static const char costs_note[] =
+    "Time as a ratio to the step at 1x; FLIP of that step, and how it changes with others";
+static const char *const costs_missing[] = {
+    "No cost report yet. Make one, which takes minutes:", "    diptych cost --out DIR",
+    "and start with it:", "    diptych --cost DIR/cost.json"};
+
+typedef struct CostsLayout {
+    int size;
+    int line;
+    int title_width;
+    int name_width[DIP_COST_MAX_SWEEP_ROWS]; // of a column
+    int column_width[DIP_COST_MAX_SWEEP_ROWS];
+    int width;
+    int height;
+} CostsLayout;
+
+static CostsLayout measure_costs(DipText *text, const DipCosts *costs, int size) {
+    CostsLayout l = {.size = size, .line = dip_text_line_height(text, size) + 1};
+    const int gap = larger(4, size * 2 / 3);
+    for (int r = 0; r < costs->row_count; ++r) {
+        const DipCostsRow *row = &costs->rows[r];
+        l.title_width = larger(l.title_width, dip_text_width(text, size, row->title) + gap);
+        for (int s = 0; s < row->step_count; ++s) {
+            l.name_width[s] =
+                larger(l.name_width[s], dip_text_width(text, size, row->steps[s].name) + gap / 2);
+        }
+    }
+    l.width = l.title_width;
+    for (int s = 0; s < DIP_COST_MAX_SWEEP_ROWS; ++s) {
+        for (int r = 0; r < costs->row_count; ++r) {
+            const DipCostsRow *row = &costs->rows[r];
+            const int width =
+                s < row->step_count
+                    ? l.name_width[s] + dip_text_width(text, size, row->steps[s].figures) + gap
+                    : 0;
+            l.column_width[s] = larger(l.column_width[s], width);
+        }
+        l.width += l.column_width[s];
+    }
+    l.width = larger(l.width, dip_text_width(text, size, costs_note)) + 2 * size;
+    l.height = (costs->row_count + 3) * l.line + 2 * size;
+    return l;
+}
+
+static void draw_costs_row(DipText *text, const CostsLayout *l, const DipCostsRow *row,
+                           const DipQuality *quality, int x, int y) {
+    dip_text_draw(text, l->size, white, DIP_ALIGN_LEFT, x, y, l->title_width, row->title);
+    x += l->title_width;
+    for (int s = 0; s < row->step_count; ++s) {
+        const bool at = dip_costs_is_at(row, s, quality);
+        dip_text_draw(text, l->size, at ? accent : white, DIP_ALIGN_LEFT, x, y, l->name_width[s],
+                      row->steps[s].name);
+        dip_text_draw(text, l->size, at ? accent : soft, DIP_ALIGN_LEFT, x + l->name_width[s], y,
+                      l->column_width[s] - l->name_width[s], row->steps[s].figures);
+        x += l->column_width[s];
+    }
+}
+
+static void draw_no_costs(SDL_Renderer *renderer, DipText *text, const SDL_Rect *window) {
+    const int size = larger(10, smaller(15, window->w / 60));
+    const int line = dip_text_line_height(text, size) + 2;
+    const int count = (int)DIP_ARRAY_COUNT(costs_missing);
+    int width = 0;
+    for (int i = 0; i < count; ++i) {
+        width = larger(width, dip_text_width(text, size, costs_missing[i]));
+    }
+    const SDL_Rect sheet = draw_sheet(renderer, window, width + 2 * size, count * line + 2 * size);
+    for (int i = 0; i < count; ++i) {
+        dip_text_draw(text, size, i % 2 ? accent : white, DIP_ALIGN_LEFT, sheet.x + size,
+                      sheet.y + size + i * line, width, costs_missing[i]);
+    }
+}
+
+// The requested pane's steps stand out.
+static void draw_costs(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state,
+                       const SDL_Rect *window) {
+    const DipCosts *costs = state->costs;
+    if (!costs) {
+        draw_no_costs(renderer, text, window);
+        return;
+    }
+    CostsLayout l;
+    int size = 15;
+    do {
+        l = measure_costs(text, costs, size);
+    } while ((l.width > window->w || l.height > window->h) && size-- > DIP_TEXT_MIN_SIZE);
+    const SDL_Rect sheet = draw_sheet(renderer, window, l.width, l.height);
+    const int x = sheet.x + l.size, y = sheet.y + l.size, room = sheet.w - 2 * l.size;
+    dip_text_draw(text, l.size, white, DIP_ALIGN_LEFT, x, y, room, costs->heading);
+    for (int r = 0; r < costs->row_count; ++r) {
+        draw_costs_row(text, &l, &costs->rows[r], &state->quality[DIP_PANE_REQUESTED], x,
+                       y + (r + 1) * l.line + l.line / 2);
+    }
+    dip_text_draw(text, l.size, soft, DIP_ALIGN_LEFT, x, y + (costs->row_count + 2) * l.line, room,
+                  costs_note);
 }
 
 void dip_overlay_draw(SDL_Renderer *renderer, DipText *text, const DipPreviewState *state,
@@ -303,5 +408,7 @@ void dip_overlay_draw(SDL_Renderer *renderer, DipText *text, const DipPreviewSta
     }
     if (state->help) {
         draw_help(renderer, text, &window);
+    } else if (state->show_costs) {
+        draw_costs(renderer, text, state, &window);
     }
 }

@@ -52,8 +52,7 @@ static void add_error(Lines *lines, const DipLiveReading *live, int pane) {
         add(lines, true, "Error", "measuring");
         return;
     }
-    add(lines, true, "Error", "%d samples%s", result->samples,
-        result->last ? "" : ", more to come");
+    add(lines, true, "Error", "%d samples%s", result->samples, result->last ? "" : ", rising");
     add(lines, false, "RMSE, linear", "%.4f%s", error->rmse_lin,
         error->at_floor ? " at floor" : "");
     if (isinf(error->psnr_db)) {

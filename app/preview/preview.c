@@ -1,6 +1,7 @@
 // The preview's loop: events, time, pictures.
 #include "app/preview/preview.h"
 
+#include "app/cost/plan.h"
 #include "app/preview/ahead.h"
 #include "app/preview/camera.h"
 #include "app/preview/keys.h"
@@ -333,6 +334,13 @@ static bool run_loop(Preview *preview, DipError *err) {
     return true;
 }
 
+static bool load_costs(DipCosts *costs, const DipSession *session, const DipOptions *options,
+                       DipError *err) {
+    char scene[DIP_COST_TEXT];
+    dip_cost_scene_name(session, options, scene);
+    return dip_costs_load(costs, options->cost_report, scene, err);
+}
+
 bool dip_preview_run(DipSession *session, const DipOptions *options, DipError *err) {
     const DipConfigSize *res = &session->config.res;
     Preview preview = {.session = session, .redraw = true};
@@ -341,6 +349,11 @@ bool dip_preview_run(DipSession *session, const DipOptions *options, DipError *e
     }
     preview.state = dip_preview_state_make(preview.drawn_quality, &session->track);
     preview.speed_m_per_s = flying_speed(session, options);
+    static DipCosts costs;
+    if (options->cost_report && !load_costs(&costs, session, options, err)) {
+        return false;
+    }
+    preview.state.costs = options->cost_report ? &costs : NULL;
     preview.live = dip_live_create(&session->scene_def, &session->reflection, err);
     if (!preview.live) {
         return false;

@@ -163,6 +163,28 @@ static void apply(DipPreviewState *state, int64_t now_ns) {
     ++state->scene_changes;
 }
 
+// The requested pane gets the settings of least error within a time; each press goes on to the
+// report's next time.
+static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
+    const DipCosts *costs = state->costs;
+    if (!costs) {
+        dip_preview_notice(state, now_ns, "No cost report: U tells how to make one");
+        return;
+    }
+    const int count = costs->advice_count;
+    const int index = (state->next_advice + (reverse ? count - 2 : 0) + count) % count;
+    const DipCostsAdvice *advice = &costs->advice[index];
+    char text[DIP_NOTICE_SIZE];
+    dip_costs_describe(costs, index, text, sizeof text);
+    dip_preview_notice(state, now_ns, "%s", text);
+    state->notice_end_ns = now_ns + 2 * notice_ns; // it is longer than others
+    state->next_advice = (index + 1) % count;
+    if (advice->found) {
+        state->quality[DIP_PANE_REQUESTED] = advice->quality;
+        ++state->scene_changes;
+    }
+}
+
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns) {
     switch (action) {
@@ -206,6 +228,12 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         break;
     case DIP_ACTION_PANEL:
         state->panel = !state->panel;
+        break;
+    case DIP_ACTION_COSTS:
+        state->show_costs = !state->show_costs;
+        break;
+    case DIP_ACTION_ADVICE:
+        take_advice(state, reverse, now_ns);
         break;
     case DIP_ACTION_SCREENSHOT:
         state->screenshot = true;

@@ -2,6 +2,7 @@
 #ifndef DIP_APP_PREVIEW_STATE_H
 #define DIP_APP_PREVIEW_STATE_H
 
+#include "app/preview/costs.h"
 #include "app/session.h"
 #include "campaths/camtrack.h"
 #include "renderer/quality.h"
@@ -23,6 +24,8 @@ typedef enum DipAction {
     DIP_ACTION_CAMERA,
     DIP_ACTION_HELP,
     DIP_ACTION_PANEL,
+    DIP_ACTION_COSTS,
+    DIP_ACTION_ADVICE,
     DIP_ACTION_SCREENSHOT,
     DIP_ACTION_FULL_SCREEN,
     DIP_ACTION_QUIT
@@ -39,7 +42,10 @@ typedef struct DipPreviewState {
     bool paused;
     bool manual; // the user flies; the path's time stands still
     bool help;
-    bool panel; // times, errors and work of each pane
+    bool panel;            // times, errors and work of each pane
+    const DipCosts *costs; // borrowed; NULL: there is no report
+    bool show_costs;
+    int next_advice; // of the costs'
     bool quit;
     bool full_screen;
     bool screenshot; // asked for; the window takes it and clears this

@@ -7,11 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum {
-    NOTHING = -1,
-    TILE = 8,           // pixels; a tile's samples fit a second-level cache
-    STOP_PERIOD = 4096, // triangles
-};
+enum { NOTHING = -1, TILE = 8 }; // pixels; a tile's samples fit a second-level cache
 
 // Triangle i reaches the tiles from first[i]: items[first[tile]] .. items[first[tile + 1] - 1].
 typedef struct Bins {
@@ -55,7 +51,7 @@ typedef struct Samples {
 static bool fill_bins(DipConvergence *c, size_t *cursor, bool count_only) {
     for (size_t t = 0; t < c->triangles.count; t++) {
         const DipRefTriangle *triangle = &c->triangles.items[t];
-        if (t % STOP_PERIOD == 0 && dip_reference_stopped(c->reference, NULL)) {
+        if (t % DIP_REF_STOP_PERIOD == 0 && dip_reference_stopped(c->reference, NULL)) {
             return false;
         }
         for (int y = triangle->min_y / TILE; y <= triangle->max_y / TILE; y++) {

@@ -288,9 +288,13 @@ static int clip_below(int count, ClipVertex polygon[MAX_CORNERS]) {
     return kept >= 3 ? kept : 0;
 }
 
-static bool add_mesh(const Camera *camera, const DipMeshDef *mesh, const ClipVertex *vertices,
-                     const DipRefTriangle *like, DipRefTriangles *triangles) {
+static bool add_mesh(const DipReference *reference, const Camera *camera, const DipMeshDef *mesh,
+                     const ClipVertex *vertices, const DipRefTriangle *like,
+                     DipRefTriangles *triangles) {
     for (uint32_t i = 0; i < mesh->index_count; i += 3) {
+        if (i / 3 % DIP_REF_STOP_PERIOD == 0 && dip_reference_stopped(reference, NULL)) {
+            return false;
+        }
         const ClipVertex *corners[3] = {&vertices[mesh->indices[i]],
                                         &vertices[mesh->indices[i + 1]],
                                         &vertices[mesh->indices[i + 2]]};
@@ -344,7 +348,7 @@ static bool add_object(const DipReference *reference, const Camera *camera,
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         vertices[i] = transform_vertex(camera, object->transform, mesh, &turn, lit, i);
     }
-    const bool added = add_mesh(camera, mesh, vertices, &like, triangles);
+    const bool added = add_mesh(reference, camera, mesh, vertices, &like, triangles);
     free(vertices);
     return added;
 }
@@ -362,13 +366,10 @@ bool dip_reference_build_triangles(const DipReference *reference, const DipRefSh
         if (shot->mirrored && is_water(reference, &reference->def->objects[o])) {
             continue;
         }
-        if (dip_reference_stopped(reference, err)) {
-            dip_reference_triangles_free(triangles);
-            return false;
-        }
         if (!add_object(reference, &camera, &reference->def->objects[o], triangles)) {
             dip_reference_triangles_free(triangles);
-            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for triangles");
+            return !dip_reference_stopped(reference, err) &&
+                   dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for triangles");
         }
     }
     return true;

@@ -143,7 +143,8 @@ void dip_reference_place_sample(int index, int side, uint32_t seed, size_t pixel
 // The count is a square; *side is its root.
 bool dip_reference_check_samples(int sample_count, int *side, DipError *err);
 
-// Whether work is to end early.
+// Whether work is to end early; asked once in so many triangles.
+enum { DIP_REF_STOP_PERIOD = 4096 };
 bool dip_reference_stopped(const DipReference *reference, DipError *err);
 
 // The size is one that a frame may have.

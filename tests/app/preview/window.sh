@@ -106,6 +106,14 @@ xdotool key F1
 await "the help shows" left_changed before.png
 xdotool key F1
 await "the help goes away" left_same before.png
+xdotool key r
+await "the panel shows" left_changed before.png
+xdotool key r
+await "the panel goes away" left_same before.png
+xdotool key u
+await "the costs show how to get them" left_changed before.png
+xdotool key u
+await "the costs go away" left_same before.png
 xdotool key F12
 await "a screenshot is written" screenshot_there
 [ "$(identify -format '%wx%h' diptych-0001.png)" = 1282x480 ] || fail "screenshot of a wrong size"
@@ -121,6 +129,9 @@ resized_panes_show() {
 }
 await "both panes show in the smaller window" resized_panes_show
 
+# It ends while the errors are being measured.
+xdotool key r
+sleep 0.3
 xdotool key Escape
 wait "$pid"
 code=$?

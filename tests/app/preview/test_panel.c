@@ -1,0 +1,212 @@
+// What the preview tells of times, errors and costs, and when.
+#include "app/cost/write.h"
+#include "app/preview/panel.h"
+#include "app/preview/state.h"
+#include "tests/app/cost/made_report.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static DipPaneFigures figures;
+static DipPanelLine lines[DIP_PANEL_MAX_LINES];
+static int line_count;
+
+static const char *value_of(int pane, const char *name) {
+    line_count = dip_panel_lines(&figures, pane, lines);
+    assert_true(line_count <= DIP_PANEL_MAX_LINES);
+    for (int i = 0; i < line_count; i++) {
+        if (strcmp(lines[i].name, name) == 0) {
+            return lines[i].value;
+        }
+    }
+    return "";
+}
+
+static int set_up(void **state) {
+    (void)state;
+    figures = (DipPaneFigures){
+        .ms = 10.0,
+        .stage_ms = {1.0, 2.0, 5.0, 2.0},
+        .counters = {.fragments_shaded = 99999, .texels_fetched = 1234567, .triangles_in = 123456},
+    };
+    return 0;
+}
+
+static void times_and_work(void **state) {
+    (void)state;
+    assert_string_equal(value_of(0, "Frame"), "10.00 ms");
+    assert_string_equal(value_of(0, "Geometry"), "1.00 ms  10 %");
+    assert_string_equal(value_of(0, "Shading"), "5.00 ms  50 %");
+    assert_string_equal(value_of(0, "Fragments shaded"), "99999");
+    assert_string_equal(value_of(0, "Triangles in"), "123.5 k");
+    assert_string_equal(value_of(0, "Texels read"), "1.23 M");
+}
+
+static void errors_show_at_rest(void **state) {
+    (void)state;
+    DipLiveReading *live = &figures.live;
+    live->result.panes[1] = (DipPaneError){.0123, 31.26, .0475, false};
+    assert_string_equal(value_of(1, "Error"), "pause to measure");
+    assert_string_equal(value_of(1, "FLIP"), "");
+    live->status = DIP_LIVE_WORKING;
+    assert_string_equal(value_of(1, "Error"), "measuring");
+    assert_string_equal(value_of(1, "FLIP"), "");
+    live->result.samples = 8;
+    assert_string_equal(value_of(1, "Error"), "8 samples, rising");
+    assert_string_equal(value_of(1, "RMSE, linear"), "0.0123");
+    assert_string_equal(value_of(1, "PSNR"), "31.3 dB");
+    assert_string_equal(value_of(1, "FLIP"), "0.0475");
+    live->result.samples = 128;
+    live->result.last = true;
+    live->result.panes[1].at_floor = true;
+    live->result.panes[1].psnr_db = INFINITY;
+    assert_string_equal(value_of(1, "Error"), "128 samples");
+    assert_string_equal(value_of(1, "RMSE, linear"), "0.0123 at floor");
+    assert_string_equal(value_of(1, "PSNR"), "no difference");
+    assert_string_equal(value_of(0, "RMSE, linear"), "0.0000");
+    live->status = DIP_LIVE_FAILED;
+    assert_string_equal(value_of(1, "Error"), "no memory to measure");
+}
+
+// A copied pane has errors, but neither times nor work of its own.
+static void a_copy_has_errors_only(void **state) {
+    (void)state;
+    figures.copied = true;
+    figures.live.status = DIP_LIVE_DONE;
+    figures.live.result.samples = 32;
+    assert_string_equal(value_of(1, "Frame"), "copied, same settings");
+    assert_string_equal(value_of(1, "Geometry"), "");
+    assert_string_equal(value_of(1, "Texels read"), "");
+    assert_string_equal(value_of(1, "FLIP"), "0.0000");
+}
+
+static void rest_is_when_nothing_moves(void **state) {
+    (void)state;
+    DipPreviewState preview = {0};
+    assert_false(dip_preview_rests(&preview, false));
+    preview.paused = true;
+    assert_true(dip_preview_rests(&preview, false));
+    preview.manual = true;
+    assert_false(dip_preview_rests(&preview, true));
+    preview.paused = false;
+    assert_true(dip_preview_rests(&preview, false));
+}
+
+static double flip_of(const DipCostReport *report, int row) {
+    int places;
+    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
+    return dip_cost_figures(&sums, 0).flip;
+}
+
+// Row r of the made-up report takes r + 1 ms; the sweep is of rows 0, 2 and 3.
+static void steps_tell_cost_and_gain(void **state) {
+    (void)state;
+    DipCostReport report;
+    DipCosts costs;
+    char expected[48];
+    dip_made_report(&report, 3);
+    dip_costs_make(&costs, &report);
+    assert_string_equal(costs.heading, "made up, 64x48, 2 threads, scalar");
+    assert_int_equal(costs.row_count, 1);
+    assert_string_equal(costs.rows[0].title, "Antialiasing");
+    assert_int_equal(costs.rows[0].step_count, 3);
+    assert_string_equal(costs.rows[0].steps[2].name, "4");
+    assert_memory_equal(costs.rows[0].steps[0].figures, "1x .", 4);
+    const double change = flip_of(&report, 3) - flip_of(&report, 0);
+    snprintf(expected, sizeof expected, "%.4f", fabs(change));
+    assert_memory_equal(costs.rows[0].steps[2].figures, "4.00x -", 7);
+    assert_true(change < 0.0);
+    assert_string_equal(costs.rows[0].steps[2].figures + 7,
+                        expected[0] == '0' ? expected + 1 : expected);
+    DipQuality quality = dip_quality_default();
+    assert_true(dip_costs_is_at(&costs.rows[0], 0, &quality));
+    assert_false(dip_costs_is_at(&costs.rows[0], 2, &quality));
+    dip_cost_report_free(&report);
+}
+
+static void a_report_of_another_scene_is_refused(void **state) {
+    (void)state;
+    DipCostReport report;
+    DipCosts costs;
+    DipError err = {0};
+    char file[] = "/tmp/test_panel.XXXXXX";
+    const int descriptor = mkstemp(file);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    dip_made_report(&report, 3);
+    assert_true(dip_cost_write_json(&report, file, &err));
+    assert_true(dip_costs_load(&costs, file, "made up", &err));
+    assert_int_equal(costs.row_count, 1);
+    assert_false(dip_costs_load(&costs, file, "other", &err));
+    assert_int_equal(err.code, DIP_ERROR_CONFLICT);
+    remove(file);
+    dip_cost_report_free(&report);
+}
+
+static void advice_sets_the_requested_pane(void **state) {
+    (void)state;
+    DipCostReport report;
+    DipCosts costs;
+    dip_made_report(&report, 3);
+    report.advice[1] = (DipCostAdvice){.budget_ms = 1.0, .row = -1};
+    report.advice_count = 2;
+    dip_costs_make(&costs, &report);
+    DipPreviewState preview = {0};
+    dip_preview_act(&preview, DIP_ACTION_ADVICE, 0, false, 0);
+    assert_non_null(strstr(preview.notice, "No cost report"));
+    assert_int_equal(preview.scene_changes, 0);
+    preview.costs = &costs;
+    dip_preview_act(&preview, DIP_ACTION_ADVICE, 0, false, 0);
+    assert_non_null(strstr(preview.notice, "Within 16.6 ms: 3.0 ms, FLIP "));
+    assert_memory_equal(&preview.quality[DIP_PANE_REQUESTED], &report.rows[2].quality,
+                        sizeof(DipQuality));
+    assert_int_equal(preview.scene_changes, 1);
+    dip_preview_act(&preview, DIP_ACTION_ADVICE, 0, false, 0);
+    assert_string_equal(preview.notice, "Nothing measured is within 1 ms");
+    assert_int_equal(preview.scene_changes, 1);
+    dip_preview_act(&preview, DIP_ACTION_ADVICE, 0, true, 0);
+    assert_int_equal(preview.scene_changes, 2);
+    dip_cost_report_free(&report);
+}
+
+// Without budgets of its own a report's combinations are looked through for 16.6 ms.
+static void there_is_a_budget_by_default(void **state) {
+    (void)state;
+    DipCostReport report;
+    DipCosts costs;
+    dip_made_report(&report, 3);
+    report.advice_count = 0;
+    report.combined_first = 2;
+    report.rows[2].quality = report.options.baseline;
+    dip_costs_make(&costs, &report);
+    assert_int_equal(costs.advice_count, 1);
+    assert_true(costs.advice[0].budget_ms == 16.6 && costs.advice[0].found);
+    assert_true(costs.advice[0].ms == 4.0); // of the two the one with less error
+    char text[160];
+    dip_costs_describe(&costs, 0, text, sizeof text);
+    assert_non_null(strstr(text, "; baseline 3.0 ms, "));
+    dip_cost_report_free(&report);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(times_and_work, set_up),
+        cmocka_unit_test_setup(errors_show_at_rest, set_up),
+        cmocka_unit_test_setup(a_copy_has_errors_only, set_up),
+        cmocka_unit_test(rest_is_when_nothing_moves),
+        cmocka_unit_test(steps_tell_cost_and_gain),
+        cmocka_unit_test(a_report_of_another_scene_is_refused),
+        cmocka_unit_test(advice_sets_the_requested_pane),
+        cmocka_unit_test(there_is_a_budget_by_default),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
