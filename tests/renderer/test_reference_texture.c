@@ -23,7 +23,7 @@ static DipTextureDef make_def(int width, int height, DipEncoding encoding, DipWr
 
 static void open_texture(DipRefTexture *texture, const DipTextureDef *def) {
     DipError err;
-    assert_true(dip_reference_texture_init(texture, def, &err));
+    assert_true(dip_reference_texture_init(texture, def, DIP_REF_MAX_LEVELS, &err));
 }
 
 static void fill_noise(int width, int height) {
