@@ -149,11 +149,11 @@ static void set_surroundings(const DipSession *session, const DipOptions *option
 }
 
 static bool keeps_model(const DipOptions *options) {
-    return options->command == DIP_COMMAND_PREVIEW || options->command == DIP_COMMAND_COST ||
-           options->command == DIP_COMMAND_COST_ASSETS;
+    return options->command == DIP_COMMAND_COST || options->command == DIP_COMMAND_COST_ASSETS;
 }
 
-static bool load_scene(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+static DipModel *load_model(const DipSession *session, const DipOptions *options,
+                            DipErrorList *faults, DipSceneDef *def, DipError *err) {
     const char *files[DIP_MAX_OPTION_MODELS];
     int count = options->model_count;
     for (int i = 0; i < count; i++) {
@@ -163,11 +163,28 @@ static bool load_scene(DipSession *session, const DipOptions *options, DipErrorL
     for (size_t i = 0; !options->model_count && i < named->count; i++) {
         files[count++] = named->items[i].path;
     }
-    DipError err = {0};
-    DipModel *model = dip_model_load_with_normals(files, count, session->pool, faults, &err);
+    DipModel *model = dip_model_load_with_normals(files, count, session->pool, faults, err);
     if (model) {
-        DipSceneDef def = *dip_model_scene_def(model);
-        set_surroundings(session, options, &def);
+        *def = *dip_model_scene_def(model);
+        set_surroundings(session, options, def);
+    }
+    return model;
+}
+
+bool dip_session_keep_model(DipSession *session, const DipOptions *options, DipError *err) {
+    if (!session->model) {
+        DipErrorList warnings = {0}; // told when it was loaded first
+        session->model = load_model(session, options, &warnings, &session->scene_def, err);
+        dip_error_list_free(&warnings);
+    }
+    return session->model != NULL;
+}
+
+static bool load_scene(DipSession *session, const DipOptions *options, DipErrorList *faults) {
+    DipError err = {0};
+    DipSceneDef def;
+    DipModel *model = load_model(session, options, faults, &def, &err);
+    if (model) {
         session->scene = dip_scene_create(&def, session->pool, &err);
         session->times.import_ms = dip_model_times(model).import_ms;
         session->times.pictures_ms = dip_model_times(model).pictures_ms;
@@ -183,6 +200,7 @@ static bool load_scene(DipSession *session, const DipOptions *options, DipErrorL
         session->times.meshes_ms = dip_scene_times(session->scene).meshes_ms;
         return true;
     }
+    const DipConfigFiles *named = &session->config.xfile;
     for (size_t i = 0; !options->model_count && i < named->count; i++) {
         if (strcmp(err.file, named->items[i].path) == 0) {
             return place_in_config(session, &named->items[i], faults, &err);

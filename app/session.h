@@ -36,6 +36,10 @@ typedef struct DipSession {
 bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorList *faults);
 void dip_session_close(DipSession *session);
 
+// Loads what the reference reads, `model` and `scene_def`, if it is not kept already: its pictures
+// take tens of megabytes, and the load a good part of what the start took.
+bool dip_session_keep_model(DipSession *session, const DipOptions *options, DipError *err);
+
 // "DEFAULT", "AA", ...: the ini's category that a slot of the track plays.
 const char *dip_session_category(int slot);
 

@@ -31,6 +31,7 @@ typedef struct Drawn {
 
 typedef struct Preview {
     DipSession *session;
+    const DipOptions *options;
     DipWindow *window;
     DipPreviewState state;
     DipQuality drawn_quality[DIP_PANE_COUNT]; // what the renderers are set to
@@ -237,12 +238,32 @@ static void take_screenshot(Preview *preview, int64_t now_ns) {
     }
 }
 
+// What judges pictures is made when it is first asked for.
+static bool make_live(Preview *preview, int64_t now_ns) {
+    DipError err;
+    if (!preview->live && dip_session_keep_model(preview->session, preview->options, &err)) {
+        preview->live =
+            dip_live_create(&preview->session->scene_def, &preview->session->reflection, &err);
+    }
+    if (!preview->live) {
+        char line[512];
+        dip_error_format(&err, line, sizeof line);
+        dip_preview_notice(&preview->state, now_ns, "%.120s", line);
+        preview->state.panel = false;
+    }
+    return preview->live != NULL;
+}
+
 // Has the pictures judged while the panel is there and the camera rests. Returns whether there is
 // something new to show.
-static bool judge_pictures(Preview *preview) {
+static bool judge_pictures(Preview *preview, int64_t now_ns) {
+    const bool judges = preview->state.panel && dip_preview_rests(&preview->state, preview->flying);
+    if (!preview->live && !(judges && make_live(preview, now_ns))) {
+        return false;
+    }
     const DipSessionFrame *frame = &preview->frame;
     const DipFrame *current = &frame->panes[DIP_PANE_CURRENT];
-    if (preview->state.panel && dip_preview_rests(&preview->state, preview->flying)) {
+    if (judges) {
         const DipJudgeShot shot = {
             .pose = preview->drawn.pose,
             .time_ns = preview->drawn.play_ns,
@@ -280,7 +301,7 @@ static bool turn(Preview *preview, int64_t now_ns, int64_t elapsed_ns, bool *sho
     if (new_scene && !draw_panes(preview, err)) {
         return false;
     }
-    const bool news = judge_pictures(preview);
+    const bool news = judge_pictures(preview, now_ns);
     *shown = new_scene || news || state->screenshot || (had_notice && !state->notice[0]);
     if (!*shown) {
         return true;
@@ -343,7 +364,7 @@ static bool load_costs(DipCosts *costs, const DipSession *session, const DipOpti
 
 bool dip_preview_run(DipSession *session, const DipOptions *options, DipError *err) {
     const DipConfigSize *res = &session->config.res;
-    Preview preview = {.session = session, .redraw = true};
+    Preview preview = {.session = session, .options = options, .redraw = true};
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview.drawn_quality[p] = dip_renderer_quality(session->renderers[p]);
     }
@@ -354,10 +375,6 @@ bool dip_preview_run(DipSession *session, const DipOptions *options, DipError *e
         return false;
     }
     preview.state.costs = options->cost_report ? &costs : NULL;
-    preview.live = dip_live_create(&session->scene_def, &session->reflection, err);
-    if (!preview.live) {
-        return false;
-    }
     preview.window = dip_window_create(options->has_size ? options->width : res->width,
                                        options->has_size ? options->height : res->height, err);
     const bool done = preview.window && run_loop(&preview, err);
