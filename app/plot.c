@@ -1,6 +1,7 @@
 // Laying out and writing SVG.
 #include "app/plot.h"
 
+#include "app/markup.h"
 #include "app/whole_file.h"
 
 #include <math.h>
@@ -153,27 +154,9 @@ static Axis make_y(const DipPlot *plot) {
 
 // --- writing -----------------------------------------------------------------------------------
 
-static void write_escaped(FILE *out, const char *text) {
-    for (; *text; text++) {
-        switch (*text) {
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        default:
-            fputc(*text, out);
-        }
-    }
-}
-
 static void write_text(FILE *out, double x, double y, const char *attributes, const char *text) {
     fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, attributes);
-    write_escaped(out, text);
+    dip_markup_text(out, text);
     fprintf(out, "</text>\n");
 }
 

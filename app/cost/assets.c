@@ -308,7 +308,10 @@ bool dip_cost_assets_run(DipSession *session, const DipOptions *options, DipErro
                         : session->config.xfile.count ? session->config.xfile.items[0].path
                                                       : "";
     char model_folder[PATH_MAX] = ".";
-    char folder[] = "/tmp/diptych-assets.XXXXXX";
+    char folder[PATH_MAX];
+    const char *scratch = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%.3000s/diptych-assets.XXXXXX",
+             scratch && *scratch ? scratch : "/tmp");
     const char *slash = strrchr(model, '/');
     if (slash && slash - model < PATH_MAX - 1) {
         snprintf(model_folder, sizeof model_folder, "%.*s", (int)(slash - model), model);

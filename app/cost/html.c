@@ -4,6 +4,7 @@
 #include "app/cost/fit.h"
 #include "app/cost/order.h"
 #include "app/cost/write.h"
+#include "app/markup.h"
 #include "app/plot.h"
 #include "app/whole_file.h"
 
@@ -27,28 +28,10 @@ static const char style[] =
     "margin-bottom:3px}figcaption{font-size:.85rem}"
     ".note{color:#555;font-size:.9rem}dl{font-size:.9rem}dt{font-weight:bold}dd{margin:0 0 .4rem}";
 
-static void text(FILE *out, const char *from) {
-    for (; *from; from++) {
-        switch (*from) {
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        default:
-            fputc(*from, out);
-        }
-    }
-}
-
 static void write_row_text(const DipCostReport *report, int row, FILE *out) {
     char settings[DIP_COST_TEXT];
     dip_cost_settings_text(&report->rows[row].quality, settings);
-    text(out, settings);
+    dip_markup_text(out, settings);
 }
 
 static DipCostFigures figures_of(const DipCostReport *report, int row, int region) {
@@ -63,9 +46,9 @@ static void write_facts(const DipCostReport *report, FILE *out) {
     char baseline[DIP_COST_TEXT];
     dip_cost_settings_text(&report->options.baseline, baseline);
     fprintf(out, "<h1>What accuracy costs: ");
-    text(out, report->scene);
+    dip_markup_text(out, report->scene);
     fprintf(out, "</h1>\n<p>%d&times;%d pixels, on ", report->width, report->height);
-    text(out, report->processor);
+    dip_markup_text(out, report->processor);
     fprintf(out,
             ", %d thread%s, %s. Times: %d frames of each path, %d rounds in random order. "
             "Errors: %d places of each path, %d frames in a row at each, against a truth of "
@@ -387,7 +370,7 @@ static void write_sweeps(const DipCostReport *report, const DipCostGallery *gall
         char order[2 * DIP_COST_TEXT];
         if (dip_cost_order_text(report, sweep, order, sizeof order)) {
             fprintf(out, "<p class=\"note\">");
-            text(out, order);
+            dip_markup_text(out, order);
             fprintf(out, "</p>\n");
         }
         if (gallery) {
@@ -488,7 +471,7 @@ static void write_foot(const DipCostReport *report, FILE *out) {
         fprintf(out, "<h2>Left out</h2>\n<ul>\n");
         for (int i = 0; i < report->refused_count; i++) {
             fprintf(out, "<li>");
-            text(out, report->refused[i]);
+            dip_markup_text(out, report->refused[i]);
             fprintf(out, "</li>\n");
         }
         fprintf(out, "</ul>\n");
