@@ -38,6 +38,7 @@ DipScreenMapping dip_screen_mapping(const DipPass *pass) {
 
 // What a pass needs room for, whatever is in view.
 typedef struct Needs {
+    uint32_t draws;
     uint64_t chunks;
     uint64_t triangles;
     uint64_t blocks;
@@ -53,7 +54,7 @@ static uint64_t greatest(uint64_t a, uint64_t b) {
 }
 
 static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
-    Needs needs = {0};
+    Needs needs = {.draws = (uint32_t)pass->draw_count};
     int slots = 0;
     for (int d = 0; d < pass->draw_count; d++) {
         needs.chunks += pass->draws[d].mesh->chunk_count;
@@ -93,6 +94,13 @@ static bool replace(void *pointer_to_array, size_t count, size_t size) {
 
 static bool make_room(DipGeometry *geometry, const Needs *needs) {
     const size_t surface_room = (size_t)needs->triangles * (size_t)needs->surface_stride;
+    if (needs->draws > geometry->draw_room) {
+        geometry->draw_room = 0;
+        if (!replace(&geometry->first_patch, needs->draws, sizeof *geometry->first_patch)) {
+            return false;
+        }
+        geometry->draw_room = needs->draws;
+    }
     if (needs->chunks > geometry->visible_room) {
         geometry->visible_room = 0;
         if (!replace(&geometry->visible, needs->chunks, sizeof *geometry->visible)) {
@@ -160,6 +168,15 @@ bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *
     return true;
 }
 
+// Numbers from 1 for the patches of all draws.
+static void number_patches(DipGeometry *geometry) {
+    uint32_t next = 1;
+    for (int d = 0; d < geometry->pass->draw_count; d++) {
+        geometry->first_patch[d] = next;
+        next += geometry->pass->draws[d].mesh->patch_count;
+    }
+}
+
 static DipRegion tiles_of(const DipRegion *region) {
     return (DipRegion){region->x0 / DIP_TILE, region->y0 / DIP_TILE,
                        (region->x1 + DIP_TILE - 1) / DIP_TILE,
@@ -175,6 +192,7 @@ bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *er
     if (!dip_geometry_reserve(geometry, pass, err)) {
         return false;
     }
+    number_patches(geometry);
     geometry->visible_count = dip_cull_chunks(pass, geometry->visible);
     cut_jobs(geometry);
     atomic_store_explicit(&geometry->triangles_taken, 0, memory_order_relaxed);
@@ -195,6 +213,7 @@ bool dip_geometry_grow_after_overflow(DipGeometry *geometry) {
 }
 
 void dip_geometry_free(DipGeometry *geometry) {
+    free(geometry->first_patch);
     free(geometry->visible);
     free(geometry->triangles);
     free(geometry->surfaces);
@@ -316,7 +335,7 @@ static void add_batch(JobRun *run, const DipSetupBatch *batch) {
 }
 
 // Clips a triangle and sets up the fan of what remains.
-static void add_clipped(JobRun *run, const uint8_t corner[3], int32_t codes) {
+static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, int32_t codes) {
     const DipGeometryScratch *scratch = run->scratch;
     const int slot_count = run->draw->slot_count;
     DipClipPolygon polygon = {.count = 3};
@@ -336,6 +355,10 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], int32_t codes) {
     float clip[4][ROOM] = {{0}};
     float slots[DIP_MAX_SLOTS][ROOM];
     uint8_t fan[3][ROOM] = {{0}};
+    uint32_t patches[ROOM];
+    for (int i = 0; i < ROOM; i++) {
+        patches[i] = patch;
+    }
     float *const clip_rows[4] = {clip[0], clip[1], clip[2], clip[3]};
     for (int i = 0; i < polygon.count; i++) {
         for (int c = 0; c < 4; c++) {
@@ -351,6 +374,7 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], int32_t codes) {
     run->kernels->dip_kernel_project(&run->geometry->mapping, polygon.count, clip_rows, &screen);
     add_batch(run, &(DipSetupBatch){.count = polygon.count - 2,
                                     .corner = {fan[0], fan[1], fan[2]},
+                                    .patch = patches,
                                     .screen = &screen,
                                     .slots = slots[0],
                                     .slot_stride = ROOM});
@@ -366,8 +390,10 @@ enum {
 // A chunk with vertices to clip at: its triangles in order, those between two clipped ones at once.
 static void add_mixed_chunk(JobRun *run, const DipSetupBatch *chunk) {
     uint8_t corner[3][DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {{0}};
+    uint32_t patch[DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {0};
     DipSetupBatch batch = *chunk;
     batch.count = 0;
+    batch.patch = patch;
     for (int k = 0; k < 3; k++) {
         batch.corner[k] = corner[k];
     }
@@ -382,6 +408,7 @@ static void add_mixed_chunk(JobRun *run, const DipSetupBatch *chunk) {
             for (int k = 0; k < 3; k++) {
                 corner[k][batch.count] = v[k];
             }
+            patch[batch.count] = chunk->patch[t];
             batch.count++;
             continue;
         }
@@ -389,7 +416,7 @@ static void add_mixed_chunk(JobRun *run, const DipSetupBatch *chunk) {
             add_batch(run, &batch);
             batch.count = 0;
         }
-        add_clipped(run, v, any);
+        add_clipped(run, v, chunk->patch[t], any);
     }
     if (batch.count) {
         add_batch(run, &batch);
@@ -411,6 +438,7 @@ static void add_chunk_triangles(JobRun *run, const DipChunk *chunk) {
     }
     const DipSetupBatch batch = {.count = (int)chunk->triangle_count,
                                  .corner = {corner, corner + stride, corner + 2 * stride},
+                                 .patch = run->draw->mesh->patches + chunk->first_triangle,
                                  .screen = screen,
                                  .slots = run->scratch->slot[0],
                                  .slot_stride = DIP_VERTEX_BATCH};
@@ -487,6 +515,7 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
         const DipVisibleChunk visible = geometry->visible[c];
         run.draw = &geometry->pass->draws[visible.draw];
         run.target.draw = visible.draw;
+        run.target.first_patch = geometry->first_patch[visible.draw];
         run.target.cull = run.draw->cull;
         run.target.slot_count = run.draw->slot_count;
         const DipChunk *chunk = &run.draw->mesh->chunks[visible.chunk];

@@ -17,6 +17,7 @@ typedef struct Candidates {
     int32_t corner[3][ROOM];
     int32_t x[3][ROOM];
     int32_t y[3][ROOM];
+    int32_t patch[ROOM];
     int32_t first_pixel[ROOM]; // of the pixel box, x | y << 16
     int32_t last_pixel[ROOM];
 } Candidates;
@@ -126,6 +127,8 @@ VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch
         hi_store_packed(out->x[k] + count, x[k], bits);
         hi_store_packed(out->y[k] + count, y[k], bits);
     }
+    const Hi patch = hi_load((const int32_t *)batch->patch + at);
+    hi_store_packed(out->patch + count, patch + (int32_t)target->first_patch, bits);
     hi_store_packed(out->first_pixel + count, first[0] | first[1] << 16, bits);
     hi_store_packed(out->last_pixel + count, last[0] | last[1] << 16, bits);
     return count + __builtin_popcount(bits);
@@ -140,6 +143,7 @@ static void pad(Candidates *candidates, int count) {
             candidates->x[k][i] = candidates->x[k][last];
             candidates->y[k][i] = candidates->y[k][last];
         }
+        candidates->patch[i] = candidates->patch[last];
         candidates->first_pixel[i] = candidates->first_pixel[last];
         candidates->last_pixel[i] = candidates->last_pixel[last];
     }
@@ -153,6 +157,7 @@ typedef struct Frame {
     Hi corner[3];
     Hi x[3];
     Hi y[3];
+    Hi patch;
     Hi first_pixel;
     Hi last_pixel;
     Vd x0, y0; // of vertex 0, pixels
@@ -184,6 +189,7 @@ VEC_INLINE Frame frame_of(const Candidates *candidates, int at) {
         frame.x[k] = hi_load(candidates->x[k] + at);
         frame.y[k] = hi_load(candidates->y[k] + at);
     }
+    frame.patch = hi_load(candidates->patch + at);
     frame.first_pixel = hi_load(candidates->first_pixel + at);
     frame.last_pixel = hi_load(candidates->last_pixel + at);
     frame.x0 = to_pixels(frame.x[0]);
@@ -238,13 +244,14 @@ VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen
     const Vl words[3][4] = {
         {c[0], c[1], c[2], vl_pair(a[0], a[1])},
         {vl_pair(a[2], b[0]), vl_pair(b[1], b[2]), vl_pair(frame->first_pixel, frame->last_pixel),
-         vl_pair(hi_splat((int32_t)draw), hi_splat(0))},
+         vl_pair(hi_splat((int32_t)draw), frame->patch)},
         {(Vl)origin, (Vl)slope.dx, (Vl)slope.dy,
          vl_pair((Hi)hf_select(low < z[2], low, z[2]), (Hi)hf_select(high > z[2], high, z[2]))},
     };
     _Static_assert(sizeof(DipTriangle) == sizeof(int64_t[3][4]) && offsetof(DipTriangle, a) == 24 &&
                        offsetof(DipTriangle, b) == 36 && offsetof(DipTriangle, x0) == 48 &&
                        offsetof(DipTriangle, x1) == 52 && offsetof(DipTriangle, draw) == 56 &&
+                       offsetof(DipTriangle, patch) == 60 &&
                        offsetof(DipTriangle, z_origin) == 64 && offsetof(DipTriangle, z_min) == 88,
                    "triangles are written by words");
     for (int i = 0; i < 3; i++) {

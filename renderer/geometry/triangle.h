@@ -16,7 +16,8 @@ typedef struct DipTriangle {
     int32_t a[3];
     int32_t b[3];
     int16_t x0, y0, x1, y1; // pixels that may hold covered samples, inclusive, within the target
-    uint64_t draw;          // index into the pass' draws
+    uint32_t draw;          // index into the pass' draws
+    uint32_t patch;         // of all draws' patches, from 1
     double z_origin;        // depth at the target's corner
     double z_dx;            // per pixel
     double z_dy;

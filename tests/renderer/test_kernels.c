@@ -110,6 +110,7 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
     static DipScreenBatch screen;
     static float slots[DIP_MAX_SLOTS][DIP_VERTEX_BATCH];
     static uint8_t corner[3][DIP_SETUP_BATCH];
+    static uint32_t patch[DIP_SETUP_BATCH + DIP_BATCH_ALIGN];
     static DipTriangle triangles[2][SETUP_ROOM];
     static float surfaces[2][SETUP_ROOM * 64];
     random_screen(random, &screen);
@@ -122,6 +123,7 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
         for (int k = 0; k < 3; k++) {
             corner[k][t] = (uint8_t)random_u64(random);
         }
+        patch[t] = (uint32_t)random_int(random, 0, 999);
     }
     const int slot_count = random_int(random, 0, DIP_MAX_SLOTS);
     const DipSetupTarget target = {.width = random_int(random, 1, 8192),
@@ -131,12 +133,14 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
                                    .slot_count = slot_count,
                                    .surface_stride = dip_surface_stride(slot_count),
                                    .draw = 17,
+                                   .first_patch = 1000,
                                    .cull = (DipCull)random_int(random, 0, 2),
                                    .pattern = dip_sample_pattern(8),
                                    .sample_min = {16, 16},
                                    .sample_max = {240, 240}};
     const DipSetupBatch batch = {.count = random_int(random, 1, DIP_SETUP_BATCH),
                                  .corner = {corner[0], corner[1], corner[2]},
+                                 .patch = patch,
                                  .screen = &screen,
                                  .slots = slots[0],
                                  .slot_stride = DIP_VERTEX_BATCH};
