@@ -77,7 +77,7 @@ typedef struct DipGeometry {
     uint32_t block_room;
     size_t surface_room; // floats
     uint32_t draw_room;
-    uint32_t slack;      // triangles beyond those of the meshes, and blocks; grows with overflows
+    uint32_t slack;        // triangles beyond those of the meshes, and blocks; grows with overflows
     uint32_t *first_patch; // of each draw: the number of its mesh's patch 0
     DipVisibleChunk *visible;
     DipTriangle *triangles;

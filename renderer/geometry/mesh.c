@@ -198,9 +198,9 @@ static void bound_chunks(DipMesh *mesh) {
 
 static bool find_patches(DipMesh *mesh, const DipMeshData *data) {
     mesh->patches = calloc((size_t)mesh->triangle_count + DIP_BATCH_ALIGN, sizeof *mesh->patches);
-    return mesh->patches && dip_patches_find(data->attributes, (size_t)data->attribute_count,
-                                             data->vertex_count, data->indices, data->index_count,
-                                             mesh->patches, &mesh->patch_count);
+    return mesh->patches &&
+           dip_patches_find(data->attributes, (size_t)data->attribute_count, data->vertex_count,
+                            data->indices, data->index_count, mesh->patches, &mesh->patch_count);
 }
 
 // Room for the worst split: every chunk is full of triangles or of vertices.

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The square of the cosine of the greatest angle to the first triangle's normal, 30 degrees.
-static const double least_cosine2 = 0.75;
+// The square of the cosine of the greatest angle to the first triangle's normal, 20 degrees.
+static const double least_cosine2 = 0.883;
 
 enum { FREE = UINT32_MAX };
 

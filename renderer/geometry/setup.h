@@ -30,8 +30,8 @@ typedef struct DipSetupTarget {
     uint8_t sample_max[2];
 } DipSetupTarget;
 
-// Triangles of one draw. Arrays of corners and patches may be read to the next multiple of DIP_BATCH_ALIGN and
-// hold valid vertices there.
+// Triangles of one draw. Arrays of corners and patches may be read to the next multiple of
+// DIP_BATCH_ALIGN and hold valid vertices there.
 typedef struct DipSetupBatch {
     int count;                // 1..DIP_SETUP_BATCH
     const uint8_t *corner[3]; // of triangle t: vertices corner[0..2][t] of `screen`

@@ -309,7 +309,8 @@ static bool add_mesh(const DipReference *reference, const Camera *camera, int me
         ClipVertex polygon[MAX_CORNERS];
         const int count = clip_below(clip_near(corners, camera->near_m, polygon), polygon);
         for (int k = 2; k < count; k++) {
-            if (!add_piece(camera, &polygon[0], &polygon[k - 1], &polygon[k], &triangle, triangles)) {
+            if (!add_piece(camera, &polygon[0], &polygon[k - 1], &polygon[k], &triangle,
+                           triangles)) {
                 return false;
             }
         }

@@ -157,8 +157,7 @@ VEC_INLINE void push_mixed_patch(const SubBlock *sub, unsigned *left, int first)
     const DipSamplePattern *pattern = sub->shading->tile->pattern;
     const int pixel = __builtin_ctz(left[first]);
     const uint32_t patch = sub->patches[first * DIP_SUB_BLOCK_PIXELS + pixel];
-    const uint32_t draw =
-        draw_of(sub->shading, sub->ids[first * DIP_BLOCK_PIXELS + pixel] - 1);
+    const uint32_t draw = draw_of(sub->shading, sub->ids[first * DIP_BLOCK_PIXELS + pixel] - 1);
     const DipSamplePasses *passes = passes_of(sub->shading, draw);
     const unsigned shared = passes ? passes->sharing[first] : ~0u;
     Vu ids[VECTORS];
@@ -170,9 +169,8 @@ VEC_INLINE void push_mixed_patch(const SubBlock *sub, unsigned *left, int first)
     }
     for (int s = sub->sample_count - 1; s >= first; s--) {
         const unsigned held =
-            shared >> s & 1
-                ? pixels_with(sub->patches + s * DIP_SUB_BLOCK_PIXELS, patch) & left[s]
-                : 0;
+            shared >> s & 1 ? pixels_with(sub->patches + s * DIP_SUB_BLOCK_PIXELS, patch) & left[s]
+                            : 0;
         left[s] &= ~held;
         pixels |= held;
         const Vi place = vi_splat(place_of(sub, pattern->x[s], pattern->y[s]));

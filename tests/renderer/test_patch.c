@@ -110,7 +110,7 @@ static void check_patch(const Grid *grid, uint32_t patch) {
     }
     for (uint32_t i = 0; i < count; i++) {
         assert_true(reached[i]);
-        assert_true(degrees_between(grid, members[0], members[i]) < 30.0001);
+        assert_true(degrees_between(grid, members[0], members[i]) < 20.001);
     }
 }
 
