@@ -1,7 +1,6 @@
 // Deciding a frame's effects, one function each.
 #include "renderer/plan/plan.h"
 
-#include "renderer/geometry/cull.h"
 #include "renderer/plan/extent.h"
 #include "renderer/scene_internal.h"
 
@@ -24,11 +23,9 @@ static const DipSceneMaterial *material_of(const DipScene *scene, int object) {
     return &scene->materials[mesh_of(scene, object)->material];
 }
 
-static bool object_in_view(const DipScene *scene, const DipView *view, int object) {
-    const DipMesh *mesh = mesh_of(scene, object)->mesh;
-    float to_clip[16];
-    dip_view_place(view, scene->objects[object].transform, to_clip);
-    return mesh->chunk_count && dip_cull_in_view(to_clip, &mesh->box);
+static bool object_in_view(const DipScene *scene, const DipCullPlanes *seen, int object) {
+    return mesh_of(scene, object)->mesh->chunk_count &&
+           !dip_cull_outside(seen, &scene->objects[object].bounds);
 }
 
 // --- what is in view ---------------------------------------------------------------------------
@@ -55,9 +52,9 @@ static bool is_clouded(const DipScene *scene, int object) {
 // before.
 static bool any_in_view(const DipPlanInput *input, const DipFramePlan *plan, IsOfEffect *is) {
     for (int i = 0; i < input->scene->object_count; i++) {
-        if (is(input->scene, i) &&
-            (object_in_view(input->scene, input->view, i) ||
-             (plan->effects.reflection.run && object_in_view(input->scene, input->mirrored, i)))) {
+        if (is(input->scene, i) && (object_in_view(input->scene, input->seen, i) ||
+                                    (plan->effects.reflection.run &&
+                                     object_in_view(input->scene, input->seen_mirrored, i)))) {
             return true;
         }
     }
@@ -118,7 +115,7 @@ static DipExtent water_extent(const DipPlanInput *input) {
     DipExtent extent = dip_extent_none();
     for (int i = 0; i < input->scene->object_count; i++) {
         if (material_of(input->scene, i)->surface != DIP_SURFACE_WATER ||
-            !object_in_view(input->scene, input->view, i)) {
+            !object_in_view(input->scene, input->seen, i)) {
             continue;
         }
         const float *transform = input->scene->objects[i].transform;

@@ -8,6 +8,7 @@
 #define DIP_RENDERER_PLAN_PLAN_H
 
 #include "renderer/frame.h"
+#include "renderer/geometry/cull.h"
 #include "renderer/geometry/view.h"
 #include "renderer/pipeline.h"
 #include "renderer/quality.h"
@@ -19,7 +20,9 @@
 typedef struct DipPlanInput {
     const DipScene *scene;
     const DipView *view;
-    const DipView *mirrored; // as water shows it
+    const DipView *mirrored;   // as water shows it
+    const DipCullPlanes *seen; // of the views
+    const DipCullPlanes *seen_mirrored;
     const DipReflectionDef *reflection;
     const DipQuality *quality;
     bool plain_surfaces;
