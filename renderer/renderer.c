@@ -22,6 +22,7 @@ enum { PIXEL_ALIGN = 64 };
 typedef struct Mirror {
     DipPipeline *pipeline;
     DipTarget target;
+    DipTilePart *tile_parts; // of the target: what the water can show
     DipDrawSet set;
 } Mirror;
 
@@ -121,6 +122,7 @@ DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
 static void free_mirror(Mirror *mirror) {
     dip_pipeline_destroy(&mirror->pipeline);
     free(mirror->target.rgba8);
+    free(mirror->tile_parts);
     dip_draw_set_free(&mirror->set);
     *mirror = (Mirror){0};
 }
@@ -237,6 +239,10 @@ static bool reserve(const DipRenderer *renderer, const DipScene *scene, bool mir
     return dip_pipeline_reserve(pipeline, &pass, err);
 }
 
+static int tiles_in(int size) {
+    return (size + DIP_TILE - 1) / DIP_TILE;
+}
+
 // Makes the reflection's target and room for its pass.
 static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     Mirror *mirror = &renderer->mirror;
@@ -249,6 +255,13 @@ static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *
         return false;
     }
     memset(target->rgba8, 0, target->stride_bytes * (size_t)target->height);
+    mirror->tile_parts =
+        calloc((size_t)tiles_in(target->width) * (size_t)tiles_in(target->height) + 1,
+               sizeof *mirror->tile_parts);
+    if (!mirror->tile_parts) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "reflection",
+                             "no memory for %dx%d pixels", target->width, target->height);
+    }
     return reserve(renderer, scene, true, mirror->pipeline, &mirror->set, err);
 }
 
@@ -355,6 +368,7 @@ static bool draw_mirrored(DipRenderer *renderer, const DipScene *scene, const Di
     DipPass pass = begin_pass(renderer, scene, plan);
     pass.target = mirror->target;
     pass.region = plan->mirrored_region;
+    pass.tile_parts = plan->mirrored_parts ? mirror->tile_parts : NULL;
     pass.clip_plane_count = 1;
     for (int i = 0; i < 4; i++) {
         pass.clip_planes[0][i] = (float)plane[i];
@@ -392,8 +406,8 @@ static void count_bytes(const DipScene *scene, DipCounters *counters) {
 }
 
 static void count_mirror(const Mirror *mirror, bool drawn, DipCounters *counters) {
-    const uint64_t across = (uint64_t)(mirror->target.width + DIP_TILE - 1) / DIP_TILE;
-    const uint64_t down = (uint64_t)(mirror->target.height + DIP_TILE - 1) / DIP_TILE;
+    const uint64_t across = (uint64_t)tiles_in(mirror->target.width);
+    const uint64_t down = (uint64_t)tiles_in(mirror->target.height);
     counters->reflection_bytes = mirror->target.stride_bytes * (uint64_t)mirror->target.height;
     counters->tiles_spared += drawn ? 0 : across * down;
 }
@@ -409,12 +423,16 @@ bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPo
     const DipView mirrored = dip_view_mirror(&view, renderer->reflection.level_m);
     const DipCullPlanes seen = dip_cull_view_planes(&view);
     const DipCullPlanes seen_mirrored = dip_cull_view_planes(&mirrored);
+    // A bilinear read takes in the next texel; one more for what is rounded.
+    const Mirror *mirror = &renderer->mirror;
+    const DipParts parts = {mirror->tile_parts, mirror->target.width, mirror->target.height, 2};
     const DipPlanInput input = {
         .scene = scene,
         .view = &view,
         .mirrored = &mirrored,
         .seen = &seen,
         .seen_mirrored = &seen_mirrored,
+        .parts = &parts,
         .reflection = &renderer->reflection,
         .quality = &renderer->quality,
         .plain_surfaces = renderer->plain_surfaces,

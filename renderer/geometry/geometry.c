@@ -166,12 +166,31 @@ static DipRegion tiles_of(const DipRegion *region) {
                        (region->y1 + DIP_TILE - 1) / DIP_TILE};
 }
 
+static bool is_wanted(const DipGeometry *geometry, size_t tile) {
+    const DipTilePart *parts = geometry->pass->tile_parts;
+    return !parts || parts[tile].x1;
+}
+
+static void list_tiles(DipGeometry *geometry) {
+    const DipRegion *region = &geometry->tile_region;
+    geometry->tile_count = 0;
+    for (int y = region->y0; y < region->y1; y++) {
+        for (int x = region->x0; x < region->x1; x++) {
+            const int tile = y * geometry->tiles_x + x;
+            if (is_wanted(geometry, (size_t)tile)) {
+                geometry->tiles[geometry->tile_count++] = (uint16_t)tile;
+            }
+        }
+    }
+}
+
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err) {
     geometry->pass = pass;
     geometry->mapping = dip_screen_mapping(pass);
     geometry->pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
     geometry->region = dip_drawn_region(pass);
     geometry->tile_region = tiles_of(&geometry->region);
+    list_tiles(geometry);
     if (!dip_geometry_reserve(geometry, pass, err)) {
         return false;
     }
@@ -276,7 +295,9 @@ static void bin_triangle(JobRun *run, uint32_t index) {
     }
     for (size_t y = y0; y <= y1; y++) {
         for (size_t x = x0; x <= x1; x++) {
-            add_to_bin(run, index, y * tiles_x + x);
+            if (is_wanted(run->geometry, y * tiles_x + x)) {
+                add_to_bin(run, index, y * tiles_x + x);
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 // more room than expected are drawn all the same.
 #include "renderer/geometry/cull.h"
 #include "renderer/pipeline.h"
+#include "renderer/plan/parts.h"
 #include "tests/renderer/random.h"
 
 #include <math.h>
@@ -206,13 +207,13 @@ enum { PLACED = 40, VIEWS = 400, POINTS = 6 }; // points per triangle
 
 // Clusters of triangles around the origin, some far from it.
 static DipMesh *random_mesh(Random *random) {
-    enum { PARTS = 5, PER_PART = 150 };
-    Soup soup = make_soup(PARTS * PER_PART);
-    for (int part = 0; part < PARTS; part++) {
+    enum { CLUMPS = 5, PER_CLUMP = 150 };
+    Soup soup = make_soup(CLUMPS * PER_CLUMP);
+    for (int part = 0; part < CLUMPS; part++) {
         const double far = pow(10.0, random_real(random, -1.0, 2.0));
         const double centre[3] = {random_real(random, -far, far), random_real(random, -far, far),
                                   random_real(random, -far, far)};
-        for (int k = 0; k < 3 * PER_PART; k++) {
+        for (int k = 0; k < 3 * PER_CLUMP; k++) {
             add_corner(&soup, centre[0] + random_real(random, -1.0, 1.0),
                        centre[1] + random_real(random, -1.0, 1.0),
                        centre[2] + random_real(random, -1.0, 1.0), 0.0);
@@ -391,6 +392,114 @@ static void what_is_seen_is_kept(void **state) {
     assert_true(kept.objects < VIEWS * PLACED / 2);
 }
 
+// --- parts of tiles ----------------------------------------------------------------------------
+
+enum { TILE = 64, TILES_X = WIDTH / TILE, PARTS = TILES_X * (HEIGHT / TILE), MARGIN = 2 };
+
+// Whether a point of the world is in the picture; then also where, in pixels.
+static bool project_point(const DipView *view, const double world[3], double at[2]) {
+    const DipPass whole = {.target = {NULL, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+    double clip[4];
+    for (int r = 0; r < 4; r++) {
+        const double *m = view->world_to_clip + 4 * r;
+        clip[r] = m[0] * world[0] + m[1] * world[1] + m[2] * world[2] + m[3];
+    }
+    at[0] = (clip[0] / clip[3] + 1.0) * 0.5 * WIDTH;
+    at[1] = (1.0 - clip[1] / clip[3]) * 0.5 * HEIGHT;
+    return shows(&whole, view, world);
+}
+
+// All pixels of the picture around a place, up to the margin, are in their tile's part.
+static void assert_in_parts(const DipTilePart *parts, const double at[2]) {
+    for (int dy = -MARGIN; dy <= MARGIN; dy++) {
+        for (int dx = -MARGIN; dx <= MARGIN; dx++) {
+            const int x = (int)floor(at[0]) + dx;
+            const int y = (int)floor(at[1]) + dy;
+            if (x >= 0 && x < WIDTH && y >= 0 && y < HEIGHT) {
+                const DipTilePart *part = &parts[y / TILE * TILES_X + x / TILE];
+                assert_true(x % TILE >= part->x0 && x % TILE < part->x1);
+                assert_true(y % TILE >= part->y0 && y % TILE < part->y1);
+            }
+        }
+    }
+}
+
+static uint64_t area_of(const DipTilePart *parts) {
+    uint64_t area = 0;
+    for (int t = 0; t < PARTS; t++) {
+        assert_true(parts[t].x1 <= TILE && parts[t].y1 <= TILE);
+        area += (uint64_t)(parts[t].x1 - parts[t].x0) * (uint64_t)(parts[t].y1 - parts[t].y0);
+    }
+    return area;
+}
+
+// The corners of a triangle or of an upright cube.
+static void random_shape(Random *random, int count, double (*corners)[3]) {
+    const double size = pow(10.0, random_real(random, -0.5, 2.0));
+    double low[3];
+    for (int c = 0; c < 3; c++) {
+        low[c] = random_real(random, -20.0, 20.0);
+    }
+    for (int i = 0; i < count; i++) {
+        for (int c = 0; c < 3; c++) {
+            const double along = count == 8 ? i >> c & 1 : random_real(random, 0.0, 1.0);
+            corners[i][c] = low[c] + size * along;
+        }
+    }
+}
+
+// A point of the shape's hull: a random mean of its corners, mostly of few of them.
+static void mean_of(Random *random, int count, double (*corners)[3], double world[3]) {
+    double sum = 0.0;
+    world[0] = world[1] = world[2] = 0.0;
+    for (int i = 0; i < count; i++) {
+        const double weight = pow(random_real(random, 0.0, 1.0), 4.0);
+        sum += weight;
+        for (int c = 0; c < 3; c++) {
+            world[c] += weight * corners[i][c];
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        world[c] /= sum;
+    }
+}
+
+static void parts_hold_what_is_seen(void **state) {
+    (void)state;
+    enum { SHAPES = 6000, MEANS = 300 };
+    Random random = {99};
+    DipTilePart tiles[PARTS];
+    const DipParts parts = {tiles, WIDTH, HEIGHT, MARGIN};
+    int seen = 0;
+    uint64_t area = 0;
+    for (int i = 0; i < SHAPES; i++) {
+        const DipView view = random_view(&random);
+        const int count = i % 2 ? 3 : 8;
+        double corners[8][3];
+        random_shape(&random, count, corners);
+        dip_parts_clear(&parts);
+        if (count == 3) {
+            dip_parts_add_triangle(&parts, &view, (const double(*)[3])corners);
+        } else {
+            dip_parts_add_box(&parts, &view, (const double(*)[3])corners);
+        }
+        area += count == 3 ? area_of(tiles) : 0;
+        for (int k = 0; k < MEANS; k++) {
+            double world[3];
+            double at[2];
+            mean_of(&random, count, corners, world);
+            if (project_point(&view, world, at)) {
+                assert_in_parts(tiles, at);
+                seen++;
+            }
+        }
+    }
+    printf("%d points seen, the triangles' parts hold %.1f %% of the picture\n", seen,
+           100.0 * (double)area / ((double)SHAPES / 2 * WIDTH * HEIGHT));
+    assert_true(seen > 100000);
+    assert_true(area < (uint64_t)SHAPES / 2 * WIDTH * HEIGHT / 10);
+}
+
 // --- more room than expected -------------------------------------------------------------------
 
 static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -444,6 +553,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(culling_changes_no_picture),
         cmocka_unit_test(what_is_seen_is_kept),
+        cmocka_unit_test(parts_hold_what_is_seen),
         cmocka_unit_test(clipping_may_double_the_triangles),
         cmocka_unit_test(triangles_may_lie_in_many_tiles),
     };
