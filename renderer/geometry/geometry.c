@@ -18,6 +18,21 @@ enum {
     MEAN_BIN_TILES = 2, // per triangle, of a pass of very many
 };
 
+// From the region on, what rounding in the clipper may add.
+enum { REJECT_MARGIN_PX = 16 };
+
+static float bounded(float ndc) {
+    return ndc < -1.0f ? -1.0f : ndc > 1.0f ? 1.0f : ndc;
+}
+
+static void bound_picture(const DipPass *pass, DipScreenMapping *map) {
+    const DipRegion region = dip_drawn_region(pass);
+    map->left = bounded((float)(region.x0 - REJECT_MARGIN_PX) / map->half_width - 1.0f);
+    map->right = bounded((float)(region.x1 + REJECT_MARGIN_PX) / map->half_width - 1.0f);
+    map->top = bounded(1.0f - (float)(region.y0 - REJECT_MARGIN_PX) / map->half_height);
+    map->bottom = bounded(1.0f - (float)(region.y1 + REJECT_MARGIN_PX) / map->half_height);
+}
+
 DipScreenMapping dip_screen_mapping(const DipPass *pass) {
     DipScreenMapping map = {
         .half_width = 0.5f * (float)pass->target.width,
@@ -31,6 +46,7 @@ DipScreenMapping dip_screen_mapping(const DipPass *pass) {
     map.guard_top = guard_y + 1.0f;
     map.guard_bottom = guard_y - 1.0f;
     memcpy(map.clip_planes, pass->clip_planes, sizeof map.clip_planes);
+    bound_picture(pass, &map);
     return map;
 }
 

@@ -80,7 +80,7 @@ static DipMesh *mesh_of(Soup *soup) {
 }
 
 static DipCounters draw(const DipMesh *mesh, const float *matrix, bool culled, int threads,
-                        const float *user_plane, uint8_t *picture) {
+                        const float *user_plane, const DipRegion *region, uint8_t *picture) {
     const DipDraw one = {.mesh = mesh,
                          .vertex_shader = project,
                          .fragment_shader = varying,
@@ -91,6 +91,7 @@ static DipCounters draw(const DipMesh *mesh, const float *matrix, bool culled, i
                     .draw_count = 1,
                     .sample_count = 2,
                     .target = {picture, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+    pass.region = region ? *region : (DipRegion){0};
     if (user_plane) {
         memcpy(pass.clip_planes[0], user_plane, sizeof pass.clip_planes[0]);
         pass.clip_plane_count = 1;
@@ -186,8 +187,8 @@ static void culling_changes_no_picture(void **state) {
         random_camera(&random, m);
         const float plane[4] = {0.4f, 0.1f, 0.0f, (float)random_real(&random, -0.5, 0.5)};
         const float *user_plane = i % 3 == 0 ? plane : NULL;
-        const DipCounters whole = draw(mesh, m, false, 1, user_plane, pictures[0]);
-        const DipCounters culled = draw(mesh, m, true, 1 + i % 3, user_plane, pictures[1]);
+        const DipCounters whole = draw(mesh, m, false, 1, user_plane, NULL, pictures[0]);
+        const DipCounters culled = draw(mesh, m, true, 1 + i % 3, user_plane, NULL, pictures[1]);
         assert_memory_equal(pictures[0], pictures[1], sizeof pictures[0]);
         assert_int_equal(culled.triangles_drawn, whole.triangles_drawn);
         assert_int_equal(culled.tile_triangles, whole.tile_triangles);
@@ -198,6 +199,42 @@ static void culling_changes_no_picture(void **state) {
     // It culls, and there is something to see.
     assert_true(read < all * CAMERAS / 2);
     assert_true(drawn > all * CAMERAS / 100);
+    dip_mesh_destroy(&mesh);
+}
+
+static void assert_same_blocks(const DipRegion *region) {
+    enum { BLOCK = 8 };
+    for (int y = region->y0 / BLOCK; y <= (region->y1 - 1) / BLOCK; y++) {
+        for (int x = region->x0 / BLOCK; x <= (region->x1 - 1) / BLOCK; x++) {
+            for (int row = 0; row < BLOCK; row++) {
+                const size_t at = 4 * (size_t)(WIDTH * (y * BLOCK + row) + x * BLOCK);
+                assert_memory_equal(pictures[0] + at, pictures[1] + at, 4 * BLOCK);
+            }
+        }
+    }
+}
+
+// Wherever it is rejected, what does not reach the region: a box, a chunk, a triangle to clip.
+static void regions_hold_what_the_whole_does(void **state) {
+    (void)state;
+    enum { REGIONS = 6 };
+    Random random = {42};
+    DipMesh *mesh = random_clusters(&random);
+    for (int i = 0; i < CAMERAS / 3; i++) {
+        float m[16];
+        random_camera(&random, m);
+        const float plane[4] = {0.4f, 0.1f, 0.0f, (float)random_real(&random, -0.5, 0.5)};
+        const DipCounters whole = draw(mesh, m, false, 1, plane, NULL, pictures[0]);
+        for (int r = 0; r < REGIONS; r++) {
+            const int x0 = random_int(&random, 0, WIDTH - 1);
+            const int y0 = random_int(&random, 0, HEIGHT - 1);
+            const DipRegion region = {x0, y0, random_int(&random, x0 + 1, WIDTH),
+                                      random_int(&random, y0 + 1, HEIGHT)};
+            const DipCounters part = draw(mesh, m, r % 2, 1 + r % 2, plane, &region, pictures[1]);
+            assert_true(part.triangles_drawn <= whole.triangles_drawn);
+            assert_same_blocks(&region);
+        }
+    }
     dip_mesh_destroy(&mesh);
 }
 
@@ -518,7 +555,7 @@ static void clipping_may_double_the_triangles(void **state) {
             add_corner(&soup, x, y + 0.04, 1.5, 1.0);
         }
         DipMesh *mesh = mesh_of(&soup);
-        const DipCounters counters = draw(mesh, identity, true, threads, NULL, pictures[0]);
+        const DipCounters counters = draw(mesh, identity, true, threads, NULL, NULL, pictures[0]);
         assert_int_equal(counters.triangles_in, COUNT);
         assert_int_equal(counters.triangles_drawn, 2 * COUNT);
         if (threads > 1) {
@@ -541,7 +578,7 @@ static void triangles_may_lie_in_many_tiles(void **state) {
         add_corner(&soup, -0.99, 0.99, z, z);
     }
     DipMesh *mesh = mesh_of(&soup);
-    const DipCounters counters = draw(mesh, identity, true, 2, NULL, pictures[0]);
+    const DipCounters counters = draw(mesh, identity, true, 2, NULL, NULL, pictures[0]);
     assert_int_equal(counters.triangles_drawn, COUNT);
     assert_int_equal(counters.tile_triangles, (uint64_t)COUNT * TILES);
     // The nearest, drawn last, is on top.
@@ -552,6 +589,7 @@ static void triangles_may_lie_in_many_tiles(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(culling_changes_no_picture),
+        cmocka_unit_test(regions_hold_what_the_whole_does),
         cmocka_unit_test(what_is_seen_is_kept),
         cmocka_unit_test(parts_hold_what_is_seen),
         cmocka_unit_test(clipping_may_double_the_triangles),
