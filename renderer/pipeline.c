@@ -265,16 +265,18 @@ static void draw_jobs(Worker *worker, size_t tile) {
     }
 }
 
-static int positive(int value) {
-    return value > 0 ? value : 0;
+static int greatest(int a, int b) {
+    return a > b ? a : b;
 }
 
 // What of the tile is not drawn.
-static void set_margins(const DipRegion *region, DipTile *tile) {
-    tile->left = positive(region->x0 - tile->x0);
-    tile->top = positive(region->y0 - tile->y0);
-    tile->right = positive(tile->x0 + DIP_TILE - region->x1);
-    tile->bottom = positive(tile->y0 + DIP_TILE - region->y1);
+static void set_margins(const DipRegion *region, const DipTilePart *part, DipTile *tile) {
+    static const DipTilePart whole = {0, 0, DIP_TILE, DIP_TILE};
+    part = part ? part : &whole;
+    tile->left = greatest(region->x0 - tile->x0, part->x0);
+    tile->top = greatest(region->y0 - tile->y0, part->y0);
+    tile->right = greatest(tile->x0 + DIP_TILE - region->x1, DIP_TILE - part->x1);
+    tile->bottom = greatest(tile->y0 + DIP_TILE - region->y1, DIP_TILE - part->y1);
 }
 
 static void begin_tile(Worker *worker, int index) {
@@ -284,7 +286,8 @@ static void begin_tile(Worker *worker, int index) {
     DipTile *tile = &worker->tile;
     tile->x0 = index % geometry->tiles_x * DIP_TILE;
     tile->y0 = index / geometry->tiles_x * DIP_TILE;
-    set_margins(&geometry->region, tile);
+    const DipTilePart *parts = pipeline->pass->tile_parts;
+    set_margins(&geometry->region, parts ? &parts[index] : NULL, tile);
     tile->pattern = geometry->pattern;
     tile->touched = 0;
     tile->passed = 0;
@@ -331,7 +334,7 @@ static void shade_tile(Worker *worker) {
 
 static void run_tile(void *context, int region_index, int worker_index) {
     DipPipeline *pipeline = context;
-    const int index = dip_geometry_region_tile(&pipeline->geometry, region_index);
+    const int index = pipeline->geometry.tiles[region_index];
     Worker *worker = pipeline->workers[worker_index];
     TileWork *work = &pipeline->tile_work[index];
     *work = (TileWork){0};
@@ -386,12 +389,12 @@ static void add_counters(const DipPipeline *pipeline, const DipTarget *target,
         counters->triangles_drawn += geometry->jobs[j].triangles_drawn;
         counters->tile_triangles += geometry->jobs[j].tile_triangles;
     }
-    const int tiles = dip_geometry_region_tiles(geometry);
+    const int tiles = geometry->tile_count;
     counters->passes++;
     counters->tiles_drawn += (uint64_t)tiles;
     counters->tiles_spared += dip_geometry_tiles(geometry) - (uint64_t)tiles;
     for (int t = 0; t < tiles; t++) {
-        const TileWork *work = &pipeline->tile_work[dip_geometry_region_tile(geometry, t)];
+        const TileWork *work = &pipeline->tile_work[geometry->tiles[t]];
         counters->sub_blocks_tested += work->sub_blocks_tested;
         counters->sub_blocks_accepted += work->sub_blocks_accepted;
         counters->fragments_clip_tested += work->clip_tested;
@@ -412,9 +415,8 @@ static void add_times(const DipPipeline *pipeline, int64_t geometry_ns, int64_t 
                       DipStageTimes *times) {
     int64_t stage_ns[STAGE_COUNT] = {0};
     int64_t sum_ns = 0;
-    for (int t = 0; t < dip_geometry_region_tiles(&pipeline->geometry); t++) {
-        const TileWork *work =
-            &pipeline->tile_work[dip_geometry_region_tile(&pipeline->geometry, t)];
+    for (int t = 0; t < pipeline->geometry.tile_count; t++) {
+        const TileWork *work = &pipeline->tile_work[pipeline->geometry.tiles[t]];
         for (int s = 0; s < STAGE_COUNT; s++) {
             stage_ns[s] += work->stage_ns[s];
             sum_ns += work->stage_ns[s];
@@ -506,8 +508,7 @@ bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *
         return false;
     }
     const int64_t middle = dip_clock_ns();
-    dip_pool_run(pipeline->pool, dip_geometry_region_tiles(&pipeline->geometry), run_tile,
-                 pipeline);
+    dip_pool_run(pipeline->pool, pipeline->geometry.tile_count, run_tile, pipeline);
     const int64_t end = dip_clock_ns();
     add_counters(pipeline, &pass->target, counters);
     add_times(pipeline, middle - begin, end - middle, times);

@@ -51,6 +51,11 @@ typedef struct DipRegion {
     int x0, y0, x1, y1;
 } DipRegion;
 
+// Pixels x0..x1-1 by y0..y1-1 of a tile of 64x64, from its corner; multiples of 8. All 0: none.
+typedef struct DipTilePart {
+    uint8_t x0, y0, x1, y1;
+} DipTilePart;
+
 typedef struct DipPass {
     const DipDraw *draws; // in submission order: of coplanar surfaces the first stays
     int draw_count;
@@ -67,6 +72,9 @@ typedef struct DipPass {
     // The part of the target that is wanted. Blocks (8x8 pixels from the corner) that it does not
     // meet are neither drawn nor cleared; the others hold what they would without it, to the bit.
     DipRegion region;
+    // Likewise what is wanted of each tile of the target, row by row: no more than the region asks
+    // for. NULL: all of it.
+    const DipTilePart *tile_parts;
 } DipPass;
 
 typedef struct DipPipeline DipPipeline;

@@ -22,6 +22,7 @@ enum { PIXEL_ALIGN = 64 };
 typedef struct Mirror {
     DipPipeline *pipeline;
     DipTarget target;
+    DipTilePart *tile_parts; // of the target: what the water can show
     DipDrawSet set;
 } Mirror;
 
@@ -43,6 +44,7 @@ struct DipRenderer {
 
     // For the scene drawn last.
     uint64_t scene_serial;
+    bool reserved; // the pipeline has room for it
     DipDrawSet set;
     Mirror mirror;
     DipMaterialSamplers *samplers; // per material
@@ -120,6 +122,7 @@ DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
 static void free_mirror(Mirror *mirror) {
     dip_pipeline_destroy(&mirror->pipeline);
     free(mirror->target.rgba8);
+    free(mirror->tile_parts);
     dip_draw_set_free(&mirror->set);
     *mirror = (Mirror){0};
 }
@@ -190,6 +193,7 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
     dip_pipeline_destroy(&renderer->pipeline);
     free(renderer->rgba8);
     renderer->pipeline = pipeline;
+    renderer->reserved = false;
     renderer->rgba8 = rgba8;
     renderer->stride_bytes = stride_bytes;
     renderer->width = width;
@@ -223,11 +227,20 @@ static DipDrawInput draw_input(const DipRenderer *renderer, const DipScene *scen
     };
 }
 
-static void set_mirrored_draws(DipRenderer *renderer, const DipScene *scene, const DipView *view) {
-    Mirror *mirror = &renderer->mirror;
+// Makes room for all that the scene has, in view or not.
+static bool reserve(const DipRenderer *renderer, const DipScene *scene, bool mirrored,
+                    DipPipeline *pipeline, DipDrawSet *set, DipError *err) {
+    const DipPose pose = {.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
+    const DipView view = dip_view_make(&pose, (double)scene->near_m, 1.0);
     const DipDrawInput input = draw_input(renderer, scene);
-    const DipDrawView pass = {view, mirror->target.width, mirror->target.height, .mirrored = true};
-    dip_draw_set_fill(&mirror->set, &input, &pass);
+    const DipDrawView all = {.view = &view, .width = 1, .height = 1, .mirrored = mirrored};
+    dip_draw_set_fill(set, &input, &all);
+    const DipPass pass = {.draws = set->draws, .draw_count = set->count};
+    return dip_pipeline_reserve(pipeline, &pass, err);
+}
+
+static int tiles_in(int size) {
+    return (size + DIP_TILE - 1) / DIP_TILE;
 }
 
 // Makes the reflection's target and room for its pass.
@@ -242,11 +255,14 @@ static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *
         return false;
     }
     memset(target->rgba8, 0, target->stride_bytes * (size_t)target->height);
-    const DipPose pose = {.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
-    const DipView view = dip_view_make(&pose, (double)scene->near_m, 1.0);
-    set_mirrored_draws(renderer, scene, &view);
-    const DipPass pass = {.draws = mirror->set.draws, .draw_count = mirror->set.count};
-    return dip_pipeline_reserve(mirror->pipeline, &pass, err);
+    mirror->tile_parts =
+        calloc((size_t)tiles_in(target->width) * (size_t)tiles_in(target->height) + 1,
+               sizeof *mirror->tile_parts);
+    if (!mirror->tile_parts) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "reflection",
+                             "no memory for %dx%d pixels", target->width, target->height);
+    }
+    return reserve(renderer, scene, true, mirror->pipeline, &mirror->set, err);
 }
 
 // Makes the arrays for a scene not drawn before.
@@ -268,7 +284,14 @@ static bool adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *
         return false;
     }
     renderer->scene_serial = scene->serial;
+    renderer->reserved = false;
     return true;
+}
+
+static bool reserve_once(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+    renderer->reserved = renderer->reserved ||
+                         reserve(renderer, scene, false, renderer->pipeline, &renderer->set, err);
+    return renderer->reserved;
 }
 
 // Makes what the settings need of the scene beside it, or gives it back.
@@ -306,12 +329,10 @@ static bool check_pose(const DipPose *pose, DipError *err) {
 
 // --- passes ------------------------------------------------------------------------------------
 
-// What every pass takes of the settings and the scene.
+// What every pass takes of the settings and the scene, without its draws.
 static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
-                          const DipFramePlan *plan, const DipDrawSet *set) {
+                          const DipFramePlan *plan) {
     DipPass pass = {
-        .draws = set->draws,
-        .draw_count = set->count,
         .sample_count = dip_quality_sample_count(&renderer->quality),
         .pattern =
             dip_pattern_kind(renderer->quality.step[DIP_SETTING_TAA] != 0, renderer->frame_index),
@@ -319,6 +340,19 @@ static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
     };
     memcpy(pass.clear_lin, scene->background_lin, sizeof pass.clear_lin);
     return pass;
+}
+
+// Gives a pass the draws of what it may show.
+static void set_draws(const DipRenderer *renderer, const DipScene *scene, DipDrawView view,
+                      DipDrawSet *set, DipPass *pass) {
+    const DipDrawInput input = draw_input(renderer, scene);
+    const DipCullPlanes seen = dip_cull_pass_planes(pass, view.view);
+    view.seen = &seen;
+    view.width = pass->target.width;
+    view.height = pass->target.height;
+    dip_draw_set_fill(set, &input, &view);
+    pass->draws = set->draws;
+    pass->draw_count = set->count;
 }
 
 // The mirrored scene above the water. What is less than two texels of the picture below it counts
@@ -331,14 +365,16 @@ static bool draw_mirrored(DipRenderer *renderer, const DipScene *scene, const Di
     double plane[4];
     dip_view_plane(mirrored, above, plane);
     plane[3] += 2.0 * texel;
-    set_mirrored_draws(renderer, scene, mirrored);
-    DipPass pass = begin_pass(renderer, scene, plan, &mirror->set);
+    DipPass pass = begin_pass(renderer, scene, plan);
     pass.target = mirror->target;
     pass.region = plan->mirrored_region;
+    pass.tile_parts = plan->mirrored_parts ? mirror->tile_parts : NULL;
     pass.clip_plane_count = 1;
     for (int i = 0; i < 4; i++) {
         pass.clip_planes[0][i] = (float)plane[i];
     }
+    const DipDrawView seen = {.view = mirrored, .mirrored = true};
+    set_draws(renderer, scene, seen, &mirror->set, &pass);
     const bool drawn =
         dip_pipeline_draw(mirror->pipeline, &pass, &frame->counters, &frame->stages, err);
     frame->counters.fragments_mirrored = frame->counters.fragments_shaded;
@@ -351,17 +387,14 @@ static DipTarget target_of(const DipRenderer *renderer) {
 
 static bool draw_scene(DipRenderer *renderer, const DipScene *scene, const DipView *view,
                        const DipFramePlan *plan, DipFrame *frame, DipError *err) {
-    const DipDrawInput input = draw_input(renderer, scene);
     const DipDrawView seen = {
         .view = view,
-        .width = renderer->width,
-        .height = renderer->height,
         .shown = plan->water_reflects ? &renderer->mirror.target : NULL,
         .schlick = renderer->reflection.schlick,
     };
-    dip_draw_set_fill(&renderer->set, &input, &seen);
-    DipPass pass = begin_pass(renderer, scene, plan, &renderer->set);
+    DipPass pass = begin_pass(renderer, scene, plan);
     pass.target = target_of(renderer);
+    set_draws(renderer, scene, seen, &renderer->set, &pass);
     return dip_pipeline_draw(renderer->pipeline, &pass, &frame->counters, &frame->stages, err);
 }
 
@@ -373,8 +406,8 @@ static void count_bytes(const DipScene *scene, DipCounters *counters) {
 }
 
 static void count_mirror(const Mirror *mirror, bool drawn, DipCounters *counters) {
-    const uint64_t across = (uint64_t)(mirror->target.width + DIP_TILE - 1) / DIP_TILE;
-    const uint64_t down = (uint64_t)(mirror->target.height + DIP_TILE - 1) / DIP_TILE;
+    const uint64_t across = (uint64_t)tiles_in(mirror->target.width);
+    const uint64_t down = (uint64_t)tiles_in(mirror->target.height);
     counters->reflection_bytes = mirror->target.stride_bytes * (uint64_t)mirror->target.height;
     counters->tiles_spared += drawn ? 0 : across * down;
 }
@@ -382,16 +415,24 @@ static void count_mirror(const Mirror *mirror, bool drawn, DipCounters *counters
 bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                        int64_t time_ns, DipFrame *frame, DipError *err) {
     if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err) ||
-        !follow_settings(renderer, scene, err)) {
+        !reserve_once(renderer, scene, err) || !follow_settings(renderer, scene, err)) {
         return false;
     }
     const DipView view =
         dip_view_make(pose, (double)scene->near_m, (double)renderer->width / renderer->height);
     const DipView mirrored = dip_view_mirror(&view, renderer->reflection.level_m);
+    const DipCullPlanes seen = dip_cull_view_planes(&view);
+    const DipCullPlanes seen_mirrored = dip_cull_view_planes(&mirrored);
+    // A bilinear read takes in the next texel; one more for what is rounded.
+    const Mirror *mirror = &renderer->mirror;
+    const DipParts parts = {mirror->tile_parts, mirror->target.width, mirror->target.height, 2};
     const DipPlanInput input = {
         .scene = scene,
         .view = &view,
         .mirrored = &mirrored,
+        .seen = &seen,
+        .seen_mirrored = &seen_mirrored,
+        .parts = &parts,
         .reflection = &renderer->reflection,
         .quality = &renderer->quality,
         .plain_surfaces = renderer->plain_surfaces,

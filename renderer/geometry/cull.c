@@ -2,18 +2,6 @@
 // wholly inside a plane spares what it holds the test against that plane.
 #include "renderer/geometry/cull.h"
 
-#include "renderer/geometry/mesh.h"
-
-#include <stdbool.h>
-
-enum { VIEW_PLANES = 6, MAX_PLANES = VIEW_PLANES + DIP_MAX_CLIP_PLANES };
-
-// Half-spaces in the mesh's space: inside where dot(normal, (x, y, z, 1)) >= 0.
-typedef struct Planes {
-    int count;
-    double normal[MAX_PLANES][4];
-} Planes;
-
 // Row r of the matrix gives clip coordinate r, so a plane in clip space is a sum of rows.
 static void place_plane(const float *m, const float clip[4], double normal[4]) {
     for (int c = 0; c < 4; c++) {
@@ -35,14 +23,16 @@ DipRegion dip_drawn_region(const DipPass *pass) {
                        blocks_end(region->x1), blocks_end(region->y1)};
 }
 
-// The picture's region in x / w and y / w, from -1 to 1 where it is whole.
+// The picture's region in x / w and y / w.
 typedef struct NdcRegion {
     float left, right, bottom, top;
 } NdcRegion;
 
+static const NdcRegion whole = {-1.0f, 1.0f, -1.0f, 1.0f};
+
 static NdcRegion ndc_region(const DipPass *pass) {
     if (!pass->region.x1) {
-        return (NdcRegion){-1.0f, 1.0f, -1.0f, 1.0f};
+        return whole;
     }
     const DipRegion region = dip_drawn_region(pass);
     const float x = 2.0f / (float)pass->target.width;
@@ -52,23 +42,45 @@ static NdcRegion ndc_region(const DipPass *pass) {
 }
 
 static void place_view(const float *m, const NdcRegion *region, double (*normal)[4]) {
-    const float view[VIEW_PLANES][4] = {{1, 0, 0, -region->left},
-                                        {-1, 0, 0, region->right},
-                                        {0, 1, 0, -region->bottom},
-                                        {0, -1, 0, region->top},
-                                        {0, 0, 1, 0},
-                                        {0, 0, -1, 1}};
-    for (int p = 0; p < VIEW_PLANES; p++) {
+    const float view[DIP_VIEW_PLANES][4] = {{1, 0, 0, -region->left},
+                                            {-1, 0, 0, region->right},
+                                            {0, 1, 0, -region->bottom},
+                                            {0, -1, 0, region->top},
+                                            {0, 0, 1, 0},
+                                            {0, 0, -1, 1}};
+    for (int p = 0; p < DIP_VIEW_PLANES; p++) {
         place_plane(m, view[p], normal[p]);
     }
 }
 
-static Planes place_planes(const DipPass *pass, const NdcRegion *region, const float *m) {
-    Planes planes = {.count = VIEW_PLANES + pass->clip_plane_count};
+static DipCullPlanes place_planes(const DipPass *pass, const NdcRegion *region, const float *m) {
+    DipCullPlanes planes = {.count = DIP_VIEW_PLANES + pass->clip_plane_count};
     place_view(m, region, planes.normal);
     for (int p = 0; p < pass->clip_plane_count; p++) {
-        place_plane(m, pass->clip_planes[p], planes.normal[VIEW_PLANES + p]);
+        place_plane(m, pass->clip_planes[p], planes.normal[DIP_VIEW_PLANES + p]);
     }
+    return planes;
+}
+
+// A view's matrix as the shaders have it.
+static void world_to_clip(const DipView *view, float m[16]) {
+    for (int i = 0; i < 16; i++) {
+        m[i] = (float)view->world_to_clip[i];
+    }
+}
+
+DipCullPlanes dip_cull_pass_planes(const DipPass *pass, const DipView *view) {
+    const NdcRegion region = ndc_region(pass);
+    float m[16];
+    world_to_clip(view, m);
+    return place_planes(pass, &region, m);
+}
+
+DipCullPlanes dip_cull_view_planes(const DipView *view) {
+    DipCullPlanes planes = {.count = DIP_VIEW_PLANES};
+    float m[16];
+    world_to_clip(view, m);
+    place_view(m, &whole, planes.normal);
     return planes;
 }
 
@@ -76,9 +88,12 @@ static double magnitude(double v) {
     return v < 0.0 ? -v : v;
 }
 
+// Of what is summed up: covers the rounding of a matrix and of the shader's own arithmetic.
+#define ROUNDING 1e-5
+
 // Whether a box lies outside one of the planes in the set *crossed (bit p: plane p), from which
 // those that it lies wholly inside of are taken.
-static bool outside(const Planes *planes, const DipBox *box, unsigned *crossed) {
+static bool outside(const DipCullPlanes *planes, const DipBox *box, unsigned *crossed) {
     for (unsigned left = *crossed; left; left &= left - 1) {
         const int p = __builtin_ctz(left);
         const double *normal = planes->normal[p];
@@ -91,8 +106,7 @@ static bool outside(const Planes *planes, const DipBox *box, unsigned *crossed) 
             radius += length * box->extent[c];
             size += length * magnitude(box->centre[c]);
         }
-        // The margin covers the rounding of the matrix and of the shader's own arithmetic.
-        const double margin = 1e-5 * (size + radius);
+        const double margin = ROUNDING * (size + radius);
         if (distance + radius < -margin) {
             return true;
         }
@@ -103,15 +117,31 @@ static bool outside(const Planes *planes, const DipBox *box, unsigned *crossed) 
     return false;
 }
 
-bool dip_cull_in_view(const float to_clip[16], const DipBox *box) {
-    static const NdcRegion whole = {-1.0f, 1.0f, -1.0f, 1.0f};
-    Planes planes = {.count = VIEW_PLANES};
-    unsigned crossed = (1u << VIEW_PLANES) - 1;
-    place_view(to_clip, &whole, planes.normal);
-    return !outside(&planes, box, &crossed);
+bool dip_cull_outside(const DipCullPlanes *planes, const DipBox *box) {
+    unsigned crossed = (1u << planes->count) - 1;
+    return outside(planes, box, &crossed);
 }
 
-static uint32_t cull_draw(const Planes *planes, const DipMesh *mesh, uint32_t draw,
+DipBox dip_cull_place_box(const float transform[12], const DipBox *box) {
+    DipBox placed;
+    for (int axis = 0; axis < 3; axis++) {
+        const float *m = transform + 4 * axis;
+        double centre = m[3];
+        double extent = 0.0;
+        double size = magnitude(m[3]);
+        for (int k = 0; k < 3; k++) {
+            const double length = magnitude(m[k]);
+            centre += (double)m[k] * box->centre[k];
+            extent += length * box->extent[k];
+            size += length * (magnitude(box->centre[k]) + box->extent[k]);
+        }
+        placed.centre[axis] = (float)centre;
+        placed.extent[axis] = (float)(extent + ROUNDING * size);
+    }
+    return placed;
+}
+
+static uint32_t cull_draw(const DipCullPlanes *planes, const DipMesh *mesh, uint32_t draw,
                           DipVisibleChunk *visible) {
     uint32_t count = 0;
     unsigned mesh_crossed = (1u << planes->count) - 1;
@@ -140,7 +170,7 @@ uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible) {
     uint32_t count = 0;
     for (uint32_t d = 0; d < (uint32_t)pass->draw_count; d++) {
         const DipDraw *draw = &pass->draws[d];
-        Planes planes = {.count = 0};
+        DipCullPlanes planes = {.count = 0};
         if (!draw->mesh->chunk_count) {
             continue;
         }

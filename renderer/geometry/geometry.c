@@ -18,6 +18,21 @@ enum {
     MEAN_BIN_TILES = 2, // per triangle, of a pass of very many
 };
 
+// From the region on, what rounding in the clipper may add.
+enum { REJECT_MARGIN_PX = 16 };
+
+static float bounded(float ndc) {
+    return ndc < -1.0f ? -1.0f : ndc > 1.0f ? 1.0f : ndc;
+}
+
+static void bound_picture(const DipPass *pass, DipScreenMapping *map) {
+    const DipRegion region = dip_drawn_region(pass);
+    map->left = bounded((float)(region.x0 - REJECT_MARGIN_PX) / map->half_width - 1.0f);
+    map->right = bounded((float)(region.x1 + REJECT_MARGIN_PX) / map->half_width - 1.0f);
+    map->top = bounded(1.0f - (float)(region.y0 - REJECT_MARGIN_PX) / map->half_height);
+    map->bottom = bounded(1.0f - (float)(region.y1 + REJECT_MARGIN_PX) / map->half_height);
+}
+
 DipScreenMapping dip_screen_mapping(const DipPass *pass) {
     DipScreenMapping map = {
         .half_width = 0.5f * (float)pass->target.width,
@@ -31,6 +46,7 @@ DipScreenMapping dip_screen_mapping(const DipPass *pass) {
     map.guard_top = guard_y + 1.0f;
     map.guard_bottom = guard_y - 1.0f;
     memcpy(map.clip_planes, pass->clip_planes, sizeof map.clip_planes);
+    bound_picture(pass, &map);
     return map;
 }
 
@@ -183,12 +199,31 @@ static DipRegion tiles_of(const DipRegion *region) {
                        (region->y1 + DIP_TILE - 1) / DIP_TILE};
 }
 
+static bool is_wanted(const DipGeometry *geometry, size_t tile) {
+    const DipTilePart *parts = geometry->pass->tile_parts;
+    return !parts || parts[tile].x1;
+}
+
+static void list_tiles(DipGeometry *geometry) {
+    const DipRegion *region = &geometry->tile_region;
+    geometry->tile_count = 0;
+    for (int y = region->y0; y < region->y1; y++) {
+        for (int x = region->x0; x < region->x1; x++) {
+            const int tile = y * geometry->tiles_x + x;
+            if (is_wanted(geometry, (size_t)tile)) {
+                geometry->tiles[geometry->tile_count++] = (uint16_t)tile;
+            }
+        }
+    }
+}
+
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err) {
     geometry->pass = pass;
     geometry->mapping = dip_screen_mapping(pass);
     geometry->pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
     geometry->region = dip_drawn_region(pass);
     geometry->tile_region = tiles_of(&geometry->region);
+    list_tiles(geometry);
     if (!dip_geometry_reserve(geometry, pass, err)) {
         return false;
     }
@@ -295,7 +330,9 @@ static void bin_triangle(JobRun *run, uint32_t index) {
     }
     for (size_t y = y0; y <= y1; y++) {
         for (size_t x = x0; x <= x1; x++) {
-            add_to_bin(run, index, y * tiles_x + x);
+            if (is_wanted(run->geometry, y * tiles_x + x)) {
+                add_to_bin(run, index, y * tiles_x + x);
+            }
         }
     }
 }

@@ -68,7 +68,9 @@ typedef struct DipGeometry {
     int tiles_y;
     DipRegion region;      // pixels that are drawn, see dip_drawn_region
     DipRegion tile_region; // tiles that these lie in
-    int surface_stride;    // floats per triangle: that of the pass' largest slot count
+    int tile_count;        // that are drawn, and which: indices row by row
+    uint16_t tiles[DIP_MAX_BINS];
+    int surface_stride; // floats per triangle: that of the pass' largest slot count
     int job_count;
     DipGeometryJob jobs[DIP_MAX_JOBS];
     uint32_t visible_count;
@@ -109,18 +111,6 @@ static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, in
     return word >> bin % 64 & 1
                ? &geometry->bins[(size_t)job * (dip_geometry_tiles(geometry) + 1) + bin]
                : NULL;
-}
-
-static inline int dip_geometry_region_tiles(const DipGeometry *geometry) {
-    const DipRegion *region = &geometry->tile_region;
-    return (region->x1 - region->x0) * (region->y1 - region->y0);
-}
-
-// Tile i of the region, as an index of all tiles.
-static inline int dip_geometry_region_tile(const DipGeometry *geometry, int i) {
-    const DipRegion *region = &geometry->tile_region;
-    const int width = region->x1 - region->x0;
-    return (region->y0 + i / width) * geometry->tiles_x + region->x0 + i % width;
 }
 
 // Makes room for the pass.

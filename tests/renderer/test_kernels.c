@@ -61,6 +61,10 @@ static void compare_project(const DipKernels *scalar, const DipKernels *other, R
     const DipScreenMapping map = {
         .half_width = (float)random_int(random, 1, 4096),
         .half_height = (float)random_int(random, 1, 4096),
+        .left = -1.0f,
+        .right = 0.25f,
+        .bottom = -0.5f,
+        .top = 1.0f,
         .guard_left = 20.0f,
         .guard_right = 18.0f,
         .guard_top = 20.0f,
