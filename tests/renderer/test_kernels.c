@@ -204,6 +204,7 @@ static void compare_sampling(const DipKernels *scalar, const DipKernels *other, 
         .advanced = random_int(random, 0, 1) != 0,
         .bias_lod8 = random_int(random, -256, 512),
         .min_lod8 = 256 * random_int(random, 0, 2),
+        .cheap = random_int(random, 0, 1) != 0,
     };
     random_coordinates(&batch, random);
     scalar->dip_kernel_sample_colour(&batch, &sampler, 0, expected);
