@@ -10,6 +10,8 @@
 #include "renderer/texture/footprint_simd.h"
 #include "renderer/texture/texture.h"
 
+#include <string.h>
+
 enum { VECTORS = DIP_FRAGMENT_BATCH / DIP_LANES };
 
 // A way to read a texture: constants of each inlined copy of the loops below.
@@ -511,6 +513,31 @@ void DIP_KERNEL(dip_kernel_sample_colour)(DipFragmentBatch *batch, const DipSamp
                                           int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
     const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
     SAMPLE_BY_WAY(sample_colour, texture->wraps_in_bits, u_slot, out);
+}
+
+// Whether two textures have the same texels at the same places of memory and the same footprints.
+static bool reads_alike(const DipSampler *a, const DipSampler *b) {
+    const DipTexture *s = a->texture;
+    const DipTexture *t = b->texture;
+    return !a->shown && !b->shown && a->max_anisotropy == b->max_anisotropy &&
+           a->advanced == b->advanced && a->bias_lod8 == b->bias_lod8 &&
+           a->min_lod8 == b->min_lod8 && a->cheap == b->cheap && s->wrap_u == t->wrap_u &&
+           s->wrap_v == t->wrap_v && s->level_count == t->level_count &&
+           memcmp(s->level_width, t->level_width, sizeof s->level_width) == 0 &&
+           memcmp(s->level_height, t->level_height, sizeof s->level_height) == 0;
+}
+
+void DIP_KERNEL(dip_kernel_sample_colours)(DipFragmentBatch *batch,
+                                           const DipSampler *const samplers[2], int u_slot,
+                                           float (*const out[2])[DIP_FRAGMENT_BATCH]) {
+    if (!reads_alike(samplers[0], samplers[1])) {
+        DIP_KERNEL(dip_kernel_sample_colour)(batch, samplers[0], u_slot, out[0]);
+        DIP_KERNEL(dip_kernel_sample_colour)(batch, samplers[1], u_slot, out[1]);
+        return;
+    }
+    const DipSampler *sampler = samplers[0];
+    const Read read = {{sampler->texture, samplers[1]->texture}, 2};
+    SAMPLE_BY_WAY(sample_read, sampler->texture->wraps_in_bits, read, u_slot, out);
 }
 
 void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampler *sampler,
