@@ -86,6 +86,7 @@ static void bind_batch(const Worker *worker, const DipDraw *draw, DipFragmentBat
     batch->samplers = draw->samplers;
     batch->uniforms = draw->uniforms;
     batch->sample_colour = worker->pipeline->kernels->dip_kernel_sample_colour;
+    batch->sample_colours = worker->pipeline->kernels->dip_kernel_sample_colours;
     batch->sample_alpha = worker->pipeline->kernels->dip_kernel_sample_alpha;
     batch->sample_target = worker->pipeline->kernels->dip_kernel_sample_target;
     batch->srgb_light = worker->pipeline->srgb_light;
