@@ -1,13 +1,26 @@
 // Culling by bounding boxes: of a mesh, of its groups of chunks, of its chunks. A box that lies
-// wholly inside a plane spares what it holds the test against that plane.
+// wholly inside all planes spares what it holds the test.
 #include "renderer/geometry/cull.h"
 
-// Row r of the matrix gives clip coordinate r, so a plane in clip space is a sum of rows.
-static void place_plane(const float *m, const float clip[4], double normal[4]) {
+#include <math.h>
+#include <string.h>
+
+// Adds a plane. Row r of the matrix gives clip coordinate r, so a plane in clip space is a sum of
+// rows.
+static void place_plane(const float *m, const float clip[4], DipCullPlanes *planes) {
+    const int p = planes->count++;
     for (int c = 0; c < 4; c++) {
-        normal[c] = (double)clip[0] * m[c] + (double)clip[1] * m[4 + c] +
-                    (double)clip[2] * m[8 + c] + (double)clip[3] * m[12 + c];
+        planes->normal[c][p] =
+            clip[0] * m[c] + clip[1] * m[4 + c] + clip[2] * m[8 + c] + clip[3] * m[12 + c];
     }
+}
+
+static DipCullPlanes no_planes(void) {
+    DipCullPlanes planes = {.count = 0};
+    for (int p = 0; p < DIP_MAX_CULL_PLANES; p++) {
+        planes.normal[3][p] = 1.0f;
+    }
+    return planes;
 }
 
 static int blocks_end(int end) {
@@ -41,7 +54,8 @@ static NdcRegion ndc_region(const DipPass *pass) {
                        1.0f - (float)region.y1 * y, 1.0f - (float)region.y0 * y};
 }
 
-static void place_view(const float *m, const NdcRegion *region, double (*normal)[4]) {
+static DipCullPlanes place_view(const float *m, const NdcRegion *region) {
+    DipCullPlanes planes = no_planes();
     const float view[DIP_VIEW_PLANES][4] = {{1, 0, 0, -region->left},
                                             {-1, 0, 0, region->right},
                                             {0, 1, 0, -region->bottom},
@@ -49,15 +63,15 @@ static void place_view(const float *m, const NdcRegion *region, double (*normal)
                                             {0, 0, 1, 0},
                                             {0, 0, -1, 1}};
     for (int p = 0; p < DIP_VIEW_PLANES; p++) {
-        place_plane(m, view[p], normal[p]);
+        place_plane(m, view[p], &planes);
     }
+    return planes;
 }
 
 static DipCullPlanes place_planes(const DipPass *pass, const NdcRegion *region, const float *m) {
-    DipCullPlanes planes = {.count = DIP_VIEW_PLANES + pass->clip_plane_count};
-    place_view(m, region, planes.normal);
+    DipCullPlanes planes = place_view(m, region);
     for (int p = 0; p < pass->clip_plane_count; p++) {
-        place_plane(m, pass->clip_planes[p], planes.normal[DIP_VIEW_PLANES + p]);
+        place_plane(m, pass->clip_planes[p], &planes);
     }
     return planes;
 }
@@ -77,49 +91,76 @@ DipCullPlanes dip_cull_pass_planes(const DipPass *pass, const DipView *view) {
 }
 
 DipCullPlanes dip_cull_view_planes(const DipView *view) {
-    DipCullPlanes planes = {.count = DIP_VIEW_PLANES};
     float m[16];
     world_to_clip(view, m);
-    place_view(m, &whole, planes.normal);
-    return planes;
+    return place_view(m, &whole);
 }
 
 static double magnitude(double v) {
     return v < 0.0 ? -v : v;
 }
 
-// Of what is summed up: covers the rounding of a matrix and of the shader's own arithmetic.
-#define ROUNDING 1e-5
+// Of what is summed up: covers the rounding of a matrix, of the planes and of the shader's own
+// arithmetic.
+#define ROUNDING 1e-5f
 
-// Whether a box lies outside one of the planes in the set *crossed (bit p: plane p), from which
-// those that it lies wholly inside of are taken.
-static bool outside(const DipCullPlanes *planes, const DipBox *box, unsigned *crossed) {
-    for (unsigned left = *crossed; left; left &= left - 1) {
-        const int p = __builtin_ctz(left);
-        const double *normal = planes->normal[p];
-        double distance = normal[3];
-        double radius = 0.0;
-        double size = magnitude(normal[3]);
-        for (int c = 0; c < 3; c++) {
-            const double length = magnitude(normal[c]);
-            distance += normal[c] * box->centre[c];
-            radius += length * box->extent[c];
-            size += length * magnitude(box->centre[c]);
-        }
-        const double margin = ROUNDING * (size + radius);
-        if (distance + radius < -margin) {
-            return true;
-        }
-        if (distance - radius > margin) {
-            *crossed &= ~(1u << p);
-        }
+// Four planes at once.
+typedef float Floats __attribute__((vector_size(16)));
+typedef int32_t Ints __attribute__((vector_size(16)));
+
+static Floats magnitudes(Floats v) {
+    return (Floats)((Ints)v & INT32_MAX);
+}
+
+static Floats load(const float *from) {
+    Floats v;
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
+static bool any(Ints mask) {
+    uint64_t halves[2];
+    memcpy(halves, &mask, sizeof halves);
+    return halves[0] | halves[1];
+}
+
+// How a box lies to planes v * 4 and on.
+typedef struct Sides {
+    Ints outside; // wholly
+    Ints crossed; // not wholly inside
+} Sides;
+
+static Sides sides_of(const DipCullPlanes *planes, const DipBox *box, int v) {
+    Floats distance = load(planes->normal[3] + 4 * v);
+    Floats radius = {0.0f, 0.0f, 0.0f, 0.0f};
+    Floats size = magnitudes(distance);
+    for (int c = 0; c < 3; c++) {
+        const Floats normal = load(planes->normal[c] + 4 * v);
+        const Floats length = magnitudes(normal);
+        distance += normal * box->centre[c];
+        radius += length * box->extent[c];
+        size += length * fabsf(box->centre[c]);
     }
-    return false;
+    const Floats margin = (size + radius) * ROUNDING;
+    return (Sides){distance + radius < -margin, distance - radius <= margin};
+}
+
+// Whether a box lies outside one of the planes; else *crosses tells whether it crosses some, so
+// that what it holds needs to be asked.
+static bool outside(const DipCullPlanes *planes, const DipBox *box, bool *crosses) {
+    Sides all = sides_of(planes, box, 0);
+    for (int v = 1; 4 * v < planes->count; v++) {
+        const Sides sides = sides_of(planes, box, v);
+        all.outside |= sides.outside;
+        all.crossed |= sides.crossed;
+    }
+    *crosses = any(all.crossed);
+    return any(all.outside);
 }
 
 bool dip_cull_outside(const DipCullPlanes *planes, const DipBox *box) {
-    unsigned crossed = (1u << planes->count) - 1;
-    return outside(planes, box, &crossed);
+    bool crosses;
+    return outside(planes, box, &crosses);
 }
 
 DipBox dip_cull_place_box(const float transform[12], const DipBox *box) {
@@ -144,20 +185,21 @@ DipBox dip_cull_place_box(const float transform[12], const DipBox *box) {
 static uint32_t cull_draw(const DipCullPlanes *planes, const DipMesh *mesh, uint32_t draw,
                           DipVisibleChunk *visible) {
     uint32_t count = 0;
-    unsigned mesh_crossed = (1u << planes->count) - 1;
-    if (outside(planes, &mesh->box, &mesh_crossed)) {
+    bool mesh_crosses;
+    if (outside(planes, &mesh->box, &mesh_crosses)) {
         return 0;
     }
     for (uint32_t first = 0; first < mesh->chunk_count; first += DIP_GROUP_CHUNKS) {
-        unsigned group_crossed = mesh_crossed;
-        if (outside(planes, &mesh->groups[first / DIP_GROUP_CHUNKS], &group_crossed)) {
+        bool group_crosses = false;
+        if (mesh_crosses &&
+            outside(planes, &mesh->groups[first / DIP_GROUP_CHUNKS], &group_crosses)) {
             continue;
         }
         const uint32_t rest = mesh->chunk_count - first;
         const uint32_t end = first + (rest < DIP_GROUP_CHUNKS ? rest : DIP_GROUP_CHUNKS);
         for (uint32_t c = first; c < end; c++) {
-            unsigned crossed = group_crossed;
-            if (!outside(planes, &mesh->chunks[c].box, &crossed)) {
+            bool crosses;
+            if (!group_crosses || !outside(planes, &mesh->chunks[c].box, &crosses)) {
                 visible[count++] = (DipVisibleChunk){draw, c};
             }
         }
@@ -170,7 +212,7 @@ uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible) {
     uint32_t count = 0;
     for (uint32_t d = 0; d < (uint32_t)pass->draw_count; d++) {
         const DipDraw *draw = &pass->draws[d];
-        DipCullPlanes planes = {.count = 0};
+        DipCullPlanes planes = no_planes();
         if (!draw->mesh->chunk_count) {
             continue;
         }
