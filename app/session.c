@@ -499,16 +499,18 @@ bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t pla
     frame->copied =
         !session->force_all_effects && memcmp(&current, &requested, sizeof current) == 0;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        DipRenderer *renderer = session->renderers[p];
-        if (p == DIP_PANE_REQUESTED && frame->copied) {
-            frame->panes[p] = copy_of(&frame->panes[DIP_PANE_CURRENT]);
-            continue;
-        }
-        dip_renderer_set_frame_index(renderer, frame_index);
-        if (!dip_renderer_draw(renderer, session->scene, pose, play_ns, &frame->panes[p], err)) {
-            return false;
-        }
+        dip_renderer_set_frame_index(session->renderers[p], frame_index);
     }
+    DipFrame *const panes[DIP_PANE_COUNT] = {&frame->panes[0], &frame->panes[1]};
+    if (!frame->copied) {
+        return dip_renderer_draw_pair(session->renderers, session->scene, pose, play_ns, panes,
+                                      err);
+    }
+    if (!dip_renderer_draw(session->renderers[DIP_PANE_CURRENT], session->scene, pose, play_ns,
+                           panes[DIP_PANE_CURRENT], err)) {
+        return false;
+    }
+    *panes[DIP_PANE_REQUESTED] = copy_of(panes[DIP_PANE_CURRENT]);
     return true;
 }
 

@@ -92,6 +92,22 @@ void dip_pipeline_destroy(DipPipeline **pipeline);
 bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
                        DipStageTimes *times, DipError *err);
 
+// A pass and what is added to.
+typedef struct DipPassWork {
+    DipPipeline *pipeline;
+    const DipPass *pass;
+    DipCounters *counters;
+    DipStageTimes *times;
+} DipPassWork;
+
+// Draws two passes into two targets at once, with two pipelines of one pool: a worker that has
+// drawn a tile of one draws the other's next, which shows much the same, and finds its texels in
+// the cache. The pictures are those that dip_pipeline_draw makes. same_geometry: the passes differ
+// in samples, textures and fragment shaders alone, not in target size, region, planes or what
+// vertex shaders do; geometry then runs once, keeps what any sample of either may show, and its
+// time and counters are added to both. Times of tiles are each pass' own.
+bool dip_pipeline_draw_pair(const DipPassWork works[2], bool same_geometry, DipError *err);
+
 // Makes the room that drawing the pass takes, so that drawing it later allocates nothing (but for
 // what clipping may add). The pass' target and uniforms are not read.
 bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err);

@@ -355,47 +355,60 @@ static void set_draws(const DipRenderer *renderer, const DipScene *scene, DipDra
     pass->draw_count = set->count;
 }
 
-// The mirrored scene above the water. What is less than two texels of the picture below it counts
-// as above, so that no background is read between a shore and its reflection.
-static bool draw_mirrored(DipRenderer *renderer, const DipScene *scene, const DipView *mirrored,
-                          const DipFramePlan *plan, DipFrame *frame, DipError *err) {
-    Mirror *mirror = &renderer->mirror;
-    const double above[4] = {0.0, 1.0, 0.0, -renderer->reflection.level_m};
-    const double texel = 2.0 / (mirrored->scale[1] * mirror->target.height); // at a distance of 1
-    double plane[4];
-    dip_view_plane(mirrored, above, plane);
-    plane[3] += 2.0 * texel;
-    DipPass pass = begin_pass(renderer, scene, plan);
-    pass.target = mirror->target;
-    pass.region = plan->mirrored_region;
-    pass.tile_parts = plan->mirrored_parts ? mirror->tile_parts : NULL;
-    pass.clip_plane_count = 1;
-    for (int i = 0; i < 4; i++) {
-        pass.clip_planes[0][i] = (float)plane[i];
-    }
-    const DipDrawView seen = {.view = mirrored, .mirrored = true};
-    set_draws(renderer, scene, seen, &mirror->set, &pass);
-    const bool drawn =
-        dip_pipeline_draw(mirror->pipeline, &pass, &frame->counters, &frame->stages, err);
-    frame->counters.fragments_mirrored = frame->counters.fragments_shaded;
-    return drawn;
-}
+// A frame in the making. Its parts point at each other.
+typedef struct Making {
+    DipRenderer *renderer;
+    const DipScene *scene;
+    DipFrame *frame;
+    DipView view;
+    DipView mirrored;
+    DipCullPlanes seen;
+    DipCullPlanes seen_mirrored;
+    DipParts parts;
+    DipPlanInput input;
+    DipFramePlan plan;
+    DipPass mirrored_pass; // where the plan reflects
+    DipPass pass;
+} Making;
 
 static DipTarget target_of(const DipRenderer *renderer) {
     return (DipTarget){renderer->rgba8, renderer->stride_bytes, renderer->width, renderer->height};
 }
 
-static bool draw_scene(DipRenderer *renderer, const DipScene *scene, const DipView *view,
-                       const DipFramePlan *plan, DipFrame *frame, DipError *err) {
+// The mirrored scene above the water. What is less than two texels of the picture below it counts
+// as above, so that no background is read between a shore and its reflection.
+static void make_mirrored_pass(Making *making) {
+    const DipRenderer *renderer = making->renderer;
+    const DipView *mirrored = &making->mirrored;
+    Mirror *mirror = &making->renderer->mirror;
+    const double above[4] = {0.0, 1.0, 0.0, -renderer->reflection.level_m};
+    const double texel = 2.0 / (mirrored->scale[1] * mirror->target.height); // at a distance of 1
+    double plane[4];
+    dip_view_plane(mirrored, above, plane);
+    plane[3] += 2.0 * texel;
+    DipPass *pass = &making->mirrored_pass;
+    *pass = begin_pass(renderer, making->scene, &making->plan);
+    pass->target = mirror->target;
+    pass->region = making->plan.mirrored_region;
+    pass->tile_parts = making->plan.mirrored_parts ? mirror->tile_parts : NULL;
+    pass->clip_plane_count = 1;
+    for (int i = 0; i < 4; i++) {
+        pass->clip_planes[0][i] = (float)plane[i];
+    }
+    const DipDrawView seen = {.view = mirrored, .mirrored = true};
+    set_draws(renderer, making->scene, seen, &mirror->set, pass);
+}
+
+static void make_scene_pass(Making *making) {
+    DipRenderer *renderer = making->renderer;
     const DipDrawView seen = {
-        .view = view,
-        .shown = plan->water_reflects ? &renderer->mirror.target : NULL,
+        .view = &making->view,
+        .shown = making->plan.water_reflects ? &renderer->mirror.target : NULL,
         .schlick = renderer->reflection.schlick,
     };
-    DipPass pass = begin_pass(renderer, scene, plan);
-    pass.target = target_of(renderer);
-    set_draws(renderer, scene, seen, &renderer->set, &pass);
-    return dip_pipeline_draw(renderer->pipeline, &pass, &frame->counters, &frame->stages, err);
+    making->pass = begin_pass(renderer, making->scene, &making->plan);
+    making->pass.target = target_of(renderer);
+    set_draws(renderer, making->scene, seen, &renderer->set, &making->pass);
 }
 
 // What the effects hold, used in this frame or not.
@@ -412,36 +425,39 @@ static void count_mirror(const Mirror *mirror, bool drawn, DipCounters *counters
     counters->tiles_spared += drawn ? 0 : across * down;
 }
 
-bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
-                       int64_t time_ns, DipFrame *frame, DipError *err) {
+// Decides what is drawn.
+static bool begin_frame(Making *making, DipRenderer *renderer, const DipScene *scene,
+                        const DipPose *pose, int64_t time_ns, DipFrame *frame, DipError *err) {
     if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err) ||
         !reserve_once(renderer, scene, err) || !follow_settings(renderer, scene, err)) {
         return false;
     }
-    const DipView view =
+    making->renderer = renderer;
+    making->scene = scene;
+    making->frame = frame;
+    making->view =
         dip_view_make(pose, (double)scene->near_m, (double)renderer->width / renderer->height);
-    const DipView mirrored = dip_view_mirror(&view, renderer->reflection.level_m);
-    const DipCullPlanes seen = dip_cull_view_planes(&view);
-    const DipCullPlanes seen_mirrored = dip_cull_view_planes(&mirrored);
+    making->mirrored = dip_view_mirror(&making->view, renderer->reflection.level_m);
+    making->seen = dip_cull_view_planes(&making->view);
+    making->seen_mirrored = dip_cull_view_planes(&making->mirrored);
     // A bilinear read takes in the next texel; one more for what is rounded.
     const Mirror *mirror = &renderer->mirror;
-    const DipParts parts = {mirror->tile_parts, mirror->target.width, mirror->target.height, 2};
-    const DipPlanInput input = {
+    making->parts = (DipParts){mirror->tile_parts, mirror->target.width, mirror->target.height, 2};
+    making->input = (DipPlanInput){
         .scene = scene,
-        .view = &view,
-        .mirrored = &mirrored,
-        .seen = &seen,
-        .seen_mirrored = &seen_mirrored,
-        .parts = &parts,
+        .view = &making->view,
+        .mirrored = &making->mirrored,
+        .seen = &making->seen,
+        .seen_mirrored = &making->seen_mirrored,
+        .parts = &making->parts,
         .reflection = &renderer->reflection,
         .quality = &renderer->quality,
         .plain_surfaces = renderer->plain_surfaces,
         .force_all = renderer->force_all_effects,
     };
-    const DipFramePlan plan = dip_plan_frame(&input);
-    const bool reflects = plan.effects.reflection.run;
+    making->plan = dip_plan_frame(&making->input);
     dip_set_samplers(scene, &renderer->quality, renderer->mip_colours, renderer->samplers);
-    if (plan.effects.sky.run) {
+    if (making->plan.effects.sky.run) {
         renderer->sky = dip_sky_at(&scene->sky, time_ns);
     }
     *frame = (DipFrame){
@@ -449,19 +465,97 @@ bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPo
         .stride_bytes = renderer->stride_bytes,
         .width = renderer->width,
         .height = renderer->height,
-        .effects = plan.effects,
+        .effects = making->plan.effects,
     };
-    if ((reflects && !draw_mirrored(renderer, scene, &mirrored, &plan, frame, err)) ||
-        !draw_scene(renderer, scene, &view, &plan, frame, err)) {
+    if (making->plan.effects.reflection.run) {
+        make_mirrored_pass(making);
+    }
+    make_scene_pass(making);
+    return true;
+}
+
+static DipPassWork work_of(DipPipeline *pipeline, const DipPass *pass, DipFrame *frame) {
+    return (DipPassWork){pipeline, pass, &frame->counters, &frame->stages};
+}
+
+static bool draw_works(const DipPassWork *works, int count, bool same_geometry, DipError *err) {
+    if (count == 2) {
+        return dip_pipeline_draw_pair(works, same_geometry, err);
+    }
+    return !count ||
+           dip_pipeline_draw(works->pipeline, works->pass, works->counters, works->times, err);
+}
+
+// Draws one or two frames; of two, same_geometry: they differ in samples and shading alone.
+static bool draw_frames(Making *makings, int count, bool same_geometry, DipError *err) {
+    DipPassWork works[2];
+    int work_count = 0;
+    for (int i = 0; i < count; i++) {
+        if (makings[i].plan.effects.reflection.run) {
+            works[work_count++] = work_of(makings[i].renderer->mirror.pipeline,
+                                          &makings[i].mirrored_pass, makings[i].frame);
+        }
+    }
+    if (!draw_works(works, work_count, same_geometry, err)) {
         return false;
     }
+    for (int i = 0; i < count; i++) {
+        DipCounters *counters = &makings[i].frame->counters;
+        counters->fragments_mirrored = counters->fragments_shaded;
+        works[i] = work_of(makings[i].renderer->pipeline, &makings[i].pass, makings[i].frame);
+    }
+    return draw_works(works, count, same_geometry, err);
+}
+
+static void end_frame(const Making *making) {
+    const DipRenderer *renderer = making->renderer;
+    DipFrame *frame = making->frame;
+    const bool reflects = making->plan.effects.reflection.run;
     count_mirror(&renderer->mirror, reflects, &frame->counters);
-    count_bytes(scene, &frame->counters);
-    dip_count_geometry(scene, renderer->expanded, &frame->counters);
-    dip_plan_settle(&input, &frame->counters, &frame->effects);
+    count_bytes(making->scene, &frame->counters);
+    dip_count_geometry(making->scene, renderer->expanded, &frame->counters);
+    dip_plan_settle(&making->input, &frame->counters, &frame->effects);
     if (reflects && renderer->reflection.show) {
         const DipTarget target = target_of(renderer);
         dip_inset_draw(&target, &renderer->mirror.target);
+    }
+}
+
+bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
+                       int64_t time_ns, DipFrame *frame, DipError *err) {
+    Making making;
+    if (!begin_frame(&making, renderer, scene, pose, time_ns, frame, err) ||
+        !draw_frames(&making, 1, false, err)) {
+        return false;
+    }
+    end_frame(&making);
+    return true;
+}
+
+// Whether two renderers' frames differ in samples and shading alone.
+static bool same_geometry(const DipRenderer *a, const DipRenderer *b) {
+    const DipReflectionDef *r = &a->reflection;
+    const DipReflectionDef *s = &b->reflection;
+    return a->isa == b->isa && a->width == b->width && a->height == b->height &&
+           a->plain_surfaces == b->plain_surfaces && a->force_all_effects == b->force_all_effects &&
+           a->quality.step[DIP_SETTING_GI] == b->quality.step[DIP_SETTING_GI] &&
+           r->width == s->width && r->height == s->height && r->level_m == s->level_m;
+}
+
+bool dip_renderer_draw_pair(DipRenderer *const renderers[2], const DipScene *scene,
+                            const DipPose *pose, int64_t time_ns, DipFrame *const frames[2],
+                            DipError *err) {
+    Making makings[2];
+    for (int i = 0; i < 2; i++) {
+        if (!begin_frame(&makings[i], renderers[i], scene, pose, time_ns, frames[i], err)) {
+            return false;
+        }
+    }
+    if (!draw_frames(makings, 2, same_geometry(renderers[0], renderers[1]), err)) {
+        return false;
+    }
+    for (int i = 0; i < 2; i++) {
+        end_frame(&makings[i]);
     }
     return true;
 }

@@ -1,6 +1,7 @@
 // The geometry phase: transforming chunks in view, clipping, set-up and binning, by jobs.
 #include "renderer/geometry/geometry.h"
 
+#include "renderer/base/pages.h"
 #include "renderer/geometry/clip.h"
 #include "renderer/geometry/cull.h"
 #include "renderer/geometry/mesh.h"
@@ -104,7 +105,7 @@ static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
 static bool replace(void *pointer_to_array, size_t count, size_t size) {
     void **array = pointer_to_array;
     free(*array);
-    *array = aligned_alloc(64, (count * size / 64 + 1) * 64);
+    *array = dip_pages_alloc(count * size);
     return *array != NULL;
 }
 
@@ -217,10 +218,23 @@ static void list_tiles(DipGeometry *geometry) {
     }
 }
 
-bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err) {
+static void add_samples(DipSamplePattern *samples, const DipPass *pass) {
+    const DipSamplePattern *pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
+    for (int s = 0; s < pattern->count; s++) {
+        samples->x[samples->count] = pattern->x[s];
+        samples->y[samples->count++] = pattern->y[s];
+    }
+}
+
+bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, const DipPass *also,
+                        DipError *err) {
     geometry->pass = pass;
     geometry->mapping = dip_screen_mapping(pass);
-    geometry->pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
+    geometry->samples.count = 0;
+    add_samples(&geometry->samples, pass);
+    if (also) {
+        add_samples(&geometry->samples, also);
+    }
     geometry->region = dip_drawn_region(pass);
     geometry->tile_region = tiles_of(&geometry->region);
     list_tiles(geometry);
@@ -517,11 +531,11 @@ static DipSetupTarget setup_target(const DipGeometry *geometry) {
         .region_first = {region->x0, region->y0},
         .region_last = {region->x1 - 1, region->y1 - 1},
         .surface_stride = geometry->surface_stride,
-        .pattern = geometry->pattern,
+        .samples = &geometry->samples,
         .sample_min = {255, 255},
     };
-    for (int s = 0; s < geometry->pattern->count; s++) {
-        const uint8_t at[2] = {geometry->pattern->x[s], geometry->pattern->y[s]};
+    for (int s = 0; s < geometry->samples.count; s++) {
+        const uint8_t at[2] = {geometry->samples.x[s], geometry->samples.y[s]};
         for (int axis = 0; axis < 2; axis++) {
             if (at[axis] < target.sample_min[axis]) {
                 target.sample_min[axis] = at[axis];

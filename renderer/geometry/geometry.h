@@ -63,7 +63,7 @@ typedef struct DipGeometryJob {
 typedef struct DipGeometry {
     const DipPass *pass;
     DipScreenMapping mapping;
-    const DipSamplePattern *pattern;
+    DipSamplePattern samples; // of all passes that are drawn from it
     int tiles_x;
     int tiles_y;
     DipRegion region;      // pixels that are drawn, see dip_drawn_region
@@ -116,8 +116,10 @@ static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, in
 // Makes room for the pass.
 bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *err);
 
-// Finds the chunks in view, cuts them into jobs and makes room for the pass.
-bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err);
+// Finds the chunks in view, cuts them into jobs and makes room for the pass. also: another pass
+// that is drawn from the same geometry, differing in samples and shading alone; NULL: none.
+bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, const DipPass *also,
+                        DipError *err);
 
 // Runs one job; any thread.
 void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int job,

@@ -25,8 +25,8 @@ typedef struct DipSetupTarget {
     uint32_t draw;
     uint32_t first_patch; // the number of the draw's patch 0
     DipCull cull;
-    const DipSamplePattern *pattern;
-    uint8_t sample_min[2]; // least and greatest sample position of the pattern, 1/256 pixel
+    const DipSamplePattern *samples;
+    uint8_t sample_min[2]; // least and greatest of their positions, 1/256 pixel
     uint8_t sample_max[2];
 } DipSetupTarget;
 

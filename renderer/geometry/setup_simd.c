@@ -61,12 +61,12 @@ VEC_INLINE Hi is_small(const Hi at[3]) {
 
 // Whether each triangle, small and wound so that its area is positive, covers a sample of a pixel
 // that its box meets.
-VEC_INLINE Hi covers_pixel(const DipSamplePattern *pattern, const Hi x[3], const Hi y[3],
+VEC_INLINE Hi covers_pixel(const DipSamplePattern *samples, const Hi x[3], const Hi y[3],
                            const Hi pixel[2]) {
     Hi covers = hi_splat(0);
-    for (int s = 0; s < pattern->count; s++) {
-        const Hi at_x = pixel[0] * DIP_SUBPIXELS + pattern->x[s];
-        const Hi at_y = pixel[1] * DIP_SUBPIXELS + pattern->y[s];
+    for (int s = 0; s < samples->count; s++) {
+        const Hi at_x = pixel[0] * DIP_SUBPIXELS + samples->x[s];
+        const Hi at_y = pixel[1] * DIP_SUBPIXELS + samples->y[s];
         Hi inside = hi_splat(-1);
         for (int i = 0; i < 3; i++) {
             const Hi dx = x[(i + 1) % 3] - x[i];
@@ -102,7 +102,6 @@ VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch
                 &last[1]);
     const Hi facing = (front & hi_splat(target->cull == DIP_CULL_FRONT ? 0 : -1)) |
                       (back & hi_splat(target->cull == DIP_CULL_BACK ? 0 : -1));
-    // The box itself is not cut to the region, since shading planes depend on it.
     Hi kept = facing & (first[0] <= last[0]) & (first[1] <= last[1]);
     for (int axis = 0; axis < 2; axis++) {
         kept &= (first[axis] <= hi_splat(target->region_last[axis])) &
@@ -120,7 +119,7 @@ VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch
     swap_if(front, &y[1], &y[2]);
     const Hi one_pixel = (first[0] == last[0]) & (first[1] == last[1]) & is_small(x) & is_small(y);
     if (hi_mask_bits(one_pixel) & bits) {
-        bits &= hi_mask_bits(~one_pixel | covers_pixel(target->pattern, x, y, first));
+        bits &= hi_mask_bits(~one_pixel | covers_pixel(target->samples, x, y, first));
     }
     for (int k = 0; k < 3; k++) {
         hi_store_packed(out->corner[k] + count, corner[k], bits);
@@ -259,15 +258,19 @@ VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen
     }
 }
 
-// The corner of the pixel box where 1/w is smallest in magnitude.
-VEC_INLINE void find_anchor(const Frame *frame, Vd rw0, const Gradient *q, Vd anchor[2]) {
+// The corner of the box of the target's pixels that the triangle touches where 1/w is smallest in
+// magnitude. Samples do not matter, so that all passes from the same geometry have the same planes.
+VEC_INLINE void find_anchor(const Frame *frame, const DipSetupTarget *target, Vd rw0,
+                            const Gradient *q, Vd anchor[2]) {
+    Hi first[2];
+    Hi last[2];
+    pixel_range(frame->x, 0, DIP_SUBPIXELS - 1, target->width, &first[0], &last[0]);
+    pixel_range(frame->y, 0, DIP_SUBPIXELS - 1, target->height, &first[1], &last[1]);
     Vd best = vd_splat(1e300);
     anchor[0] = anchor[1] = vd_splat(0.0);
     for (int corner = 0; corner < 4; corner++) {
-        const Hi x = corner & 1 ? (frame->last_pixel & 0xffff) + 1 : frame->first_pixel & 0xffff;
-        const Hi y = corner & 2 ? (frame->last_pixel >> 16) + 1 : frame->first_pixel >> 16;
-        const Vd at_x = vd_from_int(x);
-        const Vd at_y = vd_from_int(y);
+        const Vd at_x = vd_from_int(corner & 1 ? last[0] + 1 : first[0]);
+        const Vd at_y = vd_from_int(corner & 2 ? last[1] + 1 : first[1]);
         const Vd size = vd_abs(rw0 + q->dx * (at_x - frame->x0) + q->dy * (at_y - frame->y0));
         const Vl smaller = size < best;
         best = vd_select(smaller, size, best);
@@ -292,7 +295,7 @@ VEC_INLINE void store_surfaces(const Frame *frame, const DipSetupTarget *target,
     const Vd rw[3] = {vd_from_float(corner[0]), vd_from_float(corner[1]), vd_from_float(corner[2])};
     const Gradient q = gradient(frame, rw);
     Vd anchor[2];
-    find_anchor(frame, rw[0], &q, anchor);
+    find_anchor(frame, target, rw[0], &q, anchor);
     const Vd to_anchor[2] = {anchor[0] - frame->x0, anchor[1] - frame->y0};
     values[DIP_SURFACE_ANCHOR] = hf_from_double(anchor[0]);
     values[DIP_SURFACE_ANCHOR + 1] = hf_from_double(anchor[1]);

@@ -27,8 +27,8 @@ typedef struct DipTriangle {
 
 // Shading planes, in an array of their own, triangle by triangle: anchor x, y (pixels); then 1/w
 // and each slot/w as value at the anchor, d/dx, d/dy per pixel. The anchor is the corner of the
-// triangle's pixel box where 1/w is smallest, because float planes are most exact near their anchor
-// and the far end of a receding surface needs that most.
+// box of pixels that the triangle touches where 1/w is smallest, because float planes are most
+// exact near their anchor and the far end of a receding surface needs that most.
 enum {
     DIP_SURFACE_ANCHOR = 0,
     DIP_SURFACE_RW = 2,

@@ -42,7 +42,7 @@ static DipSetupTarget target_of(const DipSamplePattern *pattern) {
                              .height = TARGET_HEIGHT,
                              .region_last = {TARGET_WIDTH - 1, TARGET_HEIGHT - 1},
                              .surface_stride = DIP_SURFACE_ALIGN,
-                             .pattern = pattern,
+                             .samples = pattern,
                              .cull = DIP_CULL_NONE,
                              .sample_min = {255, 255}};
     for (int s = 0; s < pattern->count; s++) {

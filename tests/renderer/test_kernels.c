@@ -139,7 +139,7 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
                                    .draw = 17,
                                    .first_patch = 1000,
                                    .cull = (DipCull)random_int(random, 0, 2),
-                                   .pattern = dip_sample_pattern(8),
+                                   .samples = dip_sample_pattern(8),
                                    .sample_min = {16, 16},
                                    .sample_max = {240, 240}};
     const DipSetupBatch batch = {.count = random_int(random, 1, DIP_SETUP_BATCH),
