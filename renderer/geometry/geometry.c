@@ -205,15 +205,28 @@ static bool is_wanted(const DipGeometry *geometry, size_t tile) {
     return !parts || parts[tile].x1;
 }
 
-static void list_tiles(DipGeometry *geometry) {
+// Threads take tiles in turn: in groups of 2x2 they are at neighbours for longer, which read much
+// the same texels and triangles, than along rows.
+enum { TILE_GROUP = 2 };
+
+static void list_group(DipGeometry *geometry, int x0, int y0) {
     const DipRegion *region = &geometry->tile_region;
-    geometry->tile_count = 0;
-    for (int y = region->y0; y < region->y1; y++) {
-        for (int x = region->x0; x < region->x1; x++) {
+    for (int x = x0; x < x0 + TILE_GROUP && x < region->x1; x++) {
+        for (int y = y0; y < y0 + TILE_GROUP && y < region->y1; y++) {
             const int tile = y * geometry->tiles_x + x;
             if (is_wanted(geometry, (size_t)tile)) {
                 geometry->tiles[geometry->tile_count++] = (uint16_t)tile;
             }
+        }
+    }
+}
+
+static void list_tiles(DipGeometry *geometry) {
+    const DipRegion *region = &geometry->tile_region;
+    geometry->tile_count = 0;
+    for (int y = region->y0; y < region->y1; y += TILE_GROUP) {
+        for (int x = region->x0; x < region->x1; x += TILE_GROUP) {
+            list_group(geometry, x, y);
         }
     }
 }

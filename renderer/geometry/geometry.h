@@ -66,11 +66,11 @@ typedef struct DipGeometry {
     DipSamplePattern samples; // of all passes that are drawn from it
     int tiles_x;
     int tiles_y;
-    DipRegion region;      // pixels that are drawn, see dip_drawn_region
-    DipRegion tile_region; // tiles that these lie in
-    int tile_count;        // that are drawn, and which: indices row by row
-    uint16_t tiles[DIP_MAX_BINS];
-    int surface_stride; // floats per triangle: that of the pass' largest slot count
+    DipRegion region;             // pixels that are drawn, see dip_drawn_region
+    DipRegion tile_region;        // tiles that these lie in
+    int tile_count;               // to be drawn
+    uint16_t tiles[DIP_MAX_BINS]; // which, in the order of drawing: y * tiles_x + x
+    int surface_stride;           // floats per triangle: that of the pass' largest slot count
     int job_count;
     DipGeometryJob jobs[DIP_MAX_JOBS];
     uint32_t visible_count;
