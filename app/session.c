@@ -492,6 +492,18 @@ static DipFrame copy_of(const DipFrame *frame) {
     return copy;
 }
 
+// One pane, shown twice.
+static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_ns,
+                        DipSessionFrame *frame, DipError *err) {
+    DipFrame *pane = &frame->panes[DIP_PANE_CURRENT];
+    if (!dip_renderer_draw(session->renderers[DIP_PANE_CURRENT], session->scene, pose, play_ns,
+                           pane, err)) {
+        return false;
+    }
+    frame->panes[DIP_PANE_REQUESTED] = copy_of(pane);
+    return true;
+}
+
 bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err) {
     const DipQuality current = dip_renderer_quality(session->renderers[DIP_PANE_CURRENT]);
@@ -502,16 +514,12 @@ bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t pla
         dip_renderer_set_frame_index(session->renderers[p], frame_index);
     }
     DipFrame *const panes[DIP_PANE_COUNT] = {&frame->panes[0], &frame->panes[1]};
-    if (!frame->copied) {
-        return dip_renderer_draw_pair(session->renderers, session->scene, pose, play_ns, panes,
-                                      err);
-    }
-    if (!dip_renderer_draw(session->renderers[DIP_PANE_CURRENT], session->scene, pose, play_ns,
-                           panes[DIP_PANE_CURRENT], err)) {
-        return false;
-    }
-    *panes[DIP_PANE_REQUESTED] = copy_of(panes[DIP_PANE_CURRENT]);
-    return true;
+    const int64_t begin_ns = dip_clock_ns();
+    const bool drawn = frame->copied ? draw_copied(session, pose, play_ns, frame, err)
+                                     : dip_renderer_draw_pair(session->renderers, session->scene,
+                                                              pose, play_ns, panes, err);
+    frame->ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
+    return drawn;
 }
 
 bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index, DipPose *pose,
