@@ -113,8 +113,10 @@ def gallery(part):
         part.polygon("wood", [(0, behind, CEILING_M), (LENGTH_M, behind, CEILING_M),
                               (LENGTH_M, WALL_M, CEILING_M), (0, WALL_M, CEILING_M)])
     with part.sheet("xy"):
-        part.polygon("paving", [(0, -0.35, FLOOR_M), (LENGTH_M, -0.35, FLOOR_M),
-                                (LENGTH_M, GALLERY_M, FLOOR_M), (0, GALLERY_M, FLOOR_M)])
+        for c in centres():
+            x0, x1 = c - BAY_M / 2, c + BAY_M / 2
+            part.polygon("paving", [(x0, -0.35, FLOOR_M), (x1, -0.35, FLOOR_M),
+                                    (x1, GALLERY_M, FLOOR_M), (x0, GALLERY_M, FLOOR_M)])
     # Seen through the joints of floor and walls, whose edges are cut at different places.
     y, z = GALLERY_M, FLOOR_M - 0.02
     for x0, x1, y0, y1 in ((-0.6, LENGTH_M + 0.6, y - 0.05, y + 0.6), (-0.6, 0.05, 0.1, y),
