@@ -7,10 +7,11 @@ from wing import DOOR, FLOOR_M, GALLERY_M, WINDOW
 REVEAL_M = 0.28
 
 
-def reveal(part, half, foot, head, front, depth):
-    """The inner faces of a hole in a wall but for its foot, from y = front on."""
-    part.polygon("carved", [(-half, depth, head), (half, depth, head), (half, front, head),
-                            (-half, front, head)])
+def reveal(part, half, foot, head, front, head_front, depth):
+    """The inner faces of a hole in a wall but for its foot: the sides from y = front on, the head
+    from head_front on."""
+    part.polygon("carved", [(-half, depth, head), (half, depth, head), (half, head_front, head),
+                            (-half, head_front, head)])
     part.polygon("carved", [(-half, front, foot), (-half, depth, foot), (-half, depth, head),
                             (-half, front, head)])
     part.polygon("carved", [(half, depth, foot), (half, front, foot), (half, front, head),
@@ -41,7 +42,7 @@ def shutters(part, half, foot, head, opened_deg):
 def window(opened_deg=8.0):
     half, sill, head = WINDOW
     part = Part(f"window_{opened_deg:.0f}")
-    reveal(part, half, sill, head, -0.06, REVEAL_M)
+    reveal(part, half, sill, head, -0.06, -0.06, REVEAL_M)
     sash(part, half, sill, head, REVEAL_M - 0.06)
     for side in (-1, 1):
         x0, x1 = sorted((side * half, side * (half + 0.15)))
@@ -73,7 +74,7 @@ def doorway():
     part = Part("doorway")
     y, foot, head = GALLERY_M, FLOOR_M, FLOOR_M + height
     with part.placed(y=y):
-        reveal(part, half, foot, head, -0.06, 0.14)
+        reveal(part, half, foot, head, -0.06, 0.0, 0.14)
         part.polygon("carved", [(-half, 0, foot), (half, 0, foot), (half, 0.14, foot),
                                 (-half, 0.14, foot)])
         for side in (-1, 1):
