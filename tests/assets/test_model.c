@@ -190,7 +190,8 @@ static void courtyard_repeats_its_parts(void **state) {
     static const struct {
         const char *name;
         int count;
-    } repeated[] = {{"column_near_east", 4}, {"fence_panel", 4}, {"pier", 4}, {"belfry_baluster", 28}};
+    } repeated[] = {
+        {"column_near_east", 4}, {"fence_panel", 4}, {"pier", 4}, {"belfry_baluster", 28}};
     for (size_t r = 0; r < sizeof repeated / sizeof repeated[0]; ++r) {
         const int mesh = def->objects[find_object(def, repeated[r].name)].mesh;
         int count = 0;
