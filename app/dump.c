@@ -48,7 +48,8 @@ static bool dump_frame(DipSession *session, const DipOptions *options, int index
             return false;
         }
     }
-    return !record || dip_record_add(record, index, 1e-9 * (double)time_ns, &pose, panes, err);
+    return !record ||
+           dip_record_add(record, index, 1e-9 * (double)time_ns, &pose, frame.ms, panes, err);
 }
 
 static bool write_records(const DipRecord *record, const DipOptions *options, DipError *err) {

@@ -93,11 +93,12 @@ static bool add_pane(cJSON *frame, const char *name, const DipRecordPane *pane) 
            add_effects(object, &pane->frame->effects);
 }
 
-bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *pose,
+bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *pose, double ms,
                     const DipRecordPane panes[2], DipError *err) {
     cJSON *frame = cJSON_CreateObject();
     const bool made = frame && cJSON_AddNumberToObject(frame, "index", index) &&
                       cJSON_AddNumberToObject(frame, "time_s", time_s) && add_pose(frame, pose) &&
+                      cJSON_AddNumberToObject(frame, "ms", ms) &&
                       add_pane(frame, "current", &panes[0]) &&
                       add_pane(frame, "requested", &panes[1]);
     if (!made || !cJSON_AddItemToArray(record->frames, frame)) {

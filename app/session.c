@@ -492,6 +492,18 @@ static DipFrame copy_of(const DipFrame *frame) {
     return copy;
 }
 
+// One pane, shown twice.
+static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_ns,
+                        DipSessionFrame *frame, DipError *err) {
+    DipFrame *pane = &frame->panes[DIP_PANE_CURRENT];
+    if (!dip_renderer_draw(session->renderers[DIP_PANE_CURRENT], session->scene, pose, play_ns,
+                           pane, err)) {
+        return false;
+    }
+    frame->panes[DIP_PANE_REQUESTED] = copy_of(pane);
+    return true;
+}
+
 bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err) {
     const DipQuality current = dip_renderer_quality(session->renderers[DIP_PANE_CURRENT]);
@@ -499,17 +511,15 @@ bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t pla
     frame->copied =
         !session->force_all_effects && memcmp(&current, &requested, sizeof current) == 0;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        DipRenderer *renderer = session->renderers[p];
-        if (p == DIP_PANE_REQUESTED && frame->copied) {
-            frame->panes[p] = copy_of(&frame->panes[DIP_PANE_CURRENT]);
-            continue;
-        }
-        dip_renderer_set_frame_index(renderer, frame_index);
-        if (!dip_renderer_draw(renderer, session->scene, pose, play_ns, &frame->panes[p], err)) {
-            return false;
-        }
+        dip_renderer_set_frame_index(session->renderers[p], frame_index);
     }
-    return true;
+    DipFrame *const panes[DIP_PANE_COUNT] = {&frame->panes[0], &frame->panes[1]};
+    const int64_t begin_ns = dip_clock_ns();
+    const bool drawn = frame->copied ? draw_copied(session, pose, play_ns, frame, err)
+                                     : dip_renderer_draw_pair(session->renderers, session->scene,
+                                                              pose, play_ns, panes, err);
+    frame->ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
+    return drawn;
 }
 
 bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index, DipPose *pose,

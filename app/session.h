@@ -46,13 +46,14 @@ const char *dip_session_category(int slot);
 // What the panes show of one frame.
 typedef struct DipSessionFrame {
     DipFrame panes[DIP_PANE_COUNT];
+    double ms; // both took, on the clock; less than their sum where they share work
     // The requested pane is a copy of the current one, whose settings are the same: it took neither
     // time nor work, and shares its pixels. Never when all effects are forced.
     bool copied;
 } DipSessionFrame;
 
-// Draws both panes from a pose. frame_index: see dip_renderer_set_frame_index. Both renderers must
-// have one size.
+// Draws both panes from a pose, at once. frame_index: see dip_renderer_set_frame_index. Both
+// renderers must have one size.
 bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err);
 

@@ -231,7 +231,8 @@ void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDraw
         const DipSceneObject *object = &scene->objects[i];
         const bool water =
             scene->materials[scene->meshes[object->mesh].material].surface == DIP_SURFACE_WATER;
-        if (!(pass->mirrored && water)) {
+        if (!(pass->mirrored && water) &&
+            !(pass->seen && dip_cull_outside(pass->seen, &object->bounds))) {
             add_draw(input, pass, i, set);
         }
     }

@@ -4,6 +4,7 @@
 #define DIP_RENDERER_DRAWS_H
 
 #include "renderer/base/error.h"
+#include "renderer/geometry/cull.h"
 #include "renderer/geometry/view.h"
 #include "renderer/instancing.h"
 #include "renderer/pipeline.h"
@@ -31,7 +32,8 @@ typedef struct DipDrawInput {
 // What a pass has of its own.
 typedef struct DipDrawView {
     const DipView *view;
-    int width; // of the target, pixels
+    const DipCullPlanes *seen; // only what may lie within is drawn; NULL: all objects
+    int width;                 // of the target, pixels
     int height;
     bool mirrored;          // windings turn around, and water is left out
     const DipTarget *shown; // by the water: the mirrored picture; NULL: water is plain
@@ -40,7 +42,7 @@ typedef struct DipDrawView {
 
 // One pass' draws and all that they point to; 0 in all when empty.
 typedef struct DipDrawSet {
-    DipDraw *draws; // one per object, or fewer
+    DipDraw *draws; // one per object that may be seen
     int count;
     DipSurfaceUniforms *uniforms; // of each
     DipWaterUniforms *water;      // likewise; NULL unless made for water that reflects

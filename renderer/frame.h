@@ -24,7 +24,7 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(fragments_shaded, "fragments shaded: pixels times the surfaces seen in them")                \
     X(samples_shown, "samples that show a surface: covered, nearest, kept by its clip map")        \
     X(pixels_resolved, "pixels whose samples show more than one surface or pass")                  \
-    X(texture_probes, "filtered texture reads, trilinear or bilinear")                             \
+    X(texture_probes, "places of texture reads, in the finer of two levels")                       \
     X(texels_fetched, "texels read by these")                                                      \
     X(target_bytes, "bytes of colour that are written to targets")                                 \
     X(fragments_normal_mapped, "fragments whose normal came from a map")                           \

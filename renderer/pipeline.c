@@ -56,6 +56,8 @@ struct DipPipeline {
     DipSrgbEncodeTable *srgb;
     float srgb_light[256]; // of the codes
     const DipPass *pass;
+    const DipSamplePattern *pattern;
+    const DipGeometry *drawn; // of this pipeline, or of another that draws the same
     DipSamplePasses passes_made;
     const DipSamplePasses *passes; // NULL: alpha-clipped draws have one pass
     uint32_t clear_rgba8;
@@ -86,6 +88,7 @@ static void bind_batch(const Worker *worker, const DipDraw *draw, DipFragmentBat
     batch->samplers = draw->samplers;
     batch->uniforms = draw->uniforms;
     batch->sample_colour = worker->pipeline->kernels->dip_kernel_sample_colour;
+    batch->sample_colours = worker->pipeline->kernels->dip_kernel_sample_colours;
     batch->sample_alpha = worker->pipeline->kernels->dip_kernel_sample_alpha;
     batch->sample_target = worker->pipeline->kernels->dip_kernel_sample_target;
     batch->srgb_light = worker->pipeline->srgb_light;
@@ -147,7 +150,7 @@ static int pass_count(const DipPipeline *pipeline) {
 
 static void draw_triangle(Worker *worker, uint32_t index) {
     const DipPipeline *pipeline = worker->pipeline;
-    const DipTriangle *triangle = &pipeline->geometry.triangles[index];
+    const DipTriangle *triangle = &pipeline->drawn->triangles[index];
     const DipClipTest clip = {&worker->clip_list, clip_test, worker, pipeline->passes};
     const bool clipped = pipeline->pass->draws[triangle->draw].clip_shader != NULL;
     worker->work->clip_passes += clipped ? (uint64_t)pass_count(pipeline) : 0;
@@ -237,7 +240,7 @@ static void prefetch_first(const DipGeometry *geometry, const BinWalk *walk) {
 
 // Draws one job's triangles of the tile, merged by index, which is submission order.
 static void draw_job(Worker *worker, JobWalks *job) {
-    const DipGeometry *geometry = &worker->pipeline->geometry;
+    const DipGeometry *geometry = worker->pipeline->drawn;
     uint32_t next = next_of(geometry, &job->bin);
     uint32_t wide = next_of(geometry, &job->wide);
     while (next != DIP_NO_TRIANGLE || wide != DIP_NO_TRIANGLE) {
@@ -254,7 +257,7 @@ static void draw_job(Worker *worker, JobWalks *job) {
 }
 
 static void draw_jobs(Worker *worker, size_t tile) {
-    const DipGeometry *geometry = &worker->pipeline->geometry;
+    const DipGeometry *geometry = worker->pipeline->drawn;
     JobWalks jobs[DIP_MAX_JOBS];
     const int count = find_jobs(geometry, tile, jobs);
     for (int i = 0; i < count; i++) {
@@ -265,27 +268,30 @@ static void draw_jobs(Worker *worker, size_t tile) {
     }
 }
 
-static int positive(int value) {
-    return value > 0 ? value : 0;
+static int greatest(int a, int b) {
+    return a > b ? a : b;
 }
 
 // What of the tile is not drawn.
-static void set_margins(const DipRegion *region, DipTile *tile) {
-    tile->left = positive(region->x0 - tile->x0);
-    tile->top = positive(region->y0 - tile->y0);
-    tile->right = positive(tile->x0 + DIP_TILE - region->x1);
-    tile->bottom = positive(tile->y0 + DIP_TILE - region->y1);
+static void set_margins(const DipRegion *region, const DipTilePart *part, DipTile *tile) {
+    static const DipTilePart whole = {0, 0, DIP_TILE, DIP_TILE};
+    part = part ? part : &whole;
+    tile->left = greatest(region->x0 - tile->x0, part->x0);
+    tile->top = greatest(region->y0 - tile->y0, part->y0);
+    tile->right = greatest(tile->x0 + DIP_TILE - region->x1, DIP_TILE - part->x1);
+    tile->bottom = greatest(tile->y0 + DIP_TILE - region->y1, DIP_TILE - part->y1);
 }
 
 static void begin_tile(Worker *worker, int index) {
     const DipPipeline *pipeline = worker->pipeline;
-    const DipGeometry *geometry = &pipeline->geometry;
+    const DipGeometry *geometry = pipeline->drawn;
     const DipTarget *target = &pipeline->pass->target;
     DipTile *tile = &worker->tile;
     tile->x0 = index % geometry->tiles_x * DIP_TILE;
     tile->y0 = index / geometry->tiles_x * DIP_TILE;
-    set_margins(&geometry->region, tile);
-    tile->pattern = geometry->pattern;
+    const DipTilePart *parts = pipeline->pass->tile_parts;
+    set_margins(&geometry->region, parts ? &parts[index] : NULL, tile);
+    tile->pattern = pipeline->pattern;
     tile->touched = 0;
     tile->passed = 0;
     tile->sub_blocks_tested = 0;
@@ -329,9 +335,8 @@ static void shade_tile(Worker *worker) {
     shading->active_count = 0;
 }
 
-static void run_tile(void *context, int region_index, int worker_index) {
-    DipPipeline *pipeline = context;
-    const int index = dip_geometry_region_tile(&pipeline->geometry, region_index);
+static void run_tile(DipPipeline *pipeline, int tile, int worker_index) {
+    const int index = pipeline->drawn->tiles[tile];
     Worker *worker = pipeline->workers[worker_index];
     TileWork *work = &pipeline->tile_work[index];
     *work = (TileWork){0};
@@ -367,9 +372,10 @@ static void run_job(void *context, int index, int worker_index) {
                          &pipeline->workers[worker_index]->geometry);
 }
 
-static bool run_geometry(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
+static bool run_geometry(DipPipeline *pipeline, const DipPass *pass, const DipPass *also,
+                         DipError *err) {
     do {
-        if (!dip_geometry_begin(&pipeline->geometry, pass, err)) {
+        if (!dip_geometry_begin(&pipeline->geometry, pass, also, err)) {
             return false;
         }
         dip_pool_run(pipeline->pool, pipeline->geometry.job_count, run_job, pipeline);
@@ -377,21 +383,21 @@ static bool run_geometry(DipPipeline *pipeline, const DipPass *pass, DipError *e
     return true;
 }
 
-static void add_counters(const DipPipeline *pipeline, const DipTarget *target,
-                         DipCounters *counters) {
+static void add_counters(const DipPipeline *pipeline, DipCounters *counters) {
+    const DipTarget *target = &pipeline->pass->target;
     counters->target_bytes += 4 * (uint64_t)target->width * (uint64_t)target->height;
-    const DipGeometry *geometry = &pipeline->geometry;
+    const DipGeometry *geometry = pipeline->drawn;
     for (int j = 0; j < geometry->job_count; j++) {
         counters->triangles_in += geometry->jobs[j].triangles_in;
         counters->triangles_drawn += geometry->jobs[j].triangles_drawn;
         counters->tile_triangles += geometry->jobs[j].tile_triangles;
     }
-    const int tiles = dip_geometry_region_tiles(geometry);
+    const int tiles = geometry->tile_count;
     counters->passes++;
     counters->tiles_drawn += (uint64_t)tiles;
     counters->tiles_spared += dip_geometry_tiles(geometry) - (uint64_t)tiles;
     for (int t = 0; t < tiles; t++) {
-        const TileWork *work = &pipeline->tile_work[dip_geometry_region_tile(geometry, t)];
+        const TileWork *work = &pipeline->tile_work[geometry->tiles[t]];
         counters->sub_blocks_tested += work->sub_blocks_tested;
         counters->sub_blocks_accepted += work->sub_blocks_accepted;
         counters->fragments_clip_tested += work->clip_tested;
@@ -407,25 +413,32 @@ static void add_counters(const DipPipeline *pipeline, const DipTarget *target,
     }
 }
 
-// The workers' stage sums share out the wall time of the tile phase.
-static void add_times(const DipPipeline *pipeline, int64_t geometry_ns, int64_t tiles_ns,
-                      DipStageTimes *times) {
-    int64_t stage_ns[STAGE_COUNT] = {0};
-    int64_t sum_ns = 0;
-    for (int t = 0; t < dip_geometry_region_tiles(&pipeline->geometry); t++) {
-        const TileWork *work =
-            &pipeline->tile_work[dip_geometry_region_tile(&pipeline->geometry, t)];
+// The stages of a pipeline's tiles, summed over the workers.
+typedef struct StageSums {
+    int64_t ns[STAGE_COUNT];
+    int64_t total_ns;
+} StageSums;
+
+static StageSums sum_stages(const DipPipeline *pipeline) {
+    StageSums sums = {0};
+    for (int t = 0; t < pipeline->drawn->tile_count; t++) {
+        const TileWork *work = &pipeline->tile_work[pipeline->drawn->tiles[t]];
         for (int s = 0; s < STAGE_COUNT; s++) {
-            stage_ns[s] += work->stage_ns[s];
-            sum_ns += work->stage_ns[s];
+            sums.ns[s] += work->stage_ns[s];
+            sums.total_ns += work->stage_ns[s];
         }
     }
-    const double scale = sum_ns ? 1e-6 * (double)tiles_ns / (double)sum_ns : 0.0;
+    return sums;
+}
+
+// tile_scale: milliseconds of wall time per nanosecond of the workers' sums.
+static void add_times(const StageSums *sums, int64_t geometry_ns, double tile_scale,
+                      DipStageTimes *times) {
     times->geometry_ms += 1e-6 * (double)geometry_ns;
-    times->raster_ms += scale * (double)stage_ns[STAGE_RASTER];
-    times->shading_ms += scale * (double)stage_ns[STAGE_SHADING];
-    times->resolve_ms += scale * (double)stage_ns[STAGE_RESOLVE];
-    times->total_ms += 1e-6 * (double)(geometry_ns + tiles_ns);
+    times->raster_ms += tile_scale * (double)sums->ns[STAGE_RASTER];
+    times->shading_ms += tile_scale * (double)sums->ns[STAGE_SHADING];
+    times->resolve_ms += tile_scale * (double)sums->ns[STAGE_RESOLVE];
+    times->total_ms += 1e-6 * (double)geometry_ns + tile_scale * (double)sums->total_ns;
 }
 
 static void set_clear(DipPipeline *pipeline, const float clear_lin[3]) {
@@ -480,8 +493,7 @@ bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *
            dip_geometry_reserve(&pipeline->geometry, pass, err);
 }
 
-bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
-                       DipStageTimes *times, DipError *err) {
+static void check_pass(const DipPipeline *pipeline, const DipPass *pass) {
     DIP_ASSERT(pass->target.width == pipeline->width && pass->target.height == pipeline->height);
     DIP_ASSERT(pass->target.stride_bytes % 4 == 0);
     DIP_ASSERT(pass->target.stride_bytes >= 4 * (size_t)pass->target.width);
@@ -495,23 +507,102 @@ bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *
         DIP_ASSERT(pass->draws[d].plain_slot_count >= 0 &&
                    pass->draws[d].plain_slot_count <= pass->draws[d].slot_count);
     }
+}
+
+static bool begin_pass(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
+    check_pass(pipeline, pass);
     if (!make_lists(pipeline, pass->draw_count, err)) {
         return false;
     }
     pipeline->pass = pass;
+    pipeline->pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
+    pipeline->drawn = &pipeline->geometry;
     set_clear(pipeline, pass->clear_lin);
     set_passes(pipeline, pass);
-    const int64_t begin = dip_clock_ns();
-    if (!run_geometry(pipeline, pass, err)) {
+    return true;
+}
+
+// Passes that are drawn at once.
+typedef struct Passes {
+    const DipPassWork *works;
+    int count;
+} Passes;
+
+// One tile of each, in turn first, so that what one finds in the caches is fair.
+static void run_tiles(void *context, int tile, int worker_index) {
+    const Passes *passes = context;
+    for (int i = 0; i < passes->count; i++) {
+        DipPipeline *pipeline = passes->works[(tile + i) % passes->count].pipeline;
+        if (tile < pipeline->drawn->tile_count) {
+            run_tile(pipeline, tile, worker_index);
+        }
+    }
+}
+
+// The geometry of each pass, or of the first for all; geometry_ns: what each took.
+static bool run_geometries(const Passes *passes, bool shared, int64_t *geometry_ns, DipError *err) {
+    for (int i = 0; i < passes->count; i++) {
+        const DipPassWork *work = &passes->works[i];
+        if (shared && i) {
+            work->pipeline->drawn = passes->works[0].pipeline->drawn;
+            geometry_ns[i] = geometry_ns[0];
+            continue;
+        }
+        const DipPass *also = shared && passes->count > 1 ? passes->works[1].pass : NULL;
+        const int64_t begin_ns = dip_clock_ns();
+        if (!run_geometry(work->pipeline, work->pass, also, err)) {
+            return false;
+        }
+        geometry_ns[i] = dip_clock_ns() - begin_ns;
+    }
+    return true;
+}
+
+static bool draw_passes(const Passes *passes, bool shared, DipError *err) {
+    enum { MOST = 2 };
+    for (int i = 0; i < passes->count; i++) {
+        if (!begin_pass(passes->works[i].pipeline, passes->works[i].pass, err)) {
+            return false;
+        }
+    }
+    int64_t geometry_ns[MOST];
+    if (!run_geometries(passes, shared, geometry_ns, err)) {
         return false;
     }
-    const int64_t middle = dip_clock_ns();
-    dip_pool_run(pipeline->pool, dip_geometry_region_tiles(&pipeline->geometry), run_tile,
-                 pipeline);
-    const int64_t end = dip_clock_ns();
-    add_counters(pipeline, &pass->target, counters);
-    add_times(pipeline, middle - begin, end - middle, times);
+    int tiles = 0;
+    for (int i = 0; i < passes->count; i++) {
+        tiles = greatest(tiles, passes->works[i].pipeline->drawn->tile_count);
+    }
+    const int64_t begin_ns = dip_clock_ns();
+    dip_pool_run(passes->works[0].pipeline->pool, tiles, run_tiles, (void *)passes);
+    const int64_t tiles_ns = dip_clock_ns() - begin_ns;
+    StageSums sums[MOST];
+    int64_t sum_ns = 0;
+    for (int i = 0; i < passes->count; i++) {
+        sums[i] = sum_stages(passes->works[i].pipeline);
+        sum_ns += sums[i].total_ns;
+    }
+    const double scale = sum_ns ? 1e-6 * (double)tiles_ns / (double)sum_ns : 0.0;
+    for (int i = 0; i < passes->count; i++) {
+        const DipPassWork *work = &passes->works[i];
+        add_counters(work->pipeline, work->counters);
+        add_times(&sums[i], geometry_ns[i], scale, work->times);
+    }
     return true;
+}
+
+bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
+                       DipStageTimes *times, DipError *err) {
+    const DipPassWork work = {pipeline, pass, counters, times};
+    const Passes passes = {&work, 1};
+    return draw_passes(&passes, false, err);
+}
+
+bool dip_pipeline_draw_pair(const DipPassWork works[2], bool same_geometry, DipError *err) {
+    DIP_ASSERT(works[0].pipeline != works[1].pipeline);
+    DIP_ASSERT(works[0].pipeline->pool == works[1].pipeline->pool);
+    const Passes passes = {works, 2};
+    return draw_passes(&passes, same_geometry, err);
 }
 
 // --- making and ending -------------------------------------------------------------------------

@@ -51,6 +51,11 @@ typedef struct DipRegion {
     int x0, y0, x1, y1;
 } DipRegion;
 
+// Pixels x0..x1-1 by y0..y1-1 of a tile of 64x64, from its corner; multiples of 8. All 0: none.
+typedef struct DipTilePart {
+    uint8_t x0, y0, x1, y1;
+} DipTilePart;
+
 typedef struct DipPass {
     const DipDraw *draws; // in submission order: of coplanar surfaces the first stays
     int draw_count;
@@ -67,6 +72,9 @@ typedef struct DipPass {
     // The part of the target that is wanted. Blocks (8x8 pixels from the corner) that it does not
     // meet are neither drawn nor cleared; the others hold what they would without it, to the bit.
     DipRegion region;
+    // Likewise what is wanted of each tile of the target, row by row: no more than the region asks
+    // for. NULL: all of it.
+    const DipTilePart *tile_parts;
 } DipPass;
 
 typedef struct DipPipeline DipPipeline;
@@ -83,6 +91,22 @@ void dip_pipeline_destroy(DipPipeline **pipeline);
 // the target's content is undefined.
 bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipCounters *counters,
                        DipStageTimes *times, DipError *err);
+
+// A pass and what is added to.
+typedef struct DipPassWork {
+    DipPipeline *pipeline;
+    const DipPass *pass;
+    DipCounters *counters;
+    DipStageTimes *times;
+} DipPassWork;
+
+// Draws two passes into two targets at once, with two pipelines of one pool: a worker that has
+// drawn a tile of one draws the other's next, which shows much the same, and finds its texels in
+// the cache. The pictures are those that dip_pipeline_draw makes. same_geometry: the passes differ
+// in samples, textures and fragment shaders alone, not in target size, region, planes or what
+// vertex shaders do; geometry then runs once, keeps what any sample of either may show, and its
+// time and counters are added to both. Times of tiles are each pass' own.
+bool dip_pipeline_draw_pair(const DipPassWork works[2], bool same_geometry, DipError *err);
 
 // Makes the room that drawing the pass takes, so that drawing it later allocates nothing (but for
 // what clipping may add). The pass' target and uniforms are not read.

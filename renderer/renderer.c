@@ -22,6 +22,7 @@ enum { PIXEL_ALIGN = 64 };
 typedef struct Mirror {
     DipPipeline *pipeline;
     DipTarget target;
+    DipTilePart *tile_parts; // of the target: what the water can show
     DipDrawSet set;
 } Mirror;
 
@@ -43,6 +44,7 @@ struct DipRenderer {
 
     // For the scene drawn last.
     uint64_t scene_serial;
+    bool reserved; // the pipeline has room for it
     DipDrawSet set;
     Mirror mirror;
     DipMaterialSamplers *samplers; // per material
@@ -120,6 +122,7 @@ DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
 static void free_mirror(Mirror *mirror) {
     dip_pipeline_destroy(&mirror->pipeline);
     free(mirror->target.rgba8);
+    free(mirror->tile_parts);
     dip_draw_set_free(&mirror->set);
     *mirror = (Mirror){0};
 }
@@ -190,6 +193,7 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
     dip_pipeline_destroy(&renderer->pipeline);
     free(renderer->rgba8);
     renderer->pipeline = pipeline;
+    renderer->reserved = false;
     renderer->rgba8 = rgba8;
     renderer->stride_bytes = stride_bytes;
     renderer->width = width;
@@ -223,11 +227,20 @@ static DipDrawInput draw_input(const DipRenderer *renderer, const DipScene *scen
     };
 }
 
-static void set_mirrored_draws(DipRenderer *renderer, const DipScene *scene, const DipView *view) {
-    Mirror *mirror = &renderer->mirror;
+// Makes room for all that the scene has, in view or not.
+static bool reserve(const DipRenderer *renderer, const DipScene *scene, bool mirrored,
+                    DipPipeline *pipeline, DipDrawSet *set, DipError *err) {
+    const DipPose pose = {.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
+    const DipView view = dip_view_make(&pose, (double)scene->near_m, 1.0);
     const DipDrawInput input = draw_input(renderer, scene);
-    const DipDrawView pass = {view, mirror->target.width, mirror->target.height, .mirrored = true};
-    dip_draw_set_fill(&mirror->set, &input, &pass);
+    const DipDrawView all = {.view = &view, .width = 1, .height = 1, .mirrored = mirrored};
+    dip_draw_set_fill(set, &input, &all);
+    const DipPass pass = {.draws = set->draws, .draw_count = set->count};
+    return dip_pipeline_reserve(pipeline, &pass, err);
+}
+
+static int tiles_in(int size) {
+    return (size + DIP_TILE - 1) / DIP_TILE;
 }
 
 // Makes the reflection's target and room for its pass.
@@ -242,11 +255,14 @@ static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *
         return false;
     }
     memset(target->rgba8, 0, target->stride_bytes * (size_t)target->height);
-    const DipPose pose = {.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
-    const DipView view = dip_view_make(&pose, (double)scene->near_m, 1.0);
-    set_mirrored_draws(renderer, scene, &view);
-    const DipPass pass = {.draws = mirror->set.draws, .draw_count = mirror->set.count};
-    return dip_pipeline_reserve(mirror->pipeline, &pass, err);
+    mirror->tile_parts =
+        calloc((size_t)tiles_in(target->width) * (size_t)tiles_in(target->height) + 1,
+               sizeof *mirror->tile_parts);
+    if (!mirror->tile_parts) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "reflection",
+                             "no memory for %dx%d pixels", target->width, target->height);
+    }
+    return reserve(renderer, scene, true, mirror->pipeline, &mirror->set, err);
 }
 
 // Makes the arrays for a scene not drawn before.
@@ -268,7 +284,14 @@ static bool adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *
         return false;
     }
     renderer->scene_serial = scene->serial;
+    renderer->reserved = false;
     return true;
+}
+
+static bool reserve_once(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+    renderer->reserved = renderer->reserved ||
+                         reserve(renderer, scene, false, renderer->pipeline, &renderer->set, err);
+    return renderer->reserved;
 }
 
 // Makes what the settings need of the scene beside it, or gives it back.
@@ -306,12 +329,10 @@ static bool check_pose(const DipPose *pose, DipError *err) {
 
 // --- passes ------------------------------------------------------------------------------------
 
-// What every pass takes of the settings and the scene.
+// What every pass takes of the settings and the scene, without its draws.
 static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
-                          const DipFramePlan *plan, const DipDrawSet *set) {
+                          const DipFramePlan *plan) {
     DipPass pass = {
-        .draws = set->draws,
-        .draw_count = set->count,
         .sample_count = dip_quality_sample_count(&renderer->quality),
         .pattern =
             dip_pattern_kind(renderer->quality.step[DIP_SETTING_TAA] != 0, renderer->frame_index),
@@ -321,48 +342,73 @@ static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
     return pass;
 }
 
-// The mirrored scene above the water. What is less than two texels of the picture below it counts
-// as above, so that no background is read between a shore and its reflection.
-static bool draw_mirrored(DipRenderer *renderer, const DipScene *scene, const DipView *mirrored,
-                          const DipFramePlan *plan, DipFrame *frame, DipError *err) {
-    Mirror *mirror = &renderer->mirror;
-    const double above[4] = {0.0, 1.0, 0.0, -renderer->reflection.level_m};
-    const double texel = 2.0 / (mirrored->scale[1] * mirror->target.height); // at a distance of 1
-    double plane[4];
-    dip_view_plane(mirrored, above, plane);
-    plane[3] += 2.0 * texel;
-    set_mirrored_draws(renderer, scene, mirrored);
-    DipPass pass = begin_pass(renderer, scene, plan, &mirror->set);
-    pass.target = mirror->target;
-    pass.region = plan->mirrored_region;
-    pass.clip_plane_count = 1;
-    for (int i = 0; i < 4; i++) {
-        pass.clip_planes[0][i] = (float)plane[i];
-    }
-    const bool drawn =
-        dip_pipeline_draw(mirror->pipeline, &pass, &frame->counters, &frame->stages, err);
-    frame->counters.fragments_mirrored = frame->counters.fragments_shaded;
-    return drawn;
+// Gives a pass the draws of what it may show.
+static void set_draws(const DipRenderer *renderer, const DipScene *scene, DipDrawView view,
+                      DipDrawSet *set, DipPass *pass) {
+    const DipDrawInput input = draw_input(renderer, scene);
+    const DipCullPlanes seen = dip_cull_pass_planes(pass, view.view);
+    view.seen = &seen;
+    view.width = pass->target.width;
+    view.height = pass->target.height;
+    dip_draw_set_fill(set, &input, &view);
+    pass->draws = set->draws;
+    pass->draw_count = set->count;
 }
+
+// A frame in the making. Its parts point at each other.
+typedef struct Making {
+    DipRenderer *renderer;
+    const DipScene *scene;
+    DipFrame *frame;
+    DipView view;
+    DipView mirrored;
+    DipCullPlanes seen;
+    DipCullPlanes seen_mirrored;
+    DipParts parts;
+    DipPlanInput input;
+    DipFramePlan plan;
+    DipPass mirrored_pass; // where the plan reflects
+    DipPass pass;
+} Making;
 
 static DipTarget target_of(const DipRenderer *renderer) {
     return (DipTarget){renderer->rgba8, renderer->stride_bytes, renderer->width, renderer->height};
 }
 
-static bool draw_scene(DipRenderer *renderer, const DipScene *scene, const DipView *view,
-                       const DipFramePlan *plan, DipFrame *frame, DipError *err) {
-    const DipDrawInput input = draw_input(renderer, scene);
+// The mirrored scene above the water. What is less than two texels of the picture below it counts
+// as above, so that no background is read between a shore and its reflection.
+static void make_mirrored_pass(Making *making) {
+    const DipRenderer *renderer = making->renderer;
+    const DipView *mirrored = &making->mirrored;
+    Mirror *mirror = &making->renderer->mirror;
+    const double above[4] = {0.0, 1.0, 0.0, -renderer->reflection.level_m};
+    const double texel = 2.0 / (mirrored->scale[1] * mirror->target.height); // at a distance of 1
+    double plane[4];
+    dip_view_plane(mirrored, above, plane);
+    plane[3] += 2.0 * texel;
+    DipPass *pass = &making->mirrored_pass;
+    *pass = begin_pass(renderer, making->scene, &making->plan);
+    pass->target = mirror->target;
+    pass->region = making->plan.mirrored_region;
+    pass->tile_parts = making->plan.mirrored_parts ? mirror->tile_parts : NULL;
+    pass->clip_plane_count = 1;
+    for (int i = 0; i < 4; i++) {
+        pass->clip_planes[0][i] = (float)plane[i];
+    }
+    const DipDrawView seen = {.view = mirrored, .mirrored = true};
+    set_draws(renderer, making->scene, seen, &mirror->set, pass);
+}
+
+static void make_scene_pass(Making *making) {
+    DipRenderer *renderer = making->renderer;
     const DipDrawView seen = {
-        .view = view,
-        .width = renderer->width,
-        .height = renderer->height,
-        .shown = plan->water_reflects ? &renderer->mirror.target : NULL,
+        .view = &making->view,
+        .shown = making->plan.water_reflects ? &renderer->mirror.target : NULL,
         .schlick = renderer->reflection.schlick,
     };
-    dip_draw_set_fill(&renderer->set, &input, &seen);
-    DipPass pass = begin_pass(renderer, scene, plan, &renderer->set);
-    pass.target = target_of(renderer);
-    return dip_pipeline_draw(renderer->pipeline, &pass, &frame->counters, &frame->stages, err);
+    making->pass = begin_pass(renderer, making->scene, &making->plan);
+    making->pass.target = target_of(renderer);
+    set_draws(renderer, making->scene, seen, &renderer->set, &making->pass);
 }
 
 // What the effects hold, used in this frame or not.
@@ -373,34 +419,45 @@ static void count_bytes(const DipScene *scene, DipCounters *counters) {
 }
 
 static void count_mirror(const Mirror *mirror, bool drawn, DipCounters *counters) {
-    const uint64_t across = (uint64_t)(mirror->target.width + DIP_TILE - 1) / DIP_TILE;
-    const uint64_t down = (uint64_t)(mirror->target.height + DIP_TILE - 1) / DIP_TILE;
+    const uint64_t across = (uint64_t)tiles_in(mirror->target.width);
+    const uint64_t down = (uint64_t)tiles_in(mirror->target.height);
     counters->reflection_bytes = mirror->target.stride_bytes * (uint64_t)mirror->target.height;
     counters->tiles_spared += drawn ? 0 : across * down;
 }
 
-bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
-                       int64_t time_ns, DipFrame *frame, DipError *err) {
+// Decides what is drawn.
+static bool begin_frame(Making *making, DipRenderer *renderer, const DipScene *scene,
+                        const DipPose *pose, int64_t time_ns, DipFrame *frame, DipError *err) {
     if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err) ||
-        !follow_settings(renderer, scene, err)) {
+        !reserve_once(renderer, scene, err) || !follow_settings(renderer, scene, err)) {
         return false;
     }
-    const DipView view =
+    making->renderer = renderer;
+    making->scene = scene;
+    making->frame = frame;
+    making->view =
         dip_view_make(pose, (double)scene->near_m, (double)renderer->width / renderer->height);
-    const DipView mirrored = dip_view_mirror(&view, renderer->reflection.level_m);
-    const DipPlanInput input = {
+    making->mirrored = dip_view_mirror(&making->view, renderer->reflection.level_m);
+    making->seen = dip_cull_view_planes(&making->view);
+    making->seen_mirrored = dip_cull_view_planes(&making->mirrored);
+    // A bilinear read takes in the next texel; one more for what is rounded.
+    const Mirror *mirror = &renderer->mirror;
+    making->parts = (DipParts){mirror->tile_parts, mirror->target.width, mirror->target.height, 2};
+    making->input = (DipPlanInput){
         .scene = scene,
-        .view = &view,
-        .mirrored = &mirrored,
+        .view = &making->view,
+        .mirrored = &making->mirrored,
+        .seen = &making->seen,
+        .seen_mirrored = &making->seen_mirrored,
+        .parts = &making->parts,
         .reflection = &renderer->reflection,
         .quality = &renderer->quality,
         .plain_surfaces = renderer->plain_surfaces,
         .force_all = renderer->force_all_effects,
     };
-    const DipFramePlan plan = dip_plan_frame(&input);
-    const bool reflects = plan.effects.reflection.run;
+    making->plan = dip_plan_frame(&making->input);
     dip_set_samplers(scene, &renderer->quality, renderer->mip_colours, renderer->samplers);
-    if (plan.effects.sky.run) {
+    if (making->plan.effects.sky.run) {
         renderer->sky = dip_sky_at(&scene->sky, time_ns);
     }
     *frame = (DipFrame){
@@ -408,19 +465,97 @@ bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPo
         .stride_bytes = renderer->stride_bytes,
         .width = renderer->width,
         .height = renderer->height,
-        .effects = plan.effects,
+        .effects = making->plan.effects,
     };
-    if ((reflects && !draw_mirrored(renderer, scene, &mirrored, &plan, frame, err)) ||
-        !draw_scene(renderer, scene, &view, &plan, frame, err)) {
+    if (making->plan.effects.reflection.run) {
+        make_mirrored_pass(making);
+    }
+    make_scene_pass(making);
+    return true;
+}
+
+static DipPassWork work_of(DipPipeline *pipeline, const DipPass *pass, DipFrame *frame) {
+    return (DipPassWork){pipeline, pass, &frame->counters, &frame->stages};
+}
+
+static bool draw_works(const DipPassWork *works, int count, bool same_geometry, DipError *err) {
+    if (count == 2) {
+        return dip_pipeline_draw_pair(works, same_geometry, err);
+    }
+    return !count ||
+           dip_pipeline_draw(works->pipeline, works->pass, works->counters, works->times, err);
+}
+
+// Draws one or two frames; of two, same_geometry: they differ in samples and shading alone.
+static bool draw_frames(Making *makings, int count, bool same_geometry, DipError *err) {
+    DipPassWork works[2];
+    int work_count = 0;
+    for (int i = 0; i < count; i++) {
+        if (makings[i].plan.effects.reflection.run) {
+            works[work_count++] = work_of(makings[i].renderer->mirror.pipeline,
+                                          &makings[i].mirrored_pass, makings[i].frame);
+        }
+    }
+    if (!draw_works(works, work_count, same_geometry, err)) {
         return false;
     }
+    for (int i = 0; i < count; i++) {
+        DipCounters *counters = &makings[i].frame->counters;
+        counters->fragments_mirrored = counters->fragments_shaded;
+        works[i] = work_of(makings[i].renderer->pipeline, &makings[i].pass, makings[i].frame);
+    }
+    return draw_works(works, count, same_geometry, err);
+}
+
+static void end_frame(const Making *making) {
+    const DipRenderer *renderer = making->renderer;
+    DipFrame *frame = making->frame;
+    const bool reflects = making->plan.effects.reflection.run;
     count_mirror(&renderer->mirror, reflects, &frame->counters);
-    count_bytes(scene, &frame->counters);
-    dip_count_geometry(scene, renderer->expanded, &frame->counters);
-    dip_plan_settle(&input, &frame->counters, &frame->effects);
+    count_bytes(making->scene, &frame->counters);
+    dip_count_geometry(making->scene, renderer->expanded, &frame->counters);
+    dip_plan_settle(&making->input, &frame->counters, &frame->effects);
     if (reflects && renderer->reflection.show) {
         const DipTarget target = target_of(renderer);
         dip_inset_draw(&target, &renderer->mirror.target);
+    }
+}
+
+bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
+                       int64_t time_ns, DipFrame *frame, DipError *err) {
+    Making making;
+    if (!begin_frame(&making, renderer, scene, pose, time_ns, frame, err) ||
+        !draw_frames(&making, 1, false, err)) {
+        return false;
+    }
+    end_frame(&making);
+    return true;
+}
+
+// Whether two renderers' frames differ in samples and shading alone.
+static bool same_geometry(const DipRenderer *a, const DipRenderer *b) {
+    const DipReflectionDef *r = &a->reflection;
+    const DipReflectionDef *s = &b->reflection;
+    return a->isa == b->isa && a->width == b->width && a->height == b->height &&
+           a->plain_surfaces == b->plain_surfaces && a->force_all_effects == b->force_all_effects &&
+           a->quality.step[DIP_SETTING_GI] == b->quality.step[DIP_SETTING_GI] &&
+           r->width == s->width && r->height == s->height && r->level_m == s->level_m;
+}
+
+bool dip_renderer_draw_pair(DipRenderer *const renderers[2], const DipScene *scene,
+                            const DipPose *pose, int64_t time_ns, DipFrame *const frames[2],
+                            DipError *err) {
+    Making makings[2];
+    for (int i = 0; i < 2; i++) {
+        if (!begin_frame(&makings[i], renderers[i], scene, pose, time_ns, frames[i], err)) {
+            return false;
+        }
+    }
+    if (!draw_frames(makings, 2, same_geometry(renderers[0], renderers[1]), err)) {
+        return false;
+    }
+    for (int i = 0; i < 2; i++) {
+        end_frame(&makings[i]);
     }
     return true;
 }

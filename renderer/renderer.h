@@ -61,4 +61,11 @@ bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
 bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                        int64_t time_ns, DipFrame *frame, DipError *err);
 
+// Draws two renderers' frames of one pose at once, on the pool that both have: the same frames in
+// less time, since their tiles take turns on each worker, and what settings leave alike (all but
+// gi) is transformed and set up once. The time and the counters of that are in both frames.
+bool dip_renderer_draw_pair(DipRenderer *const renderers[2], const DipScene *scene,
+                            const DipPose *pose, int64_t time_ns, DipFrame *const frames[2],
+                            DipError *err);
+
 #endif

@@ -2,6 +2,7 @@
 #include "renderer/scene_internal.h"
 
 #include "renderer/base/clock.h"
+#include "renderer/geometry/cull.h"
 #include "renderer/geometry/mesh.h"
 
 #include <math.h>
@@ -344,6 +345,8 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
         DipSceneObject *object = &scene->objects[i];
         object->mesh = def->objects[i].mesh;
         memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
+        object->bounds =
+            dip_cull_place_box(object->transform, &scene->meshes[object->mesh].mesh->box);
         object->first_of_mesh = !placed[object->mesh];
         if (object->first_of_mesh) {
             placed[object->mesh] = true;

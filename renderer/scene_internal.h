@@ -2,6 +2,7 @@
 #ifndef DIP_RENDERER_SCENE_INTERNAL_H
 #define DIP_RENDERER_SCENE_INTERNAL_H
 
+#include "renderer/geometry/mesh.h"
 #include "renderer/late_textures.h"
 #include "renderer/mesh.h"
 #include "renderer/scene.h"
@@ -23,6 +24,7 @@ typedef struct DipSceneObject {
     int mesh;
     float transform[12];
     bool first_of_mesh; // no object before it uses its mesh
+    DipBox bounds;      // in the world, see dip_cull_place_box
 } DipSceneObject;
 
 typedef struct DipSceneMaterial {

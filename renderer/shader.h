@@ -60,9 +60,14 @@ typedef struct DipSampleWork {
 typedef struct DipFragmentBatch DipFragmentBatch;
 
 // Reads a texture at slots u_slot and u_slot + 1 with these slots' derivatives.
-// colour: out[0..2][i] linear light, 0..1. alpha: out[i], 0..1, is 1 for a texture without alpha.
+// colour: out[0..2][i] linear light, 0..1.
 typedef void DipSampleColour(DipFragmentBatch *batch, const DipSampler *sampler, int u_slot,
                              float (*out)[DIP_FRAGMENT_BATCH]);
+// The same of two textures at the same slots: where these are of one size and are read alike, for
+// less than two calls.
+typedef void DipSampleColours(DipFragmentBatch *batch, const DipSampler *const samplers[2],
+                              int u_slot, float (*const out[2])[DIP_FRAGMENT_BATCH]);
+// alpha: out[i], 0..1, is 1 for a texture without alpha.
 typedef void DipSampleAlpha(DipFragmentBatch *batch, const DipSampler *sampler, int u_slot,
                             float *out);
 
@@ -83,6 +88,7 @@ struct DipFragmentBatch {
     const DipSampler *samplers; // the draw's
     const void *uniforms;       // likewise
     DipSampleColour *sample_colour;
+    DipSampleColours *sample_colours;
     DipSampleAlpha *sample_alpha;
     DipSampleTarget *sample_target;
     const float *srgb_light; // linear light of the 256 codes, for sample_target

@@ -123,14 +123,20 @@ class Spray:
         for k in range(5):
             self.leaf(centre, turn + k * 2 * math.pi / 5, radius,
                       np.asarray(colour) * self.random.uniform(0.9, 1.1))
-        dot = [(centre[0] + 0.012 * math.cos(a), centre[1] + 0.012 * math.sin(a))
+        dot = [(centre[0] + 0.016 * math.cos(a), centre[1] + 0.016 * math.sin(a))
                for a in (0, 1, 2, 3, 4, 5, 6)]
         self.polygon(dot, rgb("f4e6a0"))
 
-    def place(self, spread):
-        r = spread * math.sqrt(self.random.random())
-        a = self.random.uniform(0, 2 * math.pi)
-        return (0.5 + r * math.cos(a), 0.5 + r * math.sin(a)), a
+    def places(self, margin, cells):
+        """A point in each of cells x cells, at least margin from the card's edges, in any order;
+        and which way is out. Cards are filled evenly and into their corners, because what is tested
+        and not there costs as much as what is."""
+        order = list(range(cells * cells))
+        self.random.shuffle(order)
+        for k in order:
+            x, y = (margin + (1 - 2 * margin) * (i + self.random.random()) / cells
+                    for i in divmod(k, cells))
+            yield (x, y), math.atan2(y - 0.5, x - 0.5)
 
     def picture(self):
         alpha = reduced(np.asarray(self.alpha, np.float32) / 255.0)
@@ -140,29 +146,26 @@ class Spray:
         return reduced(masked) / weight, alpha
 
 
-def leaves(seed, codes, count=150):
+def leaves(seed, codes, cells=13):
     spray = Spray(512, seed)
-    for i in range(count):
-        depth = i / count  # 0: painted first, in the shade
-        base, outwards = spray.place(0.36)
+    for i, (base, outwards) in enumerate(spray.places(0.11, cells)):
+        depth = i / cells**2  # 0: painted first, in the shade
         tone = 0.55 * depth + 0.45 * spray.random.random()
         colour = palette(codes, np.array([tone]))[0] * (0.50 + 0.50 * depth)
         spray.leaf(base, outwards + spray.random.uniform(-0.9, 0.9),
-                   spray.random.uniform(0.10, 0.15), colour)
+                   spray.random.uniform(0.13, 0.195), colour)
     return spray.picture()
 
 
 def flowers(seed, greens, petals):
     spray = Spray(512, seed)
-    for i in range(80):
-        base, outwards = spray.place(0.35)
-        colour = palette(greens, np.array([spray.random.random()]))[0] * (0.45 + 0.35 * i / 80)
+    for i, (base, outwards) in enumerate(spray.places(0.11, 12)):
+        colour = palette(greens, np.array([spray.random.random()]))[0] * (0.45 + 0.35 * i / 144)
         spray.leaf(base, outwards + spray.random.uniform(-0.9, 0.9),
-                   spray.random.uniform(0.09, 0.13), colour)
-    for i in range(64):
-        centre, _ = spray.place(0.39)
+                   spray.random.uniform(0.12, 0.17), colour)
+    for i, (centre, _) in enumerate(spray.places(0.08, 8)):
         colour = palette(petals, np.array([spray.random.random()]))[0] * (0.62 + 0.38 * i / 64)
-        spray.petals(centre, spray.random.uniform(0.045, 0.068), colour)
+        spray.petals(centre, spray.random.uniform(0.058, 0.088), colour)
     return spray.picture()
 
 

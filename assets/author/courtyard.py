@@ -44,12 +44,15 @@ def bay_light(side, x):
 
 
 def add_wings(scene):
-    whole, pillar, medallion, beams = wing.wing(), column(), wing.medallion(), wing.beams()
+    medallion, beams = wing.medallion(), wing.beams()
+    wholes = {seen: wing.wing(seen) for seen in ("near", "far")}
+    pillars = {seen: column(seen) for seen in ("near", "far")}
     windows, glass = [openings.window(8.0), openings.window(38.0)], openings.window_glass()
     doorway, lantern = openings.doorway(), wall_lantern()
     boxes = {tint: planting.flower_box(tint) for tint in (SUNNY, SHADY)}
     for side, place in WINGS.items():
-        scene.add(whole, light=side, within=place)
+        seen = "near" if side == "east" else "far"
+        scene.add(wholes[seen], light=side, within=place)
         for b, x in enumerate(wing.centres()):
             light = bay_light(side, x)
             ajar = (2 * b + len(side)) % 3 == 1 and (side, b) != ("north", 2)  # by the balcony: not
@@ -63,7 +66,7 @@ def add_wings(scene):
         for b in range(1, wing.BAYS):
             x = wing.BAY_M * b
             light = bay_light(side, x)
-            scene.add(pillar, x, wing.WALL_M / 2, wing.FLOOR_M, light=light, within=place)
+            scene.add(pillars[seen], x, wing.WALL_M / 2, wing.FLOOR_M, light=light, within=place)
             scene.add(medallion, x, 0, 3.95, light=light, within=place)
             scene.add(lantern, x, wing.GALLERY_M, 2.5, light=side, within=place)
 
@@ -120,8 +123,8 @@ def add_fence(scene):
     for x in (-6.0, -10.0, 2.0, 6.0):
         scene.add(panel, x, -COURT_M)
         scene.add(wall, x, -COURT_M)
-    pier = fence.pier("pier", fence.PIER_HALF_M, 2.40)
-    gate_pier = fence.pier("gate_pier", fence.GATE_PIER_HALF_M, 2.85)
+    pier = fence.pier("pier", fence.PIER_HALF_M, 2.40, 16)
+    gate_pier = fence.pier("gate_pier", fence.GATE_PIER_HALF_M, 2.85, 20)
     for x in (-9.95, -6.0, 6.0, 9.95):
         scene.add(pier, x, -COURT_M)
     for x in (-2.0, 2.0):
@@ -174,7 +177,7 @@ def street_walls():
     part = Part("street_wall")
     with part.density(0.5):
         part.box("ashlar", (0, -19, 0), (0.6, -COURT_M, 2.5), "d")
-        part.box("carved", (-0.1, -19, 2.5), (0.7, -COURT_M, 2.66), "")
+        part.box("carved", (-0.1, -19, 2.5), (0.7, -COURT_M, 2.66), "t")
     return part
 
 

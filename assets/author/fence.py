@@ -39,15 +39,15 @@ def gate_leaf():
 def low_wall():
     part = Part("low_wall")
     part.box("ashlar", (0, -0.20, 0), (PITCH_M, 0.20, 0.40), "dtlr")
-    part.moulding("carved", 0, PITCH_M, [(-0.20, 0.38), (-0.25, 0.41), (-0.25, 0.47), (-0.22, 0.50),
-                                         (0.0, 0.515)])
+    part.moulding("carved", 0, PITCH_M, [(-0.20, 0.38), (-0.25, 0.40), (-0.25, 0.49),
+                                         (0.0, 0.51)])
     with part.placed(x=PITCH_M, turn_deg=180):
-        part.moulding("carved", 0, PITCH_M, [(-0.20, 0.38), (-0.25, 0.41), (-0.25, 0.47),
-                                             (-0.22, 0.50), (0.0, 0.515)])
+        part.moulding("carved", 0, PITCH_M, [(-0.20, 0.38), (-0.25, 0.40), (-0.25, 0.49),
+                                             (0.0, 0.51)])
     return part
 
 
-def pier(name, half, height):
+def pier(name, half, height, segments):
     part = Part(name)
     part.box("carved", (-half - 0.06, -half - 0.06, 0), (half + 0.06, half + 0.06, 0.30), "d")
     part.box("ashlar", (-half, -half, 0.30), (half, half, height), "dt")
@@ -56,7 +56,7 @@ def pier(name, half, height):
         part.box("carved", (-half - grow, -half - grow, z0), (half + grow, half + grow, z1), "")
     radius, z = half * 0.72, height + 0.13
     ball = [(radius * math.sin(a), z + 0.10 + radius * (1 - math.cos(a)))
-            for a in (math.pi * (0.14 + 0.86 * k / 9) for k in range(10))]
-    part.lathe("carved", [(half * 0.75, z), (half * 0.75, z + 0.03),
-                          (half * 0.42, z + 0.06)] + ball[:-1] + [(0.0, z + 0.10 + 2 * radius)], 20)
+            for a in (math.pi * (0.14 + 0.86 * k / 8) for k in range(9))]
+    part.lathe("carved", [(half * 0.75, z), (half * 0.72, z + 0.03)] + ball[:-1] +
+               [(0.0, z + 0.10 + 2 * radius)], segments)
     return part

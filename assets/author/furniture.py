@@ -6,14 +6,12 @@ from geometry import Part
 def pot(part, size):
     """A terracotta pot with a rim, a garland and soil; size 1 is 0.74 m high."""
     s = size
-    part.lathe("terracotta", [(r * s, z * s)
-                              for r, z in ((0.27, 0.0), (0.30, 0.03), (0.29, 0.06), (0.34, 0.25),
-                                           (0.385, 0.45), (0.40, 0.54))], 18)
-    part.lathe("terracotta",
-               [(r * s, z * s)
-                for r, z in ((0.40, 0.54), (0.445, 0.56), (0.47, 0.60), (0.48, 0.66), (0.475, 0.71),
-                             (0.46, 0.735), (0.42, 0.74), (0.40, 0.70), (0.39, 0.62))], 18)
-    part.disc("soil", 0.395 * s, 0.66 * s, 16)
+    part.lathe("terracotta", [(r * s, z * s) for r, z in ((0.28, 0.0), (0.34, 0.25), (0.40, 0.54))],
+               14)
+    part.lathe("terracotta", [(r * s, z * s) for r, z in ((0.40, 0.54), (0.465, 0.58), (0.48, 0.69),
+                                                          (0.455, 0.74), (0.40, 0.72))],
+               14, smooth_deg=60.0)
+    part.disc("soil", 0.41 * s, 0.715 * s, 8)
 
 
 def bench():
@@ -30,9 +28,9 @@ def bench():
 
 def lamp_post():
     part = Part("lamp_post")
-    part.lathe("iron", [(0.20, 0.0), (0.20, 0.08), (0.16, 0.12), (0.15, 0.30), (0.10, 0.38),
-                        (0.075, 0.50), (0.06, 0.80), (0.075, 0.84), (0.075, 0.88), (0.05, 0.92),
-                        (0.040, 2.75), (0.07, 2.80), (0.07, 2.84), (0.035, 2.90), (0.05, 3.0)], 12)
+    part.lathe("iron", [(0.20, 0.0), (0.20, 0.08), (0.155, 0.12), (0.15, 0.30), (0.075, 0.48),
+                        (0.06, 0.80), (0.078, 0.86), (0.05, 0.92), (0.040, 2.75), (0.07, 2.82),
+                        (0.035, 2.89), (0.05, 3.0)], 8)
     with part.placed(z=3.0):
         lantern(part)
     return part
@@ -40,15 +38,14 @@ def lamp_post():
 
 def lantern(part):
     """Six panes between an iron foot and roof."""
-    part.lathe("iron", [(0.03, 0.0), (0.12, 0.03), (0.13, 0.06)], 6, flat=True)
+    part.lathe("iron", [(0.03, 0.0), (0.13, 0.06)], 6, flat=True)
     part.lathe("lamp", [(0.115, 0.06), (0.165, 0.42)], 6, flat=True)
     for k in range(6):
         with part.placed(turn_deg=60.0 * k):
             lower, upper = [(0.118, s * 0.012, 0.06) for s in (-1, 1)], [(0.172, s * 0.012, 0.42)
                                                                          for s in (-1, 1)]
             part.polygon("iron", [lower[0], lower[1], upper[1], upper[0]])
-    part.lathe("iron", [(0.20, 0.41), (0.21, 0.44), (0.10, 0.54), (0.04, 0.60), (0.045, 0.64),
-                        (0.02, 0.67), (0.0, 0.74)],
+    part.lathe("iron", [(0.20, 0.41), (0.21, 0.44), (0.05, 0.60), (0.0, 0.74)],
                6,
                flat=True)
 

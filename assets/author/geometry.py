@@ -38,14 +38,15 @@ def plane_uv(p, n):
     return (p[1] if n[0] > 0 else -p[1], p[2])
 
 
-def profile_normals(profile):
+def profile_normals(profile, smooth_deg=SMOOTH_DEG):
     """For each segment of a polyline the 2D normals (to its right) at both ends, round where it
-    bends little; and for each segment the number of the run between two edges it belongs to."""
+    bends by less than smooth_deg; and for each segment the number of the run between two edges it
+    belongs to."""
     segments = np.diff(np.asarray(profile, float), axis=0)
     normals = [unit((d[1], -d[0])) for d in segments]
     ends, runs, run = [[n, n] for n in normals], [0], 0
     for i in range(1, len(normals)):
-        if np.dot(normals[i - 1], normals[i]) > math.cos(math.radians(SMOOTH_DEG)):
+        if np.dot(normals[i - 1], normals[i]) > math.cos(math.radians(smooth_deg)):
             ends[i - 1][1] = ends[i][0] = unit(normals[i - 1] + normals[i])
         else:
             run += 1
@@ -176,9 +177,9 @@ class Part:
                           [(picture_us[at[k][0]], vs[at[k][1]]) for k in keep], chart,
                           [(us[at[k][0]], vs[at[k][1]]) for k in keep])
 
-    def lathe(self, material, profile, segments, start_deg=0.0, flat=False):
+    def lathe(self, material, profile, segments, start_deg=0.0, flat=False, smooth_deg=SMOOTH_DEG):
         """A turned shape about z. profile: (radius, z) upwards on the outside. flat: facets."""
-        ends, runs = profile_normals(profile)
+        ends, runs = profile_normals(profile, smooth_deg)
         angles = [math.radians(start_deg + 360.0 * k / segments) for k in range(segments + 1)]
         ring = [(math.cos(a), math.sin(a)) for a in angles]
         rows = [[(r * c, r * s, z) for c, s in ring] for r, z in profile]

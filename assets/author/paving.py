@@ -9,7 +9,7 @@ COURT_M = 10.0
 FIELD_M, BORDER_M = 7.4, 9.0  # half widths: of the square around the ring, of the border's inside
 RING_IN_M, RING_OUT_M = 3.2, 4.75
 STRIP_M = 2.6  # from the fence to the field
-SECTORS = 32
+SECTORS = 24
 
 
 def on_circle(k, r):
@@ -35,39 +35,50 @@ def moved_out(point, side, to):
 
 
 def ring_and_field(part):
+    """The ring, and flags from it to the border of setts; in the south to the strips."""
     for k in range(SECTORS):
         corners = [(k, RING_IN_M), (k, RING_OUT_M), (k + 1, RING_OUT_M), (k + 1, RING_IN_M)]
         part.polygon("setts", [on_circle(*c) for c in corners], [ring_uv(*c) for c in corners])
-        part.polygon("paving", [
-            on_circle(k, RING_OUT_M),
-            on_square(k, FIELD_M),
-            on_square(k + 1, FIELD_M),
-            on_circle(k + 1, RING_OUT_M)
-        ])
+        side = side_of(k)
+        edge = [on_square(j, FIELD_M) for j in (k, k + 1)]
+        if side != 3:
+            edge = [moved_out(p, side, BORDER_M) for p in edge]
+        part.polygon("paving", [on_circle(k, RING_OUT_M), *edge, on_circle(k + 1, RING_OUT_M)])
+    for side in (-1, 1):  # what is left of the corners
+        kite = [on_circle(SECTORS // 8, RING_OUT_M), (BORDER_M, FIELD_M, 0),
+                (BORDER_M, BORDER_M, 0), (FIELD_M, BORDER_M, 0)]
+        if side < 0:
+            kite = [(-x, y, z) for x, y, z in kite][::-1]
+        part.polygon("paving", kite)
+        x, y, _ = on_circle(SECTORS // 8, RING_OUT_M)
+        rest = [(x, -y, 0), (FIELD_M, -FIELD_M, 0), (BORDER_M, -FIELD_M, 0)]
+        if side < 0:
+            rest = [(-x, y, z) for x, y, z in rest][::-1]
+        part.polygon("paving", rest)
+
+
+def side_of(k):
+    """Of the square that sector k meets: 0 east, 1 north, 2 west, 3 south."""
+    return (k + SECTORS // 8) // (SECTORS // 4) % 4
 
 
 def border(part):
-    """Around the square but for its south side: flags, then setts."""
-    lines = [FIELD_M, BORDER_M, COURT_M]
+    """Setts around the flags but for the south side."""
     for k in range(SECTORS):
-        side = (k + SECTORS // 8) // (SECTORS // 4) % 4
-        a, b = on_square(k, FIELD_M), on_square(k + 1, FIELD_M)
-        for low, high, material in zip(lines, lines[1:], ("paving", "setts")):
-            if side != 3:
-                part.polygon(material, [
-                    moved_out(a, side, low),
-                    moved_out(a, side, high),
-                    moved_out(b, side, high),
-                    moved_out(b, side, low)
-                ])
-    for side in (-1, 1):
-        for x0, x1 in zip(lines, lines[1:]):
-            for y0, y1 in zip(lines, lines[1:]):
-                quad = [(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)]
-                if side < 0:
-                    quad = [(-x, y, z) for x, y, z in quad][::-1]
-                inner = (x0, y0) == (FIELD_M, FIELD_M)
-                part.polygon("paving" if inner else "setts", quad)
+        side = side_of(k)
+        if side != 3:
+            a, b = on_square(k, FIELD_M), on_square(k + 1, FIELD_M)
+            part.polygon("setts", [
+                moved_out(a, side, BORDER_M),
+                moved_out(a, side, COURT_M),
+                moved_out(b, side, COURT_M),
+                moved_out(b, side, BORDER_M)
+            ])
+    f, b, c = FIELD_M, BORDER_M, COURT_M
+    for x0, x1, y0, y1 in ((b, c, f, b), (b, c, b, c), (f, b, b, c)):
+        quad = [(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)]
+        part.polygon("setts", quad)
+        part.polygon("setts", [(-x, y, z) for x, y, z in quad][::-1])
 
 
 def court():

@@ -8,51 +8,43 @@ SLOPE = math.tan(math.radians(23.0))
 OVERHANG_M, RIDGE_M, PANEL_M = 0.55, 4.2, 2.0  # eave before the wall, ridge behind it
 ROWS, WAVE = 8, PANEL_M / 8
 EAVE_Z = EAVE_M + 0.16
+COVER_M, GUTTER_M = 0.070, -0.045  # heights of the tiles' crests and troughs
 
 
 def roof_z(y):
     return EAVE_Z + (y + OVERHANG_M) * SLOPE
 
 
-def wave_height(t):
-    """Of the tiles' cross-section at t = 0..1 across one cover (first half) and one gutter."""
-    return 0.070 * math.sin(2 * math.pi * t) if t < 0.5 else 0.045 * math.sin(2 * math.pi * t)
-
-
 def tiles(part):
     """Covers and gutters, and what the eave shows of them; the courses are in the picture."""
-    steps = 6  # of one cover and one gutter
-    xs = [WAVE * (r + k / steps) for r in range(ROWS) for k in range(steps)] + [PANEL_M]
-    heights = [wave_height((k % steps) / steps) for k in range(len(xs))]
+    middle = (COVER_M + GUTTER_M) / 2
+    xs = [0.0] + [WAVE * (r + t) for r in range(ROWS) for t in (0.25, 0.75)] + [PANEL_M]
+    heights = [middle] + ROWS * [COVER_M, GUTTER_M] + [middle]
     along = 1 / math.cos(math.radians(23.0))
     courses = [-OVERHANG_M, RIDGE_M]
-    up = (0.0, -SLOPE, 1.0)
-    normals = []
-    for k in range(len(xs)):
-        rise = (heights[(k + 1) % (len(xs) - 1)] - heights[k - 1 if k else -2]) / (2 * WAVE / steps)
-        normals.append((-rise, up[1], up[2]))
+    normals = [(0.0, -SLOPE, 1.0)] * len(xs)
     rows = [[(x, y, roof_z(y) + h) for x, h in zip(xs, heights)] for y in courses]
     part.strip("roof", rows, [(normals, normals)] * (len(rows) - 1), xs,
                [(y + OVERHANG_M) * along for y in courses])
     # The lower rim: the tiles' thickness, and the mortar that fills the covers' mouths.
     y = -OVERHANG_M
     rim = [(0.0, -1.0, 0.0)] * len(xs)
-    lower = [(x, y, roof_z(y) + (h - 0.035 if h <= 0.012 else h - 0.022))
-             for x, h in zip(xs, heights)]
+    lower = [(x, y, roof_z(y) + h - 0.03) for x, h in zip(xs, heights)]
     part.strip("roof", [lower, rows[0]], [(rim, rim)], xs, [0.30, 0.335])
     mouth = [(x, y + 0.05, roof_z(y) - 0.06) for x in xs]
-    inner = [(p[0], p[1] + 0.05, p[2]) for p in lower]
-    part.strip("soil", [mouth, inner], [(rim, rim)], xs, [0.0, 0.1])
+    part.strip("soil", [mouth, lower], [(rim, rim)], xs, [0.0, 0.1])
 
 
 def ridge(part):
-    steps, radius = 6, 0.17
+    steps, radius, skirt = 4, 0.17, 0.14  # down into the gutters
     z = roof_z(RIDGE_M) + 0.03
     rows, normals = [], []
     for k in range(steps + 1):
         a = math.pi * k / steps
         n = (0.0, -math.cos(a), math.sin(a))
-        rows.append([(x, RIDGE_M + radius * n[1], z + radius * n[2]) for x in (0.0, PANEL_M)])
+        drop = skirt if k in (0, steps) else 0.0
+        rows.append([(x, RIDGE_M + radius * n[1], z + radius * n[2] - drop)
+                     for x in (0.0, PANEL_M)])
         normals.append([n, n])
     part.strip("roof", rows, list(zip(normals, normals[1:])), [0.0, PANEL_M],
                [math.pi * radius * k / steps for k in range(steps + 1)])
@@ -67,12 +59,12 @@ def underside(part):
         x, w = 0.25 + 0.5 * k, 0.05
         nose, wall = -0.47, 0.05
         top = [roof_z(y) - 0.075 for y in (nose, wall)]
-        left = [(x - w, wall, top[1] - 0.16), (x - w, nose + 0.10, top[0] - 0.11),
-                (x - w, nose, top[0] - 0.05), (x - w, nose, top[0]), (x - w, wall, top[1])]
+        left = [(x - w, wall, top[1] - 0.16), (x - w, nose, top[0] - 0.09), (x - w, nose, top[0]),
+                (x - w, wall, top[1])]
         right = [(x + w, y, z) for _, y, z in left]
         part.polygon("wood", left)
         part.polygon("wood", right[::-1])
-        for i in range(3):
+        for i in range(2):
             part.polygon("wood", [left[i + 1], left[i], right[i], right[i + 1]][::-1])
 
 

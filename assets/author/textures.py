@@ -290,17 +290,17 @@ def sky():
 
 # name: (maker, quality, times the normal map is halved; None: no normal map is shipped)
 TEXTURES = {
-    "paving": (paving, 84, 1),
+    "paving": (paving, 84, None),
     "setts": (setts, 84, 0),
     "ashlar": (ashlar, 84, 1),
     "carved": (carved, 84, None),
     "plaster": (plaster, 86, None),
-    "brick": (brick, 84, 0),
-    "roof": (roof, 84, 0),
+    "brick": (brick, 84, None),
+    "roof": (roof, 84, None),
     "wood": (wood, 84, None),
-    "door": (door, 86, 0),
-    "shutter": (shutter, 86, 0),
-    "terracotta": (terracotta, 86, 0),
+    "door": (door, 86, None),
+    "shutter": (shutter, 86, None),
+    "terracotta": (terracotta, 86, None),
     "glass": (glass, 86, None),
     "water": (water, 88, 0),
     "sky": (sky, 92, None),

@@ -2,7 +2,6 @@
 Its middle is the origin."""
 import math
 
-from column import baluster
 from geometry import Part
 
 HALF_M = 2.2
@@ -13,7 +12,7 @@ ARCH_R = 1.15
 def belfry_face(part):
     """One side, facing -y at y = -HALF_M."""
     y, half = -HALF_M, HALF_M
-    steps = 14
+    steps = 10
     with part.sheet("xz", 0.7):
         arc = [(-ARCH_R * math.cos(math.pi * k / steps),
                 SPRING_M + ARCH_R * math.sin(math.pi * k / steps)) for k in range(steps + 1)]
@@ -47,13 +46,13 @@ def shaft_face(part):
         # A blind round window with a stone rim.
         part.box("carved", (-0.62, y - 0.10, 11.0), (0.62, y, 11.14), "b")
         for x0, x1 in ((-0.52, -0.36), (0.36, 0.52)):
-            part.box("carved", (x0, y - 0.06, 11.14), (x1, y, 12.4), "bd")
+            part.box("carved", (x0, y - 0.06, 11.14), (x1, y, 12.4), "btd")
         part.arch("carved", (0, 12.4), [(0.36, y), (0.36, y - 0.06), (0.52, y - 0.06), (0.52, y)],
-                  10)
+                  8)
         part.polygon("soil", [(-0.36, y - 0.01, 11.14), (0.36, y - 0.01, 11.14),
                               (0.36, y - 0.01, 12.4), (-0.36, y - 0.01, 12.4)])
-        fan = [(0.36 * math.cos(math.pi * k / 10), y - 0.01,
-                12.4 + 0.36 * math.sin(math.pi * k / 10)) for k in range(11)]
+        fan = [(0.36 * math.cos(math.pi * k / 8), y - 0.01,
+                12.4 + 0.36 * math.sin(math.pi * k / 8)) for k in range(9)]
         part.polygon("soil", fan)
 
 
@@ -63,7 +62,7 @@ def quoins(part):
     while z < EAVE_M - 0.2:
         long, short = (0.62, 0.40) if k % 2 else (0.40, 0.62)
         part.box("carved", (-HALF_M - 0.05, -HALF_M - 0.05, z),
-                 (-HALF_M + long, -HALF_M + short, z + 0.50), "")
+                 (-HALF_M + long, -HALF_M + short, z + 0.50), "t")
         z, k = z + 0.53, k + 1
 
 
@@ -88,14 +87,11 @@ def tower():
                 for z in (10.0, 14.0):
                     part.moulding("carved", -HALF_M - 0.12, HALF_M + 0.12,
                                   [(-HALF_M, z), (-HALF_M - 0.12, z + 0.10),
-                                   (-HALF_M - 0.12, z + 0.28), (-HALF_M, z + 0.33)])
+                                   (-HALF_M - 0.12, z + 0.30)])
                 part.moulding("carved", -HALF_M - 0.34, HALF_M + 0.34, [(-HALF_M, 18.95),
-                                                                        (-HALF_M - 0.08, 19.0),
-                                                                        (-HALF_M - 0.08, 19.12),
-                                                                        (-HALF_M - 0.18, 19.22),
+                                                                        (-HALF_M - 0.10, 19.12),
                                                                         (-HALF_M - 0.34, 19.42),
-                                                                        (-HALF_M - 0.34, 19.62),
-                                                                        (-HALF_M, 19.70)])
+                                                                        (-HALF_M - 0.34, 19.75)])
                 spire(part)
     with part.density(0.3):
         part.polygon("wood", [(-2.2, 2.2, 19.2), (2.2, 2.2, 19.2), (2.2, -2.2, 19.2),
@@ -103,17 +99,19 @@ def tower():
         part.polygon("carved", [(-2.2, -2.2, BELFRY_M), (2.2, -2.2, BELFRY_M), (2.2, 2.2, BELFRY_M),
                                 (-2.2, 2.2, BELFRY_M)])
         part.box("wood", (-2.0, -0.08, 17.9), (2.0, 0.08, 18.06), "lr")
-        part.lathe("bronze", [(0.62, 16.75), (0.60, 16.80), (0.48, 16.98), (0.40, 17.25),
-                              (0.36, 17.55), (0.28, 17.72), (0.10, 17.78), (0.06, 17.9)], 20)
+        part.lathe("bronze", [(0.62, 16.75), (0.48, 16.98), (0.39, 17.30), (0.34, 17.62),
+                              (0.06, 17.9)], 12)
         part.lathe("bronze", [(0.02, TOP_M - 0.1), (0.16, TOP_M), (0.16, TOP_M + 0.08),
-                              (0.04, TOP_M + 0.2), (0.03, TOP_M + 1.3), (0.0, TOP_M + 1.35)], 8)
+                              (0.04, TOP_M + 0.2), (0.03, TOP_M + 1.35)], 6)
         part.box("bronze", (-0.32, -0.02, TOP_M + 0.85), (0.32, 0.02, TOP_M + 0.92), "")
     return part
 
 
 def belfry_baluster():
-    part = baluster(0.87)
-    part.name = "belfry_baluster"
+    """Some 16 pixels high when seen."""
+    part = Part("belfry_baluster")
+    part.lathe("carved", [(0.07, 0.0), (0.045, 0.12), (0.080, 0.30), (0.036, 0.68), (0.06, 0.87)],
+               5)
     return part
 
 

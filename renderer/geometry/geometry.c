@@ -1,6 +1,7 @@
 // The geometry phase: transforming chunks in view, clipping, set-up and binning, by jobs.
 #include "renderer/geometry/geometry.h"
 
+#include "renderer/base/pages.h"
 #include "renderer/geometry/clip.h"
 #include "renderer/geometry/cull.h"
 #include "renderer/geometry/mesh.h"
@@ -18,6 +19,21 @@ enum {
     MEAN_BIN_TILES = 2, // per triangle, of a pass of very many
 };
 
+// From the region on, what rounding in the clipper may add.
+enum { REJECT_MARGIN_PX = 16 };
+
+static float bounded(float ndc) {
+    return ndc < -1.0f ? -1.0f : ndc > 1.0f ? 1.0f : ndc;
+}
+
+static void bound_picture(const DipPass *pass, DipScreenMapping *map) {
+    const DipRegion region = dip_drawn_region(pass);
+    map->left = bounded((float)(region.x0 - REJECT_MARGIN_PX) / map->half_width - 1.0f);
+    map->right = bounded((float)(region.x1 + REJECT_MARGIN_PX) / map->half_width - 1.0f);
+    map->top = bounded(1.0f - (float)(region.y0 - REJECT_MARGIN_PX) / map->half_height);
+    map->bottom = bounded(1.0f - (float)(region.y1 + REJECT_MARGIN_PX) / map->half_height);
+}
+
 DipScreenMapping dip_screen_mapping(const DipPass *pass) {
     DipScreenMapping map = {
         .half_width = 0.5f * (float)pass->target.width,
@@ -31,6 +47,7 @@ DipScreenMapping dip_screen_mapping(const DipPass *pass) {
     map.guard_top = guard_y + 1.0f;
     map.guard_bottom = guard_y - 1.0f;
     memcpy(map.clip_planes, pass->clip_planes, sizeof map.clip_planes);
+    bound_picture(pass, &map);
     return map;
 }
 
@@ -38,6 +55,7 @@ DipScreenMapping dip_screen_mapping(const DipPass *pass) {
 
 // What a pass needs room for, whatever is in view.
 typedef struct Needs {
+    uint32_t draws;
     uint64_t chunks;
     uint64_t triangles;
     uint64_t blocks;
@@ -53,7 +71,7 @@ static uint64_t greatest(uint64_t a, uint64_t b) {
 }
 
 static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
-    Needs needs = {0};
+    Needs needs = {.draws = (uint32_t)pass->draw_count};
     int slots = 0;
     for (int d = 0; d < pass->draw_count; d++) {
         needs.chunks += pass->draws[d].mesh->chunk_count;
@@ -87,12 +105,19 @@ static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
 static bool replace(void *pointer_to_array, size_t count, size_t size) {
     void **array = pointer_to_array;
     free(*array);
-    *array = aligned_alloc(64, (count * size / 64 + 1) * 64);
+    *array = dip_pages_alloc(count * size);
     return *array != NULL;
 }
 
 static bool make_room(DipGeometry *geometry, const Needs *needs) {
     const size_t surface_room = (size_t)needs->triangles * (size_t)needs->surface_stride;
+    if (needs->draws > geometry->draw_room) {
+        geometry->draw_room = 0;
+        if (!replace(&geometry->first_patch, needs->draws, sizeof *geometry->first_patch)) {
+            return false;
+        }
+        geometry->draw_room = needs->draws;
+    }
     if (needs->chunks > geometry->visible_room) {
         geometry->visible_room = 0;
         if (!replace(&geometry->visible, needs->chunks, sizeof *geometry->visible)) {
@@ -160,21 +185,76 @@ bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *
     return true;
 }
 
+// Numbers from 1 for the patches of all draws.
+static void number_patches(DipGeometry *geometry) {
+    uint32_t next = 1;
+    for (int d = 0; d < geometry->pass->draw_count; d++) {
+        geometry->first_patch[d] = next;
+        next += geometry->pass->draws[d].mesh->patch_count;
+    }
+}
+
 static DipRegion tiles_of(const DipRegion *region) {
     return (DipRegion){region->x0 / DIP_TILE, region->y0 / DIP_TILE,
                        (region->x1 + DIP_TILE - 1) / DIP_TILE,
                        (region->y1 + DIP_TILE - 1) / DIP_TILE};
 }
 
-bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err) {
+static bool is_wanted(const DipGeometry *geometry, size_t tile) {
+    const DipTilePart *parts = geometry->pass->tile_parts;
+    return !parts || parts[tile].x1;
+}
+
+// Threads take tiles in turn: in groups of 2x2 they are at neighbours for longer, which read much
+// the same texels and triangles, than along rows.
+enum { TILE_GROUP = 2 };
+
+static void list_group(DipGeometry *geometry, int x0, int y0) {
+    const DipRegion *region = &geometry->tile_region;
+    for (int x = x0; x < x0 + TILE_GROUP && x < region->x1; x++) {
+        for (int y = y0; y < y0 + TILE_GROUP && y < region->y1; y++) {
+            const int tile = y * geometry->tiles_x + x;
+            if (is_wanted(geometry, (size_t)tile)) {
+                geometry->tiles[geometry->tile_count++] = (uint16_t)tile;
+            }
+        }
+    }
+}
+
+static void list_tiles(DipGeometry *geometry) {
+    const DipRegion *region = &geometry->tile_region;
+    geometry->tile_count = 0;
+    for (int y = region->y0; y < region->y1; y += TILE_GROUP) {
+        for (int x = region->x0; x < region->x1; x += TILE_GROUP) {
+            list_group(geometry, x, y);
+        }
+    }
+}
+
+static void add_samples(DipSamplePattern *samples, const DipPass *pass) {
+    const DipSamplePattern *pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
+    for (int s = 0; s < pattern->count; s++) {
+        samples->x[samples->count] = pattern->x[s];
+        samples->y[samples->count++] = pattern->y[s];
+    }
+}
+
+bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, const DipPass *also,
+                        DipError *err) {
     geometry->pass = pass;
     geometry->mapping = dip_screen_mapping(pass);
-    geometry->pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
+    geometry->samples.count = 0;
+    add_samples(&geometry->samples, pass);
+    if (also) {
+        add_samples(&geometry->samples, also);
+    }
     geometry->region = dip_drawn_region(pass);
     geometry->tile_region = tiles_of(&geometry->region);
+    list_tiles(geometry);
     if (!dip_geometry_reserve(geometry, pass, err)) {
         return false;
     }
+    number_patches(geometry);
     geometry->visible_count = dip_cull_chunks(pass, geometry->visible);
     cut_jobs(geometry);
     atomic_store_explicit(&geometry->triangles_taken, 0, memory_order_relaxed);
@@ -195,6 +275,7 @@ bool dip_geometry_grow_after_overflow(DipGeometry *geometry) {
 }
 
 void dip_geometry_free(DipGeometry *geometry) {
+    free(geometry->first_patch);
     free(geometry->visible);
     free(geometry->triangles);
     free(geometry->surfaces);
@@ -276,7 +357,9 @@ static void bin_triangle(JobRun *run, uint32_t index) {
     }
     for (size_t y = y0; y <= y1; y++) {
         for (size_t x = x0; x <= x1; x++) {
-            add_to_bin(run, index, y * tiles_x + x);
+            if (is_wanted(run->geometry, y * tiles_x + x)) {
+                add_to_bin(run, index, y * tiles_x + x);
+            }
         }
     }
 }
@@ -316,7 +399,7 @@ static void add_batch(JobRun *run, const DipSetupBatch *batch) {
 }
 
 // Clips a triangle and sets up the fan of what remains.
-static void add_clipped(JobRun *run, const uint8_t corner[3], int32_t codes) {
+static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, int32_t codes) {
     const DipGeometryScratch *scratch = run->scratch;
     const int slot_count = run->draw->slot_count;
     DipClipPolygon polygon = {.count = 3};
@@ -336,6 +419,10 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], int32_t codes) {
     float clip[4][ROOM] = {{0}};
     float slots[DIP_MAX_SLOTS][ROOM];
     uint8_t fan[3][ROOM] = {{0}};
+    uint32_t patches[ROOM];
+    for (int i = 0; i < ROOM; i++) {
+        patches[i] = patch;
+    }
     float *const clip_rows[4] = {clip[0], clip[1], clip[2], clip[3]};
     for (int i = 0; i < polygon.count; i++) {
         for (int c = 0; c < 4; c++) {
@@ -351,6 +438,7 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], int32_t codes) {
     run->kernels->dip_kernel_project(&run->geometry->mapping, polygon.count, clip_rows, &screen);
     add_batch(run, &(DipSetupBatch){.count = polygon.count - 2,
                                     .corner = {fan[0], fan[1], fan[2]},
+                                    .patch = patches,
                                     .screen = &screen,
                                     .slots = slots[0],
                                     .slot_stride = ROOM});
@@ -366,8 +454,10 @@ enum {
 // A chunk with vertices to clip at: its triangles in order, those between two clipped ones at once.
 static void add_mixed_chunk(JobRun *run, const DipSetupBatch *chunk) {
     uint8_t corner[3][DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {{0}};
+    uint32_t patch[DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {0};
     DipSetupBatch batch = *chunk;
     batch.count = 0;
+    batch.patch = patch;
     for (int k = 0; k < 3; k++) {
         batch.corner[k] = corner[k];
     }
@@ -382,6 +472,7 @@ static void add_mixed_chunk(JobRun *run, const DipSetupBatch *chunk) {
             for (int k = 0; k < 3; k++) {
                 corner[k][batch.count] = v[k];
             }
+            patch[batch.count] = chunk->patch[t];
             batch.count++;
             continue;
         }
@@ -389,7 +480,7 @@ static void add_mixed_chunk(JobRun *run, const DipSetupBatch *chunk) {
             add_batch(run, &batch);
             batch.count = 0;
         }
-        add_clipped(run, v, any);
+        add_clipped(run, v, chunk->patch[t], any);
     }
     if (batch.count) {
         add_batch(run, &batch);
@@ -411,6 +502,7 @@ static void add_chunk_triangles(JobRun *run, const DipChunk *chunk) {
     }
     const DipSetupBatch batch = {.count = (int)chunk->triangle_count,
                                  .corner = {corner, corner + stride, corner + 2 * stride},
+                                 .patch = run->draw->mesh->patches + chunk->first_triangle,
                                  .screen = screen,
                                  .slots = run->scratch->slot[0],
                                  .slot_stride = DIP_VERTEX_BATCH};
@@ -452,11 +544,11 @@ static DipSetupTarget setup_target(const DipGeometry *geometry) {
         .region_first = {region->x0, region->y0},
         .region_last = {region->x1 - 1, region->y1 - 1},
         .surface_stride = geometry->surface_stride,
-        .pattern = geometry->pattern,
+        .samples = &geometry->samples,
         .sample_min = {255, 255},
     };
-    for (int s = 0; s < geometry->pattern->count; s++) {
-        const uint8_t at[2] = {geometry->pattern->x[s], geometry->pattern->y[s]};
+    for (int s = 0; s < geometry->samples.count; s++) {
+        const uint8_t at[2] = {geometry->samples.x[s], geometry->samples.y[s]};
         for (int axis = 0; axis < 2; axis++) {
             if (at[axis] < target.sample_min[axis]) {
                 target.sample_min[axis] = at[axis];
@@ -487,6 +579,7 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
         const DipVisibleChunk visible = geometry->visible[c];
         run.draw = &geometry->pass->draws[visible.draw];
         run.target.draw = visible.draw;
+        run.target.first_patch = geometry->first_patch[visible.draw];
         run.target.cull = run.draw->cull;
         run.target.slot_count = run.draw->slot_count;
         const DipChunk *chunk = &run.draw->mesh->chunks[visible.chunk];

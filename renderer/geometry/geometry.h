@@ -63,12 +63,14 @@ typedef struct DipGeometryJob {
 typedef struct DipGeometry {
     const DipPass *pass;
     DipScreenMapping mapping;
-    const DipSamplePattern *pattern;
+    DipSamplePattern samples; // of all passes that are drawn from it
     int tiles_x;
     int tiles_y;
-    DipRegion region;      // pixels that are drawn, see dip_drawn_region
-    DipRegion tile_region; // tiles that these lie in
-    int surface_stride;    // floats per triangle: that of the pass' largest slot count
+    DipRegion region;             // pixels that are drawn, see dip_drawn_region
+    DipRegion tile_region;        // tiles that these lie in
+    int tile_count;               // to be drawn
+    uint16_t tiles[DIP_MAX_BINS]; // which, in the order of drawing: y * tiles_x + x
+    int surface_stride;           // floats per triangle: that of the pass' largest slot count
     int job_count;
     DipGeometryJob jobs[DIP_MAX_JOBS];
     uint32_t visible_count;
@@ -76,7 +78,9 @@ typedef struct DipGeometry {
     uint32_t triangle_room;
     uint32_t block_room;
     size_t surface_room; // floats
-    uint32_t slack;      // triangles beyond those of the meshes, and blocks; grows with overflows
+    uint32_t draw_room;
+    uint32_t slack;        // triangles beyond those of the meshes, and blocks; grows with overflows
+    uint32_t *first_patch; // of each draw: the number of its mesh's patch 0
     DipVisibleChunk *visible;
     DipTriangle *triangles;
     float *surfaces;
@@ -109,23 +113,13 @@ static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, in
                : NULL;
 }
 
-static inline int dip_geometry_region_tiles(const DipGeometry *geometry) {
-    const DipRegion *region = &geometry->tile_region;
-    return (region->x1 - region->x0) * (region->y1 - region->y0);
-}
-
-// Tile i of the region, as an index of all tiles.
-static inline int dip_geometry_region_tile(const DipGeometry *geometry, int i) {
-    const DipRegion *region = &geometry->tile_region;
-    const int width = region->x1 - region->x0;
-    return (region->y0 + i / width) * geometry->tiles_x + region->x0 + i % width;
-}
-
 // Makes room for the pass.
 bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *err);
 
-// Finds the chunks in view, cuts them into jobs and makes room for the pass.
-bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, DipError *err);
+// Finds the chunks in view, cuts them into jobs and makes room for the pass. also: another pass
+// that is drawn from the same geometry, differing in samples and shading alone; NULL: none.
+bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, const DipPass *also,
+                        DipError *err);
 
 // Runs one job; any thread.
 void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int job,

@@ -2,6 +2,7 @@
 #include "renderer/geometry/mesh.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/geometry/patch.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -56,10 +57,12 @@ static bool check_data(const DipMeshData *data, DipError *err) {
 }
 
 // Starts a chunk at the next free index and aligned vertex.
-static DipChunk *begin_chunk(Splitter *splitter) {
+static DipChunk *begin_chunk(Splitter *splitter, uint32_t triangle) {
     DipMesh *mesh = splitter->mesh;
     DipChunk *chunk = &mesh->chunks[mesh->chunk_count++];
-    *chunk = (DipChunk){.first_vertex = mesh->vertex_total, .first_index = splitter->index_total};
+    *chunk = (DipChunk){.first_vertex = mesh->vertex_total,
+                        .first_index = splitter->index_total,
+                        .first_triangle = triangle};
     return chunk;
 }
 
@@ -115,7 +118,7 @@ static void split(Splitter *splitter) {
             chunk = NULL;
         }
         if (!chunk) {
-            chunk = begin_chunk(splitter);
+            chunk = begin_chunk(splitter, t);
         }
         add_triangle(splitter, chunk, corner);
     }
@@ -193,6 +196,13 @@ static void bound_chunks(DipMesh *mesh) {
     }
 }
 
+static bool find_patches(DipMesh *mesh, const DipMeshData *data) {
+    mesh->patches = calloc((size_t)mesh->triangle_count + DIP_BATCH_ALIGN, sizeof *mesh->patches);
+    return mesh->patches &&
+           dip_patches_find(data->attributes, (size_t)data->attribute_count, data->vertex_count,
+                            data->indices, data->index_count, mesh->patches, &mesh->patch_count);
+}
+
 // Room for the worst split: every chunk is full of triangles or of vertices.
 static bool allocate_split(Splitter *splitter) {
     const size_t triangles = splitter->data->index_count / 3;
@@ -219,7 +229,7 @@ DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err) {
         const size_t floats = (size_t)mesh->vertex_total * (size_t)mesh->attribute_count;
         mesh->attributes = malloc((floats + 1) * sizeof *mesh->attributes);
         mesh->groups = malloc((mesh->chunk_count / DIP_GROUP_CHUNKS + 1) * sizeof *mesh->groups);
-        made = mesh->attributes && mesh->groups;
+        made = mesh->attributes && mesh->groups && find_patches(mesh, data);
     }
     if (made) {
         fill_attributes(&splitter);
@@ -239,6 +249,7 @@ typedef struct MeshSizes {
     size_t groups;
     size_t attributes;
     size_t indices;
+    size_t patches;
 } MeshSizes;
 
 static MeshSizes sizes_of(const DipMesh *mesh) {
@@ -251,7 +262,8 @@ static MeshSizes sizes_of(const DipMesh *mesh) {
     return (MeshSizes){mesh->chunk_count * sizeof *mesh->chunks, groups * sizeof *mesh->groups,
                        (size_t)mesh->vertex_total * (size_t)mesh->attribute_count *
                            sizeof *mesh->attributes,
-                       indices * sizeof *mesh->indices};
+                       indices * sizeof *mesh->indices,
+                       ((size_t)mesh->triangle_count + DIP_BATCH_ALIGN) * sizeof *mesh->patches};
 }
 
 static void *copy_array(const void *from, size_t size_bytes) {
@@ -272,7 +284,8 @@ DipMesh *dip_mesh_copy(const DipMesh *mesh) {
     copy->groups = copy_array(mesh->groups, sizes.groups);
     copy->attributes = copy_array(mesh->attributes, sizes.attributes);
     copy->indices = copy_array(mesh->indices, sizes.indices);
-    if (!copy->chunks || !copy->groups || !copy->attributes || !copy->indices) {
+    copy->patches = copy_array(mesh->patches, sizes.patches);
+    if (!copy->chunks || !copy->groups || !copy->attributes || !copy->indices || !copy->patches) {
         dip_mesh_destroy(&copy);
     }
     return copy;
@@ -280,7 +293,8 @@ DipMesh *dip_mesh_copy(const DipMesh *mesh) {
 
 size_t dip_mesh_bytes(const DipMesh *mesh) {
     const MeshSizes sizes = sizes_of(mesh);
-    return sizeof *mesh + sizes.chunks + sizes.groups + sizes.attributes + sizes.indices;
+    return sizeof *mesh + sizes.chunks + sizes.groups + sizes.attributes + sizes.indices +
+           sizes.patches;
 }
 
 void dip_mesh_destroy(DipMesh **mesh) {
@@ -289,6 +303,7 @@ void dip_mesh_destroy(DipMesh **mesh) {
         free((*mesh)->groups);
         free((*mesh)->attributes);
         free((*mesh)->indices);
+        free((*mesh)->patches);
         free(*mesh);
         *mesh = NULL;
     }

@@ -20,6 +20,7 @@ typedef struct DipChunk {
     uint32_t first_vertex;   // into each attribute's array; a multiple of DIP_BATCH_ALIGN
     uint32_t vertex_count;   // 1..DIP_VERTEX_BATCH
     uint32_t first_index;    // into the indices
+    uint32_t first_triangle; // into the patches
     uint32_t triangle_count; // 1..DIP_CHUNK_TRIANGLES
 } DipChunk;
 
@@ -39,6 +40,8 @@ struct DipMesh {
     DipBox box;
     float *attributes; // attribute a of vertex i: attributes[a * vertex_total + i]
     uint8_t *indices;  // within the chunk's vertices
+    uint32_t *patches; // of triangle t of the mesh, see patch.h; DIP_BATCH_ALIGN more may be read
+    uint32_t patch_count;
     float min[3];
     float max[3];
 };

@@ -11,7 +11,7 @@ enum {
     DIP_CLIP_NEAR = 1 << 0, // z > w
     DIP_CLIP_FAR = 1 << 1,  // z < 0
     DIP_CLIP_W = 1 << 2,    // w below DIP_MIN_W
-    DIP_CLIP_LEFT = 1 << 3, // of the picture: to reject, not to clip
+    DIP_CLIP_LEFT = 1 << 3, // of what is drawn of the picture: to reject, not to clip
     DIP_CLIP_RIGHT = 1 << 4,
     DIP_CLIP_TOP = 1 << 5,
     DIP_CLIP_BOTTOM = 1 << 6,
@@ -38,6 +38,8 @@ enum {
 typedef struct DipScreenMapping {
     float half_width; // pixels
     float half_height;
+    // Where drawing ends, in units of w: beyond it nothing can reach the pass' region.
+    float left, right, bottom, top;
     // The guard band in units of w: -guard_left w <= x <= guard_right w; likewise y, up positive.
     float guard_left, guard_right, guard_bottom, guard_top;
     float clip_planes[DIP_MAX_CLIP_PLANES][4];

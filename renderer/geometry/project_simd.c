@@ -27,10 +27,10 @@ VEC_INLINE Vi clip_code(const DipScreenMapping *map, Vf x, Vf y, Vf z, Vf w) {
     code |= code_if(vf_lt(w, z), DIP_CLIP_NEAR);
     code |= code_if(vf_lt(z, vf_splat(0.0f)), DIP_CLIP_FAR);
     code |= code_if(vf_lt(w, vf_splat(DIP_MIN_W)), DIP_CLIP_W);
-    code |= code_if(vf_lt(x, -w), DIP_CLIP_LEFT);
-    code |= code_if(vf_lt(w, x), DIP_CLIP_RIGHT);
-    code |= code_if(vf_lt(w, y), DIP_CLIP_TOP);
-    code |= code_if(vf_lt(y, -w), DIP_CLIP_BOTTOM);
+    code |= code_if(vf_lt(x, w * map->left), DIP_CLIP_LEFT);
+    code |= code_if(vf_lt(w * map->right, x), DIP_CLIP_RIGHT);
+    code |= code_if(vf_lt(w * map->top, y), DIP_CLIP_TOP);
+    code |= code_if(vf_lt(y, w * map->bottom), DIP_CLIP_BOTTOM);
     code |= code_if(vf_lt(x, w * -map->guard_left), DIP_CLIP_GUARD_LEFT);
     code |= code_if(vf_lt(w * map->guard_right, x), DIP_CLIP_GUARD_RIGHT);
     code |= code_if(vf_lt(w * map->guard_top, y), DIP_CLIP_GUARD_TOP);

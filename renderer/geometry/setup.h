@@ -23,17 +23,19 @@ typedef struct DipSetupTarget {
     int slot_count;
     int surface_stride; // floats per triangle, see dip_surface_stride
     uint32_t draw;
+    uint32_t first_patch; // the number of the draw's patch 0
     DipCull cull;
-    const DipSamplePattern *pattern;
-    uint8_t sample_min[2]; // least and greatest sample position of the pattern, 1/256 pixel
+    const DipSamplePattern *samples;
+    uint8_t sample_min[2]; // least and greatest of their positions, 1/256 pixel
     uint8_t sample_max[2];
 } DipSetupTarget;
 
-// Triangles of one draw. Arrays of corners may be read to the next multiple of DIP_BATCH_ALIGN and
-// hold valid vertices there.
+// Triangles of one draw. Arrays of corners and patches may be read to the next multiple of
+// DIP_BATCH_ALIGN and hold valid vertices there.
 typedef struct DipSetupBatch {
     int count;                // 1..DIP_SETUP_BATCH
     const uint8_t *corner[3]; // of triangle t: vertices corner[0..2][t] of `screen`
+    const uint32_t *patch;    // of triangle t, of the draw's
     const DipScreenBatch *screen;
     const float *slots; // slot s of vertex v: slots[s * slot_stride + v]
     int slot_stride;

@@ -17,6 +17,7 @@ typedef struct Candidates {
     int32_t corner[3][ROOM];
     int32_t x[3][ROOM];
     int32_t y[3][ROOM];
+    int32_t patch[ROOM];
     int32_t first_pixel[ROOM]; // of the pixel box, x | y << 16
     int32_t last_pixel[ROOM];
 } Candidates;
@@ -60,12 +61,12 @@ VEC_INLINE Hi is_small(const Hi at[3]) {
 
 // Whether each triangle, small and wound so that its area is positive, covers a sample of a pixel
 // that its box meets.
-VEC_INLINE Hi covers_pixel(const DipSamplePattern *pattern, const Hi x[3], const Hi y[3],
+VEC_INLINE Hi covers_pixel(const DipSamplePattern *samples, const Hi x[3], const Hi y[3],
                            const Hi pixel[2]) {
     Hi covers = hi_splat(0);
-    for (int s = 0; s < pattern->count; s++) {
-        const Hi at_x = pixel[0] * DIP_SUBPIXELS + pattern->x[s];
-        const Hi at_y = pixel[1] * DIP_SUBPIXELS + pattern->y[s];
+    for (int s = 0; s < samples->count; s++) {
+        const Hi at_x = pixel[0] * DIP_SUBPIXELS + samples->x[s];
+        const Hi at_y = pixel[1] * DIP_SUBPIXELS + samples->y[s];
         Hi inside = hi_splat(-1);
         for (int i = 0; i < 3; i++) {
             const Hi dx = x[(i + 1) % 3] - x[i];
@@ -101,7 +102,6 @@ VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch
                 &last[1]);
     const Hi facing = (front & hi_splat(target->cull == DIP_CULL_FRONT ? 0 : -1)) |
                       (back & hi_splat(target->cull == DIP_CULL_BACK ? 0 : -1));
-    // The box itself is not cut to the region, since shading planes depend on it.
     Hi kept = facing & (first[0] <= last[0]) & (first[1] <= last[1]);
     for (int axis = 0; axis < 2; axis++) {
         kept &= (first[axis] <= hi_splat(target->region_last[axis])) &
@@ -119,13 +119,15 @@ VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch
     swap_if(front, &y[1], &y[2]);
     const Hi one_pixel = (first[0] == last[0]) & (first[1] == last[1]) & is_small(x) & is_small(y);
     if (hi_mask_bits(one_pixel) & bits) {
-        bits &= hi_mask_bits(~one_pixel | covers_pixel(target->pattern, x, y, first));
+        bits &= hi_mask_bits(~one_pixel | covers_pixel(target->samples, x, y, first));
     }
     for (int k = 0; k < 3; k++) {
         hi_store_packed(out->corner[k] + count, corner[k], bits);
         hi_store_packed(out->x[k] + count, x[k], bits);
         hi_store_packed(out->y[k] + count, y[k], bits);
     }
+    const Hi patch = hi_load((const int32_t *)batch->patch + at);
+    hi_store_packed(out->patch + count, patch + (int32_t)target->first_patch, bits);
     hi_store_packed(out->first_pixel + count, first[0] | first[1] << 16, bits);
     hi_store_packed(out->last_pixel + count, last[0] | last[1] << 16, bits);
     return count + __builtin_popcount(bits);
@@ -140,6 +142,7 @@ static void pad(Candidates *candidates, int count) {
             candidates->x[k][i] = candidates->x[k][last];
             candidates->y[k][i] = candidates->y[k][last];
         }
+        candidates->patch[i] = candidates->patch[last];
         candidates->first_pixel[i] = candidates->first_pixel[last];
         candidates->last_pixel[i] = candidates->last_pixel[last];
     }
@@ -153,6 +156,7 @@ typedef struct Frame {
     Hi corner[3];
     Hi x[3];
     Hi y[3];
+    Hi patch;
     Hi first_pixel;
     Hi last_pixel;
     Vd x0, y0; // of vertex 0, pixels
@@ -184,6 +188,7 @@ VEC_INLINE Frame frame_of(const Candidates *candidates, int at) {
         frame.x[k] = hi_load(candidates->x[k] + at);
         frame.y[k] = hi_load(candidates->y[k] + at);
     }
+    frame.patch = hi_load(candidates->patch + at);
     frame.first_pixel = hi_load(candidates->first_pixel + at);
     frame.last_pixel = hi_load(candidates->last_pixel + at);
     frame.x0 = to_pixels(frame.x[0]);
@@ -238,13 +243,14 @@ VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen
     const Vl words[3][4] = {
         {c[0], c[1], c[2], vl_pair(a[0], a[1])},
         {vl_pair(a[2], b[0]), vl_pair(b[1], b[2]), vl_pair(frame->first_pixel, frame->last_pixel),
-         vl_pair(hi_splat((int32_t)draw), hi_splat(0))},
+         vl_pair(hi_splat((int32_t)draw), frame->patch)},
         {(Vl)origin, (Vl)slope.dx, (Vl)slope.dy,
          vl_pair((Hi)hf_select(low < z[2], low, z[2]), (Hi)hf_select(high > z[2], high, z[2]))},
     };
     _Static_assert(sizeof(DipTriangle) == sizeof(int64_t[3][4]) && offsetof(DipTriangle, a) == 24 &&
                        offsetof(DipTriangle, b) == 36 && offsetof(DipTriangle, x0) == 48 &&
                        offsetof(DipTriangle, x1) == 52 && offsetof(DipTriangle, draw) == 56 &&
+                       offsetof(DipTriangle, patch) == 60 &&
                        offsetof(DipTriangle, z_origin) == 64 && offsetof(DipTriangle, z_min) == 88,
                    "triangles are written by words");
     for (int i = 0; i < 3; i++) {
@@ -252,15 +258,19 @@ VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen
     }
 }
 
-// The corner of the pixel box where 1/w is smallest in magnitude.
-VEC_INLINE void find_anchor(const Frame *frame, Vd rw0, const Gradient *q, Vd anchor[2]) {
+// The corner of the box of the target's pixels that the triangle touches where 1/w is smallest in
+// magnitude. Samples do not matter, so that all passes from the same geometry have the same planes.
+VEC_INLINE void find_anchor(const Frame *frame, const DipSetupTarget *target, Vd rw0,
+                            const Gradient *q, Vd anchor[2]) {
+    Hi first[2];
+    Hi last[2];
+    pixel_range(frame->x, 0, DIP_SUBPIXELS - 1, target->width, &first[0], &last[0]);
+    pixel_range(frame->y, 0, DIP_SUBPIXELS - 1, target->height, &first[1], &last[1]);
     Vd best = vd_splat(1e300);
     anchor[0] = anchor[1] = vd_splat(0.0);
     for (int corner = 0; corner < 4; corner++) {
-        const Hi x = corner & 1 ? (frame->last_pixel & 0xffff) + 1 : frame->first_pixel & 0xffff;
-        const Hi y = corner & 2 ? (frame->last_pixel >> 16) + 1 : frame->first_pixel >> 16;
-        const Vd at_x = vd_from_int(x);
-        const Vd at_y = vd_from_int(y);
+        const Vd at_x = vd_from_int(corner & 1 ? last[0] + 1 : first[0]);
+        const Vd at_y = vd_from_int(corner & 2 ? last[1] + 1 : first[1]);
         const Vd size = vd_abs(rw0 + q->dx * (at_x - frame->x0) + q->dy * (at_y - frame->y0));
         const Vl smaller = size < best;
         best = vd_select(smaller, size, best);
@@ -285,7 +295,7 @@ VEC_INLINE void store_surfaces(const Frame *frame, const DipSetupTarget *target,
     const Vd rw[3] = {vd_from_float(corner[0]), vd_from_float(corner[1]), vd_from_float(corner[2])};
     const Gradient q = gradient(frame, rw);
     Vd anchor[2];
-    find_anchor(frame, rw[0], &q, anchor);
+    find_anchor(frame, target, rw[0], &q, anchor);
     const Vd to_anchor[2] = {anchor[0] - frame->x0, anchor[1] - frame->y0};
     values[DIP_SURFACE_ANCHOR] = hf_from_double(anchor[0]);
     values[DIP_SURFACE_ANCHOR + 1] = hf_from_double(anchor[1]);

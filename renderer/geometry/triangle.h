@@ -16,7 +16,8 @@ typedef struct DipTriangle {
     int32_t a[3];
     int32_t b[3];
     int16_t x0, y0, x1, y1; // pixels that may hold covered samples, inclusive, within the target
-    uint64_t draw;          // index into the pass' draws
+    uint32_t draw;          // index into the pass' draws
+    uint32_t patch;         // of all draws' patches, from 1
     double z_origin;        // depth at the target's corner
     double z_dx;            // per pixel
     double z_dy;
@@ -26,8 +27,8 @@ typedef struct DipTriangle {
 
 // Shading planes, in an array of their own, triangle by triangle: anchor x, y (pixels); then 1/w
 // and each slot/w as value at the anchor, d/dx, d/dy per pixel. The anchor is the corner of the
-// triangle's pixel box where 1/w is smallest, because float planes are most exact near their anchor
-// and the far end of a receding surface needs that most.
+// box of pixels that the triangle touches where 1/w is smallest, because float planes are most
+// exact near their anchor and the far end of a receding surface needs that most.
 enum {
     DIP_SURFACE_ANCHOR = 0,
     DIP_SURFACE_RW = 2,

@@ -5,8 +5,7 @@ DipExtent dip_extent_none(void) {
     return (DipExtent){{1e300, 1e300}, {-1e300, -1e300}};
 }
 
-// x, y and w in clip space.
-static void project(const DipView *view, const double world[3], double clip[3]) {
+void dip_extent_project(const DipView *view, const double world[3], double clip[3]) {
     static const int rows[3] = {0, 1, 3};
     for (int r = 0; r < 3; r++) {
         const double *m = view->world_to_clip + 4 * rows[r];
@@ -26,8 +25,8 @@ static void take_in(DipExtent *extent, const double clip[3]) {
 static void add_edge(DipExtent *extent, const DipView *view, const double a[3], const double b[3]) {
     double from[3];
     double to[3];
-    project(view, a, from);
-    project(view, b, to);
+    dip_extent_project(view, a, from);
+    dip_extent_project(view, b, to);
     if (from[2] >= view->near_m) {
         take_in(extent, from);
     }

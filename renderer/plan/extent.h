@@ -16,6 +16,9 @@ typedef struct DipExtent {
 
 DipExtent dip_extent_none(void);
 
+// A point of the world in clip space: x, y and w.
+void dip_extent_project(const DipView *view, const double world[3], double clip[3]);
+
 // Each takes in what of a shape lies beyond the near plane and in the picture's rectangle.
 void dip_extent_add_box(DipExtent *extent, const DipView *view, const double corners[8][3]);
 void dip_extent_add_triangle(DipExtent *extent, const DipView *view, const double corners[3][3]);

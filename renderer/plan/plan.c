@@ -1,7 +1,6 @@
 // Deciding a frame's effects, one function each.
 #include "renderer/plan/plan.h"
 
-#include "renderer/geometry/cull.h"
 #include "renderer/plan/extent.h"
 #include "renderer/scene_internal.h"
 
@@ -24,11 +23,9 @@ static const DipSceneMaterial *material_of(const DipScene *scene, int object) {
     return &scene->materials[mesh_of(scene, object)->material];
 }
 
-static bool object_in_view(const DipScene *scene, const DipView *view, int object) {
-    const DipMesh *mesh = mesh_of(scene, object)->mesh;
-    float to_clip[16];
-    dip_view_place(view, scene->objects[object].transform, to_clip);
-    return mesh->chunk_count && dip_cull_in_view(to_clip, &mesh->box);
+static bool object_in_view(const DipScene *scene, const DipCullPlanes *seen, int object) {
+    return mesh_of(scene, object)->mesh->chunk_count &&
+           !dip_cull_outside(seen, &scene->objects[object].bounds);
 }
 
 // --- what is in view ---------------------------------------------------------------------------
@@ -55,9 +52,9 @@ static bool is_clouded(const DipScene *scene, int object) {
 // before.
 static bool any_in_view(const DipPlanInput *input, const DipFramePlan *plan, IsOfEffect *is) {
     for (int i = 0; i < input->scene->object_count; i++) {
-        if (is(input->scene, i) &&
-            (object_in_view(input->scene, input->view, i) ||
-             (plan->effects.reflection.run && object_in_view(input->scene, input->mirrored, i)))) {
+        if (is(input->scene, i) && (object_in_view(input->scene, input->seen, i) ||
+                                    (plan->effects.reflection.run &&
+                                     object_in_view(input->scene, input->seen_mirrored, i)))) {
             return true;
         }
     }
@@ -76,12 +73,13 @@ static bool is_below(const DipView *view, const double (*corners)[3], int count)
     return false;
 }
 
-static void add_chunk_box(DipExtent *extent, const DipView *view, const float transform[12],
+static void add_chunk_box(DipExtent *extent, const DipPlanInput *input, const float transform[12],
                           const DipBox *box) {
     double corners[8][3];
     dip_extent_place_box(transform, box, corners);
-    if (is_below(view, (const double(*)[3])corners, 8)) {
-        dip_extent_add_box(extent, view, (const double(*)[3])corners);
+    if (is_below(input->view, (const double(*)[3])corners, 8)) {
+        dip_extent_add_box(extent, input->view, (const double(*)[3])corners);
+        dip_parts_add_box(input->parts, input->view, (const double(*)[3])corners);
     }
 }
 
@@ -96,8 +94,9 @@ static void place_vertex(const DipMesh *mesh, const float transform[12], uint32_
     }
 }
 
-static void add_chunk_triangles(DipExtent *extent, const DipView *view, const float transform[12],
-                                const DipMesh *mesh, const DipChunk *chunk) {
+static void add_chunk_triangles(DipExtent *extent, const DipPlanInput *input,
+                                const float transform[12], const DipMesh *mesh,
+                                const DipChunk *chunk) {
     const uint8_t *corner = mesh->indices + chunk->first_index;
     const uint32_t stride = dip_corner_stride(chunk);
     for (uint32_t t = 0; t < chunk->triangle_count; t++) {
@@ -105,29 +104,30 @@ static void add_chunk_triangles(DipExtent *extent, const DipView *view, const fl
         for (uint32_t k = 0; k < 3; k++) {
             place_vertex(mesh, transform, chunk->first_vertex + corner[k * stride + t], corners[k]);
         }
-        if (is_below(view, (const double(*)[3])corners, 3)) {
-            dip_extent_add_triangle(extent, view, (const double(*)[3])corners);
+        if (is_below(input->view, (const double(*)[3])corners, 3)) {
+            dip_extent_add_triangle(extent, input->view, (const double(*)[3])corners);
+            dip_parts_add_triangle(input->parts, input->view, (const double(*)[3])corners);
         }
     }
 }
 
 enum { FEW_CHUNKS = 8 }; // of a mesh: its triangles are looked at one by one
 
-// Where the water that the eye looks down on may be in the picture.
+// Where the water that the eye looks down on may be in the picture; also adds it to the parts.
 static DipExtent water_extent(const DipPlanInput *input) {
     DipExtent extent = dip_extent_none();
     for (int i = 0; i < input->scene->object_count; i++) {
         if (material_of(input->scene, i)->surface != DIP_SURFACE_WATER ||
-            !object_in_view(input->scene, input->view, i)) {
+            !object_in_view(input->scene, input->seen, i)) {
             continue;
         }
         const float *transform = input->scene->objects[i].transform;
         const DipMesh *mesh = mesh_of(input->scene, i)->mesh;
         for (uint32_t c = 0; c < mesh->chunk_count; c++) {
             if (mesh->chunk_count <= FEW_CHUNKS) {
-                add_chunk_triangles(&extent, input->view, transform, mesh, &mesh->chunks[c]);
+                add_chunk_triangles(&extent, input, transform, mesh, &mesh->chunks[c]);
             } else {
-                add_chunk_box(&extent, input->view, transform, &mesh->chunks[c].box);
+                add_chunk_box(&extent, input, transform, &mesh->chunks[c].box);
             }
         }
     }
@@ -154,9 +154,10 @@ static DipEffect plan_reflection(const DipPlanInput *input, DipFramePlan *plan) 
         plan->mirrored_region = whole;
         return run(input, "its picture is shown whole");
     }
+    plan->mirrored_parts = true;
+    dip_parts_clear(input->parts);
     const DipExtent extent = water_extent(input);
-    // A bilinear read takes in the next texel; one more for what is rounded.
-    return dip_extent_region(&extent, reflection->width, reflection->height, 2,
+    return dip_extent_region(&extent, reflection->width, reflection->height, input->parts->margin,
                              &plan->mirrored_region)
                ? run(input, "water is in view")
                : skip("no water is in view");

@@ -8,8 +8,10 @@
 #define DIP_RENDERER_PLAN_PLAN_H
 
 #include "renderer/frame.h"
+#include "renderer/geometry/cull.h"
 #include "renderer/geometry/view.h"
 #include "renderer/pipeline.h"
+#include "renderer/plan/parts.h"
 #include "renderer/quality.h"
 #include "renderer/reflection.h"
 #include "renderer/scene.h"
@@ -19,7 +21,10 @@
 typedef struct DipPlanInput {
     const DipScene *scene;
     const DipView *view;
-    const DipView *mirrored; // as water shows it
+    const DipView *mirrored;   // as water shows it
+    const DipCullPlanes *seen; // of the views
+    const DipCullPlanes *seen_mirrored;
+    const DipParts *parts; // of the mirrored picture; filled in where the plan says so
     const DipReflectionDef *reflection;
     const DipQuality *quality;
     bool plain_surfaces;
@@ -32,6 +37,7 @@ typedef struct DipFramePlan {
     // view.
     bool water_reflects;
     DipRegion mirrored_region; // what the mirrored pass draws of its target, if it runs
+    bool mirrored_parts;       // of the region only the input's parts
     int samples_per_pass;      // of alpha-clipped surfaces
 } DipFramePlan;
 

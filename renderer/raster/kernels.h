@@ -36,6 +36,9 @@
     X(void, dip_kernel_sample_colour,                                                              \
       (DipFragmentBatch * batch, const DipSampler *sampler, int u_slot,                            \
        float(*out)[DIP_FRAGMENT_BATCH]))                                                           \
+    X(void, dip_kernel_sample_colours,                                                             \
+      (DipFragmentBatch * batch, const DipSampler *const samplers[2], int u_slot,                  \
+       float(*const out[2])[DIP_FRAGMENT_BATCH]))                                                  \
     X(void, dip_kernel_sample_alpha,                                                               \
       (DipFragmentBatch * batch, const DipSampler *sampler, int u_slot, float *out))               \
     X(void, dip_kernel_sample_target,                                                              \

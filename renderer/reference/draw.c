@@ -1,4 +1,4 @@
-// The picture of the settings: exact coverage, depth per sample, one shading per pixel and surface.
+// The picture of the settings: exact coverage, depth per sample, one shading per pixel and patch.
 #include "renderer/reference/private.h"
 
 #include "renderer/raster/pattern.h"
@@ -191,11 +191,16 @@ static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigne
     }
 }
 
+static bool same_patch(const Drawing *drawing, int32_t a, int32_t b) {
+    const DipRefTriangle *triangles = drawing->triangles.items;
+    return a == b || (a != NOTHING && b != NOTHING && triangles[a].patch == triangles[b].patch);
+}
+
 // The samples that are shaded together with sample s.
 static unsigned shaded_with(const Drawing *drawing, const int32_t *surfaces, int s) {
     unsigned mask = 0;
     for (int other = 0; other < drawing->pattern->count; other++) {
-        mask |= (unsigned)(surfaces[other] == surfaces[s]) << other;
+        mask |= (unsigned)same_patch(drawing, surfaces[other], surfaces[s]) << other;
     }
     if (surfaces[s] != NOTHING && has_passes(drawing, &drawing->triangles.items[surfaces[s]])) {
         mask &= drawing->passes.sharing[s];

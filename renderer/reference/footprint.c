@@ -71,6 +71,10 @@ DipFootprint dip_reference_footprint(const double ddx[2], const double ddy[2], i
                           log2(frame.length / frame.ratio)};
 }
 
+int dip_reference_coarser_probes(int probe_count, double fraction) {
+    return (int)ceil(probe_count * fmax(0.5, fraction));
+}
+
 double dip_reference_level(double lambda, double bias, int min_level, int last_level) {
     const double first = min_level < last_level ? min_level : last_level;
     const double biased = lambda + bias;

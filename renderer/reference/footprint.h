@@ -7,7 +7,7 @@
 typedef struct DipFootprint {
     double major_texels[2]; // the line that the probes lie on, its whole length, in level 0
     double eta;             // anisotropy that is made up for by probes, 1..max
-    int probe_count;        // 1..max
+    int probe_count;        // 1..max; of the finer of two levels
     double lambda;          // before bias and clamping; may be infinite or NaN
 } DipFootprint;
 
@@ -16,6 +16,9 @@ typedef struct DipFootprint {
 // than its texels. For a Jacobian that is not finite: one probe, lambda NaN.
 DipFootprint dip_reference_footprint(const double ddx[2], const double ddy[2], int max_anisotropy,
                                      bool advanced, int min_level);
+
+// The probes of the coarser of two levels, of which it has that fraction.
+int dip_reference_coarser_probes(int probe_count, double fraction);
 
 // The level to read, in steps of 1/256 within [min_level, last_level]; last_level wins where the
 // chain is shorter than min_level.

@@ -288,9 +288,12 @@ static int clip_below(int count, ClipVertex polygon[MAX_CORNERS]) {
     return kept >= 3 ? kept : 0;
 }
 
-static bool add_mesh(const DipReference *reference, const Camera *camera, const DipMeshDef *mesh,
+// *like has what is common; it also gives the number of the mesh's first patch.
+static bool add_mesh(const DipReference *reference, const Camera *camera, int mesh_index,
                      const ClipVertex *vertices, const DipRefTriangle *like,
                      DipRefTriangles *triangles) {
+    const DipMeshDef *mesh = &reference->def->meshes[mesh_index];
+    DipRefTriangle triangle = *like;
     for (uint32_t i = 0; i < mesh->index_count; i += 3) {
         if (i / 3 % DIP_REF_STOP_PERIOD == 0 && dip_reference_stopped(reference, NULL)) {
             return false;
@@ -301,10 +304,13 @@ static bool add_mesh(const DipReference *reference, const Camera *camera, const 
         if (!is_finite(corners[0]) || !is_finite(corners[1]) || !is_finite(corners[2])) {
             continue;
         }
+        triangle.patch =
+            like->patch + (reference->patches ? reference->patches[mesh_index][i / 3] : i / 3);
         ClipVertex polygon[MAX_CORNERS];
         const int count = clip_below(clip_near(corners, camera->near_m, polygon), polygon);
         for (int k = 2; k < count; k++) {
-            if (!add_piece(camera, &polygon[0], &polygon[k - 1], &polygon[k], like, triangles)) {
+            if (!add_piece(camera, &polygon[0], &polygon[k - 1], &polygon[k], &triangle,
+                           triangles)) {
                 return false;
             }
         }
@@ -334,11 +340,14 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
     return like;
 }
 
+// first_patch: a number such that no other object has it or one of the next 2^32.
 static bool add_object(const DipReference *reference, const Camera *camera,
-                       const DipObjectDef *object, DipRefTriangles *triangles) {
+                       const DipObjectDef *object, uint64_t first_patch,
+                       DipRefTriangles *triangles) {
     const DipMeshDef *mesh = &reference->def->meshes[object->mesh];
     const Turn turn = find_turn(object->transform);
     DipRefTriangle like = describe_mesh(reference, mesh);
+    like.patch = first_patch;
     like.mirrored = turn.mirrored != camera->mirrored;
     ClipVertex *vertices = malloc(((size_t)mesh->vertex_count + 1) * sizeof *vertices);
     if (!vertices) {
@@ -348,7 +357,7 @@ static bool add_object(const DipReference *reference, const Camera *camera,
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         vertices[i] = transform_vertex(camera, object->transform, mesh, &turn, lit, i);
     }
-    const bool added = add_mesh(reference, camera, mesh, vertices, &like, triangles);
+    const bool added = add_mesh(reference, camera, object->mesh, vertices, &like, triangles);
     free(vertices);
     return added;
 }
@@ -366,7 +375,8 @@ bool dip_reference_build_triangles(const DipReference *reference, const DipRefSh
         if (shot->mirrored && is_water(reference, &reference->def->objects[o])) {
             continue;
         }
-        if (!add_object(reference, &camera, &reference->def->objects[o], triangles)) {
+        if (!add_object(reference, &camera, &reference->def->objects[o], (uint64_t)o << 32,
+                        triangles)) {
             dip_reference_triangles_free(triangles);
             return !dip_reference_stopped(reference, err) &&
                    dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for triangles");

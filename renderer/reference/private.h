@@ -14,6 +14,7 @@ struct DipReference {
     DipReflectionDef reflection;
     const atomic_bool *stop; // NULL: never
     bool for_truth;          // textures have level 0 alone
+    uint32_t **patches;      // of the triangles of each mesh; NULL for the truth
     DipRefTexture *textures; // by the description's index; those that nothing shows have no levels
 };
 
@@ -54,6 +55,7 @@ typedef struct DipRefTriangle {
     const DipRefTexture *normal_map; // likewise; and no normals or nothing that lights it
     const DipSkyDef *sky;            // of sky with clouds; NULL: of other surfaces
     int64_t time_ns;                 // of the sky
+    uint64_t patch;                  // of all objects' patches, shaded as one
     bool mirrored;                   // by its object's transform, which turns the winding around
     bool clipped;                    // by the alpha of `colour`
     int min_x, max_x;                // pixels of the frame that it may touch, inclusive

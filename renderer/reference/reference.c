@@ -1,6 +1,7 @@
 // The reference's scene: checks the description and decodes the textures that are shown.
 #include "renderer/reference/private.h"
 
+#include "renderer/geometry/patch.h"
 #include "renderer/renderer.h"
 
 #include <stdlib.h>
@@ -85,6 +86,22 @@ static bool load_material(DipReference *reference, const DipMaterialDef *materia
             load_texture(reference, material->normal_map, err));
 }
 
+static bool find_patches(DipReference *reference, DipError *err) {
+    const DipSceneDef *def = reference->def;
+    reference->patches = calloc((size_t)def->mesh_count + 1, sizeof *reference->patches);
+    bool found = reference->patches != NULL;
+    for (int m = 0; found && m < def->mesh_count; m++) {
+        const DipMeshDef *mesh = &def->meshes[m];
+        uint32_t count;
+        uint32_t *patches = malloc((mesh->index_count / 3 + 1) * sizeof *patches);
+        reference->patches[m] = patches;
+        found = patches && dip_patches_find(mesh->positions, 3, mesh->vertex_count, mesh->indices,
+                                            mesh->index_count, patches, &count);
+    }
+    return found ||
+           dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reference");
+}
+
 static DipReference *create(const DipSceneDef *def, const atomic_bool *stop, bool for_truth,
                             DipError *err) {
     if (!check_scene(def, err)) {
@@ -103,6 +120,7 @@ static DipReference *create(const DipSceneDef *def, const atomic_bool *stop, boo
     if (!loaded) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reference");
     }
+    loaded = loaded && (for_truth || find_patches(reference, err));
     for (int m = 0; loaded && m < def->material_count; m++) {
         loaded = load_material(reference, &def->materials[m], err) &&
                  (for_truth || compress_texture(reference, &def->materials[m], err));
@@ -133,6 +151,10 @@ void dip_reference_destroy(DipReference **reference) {
     for (int t = 0; (*reference)->textures && t < (*reference)->def->texture_count; t++) {
         dip_reference_texture_free(&(*reference)->textures[t]);
     }
+    for (int m = 0; (*reference)->patches && m < (*reference)->def->mesh_count; m++) {
+        free((*reference)->patches[m]);
+    }
+    free((*reference)->patches);
     free((*reference)->textures);
     free(*reference);
     *reference = NULL;

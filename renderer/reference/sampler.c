@@ -60,14 +60,36 @@ void dip_reference_sample_finest(const DipRefTexture *texture, const double uv[2
     sample_bilinear(texture, false, 0, uv, 0.0, rgba);
 }
 
-static void sample_trilinear(const DipRefTexture *texture, bool compressed, double level,
-                             const double uv[2], double rgba[4]) {
+// The mean of so many probes along a footprint's major axis, all of one level.
+static void sample_line(const DipRefTexture *texture, bool compressed, int level,
+                        const double uv[2], const DipFootprint *footprint, int probe_count,
+                        double rgba[4]) {
+    double sum[4] = {0};
+    for (int i = 0; i < probe_count; i++) {
+        const double t = (i + 0.5) / probe_count - 0.5;
+        const double place[2] = {uv[0] + t * footprint->major_texels[0] / texture->widths[0],
+                                 uv[1] + t * footprint->major_texels[1] / texture->heights[0]};
+        double probe[4];
+        sample_bilinear(texture, compressed, level, place, 256.0, probe);
+        for (int c = 0; c < 4; c++) {
+            sum[c] += probe[c];
+        }
+    }
+    for (int c = 0; c < 4; c++) {
+        rgba[c] = sum[c] / probe_count;
+    }
+}
+
+// Blends the level with the next, which takes fewer probes.
+static void sample_levels(const DipRefTexture *texture, bool compressed, double level,
+                          const double uv[2], const DipFootprint *footprint, double rgba[4]) {
     const int finer = (int)level;
     const double fraction = level - finer;
-    sample_bilinear(texture, compressed, finer, uv, 256.0, rgba);
+    sample_line(texture, compressed, finer, uv, footprint, footprint->probe_count, rgba);
     if (fraction > 0.0) {
         double coarser[4];
-        sample_bilinear(texture, compressed, finer + 1, uv, 256.0, coarser);
+        sample_line(texture, compressed, finer + 1, uv, footprint,
+                    dip_reference_coarser_probes(footprint->probe_count, fraction), coarser);
         for (int c = 0; c < 4; c++) {
             rgba[c] += (coarser[c] - rgba[c]) * fraction;
         }
@@ -136,20 +158,7 @@ void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filt
         footprint.probe_count = (footprint.probe_count + 1) / 2;
         level = narrow_blend(level);
     }
-    double sum[4] = {0};
-    for (int i = 0; i < footprint.probe_count; i++) {
-        const double t = (i + 0.5) / footprint.probe_count - 0.5;
-        const double place[2] = {uv[0] + t * footprint.major_texels[0] / width,
-                                 uv[1] + t * footprint.major_texels[1] / height};
-        double probe[4];
-        sample_trilinear(texture, filter->compressed, level, place, probe);
-        for (int c = 0; c < 4; c++) {
-            sum[c] += probe[c];
-        }
-    }
-    for (int c = 0; c < 4; c++) {
-        rgba[c] = sum[c] / footprint.probe_count;
-    }
+    sample_levels(texture, filter->compressed, level, uv, &footprint, rgba);
     if (filter->mip_colours) {
         paint_mip_colour(texture, level, rgba);
     }

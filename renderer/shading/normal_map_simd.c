@@ -180,16 +180,32 @@ VEC_INLINE void light_by_sun(DipFragmentBatch *batch, float (*map)[DIP_FRAGMENT_
     }
 }
 
+// Begins with base colour times texture, and reads the map with it where both have coordinates in
+// common.
+VEC_INLINE void start_mapped_colour(DipFragmentBatch *batch, float (*texture)[DIP_FRAGMENT_BATCH],
+                                    float (*map)[DIP_FRAGMENT_BATCH]) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipSampler *const samplers[2] = {&batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
+                                           &batch->samplers[DIP_SURFACE_SAMPLER_NORMAL_MAP]};
+    if (uniforms->colour_slot == uniforms->normal_map_slot) {
+        float(*const out[2])[DIP_FRAGMENT_BATCH] = {texture, map};
+        start_base_colour(batch);
+        batch->sample_colours(batch, samplers, uniforms->colour_slot, out);
+        scale_colour(batch, texture, 1.0f);
+    } else {
+        start_colour(batch, texture);
+        batch->sample_colour(batch, samplers[1], uniforms->normal_map_slot, map);
+    }
+}
+
 void DIP_KERNEL(dip_kernel_normal_map_fragment)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     float texture[3][DIP_FRAGMENT_BATCH];
     float map[3][DIP_FRAGMENT_BATCH];
-    start_colour(batch, texture);
+    start_mapped_colour(batch, texture, map);
     if (uniforms->light_slot != DIP_NO_SLOT) {
         scale_colour(batch, batch->slot + uniforms->light_slot, 1.0f);
     }
-    batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_NORMAL_MAP],
-                         uniforms->normal_map_slot, map);
     if (uniforms->light_map_slot != DIP_NO_SLOT) {
         batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_LIGHT_MAP],
                              uniforms->light_map_slot, texture);

@@ -90,14 +90,19 @@ VEC_INLINE void scale_colour(DipFragmentBatch *batch, float (*factor)[DIP_FRAGME
     }
 }
 
-// Begins with base colour times texture.
-VEC_INLINE void start_colour(DipFragmentBatch *batch, float (*texture)[DIP_FRAGMENT_BATCH]) {
+VEC_INLINE void start_base_colour(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     for (int c = 0; c < 3; c++) {
         for (int i = 0; i < batch->count; i += DIP_LANES) {
             vf_store(batch->colour[c] + i, vf_splat(uniforms->base_colour_lin[c]));
         }
     }
+}
+
+// Begins with base colour times texture.
+VEC_INLINE void start_colour(DipFragmentBatch *batch, float (*texture)[DIP_FRAGMENT_BATCH]) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    start_base_colour(batch);
     if (uniforms->colour_slot != DIP_NO_SLOT) {
         batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
                              uniforms->colour_slot, texture);

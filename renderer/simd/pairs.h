@@ -78,6 +78,22 @@ VEC_INLINE VuPair vu_gather_pairs(const uint32_t *base, Vi index) {
 #endif
 }
 
+// Each lane's value as both its left and its right one.
+VEC_INLINE VuPair vu_pair_same(Vu v) {
+#if VEC_AVX512
+    return (VuPair){(Vu)_mm512_unpacklo_epi32((__m512i)v, (__m512i)v),
+                    (Vu)_mm512_unpackhi_epi32((__m512i)v, (__m512i)v)};
+#elif VEC_AVX2
+    return (VuPair){(Vu)_mm256_unpacklo_epi32((__m256i)v, (__m256i)v),
+                    (Vu)_mm256_unpackhi_epi32((__m256i)v, (__m256i)v)};
+#elif VEC_SSE2
+    return (VuPair){(Vu)_mm_unpacklo_epi32((__m128i)v, (__m128i)v),
+                    (Vu)_mm_unpackhi_epi32((__m128i)v, (__m128i)v)};
+#else
+    return (VuPair){v, v};
+#endif
+}
+
 // The lowest byte of each lane, times 256, in all 16-bit halves of its two values.
 VEC_INLINE VuPair vu_pair_both(Vi v) {
 #if VEC_AVX512 || VEC_AVX2
@@ -93,13 +109,7 @@ VEC_INLINE VuPair vu_pair_both(Vi v) {
                     (Vu)_mm256_shuffle_epi8((__m256i)v, _mm256_broadcastsi128_si256(spread_b))};
 #else
     const Vu byte = ((Vu)v & 0xffu) << 8;
-    const Vu both = byte | byte << 16;
-#if VEC_SSE2
-    return (VuPair){(Vu)_mm_unpacklo_epi32((__m128i)both, (__m128i)both),
-                    (Vu)_mm_unpackhi_epi32((__m128i)both, (__m128i)both)};
-#else
-    return (VuPair){both, both};
-#endif
+    return vu_pair_same(byte | byte << 16);
 #endif
 }
 
@@ -145,7 +155,7 @@ VEC_INLINE Vu vu_pair_right(VuPair pair) {
 #endif
 }
 
-// Left plus right of each lane; no carry may pass between halves.
+// Left plus right of each lane.
 VEC_INLINE Vu vu_pair_sum(VuPair pair) {
     return vu_pair_left(pair) + vu_pair_right(pair);
 }

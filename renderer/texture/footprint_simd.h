@@ -158,31 +158,34 @@ VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
     return vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
 }
 
-// The probes of an anisotropic footprint, relative to its middle, texture coordinates.
-typedef struct Probes {
-    Vi count; // per lane, at least 1
-    Vf inverse_count;
-    Vf first_u, first_v;
-    Vf step_u, step_v;
-} Probes;
-
-// Probes of equal weight at (k + 1/2) / N - 1/2 of the major axis, but none closer than a texel of
-// the finest level that may be read: more would read the same texels again.
+// The probes of an anisotropic footprint on the nearer of its levels: no closer than a texel of the
+// finest level that may be read, since more would read the same texels again.
 // halve: 1: half of them, rounded up; 0: all.
-VEC_INLINE Probes place_probes(const DipSampler *sampler, const Axis *axis, int halve) {
+VEC_INLINE Vi count_probes(const DipSampler *sampler, const Axis *axis, int halve) {
     const int last = sampler->texture->level_count - 1;
     const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
     const float finest = 1.0f / (float)(1 << min);
     const Vf texels2 = axis->length2 * (finest * finest);
     const Vf ratio2 = axis->length2 / vf_max(axis->minor2, vf_splat(MIN_LENGTH * MIN_LENGTH));
     const Vi full = probe_count(vf_sqrt(vf_max(vf_min(ratio2, texels2), vf_splat(1.0f))));
-    const Vi count = (full + halve) >> halve;
-    const Vf inverse = inverse_of(count);
-    const Vf line_u = axis->u * (1.0f / (float)sampler->texture->width);
-    const Vf line_v = axis->v * (1.0f / (float)sampler->texture->height);
-    const Vf first = 0.5f * inverse - 0.5f;
-    return (Probes){count,          inverse,          line_u * first,
-                    line_v * first, line_u * inverse, line_v * inverse};
+    return (full + halve) >> halve;
+}
+
+// Of the probes of the nearer level how many the farther one takes, whose texels are twice as
+// large: half, and the more the nearer the level is to being read alone.
+VEC_INLINE Vi count_far_probes(Vi near_count, Vi fraction) {
+    return (near_count * vi_max(fraction, vi_splat(128)) + 255) >> 8;
+}
+
+// Half of the steps between probes of equal weight, texture coordinates: N of them lie at
+// (k + 1/2) / N - 1/2 of the major axis about its middle, hence N - 1 half steps before it.
+typedef struct Probes {
+    Vf half_u, half_v;
+} Probes;
+
+VEC_INLINE Probes place_probes(const DipTexture *texture, const Axis *axis, Vf inverse_count) {
+    return (Probes){axis->u * (0.5f / (float)texture->width) * inverse_count,
+                    axis->v * (0.5f / (float)texture->height) * inverse_count};
 }
 
 #endif

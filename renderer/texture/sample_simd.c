@@ -10,6 +10,8 @@
 #include "renderer/texture/footprint_simd.h"
 #include "renderer/texture/texture.h"
 
+#include <string.h>
+
 enum { VECTORS = DIP_FRAGMENT_BATCH / DIP_LANES };
 
 // A way to read a texture: constants of each inlined copy of the loops below.
@@ -18,17 +20,25 @@ typedef struct Way {
     bool in_bits;     // addresses are fractions of the texture in 32 bits, which wrap by themselves
 } Way;
 
+// Probes of a batch' footprints on one of the two levels that these blend. Places are fractions in
+// units of 2^-32, or the bits of floats where the way says so.
+typedef struct Line {
+    Vi count[VECTORS];  // of probes; 0: the level is not read
+    Vf weight[VECTORS]; // of a probe in the footprint. This and what follows: anisotropic only
+    Vu u[VECTORS];      // of the first probe
+    Vu v[VECTORS];
+    Vu step_u[VECTORS];
+    Vu step_v[VECTORS];
+} Line;
+
 // The footprints of a batch, found before any texel is read: their long chains of dependent
-// operations overlap, which they would not with the reads in between. Places are fractions in units
-// of 2^-32, or the bits of floats where the way says so.
+// operations overlap, which they would not with the reads in between.
 typedef struct Footprints {
     Vi lod8[VECTORS];
-    Vu u[VECTORS]; // of the first probe
+    Vu u[VECTORS]; // of the middle
     Vu v[VECTORS];
-    Vu step_u[VECTORS]; // the rest: anisotropic only
-    Vu step_v[VECTORS];
-    Vi probes[VECTORS];
-    Vf inverse_probes[VECTORS];
+    Line near;
+    Line far;
 } Footprints;
 
 // The fraction of a coordinate in units of 2^-32. Infinities and NaN become some fraction.
@@ -46,27 +56,55 @@ VEC_INLINE Vu step32(Vf step) {
     return (Vu)vi_from_float(bounded * 4294967296.0f);
 }
 
-// The batch's work so far, a sum per lane: of probes, and of levels that they read.
+// Steps are taken from their halves, since half of what wraps may be off by half.
+VEC_INLINE void place_probes32(const Probes *probes, Vu u, Vu v, Line *line, int n) {
+    const Vu gaps = (Vu)line->count[n] - 1u;
+    const Vu half_u = step32(probes->half_u);
+    const Vu half_v = step32(probes->half_v);
+    line->u[n] = u - gaps * half_u;
+    line->v[n] = v - gaps * half_v;
+    line->step_u[n] = half_u + half_u;
+    line->step_v[n] = half_v + half_v;
+}
+
+// A line's probes in vector n; level_weight: of the level.
+VEC_INLINE void place_line(Line *line, const DipTexture *texture, Way way, const Axis *axis,
+                           const Footprints *footprints, Vf level_weight, int n) {
+    const Vf inverse = inverse_of(line->count[n]);
+    const Probes probes = place_probes(texture, axis, inverse);
+    line->weight[n] = level_weight * inverse;
+    if (way.in_bits) {
+        place_probes32(&probes, footprints->u[n], footprints->v[n], line, n);
+        return;
+    }
+    const Vf gaps = vf_from_int(line->count[n] - 1);
+    line->u[n] = (Vu)((Vf)footprints->u[n] - gaps * probes.half_u);
+    line->v[n] = (Vu)((Vf)footprints->v[n] - gaps * probes.half_v);
+    line->step_u[n] = (Vu)(probes.half_u + probes.half_u);
+    line->step_v[n] = (Vu)(probes.half_v + probes.half_v);
+}
+
+// The batch's work so far, a sum per lane: of probes of the nearer level, and of bilinear reads.
 typedef struct LaneWork {
     Vi probes;
-    Vi levels;
+    Vi reads;
 } LaneWork;
 
 // Adds the work of the lanes that are the batch's own.
-VEC_INLINE void count_work(LaneWork *work, Vi probes, Vi lod8, int lanes) {
-    const Vi own = vi_select(vi_lt(vi_iota(), vi_splat(lanes)), probes, vi_splat(0));
-    const Mask blends = vi_lt(vi_splat(0), lod8 & 255);
-    work->probes += own;
-    work->levels += own + vi_select(blends, own, vi_splat(0));
+VEC_INLINE void count_work(LaneWork *work, Vi near, Vi far, int lanes) {
+    const Mask own = vi_lt(vi_iota(), vi_splat(lanes));
+    work->probes += vi_select(own, near, vi_splat(0));
+    work->reads += vi_select(own, near + far, vi_splat(0));
 }
 
-// In short loops, for the same reason.
+// In short loops, for the same reason. textures: how many are read there.
 VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
-                                int slot, Footprints *out) {
+                                int slot, int textures, Footprints *out) {
     const int count = (batch->count + DIP_LANES - 1) / DIP_LANES;
+    const DipTexture *texture = sampler->texture;
     Axis axes[VECTORS];
     for (int n = 0; n < count; n++) {
-        const Jacobian jacobian = read_jacobian(batch, sampler->texture, slot, n * DIP_LANES);
+        const Jacobian jacobian = read_jacobian(batch, texture, slot, n * DIP_LANES);
         if (way.anisotropic) {
             axes[n] = anisotropic_axis(sampler, jacobian);
         } else {
@@ -82,51 +120,32 @@ VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampl
     }
     LaneWork work = {vi_splat(0), vi_splat(0)};
     for (int n = 0; n < count; n++) {
-        Vf u = vf_load(batch->slot[slot] + n * DIP_LANES);
-        Vf v = vf_load(batch->slot[slot + 1] + n * DIP_LANES);
-        Vi probe_count = vi_splat(1);
+        const Vi fraction = out->lod8[n] & 255;
+        const Vi near = way.anisotropic ? count_probes(sampler, &axes[n], cheap) : vi_splat(1);
+        const Vi most = way.anisotropic ? count_far_probes(near, fraction) : vi_splat(1);
+        const Vi far = vi_select(vi_lt(vi_splat(0), fraction), most, vi_splat(0));
         if (way.anisotropic) {
-            const Probes probes = place_probes(sampler, &axes[n], cheap);
-            u += probes.first_u;
-            v += probes.first_v;
-            out->step_u[n] = way.in_bits ? step32(probes.step_u) : (Vu)probes.step_u;
-            out->step_v[n] = way.in_bits ? step32(probes.step_v) : (Vu)probes.step_v;
-            out->probes[n] = probe_count = probes.count;
-            out->inverse_probes[n] = probes.inverse_count;
+            out->near.count[n] = near;
+            out->far.count[n] = far;
         }
+        count_work(&work, near, far, batch->count - n * DIP_LANES);
+    }
+    for (int n = 0; n < count; n++) {
+        const Vf u = vf_load(batch->slot[slot] + n * DIP_LANES);
+        const Vf v = vf_load(batch->slot[slot + 1] + n * DIP_LANES);
         out->u[n] = way.in_bits ? fraction32(u) : (Vu)u;
         out->v[n] = way.in_bits ? fraction32(v) : (Vu)v;
-        count_work(&work, probe_count, out->lod8[n], batch->count - n * DIP_LANES);
+        if (way.anisotropic) {
+            const Vf far = vf_from_int(out->lod8[n] & 255) * (1.0f / 256.0f);
+            place_line(&out->near, texture, way, &axes[n], out, 1.0f - far, n);
+            place_line(&out->far, texture, way, &axes[n], out, far, n);
+        }
     }
-    batch->work.probes += (uint64_t)vi_sum(work.probes);
-    batch->work.texels += (uint64_t)vi_sum(work.levels) * 4;
+    batch->work.probes += (uint64_t)vi_sum(work.probes) * (uint64_t)textures;
+    batch->work.texels += (uint64_t)vi_sum(work.reads) * (uint64_t)textures * 4;
 }
 
 // --- addresses ---------------------------------------------------------------------------------
-
-// Where a vector's probes are.
-typedef struct Walk {
-    Vu u, v;
-    Vu step_u, step_v;
-    int probe;
-} Walk;
-
-VEC_INLINE Walk begin_walk(const Footprints *footprints, Way way, int n) {
-    Walk walk = {.u = footprints->u[n], .v = footprints->v[n]};
-    if (way.anisotropic) {
-        walk.step_u = footprints->step_u[n];
-        walk.step_v = footprints->step_v[n];
-    }
-    return walk;
-}
-
-VEC_INLINE void next_probe(Walk *walk, Way way) {
-    walk->probe++;
-    if (way.in_bits) {
-        walk->u += walk->step_u;
-        walk->v += walk->step_v;
-    }
-}
 
 // A level's table entries per lane.
 typedef struct Level {
@@ -160,15 +179,9 @@ VEC_INLINE Level read_level(const DipTexture *texture, Way way, Vi level) {
     return out;
 }
 
-// A fraction to 1/256 texel of a level with 2^log2_size texels, texel centres at whole numbers.
-// Before the first centre comes the last texel.
-VEC_INLINE Vi address_in_bits(Vu fraction, Vi log2_size) {
-    const Vu half_texel = vu_splat(0x80000000u) >> (Vu)log2_size;
-    return (Vi)((fraction - half_texel) >> (Vu)(24 - log2_size));
-}
-
-// A coordinate likewise on a level of any size. Infinities and NaN become 0 or 1, so that no
-// address leaves the texture.
+// A coordinate to 1/256 texel of a level of any size, texel centres at whole numbers. Before the
+// first centre comes the last texel. Infinities and NaN become 0 or 1, so that no address leaves
+// the texture.
 VEC_INLINE Vi address(Vf coordinate, DipWrap wrap, Vi size) {
     const Vf unwrapped = wrap == DIP_WRAP_REPEAT ? coordinate - vf_floor(coordinate) : coordinate;
     const Vf unit = vf_min(vf_max(unwrapped, vf_splat(0.0f)), vf_splat(1.0f));
@@ -177,12 +190,49 @@ VEC_INLINE Vi address(Vf coordinate, DipWrap wrap, Vi size) {
     return wrap == DIP_WRAP_REPEAT ? at + (before & (size << 8)) : at & ~before;
 }
 
-// The probe's read of a level.
-VEC_INLINE Taps taps_at(const DipTexture *texture, Way way, const Walk *walk, const Level *level) {
+// A vector's probes on a level, one after another.
+typedef struct Walk {
+    Level level;
+    Vu u, v; // in bits: less half a texel, so that texel centres lie at multiples of one
+    Vu step_u, step_v;
+    int probe;
+    int count; // the greatest of the lanes
+} Walk;
+
+// line: of an anisotropic footprint.
+VEC_INLINE Walk begin_walk(const DipTexture *texture, Way way, Vi level,
+                           const Footprints *footprints, const Line *line, int n) {
+    Walk walk = {.level = read_level(texture, way, level),
+                 .u = way.anisotropic ? line->u[n] : footprints->u[n],
+                 .v = way.anisotropic ? line->v[n] : footprints->v[n],
+                 .count = 1};
+    if (way.in_bits) {
+        walk.u -= vu_splat(0x80000000u) >> (Vu)walk.level.width;
+        walk.v -= vu_splat(0x80000000u) >> (Vu)walk.level.height;
+    }
+    if (way.anisotropic) {
+        walk.step_u = line->step_u[n];
+        walk.step_v = line->step_v[n];
+        walk.count = vi_greatest(line->count[n]);
+    }
+    return walk;
+}
+
+VEC_INLINE void next_probe(Walk *walk, Way way) {
+    walk->probe++;
+    if (way.in_bits && way.anisotropic) {
+        walk->u += walk->step_u;
+        walk->v += walk->step_v;
+    }
+}
+
+// The read at the walk's place.
+VEC_INLINE Taps find_taps(const DipTexture *texture, Way way, const Walk *walk) {
+    const Level *level = &walk->level;
     Taps taps;
     if (way.in_bits) {
-        taps.x8 = address_in_bits(walk->u, level->width);
-        taps.y8 = address_in_bits(walk->v, level->height);
+        taps.x8 = (Vi)(walk->u >> (Vu)(24 - level->width));
+        taps.y8 = (Vi)(walk->v >> (Vu)(24 - level->height));
         const Vi y = taps.y8 >> 8;
         taps.index = (level->offset + (taps.x8 >> 8)) + ((y << level->width) + y);
     } else {
@@ -196,38 +246,47 @@ VEC_INLINE Taps taps_at(const DipTexture *texture, Way way, const Walk *walk, co
     return taps;
 }
 
-// The levels that a footprint blends.
-typedef struct Levels {
-    Level near;
-    Level far;
-    Vi fraction; // of far, 1/256
-} Levels;
+VEC_INLINE Vi near_level(Vi lod8) {
+    return lod8 >> 8;
+}
 
+VEC_INLINE Vi far_level(const DipSampler *sampler, Vi lod8) {
+    return vi_min((lod8 >> 8) + 1, vi_splat(sampler->texture->level_count - 1));
+}
+
+// The level that mip debugging shows for it.
 VEC_INLINE Vi shown_level(const DipSampler *sampler, Vi level) {
     return sampler->shown ? vi_lookup16(sampler->shown_level, level) : level;
 }
 
-VEC_INLINE Levels read_levels(const DipSampler *sampler, const DipTexture *texture, Way way,
-                              Vi lod8) {
-    const Vi near = lod8 >> 8;
-    const Vi far = vi_min(near + 1, vi_splat(sampler->texture->level_count - 1));
-    const bool shown = texture != sampler->texture;
-    return (Levels){read_level(texture, way, shown ? shown_level(sampler, near) : near),
-                    read_level(texture, way, shown ? shown_level(sampler, far) : far), lod8 & 255};
-}
-
 // --- colour ------------------------------------------------------------------------------------
 
-// Sums of texels in pair order, 16 bits per channel: red and green, and blue.
+// Sums of weighted texels in pair order, 16 bits per channel: red and green, and blue.
 typedef struct PairSum {
     VuPair red_green;
     VuPair blue;
 } PairSum;
 
-// Sums over the probes.
-typedef struct Colour {
-    Vi c[3];
-} Colour;
+// Sums of such sums, 32 bits per channel.
+typedef struct WideSum {
+    VuPair red_green; // as they come, modulo 2^32: less red's sum it leaves green's
+    VuPair red;
+    VuPair blue;
+} WideSum;
+
+#define NO_PAIR                                                                                    \
+    { vu_splat(0), vu_splat(0) }
+#define NO_SUM      ((PairSum){NO_PAIR, NO_PAIR})
+#define NO_WIDE_SUM ((WideSum){NO_PAIR, NO_PAIR, NO_PAIR})
+
+VEC_INLINE void widen(WideSum *wide, const PairSum *sum) {
+    wide->red_green.a += sum->red_green.a;
+    wide->red_green.b += sum->red_green.b;
+    wide->red.a += sum->red_green.a >> 16;
+    wide->red.b += sum->red_green.b >> 16;
+    wide->blue.a += sum->blue.a;
+    wide->blue.b += sum->blue.b;
+}
 
 // Adds half of the pairs: linear light, the square of the codes, times a 16-bit weight.
 VEC_INLINE void add_texels(Vu *red_green, Vu *blue, Vu texels, Vu weight) {
@@ -236,106 +295,153 @@ VEC_INLINE void add_texels(Vu *red_green, Vu *blue, Vu texels, Vu weight) {
     *blue += vu_mulhi16(vu_mulhi16(b, b), weight);
 }
 
-VEC_INLINE void add_row(PairSum *sum, const DipTexture *texture, Vi index_pairs, VuPair across,
-                        VuPair row_weight) {
+VEC_INLINE void add_row(PairSum *sum, const DipTexture *texture, Vi index_pairs, VuPair weight) {
     const VuPair texels = vu_gather_pairs(texture->texels, index_pairs);
-    add_texels(&sum->red_green.a, &sum->blue.a, texels.a, vu_mulhi16(across.a, row_weight.a));
-    add_texels(&sum->red_green.b, &sum->blue.b, texels.b, vu_mulhi16(across.b, row_weight.b));
+    add_texels(&sum->red_green.a, &sum->blue.a, texels.a, weight.a);
+    add_texels(&sum->red_green.b, &sum->blue.b, texels.b, weight.b);
 }
 
-// Adds a bilinear read times the level's weight.
-VEC_INLINE void add_level(PairSum *sum, const DipTexture *texture, const Level *level,
-                          const Taps *taps, VuPair weight) {
-    const VuPair across = vu_pair_ramp(taps->x8);
+// Takes the lanes that have no further probe out of a ramp. count: of probes, as both values.
+VEC_INLINE VuPair has_probe(VuPair ramp, VuPair count, int probe) {
+    const Vi at = vi_splat(probe);
+    return (VuPair){(Vu)vi_select(vi_lt(at, (Vi)count.a), (Vi)ramp.a, vi_splat(0)),
+                    (Vu)vi_select(vi_lt(at, (Vi)count.b), (Vi)ramp.b, vi_splat(0))};
+}
+
+// The weights of a bilinear read's four texels.
+typedef struct Weights {
+    VuPair upper;
+    VuPair lower;
+} Weights;
+
+VEC_INLINE Weights join_weights(VuPair across, VuPair upper, VuPair lower) {
+    return (Weights){{vu_mulhi16(across.a, upper.a), vu_mulhi16(across.b, upper.b)},
+                     {vu_mulhi16(across.a, lower.a), vu_mulhi16(across.b, lower.b)}};
+}
+
+// count: of the lanes' probes, as both values; a lane that has no such probe weighs nothing.
+VEC_INLINE Weights weigh_probe(const Taps *taps, VuPair count, int probe) {
+    const VuPair down = vu_pair_both(taps->y8);
+    return join_weights(has_probe(vu_pair_ramp(taps->x8), count, probe), (VuPair){~down.a, ~down.b},
+                        down);
+}
+
+// Times a level's weight.
+VEC_INLINE Weights weigh_level(const Taps *taps, VuPair weight) {
     const VuPair down = vu_pair_both(taps->y8);
     const VuPair lower = {vu_mulhi16(down.a, weight.a), vu_mulhi16(down.b, weight.b)};
-    const VuPair upper = {weight.a - lower.a, weight.b - lower.b};
+    return join_weights(vu_pair_ramp(taps->x8), (VuPair){weight.a - lower.a, weight.b - lower.b},
+                        lower);
+}
+
+VEC_INLINE void add_taps(PairSum *sum, const DipTexture *texture, const Level *level,
+                         const Taps *taps, const Weights *weights) {
     const Vi index = vi_pair_order(taps->index);
-    add_row(sum, texture, index, across, upper);
-    add_row(sum, texture, index + level->stride_pairs, across, lower);
+    add_row(sum, texture, index, weights->upper);
+    add_row(sum, texture, index + level->stride_pairs, weights->lower);
 }
 
-// A vector that is being read.
-typedef struct Reader {
-    Levels levels;
-    Walk walk;
-    Vi probes_left; // anisotropic only
-    Colour total;
-} Reader;
+// Light of a sum, 1 as what white comes to within 6: the squares of its codes less what rounded
+// products lose.
+VEC_INLINE void sum_channels(const WideSum *sum, Vf light[3]) {
+    const Vu red = vu_pair_sum(sum->red);
+    light[0] = vf_from_int((Vi)red) * (1.0f / 65526.0f);
+    light[1] = vf_from_int((Vi)(vu_pair_sum(sum->red_green) - (red << 16))) * (1.0f / 65526.0f);
+    light[2] = vf_from_int((Vi)vu_pair_sum(sum->blue)) * (1.0f / 65402.0f);
+}
 
-VEC_INLINE void begin_reader(Reader *reader, const DipSampler *sampler, const DipTexture *texture,
-                             Way way, const Footprints *footprints, int n) {
-    reader->levels = read_levels(sampler, texture, way, footprints->lod8[n]);
-    reader->walk = begin_walk(footprints, way, n);
+// The textures that are read at the same footprints, one or two.
+typedef struct Read {
+    const DipTexture *texture[2];
+    int count;
+} Read;
+
+// Adds vector n's probes on a level to its light.
+VEC_INLINE void add_line(const Read *read, Way way, Vi level, const Footprints *footprints,
+                         const Line *line, int n, Vf light[2][3]) {
+    const VuPair count = vu_pair_same((Vu)line->count[n]);
+    WideSum sum[2] = {NO_WIDE_SUM, NO_WIDE_SUM};
+    Walk walk = begin_walk(read->texture[0], way, level, footprints, line, n);
+    while (walk.probe < walk.count) {
+        const Taps taps = find_taps(read->texture[0], way, &walk);
+        const Weights weights = weigh_probe(&taps, count, walk.probe);
+        for (int t = 0; t < read->count; t++) {
+            PairSum probe = NO_SUM;
+            add_taps(&probe, read->texture[t], &walk.level, &taps, &weights);
+            widen(&sum[t], &probe);
+        }
+        next_probe(&walk, way);
+    }
+    for (int t = 0; t < read->count; t++) {
+        Vf of_level[3];
+        sum_channels(&sum[t], of_level);
+        for (int c = 0; c < 3; c++) {
+            light[t][c] += of_level[c] * line->weight[n];
+        }
+    }
+}
+
+// Adds vector n's only read of a level, by the level's weight.
+VEC_INLINE void add_level(const Read *read, Way way, Vi level, const Footprints *footprints, int n,
+                          VuPair weight, PairSum sum[2]) {
+    const Walk walk = begin_walk(read->texture[0], way, level, footprints, NULL, n);
+    const Taps taps = find_taps(read->texture[0], way, &walk);
+    const Weights weights = weigh_level(&taps, weight);
+    for (int t = 0; t < read->count; t++) {
+        add_taps(&sum[t], read->texture[t], &walk.level, &taps, &weights);
+    }
+}
+
+VEC_INLINE void read_vector(const Read *read, const DipSampler *sampler, Way way,
+                            const Footprints *footprints, int n, Vf light[2][3]) {
+    const Vi lod8 = footprints->lod8[n];
+    const Vi near = shown_level(sampler, near_level(lod8));
+    const Vi far = shown_level(sampler, far_level(sampler, lod8));
+    const bool blends = mask_any(vi_lt(vi_splat(0), lod8 & 255));
     if (way.anisotropic) {
-        reader->probes_left = footprints->probes[n];
+        for (int i = 0; i < 3 * read->count; i++) {
+            light[i / 3][i % 3] = vf_splat(0.0f);
+        }
+        add_line(read, way, near, footprints, &footprints->near, n, light);
+        if (blends) {
+            add_line(read, way, far, footprints, &footprints->far, n, light);
+        }
+        return;
     }
-    reader->total = (Colour){{vi_splat(0), vi_splat(0), vi_splat(0)}};
-}
-
-// Adds the next probe. Where the far level's fraction is 0 it adds nothing, so whether it is read
-// for the sake of other lanes does not matter.
-VEC_INLINE void read_probe(Reader *reader, const DipTexture *texture, Way way, bool blend) {
-    const Levels *levels = &reader->levels;
-    const VuPair far_weight = vu_pair_both(levels->fraction);
-    const VuPair near_weight = {~far_weight.a, ~far_weight.b};
-    PairSum sum = {{vu_splat(0), vu_splat(0)}, {vu_splat(0), vu_splat(0)}};
-    const Taps near_taps = taps_at(texture, way, &reader->walk, &levels->near);
-    add_level(&sum, texture, &levels->near, &near_taps, near_weight);
-    if (blend) {
-        const Taps far_taps = taps_at(texture, way, &reader->walk, &levels->far);
-        add_level(&sum, texture, &levels->far, &far_taps, far_weight);
+    const VuPair weight = vu_pair_both(lod8 & 255);
+    PairSum sum[2] = {NO_SUM, NO_SUM};
+    add_level(read, way, near, footprints, n, (VuPair){~weight.a, ~weight.b}, sum);
+    if (blends) {
+        add_level(read, way, far, footprints, n, weight, sum);
     }
-    Vi red_green = (Vi)vu_pair_sum(sum.red_green);
-    Vi blue = (Vi)vu_pair_sum(sum.blue);
-    if (way.anisotropic) {
-        const Mask has = vi_lt(vi_splat(0), reader->probes_left);
-        red_green = vi_select(has, red_green, vi_splat(0));
-        blue = vi_select(has, blue, vi_splat(0));
-        reader->probes_left -= 1;
-        next_probe(&reader->walk, way);
-    }
-    reader->total.c[0] += (Vi)((Vu)red_green >> 16);
-    reader->total.c[1] += red_green & 0xffff;
-    reader->total.c[2] += blue;
-}
-
-VEC_INLINE void store_light(float (*out)[DIP_FRAGMENT_BATCH], int n, const Colour *total,
-                            Vf scale) {
-    // What white comes to, within 6: the squares of its codes less what eight rounded products
-    // lose.
-    static const float white[3] = {65526.0f, 65526.0f, 65402.0f};
-    for (int c = 0; c < 3; c++) {
-        vf_store(out[c] + n * DIP_LANES, vf_from_int(total->c[c]) * (1.0f / white[c]) * scale);
+    for (int t = 0; t < read->count; t++) {
+        WideSum wide = NO_WIDE_SUM;
+        widen(&wide, &sum[t]);
+        sum_channels(&wide, light[t]);
     }
 }
 
-VEC_INLINE void read_vectors(const DipSampler *sampler, const DipTexture *texture, Way way,
-                             const Footprints *footprints, int vectors,
-                             float (*out)[DIP_FRAGMENT_BATCH]) {
+VEC_INLINE void sample_read(DipFragmentBatch *batch, const DipSampler *sampler, Way way, Read read,
+                            int u_slot, float (*const out[2])[DIP_FRAGMENT_BATCH]) {
+    const int vectors = (batch->count + DIP_LANES - 1) / DIP_LANES;
+    Footprints footprints;
+    find_footprints(batch, sampler, way, u_slot, read.count, &footprints);
     for (int n = 0; n < vectors; n++) {
-        Reader reader;
-        begin_reader(&reader, sampler, texture, way, footprints, n);
-        const bool blend = mask_any(vi_lt(vi_splat(0), reader.levels.fraction));
-        if (way.anisotropic) {
-            for (int left = vi_greatest(reader.probes_left); left > 0; left--) {
-                read_probe(&reader, texture, way, blend);
+        Vf light[2][3];
+        read_vector(&read, sampler, way, &footprints, n, light);
+        for (int t = 0; t < read.count; t++) {
+            for (int c = 0; c < 3; c++) {
+                vf_store(out[t][c] + n * DIP_LANES, light[t][c]);
             }
-            store_light(out, n, &reader.total, footprints->inverse_probes[n]);
-        } else {
-            read_probe(&reader, texture, way, blend);
-            store_light(out, n, &reader.total, vf_splat(1.0f));
         }
     }
 }
 
 VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
                               int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
-    const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
-    const int vectors = (batch->count + DIP_LANES - 1) / DIP_LANES;
-    Footprints footprints;
-    find_footprints(batch, sampler, way, u_slot, &footprints);
-    read_vectors(sampler, texture, way, &footprints, vectors, out);
+    const Read read = {{sampler->shown ? sampler->shown : sampler->texture, NULL}, 1};
+    float(*const outs[2])[DIP_FRAGMENT_BATCH] = {out, NULL};
+    sample_read(batch, sampler, way, read, u_slot, outs);
 }
 
 // --- alpha -------------------------------------------------------------------------------------
@@ -351,37 +457,39 @@ VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const Level *level, cons
            (vf_from_int(lower & 255) * (gx * fy) + vf_from_int(lower >> 8 & 255) * (fx * fy));
 }
 
-// The sum over the probes of vector n, in units of 1 / (255 * 65536 * 256).
-VEC_INLINE Vf filter_alpha(const DipSampler *sampler, Way way, const Footprints *footprints,
-                           int n) {
-    const DipTexture *texture = sampler->texture;
-    const Levels levels = read_levels(sampler, texture, way, footprints->lod8[n]);
-    const Vf far_weight = vf_from_int(levels.fraction);
-    const Vf near_weight = 256.0f - far_weight;
-    const Vi probes = way.anisotropic ? footprints->probes[n] : vi_splat(1);
-    const int most_probes = way.anisotropic ? vi_greatest(probes) : 1;
+// The mean over the probes of vector n on a level, in units of 1 / (255 * 65536). It is a quotient
+// so that a constant alpha comes out exact.
+VEC_INLINE Vf mean_alpha(const DipTexture *texture, Way way, Vi level, const Footprints *footprints,
+                         const Line *line, int n) {
     Vf total = vf_splat(0.0f);
-    Walk walk = begin_walk(footprints, way, n);
-    for (int k = 0; k < most_probes; k++) {
-        const Taps near_taps = taps_at(texture, way, &walk, &levels.near);
-        const Taps far_taps = taps_at(texture, way, &walk, &levels.far);
-        const Vf mixed = bilinear_alpha(texture, &levels.near, &near_taps) * near_weight +
-                         bilinear_alpha(texture, &levels.far, &far_taps) * far_weight;
-        const Mask has = vi_lt(vi_splat(k), probes);
-        total += vf_select(has, mixed, vf_splat(0.0f));
+    Walk walk = begin_walk(texture, way, level, footprints, line, n);
+    while (walk.probe < walk.count) {
+        const Taps taps = find_taps(texture, way, &walk);
+        const Vf alpha = bilinear_alpha(texture, &walk.level, &taps);
+        total += way.anisotropic
+                     ? vf_select(vi_lt(vi_splat(walk.probe), line->count[n]), alpha, vf_splat(0.0f))
+                     : alpha;
         next_probe(&walk, way);
     }
-    return total;
+    return way.anisotropic ? total / vf_from_int(vi_max(line->count[n], vi_splat(1))) : total;
 }
 
 VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
                              int u_slot, float *out) {
+    const DipTexture *texture = sampler->texture;
     Footprints footprints;
-    find_footprints(batch, sampler, way, u_slot, &footprints);
+    find_footprints(batch, sampler, way, u_slot, 1, &footprints);
     for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
-        // Divided so that a constant alpha comes out exact.
-        const Vf probes = way.anisotropic ? vf_from_int(footprints.probes[n]) : vf_splat(1.0f);
-        vf_store(out + i, filter_alpha(sampler, way, &footprints, n) / (4278190080.0f * probes));
+        const Vi lod8 = footprints.lod8[n];
+        const Vf fraction = vf_from_int(lod8 & 255);
+        Vf alpha = mean_alpha(texture, way, near_level(lod8), &footprints, &footprints.near, n) *
+                   (256.0f - fraction);
+        if (mask_any(vi_lt(vi_splat(0), lod8 & 255))) {
+            alpha += mean_alpha(texture, way, far_level(sampler, lod8), &footprints,
+                                &footprints.far, n) *
+                     fraction;
+        }
+        vf_store(out + i, alpha / 4278190080.0f);
     }
 }
 
@@ -405,6 +513,31 @@ void DIP_KERNEL(dip_kernel_sample_colour)(DipFragmentBatch *batch, const DipSamp
                                           int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
     const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
     SAMPLE_BY_WAY(sample_colour, texture->wraps_in_bits, u_slot, out);
+}
+
+// Whether two textures have the same texels at the same places of memory and the same footprints.
+static bool reads_alike(const DipSampler *a, const DipSampler *b) {
+    const DipTexture *s = a->texture;
+    const DipTexture *t = b->texture;
+    return !a->shown && !b->shown && a->max_anisotropy == b->max_anisotropy &&
+           a->advanced == b->advanced && a->bias_lod8 == b->bias_lod8 &&
+           a->min_lod8 == b->min_lod8 && a->cheap == b->cheap && s->wrap_u == t->wrap_u &&
+           s->wrap_v == t->wrap_v && s->level_count == t->level_count &&
+           memcmp(s->level_width, t->level_width, sizeof s->level_width) == 0 &&
+           memcmp(s->level_height, t->level_height, sizeof s->level_height) == 0;
+}
+
+void DIP_KERNEL(dip_kernel_sample_colours)(DipFragmentBatch *batch,
+                                           const DipSampler *const samplers[2], int u_slot,
+                                           float (*const out[2])[DIP_FRAGMENT_BATCH]) {
+    if (!reads_alike(samplers[0], samplers[1])) {
+        DIP_KERNEL(dip_kernel_sample_colour)(batch, samplers[0], u_slot, out[0]);
+        DIP_KERNEL(dip_kernel_sample_colour)(batch, samplers[1], u_slot, out[1]);
+        return;
+    }
+    const DipSampler *sampler = samplers[0];
+    const Read read = {{sampler->texture, samplers[1]->texture}, 2};
+    SAMPLE_BY_WAY(sample_read, sampler->texture->wraps_in_bits, read, u_slot, out);
 }
 
 void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampler *sampler,

@@ -67,8 +67,9 @@ static void add_triangle(const double x[3], const double y[3]) {
                                    .surface_stride = DIP_SURFACE_ALIGN,
                                    .cull = DIP_CULL_NONE,
                                    .sample_max = {255, 255}};
+    const uint32_t patch[DIP_BATCH_ALIGN] = {0};
     const DipSetupBatch batch = {
-        .count = 1, .corner = {corner[0], corner[1], corner[2]}, .screen = &screen};
+        .count = 1, .corner = {corner[0], corner[1], corner[2]}, .patch = patch, .screen = &screen};
     raster.triangle_count +=
         dip_kernels(DIP_ISA_SCALAR)
             ->dip_kernel_setup(&target, &batch, raster.triangles + raster.triangle_count, surfaces);

@@ -86,7 +86,8 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     static const DipImageBounds slivers = {0.004, 0.01, 0.001, 0.5};
     // Corners that the guard band cuts are rounded too. On a floor that runs from the eye to the
     // horizon 1/512 pixel there moves 1/w by a tenth at the far edge, hence the level of detail.
-    static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.05};
+    // The number of probes of the coarser level follows from that in steps.
+    static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.08};
     static const DipImageBounds huge_mips = {0.06, 0.01, 0.03, 1.0};
     // The narrow blend between levels makes four times of a difference in the level of detail.
     static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};

@@ -43,8 +43,9 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return __real_aligned_alloc(alignment, size);
 }
 
-// Draws with the steps of every setting from several places; returns the allocations that took.
-static int draw_everything(DipRenderer *renderer, const DipScene *scene, DipPose pose,
+// Draws with the steps of every setting from several places, alone and beside another pane; returns
+// the allocations that took.
+static int draw_everything(DipRenderer *const panes[2], const DipScene *scene, DipPose pose,
                            bool instancing) {
     const int before = atomic_load(&calls);
     for (int i = 0; i < 60; i++) {
@@ -59,10 +60,12 @@ static int draw_everything(DipRenderer *renderer, const DipScene *scene, DipPose
         quality.step[DIP_SETTING_MIPLOD] = (uint8_t)(i % 4);
         quality.step[DIP_SETTING_MIPDEBUG] = (uint8_t)(i / 30);
         pose.position_world[0] += 0.05;
-        dip_renderer_set_frame_index(renderer, (uint64_t)i);
-        DipFrame frame;
-        assert_true(dip_renderer_set_quality(renderer, &quality, NULL));
-        assert_true(dip_renderer_draw(renderer, scene, &pose, i, &frame, NULL));
+        dip_renderer_set_frame_index(panes[0], (uint64_t)i);
+        DipFrame frames[2];
+        assert_true(dip_renderer_set_quality(panes[0], &quality, NULL));
+        assert_true(dip_renderer_draw(panes[0], scene, &pose, i, &frames[0], NULL));
+        assert_true(dip_renderer_draw_pair(panes, scene, &pose, i,
+                                           (DipFrame *const[2]){&frames[0], &frames[1]}, NULL));
     }
     return atomic_load(&calls) - before;
 }
@@ -80,22 +83,25 @@ static void frames_allocate_nothing(void **state) {
         def.width = 160;
         def.height = 120;
         def.reflection = scene.reflection;
-        DipRenderer *renderer = dip_renderer_create(&def, NULL);
+        DipRenderer *panes[2] = {dip_renderer_create(&def, NULL), dip_renderer_create(&def, NULL)};
         DipFrame frame;
-        assert_non_null(renderer);
+        assert_true(panes[0] && panes[1]);
         assert_true(atomic_load(&calls) > before); // the count works
         // The first frame sees nothing: what it makes room for does not depend on the view.
         DipPose away = scene.pose;
         away.position_world[1] += 1000.0;
         away.orientation[0] = away.orientation[3] = 0.7071067811865476;
-        assert_true(dip_renderer_draw(renderer, fast, &away, 0, &frame, NULL));
+        for (int p = 0; p < 2; p++) {
+            assert_true(dip_renderer_draw(panes[p], fast, &away, 0, &frame, NULL));
+        }
         // Made ahead; then a frame of either kind finds what it needs.
         assert_true(dip_scene_compress_textures(fast, pool, NULL));
-        assert_int_equal(draw_everything(renderer, fast, scene.pose, true), 0);
+        assert_int_equal(draw_everything(panes, fast, scene.pose, true), 0);
         // The first frame without instancing makes the objects' own meshes.
-        (void)draw_everything(renderer, fast, scene.pose, false);
-        assert_int_equal(draw_everything(renderer, fast, scene.pose, false), 0);
-        dip_renderer_destroy(&renderer);
+        (void)draw_everything(panes, fast, scene.pose, false);
+        assert_int_equal(draw_everything(panes, fast, scene.pose, false), 0);
+        dip_renderer_destroy(&panes[0]);
+        dip_renderer_destroy(&panes[1]);
         dip_pool_destroy(&pool);
         dip_scene_destroy(&fast);
         dip_test_scene_free(&scene);

@@ -42,7 +42,7 @@ static DipSetupTarget target_of(const DipSamplePattern *pattern) {
                              .height = TARGET_HEIGHT,
                              .region_last = {TARGET_WIDTH - 1, TARGET_HEIGHT - 1},
                              .surface_stride = DIP_SURFACE_ALIGN,
-                             .pattern = pattern,
+                             .samples = pattern,
                              .cull = DIP_CULL_NONE,
                              .sample_min = {255, 255}};
     for (int s = 0; s < pattern->count; s++) {
@@ -85,8 +85,9 @@ static bool draw_fast(const DipKernels *kernels, const Case *c, const DipClipTes
         screen.rw[i] = 1.0f;
         corner[i][0] = (uint8_t)i;
     }
+    const uint32_t patch[DIP_BATCH_ALIGN] = {0};
     const DipSetupBatch batch = {
-        .count = 1, .corner = {corner[0], corner[1], corner[2]}, .screen = &screen};
+        .count = 1, .corner = {corner[0], corner[1], corner[2]}, .patch = patch, .screen = &screen};
     const DipSetupTarget target = target_of(c->pattern);
     DipTriangle triangle[1 + DIP_SETUP_EXCESS];
     float surface[(1 + DIP_SETUP_EXCESS) * DIP_SURFACE_ALIGN];

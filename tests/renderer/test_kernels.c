@@ -61,6 +61,10 @@ static void compare_project(const DipKernels *scalar, const DipKernels *other, R
     const DipScreenMapping map = {
         .half_width = (float)random_int(random, 1, 4096),
         .half_height = (float)random_int(random, 1, 4096),
+        .left = -1.0f,
+        .right = 0.25f,
+        .bottom = -0.5f,
+        .top = 1.0f,
         .guard_left = 20.0f,
         .guard_right = 18.0f,
         .guard_top = 20.0f,
@@ -110,6 +114,7 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
     static DipScreenBatch screen;
     static float slots[DIP_MAX_SLOTS][DIP_VERTEX_BATCH];
     static uint8_t corner[3][DIP_SETUP_BATCH];
+    static uint32_t patch[DIP_SETUP_BATCH + DIP_BATCH_ALIGN];
     static DipTriangle triangles[2][SETUP_ROOM];
     static float surfaces[2][SETUP_ROOM * 64];
     random_screen(random, &screen);
@@ -122,6 +127,7 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
         for (int k = 0; k < 3; k++) {
             corner[k][t] = (uint8_t)random_u64(random);
         }
+        patch[t] = (uint32_t)random_int(random, 0, 999);
     }
     const int slot_count = random_int(random, 0, DIP_MAX_SLOTS);
     const DipSetupTarget target = {.width = random_int(random, 1, 8192),
@@ -131,12 +137,14 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
                                    .slot_count = slot_count,
                                    .surface_stride = dip_surface_stride(slot_count),
                                    .draw = 17,
+                                   .first_patch = 1000,
                                    .cull = (DipCull)random_int(random, 0, 2),
-                                   .pattern = dip_sample_pattern(8),
+                                   .samples = dip_sample_pattern(8),
                                    .sample_min = {16, 16},
                                    .sample_max = {240, 240}};
     const DipSetupBatch batch = {.count = random_int(random, 1, DIP_SETUP_BATCH),
                                  .corner = {corner[0], corner[1], corner[2]},
+                                 .patch = patch,
                                  .screen = &screen,
                                  .slots = slots[0],
                                  .slot_stride = DIP_VERTEX_BATCH};
@@ -204,6 +212,7 @@ static void compare_sampling(const DipKernels *scalar, const DipKernels *other, 
         .advanced = random_int(random, 0, 1) != 0,
         .bias_lod8 = random_int(random, -256, 512),
         .min_lod8 = 256 * random_int(random, 0, 2),
+        .cheap = random_int(random, 0, 1) != 0,
     };
     random_coordinates(&batch, random);
     scalar->dip_kernel_sample_colour(&batch, &sampler, 0, expected);
@@ -223,6 +232,46 @@ static void compare_sampling(const DipKernels *scalar, const DipKernels *other, 
     other->dip_kernel_sample_alpha(&batch, &sampler, 0, found[0]);
     assert_memory_equal(found[0], expected[0], bytes);
     dip_texture_destroy(&texture);
+}
+
+// Two textures at once read what each reads alone, alike or not.
+static void compare_two_textures(const DipKernels *scalar, const DipKernels *other,
+                                 Random *random) {
+    static DipFragmentBatch batch;
+    float expected[2][3][DIP_FRAGMENT_BATCH];
+    float found[2][3][DIP_FRAGMENT_BATCH];
+    DipTexture *textures[2] = {random_texture(random), NULL};
+    do {
+        dip_texture_destroy(&textures[1]);
+        textures[1] = random_texture(random);
+    } while (random_int(random, 0, 3) && textures[1]->width != textures[0]->width);
+    DipSampler samplers[2] = {{.texture = textures[0],
+                               .max_anisotropy = 1 << random_int(random, 0, 4),
+                               .min_lod8 = 256 * random_int(random, 0, 1)}};
+    samplers[1] = samplers[0];
+    samplers[1].texture = textures[1];
+    samplers[1].cheap = random_int(random, 0, 7) == 0;
+    random_coordinates(&batch, random);
+    for (int t = 0; t < 2; t++) {
+        scalar->dip_kernel_sample_colour(&batch, &samplers[t], 0, expected[t]);
+    }
+    const DipSampleWork work = batch.work;
+    batch.work = (DipSampleWork){0};
+    other->dip_kernel_sample_colours(&batch, (const DipSampler *const[2]){samplers, samplers + 1},
+                                     0, (float(*const[2])[DIP_FRAGMENT_BATCH]){found[0], found[1]});
+    assert_int_equal(batch.work.probes, work.probes);
+    assert_int_equal(batch.work.texels, work.texels);
+    for (int t = 0; t < 2; t++) {
+        for (int c = 0; c < 3; c++) {
+            assert_memory_equal(found[t][c], expected[t][c], (size_t)batch.count * sizeof(float));
+        }
+        dip_texture_destroy(&textures[t]);
+    }
+}
+
+static void two_textures_are_read_as_each_is_alone(void **state) {
+    (void)state;
+    compare_all(compare_two_textures);
 }
 
 static void sampling_is_the_same_for_every_isa(void **state) {
@@ -295,6 +344,7 @@ int main(void) {
         cmocka_unit_test(project_is_the_same_for_every_isa),
         cmocka_unit_test(setup_is_the_same_for_every_isa),
         cmocka_unit_test(sampling_is_the_same_for_every_isa),
+        cmocka_unit_test(two_textures_are_read_as_each_is_alone),
         cmocka_unit_test(fragments_are_the_same_for_every_isa),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

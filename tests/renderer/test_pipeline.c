@@ -124,9 +124,8 @@ static void every_pixel_is_drawn_once(void **state) {
         const DipPass pass = pass_of(&draw, 1, samples);
         const DipCounters counters = run(&pass);
         assert_int_equal(lit_pixels(), WIDTH * HEIGHT);
-        // The diagonal's pixels hold both triangles when there are more samples than one.
-        assert_in_range(counters.fragments_shaded, WIDTH * HEIGHT,
-                        WIDTH * HEIGHT + (samples > 1 ? WIDTH + HEIGHT : 0));
+        // The diagonal's pixels hold both triangles, which are one patch.
+        assert_int_equal(counters.fragments_shaded, WIDTH * HEIGHT);
         assert_int_equal(counters.triangles_drawn, 2);
         assert_int_equal(counters.samples_shown, WIDTH * HEIGHT * samples);
         assert_int_equal(counters.target_bytes, WIDTH * HEIGHT * 4);
@@ -307,6 +306,50 @@ static void a_region_spares_the_other_blocks(void **state) {
     dip_mesh_destroy(&bounded);
 }
 
+// Likewise of every tile but its part, also of triangles that are in bins and of wide ones.
+static void parts_of_tiles_spare_the_other_blocks(void **state) {
+    (void)state;
+    enum { TILE = 64, BLOCK = 8, TILES_X = (WIDTH + TILE - 1) / TILE };
+    enum { TILES = TILES_X * ((HEIGHT + TILE - 1) / TILE) };
+    static uint8_t whole[sizeof picture];
+    const float scale = 50.0f;
+    const Vertex vertices[4] = {{{-3, -1.5f, 0.2f, 2}, 0},
+                                {{2, -2, 0.3f, 1}, 1},
+                                {{9, 14, 0.1f, 8}, 0.7f},
+                                {{-1, 1, 1, 1}, 0}};
+    DipMesh *mesh = mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3, 1, 3, 0}, 9);
+    DipDraw draw = draw_of(mesh, varying);
+    draw.uniforms = &scale;
+    DipPass pass = pass_of(&draw, 1, 4);
+    run(&pass);
+    memcpy(whole, picture, sizeof whole);
+    static const DipTilePart choice[] = {
+        {0, 0, 0, 0}, {0, 0, TILE, TILE}, {8, 16, 24, 40}, {56, 0, TILE, 8}};
+    DipTilePart parts[TILES];
+    pass.tile_parts = parts;
+    for (int first = 0; first < 4; first++) {
+        uint64_t drawn = 0;
+        for (int t = 0; t < TILES; t++) {
+            parts[t] = choice[(first + t) % 4];
+            drawn += parts[t].x1 != 0;
+        }
+        const DipCounters counters = run(&pass);
+        assert_int_equal(counters.tiles_drawn, drawn);
+        assert_int_equal(counters.tiles_spared, TILES - drawn);
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            const int x = i % WIDTH;
+            const int y = i / WIDTH;
+            const DipTilePart *part = &parts[y / TILE * TILES_X + x / TILE];
+            const bool within = x % TILE >= part->x0 && x % TILE < part->x1 &&
+                                y % TILE >= part->y0 && y % TILE < part->y1;
+            for (int c = 0; c < 4; c++) {
+                assert_int_equal(picture[4 * i + c], within ? whole[4 * i + c] : 77);
+            }
+        }
+    }
+    dip_mesh_destroy(&mesh);
+}
+
 // The target given as uniforms, turned by half a turn.
 static void turned_copy(DipFragmentBatch *batch) {
     float u[DIP_FRAGMENT_BATCH] = {0};
@@ -456,6 +499,7 @@ int main(void) {
         cmocka_unit_test(varyings_follow_the_perspective),
         cmocka_unit_test(near_plane_cuts_exactly),
         cmocka_unit_test(a_region_spares_the_other_blocks),
+        cmocka_unit_test(parts_of_tiles_spare_the_other_blocks),
         cmocka_unit_test(a_pass_samples_the_target_of_a_pass_before),
         cmocka_unit_test(impossible_vertices_draw_nothing),
         cmocka_unit_test(meshes_of_bad_numbers_are_refused),

@@ -109,6 +109,80 @@ static void panes_share_a_scene(void **state) {
     dip_test_scene_free(&scene);
 }
 
+// Settings of two panes: samples alone, temporal patterns, passes, textures, meshes of their own.
+static const char *const pairs[][2] = {{"aa=8,af=16", "aa=4,af=16"},
+                                       {"aa=none", "aa=2,af=4,aaf=on"},
+                                       {"aa=6,taa=on", "aa=8,aaa=on,asd=2"},
+                                       {"opt=standard,miplod=performance", "aa=4,mipdebug=on"},
+                                       {"aa=4,gi=off", "aa=8"}};
+
+static DipRenderer *pane_of(DipPool *pool, const DipTestScene *scene, const char *text,
+                            const int size[2]) {
+    DipRendererDef def = dip_renderer_default_def();
+    def.pool = pool;
+    def.width = size[0];
+    def.height = size[1];
+    def.reflection = scene->reflection;
+    assert_true(dip_quality_parse(text, &def.quality, NULL));
+    DipRenderer *renderer = dip_renderer_create(&def, NULL);
+    assert_non_null(renderer);
+    return renderer;
+}
+
+// What shading does does not depend on the other pane; geometry keeps what either may show.
+static void compare_work(const DipFrame *alone, const DipFrame *paired) {
+    assert_int_equal(paired->counters.fragments_shaded, alone->counters.fragments_shaded);
+    assert_int_equal(paired->counters.samples_shown, alone->counters.samples_shown);
+    assert_int_equal(paired->counters.pixels_resolved, alone->counters.pixels_resolved);
+    assert_int_equal(paired->counters.texels_fetched, alone->counters.texels_fetched);
+    assert_int_equal(paired->counters.fragments_mirrored, alone->counters.fragments_mirrored);
+    assert_true(paired->counters.triangles_drawn >= alone->counters.triangles_drawn);
+}
+
+static void draw_both_ways(DipRenderer *const panes[2], const DipTestScene *scene,
+                           const DipScene *fast, uint64_t frame_index) {
+    DipFrame alone[2], paired[2];
+    char expected[2][33];
+    for (int p = 0; p < 2; p++) {
+        dip_renderer_set_frame_index(panes[p], frame_index);
+        assert_true(dip_renderer_draw(panes[p], fast, &scene->pose, 5, &alone[p], NULL));
+        dip_frame_hash(&alone[p], expected[p]);
+    }
+    DipFrame *const frames[2] = {&paired[0], &paired[1]};
+    assert_true(dip_renderer_draw_pair(panes, fast, &scene->pose, 5, frames, NULL));
+    for (int p = 0; p < 2; p++) {
+        char hash[33];
+        dip_frame_hash(&paired[p], hash);
+        assert_string_equal(hash, expected[p]);
+        compare_work(&alone[p], &paired[p]);
+    }
+}
+
+// Two frames drawn at once are those that are drawn one by one, to the bit; also of two sizes.
+static void a_pair_is_what_its_frames_are_alone(void **state) {
+    (void)state;
+    static const int other_size[2] = {90, 130};
+    for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
+        static DipTestScene scene;
+        dip_test_scene_make(&scene, (DipTestSceneKind)kind);
+        DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
+        DipPool *pool = dip_pool_create(3, NULL);
+        for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+            DipRenderer *panes[2] = {
+                pane_of(pool, &scene, pairs[i][0], sizes[0]),
+                pane_of(pool, &scene, pairs[i][1], i == 1 ? other_size : sizes[0])};
+            for (uint64_t frame = 0; frame < 2; frame++) {
+                draw_both_ways(panes, &scene, fast, frame);
+            }
+            dip_renderer_destroy(&panes[0]);
+            dip_renderer_destroy(&panes[1]);
+        }
+        dip_pool_destroy(&pool);
+        dip_scene_destroy(&fast);
+        dip_test_scene_free(&scene);
+    }
+}
+
 // A change of settings or size shows in the next frame, and back again gives the picture of before.
 static void changes_show_in_the_next_frame(void **state) {
     (void)state;
@@ -204,6 +278,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(panes_share_a_scene),
+        cmocka_unit_test(a_pair_is_what_its_frames_are_alone),
         cmocka_unit_test(changes_show_in_the_next_frame),
         cmocka_unit_test(textures_are_compressed_beside_frames),
     };
