@@ -23,11 +23,8 @@ typedef struct Result {
     DipCounters counters;
 } Result;
 
-// Draws a scene twice with a pool of its own.
-static Result draw(const DipTestScene *scene, const DipScene *fast, int threads, const int size[2],
-                   const char *text) {
-    Result result[DRAWN_TWICE];
-    DipPool *pool = dip_pool_create(threads, NULL);
+static DipRenderer *pane_of(DipPool *pool, const DipTestScene *scene, const char *text,
+                            const int size[2]) {
     DipRendererDef def = dip_renderer_default_def();
     def.pool = pool;
     def.width = size[0];
@@ -36,6 +33,15 @@ static Result draw(const DipTestScene *scene, const DipScene *fast, int threads,
     assert_true(dip_quality_parse(text, &def.quality, NULL));
     DipRenderer *renderer = dip_renderer_create(&def, NULL);
     assert_non_null(renderer);
+    return renderer;
+}
+
+// Draws a scene twice with a pool of its own.
+static Result draw(const DipTestScene *scene, const DipScene *fast, int threads, const int size[2],
+                   const char *text) {
+    Result result[DRAWN_TWICE];
+    DipPool *pool = dip_pool_create(threads, NULL);
+    DipRenderer *renderer = pane_of(pool, scene, text, size);
     for (int i = 0; i < DRAWN_TWICE; i++) {
         DipFrame frame;
         assert_true(dip_renderer_draw(renderer, fast, &scene->pose, 0, &frame, NULL));
@@ -115,19 +121,6 @@ static const char *const pairs[][2] = {{"aa=8,af=16", "aa=4,af=16"},
                                        {"aa=6,taa=on", "aa=8,aaa=on,asd=2"},
                                        {"opt=standard,miplod=performance", "aa=4,mipdebug=on"},
                                        {"aa=4,gi=off", "aa=8"}};
-
-static DipRenderer *pane_of(DipPool *pool, const DipTestScene *scene, const char *text,
-                            const int size[2]) {
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = pool;
-    def.width = size[0];
-    def.height = size[1];
-    def.reflection = scene->reflection;
-    assert_true(dip_quality_parse(text, &def.quality, NULL));
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(renderer);
-    return renderer;
-}
 
 // What shading does does not depend on the other pane; geometry keeps what either may show.
 static void compare_work(const DipFrame *alone, const DipFrame *paired) {
