@@ -7,7 +7,7 @@
 // The square of the cosine of the greatest angle to the first triangle's normal, 20 degrees.
 static const double least_cosine2 = 0.883;
 
-enum { FREE = UINT32_MAX };
+#define FREE UINT32_MAX // of any patch
 
 typedef struct Grower {
     const float *positions;
