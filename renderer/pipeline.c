@@ -4,6 +4,7 @@
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
 #include "renderer/geometry/geometry.h"
+#include "renderer/geometry/visit.h"
 #include "renderer/raster/kernels.h"
 #include "renderer/resolve/resolve.h"
 #include "renderer/shading/tile_shading.h"
@@ -148,7 +149,8 @@ static int pass_count(const DipPipeline *pipeline) {
     return pipeline->passes ? pipeline->passes->count : 1;
 }
 
-static void draw_triangle(Worker *worker, uint32_t index) {
+static void draw_triangle(void *context, uint32_t index) {
+    Worker *worker = context;
     const DipPipeline *pipeline = worker->pipeline;
     const DipTriangle *triangle = &pipeline->drawn->triangles[index];
     const DipClipTest clip = {&worker->clip_list, clip_test, worker, pipeline->passes};
@@ -156,116 +158,6 @@ static void draw_triangle(Worker *worker, uint32_t index) {
     worker->work->clip_passes += clipped ? (uint64_t)pass_count(pipeline) : 0;
     pipeline->kernels->dip_kernel_draw_triangle(&worker->tile, triangle, index + 1,
                                                 clipped ? &clip : NULL);
-}
-
-static bool in_tile(const DipTriangle *triangle, const DipTile *tile) {
-    return triangle->x0 < tile->x0 + DIP_TILE && triangle->x1 >= tile->x0 &&
-           triangle->y0 < tile->y0 + DIP_TILE && triangle->y1 >= tile->y0;
-}
-
-enum { PREFETCH_AHEAD = 3 }; // triangles; about the time of a read from another core's cache
-
-// A walk along the triangles of a bin.
-typedef struct BinWalk {
-    const DipBinBlock *block;
-    const DipBinBlock *last;
-    uint32_t entry;
-    uint32_t count; // of the block's entries
-    uint32_t last_count;
-} BinWalk;
-
-static BinWalk walk_bin(const DipGeometry *geometry, const DipTileBin *bin) {
-    if (!bin) {
-        return (BinWalk){0};
-    }
-    BinWalk walk = {.block = geometry->blocks + bin->first,
-                    .last = geometry->blocks + bin->last,
-                    .last_count = bin->last_count};
-    walk.count = walk.block == walk.last ? walk.last_count : DIP_BIN_BLOCK;
-    return walk;
-}
-
-static void prefetch(const DipTriangle *triangle) {
-    __builtin_prefetch(triangle);
-    __builtin_prefetch((const char *)(triangle + 1) - 1);
-}
-
-// The next triangle's index, DIP_NO_TRIANGLE at the end.
-static uint32_t next_of(const DipGeometry *geometry, BinWalk *walk) {
-    if (walk->entry == walk->count) {
-        if (walk->block == walk->last) {
-            return DIP_NO_TRIANGLE;
-        }
-        walk->block = geometry->blocks + walk->block->next;
-        walk->entry = 0;
-        walk->count = walk->block == walk->last ? walk->last_count : DIP_BIN_BLOCK;
-    }
-    if (walk->entry + PREFETCH_AHEAD < walk->count) {
-        prefetch(&geometry->triangles[walk->block->triangle[walk->entry + PREFETCH_AHEAD]]);
-    }
-    return walk->block->triangle[walk->entry++];
-}
-
-// One job's triangles that may lie in the tile: its bin and its wide triangles.
-typedef struct JobWalks {
-    BinWalk bin;
-    BinWalk wide;
-} JobWalks;
-
-// The jobs that have any, in order. Reads of other cores' caches overlap: all bins first, then the
-// first blocks of all.
-static int find_jobs(const DipGeometry *geometry, size_t tile, JobWalks *found) {
-    const DipTileBin *bins[DIP_MAX_JOBS][2];
-    int count = 0;
-    for (int j = 0; j < geometry->job_count; j++) {
-        bins[count][0] = dip_geometry_bin(geometry, j, tile);
-        bins[count][1] = dip_geometry_bin(geometry, j, dip_geometry_tiles(geometry));
-        for (int i = 0; i < 2 && bins[count][i]; i++) {
-            __builtin_prefetch(bins[count][i]);
-        }
-        count += bins[count][0] || bins[count][1];
-    }
-    for (int i = 0; i < count; i++) {
-        found[i] = (JobWalks){walk_bin(geometry, bins[i][0]), walk_bin(geometry, bins[i][1])};
-        __builtin_prefetch(found[i].bin.block);
-    }
-    return count;
-}
-
-static void prefetch_first(const DipGeometry *geometry, const BinWalk *walk) {
-    for (uint32_t i = 0; i < PREFETCH_AHEAD && i < walk->count; i++) {
-        prefetch(&geometry->triangles[walk->block->triangle[i]]);
-    }
-}
-
-// Draws one job's triangles of the tile, merged by index, which is submission order.
-static void draw_job(Worker *worker, JobWalks *job) {
-    const DipGeometry *geometry = worker->pipeline->drawn;
-    uint32_t next = next_of(geometry, &job->bin);
-    uint32_t wide = next_of(geometry, &job->wide);
-    while (next != DIP_NO_TRIANGLE || wide != DIP_NO_TRIANGLE) {
-        if (next < wide) {
-            draw_triangle(worker, next);
-            next = next_of(geometry, &job->bin);
-        } else {
-            if (in_tile(&geometry->triangles[wide], &worker->tile)) {
-                draw_triangle(worker, wide);
-            }
-            wide = next_of(geometry, &job->wide);
-        }
-    }
-}
-
-static void draw_jobs(Worker *worker, size_t tile) {
-    const DipGeometry *geometry = worker->pipeline->drawn;
-    JobWalks jobs[DIP_MAX_JOBS];
-    const int count = find_jobs(geometry, tile, jobs);
-    for (int i = 0; i < count; i++) {
-        if (i + 1 < count) {
-            prefetch_first(geometry, &jobs[i + 1].bin);
-        }
-        draw_job(worker, &jobs[i]);
-    }
 }
 
 static int greatest(int a, int b) {
@@ -343,7 +235,7 @@ static void run_tile(DipPipeline *pipeline, int tile, int worker_index) {
     worker->work = work;
     const int64_t begin = dip_clock_ns();
     begin_tile(worker, index);
-    draw_jobs(worker, (size_t)index);
+    dip_geometry_visit(pipeline->drawn, index, draw_triangle, worker);
     const int64_t covered = dip_clock_ns();
     shade_tile(worker);
     const int64_t shaded = dip_clock_ns();
