@@ -86,8 +86,9 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     static const DipImageBounds slivers = {0.004, 0.01, 0.001, 0.5};
     // Corners that the guard band cuts are rounded too. On a floor that runs from the eye to the
     // horizon 1/512 pixel there moves 1/w by a tenth at the far edge, hence the level of detail.
-    // The number of probes of the coarser level follows from that in steps.
-    static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.08};
+    // With AF the number of probes of the coarser level follows from that in steps.
+    static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.05};
+    static const DipImageBounds huge_af = {0.0025, 0.025, 0.0005, 0.08};
     static const DipImageBounds huge_mips = {0.06, 0.01, 0.03, 1.0};
     // The narrow blend between levels makes four times of a difference in the level of detail.
     static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
@@ -98,6 +99,7 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
     const bool narrow = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
+    const bool anisotropic = quality->step[DIP_SETTING_AF] != 0;
     const bool passes = dip_quality_samples_per_pass(quality) < dip_quality_sample_count(quality);
     switch (kind) {
     case DIP_TEST_SCENE_sky:
@@ -111,7 +113,7 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     case DIP_TEST_SCENE_slivers:
         return &slivers;
     case DIP_TEST_SCENE_huge:
-        return mip_colours ? &huge_mips : narrow ? &huge_narrow : &huge;
+        return mip_colours ? &huge_mips : narrow ? &huge_narrow : anisotropic ? &huge_af : &huge;
     default:
         return mip_colours && narrow ? &narrow_mips : &steady;
     }
