@@ -21,9 +21,9 @@ enum { DIP_MAX_FRAME_SIZE = 8192 }; // width and height, pixels
     X(sub_blocks_accepted, "of these, blocks wholly inside the triangle")                          \
     X(fragments_clip_tested, "places of alpha-clipped surfaces whose clip map was read")           \
     X(clip_passes, "passes over alpha-clipped triangles, tile by tile")                            \
-    X(fragments_shaded, "fragments shaded: pixels times the surfaces seen in them")                \
+    X(fragments_shaded, "fragments shaded: pixels times the patches of surface seen in them")      \
     X(samples_shown, "samples that show a surface: covered, nearest, kept by its clip map")        \
-    X(pixels_resolved, "pixels whose samples show more than one surface or pass")                  \
+    X(pixels_resolved, "pixels whose samples show more than one patch or pass")                    \
     X(texture_probes, "places of texture reads, in the finer of two levels")                       \
     X(texels_fetched, "texels read by these")                                                      \
     X(target_bytes, "bytes of colour that are written to targets")                                 \

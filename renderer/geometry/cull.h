@@ -13,8 +13,7 @@ enum { DIP_VIEW_PLANES = 6, DIP_MAX_CULL_PLANES = DIP_VIEW_PLANES + DIP_MAX_CLIP
 // Half-spaces: inside where dot(normal, (x, y, z, 1)) >= 0. Those past `count` hold everything.
 typedef struct DipCullPlanes {
     int count;
-    float normal[4][DIP_MAX_CULL_PLANES]; // by coordinate, so that vectors take
-                                          // several planes
+    float normal[4][DIP_MAX_CULL_PLANES]; // by coordinate: vectors take several planes
 } DipCullPlanes;
 
 // The bounds in the world of what a pass draws of a view: its region and the user's planes. The

@@ -1,7 +1,6 @@
 // The geometry phase: transforming chunks in view, clipping, set-up and binning, by jobs.
 #include "renderer/geometry/geometry.h"
 
-#include "renderer/base/pages.h"
 #include "renderer/geometry/clip.h"
 #include "renderer/geometry/cull.h"
 #include "renderer/geometry/mesh.h"
@@ -105,7 +104,7 @@ static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
 static bool replace(void *pointer_to_array, size_t count, size_t size) {
     void **array = pointer_to_array;
     free(*array);
-    *array = dip_pages_alloc(count * size);
+    *array = aligned_alloc(64, (count * size / 64 + 1) * 64);
     return *array != NULL;
 }
 

@@ -15,9 +15,9 @@ enum {
 // Puts triangle t = indices[3 t .. 3 t + 2] into patch patches[t], 0 <= patches[t] < *count. A
 // patch grows from the first free triangle to its neighbours, nearest first, over shared edges (two
 // common vertices, by index), while their normals stay within 20 degrees of the first one's.
-// positions: x, y, z of vertex v from positions[v * stride] on, finite. Triangles without an area
-// are patches of their own. The same patches on every machine; any thread. False when memory runs
-// out.
+// positions: x, y, z of vertex v from positions[v * stride] on. Triangles without an area, or with
+// corners that are not finite, are patches of their own. The same patches on every machine; any
+// thread. False when memory runs out.
 bool dip_patches_find(const float *positions, size_t stride, uint32_t vertex_count,
                       const uint32_t *indices, uint32_t index_count, uint32_t *patches,
                       uint32_t *count);

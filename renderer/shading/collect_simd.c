@@ -1,5 +1,6 @@
-// The fragments of a tile: every pixel's distinct surfaces, pushed to the lists of their draws.
-// A sub-block's pixels of one triangle are pushed together, as a mask of 16 bits.
+// The fragments of a tile: every pixel's distinct patches (geometry/patch.h), pushed to the lists
+// of their draws. A sub-block's pixels of one draw, or of one patch where samples differ, are
+// pushed together, as a mask of 16 bits.
 #include "renderer/raster/kernels.h"
 #include "renderer/simd/vec.h"
 

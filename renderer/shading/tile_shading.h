@@ -1,6 +1,6 @@
 // From a tile's visibility buffer to shaded pixels: the lists and buffers a worker keeps.
 //
-// Every pixel's distinct surfaces become fragments, gathered per draw and shaded 64 at a time. A
+// Every pixel's distinct patches become fragments, gathered per draw and shaded 64 at a time. A
 // fragment that holds all samples of its pixel is the pixel; the others add to a sum in 16-bit
 // linear light, weighted by their samples, in integers, so the order does not matter.
 #ifndef DIP_RENDERER_SHADING_TILE_SHADING_H
@@ -76,7 +76,7 @@ struct DipTileShading {
     DipFlushList *flush_whole;
     void *context;                // of both
     DipFragmentList *lists;       // per draw
-    DipFragmentList *whole_lists; // per draw: of whole sub-blocks, 16 fragments of a triangle each
+    DipFragmentList *whole_lists; // per draw: of whole sub-blocks, 16 fragments each
     uint32_t *active;             // draws whose list was used in this tile, in order of first use
     int active_count;
     uint8_t *is_active; // per draw
@@ -86,7 +86,7 @@ struct DipTileShading {
     size_t stride;    // pixels per row of the target
     uint32_t clear_rgba8;
     int32_t clear_linear16[3];
-    int32_t (*sum)[4]; // per tile pixel: linear16 sums of a pixel with several surfaces
+    int32_t (*sum)[4]; // per tile pixel: linear16 sums of a pixel with several fragments
     uint16_t *mixed;   // such pixels
     int mixed_count;
     uint64_t fragments;

@@ -256,17 +256,22 @@ static void varyings_follow_the_perspective(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
+// Triangles in perspective that cross the picture and its sides.
+static DipMesh *wide(void) {
+    const Vertex vertices[4] = {{{-3, -1.5f, 0.2f, 2}, 0},
+                                {{2, -2, 0.3f, 1}, 1},
+                                {{9, 14, 0.1f, 8}, 0.7f},
+                                {{-1, 1, 1, 1}, 0}};
+    return mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3, 1, 3, 0}, 9);
+}
+
 // Blocks that the region meets hold what they do without it, the others what they held before.
 static void a_region_spares_the_other_blocks(void **state) {
     (void)state;
     enum { TILE = 64, BLOCK = 8 };
     static uint8_t whole[sizeof picture];
     const float scale = 50.0f;
-    const Vertex vertices[4] = {{{-3, -1.5f, 0.2f, 2}, 0},
-                                {{2, -2, 0.3f, 1}, 1},
-                                {{9, 14, 0.1f, 8}, 0.7f},
-                                {{-1, 1, 1, 1}, 0}};
-    DipMesh *mesh = mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3, 1, 3, 0}, 9);
+    DipMesh *mesh = wide();
     const Vertex small[3] = {
         {{0.4f, 0.1f, 0.9f, 1}, 0}, {{0.5f, 0.2f, 0.9f, 1}, 1}, {{0.3f, 0.6f, 0.8f, 1}, 0}};
     DipMesh *bounded = mesh_of(small, 3, (const uint32_t[]){0, 1, 2}, 3);
@@ -313,11 +318,7 @@ static void parts_of_tiles_spare_the_other_blocks(void **state) {
     enum { TILES = TILES_X * ((HEIGHT + TILE - 1) / TILE) };
     static uint8_t whole[sizeof picture];
     const float scale = 50.0f;
-    const Vertex vertices[4] = {{{-3, -1.5f, 0.2f, 2}, 0},
-                                {{2, -2, 0.3f, 1}, 1},
-                                {{9, 14, 0.1f, 8}, 0.7f},
-                                {{-1, 1, 1, 1}, 0}};
-    DipMesh *mesh = mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3, 1, 3, 0}, 9);
+    DipMesh *mesh = wide();
     DipDraw draw = draw_of(mesh, varying);
     draw.uniforms = &scale;
     DipPass pass = pass_of(&draw, 1, 4);
