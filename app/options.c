@@ -5,7 +5,7 @@
 #include "renderer/base/clock.h"
 #include "renderer/base/nearest.h"
 #include "renderer/base/number.h"
-#include "renderer/renderer.h"
+#include "renderer/scene/renderer.h"
 
 #include <string.h>
 

@@ -5,8 +5,8 @@
 #include "app/bench/options.h"
 #include "app/cost/options.h"
 #include "renderer/base/error.h"
-#include "renderer/isa.h"
-#include "renderer/quality.h"
+#include "renderer/base/isa.h"
+#include "renderer/scene/quality.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -5,7 +5,7 @@
 #include "app/mip_pictures.h"
 #include "assets/model.h"
 #include "renderer/base/clock.h"
-#include "renderer/texture/srgb.h"
+#include "renderer/base/srgb.h"
 
 #include <limits.h>
 #include <math.h>
@@ -285,8 +285,8 @@ static bool load_own_path(DipSession *session, const DipOptions *options, DipErr
     return true;
 }
 
-// Nothing nearer than DIP_MIN_W (renderer/geometry/project.h) is drawn: smaller models would be
-// invisible. A single point is framed all the same.
+// Nothing nearer than DIP_MIN_W (renderer/pipeline/geometry/project.h) is drawn: smaller models
+// would be invisible. A single point is framed all the same.
 static bool check_extent(const float low[3], const float high[3], const char *file,
                          DipErrorList *faults) {
     const double least = 5e-6;

@@ -7,7 +7,7 @@
 #include "assets/model.h"
 #include "campaths/camtrack.h"
 #include "config/config.h"
-#include "renderer/renderer.h"
+#include "renderer/scene/renderer.h"
 
 enum { DIP_PANE_CURRENT, DIP_PANE_REQUESTED, DIP_PANE_COUNT };
 

@@ -24,7 +24,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
-#include "renderer/scene.h"
+#include "renderer/scene/scene.h"
 
 typedef struct DipModel DipModel;
 

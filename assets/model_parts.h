@@ -6,9 +6,9 @@
 #ifndef DIP_ASSETS_MODEL_PARTS_H
 #define DIP_ASSETS_MODEL_PARTS_H
 
-#include "assets/picture.h"
 #include "assets/model.h"
-#include "renderer/scene.h"
+#include "assets/picture.h"
+#include "renderer/scene/scene.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,8 +3,8 @@
 // Key i stands at time i * period; the last key is followed by the first, so a path of N keys has
 // the duration N * period and comes back to where it began. Between keys positions are
 // interpolated linearly (LERP), orientations along the shortest arc at constant speed (SLERP). One
-// key alone is a still camera. Conventions of space are those of renderer/pose.h. The field of view
-// is not part of a path.
+// key alone is a still camera. Conventions of space are those of renderer/scene/pose.h. The field
+// of view is not part of a path.
 //
 // Text, `.pth`. ASCII, '\n' or '\r\n', '#' begins a comment anywhere, empty lines do not count,
 // tokens are separated by spaces or tabs:
@@ -34,7 +34,7 @@
 #define DIP_CAMPATHS_CAMPATH_H
 
 #include "renderer/base/error.h"
-#include "renderer/pose.h"
+#include "renderer/scene/pose.h"
 
 #include <stdbool.h>
 #include <stddef.h>

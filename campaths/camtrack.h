@@ -4,7 +4,7 @@
 #define DIP_CAMPATHS_CAMTRACK_H
 
 #include "campaths/campath.h"
-#include "renderer/pose.h"
+#include "renderer/scene/pose.h"
 
 #include <stdbool.h>
 #include <stdint.h>

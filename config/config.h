@@ -8,8 +8,8 @@
 
 #include "config/config_list.h"
 #include "renderer/base/error.h"
-#include "renderer/isa.h"
-#include "renderer/quality.h"
+#include "renderer/base/isa.h"
+#include "renderer/scene/quality.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -6,7 +6,7 @@
 #include "app/bench/plots.h"
 #include "app/bench/rig.h"
 #include "app/bench/table.h"
-#include "app/folder.h"
+#include "app/files/folder.h"
 
 #include <errno.h>
 #include <stdlib.h>

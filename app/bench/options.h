@@ -2,8 +2,8 @@
 #ifndef DIP_APP_BENCH_OPTIONS_H
 #define DIP_APP_BENCH_OPTIONS_H
 
-#include "renderer/isa.h"
-#include "renderer/quality.h"
+#include "renderer/base/isa.h"
+#include "renderer/scene/quality.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -2,8 +2,8 @@
 #include "app/bench/plots.h"
 
 #include "app/machine.h"
-#include "app/plot.h"
-#include "app/stats.h"
+#include "app/measure/stats.h"
+#include "app/plot/plot.h"
 
 #include <limits.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #define DIP_APP_BENCH_SYNTHETIC_H
 
 #include "campaths/campath.h"
-#include "renderer/scene.h"
+#include "renderer/scene/scene.h"
 
 #include <stdbool.h>
 

@@ -1,9 +1,9 @@
 // Printing tables, writing CSV.
 #include "app/bench/table.h"
 
+#include "app/files/whole_file.h"
 #include "app/machine.h"
-#include "app/stats.h"
-#include "app/whole_file.h"
+#include "app/measure/stats.h"
 
 #include <inttypes.h>
 #include <math.h>

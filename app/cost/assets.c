@@ -1,9 +1,9 @@
 // `diptych cost assets`: size, zipped size and load time of the forms that assets can take.
 #include "app/commands.h"
 
-#include "app/png.h"
-#include "app/stats.h"
-#include "app/zip.h"
+#include "app/files/png.h"
+#include "app/files/zip.h"
+#include "app/measure/stats.h"
 #include "campaths/campath.h"
 #include "renderer/base/clock.h"
 

@@ -5,7 +5,7 @@
 #include "app/cost/html.h"
 #include "app/cost/rig.h"
 #include "app/cost/write.h"
-#include "app/folder.h"
+#include "app/files/folder.h"
 #include "app/interrupt.h"
 
 #include <limits.h>

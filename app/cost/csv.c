@@ -1,7 +1,7 @@
 // The report as comma-separated values.
 #include "app/cost/write.h"
 
-#include "app/whole_file.h"
+#include "app/files/whole_file.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 // Truths, and the pictures of every row held against them.
-#include "app/cost/meter.h"
 #include "app/cost/rig.h"
-#include "app/hash.h"
 #include "app/interrupt.h"
+#include "app/measure/meter.h"
 #include "app/progress.h"
+#include "renderer/base/hash.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 // Drawing steps once more, finding where they differ, cutting out.
 #include "app/cost/gallery.h"
 
-#include "app/metrics/magma.h"
-#include "app/png.h"
+#include "app/files/png.h"
+#include "app/measure/magma.h"
 #include "app/progress.h"
 
 #include <stdlib.h>

@@ -4,9 +4,9 @@
 #include "app/cost/fit.h"
 #include "app/cost/order.h"
 #include "app/cost/write.h"
-#include "app/markup.h"
-#include "app/plot.h"
-#include "app/whole_file.h"
+#include "app/files/whole_file.h"
+#include "app/plot/markup.h"
+#include "app/plot/plot.h"
 
 #include <math.h>
 #include <stdlib.h>

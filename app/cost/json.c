@@ -3,7 +3,7 @@
 
 #include "app/cost/fit.h"
 #include "app/cost/json_fields.h"
-#include "app/whole_file.h"
+#include "app/files/whole_file.h"
 
 #include <cjson/cJSON.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 
 #include "app/cost/html.h"
 #include "app/cost/write.h"
-#include "app/folder.h"
+#include "app/files/folder.h"
 
 #include <limits.h>
 #include <stdio.h>

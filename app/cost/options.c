@@ -1,7 +1,7 @@
 // The cost report's options.
 #include "app/options_private.h"
 
-#include "app/metrics/flip.h"
+#include "app/measure/flip.h"
 #include "renderer/base/number.h"
 
 #include <math.h>

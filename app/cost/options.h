@@ -2,7 +2,7 @@
 #ifndef DIP_APP_COST_OPTIONS_H
 #define DIP_APP_COST_OPTIONS_H
 
-#include "renderer/quality.h"
+#include "renderer/scene/quality.h"
 
 #include <stdbool.h>
 

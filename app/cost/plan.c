@@ -2,8 +2,8 @@
 #include "app/cost/plan.h"
 
 #include "app/cost/scene_hash.h"
-#include "app/hash.h"
 #include "app/machine.h"
+#include "renderer/base/hash.h"
 
 #include <stdio.h>
 #include <stdlib.h>

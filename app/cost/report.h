@@ -3,9 +3,9 @@
 #define DIP_APP_COST_REPORT_H
 
 #include "app/cost/options.h"
-#include "app/cost/sums.h"
-#include "renderer/frame.h"
-#include "renderer/quality.h"
+#include "app/measure/sums.h"
+#include "renderer/scene/frame.h"
+#include "renderer/scene/quality.h"
 
 #include <stdbool.h>
 

@@ -4,7 +4,7 @@
 
 #include "app/cost/plan.h"
 #include "app/cost/state.h"
-#include "app/cost/truth.h"
+#include "app/measure/truth.h"
 
 typedef struct DipCostRig {
     const DipSession *session;

@@ -1,7 +1,7 @@
 // All that decides how a scene looks, in a fixed order.
 #include "app/cost/scene_hash.h"
 
-#include "app/hash.h"
+#include "renderer/base/hash.h"
 
 static void hash_textures(const DipSceneDef *def, DipHash *hash) {
     for (int t = 0; t < def->texture_count; t++) {

@@ -2,8 +2,8 @@
 #ifndef DIP_APP_COST_SCENE_HASH_H
 #define DIP_APP_COST_SCENE_HASH_H
 
-#include "renderer/reflection.h"
-#include "renderer/scene.h"
+#include "renderer/scene/reflection.h"
+#include "renderer/scene/scene.h"
 
 void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflection, char hex[33]);
 

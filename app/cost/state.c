@@ -1,7 +1,7 @@
 // A file of lines: kind, name, numbers in hexadecimal (exact), check.
 #include "app/cost/state.h"
 
-#include "app/hash.h"
+#include "renderer/base/hash.h"
 
 #include <errno.h>
 #include <limits.h>

@@ -4,7 +4,7 @@
 #ifndef DIP_APP_COST_STATE_H
 #define DIP_APP_COST_STATE_H
 
-#include "app/cost/sums.h"
+#include "app/measure/sums.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>

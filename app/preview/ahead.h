@@ -6,7 +6,7 @@
 #ifndef DIP_APP_PREVIEW_AHEAD_H
 #define DIP_APP_PREVIEW_AHEAD_H
 
-#include "renderer/scene.h"
+#include "renderer/scene/scene.h"
 
 #include <pthread.h>
 #include <stdbool.h>

@@ -2,7 +2,7 @@
 #ifndef DIP_APP_PREVIEW_CAMERA_H
 #define DIP_APP_PREVIEW_CAMERA_H
 
-#include "renderer/pose.h"
+#include "renderer/scene/pose.h"
 
 #include <stdbool.h>
 

@@ -1,8 +1,8 @@
 // Levels of the truth, tile by tile, and errors, block by block.
 #include "app/preview/judge.h"
 
-#include "app/cost/truth.h"
-#include "app/metrics/error.h"
+#include "app/measure/error.h"
+#include "app/measure/truth.h"
 #include "renderer/reference/convergence.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #define DIP_APP_PREVIEW_PANEL_H
 
 #include "app/preview/live.h"
-#include "renderer/frame.h"
+#include "renderer/scene/frame.h"
 
 #include <stdbool.h>
 

@@ -5,7 +5,7 @@
 #include "app/preview/costs.h"
 #include "app/session.h"
 #include "campaths/camtrack.h"
-#include "renderer/quality.h"
+#include "renderer/scene/quality.h"
 
 #include <stdbool.h>
 #include <stdint.h>

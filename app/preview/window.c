@@ -1,7 +1,7 @@
 // The window through SDL.
 #include "app/preview/window.h"
 
-#include "app/png.h"
+#include "app/files/png.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include "app/preview/overlay.h"
 #include "app/session.h"
-#include "renderer/frame.h"
+#include "renderer/scene/frame.h"
 
 #include <SDL2/SDL.h>
 

@@ -1,7 +1,7 @@
 // A triangle drawn with the caller's own shaders: the pipeline as a library, without a scene.
 //
 // Usage: triangle FILE.ppm
-#include "renderer/pipeline.h"
+#include "renderer/pipeline/pipeline.h"
 
 #include <stdio.h>
 #include <string.h>

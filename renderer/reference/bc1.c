@@ -1,8 +1,8 @@
 // BC1 as its definition has it: blocks of every level, and the colours they stand for.
 #include "renderer/reference/texture.h"
 
-#include "renderer/texture/bc1.h"
-#include "renderer/texture/texture.h"
+#include "renderer/pipeline/texture/bc1.h"
+#include "renderer/pipeline/texture/texture_layout.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 // The picture of the settings: exact coverage, depth per sample, one shading per pixel and patch.
 #include "renderer/reference/private.h"
 
-#include "renderer/raster/pattern.h"
+#include "renderer/pipeline/pattern.h"
 
 #include <math.h>
 #include <stdlib.h>

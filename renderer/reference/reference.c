@@ -1,8 +1,8 @@
 // The reference's scene: checks the description and decodes the textures that are shown.
 #include "renderer/reference/private.h"
 
-#include "renderer/geometry/patch.h"
-#include "renderer/renderer.h"
+#include "renderer/pipeline/geometry/patch.h"
+#include "renderer/scene/renderer.h"
 
 #include <stdlib.h>
 

@@ -5,10 +5,10 @@
 #define DIP_RENDERER_REFERENCE_REFERENCE_H
 
 #include "renderer/base/error.h"
-#include "renderer/pose.h"
-#include "renderer/quality.h"
-#include "renderer/reflection.h"
-#include "renderer/scene.h"
+#include "renderer/scene/pose.h"
+#include "renderer/scene/quality.h"
+#include "renderer/scene/reflection.h"
+#include "renderer/scene/scene.h"
 
 #include <stdatomic.h>
 #include <stdint.h>

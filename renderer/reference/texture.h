@@ -3,8 +3,8 @@
 #define DIP_RENDERER_REFERENCE_TEXTURE_H
 
 #include "renderer/base/error.h"
-#include "renderer/quality.h"
-#include "renderer/scene.h"
+#include "renderer/scene/quality.h"
+#include "renderer/scene/scene.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 // Models: what arrives in the scene definition, held against what the files say.
 #include "assets/model.h"
-#include "renderer/renderer.h"
+#include "renderer/scene/renderer.h"
 #include "tests/assets/fixture.h"
 
 #include <math.h>

@@ -10,7 +10,7 @@
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/base/clock.h"
-#include "renderer/renderer.h"
+#include "renderer/scene/renderer.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,9 +8,9 @@
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
-#include "renderer/geometry/setup.h"
-#include "renderer/raster/kernels.h"
-#include "renderer/texture/texture.h"
+#include "renderer/pipeline/geometry/setup.h"
+#include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/texture/texture_layout.h"
 #include "tests/renderer/random.h"
 
 #include <stdio.h>

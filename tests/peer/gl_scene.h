@@ -2,8 +2,8 @@
 #ifndef DIP_TESTS_PEER_GL_SCENE_H
 #define DIP_TESTS_PEER_GL_SCENE_H
 
-#include "renderer/pose.h"
-#include "renderer/scene.h"
+#include "renderer/scene/pose.h"
+#include "renderer/scene/scene.h"
 #include "tests/peer/gl.h"
 #include "tests/peer/gl_program.h"
 

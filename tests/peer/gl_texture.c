@@ -1,13 +1,13 @@
 // Uploading textures level by level.
 #include "tests/peer/gl_texture.h"
 
-#include "renderer/texture/mip.h"
-#include "renderer/texture/srgb.h"
+#include "renderer/base/srgb.h"
+#include "renderer/pipeline/texture/mip.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// Interleaved codes to the rows of a level, see renderer/texture/mip.h.
+// Interleaved codes to the rows of a level, see renderer/pipeline/texture/mip.h.
 static void decode(const DipTextureDef *def, float *rows) {
     DipSrgbDecodeTable srgb;
     dip_srgb_decode_table(&srgb);

@@ -2,7 +2,7 @@
 #ifndef DIP_TESTS_PEER_GL_TEXTURE_H
 #define DIP_TESTS_PEER_GL_TEXTURE_H
 
-#include "renderer/scene.h"
+#include "renderer/scene/scene.h"
 #include "tests/peer/gl.h"
 
 // Makes a texture of def's texels and of smaller levels that our own box filter computes in linear

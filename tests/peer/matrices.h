@@ -2,7 +2,7 @@
 #ifndef DIP_TESTS_PEER_MATRICES_H
 #define DIP_TESTS_PEER_MATRICES_H
 
-#include "renderer/pose.h"
+#include "renderer/scene/pose.h"
 
 #include <stdbool.h>
 

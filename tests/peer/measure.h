@@ -2,7 +2,7 @@
 #ifndef DIP_TESTS_PEER_MEASURE_H
 #define DIP_TESTS_PEER_MEASURE_H
 
-#include "renderer/renderer.h"
+#include "renderer/scene/renderer.h"
 #include "tests/peer/peer.h"
 #include "tests/peer/scene.h"
 

@@ -1,11 +1,11 @@
 // Parsing the bench's command line.
 #include "tests/peer/options.h"
 
+#include "app/bench/synthetic.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/number.h"
-#include "renderer/renderer.h"
+#include "renderer/scene/renderer.h"
 #include "tests/peer/measure.h"
-#include "app/bench/synthetic.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #define DIP_TESTS_PEER_OPTIONS_H
 
 #include "renderer/base/error.h"
-#include "renderer/isa.h"
+#include "renderer/base/isa.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -3,8 +3,8 @@
 #define DIP_TESTS_PEER_PEER_H
 
 #include "renderer/base/error.h"
-#include "renderer/pose.h"
-#include "renderer/scene.h"
+#include "renderer/scene/pose.h"
+#include "renderer/scene/scene.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -2,7 +2,7 @@
 #ifndef DIP_TESTS_PEER_PICTURES_H
 #define DIP_TESTS_PEER_PICTURES_H
 
-#include "renderer/frame.h"
+#include "renderer/scene/frame.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -2,7 +2,7 @@
 #include "tests/peer/scene.h"
 
 #include "config/config.h"
-#include "renderer/texture/srgb.h"
+#include "renderer/base/srgb.h"
 
 #include <stdio.h>
 #include <string.h>

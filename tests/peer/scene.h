@@ -2,11 +2,11 @@
 #ifndef DIP_TESTS_PEER_SCENE_H
 #define DIP_TESTS_PEER_SCENE_H
 
+#include "app/bench/synthetic.h"
 #include "assets/model.h"
 #include "campaths/campath.h"
-#include "renderer/scene.h"
+#include "renderer/scene/scene.h"
 #include "tests/peer/options.h"
-#include "app/bench/synthetic.h"
 
 typedef struct DipPeerScene {
     char name[96];

@@ -2,7 +2,7 @@
 #include "tests/peer/table.h"
 
 #include "app/machine.h"
-#include "app/stats.h"
+#include "app/measure/stats.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -1,9 +1,9 @@
 // Errors found while the camera rests: against the cost report's truth and meter, step by step, and
 // on the thread.
-#include "app/cost/meter.h"
-#include "app/cost/truth.h"
+#include "app/measure/meter.h"
+#include "app/measure/truth.h"
 #include "app/preview/live.h"
-#include "tests/renderer/scenes.h"
+#include "tests/renderer/scene/scenes.h"
 
 #include <math.h>
 #include <setjmp.h>

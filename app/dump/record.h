@@ -1,0 +1,45 @@
+// The record of drawn frames as JSON: what each pane drew, what it cost and which effects ran.
+//
+// {"frames":[{"index":0,"time_s":0,"pose":{"position":[x,y,z],"orientation":[x,y,z,w],
+// "fov_y_deg":45},"ms":2.9,"current":{"settings":"aa=..","hash":"..","copied":false,"ms":1.5,
+// "stages_ms":{..},"counters":{..},"effects":{"light_map":{"run":true,"why":".."},..}},"requested":{..}},..],
+// "load_ms":{"ini":0.3,..},"peak_rss_bytes":123456}
+// A pane that is copied from the one before took no time and did no work: 0 in all of these. The
+// frame's own ms is the time of both panes on the clock; the panes' sum may exceed it, since
+// geometry that is set up once for both counts in each.
+#ifndef DIP_APP_DUMP_RECORD_H
+#define DIP_APP_DUMP_RECORD_H
+
+#include "app/start_times.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/frame.h"
+#include "renderer/scene/pose.h"
+#include "renderer/scene/quality.h"
+
+#include <stdbool.h>
+
+typedef struct DipRecord DipRecord;
+
+// One pane of a frame.
+typedef struct DipRecordPane {
+    const DipQuality *quality;
+    const DipFrame *frame;
+    const char *hash;
+    bool copied; // from the pane before, with the same settings
+} DipRecordPane;
+
+DipRecord *dip_record_create(DipError *err);
+void dip_record_destroy(DipRecord **record);
+
+// ms: of both panes. panes: current, requested.
+bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *pose, double ms,
+                    const DipRecordPane panes[2], DipError *err);
+
+// How the program started, and the memory it took.
+bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t peak_rss_bytes,
+                          DipError *err);
+
+// Writes the file whole or not at all.
+bool dip_record_write(const DipRecord *record, const char *file, DipError *err);
+
+#endif

@@ -1,0 +1,35 @@
+// Temporary file, then rename.
+#include "app/files/whole_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static bool write_all(const char *name, const void *bytes, size_t size_bytes) {
+    FILE *out = fopen(name, "wb");
+    if (!out) {
+        return false;
+    }
+    const bool written = fwrite(bytes, 1, size_bytes, out) == size_bytes;
+    const bool closed = fclose(out) == 0;
+    return written && closed;
+}
+
+bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes, DipError *err) {
+    const size_t room = strlen(file) + 32;
+    char *temporary = malloc(room);
+    if (!temporary) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    }
+    snprintf(temporary, room, "%s.%ld.tmp", file, (long)getpid());
+    bool written = write_all(temporary, bytes, size_bytes) && rename(temporary, file) == 0;
+    if (!written) {
+        const int reason = errno;
+        remove(temporary);
+        dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written: %s", strerror(reason));
+    }
+    free(temporary);
+    return written;
+}

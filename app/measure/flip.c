@@ -1,0 +1,312 @@
+// FLIP version 1.6, step by step: opponent colours, contrast sensitivity, CIELab with Hunt's
+// effect, HyAB distance, edges and points, error.
+#include "app/measure/flip.h"
+
+#include "renderer/base/srgb.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+// The white that XYZ is divided by, D65.
+static const float white[3] = {0.950428545f, 1.0f, 1.088900371f};
+
+enum { SIDE_L, SIDE_A, SIDE_B, SIDE_EDGE_X, SIDE_EDGE_Y, SIDE_POINT_X, SIDE_POINT_Y, SIDES };
+
+// --- filters -----------------------------------------------------------------------------------
+
+// The spatial Gaussian a * sqrt(pi / b) * exp(-pi^2 x^2 / b), x in degrees, times `factor`.
+static void fill_gaussian(DipKernel1D *kernel, int radius, double ppd, double factor, double b) {
+    kernel->radius = radius;
+    for (int i = -radius; i <= radius; i++) {
+        const double x = i / ppd;
+        kernel->weights[i + radius] = (float)(factor * exp(-pi * pi * x * x / b));
+    }
+}
+
+static double sum_gaussian(int radius, double ppd, double factor, double b) {
+    double sum = 0.0;
+    for (int i = -radius; i <= radius; i++) {
+        const double x = i / ppd;
+        sum += factor * exp(-pi * pi * x * x / b);
+    }
+    return sum;
+}
+
+static void make_sensitivity(DipFlipKernels *kernels, double ppd) {
+    static const double luma_b = 0.0047, red_green_b = 0.0053;
+    static const double blue_a[2] = {34.1, 13.5}, blue_b[2] = {0.04, 0.025};
+    const int radius = (int)ceil(3.0 * sqrt(blue_b[0] / (2.0 * pi * pi)) * ppd);
+    fill_gaussian(&kernels->luma, radius, ppd, 1.0 / sum_gaussian(radius, ppd, 1.0, luma_b),
+                  luma_b);
+    fill_gaussian(&kernels->red_green, radius, ppd,
+                  1.0 / sum_gaussian(radius, ppd, 1.0, red_green_b), red_green_b);
+    // Two Gaussians in two dimensions: each is the square of one in one dimension, and their
+    // squares' sums together are normalised to one.
+    double factors[2], squares = 0.0;
+    for (int i = 0; i < 2; i++) {
+        factors[i] = sqrt(blue_a[i] * sqrt(pi / blue_b[i]));
+        const double sum = sum_gaussian(radius, ppd, factors[i], blue_b[i]);
+        squares += sum * sum;
+    }
+    for (int i = 0; i < 2; i++) {
+        fill_gaussian(&kernels->blue[i], radius, ppd, factors[i] / sqrt(squares), blue_b[i]);
+    }
+}
+
+// Positive and negative weights are made to sum to one each.
+static void normalise_lobes(const double *weights, DipKernel1D *kernel) {
+    double positive = 0.0, negative = 0.0;
+    for (int i = 0; i <= 2 * kernel->radius; i++) {
+        positive += weights[i] > 0.0 ? weights[i] : 0.0;
+        negative -= weights[i] < 0.0 ? weights[i] : 0.0;
+    }
+    for (int i = 0; i <= 2 * kernel->radius; i++) {
+        kernel->weights[i] = (float)(weights[i] / (weights[i] > 0.0 ? positive : negative));
+    }
+}
+
+static void make_features(DipFlipKernels *kernels, double ppd) {
+    const double sigma = 0.5 * 0.082 * ppd; // half the width of an edge that the eye can make out
+    const int radius = (int)ceil(3.0 * sigma);
+    double gauss[2 * DIP_KERNEL_MAX_RADIUS + 1];
+    double edge[2 * DIP_KERNEL_MAX_RADIUS + 1];
+    double point[2 * DIP_KERNEL_MAX_RADIUS + 1];
+    for (int i = -radius; i <= radius; i++) {
+        const double g = exp(-i * i / (2.0 * sigma * sigma));
+        gauss[i + radius] = g;
+        edge[i + radius] = -i * g;
+        point[i + radius] = (i * i / (sigma * sigma) - 1.0) * g;
+    }
+    kernels->gauss.radius = kernels->edge.radius = kernels->point.radius = radius;
+    normalise_lobes(gauss, &kernels->gauss);
+    normalise_lobes(edge, &kernels->edge);
+    normalise_lobes(point, &kernels->point);
+    kernels->edge.weights[radius] = 0.0f; // the middle is of neither lobe
+}
+
+DipFlipKernels dip_flip_kernels(double pixels_per_degree) {
+    DipFlipKernels kernels;
+    memset(&kernels, 0, sizeof kernels);
+    make_sensitivity(&kernels, pixels_per_degree);
+    make_features(&kernels, pixels_per_degree);
+    return kernels;
+}
+
+// --- memory ------------------------------------------------------------------------------------
+
+enum { SCRATCH_PLANES = 6 };
+
+static size_t plane_size(const DipFlip *flip) {
+    return (size_t)flip->width * (size_t)flip->height;
+}
+
+bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree) {
+    DipSrgbDecodeTable srgb;
+    dip_srgb_decode_table(&srgb);
+    flip->kernels = dip_flip_kernels(pixels_per_degree);
+    flip->width = width;
+    flip->height = height;
+    for (int i = 0; i < 256; i++) {
+        flip->light[i] = (float)srgb.linear[i];
+    }
+    const size_t padded = (size_t)width + 2 * DIP_KERNEL_MAX_RADIUS;
+    flip->scratch = malloc((SCRATCH_PLANES * plane_size(flip) + padded) * sizeof(float));
+    return flip->scratch != NULL;
+}
+
+void dip_flip_free(DipFlip *flip) {
+    free(flip->scratch);
+    flip->scratch = NULL;
+}
+
+bool dip_flip_side_init(const DipFlip *flip, DipFlipSide *side) {
+    side->memory = malloc(SIDES * plane_size(flip) * sizeof(float));
+    for (int i = 0; i < SIDES; i++) {
+        side->planes[i] = side->memory ? side->memory + (size_t)i * plane_size(flip) : NULL;
+    }
+    return side->memory != NULL;
+}
+
+void dip_flip_side_free(DipFlipSide *side) {
+    free(side->memory);
+    *side = (DipFlipSide){0};
+}
+
+// --- taking a picture in -----------------------------------------------------------------------
+
+// sRGB's primaries and D65 as fractions.
+static void to_opponent(const float rgb[3], float *luma, float *red_green, float *blue) {
+    static const float m[3][3] = {{(float)(10135552.0 / 24577794.0),
+                                   (float)(8788810.0 / 24577794.0),
+                                   (float)(4435075.0 / 24577794.0)},
+                                  {(float)(2613072.0 / 12288897.0), (float)(8788810.0 / 12288897.0),
+                                   (float)(887015.0 / 12288897.0)},
+                                  {(float)(1425312.0 / 73733382.0), (float)(8788810.0 / 73733382.0),
+                                   (float)(70074185.0 / 73733382.0)}};
+    float xyz[3];
+    for (int i = 0; i < 3; i++) {
+        xyz[i] = (m[i][0] * rgb[0] + m[i][1] * rgb[1] + m[i][2] * rgb[2]) / white[i];
+    }
+    *luma = 116.0f * xyz[1] - 16.0f;
+    *red_green = 500.0f * (xyz[0] - xyz[1]);
+    *blue = 200.0f * (xyz[1] - xyz[2]);
+}
+
+static float lightness(float x) {
+    const float limit = 6.0f / 29.0f;
+    return x > limit * limit * limit ? cbrtf(x) : x / (3.0f * limit * limit) + 4.0f / 29.0f;
+}
+
+// Filtered opponent colours to linear light, clamped to what a screen shows, and on to CIELab whose
+// chroma is less in the dark (Hunt).
+static void to_lab(float luma, float red_green, float blue, float lab[3]) {
+    static const float to_rgb[3][3] = {{3.241003275f, -1.537398934f, -0.498615861f},
+                                       {-0.969224334f, 1.875930071f, 0.041554224f},
+                                       {0.055639423f, -0.204011202f, 1.057148933f}};
+    static const float to_xyz[3][3] = {
+        {(float)(10135552.0 / 24577794.0), (float)(8788810.0 / 24577794.0),
+         (float)(4435075.0 / 24577794.0)},
+        {(float)(2613072.0 / 12288897.0), (float)(8788810.0 / 12288897.0),
+         (float)(887015.0 / 12288897.0)},
+        {(float)(1425312.0 / 73733382.0), (float)(8788810.0 / 73733382.0),
+         (float)(70074185.0 / 73733382.0)}};
+    const float y = (luma + 16.0f) / 116.0f;
+    const float xyz[3] = {(y + red_green / 500.0f) * white[0], y * white[1],
+                          (y - blue / 200.0f) * white[2]};
+    float rgb[3];
+    for (int i = 0; i < 3; i++) {
+        const float value = to_rgb[i][0] * xyz[0] + to_rgb[i][1] * xyz[1] + to_rgb[i][2] * xyz[2];
+        rgb[i] = value < 0.0f ? 0.0f : value > 1.0f ? 1.0f : value;
+    }
+    float f[3];
+    for (int i = 0; i < 3; i++) {
+        f[i] = lightness((to_xyz[i][0] * rgb[0] + to_xyz[i][1] * rgb[1] + to_xyz[i][2] * rgb[2]) /
+                         white[i]);
+    }
+    lab[0] = 116.0f * f[1] - 16.0f;
+    lab[1] = 500.0f * (f[0] - f[1]) * (0.01f * lab[0]);
+    lab[2] = 200.0f * (f[1] - f[2]) * (0.01f * lab[0]);
+}
+
+typedef struct Scratch {
+    float *opponent[3];
+    float *rows;
+    float *other;
+    float *grey;
+    float *padded;
+} Scratch;
+
+static Scratch scratch_of(const DipFlip *flip) {
+    const size_t plane = plane_size(flip);
+    float *at = flip->scratch;
+    return (Scratch){{at, at + plane, at + 2 * plane},
+                     at + 3 * plane,
+                     at + 4 * plane,
+                     at + 5 * plane,
+                     at + 6 * plane};
+}
+
+static void filter(const DipFlip *flip, const Scratch *s, const DipKernel1D *across,
+                   const DipKernel1D *down, const float *in, float *out) {
+    dip_convolve_rows(across, in, flip->width, flip->height, s->padded, s->rows);
+    dip_convolve_columns(down, s->rows, flip->width, flip->height, out);
+}
+
+static void take_colours(const DipFlip *flip, const Scratch *s, DipFlipSide *side) {
+    const DipFlipKernels *k = &flip->kernels;
+    float *const *lab = side->planes;
+    filter(flip, s, &k->luma, &k->luma, s->opponent[0], lab[0]);
+    filter(flip, s, &k->red_green, &k->red_green, s->opponent[1], lab[1]);
+    filter(flip, s, &k->blue[0], &k->blue[0], s->opponent[2], lab[2]);
+    filter(flip, s, &k->blue[1], &k->blue[1], s->opponent[2], s->other);
+    for (size_t i = 0; i < plane_size(flip); i++) {
+        float pixel[3];
+        to_lab(lab[0][i], lab[1][i], lab[2][i] + s->other[i], pixel);
+        lab[0][i] = pixel[0];
+        lab[1][i] = pixel[1];
+        lab[2][i] = pixel[2];
+    }
+}
+
+// Each filter is one of edge or point along an axis and a Gaussian along the other.
+static void take_features(const DipFlip *flip, const Scratch *s, DipFlipSide *side) {
+    const DipFlipKernels *k = &flip->kernels;
+    float *const *out = side->planes;
+    const int width = flip->width, height = flip->height;
+    dip_convolve_rows(&k->edge, s->grey, width, height, s->padded, s->rows);
+    dip_convolve_columns(&k->gauss, s->rows, width, height, out[SIDE_EDGE_X]);
+    dip_convolve_rows(&k->point, s->grey, width, height, s->padded, s->rows);
+    dip_convolve_columns(&k->gauss, s->rows, width, height, out[SIDE_POINT_X]);
+    dip_convolve_rows(&k->gauss, s->grey, width, height, s->padded, s->rows);
+    dip_convolve_columns(&k->edge, s->rows, width, height, out[SIDE_EDGE_Y]);
+    dip_convolve_columns(&k->point, s->rows, width, height, out[SIDE_POINT_Y]);
+}
+
+void dip_flip_take(DipFlip *flip, const DipPicture *picture, DipFlipSide *side) {
+    const Scratch s = scratch_of(flip);
+    size_t i = 0;
+    for (int y = 0; y < flip->height; y++) {
+        const uint8_t *row = picture->rgba8 + (size_t)y * picture->stride_bytes;
+        for (int x = 0; x < flip->width; x++, i++) {
+            const float rgb[3] = {flip->light[row[4 * x]], flip->light[row[4 * x + 1]],
+                                  flip->light[row[4 * x + 2]]};
+            to_opponent(rgb, &s.opponent[0][i], &s.opponent[1][i], &s.opponent[2][i]);
+            s.grey[i] = (s.opponent[0][i] + 16.0f) / 116.0f;
+        }
+    }
+    take_colours(flip, &s, side);
+    take_features(flip, &s, side);
+}
+
+// --- comparing ---------------------------------------------------------------------------------
+
+static const float colour_exponent = 0.7f;
+static const float feature_exponent = 0.5f;
+
+// The greatest distance there is, green to blue, to the power of the exponent.
+static float greatest_distance(void) {
+    const float primaries[2][3] = {{0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+    float lab[2][3];
+    for (int i = 0; i < 2; i++) {
+        float opponent[3];
+        to_opponent(primaries[i], &opponent[0], &opponent[1], &opponent[2]);
+        to_lab(opponent[0], opponent[1], opponent[2], lab[i]);
+    }
+    return powf(fabsf(lab[0][0] - lab[1][0]) + hypotf(lab[0][1] - lab[1][1], lab[0][2] - lab[1][2]),
+                colour_exponent);
+}
+
+static float length(float x, float y) {
+    return sqrtf(x * x + y * y);
+}
+
+// Distances up to a share of the greatest use most of the range.
+static float colour_error(const DipFlipSide *a, const DipFlipSide *b, size_t i, float greatest) {
+    const float share = 0.4f, used = 0.95f;
+    const float distance = fabsf(a->planes[SIDE_L][i] - b->planes[SIDE_L][i]) +
+                           length(a->planes[SIDE_A][i] - b->planes[SIDE_A][i],
+                                  a->planes[SIDE_B][i] - b->planes[SIDE_B][i]);
+    const float powered = powf(distance, colour_exponent);
+    const float limit = share * greatest;
+    return powered < limit ? powered * used / limit
+                           : used + (powered - limit) / (greatest - limit) * (1.0f - used);
+}
+
+static float feature_error(const DipFlipSide *a, const DipFlipSide *b, size_t i) {
+    const float edge = fabsf(length(a->planes[SIDE_EDGE_X][i], a->planes[SIDE_EDGE_Y][i]) -
+                             length(b->planes[SIDE_EDGE_X][i], b->planes[SIDE_EDGE_Y][i]));
+    const float point = fabsf(length(a->planes[SIDE_POINT_X][i], a->planes[SIDE_POINT_Y][i]) -
+                              length(b->planes[SIDE_POINT_X][i], b->planes[SIDE_POINT_Y][i]));
+    return powf(fmaxf(edge, point) / sqrtf(2.0f), feature_exponent);
+}
+
+void dip_flip_compare(const DipFlip *flip, const DipFlipSide *a, const DipFlipSide *b, float *map) {
+    const float greatest = greatest_distance();
+    for (size_t i = 0; i < plane_size(flip); i++) {
+        const float colour = colour_error(a, b, i, greatest);
+        map[i] = colour > 0.0f ? powf(colour, 1.0f - feature_error(a, b, i)) : 0.0f;
+    }
+}

@@ -1,0 +1,291 @@
+// Two halves on the pool, their mean, their difference, and a file for the next time.
+#include "app/measure/truth.h"
+
+#include "app/files/folder.h"
+#include "app/files/whole_file.h"
+#include "app/measure/meter.h"
+#include "renderer/base/hash.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { HALVES = 2, TILES_AT_ONCE = 128 };
+
+static bool out_of_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "truth", "out of memory");
+}
+
+// --- its name ----------------------------------------------------------------------------------
+
+// Everything that the picture depends on, and the version of how it is made.
+static void find_key(const DipCostTruthDef *def, char key[33]) {
+    DipHash hash = dip_hash_begin();
+    dip_hash_text(&hash, "diptych truth 1");
+    dip_hash_text(&hash, def->scene_hash);
+    for (int i = 0; i < 3; i++) {
+        dip_hash_number(&hash, def->pose.position_world[i]);
+    }
+    for (int i = 0; i < 4; i++) {
+        dip_hash_number(&hash, def->pose.orientation[i]);
+    }
+    dip_hash_number(&hash, def->pose.fov_y_deg);
+    dip_hash_integer(&hash, def->time_ns);
+    dip_hash_integer(&hash, def->width);
+    dip_hash_integer(&hash, def->height);
+    dip_hash_integer(&hash, def->samples);
+    dip_hash_number(&hash, def->pixels_per_degree); // of the floor
+    dip_hash_hex(&hash, key);
+}
+
+// --- making ------------------------------------------------------------------------------------
+
+typedef struct Making {
+    const DipCostTruthDef *def;
+    const DipConvergence *convergence;
+    double *rgb_lin;
+    uint8_t *classes; // of the first half; NULL: of the second
+    uint32_t seed;
+    int first_tile;
+    atomic_bool failed;
+} Making;
+
+static void draw_tile(void *context, int index, int worker) {
+    (void)worker;
+    Making *making = context;
+    if (!dip_convergence_add_tile(making->convergence, making->first_tile + index,
+                                  making->def->samples, making->seed, 1.0, making->rgb_lin,
+                                  making->classes, NULL)) {
+        making->failed = true;
+    }
+}
+
+static bool draw_half(Making *making, int half, DipPool *pool, DipCostTruthProgress *progress,
+                      void *context, DipError *err) {
+    const int tiles = dip_convergence_tile_count(making->convergence);
+    making->seed = (uint32_t)half + 1;
+    for (int tile = 0; tile < tiles; tile += TILES_AT_ONCE) {
+        const int count = tiles - tile < TILES_AT_ONCE ? tiles - tile : TILES_AT_ONCE;
+        making->first_tile = tile;
+        dip_pool_run(pool, count, draw_tile, making);
+        if (making->failed) {
+            return out_of_memory(err);
+        }
+        if (!progress(context, (half + (double)(tile + count) / tiles) / HALVES)) {
+            return dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "truth", "interrupted");
+        }
+    }
+    return true;
+}
+
+void dip_cost_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin,
+                           size_t pixel_count, uint8_t *rgba8) {
+    for (size_t i = 0; i < pixel_count; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            const double value = fmin(fmax(rgb_lin[3 * i + c], 0.0), 1.0);
+            rgba8[4 * i + c] = table->code[(int)(value * DIP_LINEAR16_MAX + 0.5)];
+        }
+        rgba8[4 * i + 3] = 255;
+    }
+}
+
+static void encode(const double *rgb_lin, size_t pixel_count, uint8_t *rgba8) {
+    static DipSrgbEncodeTable table;
+    dip_srgb_encode_table(&table);
+    dip_cost_truth_encode(&table, rgb_lin, pixel_count, rgba8);
+}
+
+static void round_to_floats(const double *rgb_lin, size_t count, float *out) {
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (float)rgb_lin[i];
+    }
+}
+
+// How much one half differs from the other.
+static bool measure_floor(DipCostTruth *truth, const DipCostTruthDef *def,
+                          double *const halves[HALVES], DipError *err) {
+    const size_t pixels = (size_t)truth->width * (size_t)truth->height;
+    DipCostMeter meter;
+    if (!dip_cost_meter_init(&meter, truth->width, truth->height, def->pixels_per_degree)) {
+        return out_of_memory(err);
+    }
+    DipFlipSide side = {0};
+    uint8_t *codes = malloc(HALVES * pixels * 4);
+    float *light = malloc(HALVES * pixels * 3 * sizeof *light);
+    bool measured = codes && light && dip_flip_side_init(&meter.flip, &side);
+    if (measured) {
+        DipPicture pictures[HALVES];
+        for (size_t h = 0; h < HALVES; h++) {
+            encode(halves[h], pixels, codes + h * pixels * 4);
+            round_to_floats(halves[h], pixels * 3, light + h * pixels * 3);
+            pictures[h] = (DipPicture){codes + h * pixels * 4, (size_t)truth->width * 4,
+                                       truth->width, truth->height};
+        }
+        dip_flip_take(&meter.flip, &pictures[1], &side);
+        const DipCostStandard standard = {pictures[1], light + pixels * 3, &side, truth->classes};
+        truth->floor = (DipCostSums){0};
+        measured = dip_cost_meter_add(&meter, &pictures[0], light, &standard, &truth->floor);
+        dip_cost_meter_end_burst(&meter, &truth->floor);
+    }
+    dip_flip_side_free(&side);
+    free(codes);
+    free(light);
+    dip_cost_meter_free(&meter);
+    return measured || out_of_memory(err);
+}
+
+static bool make_truth(DipCostTruth *truth, const DipCostTruthDef *def, DipPool *pool,
+                       DipCostTruthProgress *progress, void *context, DipError *err) {
+    const size_t values = (size_t)truth->width * (size_t)truth->height * 3;
+    double *halves[HALVES] = {calloc(values, sizeof(double)), calloc(values, sizeof(double))};
+    dip_reference_set_time(def->reference, def->time_ns);
+    DipConvergence *convergence =
+        dip_convergence_create(def->reference, &def->pose, def->width, def->height, err);
+    bool made = convergence && ((halves[0] && halves[1]) || out_of_memory(err));
+    for (int h = 0; made && h < HALVES; h++) {
+        Making making = {.def = def,
+                         .convergence = convergence,
+                         .rgb_lin = halves[h],
+                         .classes = h == 0 ? truth->classes : NULL};
+        made = draw_half(&making, h, pool, progress, context, err);
+    }
+    made = made && measure_floor(truth, def, halves, err);
+    for (size_t i = 0; made && i < values; i++) {
+        halves[0][i] = 0.5 * (halves[0][i] + halves[1][i]);
+    }
+    if (made) {
+        round_to_floats(halves[0], values, truth->rgb_lin);
+        encode(halves[0], values / 3, truth->rgba8);
+    }
+    dip_convergence_destroy(&convergence);
+    free(halves[0]);
+    free(halves[1]);
+    return made;
+}
+
+// --- the cache ---------------------------------------------------------------------------------
+
+bool dip_cost_cache_folder(char *folder, size_t size_bytes) {
+    const char *cache = getenv("XDG_CACHE_HOME");
+    const char *home = getenv("HOME");
+    const bool has_cache = cache && *cache;
+    if (!has_cache && !(home && *home)) {
+        return false;
+    }
+    const int length = snprintf(folder, size_bytes, "%s%s/diptych", has_cache ? cache : home,
+                                has_cache ? "" : "/.cache");
+    return length > 0 && (size_t)length < size_bytes;
+}
+
+// In a file: the parts one after the other as they lie in memory, and the hash of all before. It is
+// read on the machine that wrote it.
+static size_t file_size(const DipCostTruth *truth) {
+    const size_t pixels = (size_t)truth->width * (size_t)truth->height;
+    return pixels * (3 * sizeof(float) + 4 + 1) + sizeof(DipCostSums) + 32;
+}
+
+static bool file_name(const DipCostTruth *truth, const char *cache, char file[PATH_MAX]) {
+    const int length = snprintf(file, PATH_MAX, "%s/truth-%s.bin", cache, truth->key);
+    return length > 0 && length < PATH_MAX;
+}
+
+typedef struct Part {
+    void *bytes;
+    size_t size;
+} Part;
+
+enum { PARTS = 4 };
+
+static void list_parts(DipCostTruth *truth, Part parts[PARTS]) {
+    const size_t pixels = (size_t)truth->width * (size_t)truth->height;
+    parts[0] = (Part){truth->rgb_lin, pixels * 3 * sizeof(float)};
+    parts[1] = (Part){truth->rgba8, pixels * 4};
+    parts[2] = (Part){truth->classes, pixels};
+    parts[3] = (Part){&truth->floor, sizeof truth->floor};
+}
+
+static void hash_contents(const unsigned char *bytes, size_t size, char hex[33]) {
+    DipHash hash = dip_hash_begin();
+    dip_hash_bytes(&hash, bytes, size);
+    dip_hash_hex(&hash, hex);
+}
+
+static bool load(DipCostTruth *truth, const char *cache) {
+    char name[PATH_MAX];
+    FILE *in = file_name(truth, cache, name) ? fopen(name, "rb") : NULL;
+    if (!in) {
+        return false;
+    }
+    const size_t size = file_size(truth);
+    unsigned char *bytes = malloc(size + 1);
+    bool loaded = bytes && fread(bytes, 1, size + 1, in) == size;
+    fclose(in);
+    if (loaded) {
+        char hex[33];
+        hash_contents(bytes, size - 32, hex);
+        loaded = memcmp(hex, bytes + size - 32, 32) == 0;
+    }
+    Part parts[PARTS];
+    list_parts(truth, parts);
+    for (size_t p = 0, at = 0; loaded && p < PARTS; at += parts[p++].size) {
+        memcpy(parts[p].bytes, bytes + at, parts[p].size);
+    }
+    free(bytes);
+    return loaded;
+}
+
+static bool store(DipCostTruth *truth, const char *cache, DipError *err) {
+    char name[PATH_MAX];
+    const size_t size = file_size(truth);
+    unsigned char *bytes = malloc(size);
+    if (!bytes) {
+        return out_of_memory(err);
+    }
+    Part parts[PARTS];
+    list_parts(truth, parts);
+    for (size_t p = 0, at = 0; p < PARTS; at += parts[p++].size) {
+        memcpy(bytes + at, parts[p].bytes, parts[p].size);
+    }
+    char hex[33];
+    hash_contents(bytes, size - 32, hex);
+    memcpy(bytes + size - 32, hex, 32);
+    const bool stored =
+        (file_name(truth, cache, name) ||
+         dip_error_set(err, DIP_ERROR_OVERSIZED, cache, 0, "--cache", "the name is too long")) &&
+        dip_whole_file_write(name, bytes, size, err);
+    free(bytes);
+    return stored;
+}
+
+bool dip_cost_truth_get(DipCostTruth *truth, const DipCostTruthDef *def, const char *cache,
+                        DipPool *pool, DipCostTruthProgress *progress, void *context,
+                        DipError *err) {
+    const size_t pixels = (size_t)def->width * (size_t)def->height;
+    *truth = (DipCostTruth){
+        .width = def->width,
+        .height = def->height,
+        .rgb_lin = malloc(pixels * 3 * sizeof(float)),
+        .rgba8 = malloc(pixels * 4),
+        .classes = malloc(pixels),
+    };
+    find_key(def, truth->key);
+    bool got = (truth->rgb_lin && truth->rgba8 && truth->classes) || out_of_memory(err);
+    if (got && !(cache && load(truth, cache))) {
+        got = make_truth(truth, def, pool, progress, context, err) &&
+              (!cache || store(truth, cache, err));
+    }
+    if (!got) {
+        dip_cost_truth_free(truth);
+    }
+    return got;
+}
+
+void dip_cost_truth_free(DipCostTruth *truth) {
+    free(truth->rgb_lin);
+    free(truth->rgba8);
+    free(truth->classes);
+    *truth = (DipCostTruth){0};
+}

@@ -1,0 +1,27 @@
+// Instruction sets the kernels are built for, and the choice among them at run time.
+#ifndef DIP_RENDERER_BASE_ISA_H
+#define DIP_RENDERER_BASE_ISA_H
+
+#include <stdbool.h>
+
+// X(name, NAME, lanes): in ascending order of preference. A picture is the same with each.
+#define DIP_ISA_LIST(X)                                                                            \
+    X(scalar, SCALAR, 1)                                                                           \
+    X(sse2, SSE2, 4)                                                                               \
+    X(neon, NEON, 4)                                                                               \
+    X(avx2, AVX2, 8)                                                                               \
+    X(avx512, AVX512, 16)
+
+typedef enum DipIsa {
+#define DIP_ISA_ENUM(name, NAME, lanes) DIP_ISA_##NAME,
+    DIP_ISA_LIST(DIP_ISA_ENUM)
+#undef DIP_ISA_ENUM
+        DIP_ISA_COUNT
+} DipIsa;
+
+const char *dip_isa_name(DipIsa isa);
+bool dip_isa_parse(const char *name, DipIsa *isa); // exact names of the list
+bool dip_isa_available(DipIsa isa);                // built in, and this processor has it
+DipIsa dip_isa_best(void);
+
+#endif

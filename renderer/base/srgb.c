@@ -1,0 +1,49 @@
+// sRGB transfer functions and tables.
+#include "renderer/base/srgb.h"
+
+#include <math.h>
+
+// x^(1/5) for 0 < x <= 1.2 by Newton's method from above, where it converges monotonically.
+static double fifth_root(double x) {
+    double y = 1.1;
+    for (int i = 0; i < 200; i++) {
+        const double y4 = y * y * y * y;
+        const double next = (4.0 * y + x / y4) / 5.0;
+        if (next >= y) {
+            break;
+        }
+        y = next;
+    }
+    return y;
+}
+
+double dip_srgb_decode(double encoded) {
+    if (encoded <= 0.04045) {
+        return encoded / 12.92;
+    }
+    const double base = (encoded + 0.055) / 1.055;
+    const double root = fifth_root(base);
+    return base * base * root * root; // base^2.4
+}
+
+void dip_srgb_decode_table(DipSrgbDecodeTable *table) {
+    for (int i = 0; i < 256; i++) {
+        table->linear[i] = dip_srgb_decode(i / 255.0);
+    }
+}
+
+void dip_srgb_encode_table(DipSrgbEncodeTable *table) {
+    // Code c begins at the first i whose light reaches that of c - 1/2.
+    int code = 0;
+    double end = dip_srgb_decode(0.5 / 255.0);
+    for (int i = 0; i <= DIP_LINEAR16_MAX; i++) {
+        while (code < 255 && i / (double)DIP_LINEAR16_MAX >= end) {
+            code++;
+            end = dip_srgb_decode((code + 0.5) / 255.0);
+        }
+        table->code[i] = (uint8_t)code;
+    }
+    for (int i = 1; i <= 3; i++) {
+        table->code[DIP_LINEAR16_MAX + i] = 255;
+    }
+}

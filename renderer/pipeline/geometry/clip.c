@@ -1,0 +1,112 @@
+// Sutherland-Hodgman clipping in homogeneous coordinates.
+#include "renderer/pipeline/geometry/clip.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+// Signed distance to a clip code's plane, scaled: inside where >= 0.
+static double distance_to(int32_t code, const DipScreenMapping *map, const float p[4]) {
+    const double x = p[0];
+    const double y = p[1];
+    const double z = p[2];
+    const double w = p[3];
+    switch (code) {
+    case DIP_CLIP_NEAR:
+        return w - z;
+    case DIP_CLIP_FAR:
+        return z;
+    case DIP_CLIP_W:
+        return w - DIP_MIN_W;
+    case DIP_CLIP_GUARD_LEFT:
+        return x + w * map->guard_left;
+    case DIP_CLIP_GUARD_RIGHT:
+        return w * map->guard_right - x;
+    case DIP_CLIP_GUARD_TOP:
+        return w * map->guard_top - y;
+    case DIP_CLIP_GUARD_BOTTOM:
+        return y + w * map->guard_bottom;
+    default:
+        break;
+    }
+    int plane = 0;
+    while (code != DIP_CLIP_USER << plane) {
+        plane++;
+    }
+    const float *n = map->clip_planes[plane];
+    return x * n[0] + y * n[1] + z * n[2] + w * n[3];
+}
+
+static void intersect(const DipClipVertex *inside, const DipClipVertex *outside, double from,
+                      double to, int slot_count, DipClipVertex *out) {
+    // Where rounding put both on one side (see keep_one_run) the outside vertex itself is taken.
+    const double at = from / (from - to);
+    const double t = at >= 0.0 && at <= 1.0 ? at : 1.0;
+    for (int i = 0; i < 4; i++) {
+        const double a = inside->position[i];
+        out->position[i] = (float)(a + t * ((double)outside->position[i] - a));
+    }
+    for (int i = 0; i < slot_count; i++) {
+        const double a = inside->slot[i];
+        out->slot[i] = (float)(a + t * ((double)outside->slot[i] - a));
+    }
+}
+
+// A plane cuts a convex polygon in one run of vertices. Where it nearly coincides with a plane that
+// cut before, rounding scatters the vertices on it to both sides; then only the run around the
+// vertex that is farthest inside stays, so that each plane adds at most one vertex.
+static void keep_one_run(int count, const double *side, bool *inside) {
+    int changes = 0;
+    int farthest = 0;
+    for (int i = 0; i < count; i++) {
+        inside[i] = side[i] >= 0.0;
+        changes += i > 0 && inside[i] != inside[i - 1];
+        farthest = side[i] > side[farthest] ? i : farthest;
+    }
+    if (changes + (inside[0] != inside[count - 1]) <= 2) {
+        return;
+    }
+    bool kept[DIP_MAX_CLIP_VERTICES] = {false};
+    for (int i = farthest; inside[i]; i = (i + 1) % count) {
+        kept[i] = true;
+    }
+    for (int i = farthest; inside[i]; i = (i + count - 1) % count) {
+        kept[i] = true;
+    }
+    memcpy(inside, kept, (size_t)count * sizeof *inside);
+}
+
+static void clip_by(DipClipPolygon *polygon, int32_t code, const DipScreenMapping *map,
+                    int slot_count) {
+    const DipClipPolygon in = *polygon;
+    double side[DIP_MAX_CLIP_VERTICES];
+    for (int i = 0; i < in.count; i++) {
+        side[i] = distance_to(code, map, in.vertex[i].position);
+    }
+    bool inside[DIP_MAX_CLIP_VERTICES];
+    keep_one_run(in.count, side, inside);
+    polygon->count = 0;
+    for (int i = 0; i < in.count; i++) {
+        const int next = (i + 1) % in.count;
+        if (inside[i]) {
+            polygon->vertex[polygon->count++] = in.vertex[i];
+        }
+        if (inside[i] != inside[next]) {
+            const int a = inside[i] ? i : next;
+            const int b = inside[i] ? next : i;
+            intersect(&in.vertex[a], &in.vertex[b], side[a], side[b], slot_count,
+                      &polygon->vertex[polygon->count++]);
+        }
+    }
+    if (polygon->count < 3) {
+        polygon->count = 0;
+    }
+}
+
+void dip_clip_polygon(DipClipPolygon *polygon, int32_t codes, const DipScreenMapping *map,
+                      int slot_count) {
+    for (int32_t code = 1; code < DIP_CLIP_INVALID && polygon->count; code <<= 1) {
+        if (codes & DIP_CLIP_NEEDED & code) {
+            clip_by(polygon, code, map, slot_count);
+        }
+    }
+}

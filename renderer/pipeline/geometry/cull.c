@@ -1,0 +1,225 @@
+// Culling by bounding boxes: of a mesh, of its groups of chunks, of its chunks. A box that lies
+// wholly inside all planes spares what it holds the test.
+#include "renderer/pipeline/cull.h"
+
+#include <math.h>
+#include <string.h>
+
+// Adds a plane. Row r of the matrix gives clip coordinate r, so a plane in clip space is a sum of
+// rows.
+static void place_plane(const float *m, const float clip[4], DipCullPlanes *planes) {
+    const int p = planes->count++;
+    for (int c = 0; c < 4; c++) {
+        planes->normal[c][p] =
+            clip[0] * m[c] + clip[1] * m[4 + c] + clip[2] * m[8 + c] + clip[3] * m[12 + c];
+    }
+}
+
+static DipCullPlanes no_planes(void) {
+    DipCullPlanes planes = {.count = 0};
+    for (int p = 0; p < DIP_MAX_CULL_PLANES; p++) {
+        planes.normal[3][p] = 1.0f;
+    }
+    return planes;
+}
+
+static int blocks_end(int end) {
+    return (end + DIP_BLOCK - 1) / DIP_BLOCK * DIP_BLOCK;
+}
+
+DipRegion dip_drawn_region(const DipPass *pass) {
+    const DipRegion *region = &pass->region;
+    if (!region->x1) {
+        return (DipRegion){0, 0, blocks_end(pass->target.width), blocks_end(pass->target.height)};
+    }
+    return (DipRegion){region->x0 / DIP_BLOCK * DIP_BLOCK, region->y0 / DIP_BLOCK * DIP_BLOCK,
+                       blocks_end(region->x1), blocks_end(region->y1)};
+}
+
+// The picture's region in x / w and y / w.
+typedef struct NdcRegion {
+    float left, right, bottom, top;
+} NdcRegion;
+
+static const NdcRegion whole = {-1.0f, 1.0f, -1.0f, 1.0f};
+
+static NdcRegion ndc_region(const DipPass *pass) {
+    if (!pass->region.x1) {
+        return whole;
+    }
+    const DipRegion region = dip_drawn_region(pass);
+    const float x = 2.0f / (float)pass->target.width;
+    const float y = 2.0f / (float)pass->target.height;
+    return (NdcRegion){(float)region.x0 * x - 1.0f, (float)region.x1 * x - 1.0f,
+                       1.0f - (float)region.y1 * y, 1.0f - (float)region.y0 * y};
+}
+
+static DipCullPlanes place_view(const float *m, const NdcRegion *region) {
+    DipCullPlanes planes = no_planes();
+    const float view[DIP_VIEW_PLANES][4] = {{1, 0, 0, -region->left},
+                                            {-1, 0, 0, region->right},
+                                            {0, 1, 0, -region->bottom},
+                                            {0, -1, 0, region->top},
+                                            {0, 0, 1, 0},
+                                            {0, 0, -1, 1}};
+    for (int p = 0; p < DIP_VIEW_PLANES; p++) {
+        place_plane(m, view[p], &planes);
+    }
+    return planes;
+}
+
+static DipCullPlanes place_planes(const DipPass *pass, const NdcRegion *region, const float *m) {
+    DipCullPlanes planes = place_view(m, region);
+    for (int p = 0; p < pass->clip_plane_count; p++) {
+        place_plane(m, pass->clip_planes[p], &planes);
+    }
+    return planes;
+}
+
+// A view's matrix as the shaders have it.
+static void world_to_clip(const DipView *view, float m[16]) {
+    for (int i = 0; i < 16; i++) {
+        m[i] = (float)view->world_to_clip[i];
+    }
+}
+
+DipCullPlanes dip_cull_pass_planes(const DipPass *pass, const DipView *view) {
+    const NdcRegion region = ndc_region(pass);
+    float m[16];
+    world_to_clip(view, m);
+    return place_planes(pass, &region, m);
+}
+
+DipCullPlanes dip_cull_view_planes(const DipView *view) {
+    float m[16];
+    world_to_clip(view, m);
+    return place_view(m, &whole);
+}
+
+static double magnitude(double v) {
+    return v < 0.0 ? -v : v;
+}
+
+// Of what is summed up: covers the rounding of a matrix, of the planes and of the shader's own
+// arithmetic.
+#define ROUNDING 1e-5f
+
+// Four planes at once.
+typedef float Floats __attribute__((vector_size(16)));
+typedef int32_t Ints __attribute__((vector_size(16)));
+
+static Floats magnitudes(Floats v) {
+    return (Floats)((Ints)v & INT32_MAX);
+}
+
+static Floats load(const float *from) {
+    Floats v;
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
+static bool any(Ints mask) {
+    uint64_t halves[2];
+    memcpy(halves, &mask, sizeof halves);
+    return halves[0] | halves[1];
+}
+
+// How a box lies to planes v * 4 and on.
+typedef struct Sides {
+    Ints outside; // wholly
+    Ints crossed; // not wholly inside
+} Sides;
+
+static Sides sides_of(const DipCullPlanes *planes, const DipBox *box, int v) {
+    Floats distance = load(planes->normal[3] + 4 * v);
+    Floats radius = {0.0f, 0.0f, 0.0f, 0.0f};
+    Floats size = magnitudes(distance);
+    for (int c = 0; c < 3; c++) {
+        const Floats normal = load(planes->normal[c] + 4 * v);
+        const Floats length = magnitudes(normal);
+        distance += normal * box->centre[c];
+        radius += length * box->extent[c];
+        size += length * fabsf(box->centre[c]);
+    }
+    const Floats margin = (size + radius) * ROUNDING;
+    return (Sides){distance + radius < -margin, distance - radius <= margin};
+}
+
+// Whether a box lies outside one of the planes; else *crosses tells whether it crosses some, so
+// that what it holds needs to be asked.
+static bool outside(const DipCullPlanes *planes, const DipBox *box, bool *crosses) {
+    Sides all = sides_of(planes, box, 0);
+    for (int v = 1; 4 * v < planes->count; v++) {
+        const Sides sides = sides_of(planes, box, v);
+        all.outside |= sides.outside;
+        all.crossed |= sides.crossed;
+    }
+    *crosses = any(all.crossed);
+    return any(all.outside);
+}
+
+bool dip_cull_outside(const DipCullPlanes *planes, const DipBox *box) {
+    bool crosses;
+    return outside(planes, box, &crosses);
+}
+
+DipBox dip_cull_place_box(const float transform[12], const DipBox *box) {
+    DipBox placed;
+    for (int axis = 0; axis < 3; axis++) {
+        const float *m = transform + 4 * axis;
+        double centre = m[3];
+        double extent = 0.0;
+        double size = magnitude(m[3]);
+        for (int k = 0; k < 3; k++) {
+            const double length = magnitude(m[k]);
+            centre += (double)m[k] * box->centre[k];
+            extent += length * box->extent[k];
+            size += length * (magnitude(box->centre[k]) + box->extent[k]);
+        }
+        placed.centre[axis] = (float)centre;
+        placed.extent[axis] = (float)(extent + ROUNDING * size);
+    }
+    return placed;
+}
+
+static uint32_t cull_draw(const DipCullPlanes *planes, const DipMesh *mesh, uint32_t draw,
+                          DipVisibleChunk *visible) {
+    uint32_t count = 0;
+    bool mesh_crosses;
+    if (outside(planes, &mesh->box, &mesh_crosses)) {
+        return 0;
+    }
+    for (uint32_t first = 0; first < mesh->chunk_count; first += DIP_GROUP_CHUNKS) {
+        bool group_crosses = false;
+        if (mesh_crosses &&
+            outside(planes, &mesh->groups[first / DIP_GROUP_CHUNKS], &group_crosses)) {
+            continue;
+        }
+        const uint32_t rest = mesh->chunk_count - first;
+        const uint32_t end = first + (rest < DIP_GROUP_CHUNKS ? rest : DIP_GROUP_CHUNKS);
+        for (uint32_t c = first; c < end; c++) {
+            bool crosses;
+            if (!group_crosses || !outside(planes, &mesh->chunks[c].box, &crosses)) {
+                visible[count++] = (DipVisibleChunk){draw, c};
+            }
+        }
+    }
+    return count;
+}
+
+uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible) {
+    const NdcRegion region = ndc_region(pass);
+    uint32_t count = 0;
+    for (uint32_t d = 0; d < (uint32_t)pass->draw_count; d++) {
+        const DipDraw *draw = &pass->draws[d];
+        DipCullPlanes planes = no_planes();
+        if (!draw->mesh->chunk_count) {
+            continue;
+        }
+        if (draw->bounds_to_clip) {
+            planes = place_planes(pass, &region, draw->bounds_to_clip);
+        }
+        count += cull_draw(&planes, draw->mesh, d, visible + count);
+    }
+    return count;
+}

@@ -1,0 +1,592 @@
+// The geometry phase: transforming chunks in view, clipping, set-up and binning, by jobs.
+#include "renderer/pipeline/geometry/geometry.h"
+
+#include "renderer/pipeline/cull.h"
+#include "renderer/pipeline/geometry/clip.h"
+#include "renderer/pipeline/geometry/mesh_layout.h"
+#include "renderer/pipeline/kernels/kernels.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    TRIANGLE_RUN = 1024, // triangles that a job takes room for at a time
+    BLOCK_RUN = 32,      // bin blocks, likewise
+    // What the end of a run may leave unused.
+    TRIANGLE_RUN_WASTE = DIP_SETUP_BATCH + DIP_SETUP_EXCESS,
+    LEAST_SLACK = 4096,
+    MEAN_BIN_TILES = 2, // per triangle, of a pass of very many
+};
+
+// From the region on, what rounding in the clipper may add.
+enum { REJECT_MARGIN_PX = 16 };
+
+static float bounded(float ndc) {
+    return ndc < -1.0f ? -1.0f : ndc > 1.0f ? 1.0f : ndc;
+}
+
+static void bound_picture(const DipPass *pass, DipScreenMapping *map) {
+    const DipRegion region = dip_drawn_region(pass);
+    map->left = bounded((float)(region.x0 - REJECT_MARGIN_PX) / map->half_width - 1.0f);
+    map->right = bounded((float)(region.x1 + REJECT_MARGIN_PX) / map->half_width - 1.0f);
+    map->top = bounded(1.0f - (float)(region.y0 - REJECT_MARGIN_PX) / map->half_height);
+    map->bottom = bounded(1.0f - (float)(region.y1 + REJECT_MARGIN_PX) / map->half_height);
+}
+
+DipScreenMapping dip_screen_mapping(const DipPass *pass) {
+    DipScreenMapping map = {
+        .half_width = 0.5f * (float)pass->target.width,
+        .half_height = 0.5f * (float)pass->target.height,
+        .clip_plane_count = pass->clip_plane_count,
+    };
+    const float guard_x = DIP_GUARD_BAND_PX / map.half_width;
+    const float guard_y = DIP_GUARD_BAND_PX / map.half_height;
+    map.guard_left = guard_x + 1.0f;
+    map.guard_right = guard_x - 1.0f;
+    map.guard_top = guard_y + 1.0f;
+    map.guard_bottom = guard_y - 1.0f;
+    memcpy(map.clip_planes, pass->clip_planes, sizeof map.clip_planes);
+    bound_picture(pass, &map);
+    return map;
+}
+
+// --- room --------------------------------------------------------------------------------------
+
+// What a pass needs room for, whatever is in view.
+typedef struct Needs {
+    uint32_t draws;
+    uint64_t chunks;
+    uint64_t triangles;
+    uint64_t blocks;
+    int surface_stride;
+} Needs;
+
+static uint64_t least(uint64_t a, uint64_t b) {
+    return a < b ? a : b;
+}
+
+static uint64_t greatest(uint64_t a, uint64_t b) {
+    return a > b ? a : b;
+}
+
+static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
+    Needs needs = {.draws = (uint32_t)pass->draw_count};
+    int slots = 0;
+    for (int d = 0; d < pass->draw_count; d++) {
+        needs.chunks += pass->draws[d].mesh->chunk_count;
+        needs.triangles += pass->draws[d].mesh->triangle_count;
+        slots = pass->draws[d].slot_count > slots ? pass->draws[d].slot_count : slots;
+    }
+    const uint64_t jobs = least(needs.chunks, DIP_MAX_JOBS);
+    const uint64_t total = needs.triangles + geometry->slack;
+    needs.triangles = total * TRIANGLE_RUN / (TRIANGLE_RUN - TRIANGLE_RUN_WASTE) +
+                      jobs * TRIANGLE_RUN + DIP_SETUP_EXCESS;
+    // Every bin may end in a block that is not full.
+    const uint64_t entries =
+        least(total * DIP_MAX_BIN_TILES, total * MEAN_BIN_TILES + (uint64_t)16 * geometry->slack);
+    needs.blocks = entries / DIP_BIN_BLOCK +
+                   least(entries, jobs * (dip_geometry_tiles(geometry) + 1)) + jobs * BLOCK_RUN;
+    needs.surface_stride = dip_surface_stride(slots);
+    return needs;
+}
+
+// Refuses a pass whose triangles cannot be counted, before any array is made for it: kernels gather
+// surfaces with signed indices.
+static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
+    return needs->triangles <= INT32_MAX / (uint64_t)needs->surface_stride ||
+           dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, "pass",
+                         "%d draws that need room for %llu triangles, accepted %d",
+                         pass->draw_count, (unsigned long long)needs->triangles,
+                         INT32_MAX / needs->surface_stride);
+}
+
+// Reallocates without keeping the content.
+static bool replace(void *pointer_to_array, size_t count, size_t size) {
+    void **array = pointer_to_array;
+    free(*array);
+    *array = aligned_alloc(64, (count * size / 64 + 1) * 64);
+    return *array != NULL;
+}
+
+static bool make_room(DipGeometry *geometry, const Needs *needs) {
+    const size_t surface_room = (size_t)needs->triangles * (size_t)needs->surface_stride;
+    if (needs->draws > geometry->draw_room) {
+        geometry->draw_room = 0;
+        if (!replace(&geometry->first_patch, needs->draws, sizeof *geometry->first_patch)) {
+            return false;
+        }
+        geometry->draw_room = needs->draws;
+    }
+    if (needs->chunks > geometry->visible_room) {
+        geometry->visible_room = 0;
+        if (!replace(&geometry->visible, needs->chunks, sizeof *geometry->visible)) {
+            return false;
+        }
+        geometry->visible_room = (uint32_t)needs->chunks;
+    }
+    if (needs->triangles > geometry->triangle_room) {
+        geometry->triangle_room = 0;
+        if (!replace(&geometry->triangles, needs->triangles, sizeof *geometry->triangles)) {
+            return false;
+        }
+        geometry->triangle_room = (uint32_t)needs->triangles;
+    }
+    if (surface_room > geometry->surface_room) {
+        geometry->surface_room = 0;
+        if (!replace(&geometry->surfaces, surface_room, sizeof *geometry->surfaces)) {
+            return false;
+        }
+        geometry->surface_room = surface_room;
+    }
+    if (needs->blocks > geometry->block_room) {
+        geometry->block_room = 0;
+        if (!replace(&geometry->blocks, needs->blocks, sizeof *geometry->blocks)) {
+            return false;
+        }
+        geometry->block_room = (uint32_t)needs->blocks;
+    }
+    return true;
+}
+
+static bool make_bins(DipGeometry *geometry) {
+    const size_t bins = dip_geometry_tiles(geometry) + 1;
+    return geometry->bins ||
+           (replace(&geometry->bins, DIP_MAX_JOBS * bins, sizeof *geometry->bins) &&
+            replace(&geometry->occupied, DIP_MAX_JOBS * ((bins + 63) / 64),
+                    sizeof *geometry->occupied));
+}
+
+static void cut_jobs(DipGeometry *geometry) {
+    const uint32_t chunks = geometry->visible_count;
+    geometry->job_count = (int)least(chunks, DIP_MAX_JOBS);
+    uint32_t first = 0;
+    for (int j = 0; j < geometry->job_count; j++) {
+        const uint32_t end =
+            (uint32_t)((uint64_t)chunks * (uint64_t)(j + 1) / (uint64_t)geometry->job_count);
+        geometry->jobs[j] = (DipGeometryJob){.first_chunk = first, .chunk_count = end - first};
+        first = end;
+    }
+}
+
+bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *err) {
+    if (!geometry->slack) {
+        geometry->slack = LEAST_SLACK;
+    }
+    const Needs needs = needs_of(geometry, pass);
+    if (!check_size(pass, &needs, err)) {
+        return false;
+    }
+    if (!make_room(geometry, &needs) || !make_bins(geometry)) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass",
+                             "no memory for the triangles of %d draws", pass->draw_count);
+    }
+    geometry->surface_stride = needs.surface_stride;
+    return true;
+}
+
+// Numbers from 1 for the patches of all draws.
+static void number_patches(DipGeometry *geometry) {
+    uint32_t next = 1;
+    for (int d = 0; d < geometry->pass->draw_count; d++) {
+        geometry->first_patch[d] = next;
+        next += geometry->pass->draws[d].mesh->patch_count;
+    }
+}
+
+static DipRegion tiles_of(const DipRegion *region) {
+    return (DipRegion){region->x0 / DIP_TILE, region->y0 / DIP_TILE,
+                       (region->x1 + DIP_TILE - 1) / DIP_TILE,
+                       (region->y1 + DIP_TILE - 1) / DIP_TILE};
+}
+
+static bool is_wanted(const DipGeometry *geometry, size_t tile) {
+    const DipTilePart *parts = geometry->pass->tile_parts;
+    return !parts || parts[tile].x1;
+}
+
+// Threads take tiles in turn: in groups of 2x2 they are at neighbours for longer, which read much
+// the same texels and triangles, than along rows.
+enum { TILE_GROUP = 2 };
+
+static void list_group(DipGeometry *geometry, int x0, int y0) {
+    const DipRegion *region = &geometry->tile_region;
+    for (int x = x0; x < x0 + TILE_GROUP && x < region->x1; x++) {
+        for (int y = y0; y < y0 + TILE_GROUP && y < region->y1; y++) {
+            const int tile = y * geometry->tiles_x + x;
+            if (is_wanted(geometry, (size_t)tile)) {
+                geometry->tiles[geometry->tile_count++] = (uint16_t)tile;
+            }
+        }
+    }
+}
+
+static void list_tiles(DipGeometry *geometry) {
+    const DipRegion *region = &geometry->tile_region;
+    geometry->tile_count = 0;
+    for (int y = region->y0; y < region->y1; y += TILE_GROUP) {
+        for (int x = region->x0; x < region->x1; x += TILE_GROUP) {
+            list_group(geometry, x, y);
+        }
+    }
+}
+
+static void add_samples(DipSamplePattern *samples, const DipPass *pass) {
+    const DipSamplePattern *pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
+    for (int s = 0; s < pattern->count; s++) {
+        samples->x[samples->count] = pattern->x[s];
+        samples->y[samples->count++] = pattern->y[s];
+    }
+}
+
+bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, const DipPass *also,
+                        DipError *err) {
+    geometry->pass = pass;
+    geometry->mapping = dip_screen_mapping(pass);
+    geometry->samples.count = 0;
+    add_samples(&geometry->samples, pass);
+    if (also) {
+        add_samples(&geometry->samples, also);
+    }
+    geometry->region = dip_drawn_region(pass);
+    geometry->tile_region = tiles_of(&geometry->region);
+    list_tiles(geometry);
+    if (!dip_geometry_reserve(geometry, pass, err)) {
+        return false;
+    }
+    number_patches(geometry);
+    geometry->visible_count = dip_cull_chunks(pass, geometry->visible);
+    cut_jobs(geometry);
+    atomic_store_explicit(&geometry->triangles_taken, 0, memory_order_relaxed);
+    atomic_store_explicit(&geometry->blocks_taken, 0, memory_order_relaxed);
+    return true;
+}
+
+bool dip_geometry_grow_after_overflow(DipGeometry *geometry) {
+    bool overflowed = false;
+    for (int j = 0; j < geometry->job_count; j++) {
+        overflowed |= geometry->jobs[j].overflowed;
+    }
+    // By half of what there is room for, at least.
+    if (overflowed) {
+        geometry->slack = geometry->slack * 2 + geometry->triangle_room / 2;
+    }
+    return overflowed;
+}
+
+void dip_geometry_free(DipGeometry *geometry) {
+    free(geometry->first_patch);
+    free(geometry->visible);
+    free(geometry->triangles);
+    free(geometry->surfaces);
+    free(geometry->blocks);
+    free(geometry->bins);
+    free(geometry->occupied);
+    memset(geometry, 0, sizeof *geometry);
+}
+
+// --- binning -----------------------------------------------------------------------------------
+
+typedef struct JobRun {
+    DipGeometry *geometry;
+    const DipKernels *kernels;
+    DipGeometryScratch *scratch;
+    DipTileBin *bins;
+    const DipDraw *draw;
+    DipSetupTarget target;
+    uint32_t next_triangle; // of the run in hand
+    uint32_t triangle_end;
+    uint32_t next_block; // likewise
+    uint32_t block_end;
+    DipGeometryJob job; // to be stored at the end, so that jobs share no cache line while they run
+} JobRun;
+
+// The next block of the job's room; false when the room ends.
+static bool take_block(JobRun *run, uint32_t *block) {
+    if (run->next_block == run->block_end) {
+        DipGeometry *geometry = run->geometry;
+        const uint32_t first =
+            atomic_fetch_add_explicit(&geometry->blocks_taken, BLOCK_RUN, memory_order_relaxed);
+        if (first + BLOCK_RUN > geometry->block_room) {
+            run->job.overflowed = true;
+            return false;
+        }
+        run->next_block = first;
+        run->block_end = first + BLOCK_RUN;
+    }
+    *block = run->next_block++;
+    return true;
+}
+
+static void add_to_bin(JobRun *run, uint32_t triangle, size_t index) {
+    DipBinBlock *blocks = run->geometry->blocks;
+    DipTileBin *bin = &run->bins[index];
+    uint64_t *word = &run->scratch->occupied[index / 64];
+    const uint64_t bit = (uint64_t)1 << index % 64;
+    const bool empty = !(*word & bit);
+    if (empty || bin->last_count == DIP_BIN_BLOCK) {
+        uint32_t block;
+        if (!take_block(run, &block)) {
+            return;
+        }
+        if (empty) {
+            *word |= bit;
+            bin->first = block;
+        } else {
+            blocks[bin->last].next = block;
+        }
+        bin->last = block;
+        bin->last_count = 0;
+    }
+    blocks[bin->last].triangle[bin->last_count++] = triangle;
+}
+
+static void bin_triangle(JobRun *run, uint32_t index) {
+    const DipTriangle *triangle = &run->geometry->triangles[index];
+    const DipRegion *region = &run->geometry->tile_region;
+    const size_t tiles_x = (size_t)run->geometry->tiles_x;
+    const size_t x0 = greatest((size_t)triangle->x0 / DIP_TILE, (size_t)region->x0);
+    const size_t y0 = greatest((size_t)triangle->y0 / DIP_TILE, (size_t)region->y0);
+    const size_t x1 = least((size_t)triangle->x1 / DIP_TILE, (size_t)region->x1 - 1);
+    const size_t y1 = least((size_t)triangle->y1 / DIP_TILE, (size_t)region->y1 - 1);
+    const size_t tiles = (x1 - x0 + 1) * (y1 - y0 + 1);
+    run->job.tile_triangles += tiles;
+    if (tiles > DIP_MAX_BIN_TILES) {
+        add_to_bin(run, index, dip_geometry_tiles(run->geometry));
+        return;
+    }
+    for (size_t y = y0; y <= y1; y++) {
+        for (size_t x = x0; x <= x1; x++) {
+            if (is_wanted(run->geometry, y * tiles_x + x)) {
+                add_to_bin(run, index, y * tiles_x + x);
+            }
+        }
+    }
+}
+
+// --- set-up ------------------------------------------------------------------------------------
+
+// Room for `count` triangles in a row at next_triangle; false when the room ends.
+static bool take_triangles(JobRun *run, uint32_t count) {
+    if (run->triangle_end - run->next_triangle < count) {
+        DipGeometry *geometry = run->geometry;
+        const uint32_t first = atomic_fetch_add_explicit(&geometry->triangles_taken, TRIANGLE_RUN,
+                                                         memory_order_relaxed);
+        if (first + TRIANGLE_RUN > geometry->triangle_room) {
+            run->job.overflowed = true;
+            return false;
+        }
+        run->next_triangle = first;
+        run->triangle_end = first + TRIANGLE_RUN;
+    }
+    return true;
+}
+
+static void add_batch(JobRun *run, const DipSetupBatch *batch) {
+    if (run->job.overflowed || !take_triangles(run, (uint32_t)batch->count + DIP_SETUP_EXCESS)) {
+        return;
+    }
+    const DipGeometry *geometry = run->geometry;
+    const uint32_t first = run->next_triangle;
+    const size_t surface = (size_t)first * (size_t)geometry->surface_stride;
+    const int count = run->kernels->dip_kernel_setup(
+        &run->target, batch, geometry->triangles + first, geometry->surfaces + surface);
+    for (int i = 0; i < count; i++) {
+        bin_triangle(run, first + (uint32_t)i);
+    }
+    run->next_triangle += (uint32_t)count;
+    run->job.triangles_drawn += (uint64_t)count;
+}
+
+// Clips a triangle and sets up the fan of what remains.
+static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, int32_t codes) {
+    const DipGeometryScratch *scratch = run->scratch;
+    const int slot_count = run->draw->slot_count;
+    DipClipPolygon polygon = {.count = 3};
+    for (int i = 0; i < 3; i++) {
+        for (int c = 0; c < 4; c++) {
+            polygon.vertex[i].position[c] = scratch->clip[c][corner[i]];
+        }
+        for (int s = 0; s < slot_count; s++) {
+            polygon.vertex[i].slot[s] = scratch->slot[s][corner[i]];
+        }
+    }
+    dip_clip_polygon(&polygon, codes, &run->geometry->mapping, slot_count);
+    if (!polygon.count) {
+        return;
+    }
+    enum { ROOM = DIP_MAX_CLIP_VERTICES + DIP_BATCH_ALIGN };
+    float clip[4][ROOM] = {{0}};
+    float slots[DIP_MAX_SLOTS][ROOM];
+    uint8_t fan[3][ROOM] = {{0}};
+    uint32_t patches[ROOM];
+    for (int i = 0; i < ROOM; i++) {
+        patches[i] = patch;
+    }
+    float *const clip_rows[4] = {clip[0], clip[1], clip[2], clip[3]};
+    for (int i = 0; i < polygon.count; i++) {
+        for (int c = 0; c < 4; c++) {
+            clip[c][i] = polygon.vertex[i].position[c];
+        }
+        for (int s = 0; s < slot_count; s++) {
+            slots[s][i] = polygon.vertex[i].slot[s];
+        }
+        fan[1][i] = (uint8_t)(i + 1 < polygon.count ? i + 1 : 0);
+        fan[2][i] = (uint8_t)(i + 2 < polygon.count ? i + 2 : 0);
+    }
+    DipScreenBatch screen;
+    run->kernels->dip_kernel_project(&run->geometry->mapping, polygon.count, clip_rows, &screen);
+    add_batch(run, &(DipSetupBatch){.count = polygon.count - 2,
+                                    .corner = {fan[0], fan[1], fan[2]},
+                                    .patch = patches,
+                                    .screen = &screen,
+                                    .slots = slots[0],
+                                    .slot_stride = ROOM});
+}
+
+// --- one job -----------------------------------------------------------------------------------
+
+// All vertices of a triangle beyond the same one of these: it is not seen.
+enum {
+    REJECT = DIP_CLIP_PICTURE | DIP_CLIP_NEAR | DIP_CLIP_FAR | DIP_CLIP_W | DIP_CLIP_ALL_USER,
+};
+
+// A chunk with vertices to clip at: its triangles in order, those between two clipped ones at once.
+static void add_mixed_chunk(JobRun *run, const DipSetupBatch *chunk) {
+    uint8_t corner[3][DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {{0}};
+    uint32_t patch[DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {0};
+    DipSetupBatch batch = *chunk;
+    batch.count = 0;
+    batch.patch = patch;
+    for (int k = 0; k < 3; k++) {
+        batch.corner[k] = corner[k];
+    }
+    for (int t = 0; t < chunk->count; t++) {
+        const uint8_t v[3] = {chunk->corner[0][t], chunk->corner[1][t], chunk->corner[2][t]};
+        const int32_t *code = chunk->screen->code;
+        const int32_t any = code[v[0]] | code[v[1]] | code[v[2]];
+        if ((code[v[0]] & code[v[1]] & code[v[2]] & REJECT) || (any & DIP_CLIP_INVALID)) {
+            continue;
+        }
+        if (!(any & DIP_CLIP_NEEDED)) {
+            for (int k = 0; k < 3; k++) {
+                corner[k][batch.count] = v[k];
+            }
+            patch[batch.count] = chunk->patch[t];
+            batch.count++;
+            continue;
+        }
+        if (batch.count) {
+            add_batch(run, &batch);
+            batch.count = 0;
+        }
+        add_clipped(run, v, chunk->patch[t], any);
+    }
+    if (batch.count) {
+        add_batch(run, &batch);
+    }
+}
+
+static void add_chunk_triangles(JobRun *run, const DipChunk *chunk) {
+    const DipScreenBatch *screen = &run->scratch->screen;
+    const uint8_t *corner = run->draw->mesh->indices + chunk->first_index;
+    const uint32_t stride = dip_corner_stride(chunk);
+    int32_t any = 0;
+    int32_t all = -1;
+    for (uint32_t v = 0; v < chunk->vertex_count; v++) {
+        any |= screen->code[v];
+        all &= screen->code[v];
+    }
+    if (all & REJECT) {
+        return;
+    }
+    const DipSetupBatch batch = {.count = (int)chunk->triangle_count,
+                                 .corner = {corner, corner + stride, corner + 2 * stride},
+                                 .patch = run->draw->mesh->patches + chunk->first_triangle,
+                                 .screen = screen,
+                                 .slots = run->scratch->slot[0],
+                                 .slot_stride = DIP_VERTEX_BATCH};
+    if (any & (DIP_CLIP_NEEDED | DIP_CLIP_INVALID)) {
+        add_mixed_chunk(run, &batch);
+    } else {
+        // Triangles beyond one side of the picture have no pixel in it: set-up drops them.
+        add_batch(run, &batch);
+    }
+}
+
+static void run_chunk(JobRun *run, const DipChunk *chunk) {
+    const DipMesh *mesh = run->draw->mesh;
+    DipGeometryScratch *scratch = run->scratch;
+    const float *in[DIP_MAX_ATTRIBUTES];
+    for (int a = 0; a < mesh->attribute_count; a++) {
+        in[a] = mesh->attributes + (size_t)a * mesh->vertex_total + chunk->first_vertex;
+    }
+    float *clip[4];
+    float *slot[DIP_MAX_SLOTS];
+    for (int c = 0; c < 4; c++) {
+        clip[c] = scratch->clip[c];
+    }
+    for (int s = 0; s < DIP_MAX_SLOTS; s++) {
+        slot[s] = scratch->slot[s];
+    }
+    const DipVertexBatch batch = {(int)chunk->vertex_count, in, clip, slot, run->draw->uniforms};
+    run->draw->vertex_shader(&batch);
+    run->kernels->dip_kernel_project(&run->geometry->mapping, (int)chunk->vertex_count, clip,
+                                     &scratch->screen);
+    add_chunk_triangles(run, chunk);
+}
+
+static DipSetupTarget setup_target(const DipGeometry *geometry) {
+    const DipRegion *region = &geometry->region;
+    DipSetupTarget target = {
+        .width = geometry->pass->target.width,
+        .height = geometry->pass->target.height,
+        .region_first = {region->x0, region->y0},
+        .region_last = {region->x1 - 1, region->y1 - 1},
+        .surface_stride = geometry->surface_stride,
+        .samples = &geometry->samples,
+        .sample_min = {255, 255},
+    };
+    for (int s = 0; s < geometry->samples.count; s++) {
+        const uint8_t at[2] = {geometry->samples.x[s], geometry->samples.y[s]};
+        for (int axis = 0; axis < 2; axis++) {
+            if (at[axis] < target.sample_min[axis]) {
+                target.sample_min[axis] = at[axis];
+            }
+            if (at[axis] > target.sample_max[axis]) {
+                target.sample_max[axis] = at[axis];
+            }
+        }
+    }
+    return target;
+}
+
+void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int job_index,
+                          DipGeometryScratch *scratch) {
+    DipGeometryJob *job = &geometry->jobs[job_index];
+    const size_t bins = dip_geometry_tiles(geometry) + 1;
+    const size_t words = (bins + 63) / 64;
+    JobRun run = {
+        .geometry = geometry,
+        .kernels = kernels,
+        .scratch = scratch,
+        .bins = geometry->bins + (size_t)job_index * bins,
+        .target = setup_target(geometry),
+        .job = *job,
+    };
+    memset(scratch->occupied, 0, words * sizeof *scratch->occupied);
+    for (uint32_t c = job->first_chunk; c < job->first_chunk + job->chunk_count; c++) {
+        const DipVisibleChunk visible = geometry->visible[c];
+        run.draw = &geometry->pass->draws[visible.draw];
+        run.target.draw = visible.draw;
+        run.target.first_patch = geometry->first_patch[visible.draw];
+        run.target.cull = run.draw->cull;
+        run.target.slot_count = run.draw->slot_count;
+        const DipChunk *chunk = &run.draw->mesh->chunks[visible.chunk];
+        run.job.triangles_in += chunk->triangle_count;
+        run_chunk(&run, chunk);
+    }
+    for (size_t w = 0; w < words; w++) {
+        geometry->occupied[w * DIP_MAX_JOBS + (size_t)job_index] = scratch->occupied[w];
+    }
+    *job = run.job;
+}

@@ -1,0 +1,343 @@
+// Triangle set-up, compiled once per instruction set: rejection of a batch's triangles, then the
+// edges, depth and shading planes of those that stay.
+//
+// Planes are solved in double, so that slivers keep their precision, and stored as float about a
+// chosen anchor. Rounded positions are below 2^22 and edges below 2^23, so areas and edge constants
+// are whole numbers that doubles hold exactly.
+#include "renderer/pipeline/geometry/setup.h"
+#include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/simd/half.h"
+
+#include <stddef.h>
+
+enum { ROOM = DIP_SETUP_BATCH + DIP_BATCH_ALIGN };
+
+// The triangles that stay, wound so that their area is positive.
+typedef struct Candidates {
+    int32_t corner[3][ROOM];
+    int32_t x[3][ROOM];
+    int32_t y[3][ROOM];
+    int32_t patch[ROOM];
+    int32_t first_pixel[ROOM]; // of the pixel box, x | y << 16
+    int32_t last_pixel[ROOM];
+} Candidates;
+
+// --- rejection ---------------------------------------------------------------------------------
+
+VEC_INLINE Hi least3(const Hi v[3]) {
+    return hi_min(hi_min(v[0], v[1]), v[2]);
+}
+
+VEC_INLINE Hi greatest3(const Hi v[3]) {
+    return hi_max(hi_max(v[0], v[1]), v[2]);
+}
+
+// The first and last pixel of 0..limit-1 with a sample offset in [sample_min, sample_max] that
+// falls within the corners' range.
+VEC_INLINE void pixel_range(const Hi at[3], int sample_min, int sample_max, int limit, Hi *first,
+                            Hi *last) {
+    *first = hi_max((least3(at) + (DIP_SUBPIXELS - 1 - sample_max)) >> 8, hi_splat(0));
+    *last = hi_min((greatest3(at) - sample_min) >> 8, hi_splat(limit - 1));
+}
+
+// Twice the area in 1/256 pixel squared; counter-clockwise as seen, a front face, is negative,
+// because y points down.
+VEC_INLINE Vd signed_area(const Hi x[3], const Hi y[3]) {
+    return vd_from_int(x[1] - x[0]) * vd_from_int(y[2] - y[0]) -
+           vd_from_int(x[2] - x[0]) * vd_from_int(y[1] - y[0]);
+}
+
+VEC_INLINE void swap_if(Hi m, Hi *a, Hi *b) {
+    const Hi old = *a;
+    *a = hi_select(m, *b, old);
+    *b = hi_select(m, old, *b);
+}
+
+enum { SMALL = 1 << 14 }; // 1/256 pixel; products of such distances and their differences fit
+
+VEC_INLINE Hi is_small(const Hi at[3]) {
+    return greatest3(at) - least3(at) < SMALL;
+}
+
+// Whether each triangle, small and wound so that its area is positive, covers a sample of a pixel
+// that its box meets.
+VEC_INLINE Hi covers_pixel(const DipSamplePattern *samples, const Hi x[3], const Hi y[3],
+                           const Hi pixel[2]) {
+    Hi covers = hi_splat(0);
+    for (int s = 0; s < samples->count; s++) {
+        const Hi at_x = pixel[0] * DIP_SUBPIXELS + samples->x[s];
+        const Hi at_y = pixel[1] * DIP_SUBPIXELS + samples->y[s];
+        Hi inside = hi_splat(-1);
+        for (int i = 0; i < 3; i++) {
+            const Hi dx = x[(i + 1) % 3] - x[i];
+            const Hi dy = y[(i + 1) % 3] - y[i];
+            const Hi edge = hi_cross(dx, at_y - y[i], dy, at_x - x[i]);
+            const Hi top_left = (dy < 0) | ((dy == 0) & (dx > 0));
+            inside &= (edge > 0) | ((edge == 0) & top_left);
+        }
+        covers |= inside;
+    }
+    return covers;
+}
+
+// Appends the triangles of a vector that stay to the `count` ones before; returns the new count.
+VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch *batch, int at,
+                               int count, Candidates *out) {
+    Hi corner[3];
+    Hi x[3];
+    Hi y[3];
+    for (int k = 0; k < 3; k++) {
+        corner[k] = hi_load_bytes(batch->corner[k] + at);
+        x[k] = hi_gather(batch->screen->x, corner[k]);
+        y[k] = hi_gather(batch->screen->y, corner[k]);
+    }
+    const Vd area = signed_area(x, y);
+    const Hi front = hi_condition(area < 0.0);
+    const Hi back = hi_condition(area > 0.0);
+    Hi first[2];
+    Hi last[2];
+    pixel_range(x, target->sample_min[0], target->sample_max[0], target->width, &first[0],
+                &last[0]);
+    pixel_range(y, target->sample_min[1], target->sample_max[1], target->height, &first[1],
+                &last[1]);
+    const Hi facing = (front & hi_splat(target->cull == DIP_CULL_FRONT ? 0 : -1)) |
+                      (back & hi_splat(target->cull == DIP_CULL_BACK ? 0 : -1));
+    Hi kept = facing & (first[0] <= last[0]) & (first[1] <= last[1]);
+    for (int axis = 0; axis < 2; axis++) {
+        kept &= (first[axis] <= hi_splat(target->region_last[axis])) &
+                (last[axis] >= hi_splat(target->region_first[axis]));
+    }
+    unsigned bits = hi_mask_bits(kept);
+    if (batch->count - at < DIP_HALF_LANES) {
+        bits &= (1u << (batch->count - at)) - 1;
+    }
+    if (!bits) {
+        return count;
+    }
+    swap_if(front, &corner[1], &corner[2]);
+    swap_if(front, &x[1], &x[2]);
+    swap_if(front, &y[1], &y[2]);
+    const Hi one_pixel = (first[0] == last[0]) & (first[1] == last[1]) & is_small(x) & is_small(y);
+    if (hi_mask_bits(one_pixel) & bits) {
+        bits &= hi_mask_bits(~one_pixel | covers_pixel(target->samples, x, y, first));
+    }
+    for (int k = 0; k < 3; k++) {
+        hi_store_packed(out->corner[k] + count, corner[k], bits);
+        hi_store_packed(out->x[k] + count, x[k], bits);
+        hi_store_packed(out->y[k] + count, y[k], bits);
+    }
+    const Hi patch = hi_load((const int32_t *)batch->patch + at);
+    hi_store_packed(out->patch + count, patch + (int32_t)target->first_patch, bits);
+    hi_store_packed(out->first_pixel + count, first[0] | first[1] << 16, bits);
+    hi_store_packed(out->last_pixel + count, last[0] | last[1] << 16, bits);
+    return count + __builtin_popcount(bits);
+}
+
+// Fills the last vector with copies of the last triangle.
+static void pad(Candidates *candidates, int count) {
+    const int last = count - 1;
+    for (int i = count; i % DIP_HALF_LANES; i++) {
+        for (int k = 0; k < 3; k++) {
+            candidates->corner[k][i] = candidates->corner[k][last];
+            candidates->x[k][i] = candidates->x[k][last];
+            candidates->y[k][i] = candidates->y[k][last];
+        }
+        candidates->patch[i] = candidates->patch[last];
+        candidates->first_pixel[i] = candidates->first_pixel[last];
+        candidates->last_pixel[i] = candidates->last_pixel[last];
+    }
+}
+
+// --- planes ------------------------------------------------------------------------------------
+
+// One vector of triangles: positions, and the two edges from vertex 0, in pixels, over twice their
+// area.
+typedef struct Frame {
+    Hi corner[3];
+    Hi x[3];
+    Hi y[3];
+    Hi patch;
+    Hi first_pixel;
+    Hi last_pixel;
+    Vd x0, y0; // of vertex 0, pixels
+    Vd x10, y10, x20, y20;
+    Vd inverse_area; // 1 / (x10 y20 - x20 y10)
+} Frame;
+
+// A value that is affine over the screen: at(x, y) = value at vertex 0 + dx (x - x0) + dy (y - y0).
+typedef struct Gradient {
+    Vd dx; // per pixel
+    Vd dy;
+} Gradient;
+
+VEC_INLINE Gradient gradient(const Frame *frame, const Vd value[3]) {
+    const Vd v10 = value[1] - value[0];
+    const Vd v20 = value[2] - value[0];
+    return (Gradient){(v10 * frame->y20 - v20 * frame->y10) * frame->inverse_area,
+                      (v20 * frame->x10 - v10 * frame->x20) * frame->inverse_area};
+}
+
+VEC_INLINE Vd to_pixels(Hi subpixels) {
+    return vd_from_int(subpixels) * (1.0 / DIP_SUBPIXELS);
+}
+
+VEC_INLINE Frame frame_of(const Candidates *candidates, int at) {
+    Frame frame;
+    for (int k = 0; k < 3; k++) {
+        frame.corner[k] = hi_load(candidates->corner[k] + at);
+        frame.x[k] = hi_load(candidates->x[k] + at);
+        frame.y[k] = hi_load(candidates->y[k] + at);
+    }
+    frame.patch = hi_load(candidates->patch + at);
+    frame.first_pixel = hi_load(candidates->first_pixel + at);
+    frame.last_pixel = hi_load(candidates->last_pixel + at);
+    frame.x0 = to_pixels(frame.x[0]);
+    frame.y0 = to_pixels(frame.y[0]);
+    frame.x10 = to_pixels(frame.x[1] - frame.x[0]);
+    frame.y10 = to_pixels(frame.y[1] - frame.y[0]);
+    frame.x20 = to_pixels(frame.x[2] - frame.x[0]);
+    frame.y20 = to_pixels(frame.y[2] - frame.y[0]);
+    frame.inverse_area = 1.0 / (frame.x10 * frame.y20 - frame.x20 * frame.y10);
+    return frame;
+}
+
+VEC_INLINE void gather3(const float *values, const Hi corner[3], Hf out[3]) {
+    for (int k = 0; k < 3; k++) {
+        out[k] = hf_gather(values, corner[k]);
+    }
+}
+
+// Edge i, from vertex i to the next, dx and dy in pixels: E(p) = dx (py - y) - dy (px - x) for any
+// (x, y) on it, with the top-left rule: on the edge counts only where the edge is the top
+// (horizontal, going right) or a left one (going up).
+VEC_INLINE void set_edge(const Frame *frame, int i, Vd dx, Vd dy, Vd x, Vd y, Hi *a, Hi *b, Vl *c) {
+    const int next = (i + 1) % 3;
+    const Hi subpixels_x = frame->x[next] - frame->x[i];
+    const Hi subpixels_y = frame->y[next] - frame->y[i];
+    const Hi top_left = (subpixels_y < 0) | ((subpixels_y == 0) & (subpixels_x > 0));
+    *a = -subpixels_y;
+    *b = subpixels_x;
+    const double unit = DIP_SUBPIXELS * DIP_SUBPIXELS;
+    *c = vl_from_whole((dy * x - dx * y) * unit) + ~vl_condition(top_left);
+}
+
+// The triangles' words, in the order of DipTriangle's fields.
+VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen, uint32_t draw,
+                                DipTriangle *out) {
+    Hi a[3];
+    Hi b[3];
+    Vl c[3];
+    const Vd x0 = frame->x0;
+    const Vd y0 = frame->y0;
+    set_edge(frame, 0, frame->x10, frame->y10, x0, y0, &a[0], &b[0], &c[0]);
+    set_edge(frame, 1, frame->x20 - frame->x10, frame->y20 - frame->y10, x0 + frame->x10,
+             y0 + frame->y10, &a[1], &b[1], &c[1]);
+    set_edge(frame, 2, -frame->x20, -frame->y20, x0, y0, &a[2], &b[2], &c[2]);
+    Hf z[3];
+    gather3(screen->z, frame->corner, z);
+    const Vd depth[3] = {vd_from_float(z[0]), vd_from_float(z[1]), vd_from_float(z[2])};
+    const Gradient slope = gradient(frame, depth);
+    const Vd origin = depth[0] - slope.dx * frame->x0 - slope.dy * frame->y0;
+    const Hf low = hf_select(z[0] < z[1], z[0], z[1]);
+    const Hf high = hf_select(z[0] > z[1], z[0], z[1]);
+    const Vl words[3][4] = {
+        {c[0], c[1], c[2], vl_pair(a[0], a[1])},
+        {vl_pair(a[2], b[0]), vl_pair(b[1], b[2]), vl_pair(frame->first_pixel, frame->last_pixel),
+         vl_pair(hi_splat((int32_t)draw), frame->patch)},
+        {(Vl)origin, (Vl)slope.dx, (Vl)slope.dy,
+         vl_pair((Hi)hf_select(low < z[2], low, z[2]), (Hi)hf_select(high > z[2], high, z[2]))},
+    };
+    _Static_assert(sizeof(DipTriangle) == sizeof(int64_t[3][4]) && offsetof(DipTriangle, a) == 24 &&
+                       offsetof(DipTriangle, b) == 36 && offsetof(DipTriangle, x0) == 48 &&
+                       offsetof(DipTriangle, x1) == 52 && offsetof(DipTriangle, draw) == 56 &&
+                       offsetof(DipTriangle, patch) == 60 &&
+                       offsetof(DipTriangle, z_origin) == 64 && offsetof(DipTriangle, z_min) == 88,
+                   "triangles are written by words");
+    for (int i = 0; i < 3; i++) {
+        vl_store_rows((char *)out + 32 * i, sizeof *out, words[i]);
+    }
+}
+
+// The corner of the box of the target's pixels that the triangle touches where 1/w is smallest in
+// magnitude. Samples do not matter, so that all passes from the same geometry have the same planes.
+VEC_INLINE void find_anchor(const Frame *frame, const DipSetupTarget *target, Vd rw0,
+                            const Gradient *q, Vd anchor[2]) {
+    Hi first[2];
+    Hi last[2];
+    pixel_range(frame->x, 0, DIP_SUBPIXELS - 1, target->width, &first[0], &last[0]);
+    pixel_range(frame->y, 0, DIP_SUBPIXELS - 1, target->height, &first[1], &last[1]);
+    Vd best = vd_splat(1e300);
+    anchor[0] = anchor[1] = vd_splat(0.0);
+    for (int corner = 0; corner < 4; corner++) {
+        const Vd at_x = vd_from_int(corner & 1 ? last[0] + 1 : first[0]);
+        const Vd at_y = vd_from_int(corner & 2 ? last[1] + 1 : first[1]);
+        const Vd size = vd_abs(rw0 + q->dx * (at_x - frame->x0) + q->dy * (at_y - frame->y0));
+        const Vl smaller = size < best;
+        best = vd_select(smaller, size, best);
+        anchor[0] = vd_select(smaller, at_x, anchor[0]);
+        anchor[1] = vd_select(smaller, at_y, anchor[1]);
+    }
+}
+
+// Value at the anchor, d/dx, d/dy.
+VEC_INLINE void set_plane(Hf plane[3], Vd value, const Gradient *g, const Vd to_anchor[2]) {
+    plane[0] = hf_from_double(value + g->dx * to_anchor[0] + g->dy * to_anchor[1]);
+    plane[1] = hf_from_double(g->dx);
+    plane[2] = hf_from_double(g->dy);
+}
+
+VEC_INLINE void store_surfaces(const Frame *frame, const DipSetupTarget *target,
+                               const DipSetupBatch *batch, float *out) {
+    Hf values[(DIP_SURFACE_SLOTS + 3 * DIP_MAX_SLOTS + DIP_SURFACE_ALIGN - 1) / DIP_SURFACE_ALIGN *
+              DIP_SURFACE_ALIGN];
+    Hf corner[3];
+    gather3(batch->screen->rw, frame->corner, corner);
+    const Vd rw[3] = {vd_from_float(corner[0]), vd_from_float(corner[1]), vd_from_float(corner[2])};
+    const Gradient q = gradient(frame, rw);
+    Vd anchor[2];
+    find_anchor(frame, target, rw[0], &q, anchor);
+    const Vd to_anchor[2] = {anchor[0] - frame->x0, anchor[1] - frame->y0};
+    values[DIP_SURFACE_ANCHOR] = hf_from_double(anchor[0]);
+    values[DIP_SURFACE_ANCHOR + 1] = hf_from_double(anchor[1]);
+    set_plane(values + DIP_SURFACE_RW, rw[0], &q, to_anchor);
+    for (int s = 0; s < target->slot_count; s++) {
+        gather3(batch->slots + s * batch->slot_stride, frame->corner, corner);
+        const Vd value[3] = {vd_from_float(corner[0]) * rw[0], vd_from_float(corner[1]) * rw[1],
+                             vd_from_float(corner[2]) * rw[2]};
+        const Gradient g = gradient(frame, value);
+        set_plane(values + DIP_SURFACE_SLOTS + 3 * s, value[0], &g, to_anchor);
+    }
+    const int used = dip_surface_floats(target->slot_count);
+    for (int f = used; f % DIP_SURFACE_ALIGN; f++) {
+        values[f] = (Hf){0};
+    }
+    for (int f = 0; f < used; f += DIP_SURFACE_ALIGN) {
+        Vl words[4];
+        for (int i = 0; i < 4; i++) {
+            words[i] = vl_pair((Hi)values[f + 2 * i], (Hi)values[f + 2 * i + 1]);
+        }
+        vl_store_rows(out + f, (size_t)target->surface_stride * sizeof *out, words);
+    }
+}
+
+// -----------------------------------------------------------------------------------------------
+
+int DIP_KERNEL(dip_kernel_setup)(const DipSetupTarget *target, const DipSetupBatch *batch,
+                                 DipTriangle *triangles, float *surfaces) {
+    Candidates candidates;
+    int count = 0;
+    for (int i = 0; i < batch->count; i += DIP_HALF_LANES) {
+        count = keep_candidates(target, batch, i, count, &candidates);
+    }
+    if (!count) {
+        return 0;
+    }
+    pad(&candidates, count);
+    for (int i = 0; i < count; i += DIP_HALF_LANES) {
+        const Frame frame = frame_of(&candidates, i);
+        store_triangles(&frame, batch->screen, target->draw, triangles + i);
+        store_surfaces(&frame, target, batch,
+                       surfaces + (size_t)i * (size_t)target->surface_stride);
+    }
+    return count;
+}

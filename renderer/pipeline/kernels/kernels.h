@@ -1,0 +1,55 @@
+// The kernels of the pipeline, one table per instruction set (renderer/simd/kernel_table.h).
+#ifndef DIP_RENDERER_PIPELINE_KERNELS_KERNELS_H
+#define DIP_RENDERER_PIPELINE_KERNELS_KERNELS_H
+
+#include "renderer/base/isa.h"
+#include "renderer/pipeline/geometry/project.h"
+#include "renderer/pipeline/geometry/setup.h"
+#include "renderer/pipeline/raster/tile.h"
+#include "renderer/pipeline/shader.h"
+#include "renderer/pipeline/shading/tile_shading.h"
+#include "renderer/simd/kernel_table.h"
+
+// X(result, name, parameters): each kernel is declared and filled in from this one list.
+#define DIP_KERNEL_LIST(X)                                                                         \
+    /* Clip positions to rounded screen positions, depth, 1/w and clip codes. */                   \
+    X(void, dip_kernel_project,                                                                    \
+      (const DipScreenMapping *map, int count, float *const *clip, DipScreenBatch *out))           \
+    /* Projected triangles to those that may cover samples, with their planes; see setup.h. */     \
+    X(int, dip_kernel_setup,                                                                       \
+      (const DipSetupTarget *target, const DipSetupBatch *batch, DipTriangle *triangles,           \
+       float *surfaces))                                                                           \
+    /* Coverage and depth of a triangle in a tile that its box reaches. clip NULL: opaque. */      \
+    X(void, dip_kernel_draw_triangle,                                                              \
+      (DipTile * tile, const DipTriangle *triangle, uint32_t id, const DipClipTest *clip))         \
+    /* The surfaces of every pixel of a tile, pushed to the lists of their draws. */               \
+    X(void, dip_kernel_collect, (DipTileShading * shading))                                        \
+    /* Varyings of a list's fragments, and derivatives but for those of the last plain_count. */   \
+    X(void, dip_kernel_interpolate,                                                                \
+      (const DipShadingInput *input, const DipFragmentList *list, int slot_count, int plain_count, \
+       DipFragmentBatch *batch))                                                                   \
+    /* Shaded colours to 16-bit linear light and to sRGB pixels. */                                \
+    X(void, dip_kernel_encode,                                                                     \
+      (const DipFragmentBatch *batch, const uint8_t *srgb_code, DipEncodedBatch *out))             \
+    X(void, dip_kernel_sample_colour,                                                              \
+      (DipFragmentBatch * batch, const DipSampler *sampler, int u_slot,                            \
+       float(*out)[DIP_FRAGMENT_BATCH]))                                                           \
+    X(void, dip_kernel_sample_colours,                                                             \
+      (DipFragmentBatch * batch, const DipSampler *const samplers[2], int u_slot,                  \
+       float(*const out[2])[DIP_FRAGMENT_BATCH]))                                                  \
+    X(void, dip_kernel_sample_alpha,                                                               \
+      (DipFragmentBatch * batch, const DipSampler *sampler, int u_slot, float *out))               \
+    X(void, dip_kernel_sample_target,                                                              \
+      (DipFragmentBatch * batch, const DipTarget *target, const float *u, const float *v,          \
+       float(*out)[DIP_FRAGMENT_BATCH]))
+
+typedef struct DipKernels {
+    DIP_KERNEL_LIST(DIP_KERNEL_FIELD)
+} DipKernels;
+
+DIP_KERNELS_DECLARE(DIP_KERNEL_LIST)
+
+// The kernels of an instruction set for which dip_isa_available is true. Static storage.
+const DipKernels *dip_kernels(DipIsa isa);
+
+#endif

@@ -1,0 +1,529 @@
+// Coverage and depth of one triangle in one tile, compiled once per instruction set.
+//
+// Edge values E = a x + b y + c (x, y in 1/256 pixel) need 64 bits. Within a tile they are split
+// as x = 256 px + sx: E >= 0 if and only if a px + b py + floor((c' + a sx + b sy) / 256) >= 0,
+// where c' is E at the tile's corner, because the first two terms are whole multiples of 256. These
+// are less than 2^30 in sum, and so is the rest for an edge that crosses the tile; where c' is
+// larger its sign decides alone, so it is clamped to 2^30. So the inner loops are exact in 32 bits.
+//
+// A triangle is set up once per tile (InTile). Its pixel box is then walked in regions of 4x4
+// sub-blocks, each of 4x4 pixels: one vector operation per edge tells which of the sixteen
+// sub-blocks may hold covered samples and which lie wholly inside (Region). Only these are drawn.
+#include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/simd/vec.h"
+
+enum {
+    VECTORS = DIP_SUB_BLOCK_PIXELS / DIP_LANES, // per sub-block, or per region
+    REGION = 4,                                 // sub-blocks per side
+    REGION_SUB_BLOCKS = REGION * REGION,
+};
+
+// The places of a 4x4 grid in lane order: pixels in a sub-block, sub-blocks in a region.
+static const int32_t lane_x[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+static const int32_t lane_y[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+
+// One edge within the tile, in units of 256.
+typedef struct Edge {
+    int32_t a;
+    int32_t b;
+    int32_t corner;   // at sample 0 of the tile's first pixel
+    int32_t greatest; // over a sub-block's samples, less sample 0 of its first pixel; a bound
+    int32_t least;    // likewise
+    Vi lane[VECTORS]; // a px + b py of a sub-block's pixels
+    int32_t sample[DIP_SAMPLE_ROOM]; // per sample, less sample 0
+} Edge;
+
+// One triangle within the tile.
+typedef struct InTile {
+    Edge edge[3];
+    Vf depth_lane[VECTORS]; // a sub-block's pixels, less its corner
+    Vf depth_min;
+    Vf depth_max;
+    float depth_sample[DIP_SAMPLE_ROOM];
+} InTile;
+
+// Sixteen sub-blocks, at (x, y) of the tile's. Arrays and bits in lane order.
+typedef struct Region {
+    int x;
+    int y;
+    unsigned reached;                   // may hold covered samples
+    unsigned inside;                    // wholly inside the triangle
+    int32_t edge[3][REGION_SUB_BLOCKS]; // at sample 0 of the first pixel
+    float depth[REGION_SUB_BLOCKS];     // at the corner
+} Region;
+
+VEC_INLINE int min_int(int a, int b) {
+    return a < b ? a : b;
+}
+
+VEC_INLINE int max_int(int a, int b) {
+    return a > b ? a : b;
+}
+
+VEC_INLINE int64_t min_i64(int64_t a, int64_t b) {
+    return a < b ? a : b;
+}
+
+VEC_INLINE int64_t max_i64(int64_t a, int64_t b) {
+    return a > b ? a : b;
+}
+
+// --- set-up ------------------------------------------------------------------------------------
+
+// floor((c + a sx + b sy) / 256) of every sample, less that of sample 0. Each factor is split at
+// bit 8, so that products of 16 bits do and nothing overflows.
+VEC_INLINE void place_samples(Edge *edge, int64_t c, const DipSamplePattern *pattern) {
+    const int32_t high =
+        (int32_t)((uint32_t)(edge->a >> 8) & 0xffff) | (int32_t)((uint32_t)(edge->b >> 8) << 16);
+    const int32_t low = (edge->a & 255) | (edge->b & 255) << 16;
+    const int32_t rest = (int32_t)(c & 255);
+    const int32_t whole = (int32_t)(c >> 8) - edge->corner;
+    for (int s = 0; s < pattern->count; s += DIP_LANES) {
+        const Vi at = vi_load_bytes(pattern->x + s) | vi_load_bytes(pattern->y + s) << 16;
+        const Vi fraction = (vi_dot16(vi_splat(low), at) + vi_splat(rest)) >> 8;
+        vi_store(edge->sample + s, vi_dot16(vi_splat(high), at) + vi_splat(whole) + fraction);
+    }
+}
+
+VEC_INLINE void place_edge(InTile *in, int i, const DipTriangle *triangle, const DipTile *tile) {
+    enum { SPAN = (DIP_SUB_BLOCK - 1) * DIP_SUBPIXELS };
+    const int64_t limit = (int64_t)1 << 38;
+    const DipSamplePattern *pattern = tile->pattern;
+    const int64_t a = triangle->a[i];
+    const int64_t b = triangle->b[i];
+    const int64_t at_tile = triangle->c[i] + (a * tile->x0 + b * tile->y0) * DIP_SUBPIXELS;
+    const int64_t c = max_i64(min_i64(at_tile, limit), -limit);
+    Edge *edge = &in->edge[i];
+    edge->a = triangle->a[i];
+    edge->b = triangle->b[i];
+    edge->corner = (int32_t)((c + a * pattern->x[0] + b * pattern->y[0]) >> 8);
+    // The samples of a sub-block lie within first..last in x and in y.
+    const int first = pattern->least;
+    const int last = SPAN + pattern->greatest;
+    const int64_t most = max_i64(a * first, a * last) + max_i64(b * first, b * last);
+    const int64_t less = min_i64(a * first, a * last) + min_i64(b * first, b * last);
+    edge->greatest = (int32_t)((c + most) >> 8) - edge->corner;
+    edge->least = (int32_t)((c + less) >> 8) - edge->corner;
+    const Vi lanes = vi_splat(edge->a) * vi_load(lane_x) + vi_splat(edge->b) * vi_load(lane_y);
+    for (int v = 0; v < VECTORS; v++) {
+        const int first_lane = v * DIP_LANES;
+        edge->lane[v] =
+            lanes + vi_splat(edge->a * lane_x[first_lane] + edge->b * lane_y[first_lane]);
+    }
+    if (pattern->count > 1) {
+        place_samples(edge, c, pattern);
+    }
+}
+
+VEC_INLINE void place_depth(InTile *in, const DipTriangle *triangle,
+                            const DipSamplePattern *pattern) {
+    const float dx = (float)triangle->z_dx;
+    const float dy = (float)triangle->z_dy;
+    in->depth_min = vf_splat(triangle->z_min);
+    in->depth_max = vf_splat(triangle->z_max);
+    for (int v = 0; v < VECTORS; v++) {
+        in->depth_lane[v] = vf_splat(dx) * vf_from_int(vi_load(lane_x + v * DIP_LANES)) +
+                            vf_splat(dy) * vf_from_int(vi_load(lane_y + v * DIP_LANES));
+    }
+    for (int s = 0; s < pattern->count; s += DIP_LANES) {
+        const Vf x = vf_from_int(vi_load_bytes(pattern->x + s)) * (1.0f / 256.0f);
+        const Vf y = vf_from_int(vi_load_bytes(pattern->y + s)) * (1.0f / 256.0f);
+        vf_store(in->depth_sample + s, vf_splat(dx) * x + vf_splat(dy) * y);
+    }
+}
+
+// --- regions -----------------------------------------------------------------------------------
+
+// The first and last sub-blocks of the tile that the triangle's pixel box reaches.
+typedef struct Box {
+    int x0, y0, x1, y1;
+} Box;
+
+VEC_INLINE Box box_of(const DipTriangle *triangle, const DipTile *tile) {
+    return (Box){max_int(triangle->x0 - tile->x0, tile->left) / DIP_SUB_BLOCK,
+                 max_int(triangle->y0 - tile->y0, tile->top) / DIP_SUB_BLOCK,
+                 min_int(triangle->x1 - tile->x0, DIP_TILE - 1 - tile->right) / DIP_SUB_BLOCK,
+                 min_int(triangle->y1 - tile->y0, DIP_TILE - 1 - tile->bottom) / DIP_SUB_BLOCK};
+}
+
+// Bits of the region's sub-blocks x0..x1, y0..y1 of the tile.
+VEC_INLINE unsigned box_bits(const Region *region, int x0, int y0, int x1, int y1) {
+    const unsigned column = (2u << (x1 - region->x)) - (1u << (x0 - region->x));
+    const unsigned rows = (16u << 4 * (y1 - region->y)) - (1u << 4 * (y0 - region->y));
+    return column * 0x1111u & rows;
+}
+
+// Sets edge, reached and inside; the latter as far as the edges know.
+VEC_INLINE void classify(const InTile *in, Region *region) {
+    int32_t corner[3];
+    for (int i = 0; i < 3; i++) {
+        corner[i] = in->edge[i].a * (region->x * DIP_SUB_BLOCK) +
+                    in->edge[i].b * (region->y * DIP_SUB_BLOCK) + in->edge[i].corner;
+    }
+    region->reached = 0;
+    region->inside = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        Vi greatest = vi_splat(0);
+        Vi least = vi_splat(0);
+        for (int i = 0; i < 3; i++) {
+            const Vi at = in->edge[i].lane[v] * DIP_SUB_BLOCK + vi_splat(corner[i]);
+            vi_store(region->edge[i] + v * DIP_LANES, at);
+            greatest |= at + vi_splat(in->edge[i].greatest);
+            least |= at + vi_splat(in->edge[i].least);
+        }
+        region->reached |= mask_bits(vi_not_negative(greatest)) << (v * DIP_LANES);
+        region->inside |= mask_bits(vi_not_negative(least)) << (v * DIP_LANES);
+    }
+}
+
+// Depth at the corners of the sub-blocks, in double from absolute coordinates, so that tiles do
+// not matter.
+VEC_INLINE void place_corners(Region *region, const DipTriangle *triangle, const DipTile *tile) {
+    typedef double Row __attribute__((vector_size(REGION * sizeof(double))));
+    typedef float RowDepth __attribute__((vector_size(REGION * sizeof(float))));
+    const double x = tile->x0 + region->x * DIP_SUB_BLOCK;
+    const double y = tile->y0 + region->y * DIP_SUB_BLOCK;
+    const Row columns = {x, x + 4.0, x + 8.0, x + 12.0};
+    const Row at_columns = triangle->z_origin + triangle->z_dx * columns;
+    for (int row = 0; row < REGION; row++) {
+        const Row at = at_columns + triangle->z_dy * (y + row * DIP_SUB_BLOCK);
+        const RowDepth depth = __builtin_convertvector(at, RowDepth);
+        memcpy(region->depth + row * REGION, &depth, sizeof depth);
+    }
+}
+
+// --- sub-blocks --------------------------------------------------------------------------------
+
+VEC_INLINE void clear_block(DipTile *tile, int block, int sample_count) {
+    const int count = sample_count * DIP_BLOCK_PIXELS;
+    float *const depth = tile->depth + block * count;
+    int32_t *const id = (int32_t *)tile->id + block * count;
+    for (int i = 0; i < count; i += DIP_LANES) {
+        vf_store(depth + i, vf_splat(0.0f));
+        vi_store(id + i, vi_splat(0));
+    }
+    tile->touched |= (uint64_t)1 << block;
+}
+
+// Sub-block n of the region: the index of its first value in the tile's arrays, cleared if need be.
+VEC_INLINE int touch_sub_block(DipTile *tile, const Region *region, int n, int sample_count) {
+    const int x = region->x + n % REGION;
+    const int y = region->y + n / REGION;
+    const int block = y / 2 * DIP_TILE_BLOCKS + x / 2;
+    const int quarter = y % 2 * 2 + x % 2;
+    if (!(tile->touched >> block & 1)) {
+        clear_block(tile, block, sample_count);
+    }
+    return block * sample_count * DIP_BLOCK_PIXELS + quarter * DIP_SUB_BLOCK_PIXELS;
+}
+
+// Edge values of sub-block n's pixels in vector v, at sample 0.
+typedef struct PixelEdges {
+    Vi at[3];
+} PixelEdges;
+
+VEC_INLINE PixelEdges pixel_edges(const InTile *in, const Region *region, int n, int v) {
+    PixelEdges edges;
+    for (int i = 0; i < 3; i++) {
+        edges.at[i] = in->edge[i].lane[v] + vi_splat(region->edge[i][n]);
+    }
+    return edges;
+}
+
+VEC_INLINE Mask covered_lanes(const InTile *in, const PixelEdges *edges, int s, int sample_count) {
+    if (sample_count == 1) {
+        return vi_not_negative(edges->at[0] | edges->at[1] | edges->at[2]);
+    }
+    return vi_not_negative((edges->at[0] + vi_splat(in->edge[0].sample[s])) |
+                           (edges->at[1] + vi_splat(in->edge[1].sample[s])) |
+                           (edges->at[2] + vi_splat(in->edge[2].sample[s])));
+}
+
+VEC_INLINE Vf depth_lanes(const InTile *in, float corner, int v, int s) {
+    const Vf depth = (vf_splat(corner) + in->depth_lane[v]) + vf_splat(in->depth_sample[s]);
+    return vf_min(vf_max(depth, in->depth_min), in->depth_max);
+}
+
+// Stores the covered samples of an opaque triangle that are nearer than what is there.
+VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bool inside,
+                               int sample_count, DipTile *tile, uint32_t id) {
+    const int first = touch_sub_block(tile, region, n, sample_count);
+    float *const depths = tile->depth + first;
+    int32_t *const ids = (int32_t *)tile->id + first;
+    for (int v = 0; v < VECTORS; v++) {
+        const PixelEdges edges = pixel_edges(in, region, n, v);
+        for (int s = 0; s < sample_count; s++) {
+            const int at = s * DIP_BLOCK_PIXELS + v * DIP_LANES;
+            const Vf old = vf_load(depths + at);
+            const Vf depth = depth_lanes(in, region->depth[n], v, s);
+            Mask nearer = vf_lt(old, depth);
+            if (!inside) {
+                nearer = nearer & covered_lanes(in, &edges, s, sample_count);
+            }
+            vf_store_lanes(depths + at, nearer, depth, old);
+            vi_store_lanes(ids + at, nearer, vi_splat((int32_t)id));
+        }
+    }
+}
+
+// Only a region without partly covered sub-blocks goes without edges: in a mixed one the branch
+// costs more than the edges.
+VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_count, DipTile *tile,
+                            uint32_t id) {
+    if (region->inside == region->reached) {
+        for (unsigned left = region->reached; left; left &= left - 1) {
+            draw_sub_block(in, region, __builtin_ctz(left), true, sample_count, tile, id);
+        }
+    } else {
+        for (unsigned left = region->reached; left; left &= left - 1) {
+            draw_sub_block(in, region, __builtin_ctz(left), false, sample_count, tile, id);
+        }
+    }
+}
+
+// --- alpha-clipped triangles -------------------------------------------------------------------
+
+// A sub-block whose fragments wait for the clip test.
+typedef struct Waiting {
+    int first;                         // index of its first value in the tile's arrays
+    float depth;                       // at its corner
+    uint16_t pixels;                   // its fragments in the list, in order
+    uint8_t samples;                   // that they may hold, one bit each
+    uint16_t visible[DIP_MAX_SAMPLES]; // pixels by sample
+} Waiting;
+
+// The fragments of the triangle in hand that wait for the clip test, in the test's list.
+typedef struct ClipQueue {
+    const DipClipTest *clip;
+    int count; // of sub-blocks
+    Waiting waiting[DIP_FRAGMENT_BATCH];
+} ClipQueue;
+
+// A place in a pixel, as in a fragment's place.
+VEC_INLINE Vi sub_place(int sub_x, int sub_y) {
+    return vi_splat(sub_x << DIP_PLACE_SUB_X | sub_y << DIP_PLACE_SUB_Y);
+}
+
+// Fills a waiting sub-block's masks. Finds where in their pixels its fragments are shaded: at the
+// centre where all samples are covered, else at the first covered sample.
+VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, const DipTile *tile,
+                               int sample_count, Waiting *waiting, Vi places[VECTORS]) {
+    const DipSamplePattern *pattern = tile->pattern;
+    const float *const depths = tile->depth + waiting->first;
+    const float corner = waiting->depth;
+    unsigned pixels = 0;
+    for (int s = 0; s < sample_count; s++) {
+        waiting->visible[s] = 0;
+    }
+    for (int v = 0; v < VECTORS; v++) {
+        const PixelEdges edges = pixel_edges(in, region, n, v);
+        unsigned whole = VEC_ALL_LANES;
+        places[v] = sub_place(128, 128);
+        for (int s = sample_count - 1; s >= 0; s--) {
+            const Vf old = vf_load(depths + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
+            const Mask covered = covered_lanes(in, &edges, s, sample_count);
+            const Mask nearer = vf_lt(old, depth_lanes(in, corner, v, s));
+            const unsigned visible = mask_bits(covered & nearer) << (v * DIP_LANES);
+            waiting->visible[s] |= (uint16_t)visible;
+            pixels |= visible;
+            whole &= mask_bits(covered);
+            places[v] = vi_select(covered, sub_place(pattern->x[s], pattern->y[s]), places[v]);
+        }
+        const Mask centre = mask_from_bits(whole);
+        places[v] = vi_select(centre, sub_place(128, 128), places[v]);
+    }
+    waiting->pixels = (uint16_t)pixels;
+    waiting->samples = (uint8_t)((1u << sample_count) - 1);
+}
+
+// The same for the samples of one pass, shaded at the centroid of those that are covered.
+VEC_INLINE void test_pass(const InTile *in, const Region *region, int n, const DipTile *tile,
+                          const DipSamplePasses *passes, int pass, Waiting *waiting,
+                          Vi places[VECTORS]) {
+    const float *const depths = tile->depth + waiting->first;
+    const unsigned samples = passes->samples[pass];
+    unsigned pixels = 0;
+    for (unsigned left = samples; left; left &= left - 1) {
+        waiting->visible[__builtin_ctz(left)] = 0;
+    }
+    for (int v = 0; v < VECTORS; v++) {
+        const PixelEdges edges = pixel_edges(in, region, n, v);
+        Vi held = vi_splat(0);
+        for (unsigned left = samples; left; left &= left - 1) {
+            const int s = __builtin_ctz(left);
+            const Vf old = vf_load(depths + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
+            const Mask covered = covered_lanes(in, &edges, s, DIP_MAX_SAMPLES);
+            const Mask nearer = vf_lt(old, depth_lanes(in, waiting->depth, v, s));
+            const unsigned visible = mask_bits(covered & nearer) << (v * DIP_LANES);
+            waiting->visible[s] |= (uint16_t)visible;
+            pixels |= visible;
+            held |= vi_select(covered, vi_splat(1 << s), vi_splat(0));
+        }
+        places[v] = vi_gather(passes->centroid, held) << DIP_PLACE_SUB_X;
+    }
+    waiting->pixels = (uint16_t)pixels;
+    waiting->samples = (uint8_t)samples;
+}
+
+// Stores the visible samples of the pixels that are kept.
+VEC_INLINE void keep_sub_block(const InTile *in, DipTile *tile, const Waiting *waiting,
+                               unsigned keep, uint32_t id) {
+    for (unsigned left = waiting->samples; left; left &= left - 1) {
+        const int s = __builtin_ctz(left);
+        for (int v = 0; v < VECTORS; v++) {
+            const int at = waiting->first + s * DIP_BLOCK_PIXELS + v * DIP_LANES;
+            const unsigned bits = (waiting->visible[s] & keep) >> (v * DIP_LANES);
+            const Mask mask = mask_from_bits(bits & VEC_ALL_LANES);
+            vf_store_lanes(tile->depth + at, mask, depth_lanes(in, waiting->depth, v, s),
+                           vf_load(tile->depth + at));
+            vi_store_lanes((int32_t *)tile->id + at, mask, vi_splat((int32_t)id));
+        }
+    }
+}
+
+static uint64_t block_bit(const DipTile *tile, const Waiting *waiting) {
+    return (uint64_t)1 << (waiting->first / (tile->pattern->count * DIP_BLOCK_PIXELS));
+}
+
+// Asks about the waiting fragments and draws those that are there.
+static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriangle *triangle,
+                             DipTile *tile, uint32_t id) {
+    DipFragmentList *list = queue->clip->list;
+    for (int i = list->count; i % DIP_BATCH_ALIGN; i++) {
+        list->place[i] = list->place[list->count - 1];
+    }
+    for (int i = 0; i < list->count; i += DIP_LANES) {
+        vi_store((int32_t *)list->triangle + i, vi_splat((int32_t)id - 1));
+    }
+    const uint8_t *there = queue->clip->test(queue->clip->context, triangle);
+    for (int i = 0; i < queue->count; i++) {
+        unsigned keep = 0;
+        for (unsigned left = queue->waiting[i].pixels; left; left &= left - 1) {
+            keep |= left & -left & (0u - (*there++ != 0)); // without a branch
+        }
+        if (keep) {
+            keep_sub_block(in, tile, &queue->waiting[i], keep, id);
+            if (queue->clip->passes) {
+                tile->passed |= block_bit(tile, &queue->waiting[i]);
+            }
+        }
+    }
+    list->count = 0;
+    queue->count = 0;
+}
+
+// Adds the visible pixels of sub-block n to the queue: those of a pass, where there are passes.
+VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region *region, int n,
+                                int pass, int sample_count, DipTile *tile) {
+    const DipSamplePasses *passes = queue->clip->passes;
+    DipFragmentList *list = queue->clip->list;
+    Waiting *waiting = &queue->waiting[queue->count];
+    waiting->first = touch_sub_block(tile, region, n, sample_count);
+    waiting->depth = region->depth[n];
+    Vi places[VECTORS];
+    if (sample_count > 1 && passes) {
+        test_pass(in, region, n, tile, passes, pass, waiting, places);
+    } else {
+        test_sub_block(in, region, n, tile, sample_count, waiting, places);
+    }
+    if (!waiting->pixels) {
+        return;
+    }
+    const int corner = (region->y + n / REGION) * DIP_SUB_BLOCK * DIP_TILE +
+                       (region->x + n % REGION) * DIP_SUB_BLOCK;
+    for (int v = 0; v < VECTORS; v++) {
+        const unsigned pixels = waiting->pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
+        const Vi pixel = (vi_load(lane_y + v * DIP_LANES) << DIP_PLACE_Y) +
+                         (vi_load(lane_x + v * DIP_LANES) + corner);
+        list->count += vu_compress(list->place + list->count, pixels, (Vu)(places[v] | pixel));
+    }
+    queue->count++;
+}
+
+VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *region,
+                            const DipTriangle *triangle, int sample_count, DipTile *tile,
+                            uint32_t id) {
+    const int pass_count = queue->clip->passes ? queue->clip->passes->count : 1;
+    for (unsigned left = region->reached; left; left &= left - 1) {
+        for (int pass = 0; pass < pass_count; pass++) {
+            if (queue->clip->list->count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
+                flush_clip_queue(queue, in, triangle, tile, id);
+            }
+            queue_sub_block(queue, in, region, __builtin_ctz(left), pass, sample_count, tile);
+        }
+    }
+}
+
+// --- a triangle --------------------------------------------------------------------------------
+
+// Walks the regions of the triangle's box. sample_count is a constant where that pays.
+VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_t id,
+                             const DipClipTest *clip, int sample_count) {
+    const Box box = box_of(triangle, tile);
+    InTile in;
+    for (int i = 0; i < 3; i++) {
+        place_edge(&in, i, triangle, tile);
+    }
+    place_depth(&in, triangle, tile->pattern);
+    ClipQueue queue;
+    queue.clip = clip;
+    queue.count = 0;
+    for (int y = box.y0; y <= box.y1; y += REGION) {
+        for (int x = box.x0; x <= box.x1; x += REGION) {
+            Region region; // within the tile; all of its fields are set
+            region.x = min_int(x, DIP_TILE_SUB_BLOCKS - REGION);
+            region.y = min_int(y, DIP_TILE_SUB_BLOCKS - REGION);
+            classify(&in, &region);
+            region.reached &= box_bits(&region, x, y, min_int(x + REGION - 1, box.x1),
+                                       min_int(y + REGION - 1, box.y1));
+            region.inside &= region.reached;
+            if (!region.reached) {
+                continue;
+            }
+            tile->sub_blocks_accepted += (uint64_t)__builtin_popcount(region.inside);
+            place_corners(&region, triangle, tile);
+            if (clip) {
+                clip_region(&queue, &in, &region, triangle, sample_count, tile, id);
+            } else {
+                draw_region(&in, &region, sample_count, tile, id);
+            }
+        }
+    }
+    if (clip && queue.count) {
+        flush_clip_queue(&queue, &in, triangle, tile, id);
+    }
+    tile->sub_blocks_tested += (uint64_t)((box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1));
+}
+
+static void draw_clipped(DipTile *tile, const DipTriangle *triangle, uint32_t id,
+                         const DipClipTest *clip) {
+    clip->list->count = 0;
+    if (tile->pattern->count == 1) {
+        draw_in_tile(tile, triangle, id, clip, 1);
+    } else {
+        draw_in_tile(tile, triangle, id, clip, tile->pattern->count);
+    }
+}
+
+// One version for each sample count, so that loops over samples unroll.
+#define DRAW_SAMPLES(n)                                                                            \
+    static void draw_##n(DipTile *tile, const DipTriangle *triangle, uint32_t id) {                \
+        draw_in_tile(tile, triangle, id, NULL, n);                                                 \
+    }
+DRAW_SAMPLES(1)
+DRAW_SAMPLES(2)
+DRAW_SAMPLES(4)
+DRAW_SAMPLES(6)
+DRAW_SAMPLES(8)
+
+void DIP_KERNEL(dip_kernel_draw_triangle)(DipTile *tile, const DipTriangle *triangle, uint32_t id,
+                                          const DipClipTest *clip) {
+    typedef void Draw(DipTile *, const DipTriangle *, uint32_t);
+    static Draw *const draw[DIP_MAX_SAMPLES + 1] = {
+        [1] = draw_1, [2] = draw_2, [4] = draw_4, [6] = draw_6, [8] = draw_8};
+    if (clip) {
+        draw_clipped(tile, triangle, id, clip);
+    } else {
+        draw[tile->pattern->count](tile, triangle, id);
+    }
+}

@@ -1,0 +1,48 @@
+// Storing and averaging fragments. All sums are integers, so their order cannot matter.
+#include "renderer/pipeline/resolve/resolve.h"
+
+#include <string.h>
+
+static uint32_t *pixel_at(const DipTileShading *shading, uint32_t pixel) {
+    return shading->pixels + (size_t)(pixel / DIP_TILE) * shading->stride +
+           (size_t)(pixel % DIP_TILE);
+}
+
+void dip_store_whole(DipTileShading *shading, const DipFragmentList *list,
+                     const DipEncodedBatch *encoded) {
+    for (int i = 0; i < list->count; i += 16) {
+        uint32_t *row = pixel_at(shading, list->place[i] & DIP_PLACE_PIXEL);
+        for (int y = 0; y < 4; y++, row += shading->stride) {
+            memcpy(row, encoded->rgba8 + i + 4 * y, 4 * sizeof *row);
+        }
+    }
+}
+
+void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list, int count,
+                         const DipEncodedBatch *encoded) {
+    static const int bits_of[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+    const unsigned all = (1u << shading->tile->pattern->count) - 1;
+    for (int i = 0; i < count; i++) {
+        const uint32_t pixel = list->place[i] & DIP_PLACE_PIXEL;
+        if (list->samples[i] == all) {
+            *pixel_at(shading, pixel) = encoded->rgba8[i];
+            continue;
+        }
+        const int weight = bits_of[list->samples[i] & 15] + bits_of[list->samples[i] >> 4];
+        for (int c = 0; c < 3; c++) {
+            shading->sum[pixel][c] += encoded->linear16[c][i] * weight;
+        }
+    }
+}
+
+void dip_resolve_mixed(DipTileShading *shading, const uint8_t *srgb_code) {
+    const int count = shading->tile->pattern->count;
+    for (int i = 0; i < shading->mixed_count; i++) {
+        const uint32_t pixel = shading->mixed[i];
+        uint32_t rgba8 = 0xff000000u;
+        for (int c = 0; c < 3; c++) {
+            rgba8 |= (uint32_t)srgb_code[(shading->sum[pixel][c] + count / 2) / count] << (8 * c);
+        }
+        *pixel_at(shading, pixel) = rgba8;
+    }
+}

@@ -1,0 +1,358 @@
+// The fragments of a tile: every pixel's distinct patches (geometry/patch.h), pushed to the lists
+// of their draws. A sub-block's pixels of one draw, or of one patch where samples differ, are
+// pushed together, as a mask of 16 bits.
+#include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/simd/vec.h"
+
+#include <stddef.h>
+
+enum { VECTORS = 16 / DIP_LANES, ALL_PIXELS = 0xffff };
+
+// Where a sub-block's pixels lie from its first one, as places (tile_shading.h).
+static const int32_t pixel_place[16] = {
+    0,   1,   2,   3,   64,  65,  66,  67, // DIP_TILE to the next row
+    128, 129, 130, 131, 192, 193, 194, 195,
+};
+
+// A sub-block in hand.
+typedef struct SubBlock {
+    DipTileShading *shading;
+    const uint32_t *ids; // of sample 0; DIP_BLOCK_PIXELS to the next sample's
+    int sample_count;
+    int x0, y0; // pixels in the tile
+    // The patches that the samples show, 0 where none: [sample][pixel]. Only found where samples of
+    // a pixel hold several triangles, or have passes.
+    uint32_t patches[DIP_MAX_SAMPLES * DIP_SUB_BLOCK_PIXELS];
+} SubBlock;
+
+// Pixels, one bit each, whose number is the one given.
+VEC_INLINE unsigned pixels_with(const uint32_t *numbers, uint32_t number) {
+    unsigned bits = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        const Vi held = vi_load((const int32_t *)numbers + v * DIP_LANES);
+        bits |= mask_bits(vi_eq(held, vi_splat((int32_t)number))) << (v * DIP_LANES);
+    }
+    return bits;
+}
+
+// Words of the triangles of ids, which are 0 where there is none: then some triangle's.
+VEC_INLINE Vi gather_words(const SubBlock *sub, Vi ids, size_t offset_bytes) {
+    enum { WORDS = sizeof(DipTriangle) / sizeof(int32_t) };
+    const char *triangles = (const char *)sub->shading->input.triangles;
+    const Vi index = vi_max(ids - 1, vi_splat(0));
+    return vi_gather((const int32_t *)(const void *)(triangles + offset_bytes), index * WORDS);
+}
+
+static void find_patches(SubBlock *sub) {
+    for (int s = 0; s < sub->sample_count; s++) {
+        for (int v = 0; v < VECTORS; v++) {
+            const Vi ids =
+                vi_load((const int32_t *)sub->ids + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
+            const Vi patches = gather_words(sub, ids, offsetof(DipTriangle, patch));
+            vi_store((int32_t *)sub->patches + s * DIP_SUB_BLOCK_PIXELS + v * DIP_LANES,
+                     vi_select(vi_eq(ids, vi_splat(0)), vi_splat(0), patches));
+        }
+    }
+}
+
+// Pixels whose samples' numbers differ; stride: to the next sample's.
+VEC_INLINE unsigned mixed_pixels(const uint32_t *numbers, int sample_count, int stride) {
+    unsigned same = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        const int32_t *held = (const int32_t *)numbers + v * DIP_LANES;
+        const Vi first = vi_load(held);
+        Vi differ = vi_splat(0);
+        for (int s = 1; s < sample_count; s++) {
+            differ |= first ^ vi_load(held + s * stride);
+        }
+        same |= mask_bits(vi_eq(differ, vi_splat(0))) << (v * DIP_LANES);
+    }
+    return ~same & ALL_PIXELS;
+}
+
+static inline uint32_t draw_of(const DipTileShading *shading, uint32_t triangle) {
+    return shading->input.triangles[triangle].draw;
+}
+
+// Puts a draw's lists among the active ones.
+static inline void activate(DipTileShading *shading, uint32_t draw) {
+    if (!shading->is_active[draw]) {
+        shading->is_active[draw] = 1;
+        shading->active[shading->active_count++] = draw;
+    }
+}
+
+VEC_INLINE int32_t place_of(const SubBlock *sub, int sub_x, int sub_y) {
+    return (sub->y0 * DIP_TILE + sub->x0) | sub_x << DIP_PLACE_SUB_X | sub_y << DIP_PLACE_SUB_Y;
+}
+
+// A sub-block that one draw fills, pixels with one patch each: its 16 fragments stay together, in a
+// list of their own kind.
+static void push_whole(const SubBlock *sub, uint32_t draw) {
+    DipTileShading *shading = sub->shading;
+    activate(shading, draw);
+    DipFragmentList *list = &shading->whole_lists[draw];
+    for (int v = 0; v < VECTORS; v++) {
+        vi_store((int32_t *)list->triangle + list->count + v * DIP_LANES,
+                 vi_load((const int32_t *)sub->ids + v * DIP_LANES) - 1);
+        const Vi at = vi_load(pixel_place + v * DIP_LANES);
+        vi_store((int32_t *)list->place + list->count + v * DIP_LANES,
+                 at + place_of(sub, 128, 128));
+    }
+    list->count += 16;
+    if (list->count == DIP_FRAGMENT_BATCH) {
+        shading->flush_whole(shading, draw);
+    }
+}
+
+// Pixels as fragments of a draw; ids of triangles, samples and places per vector. uniform: all
+// lanes have the same samples.
+VEC_INLINE void push(const SubBlock *sub, uint32_t draw, unsigned pixels, const Vu *ids,
+                     const Vu *samples, const Vu *places, bool uniform) {
+    DipTileShading *shading = sub->shading;
+    activate(shading, draw);
+    DipFragmentList *list = &shading->lists[draw];
+    for (int v = 0; v < VECTORS; v++) {
+        const unsigned bits = pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
+        if (uniform) {
+            vu_store(list->samples + list->count, samples[v]);
+        } else {
+            vu_compress(list->samples + list->count, bits, samples[v]);
+        }
+        vu_compress(list->triangle + list->count, bits, ids[v] - 1u);
+        list->count += vu_compress(list->place + list->count, bits, places[v]);
+    }
+    if (list->count >= DIP_FRAGMENT_BATCH) {
+        shading->flush(shading, draw);
+    }
+}
+
+// Pixels that one patch each holds with all samples, shaded at their centres on the triangle of
+// their first sample.
+VEC_INLINE void push_uniform(const SubBlock *sub, const uint32_t *draws, unsigned left) {
+    Vu ids[VECTORS];
+    Vu samples[VECTORS];
+    Vu places[VECTORS];
+    for (int v = 0; v < VECTORS; v++) {
+        ids[v] = (Vu)vi_load((const int32_t *)sub->ids + v * DIP_LANES);
+        samples[v] = vu_splat((1u << sub->sample_count) - 1);
+        places[v] = (Vu)(vi_load(pixel_place + v * DIP_LANES) + place_of(sub, 128, 128));
+    }
+    while (left) {
+        const uint32_t draw = draws[__builtin_ctz(left)];
+        const unsigned pixels = pixels_with(draws, draw) & left;
+        left &= ~pixels;
+        push(sub, draw, pixels, ids, samples, places, true);
+    }
+}
+
+// A draw's passes, NULL where it has but one.
+static inline const DipSamplePasses *passes_of(const DipTileShading *shading, uint32_t draw) {
+    return shading->passes && shading->draws[draw].clip_shader ? shading->passes : NULL;
+}
+
+// Pixels whose samples differ, all those of the patch that the first of `left` holds in sample
+// `first`: shaded at their first sample of it. Of a draw with passes only those of the sample's
+// pass, shaded at the centroid of what they hold of it. Takes them out of `left`.
+VEC_INLINE void push_mixed_patch(const SubBlock *sub, unsigned *left, int first) {
+    const DipSamplePattern *pattern = sub->shading->tile->pattern;
+    const int pixel = __builtin_ctz(left[first]);
+    const uint32_t patch = sub->patches[first * DIP_SUB_BLOCK_PIXELS + pixel];
+    const uint32_t draw = draw_of(sub->shading, sub->ids[first * DIP_BLOCK_PIXELS + pixel] - 1);
+    const DipSamplePasses *passes = passes_of(sub->shading, draw);
+    const unsigned shared = passes ? passes->sharing[first] : ~0u;
+    Vu ids[VECTORS];
+    Vu samples[VECTORS];
+    Vu places[VECTORS];
+    unsigned pixels = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        ids[v] = samples[v] = places[v] = vu_splat(0);
+    }
+    for (int s = sub->sample_count - 1; s >= first; s--) {
+        const unsigned held =
+            shared >> s & 1 ? pixels_with(sub->patches + s * DIP_SUB_BLOCK_PIXELS, patch) & left[s]
+                            : 0;
+        left[s] &= ~held;
+        pixels |= held;
+        const Vi place = vi_splat(place_of(sub, pattern->x[s], pattern->y[s]));
+        for (int v = 0; v < VECTORS; v++) {
+            const Mask mask = mask_from_bits(held >> (v * DIP_LANES) & VEC_ALL_LANES);
+            samples[v] |= (Vu)vi_select(mask, vi_splat(1 << s), vi_splat(0));
+            places[v] = (Vu)vi_select(mask, place, (Vi)places[v]);
+            const Vi there =
+                vi_load((const int32_t *)sub->ids + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
+            ids[v] = (Vu)vi_select(mask, there, (Vi)ids[v]);
+        }
+    }
+    for (int v = 0; v < VECTORS; v++) {
+        if (passes) {
+            const Vi centroid = vi_gather(passes->centroid, (Vi)samples[v]);
+            places[v] = (Vu)((centroid << DIP_PLACE_SUB_X) + place_of(sub, 0, 0));
+        }
+        places[v] += (Vu)vi_load(pixel_place + v * DIP_LANES);
+    }
+    push(sub, draw, pixels, ids, samples, places, false);
+}
+
+// Starts the sums of mixed pixels with their uncovered samples, of which there are mostly none.
+VEC_INLINE void begin_sums(const SubBlock *sub, unsigned mixed,
+                           const unsigned empty[DIP_MAX_SAMPLES], unsigned any_empty) {
+    DipTileShading *shading = sub->shading;
+    const int corner = sub->y0 * DIP_TILE + sub->x0;
+    for (unsigned left = mixed; left; left &= left - 1) {
+        const int pixel = __builtin_ctz(left);
+        const int at = corner + pixel_place[pixel];
+        shading->mixed[shading->mixed_count++] = (uint16_t)at;
+        memset(shading->sum[at], 0, sizeof shading->sum[at]);
+    }
+    for (unsigned left = any_empty; left; left &= left - 1) {
+        const int pixel = __builtin_ctz(left);
+        for (int s = 0; s < sub->sample_count; s++) {
+            const int32_t uncovered = (int32_t)(empty[s] >> pixel & 1);
+            for (int c = 0; c < 3; c++) {
+                shading->sum[corner + pixel_place[pixel]][c] +=
+                    shading->clear_linear16[c] * uncovered;
+            }
+        }
+    }
+}
+
+VEC_INLINE void push_mixed(const SubBlock *sub, unsigned mixed) {
+    unsigned left[DIP_MAX_SAMPLES];
+    unsigned empty[DIP_MAX_SAMPLES];
+    unsigned any_empty = 0;
+    for (int s = 0; s < sub->sample_count; s++) {
+        empty[s] = pixels_with(sub->patches + s * DIP_SUB_BLOCK_PIXELS, 0) & mixed;
+        left[s] = mixed & ~empty[s];
+        sub->shading->samples += (unsigned)__builtin_popcount(left[s]);
+        any_empty |= empty[s];
+    }
+    begin_sums(sub, mixed, empty, any_empty);
+    for (int s = 0; s < sub->sample_count; s++) {
+        while (left[s]) {
+            push_mixed_patch(sub, left, s);
+        }
+    }
+}
+
+static void clear_pixels(const SubBlock *sub, unsigned left) {
+    const DipTileShading *shading = sub->shading;
+    for (; left; left &= left - 1) {
+        const int place = sub->y0 * DIP_TILE + sub->x0 + pixel_place[__builtin_ctz(left)];
+        shading->pixels[(size_t)(place / DIP_TILE) * shading->stride + (size_t)(place % DIP_TILE)] =
+            shading->clear_rgba8;
+    }
+}
+
+// The sub-block's pixels that lie in the target.
+static unsigned pixels_in_target(const SubBlock *sub) {
+    unsigned inside = 0;
+    for (int i = 0; i < 16; i++) {
+        const bool in =
+            sub->x0 + (i & 3) < sub->shading->width && sub->y0 + (i >> 2) < sub->shading->height;
+        inside |= (unsigned)in << i;
+    }
+    return inside;
+}
+
+// Pixels among `left`, held by one draw each, whose draw has passes.
+static unsigned pixels_in_passes(const SubBlock *sub, const uint32_t *draws, unsigned left) {
+    unsigned found = 0;
+    while (left) {
+        const uint32_t draw = draws[__builtin_ctz(left)];
+        const unsigned pixels = pixels_with(draws, draw) & left;
+        left &= ~pixels;
+        found |= passes_of(sub->shading, draw) ? pixels : 0;
+    }
+    return found;
+}
+
+static void find_draws(const SubBlock *sub, uint32_t draws[DIP_SUB_BLOCK_PIXELS]) {
+    for (int v = 0; v < VECTORS; v++) {
+        const Vi ids = vi_load((const int32_t *)sub->ids + v * DIP_LANES);
+        vi_store((int32_t *)draws + v * DIP_LANES,
+                 gather_words(sub, ids, offsetof(DipTriangle, draw)));
+    }
+}
+
+// Pixels in the target that several triangles share, and draws with passes: the general case.
+static void collect_shared(SubBlock *sub, bool several, bool passed, unsigned inside) {
+    uint32_t draws[DIP_SUB_BLOCK_PIXELS]; // of the first samples
+    find_draws(sub, draws);
+    unsigned mixed = 0;
+    if (several || passed) {
+        find_patches(sub);
+        mixed = mixed_pixels(sub->patches, sub->sample_count, DIP_SUB_BLOCK_PIXELS) & inside;
+    }
+    const unsigned empty = pixels_with(sub->ids, 0) & inside & ~mixed;
+    unsigned uniform = inside & ~mixed & ~empty;
+    if (passed) {
+        const unsigned in_passes = pixels_in_passes(sub, draws, uniform);
+        mixed |= in_passes;
+        uniform &= ~in_passes;
+    }
+    sub->shading->samples += (unsigned)__builtin_popcount(uniform) * (unsigned)sub->sample_count;
+    if (uniform == ALL_PIXELS && pixels_with(draws, draws[0]) == ALL_PIXELS) {
+        push_whole(sub, draws[0]);
+        return;
+    }
+    clear_pixels(sub, empty);
+    push_uniform(sub, draws, uniform);
+    if (mixed) {
+        push_mixed(sub, mixed);
+    }
+}
+
+// passed: may hold triangles with passes.
+static void collect_sub_block(SubBlock *sub, bool passed) {
+    const bool within = sub->x0 + 4 <= sub->shading->width && sub->y0 + 4 <= sub->shading->height;
+    const bool several =
+        sub->sample_count > 1 && mixed_pixels(sub->ids, sub->sample_count, DIP_BLOCK_PIXELS);
+    if (within && !several && !passed && sub->ids[0] &&
+        pixels_with(sub->ids, sub->ids[0]) == ALL_PIXELS) {
+        sub->shading->samples += DIP_SUB_BLOCK_PIXELS * (unsigned)sub->sample_count;
+        push_whole(sub, draw_of(sub->shading, sub->ids[0] - 1));
+    } else {
+        collect_shared(sub, several, passed, within ? ALL_PIXELS : pixels_in_target(sub));
+    }
+}
+
+static void clear_block(DipTileShading *shading, int block) {
+    const int x0 = block % DIP_TILE_BLOCKS * DIP_BLOCK;
+    const int y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK;
+    for (int y = y0; y < y0 + DIP_BLOCK && y < shading->height; y++) {
+        for (int x = x0; x < x0 + DIP_BLOCK && x < shading->width; x++) {
+            shading->pixels[(size_t)y * shading->stride + (size_t)x] = shading->clear_rgba8;
+        }
+    }
+}
+
+VEC_INLINE bool is_drawn(const DipTile *tile, int block) {
+    const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK;
+    const int y = block / DIP_TILE_BLOCKS * DIP_BLOCK;
+    return x >= tile->left && y >= tile->top && x < DIP_TILE - tile->right &&
+           y < DIP_TILE - tile->bottom;
+}
+
+void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
+    const DipTile *tile = shading->tile;
+    for (int block = 0; block < DIP_BLOCKS; block++) {
+        if (!is_drawn(tile, block)) {
+            continue;
+        }
+        if (!(tile->touched >> block & 1)) {
+            clear_block(shading, block);
+            continue;
+        }
+        const uint32_t *ids = tile->id + dip_tile_index(tile, block, 0);
+        for (int quarter = 0; quarter < 4; quarter++) {
+            SubBlock sub; // its patches are found when asked for
+            sub.shading = shading;
+            sub.ids = ids + quarter * DIP_SUB_BLOCK_PIXELS;
+            sub.sample_count = tile->pattern->count;
+            sub.x0 = block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * DIP_SUB_BLOCK;
+            sub.y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * DIP_SUB_BLOCK;
+            collect_sub_block(&sub, tile->passed >> block & 1);
+        }
+    }
+}

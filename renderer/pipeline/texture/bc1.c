@@ -1,0 +1,58 @@
+// BC1 blocks: encoding through stb_dxt, decoding to packed texels.
+#include "renderer/pipeline/texture/bc1.h"
+
+#include "renderer/base/srgb.h"
+#include "renderer/pipeline/texture/texture_layout.h"
+
+#define STB_DXT_STATIC
+#define STB_DXT_IMPLEMENTATION
+#include <stb/stb_dxt.h>
+
+void dip_bc1_encode(const uint8_t rgba8[64], uint8_t block[DIP_BC1_BYTES]) {
+    stb_compress_dxt_block(block, rgba8, 0, STB_DXT_NORMAL);
+}
+
+// Code c begins at the first root whose square reaches the light of c - 1/2.
+static void fill_codes(uint8_t *codes, int last) {
+    int code = 0;
+    double end = dip_srgb_decode(0.5 / 255.0);
+    for (int i = 0; i <= last; i++) {
+        const double root = i / (double)last;
+        while (code < 255 && root * root >= end) {
+            code++;
+            end = dip_srgb_decode((code + 0.5) / 255.0);
+        }
+        codes[i] = (uint8_t)code;
+    }
+}
+
+void dip_root_codes_fill(DipRootCodes *codes) {
+    fill_codes(codes->of16, 65535);
+    fill_codes(codes->of10, 1023);
+}
+
+void dip_bc1_light_fill(DipBc1Light *light) {
+    for (int i = 0; i <= 6 * 31; i++) {
+        light->of5[i] = dip_srgb_decode(i / (6.0 * 31.0));
+    }
+    for (int i = 0; i <= 6 * 63; i++) {
+        light->of6[i] = dip_srgb_decode(i / (6.0 * 63.0));
+    }
+}
+
+void dip_bc1_palette(const DipBc1Light *light, const uint8_t block[DIP_BC1_BYTES],
+                     uint32_t texels[4]) {
+    // Sixths of the first colour; the rest are the second's. Where the first is not the greater
+    // number the third colour is half way between and the fourth black.
+    static const int shares[2][4] = {{6, 0, 3, 0}, {6, 0, 4, 2}};
+    const int a = block[0] | block[1] << 8;
+    const int b = block[2] | block[3] << 8;
+    for (int i = 0; i < 4; i++) {
+        const int s = shares[a > b][i];
+        const int t = 6 - s;
+        const double rgb[3] = {light->of5[s * (a >> 11) + t * (b >> 11)],
+                               light->of6[s * (a >> 5 & 63) + t * (b >> 5 & 63)],
+                               light->of5[s * (a & 31) + t * (b & 31)]};
+        texels[i] = a <= b && i == 3 ? 0 : dip_texel_pack(rgb);
+    }
+}

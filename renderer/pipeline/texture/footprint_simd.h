@@ -1,0 +1,191 @@
+// Footprints of fragments in a texture: level of detail and probes, for sample_simd.c.
+// docs/picture.md defines them.
+#ifndef DIP_RENDERER_PIPELINE_TEXTURE_FOOTPRINT_SIMD_H
+#define DIP_RENDERER_PIPELINE_TEXTURE_FOOTPRINT_SIMD_H
+
+#include "renderer/pipeline/shader.h"
+#include "renderer/pipeline/texture/texture_layout.h"
+#include "renderer/simd/vec.h"
+
+// Texels per pixel. The greatest exceeds every texture, and the product of two squares is finite;
+// the square of the least is a normal number.
+#define MAX_DERIVATIVE 1e9f
+#define MIN_LENGTH     1e-18f
+
+// The Jacobian in texels of level 0 per pixel.
+typedef struct Jacobian {
+    Vf ux, vx; // dX
+    Vf uy, vy; // dY
+} Jacobian;
+
+// log2 of positive normal numbers: exact at powers of two and monotone; error below 1e-5. On
+// [1, 2), log2(1 + t) = t (1 + (1 - t) r(t)), r interpolated at Chebyshev points.
+VEC_INLINE Vf log2_of(Vf x) {
+    const Vi bits = vi_bits(x);
+    const Vf exponent = vf_from_int((bits >> 23) - 127);
+    const Vf t = vf_bits((bits & 0x7fffff) | 0x3f800000) - 1.0f;
+    const Vf t2 = t * t; // r in a form that is short rather than long and thin
+    const Vf r = (0.442654073f - 0.276569515f * t) +
+                 t2 * ((0.184100822f - 0.0972018316f * t) + 0.0256912634f * t2);
+    return exponent + t * (1.0f + (1.0f - t) * r);
+}
+
+// Bounded to +-MAX_DERIVATIVE; NaN becomes the bound, so that it leads to the smallest level.
+VEC_INLINE Vf bounded(Vf v) {
+    return vf_max(vf_min(v, vf_splat(MAX_DERIVATIVE)), vf_splat(-MAX_DERIVATIVE));
+}
+
+VEC_INLINE Jacobian read_jacobian(const DipFragmentBatch *batch, const DipTexture *texture,
+                                  int slot, int i) {
+    const float width = (float)texture->width;
+    const float height = (float)texture->height;
+    return (Jacobian){
+        vf_load(batch->slot_dx[slot] + i) * width, vf_load(batch->slot_dx[slot + 1] + i) * height,
+        vf_load(batch->slot_dy[slot] + i) * width, vf_load(batch->slot_dy[slot + 1] + i) * height};
+}
+
+VEC_INLINE Jacobian bounded_jacobian(Jacobian j) {
+    return (Jacobian){bounded(j.ux), bounded(j.vx), bounded(j.uy), bounded(j.vy)};
+}
+
+// The major axis of a footprint in texels, with the squares of its length and of the minor one's as
+// it counts: no shorter than the greatest anisotropy allows.
+typedef struct Axis {
+    Vf u, v;
+    Vf length2;
+    Vf minor2;
+} Axis;
+
+// Plain AF: the better of the screen's frame and one turned by 45 degrees, the latter capped at
+// half; hence a level of detail that depends on the angle. In the turned frame the derivatives are
+// (dX + dY) / sqrt 2 and (dY - dX) / sqrt 2, their squares half the sum plus and minus dX dY.
+// Squares of ratios are compared by their products, without division.
+VEC_INLINE Axis two_frame_axis(Jacobian j, int max_anisotropy) {
+    const float max = (float)max_anisotropy;
+    const float half = max_anisotropy > 2 ? 0.5f * max : 1.0f;
+    const Vf x2 = j.ux * j.ux + j.vx * j.vx;
+    const Vf y2 = j.uy * j.uy + j.vy * j.vy;
+    const Vf dot = j.ux * j.uy + j.vx * j.vy;
+    const Vf mean = (x2 + y2) * 0.5f;
+    const Vf screen_long = vf_max(x2, y2);
+    const Vf screen_short = vf_min(x2, y2);
+    const Vf turned_long = mean + vf_abs(dot);
+    const Vf turned_short =
+        vf_max(vf_max(mean - vf_abs(dot), vf_splat(0.0f)), turned_long * (1.0f / (half * half)));
+    const Mask turn = vf_lt(screen_long * turned_short, turned_long * screen_short);
+    const Mask y_longer = vf_lt(x2, y2);
+    const Mask opposed = vf_lt(dot, vf_splat(0.0f));
+    const float c = 0.70710678f;
+    const Vf turned_u = (j.uy + vf_select(opposed, -j.ux, j.ux)) * c;
+    const Vf turned_v = (j.vy + vf_select(opposed, -j.vx, j.vx)) * c;
+    const Vf long2 = vf_select(turn, turned_long, screen_long);
+    const Vf short2 = vf_select(turn, turned_short, screen_short);
+    return (Axis){vf_select(turn, turned_u, vf_select(y_longer, j.uy, j.ux)),
+                  vf_select(turn, turned_v, vf_select(y_longer, j.vy, j.vx)), long2,
+                  vf_max(short2, long2 * (1.0f / (max * max)))};
+}
+
+// Advanced AF: the ellipse's axes M >= m, the singular values of the Jacobian J in closed form,
+// which does not cancel: M = |(e, h)| + |(f, g)|, m = |det J| / M. The major direction is the
+// larger column of J J^T - m^2 I.
+VEC_INLINE Axis ellipse_axis(Jacobian j, int max_anisotropy) {
+    const Vf e = (j.ux + j.vy) * 0.5f;
+    const Vf f = (j.ux - j.vy) * 0.5f;
+    const Vf g = (j.vx + j.uy) * 0.5f;
+    const Vf h = (j.vx - j.uy) * 0.5f;
+    const Vf eh2 = e * e + h * h;
+    const Vf fg2 = f * f + g * g;
+    const Vf length2 =
+        vf_max((eh2 + fg2) + 2.0f * vf_sqrt(eh2 * fg2), vf_splat(MIN_LENGTH * MIN_LENGTH));
+    const Vf determinant = j.ux * j.vy - j.uy * j.vx;
+    const Vf minor2 = determinant * determinant / length2;
+    const Vf across = j.ux * j.vx + j.uy * j.vy;
+    const Vf along_u = (j.ux * j.ux + j.uy * j.uy) - minor2;
+    const Vf along_v = (j.vx * j.vx + j.vy * j.vy) - minor2;
+    const Mask by_v = vf_lt(along_u, along_v);
+    const Vf u = vf_select(by_v, across, along_u);
+    const Vf v = vf_select(by_v, along_v, across);
+    const Vf norm2 = vf_max(u * u + v * v, vf_splat(MIN_LENGTH * MIN_LENGTH));
+    const Vf scale = vf_sqrt(length2 / norm2);
+    const float max = (float)max_anisotropy;
+    return (Axis){u * scale, v * scale, length2,
+                  vf_max(vf_min(minor2, length2), length2 * (1.0f / (max * max)))};
+}
+
+// ceil(ratio - 1e-4) for ratios of 1..16.
+VEC_INLINE Vi probe_count(Vf ratio) {
+    const Vf at = ratio - 1e-4f;
+    const Vi whole = vi_from_float(at);
+    return whole + vi_select(vf_lt(vf_from_int(whole), at), vi_splat(1), vi_splat(0));
+}
+
+// 1 / probes, for 1..16.
+VEC_INLINE Vf inverse_of(Vi probes) {
+    static const float inverses[16] = {
+        1.0f / 16, 1.0f,     1.0f / 2,  1.0f / 3,  1.0f / 4,  1.0f / 5,  1.0f / 6,  1.0f / 7,
+        1.0f / 8,  1.0f / 9, 1.0f / 10, 1.0f / 11, 1.0f / 12, 1.0f / 13, 1.0f / 14, 1.0f / 15};
+    return vf_lookup16(inverses, probes & 15);
+}
+
+// Trilinear: the square of the longer derivative.
+VEC_INLINE Vf isotropic_minor2(Jacobian j) {
+    // Not finite: the bound, so that it leads to the smallest level.
+    const Vf most = vf_splat(MAX_DERIVATIVE * MAX_DERIVATIVE);
+    const Vf dx2 = vf_min(j.ux * j.ux + j.vx * j.vx, most);
+    const Vf dy2 = vf_min(j.uy * j.uy + j.vy * j.vy, most);
+    return vf_max(dx2, dy2);
+}
+
+VEC_INLINE Axis anisotropic_axis(const DipSampler *sampler, Jacobian j) {
+    const Jacobian bounds = bounded_jacobian(j);
+    return sampler->advanced ? ellipse_axis(bounds, sampler->max_anisotropy)
+                             : two_frame_axis(bounds, sampler->max_anisotropy);
+}
+
+// The middle quarter of the way from a level to the next takes all of the blend between them;
+// before it the finer level is read alone, after it the coarser.
+VEC_INLINE Vi narrow_blend(Vi lod8) {
+    const Vi fraction = ((lod8 & 255) - 96) * 4;
+    return (lod8 & ~255) + vi_min(vi_max(fraction, vi_splat(0)), vi_splat(256));
+}
+
+// lambda = log2 of the minor axis, from its square, rounded to 1/256 level, biased, clamped.
+VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
+    const Vf lambda = log2_of(vf_max(minor2, vf_splat(MIN_LENGTH * MIN_LENGTH))) * 0.5f;
+    const Vi lod8 = vi_from_float(vf_floor(lambda * 256.0f + 0.5f)) + sampler->bias_lod8;
+    const int32_t last = (sampler->texture->level_count - 1) * 256;
+    const int32_t min = sampler->min_lod8 < last ? sampler->min_lod8 : last;
+    return vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
+}
+
+// The probes of an anisotropic footprint on the nearer of its levels: no closer than a texel of the
+// finest level that may be read, since more would read the same texels again.
+// halve: 1: half of them, rounded up; 0: all.
+VEC_INLINE Vi count_probes(const DipSampler *sampler, const Axis *axis, int halve) {
+    const int last = sampler->texture->level_count - 1;
+    const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
+    const float finest = 1.0f / (float)(1 << min);
+    const Vf texels2 = axis->length2 * (finest * finest);
+    const Vf ratio2 = axis->length2 / vf_max(axis->minor2, vf_splat(MIN_LENGTH * MIN_LENGTH));
+    const Vi full = probe_count(vf_sqrt(vf_max(vf_min(ratio2, texels2), vf_splat(1.0f))));
+    return (full + halve) >> halve;
+}
+
+// Of the probes of the nearer level how many the farther one takes, whose texels are twice as
+// large: half, and the more the nearer the level is to being read alone.
+VEC_INLINE Vi count_far_probes(Vi near_count, Vi fraction) {
+    return (near_count * vi_max(fraction, vi_splat(128)) + 255) >> 8;
+}
+
+// Half of the steps between probes of equal weight, texture coordinates: N of them lie at
+// (k + 1/2) / N - 1/2 of the major axis about its middle, hence N - 1 half steps before it.
+typedef struct Probes {
+    Vf half_u, half_v;
+} Probes;
+
+VEC_INLINE Probes place_probes(const DipTexture *texture, const Axis *axis, Vf inverse_count) {
+    return (Probes){axis->u * (0.5f / (float)texture->width) * inverse_count,
+                    axis->v * (0.5f / (float)texture->height) * inverse_count};
+}
+
+#endif

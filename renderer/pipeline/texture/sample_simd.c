@@ -1,0 +1,552 @@
+// Texture reads: probes and filtering, compiled once per instruction set. docs/picture.md defines
+// them.
+//
+// Colours are filtered in 16-bit fixed point: a texel's codes are squared to linear light and
+// weighted by 16-bit fractions, keeping the upper half of each product. Two texels beside each
+// other are fetched at once and stay side by side ("pair order", simd/pairs.h) until their sum.
+// Sums are whole numbers, so no order of lanes or probes matters.
+#include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/texture/footprint_simd.h"
+#include "renderer/pipeline/texture/texture_layout.h"
+#include "renderer/simd/pairs.h"
+
+#include <string.h>
+
+enum { VECTORS = DIP_FRAGMENT_BATCH / DIP_LANES };
+
+// A way to read a texture: constants of each inlined copy of the loops below.
+typedef struct Way {
+    bool anisotropic; // several probes
+    bool in_bits;     // addresses are fractions of the texture in 32 bits, which wrap by themselves
+} Way;
+
+// Probes of a batch' footprints on one of the two levels that these blend. Places are fractions in
+// units of 2^-32, or the bits of floats where the way says so.
+typedef struct Line {
+    Vi count[VECTORS];  // of probes; 0: the level is not read
+    Vf weight[VECTORS]; // of a probe in the footprint. This and what follows: anisotropic only
+    Vu u[VECTORS];      // of the first probe
+    Vu v[VECTORS];
+    Vu step_u[VECTORS];
+    Vu step_v[VECTORS];
+} Line;
+
+// The footprints of a batch, found before any texel is read: their long chains of dependent
+// operations overlap, which they would not with the reads in between.
+typedef struct Footprints {
+    Vi lod8[VECTORS];
+    Vu u[VECTORS]; // of the middle
+    Vu v[VECTORS];
+    Line near;
+    Line far;
+} Footprints;
+
+// The fraction of a coordinate in units of 2^-32. Infinities and NaN become some fraction.
+VEC_INLINE Vu fraction32(Vf coordinate) {
+    const Vf unit = coordinate - vf_floor(coordinate);
+    const Vf bounded = vf_max(vf_min(unit, vf_splat(0.99999994f)), vf_splat(0.0f));
+    return (Vu)vi_from_float((bounded - 0.5f) * 4294967296.0f) + 0x80000000u;
+}
+
+// A step likewise, modulo 1: the nearest of its values, in -1/2 .. 1/2, so that small steps keep
+// their precision.
+VEC_INLINE Vu step32(Vf step) {
+    const Vf near = step - vf_floor(step + 0.5f);
+    const Vf bounded = vf_max(vf_min(near, vf_splat(0.49999997f)), vf_splat(-0.5f));
+    return (Vu)vi_from_float(bounded * 4294967296.0f);
+}
+
+// Steps are taken from their halves, since half of what wraps may be off by half.
+VEC_INLINE void place_probes32(const Probes *probes, Vu u, Vu v, Line *line, int n) {
+    const Vu gaps = (Vu)line->count[n] - 1u;
+    const Vu half_u = step32(probes->half_u);
+    const Vu half_v = step32(probes->half_v);
+    line->u[n] = u - gaps * half_u;
+    line->v[n] = v - gaps * half_v;
+    line->step_u[n] = half_u + half_u;
+    line->step_v[n] = half_v + half_v;
+}
+
+// A line's probes in vector n; level_weight: of the level.
+VEC_INLINE void place_line(Line *line, const DipTexture *texture, Way way, const Axis *axis,
+                           const Footprints *footprints, Vf level_weight, int n) {
+    const Vf inverse = inverse_of(line->count[n]);
+    const Probes probes = place_probes(texture, axis, inverse);
+    line->weight[n] = level_weight * inverse;
+    if (way.in_bits) {
+        place_probes32(&probes, footprints->u[n], footprints->v[n], line, n);
+        return;
+    }
+    const Vf gaps = vf_from_int(line->count[n] - 1);
+    line->u[n] = (Vu)((Vf)footprints->u[n] - gaps * probes.half_u);
+    line->v[n] = (Vu)((Vf)footprints->v[n] - gaps * probes.half_v);
+    line->step_u[n] = (Vu)(probes.half_u + probes.half_u);
+    line->step_v[n] = (Vu)(probes.half_v + probes.half_v);
+}
+
+// The batch's work so far, a sum per lane: of probes of the nearer level, and of bilinear reads.
+typedef struct LaneWork {
+    Vi probes;
+    Vi reads;
+} LaneWork;
+
+// Adds the work of the lanes that are the batch's own.
+VEC_INLINE void count_work(LaneWork *work, Vi near, Vi far, int lanes) {
+    const Mask own = vi_lt(vi_iota(), vi_splat(lanes));
+    work->probes += vi_select(own, near, vi_splat(0));
+    work->reads += vi_select(own, near + far, vi_splat(0));
+}
+
+// In short loops, for the same reason. textures: how many are read there.
+VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
+                                int slot, int textures, Footprints *out) {
+    const int count = (batch->count + DIP_LANES - 1) / DIP_LANES;
+    const DipTexture *texture = sampler->texture;
+    Axis axes[VECTORS];
+    for (int n = 0; n < count; n++) {
+        const Jacobian jacobian = read_jacobian(batch, texture, slot, n * DIP_LANES);
+        if (way.anisotropic) {
+            axes[n] = anisotropic_axis(sampler, jacobian);
+        } else {
+            axes[n].minor2 = isotropic_minor2(jacobian);
+        }
+    }
+    for (int n = 0; n < count; n++) {
+        out->lod8[n] = find_level(sampler, axes[n].minor2);
+    }
+    const int cheap = sampler->cheap;
+    for (int n = 0; cheap && n < count; n++) {
+        out->lod8[n] = narrow_blend(out->lod8[n]);
+    }
+    LaneWork work = {vi_splat(0), vi_splat(0)};
+    for (int n = 0; n < count; n++) {
+        const Vi fraction = out->lod8[n] & 255;
+        const Vi near = way.anisotropic ? count_probes(sampler, &axes[n], cheap) : vi_splat(1);
+        const Vi most = way.anisotropic ? count_far_probes(near, fraction) : vi_splat(1);
+        const Vi far = vi_select(vi_lt(vi_splat(0), fraction), most, vi_splat(0));
+        if (way.anisotropic) {
+            out->near.count[n] = near;
+            out->far.count[n] = far;
+        }
+        count_work(&work, near, far, batch->count - n * DIP_LANES);
+    }
+    for (int n = 0; n < count; n++) {
+        const Vf u = vf_load(batch->slot[slot] + n * DIP_LANES);
+        const Vf v = vf_load(batch->slot[slot + 1] + n * DIP_LANES);
+        out->u[n] = way.in_bits ? fraction32(u) : (Vu)u;
+        out->v[n] = way.in_bits ? fraction32(v) : (Vu)v;
+        if (way.anisotropic) {
+            const Vf far = vf_from_int(out->lod8[n] & 255) * (1.0f / 256.0f);
+            place_line(&out->near, texture, way, &axes[n], out, 1.0f - far, n);
+            place_line(&out->far, texture, way, &axes[n], out, far, n);
+        }
+    }
+    batch->work.probes += (uint64_t)vi_sum(work.probes) * (uint64_t)textures;
+    batch->work.texels += (uint64_t)vi_sum(work.reads) * (uint64_t)textures * 4;
+}
+
+// --- addresses ---------------------------------------------------------------------------------
+
+// A level's table entries per lane.
+typedef struct Level {
+    Vi offset;
+    Vi stride;
+    Vi stride_pairs; // stride, in pair order
+    Vi width;        // texels; in bits: their log2
+    Vi height;
+} Level;
+
+// A bilinear read: the first texel's index and its place in 1/256 texel, the whole texels included.
+typedef struct Taps {
+    Vi index;
+    Vi x8;
+    Vi y8;
+} Taps;
+
+VEC_INLINE Level read_level(const DipTexture *texture, Way way, Vi level) {
+    Level out;
+    out.offset = vi_lookup16(texture->level_offset, level);
+    if (way.in_bits) {
+        out.width = vi_lookup16(texture->level_log2_width, level);
+        out.height = vi_lookup16(texture->level_log2_height, level);
+        out.stride = (vi_splat(1) << out.width) + 1;
+    } else {
+        out.width = vi_lookup16(texture->level_width, level);
+        out.height = vi_lookup16(texture->level_height, level);
+        out.stride = out.width + 1;
+    }
+    out.stride_pairs = vi_pair_order(out.stride);
+    return out;
+}
+
+// A coordinate to 1/256 texel of a level of any size, texel centres at whole numbers. Before the
+// first centre comes the last texel. Infinities and NaN become 0 or 1, so that no address leaves
+// the texture.
+VEC_INLINE Vi address(Vf coordinate, DipWrap wrap, Vi size) {
+    const Vf unwrapped = wrap == DIP_WRAP_REPEAT ? coordinate - vf_floor(coordinate) : coordinate;
+    const Vf unit = vf_min(vf_max(unwrapped, vf_splat(0.0f)), vf_splat(1.0f));
+    const Vi at = vi_from_float(unit * vf_from_int(size << 8)) - 128;
+    const Vi before = at >> 31; // all ones where negative
+    return wrap == DIP_WRAP_REPEAT ? at + (before & (size << 8)) : at & ~before;
+}
+
+// A vector's probes on a level, one after another.
+typedef struct Walk {
+    Level level;
+    Vu u, v; // in bits: less half a texel, so that texel centres lie at multiples of one
+    Vu step_u, step_v;
+    int probe;
+    int count; // the greatest of the lanes
+} Walk;
+
+// line: of an anisotropic footprint.
+VEC_INLINE Walk begin_walk(const DipTexture *texture, Way way, Vi level,
+                           const Footprints *footprints, const Line *line, int n) {
+    Walk walk = {.level = read_level(texture, way, level),
+                 .u = way.anisotropic ? line->u[n] : footprints->u[n],
+                 .v = way.anisotropic ? line->v[n] : footprints->v[n],
+                 .count = 1};
+    if (way.in_bits) {
+        walk.u -= vu_splat(0x80000000u) >> (Vu)walk.level.width;
+        walk.v -= vu_splat(0x80000000u) >> (Vu)walk.level.height;
+    }
+    if (way.anisotropic) {
+        walk.step_u = line->step_u[n];
+        walk.step_v = line->step_v[n];
+        walk.count = vi_greatest(line->count[n]);
+    }
+    return walk;
+}
+
+VEC_INLINE void next_probe(Walk *walk, Way way) {
+    walk->probe++;
+    if (way.in_bits && way.anisotropic) {
+        walk->u += walk->step_u;
+        walk->v += walk->step_v;
+    }
+}
+
+// The read at the walk's place.
+VEC_INLINE Taps find_taps(const DipTexture *texture, Way way, const Walk *walk) {
+    const Level *level = &walk->level;
+    Taps taps;
+    if (way.in_bits) {
+        taps.x8 = (Vi)(walk->u >> (Vu)(24 - level->width));
+        taps.y8 = (Vi)(walk->v >> (Vu)(24 - level->height));
+        const Vi y = taps.y8 >> 8;
+        taps.index = (level->offset + (taps.x8 >> 8)) + ((y << level->width) + y);
+    } else {
+        const float probe = (float)walk->probe;
+        const Vf u = way.anisotropic ? (Vf)walk->u + (Vf)walk->step_u * probe : (Vf)walk->u;
+        const Vf v = way.anisotropic ? (Vf)walk->v + (Vf)walk->step_v * probe : (Vf)walk->v;
+        taps.x8 = address(u, texture->wrap_u, level->width);
+        taps.y8 = address(v, texture->wrap_v, level->height);
+        taps.index = (level->offset + (taps.x8 >> 8)) + (taps.y8 >> 8) * level->stride;
+    }
+    return taps;
+}
+
+VEC_INLINE Vi near_level(Vi lod8) {
+    return lod8 >> 8;
+}
+
+VEC_INLINE Vi far_level(const DipSampler *sampler, Vi lod8) {
+    return vi_min((lod8 >> 8) + 1, vi_splat(sampler->texture->level_count - 1));
+}
+
+// The level that mip debugging shows for it.
+VEC_INLINE Vi shown_level(const DipSampler *sampler, Vi level) {
+    return sampler->shown ? vi_lookup16(sampler->shown_level, level) : level;
+}
+
+// --- colour ------------------------------------------------------------------------------------
+
+// Sums of weighted texels in pair order, 16 bits per channel: red and green, and blue.
+typedef struct PairSum {
+    VuPair red_green;
+    VuPair blue;
+} PairSum;
+
+// Sums of such sums, 32 bits per channel.
+typedef struct WideSum {
+    VuPair red_green; // as they come, modulo 2^32: less red's sum it leaves green's
+    VuPair red;
+    VuPair blue;
+} WideSum;
+
+#define NO_PAIR                                                                                    \
+    { vu_splat(0), vu_splat(0) }
+#define NO_SUM      ((PairSum){NO_PAIR, NO_PAIR})
+#define NO_WIDE_SUM ((WideSum){NO_PAIR, NO_PAIR, NO_PAIR})
+
+VEC_INLINE void widen(WideSum *wide, const PairSum *sum) {
+    wide->red_green.a += sum->red_green.a;
+    wide->red_green.b += sum->red_green.b;
+    wide->red.a += sum->red_green.a >> 16;
+    wide->red.b += sum->red_green.b >> 16;
+    wide->blue.a += sum->blue.a;
+    wide->blue.b += sum->blue.b;
+}
+
+// Adds half of the pairs: linear light, the square of the codes, times a 16-bit weight.
+VEC_INLINE void add_texels(Vu *red_green, Vu *blue, Vu texels, Vu weight) {
+    const Vu b = vu_dot16(texels & DIP_TEXEL_BLUE, DIP_TEXEL_BLUE_PLACES);
+    *red_green += vu_mulhi16(vu_mulhi16(texels, texels), weight);
+    *blue += vu_mulhi16(vu_mulhi16(b, b), weight);
+}
+
+VEC_INLINE void add_row(PairSum *sum, const DipTexture *texture, Vi index_pairs, VuPair weight) {
+    const VuPair texels = vu_gather_pairs(texture->texels, index_pairs);
+    add_texels(&sum->red_green.a, &sum->blue.a, texels.a, weight.a);
+    add_texels(&sum->red_green.b, &sum->blue.b, texels.b, weight.b);
+}
+
+// Takes the lanes that have no further probe out of a ramp. count: of probes, as both values.
+VEC_INLINE VuPair has_probe(VuPair ramp, VuPair count, int probe) {
+    const Vi at = vi_splat(probe);
+    return (VuPair){(Vu)vi_select(vi_lt(at, (Vi)count.a), (Vi)ramp.a, vi_splat(0)),
+                    (Vu)vi_select(vi_lt(at, (Vi)count.b), (Vi)ramp.b, vi_splat(0))};
+}
+
+// The weights of a bilinear read's four texels.
+typedef struct Weights {
+    VuPair upper;
+    VuPair lower;
+} Weights;
+
+VEC_INLINE Weights join_weights(VuPair across, VuPair upper, VuPair lower) {
+    return (Weights){{vu_mulhi16(across.a, upper.a), vu_mulhi16(across.b, upper.b)},
+                     {vu_mulhi16(across.a, lower.a), vu_mulhi16(across.b, lower.b)}};
+}
+
+// count: of the lanes' probes, as both values; a lane that has no such probe weighs nothing.
+VEC_INLINE Weights weigh_probe(const Taps *taps, VuPair count, int probe) {
+    const VuPair down = vu_pair_both(taps->y8);
+    return join_weights(has_probe(vu_pair_ramp(taps->x8), count, probe), (VuPair){~down.a, ~down.b},
+                        down);
+}
+
+// Times a level's weight.
+VEC_INLINE Weights weigh_level(const Taps *taps, VuPair weight) {
+    const VuPair down = vu_pair_both(taps->y8);
+    const VuPair lower = {vu_mulhi16(down.a, weight.a), vu_mulhi16(down.b, weight.b)};
+    return join_weights(vu_pair_ramp(taps->x8), (VuPair){weight.a - lower.a, weight.b - lower.b},
+                        lower);
+}
+
+VEC_INLINE void add_taps(PairSum *sum, const DipTexture *texture, const Level *level,
+                         const Taps *taps, const Weights *weights) {
+    const Vi index = vi_pair_order(taps->index);
+    add_row(sum, texture, index, weights->upper);
+    add_row(sum, texture, index + level->stride_pairs, weights->lower);
+}
+
+// Light of a sum, 1 as what white comes to within 6: the squares of its codes less what rounded
+// products lose.
+VEC_INLINE void sum_channels(const WideSum *sum, Vf light[3]) {
+    const Vu red = vu_pair_sum(sum->red);
+    light[0] = vf_from_int((Vi)red) * (1.0f / 65526.0f);
+    light[1] = vf_from_int((Vi)(vu_pair_sum(sum->red_green) - (red << 16))) * (1.0f / 65526.0f);
+    light[2] = vf_from_int((Vi)vu_pair_sum(sum->blue)) * (1.0f / 65402.0f);
+}
+
+// The textures that are read at the same footprints, one or two.
+typedef struct Read {
+    const DipTexture *texture[2];
+    int count;
+} Read;
+
+// Adds vector n's probes on a level to its light.
+VEC_INLINE void add_line(const Read *read, Way way, Vi level, const Footprints *footprints,
+                         const Line *line, int n, Vf light[2][3]) {
+    const VuPair count = vu_pair_same((Vu)line->count[n]);
+    WideSum sum[2] = {NO_WIDE_SUM, NO_WIDE_SUM};
+    Walk walk = begin_walk(read->texture[0], way, level, footprints, line, n);
+    while (walk.probe < walk.count) {
+        const Taps taps = find_taps(read->texture[0], way, &walk);
+        const Weights weights = weigh_probe(&taps, count, walk.probe);
+        for (int t = 0; t < read->count; t++) {
+            PairSum probe = NO_SUM;
+            add_taps(&probe, read->texture[t], &walk.level, &taps, &weights);
+            widen(&sum[t], &probe);
+        }
+        next_probe(&walk, way);
+    }
+    for (int t = 0; t < read->count; t++) {
+        Vf of_level[3];
+        sum_channels(&sum[t], of_level);
+        for (int c = 0; c < 3; c++) {
+            light[t][c] += of_level[c] * line->weight[n];
+        }
+    }
+}
+
+// Adds vector n's only read of a level, by the level's weight.
+VEC_INLINE void add_level(const Read *read, Way way, Vi level, const Footprints *footprints, int n,
+                          VuPair weight, PairSum sum[2]) {
+    const Walk walk = begin_walk(read->texture[0], way, level, footprints, NULL, n);
+    const Taps taps = find_taps(read->texture[0], way, &walk);
+    const Weights weights = weigh_level(&taps, weight);
+    for (int t = 0; t < read->count; t++) {
+        add_taps(&sum[t], read->texture[t], &walk.level, &taps, &weights);
+    }
+}
+
+VEC_INLINE void read_vector(const Read *read, const DipSampler *sampler, Way way,
+                            const Footprints *footprints, int n, Vf light[2][3]) {
+    const Vi lod8 = footprints->lod8[n];
+    const Vi near = shown_level(sampler, near_level(lod8));
+    const Vi far = shown_level(sampler, far_level(sampler, lod8));
+    const bool blends = mask_any(vi_lt(vi_splat(0), lod8 & 255));
+    if (way.anisotropic) {
+        for (int i = 0; i < 3 * read->count; i++) {
+            light[i / 3][i % 3] = vf_splat(0.0f);
+        }
+        add_line(read, way, near, footprints, &footprints->near, n, light);
+        if (blends) {
+            add_line(read, way, far, footprints, &footprints->far, n, light);
+        }
+        return;
+    }
+    const VuPair weight = vu_pair_both(lod8 & 255);
+    PairSum sum[2] = {NO_SUM, NO_SUM};
+    add_level(read, way, near, footprints, n, (VuPair){~weight.a, ~weight.b}, sum);
+    if (blends) {
+        add_level(read, way, far, footprints, n, weight, sum);
+    }
+    for (int t = 0; t < read->count; t++) {
+        WideSum wide = NO_WIDE_SUM;
+        widen(&wide, &sum[t]);
+        sum_channels(&wide, light[t]);
+    }
+}
+
+VEC_INLINE void sample_read(DipFragmentBatch *batch, const DipSampler *sampler, Way way, Read read,
+                            int u_slot, float (*const out[2])[DIP_FRAGMENT_BATCH]) {
+    const int vectors = (batch->count + DIP_LANES - 1) / DIP_LANES;
+    Footprints footprints;
+    find_footprints(batch, sampler, way, u_slot, read.count, &footprints);
+    for (int n = 0; n < vectors; n++) {
+        Vf light[2][3];
+        read_vector(&read, sampler, way, &footprints, n, light);
+        for (int t = 0; t < read.count; t++) {
+            for (int c = 0; c < 3; c++) {
+                vf_store(out[t][c] + n * DIP_LANES, light[t][c]);
+            }
+        }
+    }
+}
+
+VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
+                              int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
+    const Read read = {{sampler->shown ? sampler->shown : sampler->texture, NULL}, 1};
+    float(*const outs[2])[DIP_FRAGMENT_BATCH] = {out, NULL};
+    sample_read(batch, sampler, way, read, u_slot, outs);
+}
+
+// --- alpha -------------------------------------------------------------------------------------
+
+VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const Level *level, const Taps *taps) {
+    const Vf fx = vf_from_int(taps->x8 & 255);
+    const Vf fy = vf_from_int(taps->y8 & 255);
+    const Vf gx = 256.0f - fx;
+    const Vf gy = 256.0f - fy;
+    const Vi upper = (Vi)vu_gather_bytes(texture->alpha, taps->index);
+    const Vi lower = (Vi)vu_gather_bytes(texture->alpha, taps->index + level->stride);
+    return (vf_from_int(upper & 255) * (gx * gy) + vf_from_int(upper >> 8 & 255) * (fx * gy)) +
+           (vf_from_int(lower & 255) * (gx * fy) + vf_from_int(lower >> 8 & 255) * (fx * fy));
+}
+
+// The mean over the probes of vector n on a level, in units of 1 / (255 * 65536). It is a quotient
+// so that a constant alpha comes out exact.
+VEC_INLINE Vf mean_alpha(const DipTexture *texture, Way way, Vi level, const Footprints *footprints,
+                         const Line *line, int n) {
+    Vf total = vf_splat(0.0f);
+    Walk walk = begin_walk(texture, way, level, footprints, line, n);
+    while (walk.probe < walk.count) {
+        const Taps taps = find_taps(texture, way, &walk);
+        const Vf alpha = bilinear_alpha(texture, &walk.level, &taps);
+        total += way.anisotropic
+                     ? vf_select(vi_lt(vi_splat(walk.probe), line->count[n]), alpha, vf_splat(0.0f))
+                     : alpha;
+        next_probe(&walk, way);
+    }
+    return way.anisotropic ? total / vf_from_int(vi_max(line->count[n], vi_splat(1))) : total;
+}
+
+VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
+                             int u_slot, float *out) {
+    const DipTexture *texture = sampler->texture;
+    Footprints footprints;
+    find_footprints(batch, sampler, way, u_slot, 1, &footprints);
+    for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
+        const Vi lod8 = footprints.lod8[n];
+        const Vf fraction = vf_from_int(lod8 & 255);
+        Vf alpha = mean_alpha(texture, way, near_level(lod8), &footprints, &footprints.near, n) *
+                   (256.0f - fraction);
+        if (mask_any(vi_lt(vi_splat(0), lod8 & 255))) {
+            alpha += mean_alpha(texture, way, far_level(sampler, lod8), &footprints,
+                                &footprints.far, n) *
+                     fraction;
+        }
+        vf_store(out + i, alpha / 4278190080.0f);
+    }
+}
+
+// --- kernels -----------------------------------------------------------------------------------
+
+// Calls sample(batch, sampler, way, ...) with a way of constants.
+#define SAMPLE_BY_WAY(sample, in_bits, ...)                                                        \
+    do {                                                                                           \
+        if (sampler->max_anisotropy > 1 && (in_bits)) {                                            \
+            sample(batch, sampler, (Way){true, true}, __VA_ARGS__);                                \
+        } else if (sampler->max_anisotropy > 1) {                                                  \
+            sample(batch, sampler, (Way){true, false}, __VA_ARGS__);                               \
+        } else if (in_bits) {                                                                      \
+            sample(batch, sampler, (Way){false, true}, __VA_ARGS__);                               \
+        } else {                                                                                   \
+            sample(batch, sampler, (Way){false, false}, __VA_ARGS__);                              \
+        }                                                                                          \
+    } while (false)
+
+void DIP_KERNEL(dip_kernel_sample_colour)(DipFragmentBatch *batch, const DipSampler *sampler,
+                                          int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
+    const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
+    SAMPLE_BY_WAY(sample_colour, texture->wraps_in_bits, u_slot, out);
+}
+
+// Whether two textures have the same texels at the same places of memory and the same footprints.
+static bool reads_alike(const DipSampler *a, const DipSampler *b) {
+    const DipTexture *s = a->texture;
+    const DipTexture *t = b->texture;
+    return !a->shown && !b->shown && a->max_anisotropy == b->max_anisotropy &&
+           a->advanced == b->advanced && a->bias_lod8 == b->bias_lod8 &&
+           a->min_lod8 == b->min_lod8 && a->cheap == b->cheap && s->wrap_u == t->wrap_u &&
+           s->wrap_v == t->wrap_v && s->level_count == t->level_count &&
+           memcmp(s->level_width, t->level_width, sizeof s->level_width) == 0 &&
+           memcmp(s->level_height, t->level_height, sizeof s->level_height) == 0;
+}
+
+void DIP_KERNEL(dip_kernel_sample_colours)(DipFragmentBatch *batch,
+                                           const DipSampler *const samplers[2], int u_slot,
+                                           float (*const out[2])[DIP_FRAGMENT_BATCH]) {
+    if (!reads_alike(samplers[0], samplers[1])) {
+        DIP_KERNEL(dip_kernel_sample_colour)(batch, samplers[0], u_slot, out[0]);
+        DIP_KERNEL(dip_kernel_sample_colour)(batch, samplers[1], u_slot, out[1]);
+        return;
+    }
+    const DipSampler *sampler = samplers[0];
+    const Read read = {{sampler->texture, samplers[1]->texture}, 2};
+    SAMPLE_BY_WAY(sample_read, sampler->texture->wraps_in_bits, read, u_slot, out);
+}
+
+void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampler *sampler,
+                                         int u_slot, float *out) {
+    if (!sampler->texture->alpha) {
+        for (int i = 0; i < batch->count; i += DIP_LANES) {
+            vf_store(out + i, vf_splat(1.0f));
+        }
+        return;
+    }
+    SAMPLE_BY_WAY(sample_alpha, sampler->texture->wraps_in_bits, u_slot, out);
+}

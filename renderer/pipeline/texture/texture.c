@@ -1,0 +1,453 @@
+// Building textures: decode, mip chain, pack, pad, on many threads.
+#include "renderer/pipeline/texture/texture_layout.h"
+
+#include "renderer/base/assert.h"
+#include "renderer/base/pages.h"
+#include "renderer/base/srgb.h"
+#include "renderer/pipeline/texture/mip.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_TEXTURE_SIZE = 8192 };
+
+enum { FULL_CODE16 = 65535, FULL_CODE10 = 1023 };
+
+static uint32_t quantise(double linear, int max) {
+    const double clamped = linear > 0.0 ? (linear < 1.0 ? linear : 1.0) : 0.0;
+    return (uint32_t)(int32_t)(sqrt(clamped) * max + 0.5); // vectors convert to signed only
+}
+
+// The multiple of 32 that comes closest to a 16-bit code with `low` added.
+static uint32_t beside(uint32_t code16, uint32_t low) {
+    const uint32_t at = code16 + 16 < low ? 0 : (code16 + 16 - low) & ~31u;
+    return at > 65504 ? 65504 : at;
+}
+
+// From 16-bit codes of red and green and blue's of 10 bits.
+static uint32_t join_codes(uint32_t red16, uint32_t green16, uint32_t blue10) {
+    const uint32_t high = blue10 >> 5;
+    const uint32_t low = blue10 & 31;
+    return (beside(red16, high) | high) << 16 | beside(green16, low) | low;
+}
+
+uint32_t dip_texel_pack(const double rgb_lin[3]) {
+    return join_codes(quantise(rgb_lin[0], FULL_CODE16), quantise(rgb_lin[1], FULL_CODE16),
+                      quantise(rgb_lin[2], FULL_CODE10));
+}
+
+static bool check_def(const DipTextureDef *def, DipError *err) {
+    if (def->width < 1 || def->height < 1 || def->width > MAX_TEXTURE_SIZE ||
+        def->height > MAX_TEXTURE_SIZE) {
+        return dip_error_set(err, DIP_ERROR_RANGE, def->name, 0, "texture",
+                             "%dx%d texels, accepted 1x1 to %dx%d", def->width, def->height,
+                             MAX_TEXTURE_SIZE, MAX_TEXTURE_SIZE);
+    }
+    return true;
+}
+
+// A few thousand texels at a time, so that the loop is free of branches.
+static bool has_alpha(const DipTextureDef *def) {
+    const size_t count = (size_t)def->width * (size_t)def->height;
+    uint8_t all = 255;
+    for (size_t i = 0; i < count && all == 255;) {
+        const size_t end = count - i < 4096 ? count : i + 4096;
+        for (; i < end; i++) {
+            all &= def->rgba8[4 * i + 3];
+        }
+    }
+    return all != 255;
+}
+
+static bool repeats(const DipTextureDef *def) {
+    return def->wrap_u == DIP_WRAP_REPEAT && def->wrap_v == DIP_WRAP_REPEAT;
+}
+
+static int floor_log2(int size) {
+    return 31 - __builtin_clz((unsigned)size);
+}
+
+static bool is_power_of_two(int size) {
+    return (size & (size - 1)) == 0;
+}
+
+// Appends a level's place to the table and returns the texels it takes.
+static size_t place_level(DipTexture *texture, int level, int width, int height, size_t offset) {
+    texture->level_width[level] = width;
+    texture->level_height[level] = height;
+    texture->level_offset[level] = (int32_t)offset;
+    texture->level_log2_width[level] = floor_log2(width);
+    texture->level_log2_height[level] = floor_log2(height);
+    texture->wraps_in_bits =
+        texture->wraps_in_bits && is_power_of_two(width) && is_power_of_two(height);
+    return (size_t)(width + 1) * (size_t)(height + 1);
+}
+
+static void place_chain(DipTexture *texture) {
+    int width = texture->width;
+    int height = texture->height;
+    for (;;) {
+        texture->texel_count +=
+            place_level(texture, texture->level_count++, width, height, texture->texel_count);
+        if (width == 1 && height == 1) {
+            return;
+        }
+        width = dip_mip_next_size(width);
+        height = dip_mip_next_size(height);
+    }
+}
+
+// Reads past the end by one vector element stay inside: 8 spare texels, 32 spare bytes of alpha.
+static bool allocate_texels(DipTexture *texture, bool with_alpha) {
+    texture->texels = dip_pages_alloc((texture->texel_count + 8) * sizeof *texture->texels);
+    if (with_alpha) {
+        texture->alpha = calloc(texture->texel_count + 32, 1);
+    }
+    return texture->texels && (texture->alpha || !with_alpha);
+}
+
+// What each of the 256 codes of a texture means: light for the filter, and the packed texel's
+// parts.
+typedef struct CodeTables {
+    float colour[256];
+    float alpha[256];
+    uint32_t code16[256];
+    uint32_t code10[256];
+} CodeTables;
+
+static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
+    DipSrgbDecodeTable srgb;
+    dip_srgb_decode_table(&srgb);
+    for (int i = 0; i < 256; i++) {
+        tables->alpha[i] = (float)(i / 255.0);
+        tables->colour[i] =
+            encoding == DIP_ENCODING_SRGB ? (float)srgb.linear[i] : tables->alpha[i];
+        const double light = tables->colour[i];
+        tables->code16[i] = quantise(light, FULL_CODE16);
+        tables->code10[i] = quantise(light, FULL_CODE10);
+    }
+}
+
+// The padding's column or row repeats the first or the last of the level.
+static int padding_source(int i, int size, DipWrap wrap) {
+    return i < size ? i : wrap == DIP_WRAP_REPEAT ? 0 : size - 1;
+}
+
+// Packs rows first..end-1 of a picture's own texels, code by code; the row of padding is the
+// height's.
+static void pack_codes(DipTexture *texture, int level, const DipTextureDef *def,
+                       const CodeTables *tables, int first, int end) {
+    const size_t place =
+        (size_t)texture->level_offset[level] + (size_t)first * (size_t)(def->width + 1);
+    uint32_t *texels = texture->texels + place;
+    uint8_t *alpha = texture->alpha ? texture->alpha + place : NULL;
+    for (int y = first; y < end; y++) {
+        const uint8_t *row = def->rgba8 + (size_t)padding_source(y, def->height, texture->wrap_v) *
+                                              (size_t)def->width * 4;
+        for (int x = 0; x <= def->width; x++) {
+            const uint8_t *code =
+                x < def->width ? row + 4 * (size_t)x
+                               : row + (size_t)padding_source(x, def->width, texture->wrap_u) * 4;
+            *texels++ = join_codes(tables->code16[code[0]], tables->code16[code[1]],
+                                   tables->code10[code[2]]);
+            if (alpha) {
+                *alpha++ = code[3];
+            }
+        }
+    }
+}
+
+// Packs a row of a filtered level, without its padding.
+static void pack_row(const float *row, int width, uint32_t *restrict texels,
+                     uint8_t *restrict alpha) {
+    for (int x = 0; x < width; x++) {
+        const double rgb[3] = {row[x], row[width + x], row[2 * width + x]};
+        texels[x] = dip_texel_pack(rgb);
+    }
+    for (int x = 0; alpha && x < width; x++) {
+        alpha[x] = (uint8_t)(row[3 * width + x] * 255.0f + 0.5f);
+    }
+}
+
+// --- chains ------------------------------------------------------------------------------------
+
+// Level 0 is packed from the picture's codes and halved from them, row by row; the levels below are
+// a third of the work and are made by one task, which runs beside the next texture's bands.
+enum { BAND_TEXELS = 1 << 16 }; // of level 0, about
+
+// A texture that is being built.
+typedef struct Chain {
+    const DipTextureDef *def;
+    DipTexture *texture;
+    const CodeTables *tables;
+    float *level1; // rows of floats, see mip.h; level2 behind it
+    float *level2;
+    int band_rows; // of level 1
+    int band_count;
+} Chain;
+
+typedef struct ChainJobs {
+    Chain *bands; // NULL: none; whose bands are the tasks from 1 on
+    Chain *rest;  // NULL: none; whose further levels are task 0
+    float *rows;  // per worker, three rows of level 0
+    size_t row_floats;
+} ChainJobs;
+
+static void decode_row(const uint8_t *codes, int width, const CodeTables *tables,
+                       float *restrict to) {
+    for (int x = 0; x < width; x++) {
+        to[x] = tables->colour[codes[4 * x]];
+        to[width + x] = tables->colour[codes[4 * x + 1]];
+        to[2 * width + x] = tables->colour[codes[4 * x + 2]];
+        to[3 * width + x] = tables->alpha[codes[4 * x + 3]];
+    }
+}
+
+void dip_texture_pad_row(DipTexture *texture, int level, int y) {
+    const int width = texture->level_width[level];
+    const int height = texture->level_height[level];
+    const size_t stride = (size_t)width + 1;
+    const size_t base = (size_t)texture->level_offset[level];
+    const size_t place = base + (size_t)y * stride;
+    const size_t source = place + (size_t)padding_source(width, width, texture->wrap_u);
+    const size_t below = base + (size_t)height * stride;
+    const bool repeated = y == padding_source(height, height, texture->wrap_v);
+    texture->texels[place + (size_t)width] = texture->texels[source];
+    if (repeated) {
+        memcpy(texture->texels + below, texture->texels + place, stride * sizeof(uint32_t));
+    }
+    if (texture->alpha) {
+        texture->alpha[place + (size_t)width] = texture->alpha[source];
+        if (repeated) {
+            memcpy(texture->alpha + below, texture->alpha + place, stride);
+        }
+    }
+}
+
+// Packs a row of a filtered level, with the padding that repeats it.
+static void store_row(DipTexture *texture, int level, int y, const float *row) {
+    const int width = texture->level_width[level];
+    const size_t place = (size_t)texture->level_offset[level] + (size_t)y * ((size_t)width + 1);
+    pack_row(row, width, texture->texels + place, texture->alpha ? texture->alpha + place : NULL);
+    dip_texture_pad_row(texture, level, y);
+}
+
+// Level 0's rows that belong to a band of level 1, and that band.
+static void make_band(const Chain *chain, int band, float *scratch) {
+    DipTexture *texture = chain->texture;
+    const int width = texture->width;
+    const int next_height = texture->level_height[1];
+    const int first = band * chain->band_rows;
+    const bool last_band = band == chain->band_count - 1;
+    const int end = last_band ? next_height : first + chain->band_rows;
+    pack_codes(texture, 0, chain->def, chain->tables,
+               dip_mip_tap(first, texture->height, next_height).first,
+               last_band ? texture->height + 1
+                         : dip_mip_tap(end, texture->height, next_height).first);
+    for (int y = first; y < end; y++) {
+        const DipMipTap tap = dip_mip_tap(y, texture->height, next_height);
+        const float *rows[DIP_MIP_MAX_TAPS] = {0};
+        for (int i = 0; i < tap.count; i++) {
+            float *row = scratch + (size_t)i * DIP_MIP_CHANNELS * (size_t)width;
+            decode_row(chain->def->rgba8 + (size_t)(tap.first + i) * (size_t)width * 4, width,
+                       chain->tables, row);
+            rows[i] = row;
+        }
+        const int next_width = texture->level_width[1];
+        float *to = chain->level1 + (size_t)y * DIP_MIP_CHANNELS * (size_t)next_width;
+        dip_mip_halve_row(&tap, rows, width, to, next_width);
+        store_row(texture, 1, y, to);
+    }
+}
+
+// Every level from 2 on, with two levels in memory at a time.
+static void make_rest(const Chain *chain) {
+    DipTexture *texture = chain->texture;
+    DipMipLevel from = {texture->level_width[1], texture->level_height[1], chain->level1};
+    DipMipLevel to = {0, 0, chain->level2};
+    for (int level = 2; level < texture->level_count; level++) {
+        to.width = texture->level_width[level];
+        to.height = texture->level_height[level];
+        dip_mip_halve(&from, &to);
+        for (int y = 0; y < to.height; y++) {
+            store_row(texture, level, y, to.rows + (size_t)y * DIP_MIP_CHANNELS * (size_t)to.width);
+        }
+        const DipMipLevel swap = from;
+        from = to;
+        to = swap;
+    }
+}
+
+static void run_chain_task(void *context, int index, int worker) {
+    const ChainJobs *jobs = context;
+    if (index > 0) {
+        make_band(jobs->bands, index - 1, jobs->rows + (size_t)worker * jobs->row_floats);
+    } else if (jobs->rest) {
+        make_rest(jobs->rest);
+    }
+}
+
+static DipTexture *out_of_memory(DipTexture *texture, const char *name, DipError *err) {
+    dip_texture_destroy(&texture);
+    dip_error_set(err, DIP_ERROR_MEMORY, name, 0, "texture", "out of memory");
+    return NULL;
+}
+
+// A texture with its levels' places, without texels in them.
+static DipTexture *begin_texture(const DipTextureDef *def, bool clips, DipError *err) {
+    if (!check_def(def, err)) {
+        return NULL;
+    }
+    DipTexture *texture = calloc(1, sizeof *texture);
+    if (!texture) {
+        return out_of_memory(NULL, def->name, err);
+    }
+    texture->width = def->width;
+    texture->height = def->height;
+    texture->wrap_u = def->wrap_u;
+    texture->wrap_v = def->wrap_v;
+    texture->wraps_in_bits = repeats(def);
+    place_chain(texture);
+    return allocate_texels(texture, clips && has_alpha(def))
+               ? texture
+               : out_of_memory(texture, def->name, err);
+}
+
+static bool begin_chain(Chain *chain, const DipTextureDef *def, bool clips,
+                        const CodeTables tables[2], DipError *err) {
+    DipTexture *texture = begin_texture(def, clips, err);
+    *chain = (Chain){def, texture, &tables[def->encoding], NULL, NULL, 0, 0};
+    if (!texture || texture->level_count == 1) {
+        return texture != NULL;
+    }
+    size_t floats[2] = {0, 0};
+    for (int i = 0; i < 2 && i + 1 < texture->level_count; i++) {
+        floats[i] = (size_t)DIP_MIP_CHANNELS * (size_t)texture->level_width[i + 1] *
+                    (size_t)texture->level_height[i + 1];
+    }
+    chain->level1 = malloc((floats[0] + floats[1]) * sizeof(float));
+    if (!chain->level1) {
+        chain->texture = out_of_memory(texture, def->name, err);
+        return false;
+    }
+    chain->level2 = chain->level1 + floats[0];
+    const int rows = BAND_TEXELS / 2 / def->width;
+    chain->band_rows = rows > 1 ? rows : 1;
+    chain->band_count = (texture->level_height[1] + chain->band_rows - 1) / chain->band_rows;
+    return true;
+}
+
+// What the tasks of every texture share.
+static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef *defs,
+                       const bool *used, int count, DipPool *pool) {
+    int widest = 1;
+    for (int i = 0; i < count; i++) {
+        widest = (!used || used[i]) && defs[i].width > widest ? defs[i].width : widest;
+    }
+    widest = widest < MAX_TEXTURE_SIZE ? widest : MAX_TEXTURE_SIZE;
+    const size_t workers = pool ? (size_t)dip_pool_thread_count(pool) : 1;
+    jobs->row_floats = (size_t)DIP_MIP_MAX_TAPS * DIP_MIP_CHANNELS * (size_t)widest;
+    jobs->rows = malloc(workers * jobs->row_floats * sizeof *jobs->rows);
+    *tables = malloc(2 * sizeof **tables);
+    if (!jobs->rows || !*tables) {
+        return false;
+    }
+    fill_code_tables(&(*tables)[DIP_ENCODING_SRGB], DIP_ENCODING_SRGB);
+    fill_code_tables(&(*tables)[DIP_ENCODING_LINEAR], DIP_ENCODING_LINEAR);
+    return true;
+}
+
+// Runs a chain's bands beside the rest of the one before, whose memory is then given back.
+static void run_chains(ChainJobs *jobs, DipPool *pool) {
+    dip_pool_run(pool, 1 + (jobs->bands ? jobs->bands->band_count : 0), run_chain_task, jobs);
+    if (jobs->rest) {
+        free(jobs->rest->level1);
+    }
+    jobs->rest = jobs->bands;
+    jobs->bands = NULL;
+}
+
+bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool *clip, int count,
+                         DipPool *pool, DipTexture **textures, DipError *err) {
+    ChainJobs jobs = {NULL, NULL, NULL, 0};
+    CodeTables *tables = NULL;
+    Chain chains[2];
+    bool made = begin_jobs(&jobs, &tables, defs, used, count, pool);
+    if (!made) {
+        out_of_memory(NULL, count ? defs[0].name : NULL, err);
+    }
+    for (int i = 0; i < count; i++) {
+        textures[i] = NULL;
+    }
+    for (int i = 0, turn = 0; made && i < count; i++) {
+        if (used && !used[i]) {
+            continue;
+        }
+        Chain *chain = &chains[turn++ & 1];
+        made = begin_chain(chain, &defs[i], !clip || clip[i], tables, err);
+        textures[i] = chain->texture;
+        if (made && chain->level1) {
+            jobs.bands = chain;
+            run_chains(&jobs, pool);
+        } else if (made) {
+            pack_codes(chain->texture, 0, chain->def, chain->tables, 0, chain->def->height + 1);
+            turn--;
+        }
+    }
+    run_chains(&jobs, pool);
+    free(jobs.rows);
+    free(tables);
+    for (int i = 0; !made && i < count; i++) {
+        dip_texture_destroy(&textures[i]);
+    }
+    return made;
+}
+
+DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err) {
+    DipTexture *texture;
+    return dip_textures_create(def, NULL, NULL, 1, NULL, &texture, err) ? texture : NULL;
+}
+
+DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
+                                           DipError *err) {
+    DIP_ASSERT(level_count >= 1 && level_count <= DIP_MAX_LEVELS);
+    DipTexture *texture = calloc(1, sizeof *texture);
+    if (!texture) {
+        return out_of_memory(NULL, levels[0].name, err);
+    }
+    texture->width = levels[0].width;
+    texture->height = levels[0].height;
+    texture->wrap_u = levels[0].wrap_u;
+    texture->wrap_v = levels[0].wrap_v;
+    texture->wraps_in_bits = repeats(&levels[0]);
+    texture->level_count = level_count;
+    for (int i = 0; i < level_count; i++) {
+        if (!check_def(&levels[i], err)) {
+            dip_texture_destroy(&texture);
+            return NULL;
+        }
+        texture->texel_count +=
+            place_level(texture, i, levels[i].width, levels[i].height, texture->texel_count);
+    }
+    if (!allocate_texels(texture, false)) {
+        return out_of_memory(texture, levels[0].name, err);
+    }
+    for (int i = 0; i < level_count; i++) {
+        CodeTables tables;
+        fill_code_tables(&tables, levels[i].encoding);
+        pack_codes(texture, i, &levels[i], &tables, 0, levels[i].height + 1);
+    }
+    return texture;
+}
+
+void dip_texture_destroy(DipTexture **texture) {
+    if (*texture) {
+        free((*texture)->texels);
+        if (!(*texture)->shares_alpha) {
+            free((*texture)->alpha);
+        }
+        free(*texture);
+        *texture = NULL;
+    }
+}

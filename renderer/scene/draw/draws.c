@@ -1,0 +1,239 @@
+// Building a pass' draws, one object at a time.
+#include "renderer/scene/draw/draws.h"
+
+#include "renderer/scene/resources/mip_debug.h"
+#include "renderer/scene/resources/scene_layout.h"
+
+#include <stdlib.h>
+
+bool dip_draw_set_make(DipDrawSet *set, int object_count, bool reflects, DipError *err) {
+    const size_t room = (size_t)object_count + 1;
+    set->draws = calloc(room, sizeof *set->draws);
+    set->uniforms = calloc(room, sizeof *set->uniforms);
+    set->water = reflects ? calloc(room, sizeof *set->water) : NULL;
+    if (!set->draws || !set->uniforms || (reflects && !set->water)) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "no memory for %d objects",
+                             object_count);
+    }
+    return true;
+}
+
+void dip_draw_set_free(DipDrawSet *set) {
+    free(set->draws);
+    free(set->uniforms);
+    free(set->water);
+    *set = (DipDrawSet){0};
+}
+
+// --- textures ----------------------------------------------------------------------------------
+
+static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *shown,
+                                 const DipTexture *texture) {
+    // Per step of miplod, from high performance to high quality: bias in levels, times 256.
+    static const int32_t bias_lod8[] = {384, 256, 128, 0};
+    const int miplod = quality->step[DIP_SETTING_MIPLOD];
+    DipSampler sampler = {
+        .texture = texture,
+        .max_anisotropy = dip_quality_max_anisotropy(quality),
+        .advanced = quality->step[DIP_SETTING_AAF] != 0,
+        .bias_lod8 = bias_lod8[miplod],
+        .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
+    };
+    if (miplod == DIP_MIPLOD_HIGH_PERFORMANCE) {
+        sampler.min_lod8 = texture->width >= 1024 || texture->height >= 1024 ? 512 : 256;
+    }
+    if (quality->step[DIP_SETTING_MIPDEBUG]) {
+        sampler.shown = shown;
+        dip_mip_debug_levels(texture, sampler.shown_level);
+    }
+    return sampler;
+}
+
+// A pass' share of the pixel is smaller, so it may read finer levels: by log2(sqrt(passes)), which
+// keeps thin parts of clip maps from being averaged away.
+static int32_t pass_bias_lod8(const DipQuality *quality) {
+    static const int32_t bias_lod8[DIP_MAX_SAMPLES + 1] = {
+        [2] = -128, [3] = -203, [4] = -256, [6] = -331, [8] = -384};
+    return bias_lod8[dip_quality_sample_count(quality) / dip_quality_samples_per_pass(quality)];
+}
+
+static const DipTexture *colour_texture(const DipScene *scene, const DipQuality *quality,
+                                        const DipSceneMaterial *material) {
+    const bool compressed = dip_quality_compresses(quality) && material->surface != DIP_SURFACE_SKY;
+    return compressed ? dip_late_texture(scene->late, material->colour_texture)
+                      : scene->textures[material->colour_texture];
+}
+
+void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const DipTexture *shown,
+                      DipMaterialSamplers *samplers) {
+    for (int i = 0; i < scene->material_count; i++) {
+        const DipSceneMaterial *material = &scene->materials[i];
+        if (material->colour_texture != DIP_NO_TEXTURE) {
+            DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_COLOUR];
+            *sampler = colour_sampler(quality, shown, colour_texture(scene, quality, material));
+            if (material->surface == DIP_SURFACE_CLIPPED) {
+                sampler->bias_lod8 += pass_bias_lod8(quality);
+            }
+        }
+        if (material->light_map != DIP_NO_TEXTURE) {
+            samplers[i][DIP_SURFACE_SAMPLER_LIGHT_MAP] =
+                (DipSampler){.texture = scene->textures[material->light_map], .max_anisotropy = 1};
+        }
+        if (material->normal_map != DIP_NO_TEXTURE) {
+            DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_NORMAL_MAP];
+            *sampler = colour_sampler(quality, shown, scene->textures[material->normal_map]);
+            sampler->shown = NULL; // mip debugging colours the colour texture
+        }
+    }
+}
+
+// --- objects -----------------------------------------------------------------------------------
+
+// The cofactors of the transform's 3x3 part, which turn normals as the inverse transpose does but
+// for length and, where the transform mirrors, sign.
+static void cofactors(const float t[12], double n[9]) {
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) {
+            const float *a = t + 4 * ((r + 1) % 3);
+            const float *b = t + 4 * ((r + 2) % 3);
+            n[3 * r + c] =
+                (double)a[(c + 1) % 3] * b[(c + 2) % 3] - (double)a[(c + 2) % 3] * b[(c + 1) % 3];
+        }
+    }
+}
+
+static bool mirrors(const float t[12]) {
+    double n[9];
+    cofactors(t, n);
+    return (t[0] * n[0] + t[1] * n[1]) + t[2] * n[2] < 0.0;
+}
+
+// Scaled to a greatest element of 1, so that the shader may normalise what it turns, however small
+// the object is.
+static void normal_matrix(const float t[12], float out[9]) {
+    double n[9];
+    cofactors(t, n);
+    double greatest = 0.0;
+    for (int i = 0; i < 9; i++) {
+        const double size = n[i] < 0.0 ? -n[i] : n[i];
+        greatest = size > greatest ? size : greatest;
+    }
+    const double scale = greatest > 0.0 ? (mirrors(t) ? -1.0 : 1.0) / greatest : 0.0;
+    for (int i = 0; i < 9; i++) {
+        out[i] = (float)(n[i] * scale);
+    }
+}
+
+// The rays through the target's places. The rows of x, y and w are at right angles in their first
+// three elements, so that a point is the sum of them, each times its coordinate over its squared
+// length.
+static DipViewRays view_rays(const double m[16], int width, int height) {
+    DipViewRays rays;
+    double inverse2[4];
+    for (int row = 0; row < 4; row++) {
+        const double *r = m + 4 * row;
+        inverse2[row] = row == 2 ? 0.0 : 1.0 / (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    }
+    for (int c = 0; c < 3; c++) {
+        const double right = m[c] * inverse2[0];
+        const double up = m[4 + c] * inverse2[1];
+        const double ahead = m[12 + c] * inverse2[3];
+        rays.origin[c] = (float)(ahead - right + up);
+        rays.per_x[c] = (float)(2.0 * right / width);
+        rays.per_y[c] = (float)(-2.0 * up / height);
+    }
+    return rays;
+}
+
+// Turns a draw into one with an effect's shaders. Mip debugging shows a sky's own texture.
+static void set_effect(const DipDrawInput *input, const DipDrawSet *set, const DipSceneMesh *mesh,
+                       DipSurfaceUniforms *uniforms, DipDraw *draw) {
+    const DipMaterialKernels *kernels = input->kernels;
+    uniforms->rays = &set->rays;
+    uniforms->sky = input->sky;
+    if (input->plain_surfaces) {
+        return;
+    }
+    if (mesh->normal_mapped) {
+        draw->vertex_shader = kernels->dip_kernel_normal_map_vertex;
+        draw->fragment_shader = kernels->dip_kernel_normal_map_fragment;
+        draw->slot_count = mesh->mapped_slot_count;
+        draw->plain_slot_count = 0;
+    } else if (mesh->sky && !input->quality->step[DIP_SETTING_MIPDEBUG]) {
+        draw->fragment_shader = kernels->dip_kernel_sky_fragment;
+    }
+}
+
+// Turns the draw added last into one of water that shows the mirrored picture.
+static void set_reflecting(const DipDrawInput *input, const DipDrawView *pass, DipDrawSet *set) {
+    const int last = set->count - 1;
+    DipWaterUniforms *water = &set->water[last];
+    *water = (DipWaterUniforms){
+        .surface = set->uniforms[last],
+        .mirrored = pass->shown,
+        .inverse_size = {1.0f / (float)pass->width, 1.0f / (float)pass->height},
+        .schlick = pass->schlick,
+    };
+    set->draws[last].uniforms = water;
+    set->draws[last].fragment_shader = input->kernels->dip_kernel_water_fragment;
+}
+
+static DipCull cull_of(const DipSceneMaterial *material, const DipSceneObject *object,
+                       bool mirrored) {
+    if (material->double_sided) {
+        return DIP_CULL_NONE;
+    }
+    return mirrors(object->transform) != mirrored ? DIP_CULL_FRONT : DIP_CULL_BACK;
+}
+
+static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int index,
+                     DipDrawSet *set) {
+    const DipSceneObject *object = &input->scene->objects[index];
+    const DipSceneMesh *mesh = &input->scene->meshes[object->mesh];
+    const DipSceneMaterial *material = &input->scene->materials[mesh->material];
+    DipDraw *draw = &set->draws[set->count];
+    DipSurfaceUniforms *uniforms = &set->uniforms[set->count++];
+    *uniforms = mesh->normal_mapped && !input->plain_surfaces ? mesh->mapped_layout : mesh->layout;
+    dip_view_place(pass->view, object->transform, uniforms->to_clip);
+    normal_matrix(object->transform, uniforms->normal_to_world);
+    if (input->quality->step[DIP_SETTING_MIPDEBUG] && uniforms->colour_slot != DIP_NO_SLOT) {
+        for (int c = 0; c < 3; c++) {
+            uniforms->base_colour_lin[c] = 1.0f;
+        }
+    }
+    const bool clipped =
+        material->surface == DIP_SURFACE_CLIPPED && uniforms->colour_slot != DIP_NO_SLOT;
+    *draw = (DipDraw){
+        .mesh = input->expanded ? dip_expanded_mesh(input->expanded, index) : mesh->mesh,
+        .vertex_shader = input->kernels->dip_kernel_surface_vertex,
+        .fragment_shader = input->kernels->dip_kernel_surface_fragment,
+        .clip_shader = clipped ? input->kernels->dip_kernel_surface_clip : NULL,
+        .slot_count = mesh->slot_count,
+        .plain_slot_count =
+            mesh->layout.light_slot == DIP_NO_SLOT ? 0 : mesh->slot_count - mesh->layout.light_slot,
+        .clip_slot_count = clipped ? uniforms->colour_slot + 2 : 0,
+        .uniforms = uniforms,
+        .samplers = input->samplers[mesh->material],
+        .bounds_to_clip = uniforms->to_clip,
+        .cull = cull_of(material, object, pass->mirrored),
+    };
+    set_effect(input, set, mesh, uniforms, draw);
+    if (pass->shown && material->surface == DIP_SURFACE_WATER) {
+        set_reflecting(input, pass, set);
+    }
+}
+
+void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDrawView *pass) {
+    const DipScene *scene = input->scene;
+    set->count = 0;
+    set->rays = view_rays(pass->view->world_to_clip, pass->width, pass->height);
+    for (int i = 0; i < scene->object_count; i++) {
+        const DipSceneObject *object = &scene->objects[i];
+        const bool water =
+            scene->materials[scene->meshes[object->mesh].material].surface == DIP_SURFACE_WATER;
+        if (!(pass->mirrored && water) &&
+            !(pass->seen && dip_cull_outside(pass->seen, &object->bounds))) {
+            add_draw(input, pass, i, set);
+        }
+    }
+}

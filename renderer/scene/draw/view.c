@@ -1,0 +1,80 @@
+// Building a camera's matrices, in double.
+#include "renderer/scene/draw/view.h"
+
+#include "renderer/base/trig.h"
+
+// Rows of the matrix from the eye, the axes and the scales.
+static void set_matrix(DipView *view) {
+    const double scale[4] = {view->scale[0], view->scale[1], 0.0, -1.0};
+    const int camera_axis[4] = {0, 1, 0, 2};
+    double *m = view->world_to_clip;
+    for (int row = 0; row < 4; row++) {
+        const double *a = view->axis[camera_axis[row]];
+        double shift = 0.0;
+        for (int c = 0; c < 3; c++) {
+            m[4 * row + c] = scale[row] * a[c];
+            shift -= a[c] * view->eye[c];
+        }
+        m[4 * row + 3] = scale[row] * shift;
+    }
+    m[11] = view->near_m; // clip z is the near distance everywhere
+}
+
+DipView dip_view_make(const DipPose *pose, double near_m, double aspect) {
+    const double x = pose->orientation[0];
+    const double y = pose->orientation[1];
+    const double z = pose->orientation[2];
+    const double w = pose->orientation[3];
+    const double half_fov = pose->fov_y_deg * (3.14159265358979323846 / 360.0);
+    const double f = dip_cos(half_fov) / dip_sin(half_fov);
+    DipView view = {
+        .eye = {pose->position_world[0], pose->position_world[1], pose->position_world[2]},
+        // Rows of the world-to-camera rotation are the camera's axes in the world.
+        .axis = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+                 {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+                 {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}},
+        .scale = {f / aspect, f},
+        .near_m = near_m,
+    };
+    set_matrix(&view);
+    return view;
+}
+
+DipView dip_view_mirror(const DipView *view, double level) {
+    DipView mirrored = *view;
+    mirrored.eye[1] = 2.0 * level - view->eye[1];
+    for (int i = 0; i < 3; i++) {
+        mirrored.axis[i][1] = -view->axis[i][1];
+    }
+    set_matrix(&mirrored);
+    return mirrored;
+}
+
+// Clip x, y and w are multiples of the camera coordinates and clip z is constant: the normal along
+// the axes, and the plane's value at the eye.
+void dip_view_plane(const DipView *view, const double plane[4], double clip[4]) {
+    double along[3];
+    double at_eye = plane[3];
+    for (int i = 0; i < 3; i++) {
+        const double *a = view->axis[i];
+        along[i] = (plane[0] * a[0] + plane[1] * a[1]) + plane[2] * a[2];
+        at_eye += plane[i] * view->eye[i];
+    }
+    clip[0] = along[0] / view->scale[0];
+    clip[1] = along[1] / view->scale[1];
+    clip[2] = at_eye / view->near_m;
+    clip[3] = -along[2];
+}
+
+void dip_view_place(const DipView *view, const float transform[12], float product[16]) {
+    const double *m = view->world_to_clip;
+    for (int row = 0; row < 4; row++) {
+        for (int c = 0; c < 4; c++) {
+            double sum = c == 3 ? m[4 * row + 3] : 0.0;
+            for (int k = 0; k < 3; k++) {
+                sum += m[4 * row + k] * (double)transform[4 * k + c];
+            }
+            product[4 * row + c] = (float)sum;
+        }
+    }
+}

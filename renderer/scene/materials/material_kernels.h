@@ -1,0 +1,28 @@
+// The shaders of the scene's materials, one table per instruction set
+// (renderer/simd/kernel_table.h). They are ordinary clients of the pipeline.
+#ifndef DIP_RENDERER_SCENE_MATERIALS_MATERIAL_KERNELS_H
+#define DIP_RENDERER_SCENE_MATERIALS_MATERIAL_KERNELS_H
+
+#include "renderer/pipeline/shader.h"
+#include "renderer/simd/kernel_table.h"
+
+// X(result, name, parameters)
+#define DIP_MATERIAL_KERNEL_LIST(X)                                                                \
+    X(void, dip_kernel_surface_vertex, (const DipVertexBatch *batch))                              \
+    X(void, dip_kernel_surface_fragment, (DipFragmentBatch * batch))                               \
+    X(void, dip_kernel_surface_clip, (DipFragmentBatch * batch))                                   \
+    X(void, dip_kernel_normal_map_vertex, (const DipVertexBatch *batch))                           \
+    X(void, dip_kernel_normal_map_fragment, (DipFragmentBatch * batch))                            \
+    X(void, dip_kernel_sky_fragment, (DipFragmentBatch * batch))                                   \
+    X(void, dip_kernel_water_fragment, (DipFragmentBatch * batch))
+
+typedef struct DipMaterialKernels {
+    DIP_MATERIAL_KERNEL_LIST(DIP_KERNEL_FIELD)
+} DipMaterialKernels;
+
+DIP_KERNELS_DECLARE(DIP_MATERIAL_KERNEL_LIST)
+
+// The shaders of an instruction set for which dip_isa_available is true. Static storage.
+const DipMaterialKernels *dip_material_kernels(DipIsa isa);
+
+#endif

@@ -1,0 +1,217 @@
+// Shaders of normal-mapped surfaces: light and highlight per fragment, compiled once per
+// instruction set. docs/picture.md, Normal maps, defines them.
+#include "renderer/scene/materials/material_kernels.h"
+#include "renderer/scene/materials/surface_simd.h"
+
+// Light maps show the sun from SHADE on, in full from SHADE + SUNLIT.
+#define SHADE_LIGHT  0.4f
+#define SUNLIT_LIGHT 0.5f
+// Bounds of what a mapped normal may change the light map by.
+#define LEAST_RATIO    0.25f
+#define GREATEST_RATIO 2.5f
+// Least part along the mesh's normal: where a map's normals cancel out, rounding has no say.
+#define LEAST_RISE 0.125f
+// Reflection of a dielectric seen along its normal, and the least width of its highlight.
+#define REFLECTANCE 0.04f
+#define LEAST_ALPHA 0.1f
+
+void DIP_KERNEL(dip_kernel_normal_map_vertex)(const DipVertexBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        place_vertices(uniforms, batch, i);
+        const Vf3 turned = turn_normal(uniforms, batch, i);
+        const Vf3 normal = vf3_scale(turned, inverse_length(vf3_dot(turned, turned)));
+        vf_store(batch->slot[uniforms->normal_slot] + i, normal.x);
+        vf_store(batch->slot[uniforms->normal_slot + 1] + i, normal.y);
+        vf_store(batch->slot[uniforms->normal_slot + 2] + i, normal.z);
+        vf_store(batch->slot[uniforms->depth_slot] + i, vf_load(batch->clip[3] + i));
+        for (int c = 0; c < 3 && uniforms->light_slot != DIP_NO_SLOT; c++) {
+            vf_store(batch->slot[uniforms->light_slot + c] + i,
+                     vf_load(batch->in[uniforms->colour_attribute + c] + i));
+        }
+    }
+}
+
+// How a surface is turned where it is shaded.
+typedef struct Facing {
+    Vf3 mesh;          // unit normal of the mesh
+    Vf3 mapped;        // unit normal of the map
+    Vf inverse_length; // of the map's filtered normal
+} Facing;
+
+// d(depth * ray): how the place on the surface moves per pixel.
+VEC_INLINE Vf3 place_step(const float ray_step[3], Vf depth, Vf3 ray, Vf depth_step) {
+    return (Vf3){depth * ray_step[0] + ray.x * depth_step, depth * ray_step[1] + ray.y * depth_step,
+                 depth * ray_step[2] + ray.z * depth_step};
+}
+
+// a * s - b * t
+VEC_INLINE Vf3 combine(Vf3 a, Vf s, Vf3 b, Vf t) {
+    return (Vf3){a.x * s - b.x * t, a.y * s - b.y * t, a.z * s - b.z * t};
+}
+
+VEC_INLINE Vf3 cross(Vf3 a, Vf3 b) {
+    return (Vf3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// Directions along u and against v, at length 1 and square to each other and the normal; both 0
+// where the coordinates have no area or the normal lies along u.
+typedef struct Tangents {
+    Vf3 u, v;
+    Mask there;
+} Tangents;
+
+// From the derivatives of place and coordinates, so that mirrored coordinates turn them round.
+VEC_INLINE Tangents find_tangents(DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const int u = uniforms->normal_map_slot;
+    const int w = uniforms->depth_slot;
+    const Vf depth = vf_load(batch->slot[w] + i);
+    const Vf3 dx = place_step(uniforms->rays->per_x, depth, ray, vf_load(batch->slot_dx[w] + i));
+    const Vf3 dy = place_step(uniforms->rays->per_y, depth, ray, vf_load(batch->slot_dy[w] + i));
+    const Vf u_dx = vf_load(batch->slot_dx[u] + i), v_dx = vf_load(batch->slot_dx[u + 1] + i);
+    const Vf u_dy = vf_load(batch->slot_dy[u] + i), v_dy = vf_load(batch->slot_dy[u + 1] + i);
+    const Vf area = u_dx * v_dy - u_dy * v_dx;
+    const Vf3 along = combine(dx, v_dy, dy, v_dx); // both times the area
+    const Vf3 against = combine(dx, u_dy, dy, u_dx);
+    const Vf rise = vf3_dot(along, normal);
+    const Vf3 flat = {along.x - normal.x * rise, along.y - normal.y * rise,
+                      along.z - normal.z * rise};
+    const Vf length2 = vf3_dot(flat, flat);
+    const Vf size = vf_min(vf_abs(area), length2);
+    const Vf inverse = vf_splat(1.0f) / vf_sqrt(vf_max(length2, vf_splat(1e-30f)));
+    const Vf sign = vf_select(vf_lt(area, vf_splat(0.0f)), vf_splat(0.0f) - inverse, inverse);
+    Tangents tangents = {.u = vf3_scale(flat, sign), .there = vf_lt(vf_splat(0.0f), size)};
+    tangents.v = cross(normal, tangents.u);
+    const Vf hand = vf3_dot(tangents.v, against) * area;
+    const Mask left = vf_lt(hand, vf_splat(0.0f));
+    tangents.v = vf3_scale(tangents.v, vf_select(left, vf_splat(-1.0f), vf_splat(1.0f)));
+    return tangents;
+}
+
+VEC_INLINE Facing find_facing(DipFragmentBatch *batch, int i, Vf3 ray,
+                              float (*map)[DIP_FRAGMENT_BATCH]) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const Vf3 vertex = vf3_load(batch->slot + uniforms->normal_slot, i);
+    Facing facing = {.mesh = vf3_scale(vertex, inverse_length(vf3_dot(vertex, vertex)))};
+    const Tangents tangents = find_tangents(batch, i, ray, facing.mesh);
+    Vf3 m = vf3_load(map, i);
+    m.x = m.x * (255.0f / 127.0f) - (128.0f / 127.0f);
+    m.y = m.y * (255.0f / 127.0f) - (128.0f / 127.0f);
+    m.z = vf_max(m.z * (255.0f / 127.0f) - (128.0f / 127.0f), vf_splat(LEAST_RISE));
+    facing.inverse_length = inverse_length(vf3_dot(m, m));
+    m = vf3_scale(m, facing.inverse_length);
+    const Vf x = vf_select(tangents.there, m.x, vf_splat(0.0f));
+    const Vf y = vf_select(tangents.there, m.y, vf_splat(0.0f));
+    const Vf z = vf_select(tangents.there, m.z, vf_splat(1.0f));
+    facing.mapped = (Vf3){(tangents.u.x * x + tangents.v.x * y) + facing.mesh.x * z,
+                          (tangents.u.y * x + tangents.v.y * y) + facing.mesh.y * z,
+                          (tangents.u.z * x + tangents.v.z * y) + facing.mesh.z * z};
+    return facing;
+}
+
+// The fixed light on a normal that the sun meets so steeply.
+VEC_INLINE Vf fixed_light(Vf3 normal, Vf sun) {
+    return (LIGHT_AMBIENT + normal.y * LIGHT_SKY) + sun * LIGHT_SUN;
+}
+
+// A fraction, so that one division serves several.
+typedef struct Fraction {
+    Vf above, below;
+} Fraction;
+
+// The sun's highlight, a GGX lobe that widens as the map's normals spread (Toksvig). With c the
+// cosine between eye and sun, half way has the squared length 2 (1 + c) and meets the sun with the
+// squared cosine (1 + c) / 2. `met` is dot(normal, sun), not less than 0.
+VEC_INLINE Fraction highlight(const Facing *facing, Vf3 ray, Vf sun, Vf met, float roughness) {
+    const float alpha = roughness * roughness > LEAST_ALPHA ? roughness * roughness : LEAST_ALPHA;
+    const Vf bounded = vf_min(facing->inverse_length, vf_splat(10.0f));
+    const Vf spread = vf_max(bounded - 1.0f, vf_splat(0.0f)) * 2.0f;
+    const Vf alpha2 = vf_min(spread + alpha * alpha, vf_splat(1.0f));
+    const Vf to_eye = vf_splat(0.0f) - inverse_length(vf3_dot(ray, ray));
+    const Vf c1 = vf_max(vf3_dot_sun(ray) * to_eye + 1.0f, vf_splat(1e-6f));
+    const Vf n_h = vf_max(sun + vf3_dot(facing->mapped, ray) * to_eye, vf_splat(0.0f));
+    const Vf d = n_h * n_h * (alpha2 - 1.0f) + c1 * 2.0f; // times 2 (1 + c)
+    const Vf above = (alpha2 * met) * ((c1 * c1) * (4.0f * REFLECTANCE * LIGHT_SUN));
+    const Vf width = vf_sqrt(alpha2) * 4.0f + 2.0f;
+    return (Fraction){above, (d * d) * (vf_max(c1 * 0.5f, vf_splat(0.1f)) * width)};
+}
+
+// Lights the batch's colours by a light map, whose brightness says whether the sun is there.
+VEC_INLINE void light_by_map(DipFragmentBatch *batch, float (*map)[DIP_FRAGMENT_BATCH],
+                             float (*light)[DIP_FRAGMENT_BATCH]) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        const Vf3 ray = view_ray(uniforms->rays, batch, i);
+        const Facing facing = find_facing(batch, i, ray, map);
+        const Vf3 baked = vf3_scale(vf3_load(light, i), vf_splat(uniforms->light_map_scale));
+        const Vf luminance = (baked.x * 0.2126f + baked.y * 0.7152f) + baked.z * 0.0722f;
+        const Vf sunlit = clamp01((luminance - SHADE_LIGHT) * (1.0f / SUNLIT_LIGHT));
+        const Vf sun = vf3_dot_sun(facing.mapped);
+        const Vf met = vf_max(sun, vf_splat(0.0f)) * sunlit;
+        const Vf met_flat = vf_max(vf3_dot_sun(facing.mesh), vf_splat(0.0f)) * sunlit;
+        const Fraction shine = highlight(&facing, ray, sun, met, uniforms->roughness);
+        const Vf flat = fixed_light(facing.mesh, met_flat);
+        const Vf inverse = vf_splat(1.0f) / (flat * shine.below);
+        const Vf ratio = (fixed_light(facing.mapped, met) * shine.below) * inverse;
+        const Vf bounded = vf_min(vf_max(ratio, vf_splat(LEAST_RATIO)), vf_splat(GREATEST_RATIO));
+        const Vf added = (shine.above * flat) * inverse;
+        for (int c = 0; c < 3; c++) {
+            const Vf base = vf_load(batch->colour[c] + i);
+            const Vf lit = c == 0 ? baked.x : c == 1 ? baked.y : baked.z;
+            vf_store(batch->colour[c] + i, base * (lit * bounded) + added);
+        }
+    }
+}
+
+VEC_INLINE void light_by_sun(DipFragmentBatch *batch, float (*map)[DIP_FRAGMENT_BATCH]) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        const Vf3 ray = view_ray(uniforms->rays, batch, i);
+        const Facing facing = find_facing(batch, i, ray, map);
+        const Vf sun = vf3_dot_sun(facing.mapped);
+        const Vf met = vf_max(sun, vf_splat(0.0f));
+        const Vf light = fixed_light(facing.mapped, met);
+        const Fraction shine = highlight(&facing, ray, sun, met, uniforms->roughness);
+        const Vf added = shine.above / shine.below;
+        for (int c = 0; c < 3; c++) {
+            vf_store(batch->colour[c] + i, vf_load(batch->colour[c] + i) * light + added);
+        }
+    }
+}
+
+// Begins with base colour times texture, and reads the map with it where both have coordinates in
+// common.
+VEC_INLINE void start_mapped_colour(DipFragmentBatch *batch, float (*texture)[DIP_FRAGMENT_BATCH],
+                                    float (*map)[DIP_FRAGMENT_BATCH]) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipSampler *const samplers[2] = {&batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
+                                           &batch->samplers[DIP_SURFACE_SAMPLER_NORMAL_MAP]};
+    if (uniforms->colour_slot == uniforms->normal_map_slot) {
+        float(*const out[2])[DIP_FRAGMENT_BATCH] = {texture, map};
+        start_base_colour(batch);
+        batch->sample_colours(batch, samplers, uniforms->colour_slot, out);
+        scale_colour(batch, texture, 1.0f);
+    } else {
+        start_colour(batch, texture);
+        batch->sample_colour(batch, samplers[1], uniforms->normal_map_slot, map);
+    }
+}
+
+void DIP_KERNEL(dip_kernel_normal_map_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    float texture[3][DIP_FRAGMENT_BATCH];
+    float map[3][DIP_FRAGMENT_BATCH];
+    start_mapped_colour(batch, texture, map);
+    if (uniforms->light_slot != DIP_NO_SLOT) {
+        scale_colour(batch, batch->slot + uniforms->light_slot, 1.0f);
+    }
+    if (uniforms->light_map_slot != DIP_NO_SLOT) {
+        batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_LIGHT_MAP],
+                             uniforms->light_map_slot, texture);
+        light_by_map(batch, map, texture);
+    } else {
+        light_by_sun(batch, map);
+    }
+    batch->work.normal_mapped += (uint64_t)batch->count;
+}

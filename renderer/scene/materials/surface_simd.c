@@ -1,0 +1,53 @@
+// Shaders of the scene's surfaces, compiled once per instruction set.
+#include "renderer/scene/materials/surface_simd.h"
+
+#include "renderer/scene/materials/material_kernels.h"
+
+VEC_INLINE Vf light_of(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch, int i) {
+    const Vf3 n = turn_normal(uniforms, batch, i);
+    const Vf inverse = inverse_length(vf3_dot(n, n));
+    const Vf sun = vf3_dot_sun(n) * inverse;
+    return (LIGHT_AMBIENT + n.y * inverse * LIGHT_SKY) + vf_max(sun, vf_splat(0.0f)) * LIGHT_SUN;
+}
+
+void DIP_KERNEL(dip_kernel_surface_vertex)(const DipVertexBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        place_vertices(uniforms, batch, i);
+        if (uniforms->light_slot == DIP_NO_SLOT) {
+            continue;
+        }
+        const Vf light = uniforms->normal_attribute == DIP_NO_SLOT ? vf_splat(1.0f)
+                                                                   : light_of(uniforms, batch, i);
+        for (int c = 0; c < 3; c++) {
+            const Vf colour = uniforms->colour_attribute == DIP_NO_SLOT
+                                  ? vf_splat(1.0f)
+                                  : vf_load(batch->in[uniforms->colour_attribute + c] + i);
+            vf_store(batch->slot[uniforms->light_slot + c] + i, light * colour);
+        }
+    }
+}
+
+void DIP_KERNEL(dip_kernel_surface_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    float texture[3][DIP_FRAGMENT_BATCH];
+    start_colour(batch, texture);
+    if (uniforms->light_map_slot != DIP_NO_SLOT) {
+        batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_LIGHT_MAP],
+                             uniforms->light_map_slot, texture);
+        scale_colour(batch, texture, uniforms->light_map_scale);
+    }
+    if (uniforms->light_slot != DIP_NO_SLOT) {
+        scale_colour(batch, batch->slot + uniforms->light_slot, 1.0f);
+    }
+}
+
+void DIP_KERNEL(dip_kernel_surface_clip)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    float alpha[DIP_FRAGMENT_BATCH];
+    batch->sample_alpha(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR], uniforms->colour_slot,
+                        alpha);
+    for (int i = 0; i < batch->count; i++) {
+        batch->keep[i] = alpha[i] >= uniforms->alpha_cutoff;
+    }
+}

@@ -1,0 +1,113 @@
+// What the shaders of the scene's surfaces share, for *_simd.c only.
+#ifndef DIP_RENDERER_SCENE_MATERIALS_SURFACE_SIMD_H
+#define DIP_RENDERER_SCENE_MATERIALS_SURFACE_SIMD_H
+
+#include "renderer/pipeline/shader.h"
+#include "renderer/scene/materials/surface.h"
+#include "renderer/simd/vec.h"
+
+// The fixed light of surfaces without a light map: sky from above, sun from SUN.
+#define LIGHT_AMBIENT 0.35f
+#define LIGHT_SKY     0.15f
+#define LIGHT_SUN     0.65f
+// (-0.42, 0.67, 0.61) normalised.
+#define SUN_X -0.42046720f
+#define SUN_Y 0.67074529f
+#define SUN_Z 0.61067856f
+
+typedef struct Vf3 {
+    Vf x, y, z;
+} Vf3;
+
+VEC_INLINE Vf3 vf3_load(float (*rows)[DIP_FRAGMENT_BATCH], int i) {
+    return (Vf3){vf_load(rows[0] + i), vf_load(rows[1] + i), vf_load(rows[2] + i)};
+}
+
+VEC_INLINE Vf vf3_dot(Vf3 a, Vf3 b) {
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+VEC_INLINE Vf vf3_dot_sun(Vf3 a) {
+    return (a.x * SUN_X + a.y * SUN_Y) + a.z * SUN_Z;
+}
+
+VEC_INLINE Vf3 vf3_scale(Vf3 a, Vf s) {
+    return (Vf3){a.x * s, a.y * s, a.z * s};
+}
+
+// 1 / sqrt of a square of a length, finite where that is 0.
+VEC_INLINE Vf inverse_length(Vf length2) {
+    return vf_splat(1.0f) / vf_sqrt(vf_max(length2, vf_splat(1e-12f)));
+}
+
+VEC_INLINE Vf clamp01(Vf v) {
+    return vf_min(vf_max(v, vf_splat(0.0f)), vf_splat(1.0f));
+}
+
+// Clip positions and the slots that pass through.
+VEC_INLINE void place_vertices(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch,
+                               int i) {
+    const Vf x = vf_load(batch->in[0] + i);
+    const Vf y = vf_load(batch->in[1] + i);
+    const Vf z = vf_load(batch->in[2] + i);
+    for (int c = 0; c < 4; c++) {
+        const float *m = uniforms->to_clip + 4 * c;
+        vf_store(batch->clip[c] + i, ((x * m[0] + y * m[1]) + z * m[2]) + m[3]);
+    }
+    for (int s = 0; s < uniforms->pass_count; s++) {
+        vf_store(batch->slot[s] + i, vf_load(batch->in[3 + s] + i));
+    }
+}
+
+// A vertex' normal turned to the world, not yet normalised.
+VEC_INLINE Vf3 turn_normal(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch, int i) {
+    const float *const *normal = batch->in + uniforms->normal_attribute;
+    const float *m = uniforms->normal_to_world;
+    const Vf nx = vf_load(normal[0] + i);
+    const Vf ny = vf_load(normal[1] + i);
+    const Vf nz = vf_load(normal[2] + i);
+    return (Vf3){(nx * m[0] + ny * m[1]) + nz * m[2], (nx * m[3] + ny * m[4]) + nz * m[5],
+                 (nx * m[6] + ny * m[7]) + nz * m[8]};
+}
+
+// Not normalised; its part along the view axis is 1.
+VEC_INLINE Vf3 view_ray(const DipViewRays *rays, const DipFragmentBatch *batch, int i) {
+    const Vf x = vf_load(batch->x + i);
+    const Vf y = vf_load(batch->y + i);
+    return (Vf3){(x * rays->per_x[0] + y * rays->per_y[0]) + rays->origin[0],
+                 (x * rays->per_x[1] + y * rays->per_y[1]) + rays->origin[1],
+                 (x * rays->per_x[2] + y * rays->per_y[2]) + rays->origin[2]};
+}
+
+// Multiplies the batch's colours by factor * scale.
+VEC_INLINE void scale_colour(DipFragmentBatch *batch, float (*factor)[DIP_FRAGMENT_BATCH],
+                             float scale) {
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i += DIP_LANES) {
+            vf_store(batch->colour[c] + i,
+                     vf_load(batch->colour[c] + i) * (vf_load(factor[c] + i) * scale));
+        }
+    }
+}
+
+VEC_INLINE void start_base_colour(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i += DIP_LANES) {
+            vf_store(batch->colour[c] + i, vf_splat(uniforms->base_colour_lin[c]));
+        }
+    }
+}
+
+// Begins with base colour times texture.
+VEC_INLINE void start_colour(DipFragmentBatch *batch, float (*texture)[DIP_FRAGMENT_BATCH]) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    start_base_colour(batch);
+    if (uniforms->colour_slot != DIP_NO_SLOT) {
+        batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
+                             uniforms->colour_slot, texture);
+        scale_colour(batch, texture, 1.0f);
+    }
+}
+
+#endif

@@ -1,0 +1,164 @@
+// Cutting projected shapes to tiles.
+#include "renderer/scene/plan/parts.h"
+
+#include "renderer/pipeline/raster/tile.h"
+#include "renderer/scene/plan/extent.h"
+
+#include <string.h>
+
+enum { MAX_CORNERS = 3 + 1 + 4 }; // of a triangle cut by the near plane and a tile's sides
+
+// Convex; in pixels, or in clip x, y and w before the division.
+typedef struct Polygon {
+    int count;
+    double at[MAX_CORNERS][3];
+} Polygon;
+
+// Keeps what lies on the side of a plane where side . (at, 1) >= 0.
+static void cut(Polygon *polygon, const double side[4]) {
+    Polygon kept = {.count = 0};
+    for (int i = 0; i < polygon->count; i++) {
+        const double *from = polygon->at[i];
+        const double *to = polygon->at[(i + 1) % polygon->count];
+        const double a = side[0] * from[0] + side[1] * from[1] + side[2] * from[2] + side[3];
+        const double b = side[0] * to[0] + side[1] * to[1] + side[2] * to[2] + side[3];
+        if (a >= 0.0) {
+            memcpy(kept.at[kept.count++], from, sizeof kept.at[0]);
+        }
+        if ((a >= 0.0) != (b >= 0.0) && kept.count < MAX_CORNERS) {
+            double *between = kept.at[kept.count++];
+            for (int c = 0; c < 3; c++) {
+                between[c] = from[c] + a / (a - b) * (to[c] - from[c]);
+            }
+        }
+    }
+    *polygon = kept;
+}
+
+typedef struct Bounds {
+    double min[2];
+    double max[2];
+} Bounds;
+
+static Bounds bounds_of(const Polygon *polygon, int margin) {
+    Bounds bounds = {{1e300, 1e300}, {-1e300, -1e300}};
+    for (int i = 0; i < polygon->count; i++) {
+        for (int axis = 0; axis < 2; axis++) {
+            const double at = polygon->at[i][axis];
+            bounds.min[axis] = at - margin < bounds.min[axis] ? at - margin : bounds.min[axis];
+            bounds.max[axis] = at + margin > bounds.max[axis] ? at + margin : bounds.max[axis];
+        }
+    }
+    return bounds;
+}
+
+static double within(double value, double low, double high) {
+    return value < low ? low : value > high ? high : value;
+}
+
+// The first and the last of `count` cells of a size that a range touches; the last is less than the
+// first where there is none.
+static void cells(double min, double max, int size, int count, int *first, int *last) {
+    *first = (int)within(min / size, 0.0, count);
+    *last = max < 0.0 ? -1 : (int)within(max / size, 0.0, count - 1);
+}
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+static int greatest(int a, int b) {
+    return a > b ? a : b;
+}
+
+// Adds the blocks of the tile at x, y (pixels) that the bounds meet.
+static void join(DipTilePart *part, const Bounds *bounds, int x, int y) {
+    const int corner[2] = {x, y};
+    int first[2];
+    int last[2];
+    for (int axis = 0; axis < 2; axis++) {
+        cells(bounds->min[axis] - corner[axis], bounds->max[axis] - corner[axis], DIP_BLOCK,
+              DIP_TILE_BLOCKS, &first[axis], &last[axis]);
+        if (last[axis] < first[axis]) {
+            return;
+        }
+    }
+    const bool empty = part->x0 == part->x1;
+    part->x0 = (uint8_t)least(empty ? DIP_TILE : part->x0, first[0] * DIP_BLOCK);
+    part->y0 = (uint8_t)least(empty ? DIP_TILE : part->y0, first[1] * DIP_BLOCK);
+    part->x1 = (uint8_t)greatest(part->x1, (last[0] + 1) * DIP_BLOCK);
+    part->y1 = (uint8_t)greatest(part->y1, (last[1] + 1) * DIP_BLOCK);
+}
+
+static void add_to_tile(const DipParts *parts, Polygon polygon, int x, int y, bool whole,
+                        DipTilePart *part) {
+    const double reach = DIP_TILE + parts->margin;
+    const double sides[4][4] = {{1.0, 0.0, 0.0, parts->margin - x},
+                                {-1.0, 0.0, 0.0, x + reach},
+                                {0.0, 1.0, 0.0, parts->margin - y},
+                                {0.0, -1.0, 0.0, y + reach}};
+    for (int i = 0; i < 4 && !whole && polygon.count; i++) {
+        cut(&polygon, sides[i]);
+    }
+    if (polygon.count) {
+        const Bounds bounds = bounds_of(&polygon, parts->margin);
+        join(part, &bounds, x, y);
+    }
+}
+
+static int tiles_in(int size) {
+    return (size + DIP_TILE - 1) / DIP_TILE;
+}
+
+// In pixels.
+static void add_polygon(const DipParts *parts, const Polygon *polygon) {
+    const Bounds bounds = bounds_of(polygon, parts->margin);
+    const int across = tiles_in(parts->width);
+    int x0, x1, y0, y1;
+    cells(bounds.min[0], bounds.max[0], DIP_TILE, across, &x0, &x1);
+    cells(bounds.min[1], bounds.max[1], DIP_TILE, tiles_in(parts->height), &y0, &y1);
+    for (int y = y0; y <= y1; y++) {
+        for (int x = x0; x <= x1; x++) {
+            add_to_tile(parts, *polygon, x * DIP_TILE, y * DIP_TILE, x0 == x1 && y0 == y1,
+                        &parts->tiles[y * across + x]);
+        }
+    }
+}
+
+static void to_pixels(const DipParts *parts, double x, double y, double at[3]) {
+    at[0] = (x + 1.0) * 0.5 * parts->width;
+    at[1] = (1.0 - y) * 0.5 * parts->height;
+    at[2] = 0.0;
+}
+
+void dip_parts_clear(const DipParts *parts) {
+    const size_t count = (size_t)tiles_in(parts->width) * (size_t)tiles_in(parts->height);
+    memset(parts->tiles, 0, count * sizeof *parts->tiles);
+}
+
+void dip_parts_add_triangle(const DipParts *parts, const DipView *view,
+                            const double corners[3][3]) {
+    const double near[4] = {0.0, 0.0, 1.0, -view->near_m};
+    Polygon polygon = {.count = 3};
+    for (int i = 0; i < 3; i++) {
+        dip_extent_project(view, corners[i], polygon.at[i]);
+    }
+    cut(&polygon, near);
+    for (int i = 0; i < polygon.count; i++) {
+        double *at = polygon.at[i];
+        to_pixels(parts, at[0] / at[2], at[1] / at[2], at);
+    }
+    add_polygon(parts, &polygon);
+}
+
+void dip_parts_add_box(const DipParts *parts, const DipView *view, const double corners[8][3]) {
+    DipExtent extent = dip_extent_none();
+    dip_extent_add_box(&extent, view, corners);
+    Polygon polygon = {.count = extent.min[0] > extent.max[0] ? 0 : 4};
+    for (int i = 0; i < polygon.count; i++) {
+        const bool right = i == 1 || i == 2;
+        to_pixels(parts, right ? extent.max[0] : extent.min[0],
+                  i < 2 ? extent.min[1] : extent.max[1], polygon.at[i]);
+    }
+    add_polygon(parts, &polygon);
+}

@@ -1,0 +1,254 @@
+// Deciding a frame's effects, one function each.
+#include "renderer/scene/plan/plan.h"
+
+#include "renderer/scene/plan/extent.h"
+#include "renderer/scene/resources/scene_layout.h"
+
+static const char forced[] = "all effects are forced";
+static const char plain[] = "surfaces are drawn plain";
+
+static DipEffect run(const DipPlanInput *input, const char *why) {
+    return (DipEffect){true, input->force_all ? forced : why};
+}
+
+static DipEffect skip(const char *why) {
+    return (DipEffect){false, why};
+}
+
+static const DipSceneMesh *mesh_of(const DipScene *scene, int object) {
+    return &scene->meshes[scene->objects[object].mesh];
+}
+
+static const DipSceneMaterial *material_of(const DipScene *scene, int object) {
+    return &scene->materials[mesh_of(scene, object)->material];
+}
+
+static bool object_in_view(const DipScene *scene, const DipCullPlanes *seen, int object) {
+    return mesh_of(scene, object)->mesh->chunk_count &&
+           !dip_cull_outside(seen, &scene->objects[object].bounds);
+}
+
+// --- what is in view ---------------------------------------------------------------------------
+
+typedef bool IsOfEffect(const DipScene *scene, int object);
+
+static bool is_clipped(const DipScene *scene, int object) {
+    return material_of(scene, object)->surface == DIP_SURFACE_CLIPPED;
+}
+
+static bool is_light_mapped(const DipScene *scene, int object) {
+    return material_of(scene, object)->light_map != DIP_NO_TEXTURE;
+}
+
+static bool is_normal_mapped(const DipScene *scene, int object) {
+    return mesh_of(scene, object)->normal_mapped;
+}
+
+static bool is_clouded(const DipScene *scene, int object) {
+    return mesh_of(scene, object)->sky;
+}
+
+// Whether such an object may be seen, in the picture or in its water. The reflection is planned
+// before.
+static bool any_in_view(const DipPlanInput *input, const DipFramePlan *plan, IsOfEffect *is) {
+    for (int i = 0; i < input->scene->object_count; i++) {
+        if (is(input->scene, i) && (object_in_view(input->scene, input->seen, i) ||
+                                    (plan->effects.reflection.run &&
+                                     object_in_view(input->scene, input->seen_mirrored, i)))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// --- the reflection ----------------------------------------------------------------------------
+
+// Whether the eye looks down on some corner: only there does water reflect.
+static bool is_below(const DipView *view, const double (*corners)[3], int count) {
+    for (int i = 0; i < count; i++) {
+        if (corners[i][1] < view->eye[1]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void add_chunk_box(DipExtent *extent, const DipPlanInput *input, const float transform[12],
+                          const DipBox *box) {
+    double corners[8][3];
+    dip_extent_place_box(transform, box, corners);
+    if (is_below(input->view, (const double(*)[3])corners, 8)) {
+        dip_extent_add_box(extent, input->view, (const double(*)[3])corners);
+        dip_parts_add_box(input->parts, input->view, (const double(*)[3])corners);
+    }
+}
+
+static void place_vertex(const DipMesh *mesh, const float transform[12], uint32_t vertex,
+                         double world[3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        const float *m = transform + 4 * axis;
+        world[axis] = m[3];
+        for (uint32_t k = 0; k < 3; k++) {
+            world[axis] += (double)m[k] * mesh->attributes[k * mesh->vertex_total + vertex];
+        }
+    }
+}
+
+static void add_chunk_triangles(DipExtent *extent, const DipPlanInput *input,
+                                const float transform[12], const DipMesh *mesh,
+                                const DipChunk *chunk) {
+    const uint8_t *corner = mesh->indices + chunk->first_index;
+    const uint32_t stride = dip_corner_stride(chunk);
+    for (uint32_t t = 0; t < chunk->triangle_count; t++) {
+        double corners[3][3];
+        for (uint32_t k = 0; k < 3; k++) {
+            place_vertex(mesh, transform, chunk->first_vertex + corner[k * stride + t], corners[k]);
+        }
+        if (is_below(input->view, (const double(*)[3])corners, 3)) {
+            dip_extent_add_triangle(extent, input->view, (const double(*)[3])corners);
+            dip_parts_add_triangle(input->parts, input->view, (const double(*)[3])corners);
+        }
+    }
+}
+
+enum { FEW_CHUNKS = 8 }; // of a mesh: its triangles are looked at one by one
+
+// Where the water that the eye looks down on may be in the picture; also adds it to the parts.
+static DipExtent water_extent(const DipPlanInput *input) {
+    DipExtent extent = dip_extent_none();
+    for (int i = 0; i < input->scene->object_count; i++) {
+        if (material_of(input->scene, i)->surface != DIP_SURFACE_WATER ||
+            !object_in_view(input->scene, input->seen, i)) {
+            continue;
+        }
+        const float *transform = input->scene->objects[i].transform;
+        const DipMesh *mesh = mesh_of(input->scene, i)->mesh;
+        for (uint32_t c = 0; c < mesh->chunk_count; c++) {
+            if (mesh->chunk_count <= FEW_CHUNKS) {
+                add_chunk_triangles(&extent, input, transform, mesh, &mesh->chunks[c]);
+            } else {
+                add_chunk_box(&extent, input, transform, &mesh->chunks[c].box);
+            }
+        }
+    }
+    return extent;
+}
+
+static DipEffect plan_reflection(const DipPlanInput *input, DipFramePlan *plan) {
+    const DipReflectionDef *reflection = input->reflection;
+    if (!input->scene->has_water) {
+        return skip("the scene has no water");
+    }
+    if (input->plain_surfaces) {
+        return skip(plain);
+    }
+    if (!reflection->width) {
+        return skip("the reflection has no size");
+    }
+    if (!(input->view->eye[1] > reflection->level_m)) {
+        return skip("the camera is not above the water");
+    }
+    plan->water_reflects = true;
+    const DipRegion whole = {0, 0, reflection->width, reflection->height};
+    if (input->force_all || reflection->show) {
+        plan->mirrored_region = whole;
+        return run(input, "its picture is shown whole");
+    }
+    plan->mirrored_parts = true;
+    dip_parts_clear(input->parts);
+    const DipExtent extent = water_extent(input);
+    return dip_extent_region(&extent, reflection->width, reflection->height, input->parts->margin,
+                             &plan->mirrored_region)
+               ? run(input, "water is in view")
+               : skip("no water is in view");
+}
+
+// --- the other effects -------------------------------------------------------------------------
+
+static DipEffect plan_alpha_clip(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!input->scene->has_clipped) {
+        return skip("the scene has no alpha-clipped surface");
+    }
+    return input->force_all || any_in_view(input, plan, is_clipped)
+               ? run(input, "alpha-clipped surfaces are in view")
+               : skip("no alpha-clipped surface is in view");
+}
+
+// Passes cost only the tiles that hold alpha-clipped triangles: the pipeline sees to that.
+static DipEffect plan_adaptive_aa(const DipPlanInput *input, DipFramePlan *plan) {
+    const int sample_count = dip_quality_sample_count(input->quality);
+    plan->samples_per_pass = sample_count;
+    if (!input->quality->step[DIP_SETTING_AAA]) {
+        return skip("it is off");
+    }
+    if (dip_quality_samples_per_pass(input->quality) == sample_count) {
+        return skip("one pass holds all samples");
+    }
+    if (!plan->effects.alpha_clip.run) {
+        return plan->effects.alpha_clip;
+    }
+    plan->samples_per_pass = dip_quality_samples_per_pass(input->quality);
+    return run(input, "alpha-clipped surfaces are drawn in several passes");
+}
+
+static DipEffect plan_light_map(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!input->scene->has_light_map) {
+        return skip("the scene has no light map");
+    }
+    return input->force_all || any_in_view(input, plan, is_light_mapped)
+               ? run(input, "light-mapped surfaces are in view")
+               : skip("no light-mapped surface is in view");
+}
+
+// A mesh without a map keeps the plain shader.
+static DipEffect plan_normal_map(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!input->scene->has_normal_map) {
+        return skip("the scene has no normal-mapped surface");
+    }
+    if (input->plain_surfaces) {
+        return skip(plain);
+    }
+    return input->force_all || any_in_view(input, plan, is_normal_mapped)
+               ? run(input, "normal-mapped surfaces are in view")
+               : skip("no normal-mapped surface is in view");
+}
+
+// The visibility buffer leaves of the sky only what nothing covers to be shaded.
+static DipEffect plan_sky(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!input->scene->has_sky) {
+        return skip("the scene has no sky with clouds");
+    }
+    if (input->plain_surfaces) {
+        return skip(plain);
+    }
+    if (input->quality->step[DIP_SETTING_MIPDEBUG]) {
+        return skip("mip levels are shown in its place");
+    }
+    return input->force_all || any_in_view(input, plan, is_clouded)
+               ? run(input, "sky is in view where nothing covers it")
+               : skip("no sky is in view");
+}
+
+DipFramePlan dip_plan_frame(const DipPlanInput *input) {
+    DipFramePlan plan = {.water_reflects = false};
+#define PLAN_EFFECT(name, text) plan.effects.name = plan_##name(input, &plan);
+    DIP_EFFECT_LIST(PLAN_EFFECT)
+#undef PLAN_EFFECT
+    return plan;
+}
+
+static void settle(DipEffect *effect, uint64_t work) {
+    if (effect->run && !work) {
+        *effect = skip("all of it in view is covered");
+    }
+}
+
+void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, DipEffects *effects) {
+    if (input->force_all) {
+        return;
+    }
+    settle(&effects->alpha_clip, counters->fragments_clip_tested);
+    settle(&effects->adaptive_aa, counters->clip_passes);
+    settle(&effects->normal_map, counters->fragments_normal_mapped);
+    settle(&effects->sky, counters->fragments_sky);
+}

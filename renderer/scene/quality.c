@@ -1,0 +1,169 @@
+// The settings list at work: info, parse, format, check.
+#include "renderer/scene/quality.h"
+
+#include "renderer/base/assert.h"
+#include "renderer/pipeline/pattern.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define STEPS(...)    __VA_ARGS__
+#define COUNT_OF(...) (sizeof((const char *[]){__VA_ARGS__}) / sizeof(const char *))
+
+static const DipSettingInfo infos[DIP_SETTING_COUNT] = {
+#define DIP_SETTING_INFO(key, NAME, title, def, steps, text)                                       \
+    {#key, title, text, (int)(COUNT_OF steps), def, {STEPS steps}},
+    DIP_SETTING_LIST(DIP_SETTING_INFO)
+#undef DIP_SETTING_INFO
+};
+
+const DipSettingInfo *dip_setting_info(DipSetting setting) {
+    DIP_ASSERT(setting < DIP_SETTING_COUNT);
+    return &infos[setting];
+}
+
+DipQuality dip_quality_default(void) {
+    DipQuality quality;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        quality.step[s] = (uint8_t)infos[s].default_step;
+    }
+    return quality;
+}
+
+// "none|2|4": the steps of a setting, or only those of this version.
+static void list_steps(const DipSettingInfo *info, unsigned mask, char *buffer, size_t size_bytes) {
+    size_t length = 0;
+    buffer[0] = '\0';
+    for (int i = 0; i < info->step_count; i++) {
+        if (mask >> i & 1 && length < size_bytes) {
+            length += (size_t)snprintf(buffer + length, size_bytes - length, "%s%s",
+                                       length ? "|" : "", info->steps[i]);
+        }
+    }
+}
+
+static bool unknown_setting(const char *name, DipError *err) {
+    char known[128] = "";
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        const size_t length = strlen(known);
+        snprintf(known + length, sizeof known - length, "%s%s", s ? " " : "", infos[s].key);
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, name,
+                         "no setting of this name, accepted %s", known);
+}
+
+// Applies one "key=step".
+static bool parse_assignment(const char *text, DipQuality *quality, unsigned *seen, DipError *err) {
+    char key[64];
+    const char *equals = strchr(text, '=');
+    snprintf(key, sizeof key, "%.*s", equals ? (int)(equals - text) : (int)strlen(text), text);
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        if (strcmp(key, infos[s].key) != 0) {
+            continue;
+        }
+        char accepted[96];
+        list_steps(&infos[s], ~0u, accepted, sizeof accepted);
+        if (!equals) {
+            return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, key, "no value, accepted %s=%s",
+                                 key, accepted);
+        }
+        if (*seen >> s & 1) {
+            return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, key,
+                                 "is set twice, accepted once");
+        }
+        *seen |= 1u << s;
+        for (int i = 0; i < infos[s].step_count; i++) {
+            if (strcmp(equals + 1, infos[s].steps[i]) == 0) {
+                quality->step[s] = (uint8_t)i;
+                return true;
+            }
+        }
+        return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, key, "'%s' is no step, accepted %s",
+                             equals + 1, accepted);
+    }
+    return unknown_setting(key, err);
+}
+
+bool dip_quality_parse(const char *text, DipQuality *quality, DipError *err) {
+    DipQuality parsed = dip_quality_default();
+    unsigned seen = 0;
+    char assignment[128];
+    while (*text) {
+        const size_t length = strcspn(text, ",");
+        if (length >= sizeof assignment) {
+            return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, "settings",
+                                 "a part of %zu characters, accepted key=step", length);
+        }
+        memcpy(assignment, text, length);
+        assignment[length] = '\0';
+        if (!parse_assignment(assignment, &parsed, &seen, err)) {
+            return false;
+        }
+        text += length + (text[length] == ',');
+    }
+    if (!dip_quality_check(&parsed, err)) {
+        return false;
+    }
+    *quality = parsed;
+    return true;
+}
+
+size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_bytes) {
+    size_t length = 0;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        const size_t room = length < size_bytes ? size_bytes - length : 0;
+        length += (size_t)snprintf(room ? buffer + length : NULL, room, "%s%s=%s", s ? "," : "",
+                                   infos[s].key, infos[s].steps[quality->step[s]]);
+    }
+    return length;
+}
+
+// The divisor must be one that the number of samples has passes for, in use or not.
+static bool check_passes(const DipQuality *quality, DipError *err) {
+    const DipSettingInfo *info = &infos[DIP_SETTING_ASD];
+    const int aa = quality->step[DIP_SETTING_AA];
+    const int sample_count = dip_quality_sample_count(quality);
+    unsigned fitting = 0;
+    for (int i = 0; i < info->step_count; i++) {
+        fitting |= (unsigned)dip_sample_passes_exist(sample_count, i + 1) << i;
+    }
+    if (fitting >> quality->step[DIP_SETTING_ASD] & 1) {
+        return true;
+    }
+    char accepted[96];
+    list_steps(info, fitting, accepted, sizeof accepted);
+    return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, info->key,
+                         "'%s' samples per pass do not fit aa=%s, accepted %s",
+                         info->steps[quality->step[DIP_SETTING_ASD]],
+                         infos[DIP_SETTING_AA].steps[aa], accepted);
+}
+
+bool dip_quality_check(const DipQuality *quality, DipError *err) {
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        const int step = quality->step[s];
+        if (step >= infos[s].step_count) {
+            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, infos[s].key,
+                                 "step %d is out of range, accepted 0..%d", step,
+                                 infos[s].step_count - 1);
+        }
+    }
+    return check_passes(quality, err);
+}
+
+int dip_quality_sample_count(const DipQuality *quality) {
+    static const int samples[] = {1, 2, 4, 6, 8};
+    return samples[quality->step[DIP_SETTING_AA]];
+}
+
+int dip_quality_max_anisotropy(const DipQuality *quality) {
+    return 1 << quality->step[DIP_SETTING_AF];
+}
+
+int dip_quality_samples_per_pass(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_AAA] ? quality->step[DIP_SETTING_ASD] + 1
+                                          : dip_quality_sample_count(quality);
+}
+
+bool dip_quality_compresses(const DipQuality *quality) {
+    return quality->step[DIP_SETTING_OPT] != DIP_OPT_OFF && !quality->step[DIP_SETTING_MIPDEBUG];
+}

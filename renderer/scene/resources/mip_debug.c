@@ -1,0 +1,38 @@
+// The seed's Table 4: a colour for each mip level size.
+#include "renderer/scene/resources/mip_debug.h"
+
+// sRGB codes for 1024, 512, 256, 128, 64, 32, 16, 8 texels.
+static const uint8_t colours[DIP_MIP_DEBUG_LEVELS][4] = {
+    {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
+    {255, 255, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {128, 0, 128, 255},
+};
+
+DipTexture *dip_mip_debug_create(const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
+                                 DipError *err) {
+    DipTextureDef levels[DIP_MIP_DEBUG_LEVELS];
+    for (int i = 0; i < DIP_MIP_DEBUG_LEVELS; i++) {
+        levels[i] = pictures && pictures[i] ? *pictures[i]
+                                            : (DipTextureDef){.name = "mip colour",
+                                                              .width = 1,
+                                                              .height = 1,
+                                                              .rgba8 = colours[i],
+                                                              .encoding = DIP_ENCODING_SRGB};
+        levels[i].wrap_u = DIP_WRAP_REPEAT;
+        levels[i].wrap_v = DIP_WRAP_REPEAT;
+    }
+    return dip_texture_create_from_levels(levels, DIP_MIP_DEBUG_LEVELS, err);
+}
+
+void dip_mip_debug_levels(const DipTexture *texture, int32_t shown_level[DIP_LEVEL_TABLE]) {
+    for (int level = 0; level < DIP_LEVEL_TABLE; level++) {
+        const int l = level < texture->level_count ? level : texture->level_count - 1;
+        const int32_t width = texture->level_width[l];
+        const int32_t height = texture->level_height[l];
+        const int32_t size = width > height ? width : height;
+        int shown = 0;
+        while (shown < DIP_MIP_DEBUG_LEVELS - 1 && size < 1024 >> shown) {
+            shown++;
+        }
+        shown_level[level] = shown;
+    }
+}

@@ -1,0 +1,499 @@
+// Making a scene from its description: checks, textures, vertex layouts, bounds.
+#include "renderer/scene/resources/scene_layout.h"
+
+#include "renderer/base/clock.h"
+#include "renderer/pipeline/cull.h"
+#include "renderer/pipeline/geometry/mesh_layout.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool check_index(int index, int count, const char *owner, const char *key, DipError *err) {
+    return (index >= DIP_NO_TEXTURE && index < count) ||
+           dip_error_set(err, DIP_ERROR_RANGE, owner, 0, key,
+                         "texture %d is out of range, accepted 0..%d, or -1 for none", index,
+                         count - 1);
+}
+
+static bool check_material(const DipSceneDef *def, const DipMaterialDef *material, DipError *err) {
+    return check_index(material->colour_texture, def->texture_count, material->name,
+                       "colour_texture", err) &&
+           check_index(material->light_map, def->texture_count, material->name, "light_map", err) &&
+           check_index(material->normal_map, def->texture_count, material->name, "normal_map", err);
+}
+
+static bool check_sky(const DipSkyDef *sky, DipError *err) {
+    for (int i = 0; i < 2; i++) {
+        const double speed = sky->layers[i].speed_per_min;
+        if (!(speed >= -DIP_MAX_SKY_SPEED && speed <= DIP_MAX_SKY_SPEED)) {
+            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "sky",
+                                 "a speed of %g, accepted -%d..%d", speed, DIP_MAX_SKY_SPEED,
+                                 DIP_MAX_SKY_SPEED);
+        }
+    }
+    return true;
+}
+
+static bool check_def(const DipSceneDef *def, DipError *err) {
+    if (!check_sky(&def->sky, err)) {
+        return false;
+    }
+    if (!(def->near_m > 0.0f) || !isfinite(def->near_m)) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "near_m",
+                             "%g is out of range, accepted more than 0", (double)def->near_m);
+    }
+    for (int i = 0; i < def->material_count; i++) {
+        if (!check_material(def, &def->materials[i], err)) {
+            return false;
+        }
+    }
+    for (int i = 0; i < def->mesh_count; i++) {
+        const DipMeshDef *mesh = &def->meshes[i];
+        if (mesh->material < 0 || mesh->material >= def->material_count) {
+            return dip_error_set(err, DIP_ERROR_RANGE, mesh->name, 0, "material",
+                                 "%d is out of range, accepted 0..%d", mesh->material,
+                                 def->material_count - 1);
+        }
+    }
+    for (int i = 0; i < def->object_count; i++) {
+        const DipObjectDef *object = &def->objects[i];
+        if (object->mesh < 0 || object->mesh >= def->mesh_count) {
+            return dip_error_set(err, DIP_ERROR_RANGE, object->name, 0, "mesh",
+                                 "%d is out of range, accepted 0..%d", object->mesh,
+                                 def->mesh_count - 1);
+        }
+        for (int k = 0; k < 12; k++) {
+            if (!isfinite(object->transform[k])) {
+                return dip_error_set(err, DIP_ERROR_RANGE, object->name, 0, "transform",
+                                     "an element is not finite");
+            }
+        }
+    }
+    return true;
+}
+
+// --- meshes ------------------------------------------------------------------------------------
+
+// What a vertex of a mesh carries, in order; see DipSurfaceUniforms.
+typedef struct VertexLayout {
+    const float *source[5];
+    int size[5]; // floats
+    int count;
+    int attribute_count;
+} VertexLayout;
+
+static int add_source(VertexLayout *layout, const float *source, int size) {
+    const int first = layout->attribute_count;
+    layout->source[layout->count] = source;
+    layout->size[layout->count++] = size;
+    layout->attribute_count += size;
+    return first;
+}
+
+// Whether a material's normal map is drawn: on solid surfaces that have light to change. Water and
+// sky have shaders of their own.
+static bool draws_normal_map(const DipMaterialDef *material) {
+    const bool solid =
+        material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;
+    return solid && material->normal_map != DIP_NO_TEXTURE &&
+           (material->lit || material->light_map != DIP_NO_TEXTURE);
+}
+
+// The slots of a normal-mapped mesh: coordinates, normal, depth and, where there are, vertex
+// colours.
+static void lay_out_normal_map(DipSceneMesh *out, int normal_attribute) {
+    out->mapped_layout = out->layout;
+    DipSurfaceUniforms *uniforms = &out->mapped_layout;
+    uniforms->normal_attribute = normal_attribute;
+    uniforms->normal_map_slot = 0;
+    uniforms->normal_slot = uniforms->pass_count;
+    uniforms->depth_slot = uniforms->pass_count + 3;
+    out->mapped_slot_count = uniforms->pass_count + 4;
+    uniforms->light_slot = DIP_NO_SLOT;
+    if (uniforms->colour_attribute != DIP_NO_SLOT) {
+        uniforms->light_slot = out->mapped_slot_count;
+        out->mapped_slot_count += 3;
+    }
+}
+
+// Decides what the mesh's material needs of its vertices; nothing else is kept.
+static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *material,
+                            DipSceneMesh *out) {
+    VertexLayout layout = {.count = 0};
+    DipSurfaceUniforms *uniforms = &out->layout;
+    *uniforms = (DipSurfaceUniforms){
+        .normal_attribute = DIP_NO_SLOT,
+        .colour_attribute = DIP_NO_SLOT,
+        .light_slot = DIP_NO_SLOT,
+        .colour_slot = DIP_NO_SLOT,
+        .light_map_slot = DIP_NO_SLOT,
+        .normal_map_slot = DIP_NO_SLOT,
+        .normal_slot = DIP_NO_SLOT,
+        .depth_slot = DIP_NO_SLOT,
+        .roughness = material->roughness,
+        .light_map_scale = material->light_map_scale,
+        .alpha_cutoff = material->alpha_cutoff,
+    };
+    memcpy(uniforms->base_colour_lin, material->base_colour_lin, sizeof uniforms->base_colour_lin);
+    add_source(&layout, mesh->positions, 3);
+    const bool light_mapped = material->light_map != DIP_NO_TEXTURE && mesh->uv1;
+    out->normal_mapped =
+        draws_normal_map(material) && mesh->uv0 && mesh->normals && (light_mapped || material->lit);
+    const bool textured = material->colour_texture != DIP_NO_TEXTURE && mesh->uv0;
+    out->sky = material->surface == DIP_SURFACE_SKY && textured;
+    if (textured || out->normal_mapped) {
+        const int slot = add_source(&layout, mesh->uv0, 2) - 3;
+        uniforms->colour_slot = textured ? slot : DIP_NO_SLOT;
+    }
+    if (light_mapped) {
+        uniforms->light_map_slot = add_source(&layout, mesh->uv1, 2) - 3;
+    }
+    uniforms->pass_count = layout.attribute_count - 3;
+    out->slot_count = uniforms->pass_count;
+    const bool lit = !light_mapped && material->lit && mesh->normals;
+    int normal_attribute = DIP_NO_SLOT;
+    if (lit || out->normal_mapped) {
+        normal_attribute = add_source(&layout, mesh->normals, 3);
+        uniforms->normal_attribute = lit ? normal_attribute : DIP_NO_SLOT;
+    }
+    if (mesh->colours_lin) {
+        uniforms->colour_attribute = add_source(&layout, mesh->colours_lin, 3);
+    }
+    if (uniforms->normal_attribute != DIP_NO_SLOT || uniforms->colour_attribute != DIP_NO_SLOT) {
+        uniforms->light_slot = out->slot_count;
+        out->slot_count += 3;
+    }
+    if (out->normal_mapped) {
+        lay_out_normal_map(out, normal_attribute);
+    }
+    return layout;
+}
+
+static float *interleave(const VertexLayout *layout, uint32_t vertex_count) {
+    const size_t stride = (size_t)layout->attribute_count;
+    float *rows = malloc((stride * vertex_count + 1) * sizeof *rows);
+    for (uint32_t v = 0; rows && v < vertex_count; v++) {
+        float *row = rows + stride * v;
+        for (int i = 0; i < layout->count; i++) {
+            const size_t size = (size_t)layout->size[i];
+            memcpy(row, layout->source[i] + size * v, size * sizeof *row);
+            row += size;
+        }
+    }
+    return rows;
+}
+
+static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipError *err) {
+    const DipMeshDef *mesh = &def->meshes[index];
+    DipSceneMesh *out = &scene->meshes[index];
+    const VertexLayout layout = lay_out(mesh, &def->materials[mesh->material], out);
+    float *rows = interleave(&layout, mesh->vertex_count);
+    if (!rows) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, mesh->name, 0, "mesh", "out of memory");
+    }
+    const DipMeshData data = {
+        .name = mesh->name,
+        .attributes = rows,
+        .attribute_count = layout.attribute_count,
+        .vertex_count = mesh->vertex_count,
+        .indices = mesh->indices,
+        .index_count = mesh->index_count,
+    };
+    out->mesh = dip_mesh_create(&data, err);
+    out->material = mesh->material;
+    scene->has_normal_map |= out->normal_mapped;
+    scene->has_sky |= out->sky;
+    free(rows);
+    return out->mesh != NULL;
+}
+
+// --- textures ----------------------------------------------------------------------------------
+
+static void mark_used_textures(const DipSceneDef *def, bool *used, bool *clip) {
+    for (int i = 0; i < def->material_count; i++) {
+        const DipMaterialDef *material = &def->materials[i];
+        const int textures[] = {material->colour_texture, material->light_map,
+                                draws_normal_map(material) ? material->normal_map : DIP_NO_TEXTURE};
+        for (size_t k = 0; k < sizeof textures / sizeof *textures; k++) {
+            if (textures[k] != DIP_NO_TEXTURE) {
+                used[textures[k]] = true;
+            }
+        }
+        if (material->surface == DIP_SURFACE_CLIPPED &&
+            material->colour_texture != DIP_NO_TEXTURE) {
+            clip[material->colour_texture] = true;
+        }
+    }
+}
+
+// Those that no material as it is drawn uses are not made, nor alpha that clips nothing.
+static bool create_textures(const DipSceneDef *def, DipScene *scene, DipPool *pool, DipError *err) {
+    bool *used = calloc(2 * (size_t)def->texture_count + 1, sizeof *used);
+    if (!used) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "textures", "out of memory");
+    }
+    bool *clip = used + def->texture_count;
+    mark_used_textures(def, used, clip);
+    const bool made = dip_textures_create(def->textures, used, clip, def->texture_count, pool,
+                                          scene->textures, err);
+    free(used);
+    return made;
+}
+
+static uint64_t texel_bytes(const DipTexture *texture) {
+    return texture ? texture->texel_count * sizeof *texture->texels : 0;
+}
+
+static uint64_t alpha_bytes(const DipTexture *texture) {
+    return texture && texture->alpha ? texture->texel_count : 0;
+}
+
+// Whether a material shows a texture so.
+typedef bool TextureUse(const DipSceneMaterial *material, int texture);
+
+static bool is_normal_map(const DipSceneMaterial *material, int texture) {
+    return material->normal_map == texture;
+}
+
+static bool is_clouds(const DipSceneMaterial *material, int texture) {
+    return material->surface == DIP_SURFACE_SKY && material->colour_texture == texture;
+}
+
+static uint64_t bytes_used(const DipScene *scene, TextureUse *uses) {
+    uint64_t bytes = 0;
+    for (int i = 0; i < scene->texture_count; i++) {
+        for (int m = 0; m < scene->material_count; m++) {
+            if (uses(&scene->materials[m], i)) {
+                bytes += texel_bytes(scene->textures[i]);
+                break;
+            }
+        }
+    }
+    return bytes;
+}
+
+// Alpha is kept of clip maps only.
+static void add_effect_bytes(DipScene *scene) {
+    scene->normal_map_bytes = bytes_used(scene, is_normal_map);
+    scene->cloud_bytes = scene->has_sky ? bytes_used(scene, is_clouds) : 0;
+    for (int i = 0; i < scene->texture_count; i++) {
+        scene->clip_map_bytes += alpha_bytes(scene->textures[i]);
+    }
+}
+
+// --- the scene ---------------------------------------------------------------------------------
+
+static void add_bounds(DipScene *scene, const DipSceneObject *object) {
+    const DipMesh *mesh = scene->meshes[object->mesh].mesh;
+    float low[3];
+    float high[3];
+    dip_mesh_bounds(mesh, low, high);
+    for (int corner = 0; corner < 8; corner++) {
+        const float p[3] = {corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
+                            corner & 4 ? high[2] : low[2]};
+        for (int axis = 0; axis < 3; axis++) {
+            const float *m = object->transform + 4 * axis;
+            const float at = m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
+            scene->min_world[axis] = fminf(scene->min_world[axis], at);
+            scene->max_world[axis] = fmaxf(scene->max_world[axis], at);
+        }
+    }
+}
+
+static bool is_sky(DipSurface surface) {
+    return surface == DIP_SURFACE_SKY;
+}
+
+static bool is_not_sky(DipSurface surface) {
+    return surface != DIP_SURFACE_SKY;
+}
+
+static bool is_water(DipSurface surface) {
+    return surface == DIP_SURFACE_WATER;
+}
+
+static DipSurface surface_of(const DipScene *scene, const DipSceneObject *object) {
+    return scene->materials[scene->meshes[object->mesh].material].surface;
+}
+
+// Bounds of the objects of such surfaces. False when there is none.
+static bool bound_objects(DipScene *scene, bool (*is)(DipSurface)) {
+    bool any = false;
+    for (int axis = 0; axis < 3; axis++) {
+        scene->min_world[axis] = INFINITY;
+        scene->max_world[axis] = -INFINITY;
+    }
+    for (int i = 0; i < scene->object_count; i++) {
+        const DipSceneObject *object = &scene->objects[i];
+        if (is(surface_of(scene, object)) &&
+            dip_mesh_triangle_count(scene->meshes[object->mesh].mesh)) {
+            add_bounds(scene, object);
+            any = true;
+        }
+    }
+    return any;
+}
+
+static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err) {
+    bool *placed = calloc((size_t)def->mesh_count + 1, sizeof *placed);
+    if (!placed) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "objects", "out of memory");
+    }
+    for (int i = 0; i < def->object_count; i++) {
+        DipSceneObject *object = &scene->objects[i];
+        object->mesh = def->objects[i].mesh;
+        memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
+        object->bounds =
+            dip_cull_place_box(object->transform, &scene->meshes[object->mesh].mesh->box);
+        object->first_of_mesh = !placed[object->mesh];
+        if (object->first_of_mesh) {
+            placed[object->mesh] = true;
+            scene->drawn_mesh_count++;
+            scene->geometry_bytes += dip_mesh_bytes(scene->meshes[object->mesh].mesh);
+        }
+        scene->triangle_count += dip_mesh_triangle_count(scene->meshes[object->mesh].mesh);
+    }
+    scene->has_water = bound_objects(scene, is_water);
+    scene->water_level = scene->has_water ? (double)scene->min_world[1] : 0.0;
+    if (!bound_objects(scene, is_not_sky) && !bound_objects(scene, is_sky)) {
+        for (int axis = 0; axis < 3; axis++) {
+            scene->min_world[axis] = scene->max_world[axis] = 0.0f;
+        }
+    }
+    free(placed);
+    return true;
+}
+
+// Colour textures alone: BC1 would dent normals, displace clouds and put steps into a light map.
+static void mark_compressible(const DipSceneDef *def, DipScene *scene) {
+    for (int i = 0; i < def->material_count; i++) {
+        const DipMaterialDef *material = &def->materials[i];
+        if (material->colour_texture != DIP_NO_TEXTURE && material->surface != DIP_SURFACE_SKY) {
+            scene->compressible[material->colour_texture] = true;
+        }
+    }
+}
+
+static void copy_materials(const DipSceneDef *def, DipScene *scene) {
+    for (int i = 0; i < def->material_count; i++) {
+        const DipMaterialDef *material = &def->materials[i];
+        scene->materials[i] = (DipSceneMaterial){
+            .surface = material->surface,
+            .colour_texture = material->colour_texture,
+            .light_map = material->light_map,
+            .normal_map = draws_normal_map(material) ? material->normal_map : DIP_NO_TEXTURE,
+            .double_sided = material->double_sided,
+        };
+        scene->has_light_map |= material->light_map != DIP_NO_TEXTURE;
+        scene->has_clipped |= material->surface == DIP_SURFACE_CLIPPED;
+    }
+}
+
+static DipScene *allocate_scene(const DipSceneDef *def) {
+    static atomic_uint_fast64_t serial;
+    DipScene *scene = calloc(1, sizeof *scene);
+    if (!scene) {
+        return NULL;
+    }
+    scene->serial = atomic_fetch_add(&serial, 1) + 1;
+    scene->texture_count = def->texture_count;
+    scene->material_count = def->material_count;
+    scene->mesh_count = def->mesh_count;
+    scene->object_count = def->object_count;
+    scene->near_m = def->near_m;
+    scene->sky = def->sky;
+    memcpy(scene->background_lin, def->background_lin, sizeof scene->background_lin);
+    scene->textures = calloc((size_t)def->texture_count + 1, sizeof *scene->textures);
+    scene->compressible = calloc((size_t)def->texture_count + 1, sizeof *scene->compressible);
+    scene->late = dip_late_textures_create();
+    scene->materials = calloc((size_t)def->material_count + 1, sizeof *scene->materials);
+    scene->meshes = calloc((size_t)def->mesh_count + 1, sizeof *scene->meshes);
+    scene->objects = calloc((size_t)def->object_count + 1, sizeof *scene->objects);
+    if (!scene->textures || !scene->compressible || !scene->late || !scene->materials ||
+        !scene->meshes || !scene->objects) {
+        dip_scene_destroy(&scene);
+    }
+    return scene;
+}
+
+DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err) {
+    if (!check_def(def, err)) {
+        return NULL;
+    }
+    DipScene *scene = allocate_scene(def);
+    if (!scene) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
+        return NULL;
+    }
+    copy_materials(def, scene);
+    mark_compressible(def, scene);
+    const int64_t begin_ns = dip_clock_ns();
+    bool made = create_textures(def, scene, pool, err);
+    const int64_t textured_ns = dip_clock_ns();
+    for (int i = 0; made && i < def->mesh_count; i++) {
+        made = create_mesh(def, i, scene, err);
+    }
+    if (!made || !place_objects(def, scene, err)) {
+        dip_scene_destroy(&scene);
+        return NULL;
+    }
+    add_effect_bytes(scene);
+    scene->times = (DipSceneTimes){1e-6 * (double)(textured_ns - begin_ns),
+                                   1e-6 * (double)(dip_clock_ns() - textured_ns)};
+    return scene;
+}
+
+void dip_scene_destroy(DipScene **scene_pointer) {
+    DipScene *scene = *scene_pointer;
+    if (!scene) {
+        return;
+    }
+    dip_late_textures_destroy(&scene->late);
+    for (int i = 0; scene->textures && i < scene->texture_count; i++) {
+        dip_texture_destroy(&scene->textures[i]);
+    }
+    for (int i = 0; scene->meshes && i < scene->mesh_count; i++) {
+        dip_mesh_destroy(&scene->meshes[i].mesh);
+    }
+    free(scene->textures);
+    free(scene->compressible);
+    free(scene->materials);
+    free(scene->meshes);
+    free(scene->objects);
+    free(scene);
+    *scene_pointer = NULL;
+}
+
+void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]) {
+    memcpy(min_world, scene->min_world, sizeof scene->min_world);
+    memcpy(max_world, scene->max_world, sizeof scene->max_world);
+}
+
+DipSceneTimes dip_scene_times(const DipScene *scene) {
+    return scene->times;
+}
+
+bool dip_scene_water_level(const DipScene *scene, double *level_m) {
+    *level_m = scene->water_level;
+    return scene->has_water;
+}
+
+uint64_t dip_scene_triangle_count(const DipScene *scene) {
+    return scene->triangle_count;
+}
+
+bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError *err) {
+    return dip_late_textures_make(scene->late, scene->textures, scene->compressible,
+                                  scene->texture_count, pool, err);
+}
+
+uint64_t dip_scene_texture_bytes(const DipScene *scene) {
+    uint64_t bytes = 0;
+    for (int i = 0; i < scene->texture_count; i++) {
+        bytes += texel_bytes(scene->textures[i]) + alpha_bytes(scene->textures[i]);
+        bytes += texel_bytes(dip_late_texture(scene->late, i)); // alpha is shared
+    }
+    return bytes;
+}

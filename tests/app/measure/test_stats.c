@@ -1,0 +1,65 @@
+// Quantiles and intervals, on values whose statistics are known.
+#include "app/measure/stats.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+static double scratch[4096];
+
+static void quantiles_lie_between_neighbours(void **state) {
+    (void)state;
+    const double odd[] = {9, 1, 5};
+    const double even[] = {4, 1, 2, 3};
+    double hundred[101];
+    for (int i = 0; i <= 100; i++) {
+        hundred[i] = 100 - i;
+    }
+    assert_true(dip_stats_quantile(odd, 3, 0.5, scratch) == 5.0);
+    assert_true(dip_stats_quantile(even, 4, 0.5, scratch) == 2.5);
+    assert_true(dip_stats_quantile(even, 4, 1.0, scratch) == 4.0);
+    assert_true(dip_stats_quantile(odd, 1, 0.95, scratch) == 9.0);
+    assert_true(fabs(dip_stats_quantile(hundred, 101, 0.95, scratch) - 95.0) < 1e-9);
+}
+
+// Frames differ a hundredfold, rounds do not: the ratio of the medians, 300 to 100, is certain.
+static void frames_that_differ_are_no_spread(void **state) {
+    (void)state;
+    static const double by_frame[2][5] = {{600, 300, 200, 900, 30}, {1, 50, 100, 150, 200}};
+    double a[15];
+    double b[15];
+    for (int i = 0; i < 15; i++) {
+        a[i] = by_frame[0][i % 5];
+        b[i] = by_frame[1][i % 5];
+    }
+    const DipStatsInterval interval = dip_stats_ratio_interval(a, b, 5, 3, scratch);
+    assert_true(interval.low == 3.0 && interval.high == 3.0);
+}
+
+// One frame, 20 rounds, ratio of medians 2; b is noisy by +-10 %.
+static void rounds_that_differ_are_spread(void **state) {
+    (void)state;
+    double a[20];
+    double b[20];
+    for (int i = 0; i < 20; i++) {
+        a[i] = 2.0;
+        b[i] = i % 2 ? 0.9 : 1.1;
+    }
+    const DipStatsInterval interval = dip_stats_ratio_interval(a, b, 1, 20, scratch);
+    assert_true(interval.low < 1.9 && interval.low >= 2.0 / 1.1);
+    assert_true(interval.high > 2.1 && interval.high <= 2.0 / 0.9);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quantiles_lie_between_neighbours),
+        cmocka_unit_test(frames_that_differ_are_no_spread),
+        cmocka_unit_test(rounds_that_differ_are_spread),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,366 @@
+// The fast path's coverage against exact integers: every sample pattern, every instruction set, no
+// difference allowed.
+//
+//   test_coverage [--triangles N]
+#include "renderer/base/assert.h"
+#include "renderer/pipeline/geometry/setup.h"
+#include "renderer/pipeline/kernels/kernels.h"
+#include "tests/renderer/pipeline/oracle.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum {
+    SEED = 90125,
+    TARGET_WIDTH = 3 * DIP_TILE - 21, // so that the last tiles are cut
+    TARGET_HEIGHT = 2 * DIP_TILE - 6,
+};
+
+static const int sample_counts[] = {1, 2, 4, 6, 8};
+static long triangle_count = 60000;
+
+// A tile as the pipeline has it.
+static _Alignas(64) float depth[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
+static _Alignas(64) uint32_t ids[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
+
+typedef struct Case {
+    const DipSamplePattern *pattern;
+    DipOracleRegion region; // the tile's pixels that the target has
+    DipOracleTriangle triangle;
+    DipOracleKind kind;
+} Case;
+
+static DipSetupTarget target_of(const DipSamplePattern *pattern) {
+    DipSetupTarget target = {.width = TARGET_WIDTH,
+                             .height = TARGET_HEIGHT,
+                             .region_last = {TARGET_WIDTH - 1, TARGET_HEIGHT - 1},
+                             .surface_stride = DIP_SURFACE_ALIGN,
+                             .samples = pattern,
+                             .cull = DIP_CULL_NONE,
+                             .sample_min = {255, 255}};
+    for (int s = 0; s < pattern->count; s++) {
+        const uint8_t at[2] = {pattern->x[s], pattern->y[s]};
+        for (int i = 0; i < 2; i++) {
+            target.sample_min[i] = at[i] < target.sample_min[i] ? at[i] : target.sample_min[i];
+            target.sample_max[i] = at[i] > target.sample_max[i] ? at[i] : target.sample_max[i];
+        }
+    }
+    return target;
+}
+
+static DipOracleRegion random_tile(Random *random) {
+    DipOracleRegion region = {random_int(random, 0, 2) * DIP_TILE,
+                              random_int(random, 0, 1) * DIP_TILE, DIP_TILE, DIP_TILE};
+    if (region.x0 + region.width > TARGET_WIDTH) {
+        region.width = TARGET_WIDTH - region.x0;
+    }
+    if (region.y0 + region.height > TARGET_HEIGHT) {
+        region.height = TARGET_HEIGHT - region.y0;
+    }
+    return region;
+}
+
+// Whether the triangle reaches the tile's pixels at all: others are not given to it.
+static bool meets(const DipTriangle *triangle, const DipOracleRegion *region) {
+    return triangle->x0 < region->x0 + region->width && triangle->x1 >= region->x0 &&
+           triangle->y0 < region->y0 + region->height && triangle->y1 >= region->y0;
+}
+
+// Draws the case's triangle; false when it is culled or does not reach the tile.
+static bool draw_fast(const DipKernels *kernels, const Case *c, const DipClipTest *clip,
+                      DipTile *tile) {
+    static DipScreenBatch screen;
+    static uint8_t corner[3][DIP_BATCH_ALIGN];
+    for (int i = 0; i < 3; i++) {
+        screen.x[i] = c->triangle.x[i];
+        screen.y[i] = c->triangle.y[i];
+        screen.z[i] = 0.5f;
+        screen.rw[i] = 1.0f;
+        corner[i][0] = (uint8_t)i;
+    }
+    const uint32_t patch[DIP_BATCH_ALIGN] = {0};
+    const DipSetupBatch batch = {
+        .count = 1, .corner = {corner[0], corner[1], corner[2]}, .patch = patch, .screen = &screen};
+    const DipSetupTarget target = target_of(c->pattern);
+    DipTriangle triangle[1 + DIP_SETUP_EXCESS];
+    float surface[(1 + DIP_SETUP_EXCESS) * DIP_SURFACE_ALIGN];
+    *tile = (DipTile){.x0 = c->region.x0, .y0 = c->region.y0, .pattern = c->pattern};
+    tile->depth = depth;
+    tile->id = ids;
+    if (!kernels->dip_kernel_setup(&target, &batch, triangle, surface) ||
+        !meets(triangle, &c->region)) {
+        return false;
+    }
+    kernels->dip_kernel_draw_triangle(tile, triangle, 1, clip);
+    return true;
+}
+
+// Fills masks as the oracle does.
+static void read_masks(const Case *c, const DipTile *tile, uint8_t *masks) {
+    memset(masks, 0, (size_t)c->region.width * (size_t)c->region.height);
+    for (int block = 0; block < DIP_BLOCKS; block++) {
+        for (int i = 0; tile->touched >> block & 1 && i < DIP_BLOCK_PIXELS; i++) {
+            const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_x(i);
+            const int y = block / DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_y(i);
+            for (int s = 0; s < c->pattern->count && x < c->region.width && y < c->region.height;
+                 s++) {
+                const uint32_t id = ids[dip_tile_index(tile, block, s) + i];
+                uint8_t *mask = &masks[y * c->region.width + x];
+                *mask = (uint8_t)(*mask | id << s);
+            }
+        }
+    }
+}
+
+static void cover_fast(const DipKernels *kernels, const Case *c, uint8_t *masks) {
+    DipTile tile;
+    draw_fast(kernels, c, NULL, &tile);
+    read_masks(c, &tile, masks);
+}
+
+static void fail_at(const Case *c, DipIsa isa, const uint8_t *expected, const uint8_t *found) {
+    int at = 0;
+    while (expected[at] == found[at]) {
+        at++;
+    }
+    const DipOracleTriangle *t = &c->triangle;
+    fail_msg(
+        "%s, %s, %d samples: (%d %d) (%d %d) (%d %d) covers %02x of pixel (%d, %d), found %02x",
+        dip_oracle_kind_name(c->kind), dip_isa_name(isa), c->pattern->count, t->x[0], t->y[0],
+        t->x[1], t->y[1], t->x[2], t->y[2], expected[at], c->region.x0 + at % c->region.width,
+        c->region.y0 + at / c->region.width, found[at]);
+}
+
+static void test_coverage_is_exact(void **state) {
+    (void)state;
+    static uint8_t expected[DIP_TILE * DIP_TILE];
+    static uint8_t found[DIP_TILE * DIP_TILE];
+    Random random = {SEED};
+    uint64_t covered[DIP_ORACLE_KINDS] = {0};
+    for (long t = 0; t < triangle_count; t++) {
+        Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5])};
+        c.kind = (DipOracleKind)(t / 5 % DIP_ORACLE_KINDS);
+        c.region = random_tile(&random);
+        c.triangle = dip_oracle_make(c.kind, &random, c.pattern, &c.region,
+                                     DIP_GUARD_BAND_PX * DIP_SUBPIXELS - 1);
+        covered[c.kind] += dip_oracle_cover(&c.triangle, c.pattern, &c.region, expected);
+        for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
+            if (!dip_isa_available((DipIsa)isa)) {
+                continue;
+            }
+            cover_fast(dip_kernels((DipIsa)isa), &c, found);
+            if (memcmp(expected, found, (size_t)c.region.width * (size_t)c.region.height) != 0) {
+                fail_at(&c, (DipIsa)isa, expected, found);
+            }
+        }
+    }
+    printf("%ld triangles, samples covered:", triangle_count);
+    for (int kind = 0; kind < DIP_ORACLE_KINDS; kind++) {
+        printf(" %s %llu", dip_oracle_kind_name((DipOracleKind)kind),
+               (unsigned long long)covered[kind]);
+        // Flat ones cover nothing, the others must not be empty air.
+        assert_true(kind == DIP_ORACLE_flat ? covered[kind] == 0 : covered[kind] > 0);
+    }
+    printf("\n");
+}
+
+// Large triangles of which one pixel at the target's corner lies in the target.
+static void test_large_triangles_in_one_pixel(void **state) {
+    (void)state;
+    static uint8_t expected[DIP_TILE * DIP_TILE];
+    static uint8_t found[DIP_TILE * DIP_TILE];
+    Random random = {SEED + 2};
+    uint64_t covered = 0;
+    for (int t = 0; t < 20000; t++) {
+        Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5]),
+                  .region = {0, 0, DIP_TILE, DIP_TILE}};
+        for (int i = 0; i < 3; i++) {
+            const bool far = i <= t % 2;
+            const int low = far ? -DIP_GUARD_BAND_PX * DIP_SUBPIXELS + 1 : 0;
+            const int high = far ? -600 : 270;
+            c.triangle.x[i] = random_int(&random, low, high);
+            c.triangle.y[i] = random_int(&random, low, high);
+        }
+        covered += dip_oracle_cover(&c.triangle, c.pattern, &c.region, expected);
+        for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
+            if (dip_isa_available((DipIsa)isa)) {
+                cover_fast(dip_kernels((DipIsa)isa), &c, found);
+                if (memcmp(expected, found, sizeof expected) != 0) {
+                    fail_at(&c, (DipIsa)isa, expected, found);
+                }
+            }
+        }
+    }
+    assert_true(covered > 10000);
+}
+
+// Every sample about a hub that neighbours share is hit once, by the oracle and by the kernels.
+static void test_fans_hit_every_sample_once(void **state) {
+    (void)state;
+    static uint8_t masks[DIP_TILE * DIP_TILE];
+    static uint8_t hit[2][DIP_TILE * DIP_TILE];
+    Random random = {SEED + 1};
+    for (int t = 0; t < 400; t++) {
+        Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5])};
+        c.region = random_tile(&random);
+        const size_t pixels = (size_t)c.region.width * (size_t)c.region.height;
+        const uint8_t all = (uint8_t)((1u << c.pattern->count) - 1u);
+        DipOracleTriangle fan[DIP_ORACLE_FAN];
+        dip_oracle_make_fan(&random, c.pattern, &c.region, fan);
+        memset(hit, 0, sizeof hit);
+        for (int i = 0; i < DIP_ORACLE_FAN; i++) {
+            c.triangle = fan[i];
+            for (int path = 0; path < 2; path++) {
+                if (path == 0) {
+                    dip_oracle_cover(&c.triangle, c.pattern, &c.region, masks);
+                } else {
+                    cover_fast(dip_kernels(dip_isa_best()), &c, masks);
+                }
+                for (size_t p = 0; p < pixels; p++) {
+                    assert_int_equal(hit[path][p] & masks[p], 0);
+                    hit[path][p] |= masks[p];
+                }
+            }
+        }
+        for (size_t p = 0; p < pixels; p++) {
+            assert_int_equal(hit[0][p], all);
+            assert_int_equal(hit[1][p], all);
+        }
+    }
+}
+
+// A clip test that keeps a chequer of pixels and checks where it is asked.
+typedef struct Chequer {
+    const Case *c;
+    const uint8_t *covered; // as the oracle says
+    DipFragmentList list;
+    uint8_t keep[DIP_FRAGMENT_BATCH];
+    uint8_t asked[DIP_TILE * DIP_TILE]; // times, per pixel of the region
+} Chequer;
+
+static bool chequer_keeps(int x, int y) {
+    return ((x ^ y) & 1) != 0 || (x & 4) != 0;
+}
+
+static const uint8_t *ask_chequer(void *context, const DipTriangle *triangle) {
+    (void)triangle;
+    Chequer *chequer = context;
+    const DipOracleRegion *region = &chequer->c->region;
+    const DipSamplePattern *pattern = chequer->c->pattern;
+    assert_in_range(chequer->list.count, 1, DIP_FRAGMENT_BATCH);
+    for (int i = 0; i < chequer->list.count; i++) {
+        const uint32_t place = chequer->list.place[i];
+        const int x = place & (DIP_TILE - 1);
+        const int y = place >> DIP_PLACE_Y & (DIP_TILE - 1);
+        if (x >= region->width || y >= region->height) {
+            continue; // beyond the target, where nobody looks
+        }
+        const unsigned mask = chequer->covered[y * region->width + x];
+        const bool whole = mask == (1u << pattern->count) - 1u;
+        const int first = mask ? __builtin_ctz(mask) : 0;
+        assert_int_equal(chequer->list.triangle[i], 0);
+        assert_true(mask != 0);
+        assert_int_equal(place >> DIP_PLACE_SUB_X & 255, whole ? 128 : pattern->x[first]);
+        assert_int_equal(place >> DIP_PLACE_SUB_Y & 255, whole ? 128 : pattern->y[first]);
+        chequer->asked[y * region->width + x]++;
+        chequer->keep[i] = chequer_keeps(x, y);
+    }
+    return chequer->keep;
+}
+
+// Every covered pixel is asked about once, at its centre or first covered sample, and drawn with
+// its covered samples where the answer is yes. The counters do not depend on the vector's width.
+static void test_clip_test_is_asked_and_obeyed(void **state) {
+    (void)state;
+    static uint8_t expected[DIP_TILE * DIP_TILE];
+    static uint8_t found[DIP_TILE * DIP_TILE];
+    static Chequer chequer;
+    Random random = {SEED + 2};
+    for (int t = 0; t < 2000; t++) {
+        Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5])};
+        c.kind = (DipOracleKind)(t / 5 % DIP_ORACLE_KINDS);
+        c.region = random_tile(&random);
+        c.triangle = dip_oracle_make(c.kind, &random, c.pattern, &c.region,
+                                     DIP_GUARD_BAND_PX * DIP_SUBPIXELS - 1);
+        dip_oracle_cover(&c.triangle, c.pattern, &c.region, expected);
+        DipTile first = {.x0 = 0};
+        for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
+            if (!dip_isa_available((DipIsa)isa)) {
+                continue;
+            }
+            memset(&chequer, 0, sizeof chequer);
+            chequer.c = &c;
+            chequer.covered = expected;
+            const DipClipTest clip = {&chequer.list, ask_chequer, &chequer, NULL};
+            DipTile tile;
+            draw_fast(dip_kernels((DipIsa)isa), &c, &clip, &tile);
+            read_masks(&c, &tile, found);
+            for (int p = 0; p < c.region.width * c.region.height; p++) {
+                const bool keeps = chequer_keeps(p % c.region.width, p / c.region.width);
+                assert_int_equal(chequer.asked[p], expected[p] != 0);
+                assert_int_equal(found[p], keeps ? expected[p] : 0);
+            }
+            first = isa == DIP_ISA_SCALAR ? tile : first;
+            assert_int_equal(tile.sub_blocks_tested, first.sub_blocks_tested);
+            assert_int_equal(tile.sub_blocks_accepted, first.sub_blocks_accepted);
+        }
+    }
+}
+
+static void test_patterns_lie_within_their_bounds(void **state) {
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        const DipSamplePattern *pattern = dip_sample_pattern(sample_counts[i]);
+        int least = 255;
+        int greatest = 0;
+        for (int s = 0; s < pattern->count; s++) {
+            for (int axis = 0; axis < 2; axis++) {
+                const int at = axis ? pattern->y[s] : pattern->x[s];
+                least = at < least ? at : least;
+                greatest = at > greatest ? at : greatest;
+            }
+        }
+        assert_int_equal(pattern->least, least);
+        assert_int_equal(pattern->greatest, greatest);
+    }
+}
+
+// The oracle itself, on a square of 2x2 pixels cut along its diagonal: edges on sample rows and
+// columns belong to the left and upper triangle only.
+static void test_oracle_by_hand(void **state) {
+    (void)state;
+    const DipSamplePattern *centre = dip_sample_pattern(1);
+    const DipOracleRegion region = {0, 0, 4, 4};
+    uint8_t masks[16];
+    // Corners on the centres of pixels (0,0), (2,0), (0,2): a right angle at the top left.
+    const DipOracleTriangle upper = {{128, 640, 128}, {128, 128, 640}};
+    assert_int_equal(dip_oracle_cover(&upper, centre, &region, masks), 3);
+    assert_int_equal(masks[0] & masks[1] & masks[4], 1);
+    // The other half of the square: the diagonal is its left edge, its right and lower edges are
+    // not its own.
+    const DipOracleTriangle lower = {{640, 640, 128}, {128, 640, 640}};
+    assert_int_equal(dip_oracle_cover(&lower, centre, &region, masks), 1);
+    assert_int_equal(masks[5], 1);
+}
+
+int main(int argc, char **argv) {
+    if (argc == 3 && strcmp(argv[1], "--triangles") == 0) {
+        triangle_count = strtol(argv[2], NULL, 10);
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_oracle_by_hand),
+        cmocka_unit_test(test_patterns_lie_within_their_bounds),
+        cmocka_unit_test(test_coverage_is_exact),
+        cmocka_unit_test(test_clip_test_is_asked_and_obeyed),
+        cmocka_unit_test(test_large_triangles_in_one_pixel),
+        cmocka_unit_test(test_fans_hit_every_sample_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

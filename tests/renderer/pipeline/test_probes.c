@@ -1,0 +1,213 @@
+// Anisotropic reads, whose two levels take different numbers of probes: the kernels of every
+// instruction set against closed forms and the reference in double.
+#include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/texture/texture_layout.h"
+#include "renderer/reference/texture.h"
+#include "tests/renderer/random.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/renderer/pipeline/near.h"
+
+enum { SIZE = 256, LANES = DIP_FRAGMENT_BATCH };
+
+static uint8_t texels[4 * SIZE * SIZE];
+
+// Reads of a texture by a kernel of some instruction set and by the reference.
+typedef struct Bench {
+    DipTexture *fast;
+    DipRefTexture reference;
+    DipTextureDef def;
+    DipFragmentBatch batch;
+    float colour[3][LANES];
+    float alpha[LANES];
+} Bench;
+
+static Bench bench;
+
+static void open_bench(DipWrap wrap) {
+    bench.def = (DipTextureDef){"test", SIZE, SIZE, texels, DIP_ENCODING_LINEAR, wrap, wrap};
+    bench.fast = dip_texture_create(&bench.def, NULL);
+    assert_non_null(bench.fast);
+    assert_true(dip_reference_texture_init(&bench.reference, &bench.def, DIP_REF_MAX_LEVELS, NULL));
+}
+
+static void close_bench(void) {
+    dip_texture_destroy(&bench.fast);
+    dip_reference_texture_free(&bench.reference);
+}
+
+// Lane i looks at (u, v) texels, its footprint is `major` texels long, `minor` wide and turned by
+// `angle`.
+static void place(int i, double u, double v, double major, double minor, double angle) {
+    const double dx[2] = {major * cos(angle), major * sin(angle)};
+    const double dy[2] = {-minor * sin(angle), minor * cos(angle)};
+    const double at[2] = {u, v};
+    for (int s = 0; s < 2; s++) {
+        bench.batch.slot[s][i] = (float)(at[s] / SIZE);
+        bench.batch.slot_dx[s][i] = (float)(dx[s] / SIZE);
+        bench.batch.slot_dy[s][i] = (float)(dy[s] / SIZE);
+    }
+}
+
+static void sample(const DipKernels *kernels, bool cheap) {
+    const DipSampler sampler = {
+        .texture = bench.fast, .max_anisotropy = 16, .advanced = true, .cheap = cheap};
+    bench.batch.count = LANES;
+    bench.batch.work = (DipSampleWork){0};
+    kernels->dip_kernel_sample_alpha(&bench.batch, &sampler, 0, bench.alpha);
+    bench.batch.work = (DipSampleWork){0};
+    kernels->dip_kernel_sample_colour(&bench.batch, &sampler, 0, bench.colour);
+}
+
+#define FOR_EACH_ISA(kernels)                                                                      \
+    for (int isa = DIP_ISA_SCALAR; isa < DIP_ISA_COUNT; isa++)                                     \
+        for (const DipKernels *kernels = dip_isa_available((DipIsa)isa) ? dip_kernels((DipIsa)isa) \
+                                                                        : NULL;                    \
+             kernels; kernels = NULL)
+
+// The codes rise by one per column and fall by one per row, light is linear in them: a footprint
+// reads what is in its middle, however many probes its levels take, if these lie evenly about it.
+static void test_ramp_is_read_exactly(void **state) {
+    (void)state;
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        const uint8_t texel[4] = {(uint8_t)(i % SIZE), (uint8_t)(SIZE - 1 - i / SIZE), 0,
+                                  (uint8_t)(i % SIZE)};
+        memcpy(texels + 4 * i, texel, 4);
+    }
+    open_bench(DIP_WRAP_CLAMP);
+    FOR_EACH_ISA(kernels) {
+        Random random = {7};
+        for (int round = 0; round < 100; round++) {
+            double u[LANES], v[LANES];
+            for (int i = 0; i < LANES; i++) {
+                const double minor = exp2(random_real(&random, 0.0, 2.0));
+                u[i] = random_real(&random, 48.0, 208.0);
+                v[i] = random_real(&random, 48.0, 208.0);
+                place(i, u[i], v[i], minor * random_real(&random, 1.0, 16.0), minor,
+                      random_real(&random, -3.0, 3.0));
+            }
+            sample(kernels, round % 2);
+            for (int i = 0; i < LANES; i++) {
+                // Places are rounded down by up to 8/256 texel of the ramp; alpha is 8 bits; texels
+                // of red and green are steps of 1/2048 of the root of light.
+                assert_near(bench.colour[0][i] * 255.0, u[i] - 0.5 - 1.0 / 64.0, 0.14);
+                assert_near(bench.colour[1][i] * 255.0, SIZE - 0.5 - v[i] + 1.0 / 64.0, 0.14);
+                assert_near(bench.alpha[i] * 255.0, u[i] - 0.5 - 1.0 / 64.0, 0.6);
+            }
+        }
+    }
+    close_bench();
+}
+
+// Stripes of 10 and 10 texels along u under a footprint 20 texels long and 1.25 wide: 16 probes of
+// level 0, at a fraction of log2 1.25 half of them of level 1. Both numbers are even, so that every
+// probe has another that lies half a period off and reads the complement: the box's mean is 1/2
+// wherever it lies, which is not so with an odd number or with probes that lie otherwise.
+static void test_a_period_of_stripes_is_their_mean(void **state) {
+    (void)state;
+    enum { PERIOD = 20, WIDTH = 240 };
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        memset(texels + 4 * i, i % WIDTH / (PERIOD / 2) % 2 ? 255 : 0, 4);
+    }
+    bench.def = (DipTextureDef){"stripes",           WIDTH,           SIZE,           texels,
+                                DIP_ENCODING_LINEAR, DIP_WRAP_REPEAT, DIP_WRAP_REPEAT};
+    bench.fast = dip_texture_create(&bench.def, NULL);
+    assert_non_null(bench.fast);
+    FOR_EACH_ISA(kernels) {
+        for (int i = 0; i < LANES; i++) {
+            place(i, 0.0, 100.0, 20.0, 1.25, 0.0);
+            bench.batch.slot[0][i] = (float)((100.0 + i * 0.37) / WIDTH);
+            bench.batch.slot_dx[0][i] = (float)(20.0 / WIDTH);
+        }
+        sample(kernels, false);
+        assert_int_equal(bench.batch.work.probes, LANES * 16);
+        assert_int_equal(bench.batch.work.texels, LANES * 4 * (16 + 8));
+        for (int i = 0; i < LANES; i++) {
+            assert_near(bench.colour[0][i], 0.5, 0.003);
+            assert_near(bench.alpha[i], 0.5, 0.003);
+        }
+    }
+    dip_texture_destroy(&bench.fast);
+}
+
+// At a fraction f the coarser level takes ceil(N max(1/2, f)) of N probes, none where f is 0.
+static void test_levels_take_their_share_of_probes(void **state) {
+    (void)state;
+    static const struct {
+        double major, minor;
+        int near, far;
+    } cases[] = {{16.0, 1.0, 16, 0},  {16.0, 1.1, 15, 8},  {15.9, 1.5, 11, 7},
+                 {15.9, 1.75, 10, 9}, {15.9, 1.98, 9, 9},  {4.0, 2.0, 2, 0},
+                 {1.3, 1.2, 2, 1},    {40.0, 3.6, 12, 11}, {1.9, 1.9, 1, 1}};
+    open_bench(DIP_WRAP_REPEAT);
+    FOR_EACH_ISA(kernels) {
+        for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+            for (int i = 0; i < LANES; i++) {
+                place(i, 99.0, 77.0, cases[k].major, cases[k].minor, 0.0);
+            }
+            sample(kernels, false);
+            assert_int_equal(bench.batch.work.probes, LANES * cases[k].near);
+            assert_int_equal(bench.batch.work.texels, LANES * 4 * (cases[k].near + cases[k].far));
+        }
+    }
+    close_bench();
+}
+
+// Noise, whose smallest difference in place or number of probes shows.
+static void test_noise_is_read_as_the_reference_does(void **state) {
+    (void)state;
+    Random noise = {11};
+    for (int i = 0; i < 4 * SIZE * SIZE; i++) {
+        texels[i] = (uint8_t)random_u64(&noise);
+    }
+    open_bench(DIP_WRAP_REPEAT);
+    FOR_EACH_ISA(kernels) {
+        Random random = {12};
+        double worst = 0.0;
+        int far_off = 0;
+        for (int round = 0; round < 100; round++) {
+            for (int i = 0; i < LANES; i++) {
+                const double minor = exp2(random_real(&random, -1.0, 5.0));
+                place(i, random_real(&random, -300.0, 300.0), random_real(&random, -300.0, 300.0),
+                      minor * random_real(&random, 1.0, 20.0), minor,
+                      random_real(&random, -3.0, 3.0));
+            }
+            const bool cheap = round % 2;
+            sample(kernels, cheap);
+            const DipRefFilter filter = {.max_anisotropy = 16, .advanced = true, .cheap = cheap};
+            for (int i = 0; i < LANES; i++) {
+                const double uv[2] = {bench.batch.slot[0][i], bench.batch.slot[1][i]};
+                const double dx[2] = {bench.batch.slot_dx[0][i], bench.batch.slot_dx[1][i]};
+                const double dy[2] = {bench.batch.slot_dy[0][i], bench.batch.slot_dy[1][i]};
+                double rgba[4];
+                dip_reference_sample(&bench.reference, &filter, uv, dx, dy, rgba);
+                const double off =
+                    fmax(fabs(bench.colour[0][i] - rgba[0]), fabs(bench.alpha[i] - rgba[3]));
+                // The levels of detail may differ by 1/256 where they are rounded.
+                far_off += off > 0.01;
+                worst = fmax(worst, off > 0.01 ? 0.0 : off);
+            }
+        }
+        assert_true(far_off <= 3);
+        assert_near(worst, 0.0, 0.008);
+    }
+    close_bench();
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_ramp_is_read_exactly),
+        cmocka_unit_test(test_a_period_of_stripes_is_their_mean),
+        cmocka_unit_test(test_levels_take_their_share_of_probes),
+        cmocka_unit_test(test_noise_is_read_as_the_reference_does),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,219 @@
+// The fast path against the reference path: every step of every setting over scenes made in code.
+#include "renderer/reference/reference.h"
+#include "renderer/scene/renderer.h"
+#include "tests/renderer/scene/image.h"
+#include "tests/renderer/scene/scenes.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+static const int sizes[][2] = {{160, 120}, {97, 61}};
+
+static const int64_t time_ns = INT64_C(123456789012); // for what moves
+
+// One scene in both paths.
+typedef struct Pair {
+    DipTestScene scene;
+    DipReference *reference;
+    DipScene *fast_scene;
+    DipPool *pool;
+    DipRenderer *renderer;
+    int width;
+    int height;
+    double *expected;
+} Pair;
+
+static void fail_with(const DipError *err) {
+    char text[640];
+    dip_error_format(err, text, sizeof text);
+    fail_msg("%s", text);
+}
+
+static void open_pair(Pair *pair, DipTestSceneKind kind, int width, int height) {
+    DipError err = {0};
+    dip_test_scene_make(&pair->scene, kind);
+    pair->width = width;
+    pair->height = height;
+    pair->expected = malloc((size_t)width * (size_t)height * 3 * sizeof(double));
+    pair->reference = dip_reference_create(&pair->scene.def, &err);
+    pair->fast_scene = pair->reference ? dip_scene_create(&pair->scene.def, NULL, &err) : NULL;
+    pair->pool = pair->fast_scene ? dip_pool_create(1, &err) : NULL;
+    if (pair->reference) {
+        dip_reference_set_time(pair->reference, time_ns);
+    }
+    DipRendererDef def = dip_renderer_default_def();
+    def.pool = pair->pool;
+    def.width = width;
+    def.height = height;
+    def.reflection = pair->scene.reflection;
+    pair->renderer = pair->pool ? dip_renderer_create(&def, &err) : NULL;
+    if (!pair->renderer) {
+        fail_with(&err);
+    }
+    assert_non_null(pair->expected);
+    dip_reference_set_reflection(pair->reference, &pair->scene.reflection);
+}
+
+static void close_pair(Pair *pair) {
+    dip_renderer_destroy(&pair->renderer);
+    dip_pool_destroy(&pair->pool);
+    dip_scene_destroy(&pair->fast_scene);
+    dip_reference_destroy(&pair->reference);
+    dip_test_scene_free(&pair->scene);
+    free(pair->expected);
+}
+
+// Where nothing can flip, what remains is the frame's 8 bits (half a code is up to 0.0045 at white)
+// and the fast path's texels and floats.
+static const DipImageBounds steady = {0.0016, 0.01, 0.0, 0.01};
+
+static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *quality) {
+    // A clipped pixel whose alpha is close to the cutoff may come or go.
+    static const DipImageBounds fence = {0.004, 0.01, 0.0015, 1.0};
+    static const DipImageBounds fence_mips = {0.010, 0.01, 0.0015, 1.0};
+    // Bright, and so are its few that flip.
+    static const DipImageBounds mirrored_fence = {0.008, 0.01, 0.0015, 1.0};
+    // With passes there are more columns of places that may lie on the edge of an upright bar,
+    // where u is the same along the bar's length; each weighs a pass' samples only.
+    static const DipImageBounds fence_passes = {0.004, 0.01, 0.006, 0.5};
+    // A position that falls between two steps may be rounded to either; a sliver shows that most.
+    static const DipImageBounds slivers = {0.004, 0.01, 0.001, 0.5};
+    // Corners that the guard band cuts are rounded too. On a floor that runs from the eye to the
+    // horizon 1/512 pixel there moves 1/w by a tenth at the far edge, hence the level of detail.
+    // With AF the number of probes of the coarser level follows from that in steps.
+    static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.05};
+    static const DipImageBounds huge_af = {0.0025, 0.025, 0.0005, 0.08};
+    static const DipImageBounds huge_mips = {0.06, 0.01, 0.03, 1.0};
+    // The narrow blend between levels makes four times of a difference in the level of detail.
+    static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
+    static const DipImageBounds huge_narrow = {0.0025, 0.025, 0.0005, 0.1};
+    // What water shows is rounded to 8 bits twice, and sharper than with the wide blend.
+    static const DipImageBounds water_narrow = {0.0018, 0.01, 0.0, 0.01};
+    // A displacement read from rounded texels moves the clouds, whose edges the cover steepens.
+    static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
+    const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
+    const bool narrow = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
+    const bool anisotropic = quality->step[DIP_SETTING_AF] != 0;
+    const bool passes = dip_quality_samples_per_pass(quality) < dip_quality_sample_count(quality);
+    switch (kind) {
+    case DIP_TEST_SCENE_sky:
+        return mip_colours ? &steady : &sky;
+    case DIP_TEST_SCENE_water:
+        return mip_colours && narrow ? &narrow_mips : narrow ? &water_narrow : &steady;
+    case DIP_TEST_SCENE_water_effects:
+        return mip_colours ? &fence_mips : &mirrored_fence;
+    case DIP_TEST_SCENE_fence:
+        return mip_colours ? &fence_mips : passes ? &fence_passes : &fence;
+    case DIP_TEST_SCENE_slivers:
+        return &slivers;
+    case DIP_TEST_SCENE_huge:
+        return mip_colours ? &huge_mips : narrow ? &huge_narrow : anisotropic ? &huge_af : &huge;
+    default:
+        return mip_colours && narrow ? &narrow_mips : &steady;
+    }
+}
+
+static bool matches(Pair *pair, DipTestSceneKind kind, const char *settings, int frame_index) {
+    DipError err = {0};
+    DipQuality quality;
+    DipFrame frame;
+    dip_reference_set_frame_index(pair->reference, (uint64_t)frame_index);
+    dip_renderer_set_frame_index(pair->renderer, (uint64_t)frame_index);
+    if (!dip_quality_parse(settings, &quality, &err) ||
+        !dip_reference_draw(pair->reference, &quality, &pair->scene.pose, pair->width, pair->height,
+                            pair->expected, &err) ||
+        !dip_renderer_set_quality(pair->renderer, &quality, &err) ||
+        !dip_renderer_draw(pair->renderer, pair->fast_scene, &pair->scene.pose, time_ns, &frame,
+                           &err)) {
+        fail_with(&err);
+    }
+    char name[160];
+    snprintf(name, sizeof name, "%s_%dx%d_%s_%d", dip_test_scene_name(kind), pair->width,
+             pair->height, settings, frame_index);
+    return dip_image_check(name, pair->expected, &frame, bounds_of(kind, &quality));
+}
+
+// All settings of the list over all scenes and sizes, in the first frames of each, before any
+// failure is told.
+static void check_all(const char *const *settings, size_t count, int frame_count) {
+    int missed = 0;
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+        for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
+            Pair pair;
+            open_pair(&pair, (DipTestSceneKind)kind, sizes[s][0], sizes[s][1]);
+            for (size_t i = 0; i < count * (size_t)frame_count; i++) {
+                missed +=
+                    !matches(&pair, (DipTestSceneKind)kind, settings[i % count], (int)(i / count));
+            }
+            close_pair(&pair);
+        }
+    }
+    assert_int_equal(missed, 0);
+}
+
+#define CHECK_ALL(frame_count, ...)                                                                \
+    do {                                                                                           \
+        static const char *const settings[] = {__VA_ARGS__};                                       \
+        check_all(settings, sizeof settings / sizeof settings[0], frame_count);                    \
+    } while (0)
+
+static void test_antialiasing(void **state) {
+    (void)state;
+    CHECK_ALL(1, "aa=none", "aa=2", "aa=4", "aa=6", "aa=8", "aa=4,af=16,aaf=on", "aa=6,af=4");
+}
+
+static void test_temporal_antialiasing(void **state) {
+    (void)state;
+    CHECK_ALL(2, "aa=2,taa=on", "aa=4,taa=on", "aa=6,taa=on", "aa=8,taa=on",
+              "aa=8,taa=on,aaa=on,asd=2,af=4");
+}
+
+static void test_adaptive_antialiasing(void **state) {
+    (void)state;
+    CHECK_ALL(1, "aaa=on", "aa=2,aaa=on", "aa=2,aaa=on,asd=2", "aa=4,aaa=on", "aa=4,aaa=on,asd=2",
+              "aa=6,aaa=on", "aa=6,aaa=on,asd=2", "aa=6,aaa=on,asd=3", "aa=8,aaa=on",
+              "aa=8,aaa=on,asd=2", "aa=8,aaa=on,asd=4", "aa=8,aaa=on,asd=4,mipdebug=on",
+              "aa=4,aaa=on,asd=2,af=16,aaf=on", "aa=6,aaa=on,miplod=high-performance");
+}
+
+static void test_anisotropy(void **state) {
+    (void)state;
+    CHECK_ALL(1, "af=2", "af=4", "af=8", "af=16", "af=2,aaf=on", "af=4,aaf=on", "af=8,aaf=on",
+              "af=16,aaf=on", "aaf=on");
+}
+
+static void test_mip_level_of_detail(void **state) {
+    (void)state;
+    CHECK_ALL(1, "miplod=quality", "miplod=performance", "miplod=high-performance",
+              "miplod=high-performance,af=16,aaf=on", "miplod=quality,af=8,aa=2");
+}
+
+static void test_mip_colours(void **state) {
+    (void)state;
+    CHECK_ALL(1, "mipdebug=on", "mipdebug=on,af=16", "mipdebug=on,af=16,aaf=on,aa=4",
+              "mipdebug=on,miplod=high-performance");
+}
+
+static void test_texture_optimisation(void **state) {
+    (void)state;
+    CHECK_ALL(1, "opt=standard", "opt=standard,af=16,aaf=on,aa=4", "opt=advanced",
+              "opt=advanced,af=2", "opt=advanced,af=8", "opt=advanced,af=16,aaf=on",
+              "opt=advanced,aa=8,aaa=on,asd=2,miplod=quality", "opt=advanced,mipdebug=on,af=4",
+              "opt=advanced,miplod=high-performance,af=4");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_antialiasing),          cmocka_unit_test(test_temporal_antialiasing),
+        cmocka_unit_test(test_adaptive_antialiasing), cmocka_unit_test(test_anisotropy),
+        cmocka_unit_test(test_mip_level_of_detail),   cmocka_unit_test(test_mip_colours),
+        cmocka_unit_test(test_texture_optimisation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,114 @@
+// A frame allocates nothing: after a scene's first frame, drawing it with any settings, along any
+// camera, calls no allocator. The linker sends the library's calls here (--wrap).
+#include "renderer/scene/renderer.h"
+#include "tests/renderer/scene/scenes.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+static atomic_int calls; // workers allocate too
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *memory, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *memory, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
+
+void *__wrap_malloc(size_t size) {
+    atomic_fetch_add(&calls, 1);
+    return __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t count, size_t size) {
+    atomic_fetch_add(&calls, 1);
+    return __real_calloc(count, size);
+}
+
+void *__wrap_realloc(void *memory, size_t size) {
+    atomic_fetch_add(&calls, 1);
+    return __real_realloc(memory, size);
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size) {
+    atomic_fetch_add(&calls, 1);
+    return __real_aligned_alloc(alignment, size);
+}
+
+// Draws with the steps of every setting from several places, alone and beside another pane; returns
+// the allocations that took.
+static int draw_everything(DipRenderer *const panes[2], const DipScene *scene, DipPose pose,
+                           bool instancing) {
+    const int before = atomic_load(&calls);
+    for (int i = 0; i < 60; i++) {
+        DipQuality quality = dip_quality_default();
+        quality.step[DIP_SETTING_AA] = (uint8_t)(i % 5);
+        quality.step[DIP_SETTING_TAA] = (uint8_t)(i / 2 % 2);
+        quality.step[DIP_SETTING_AAA] = (uint8_t)(i / 3 % 2);
+        quality.step[DIP_SETTING_AF] = (uint8_t)(i / 5 % 5);
+        quality.step[DIP_SETTING_AAF] = (uint8_t)(i % 2);
+        quality.step[DIP_SETTING_OPT] = (uint8_t)(i / 2 % 3);
+        quality.step[DIP_SETTING_GI] = instancing;
+        quality.step[DIP_SETTING_MIPLOD] = (uint8_t)(i % 4);
+        quality.step[DIP_SETTING_MIPDEBUG] = (uint8_t)(i / 30);
+        pose.position_world[0] += 0.05;
+        dip_renderer_set_frame_index(panes[0], (uint64_t)i);
+        DipFrame frames[2];
+        assert_true(dip_renderer_set_quality(panes[0], &quality, NULL));
+        assert_true(dip_renderer_draw(panes[0], scene, &pose, i, &frames[0], NULL));
+        assert_true(dip_renderer_draw_pair(panes, scene, &pose, i,
+                                           (DipFrame *const[2]){&frames[0], &frames[1]}, NULL));
+    }
+    return atomic_load(&calls) - before;
+}
+
+static void frames_allocate_nothing(void **state) {
+    (void)state;
+    for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
+        static DipTestScene scene;
+        dip_test_scene_make(&scene, (DipTestSceneKind)kind);
+        const int before = atomic_load(&calls);
+        DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
+        DipPool *pool = dip_pool_create(2, NULL);
+        DipRendererDef def = dip_renderer_default_def();
+        def.pool = pool;
+        def.width = 160;
+        def.height = 120;
+        def.reflection = scene.reflection;
+        DipRenderer *panes[2] = {dip_renderer_create(&def, NULL), dip_renderer_create(&def, NULL)};
+        DipFrame frame;
+        assert_true(panes[0] && panes[1]);
+        assert_true(atomic_load(&calls) > before); // the count works
+        // The first frame sees nothing: what it makes room for does not depend on the view.
+        DipPose away = scene.pose;
+        away.position_world[1] += 1000.0;
+        away.orientation[0] = away.orientation[3] = 0.7071067811865476;
+        for (int p = 0; p < 2; p++) {
+            assert_true(dip_renderer_draw(panes[p], fast, &away, 0, &frame, NULL));
+        }
+        // Made ahead; then a frame of either kind finds what it needs.
+        assert_true(dip_scene_compress_textures(fast, pool, NULL));
+        assert_int_equal(draw_everything(panes, fast, scene.pose, true), 0);
+        // The first frame without instancing makes the objects' own meshes.
+        (void)draw_everything(panes, fast, scene.pose, false);
+        assert_int_equal(draw_everything(panes, fast, scene.pose, false), 0);
+        dip_renderer_destroy(&panes[0]);
+        dip_renderer_destroy(&panes[1]);
+        dip_pool_destroy(&pool);
+        dip_scene_destroy(&fast);
+        dip_test_scene_free(&scene);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(frames_allocate_nothing)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

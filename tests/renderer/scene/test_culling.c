@@ -1,0 +1,599 @@
+// Culling by bounds never changes a picture, leaves out what is out of view, and passes that need
+// more room than expected are drawn all the same.
+#include "renderer/pipeline/cull.h"
+#include "renderer/pipeline/pipeline.h"
+#include "renderer/scene/plan/parts.h"
+#include "tests/renderer/random.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 320, HEIGHT = 256, FLOATS = 4, CAMERAS = 60, CLUSTERS = 200, PER_CLUSTER = 300 };
+
+static uint8_t pictures[2][WIDTH * HEIGHT * 4];
+
+// --- a mesh of positions and one varying, projected by the matrix that is the uniforms ---------
+
+static void project(const DipVertexBatch *batch) {
+    const float *m = batch->uniforms;
+    for (int i = 0; i < batch->count; i++) {
+        for (int r = 0; r < 4; r++) {
+            const float *row = m + 4 * r;
+            batch->clip[r][i] =
+                ((row[0] * batch->in[0][i] + row[1] * batch->in[1][i]) + row[2] * batch->in[2][i]) +
+                row[3];
+        }
+        batch->slot[0][i] = batch->in[3][i];
+    }
+}
+
+static void varying(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->colour[0][i] = batch->slot[0][i];
+        batch->colour[1][i] = 0.5f;
+        batch->colour[2][i] = 1.0f - batch->slot[0][i];
+    }
+}
+
+typedef struct Soup {
+    float *vertices;
+    uint32_t *indices;
+    uint32_t count; // of vertices; no two triangles share one
+} Soup;
+
+static Soup make_soup(uint32_t triangles) {
+    Soup soup = {malloc(sizeof(float) * FLOATS * 3 * triangles),
+                 malloc(sizeof(uint32_t) * 3 * triangles), 0};
+    assert_true(soup.vertices && soup.indices);
+    return soup;
+}
+
+static void add_corner(Soup *soup, double x, double y, double z, double value) {
+    const double row[FLOATS] = {x, y, z, value};
+    for (int i = 0; i < FLOATS; i++) {
+        soup->vertices[(size_t)FLOATS * soup->count + (size_t)i] = (float)row[i];
+    }
+    soup->indices[soup->count] = soup->count;
+    soup->count++;
+}
+
+static DipMesh *mesh_of(Soup *soup) {
+    const DipMeshData data = {.name = "soup",
+                              .attributes = soup->vertices,
+                              .attribute_count = FLOATS,
+                              .vertex_count = soup->count,
+                              .indices = soup->indices,
+                              .index_count = soup->count};
+    DipMesh *mesh = dip_mesh_create(&data, NULL);
+    assert_non_null(mesh);
+    free(soup->vertices);
+    free(soup->indices);
+    return mesh;
+}
+
+static DipCounters draw(const DipMesh *mesh, const float *matrix, bool culled, int threads,
+                        const float *user_plane, const DipRegion *region, uint8_t *picture) {
+    const DipDraw one = {.mesh = mesh,
+                         .vertex_shader = project,
+                         .fragment_shader = varying,
+                         .slot_count = 1,
+                         .uniforms = matrix,
+                         .bounds_to_clip = culled ? matrix : NULL};
+    DipPass pass = {.draws = &one,
+                    .draw_count = 1,
+                    .sample_count = 2,
+                    .target = {picture, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+    pass.region = region ? *region : (DipRegion){0};
+    if (user_plane) {
+        memcpy(pass.clip_planes[0], user_plane, sizeof pass.clip_planes[0]);
+        pass.clip_plane_count = 1;
+    }
+    DipPool *pool = dip_pool_create(threads, NULL);
+    DipPipeline *pipeline = dip_pipeline_create(pool, dip_isa_best(), WIDTH, HEIGHT, NULL);
+    assert_non_null(pipeline);
+    DipCounters counters[2] = {{0}, {0}};
+    for (int again = 0; again < 2; again++) {
+        DipStageTimes times = {0};
+        memset(picture, 77, sizeof pictures[0]);
+        assert_true(dip_pipeline_draw(pipeline, &pass, &counters[again], &times, NULL));
+    }
+    assert_memory_equal(&counters[0], &counters[1], sizeof counters[0]);
+    dip_pipeline_destroy(&pipeline);
+    dip_pool_destroy(&pool);
+    return counters[0];
+}
+
+// --- cameras -----------------------------------------------------------------------------------
+
+// Looks from `eye` along a random direction: an orthonormal frame times a perspective matrix.
+static void random_camera(Random *random, float m[16]) {
+    double axis[3][3];
+    for (int a = 0; a < 2; a++) {
+        for (int c = 0; c < 3; c++) {
+            axis[a][c] = random_real(random, -1.0, 1.0);
+        }
+    }
+    for (int a = 0; a < 2; a++) {
+        const double along =
+            a ? axis[1][0] * axis[0][0] + axis[1][1] * axis[0][1] + axis[1][2] * axis[0][2] : 0.0;
+        for (int c = 0; c < 3; c++) {
+            axis[a][c] -= along * axis[0][c];
+        }
+        const double length =
+            sqrt(axis[a][0] * axis[a][0] + axis[a][1] * axis[a][1] + axis[a][2] * axis[a][2]);
+        for (int c = 0; c < 3; c++) {
+            axis[a][c] /= length;
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        axis[2][c] = axis[0][(c + 1) % 3] * axis[1][(c + 2) % 3] -
+                     axis[0][(c + 2) % 3] * axis[1][(c + 1) % 3];
+    }
+    const double zoom = random_real(random, 0.5, 4.0);
+    const double scale[4] = {zoom, zoom, 0.0, -1.0};
+    const int from[4] = {0, 1, 0, 2};
+    double eye[3];
+    for (int c = 0; c < 3; c++) {
+        eye[c] = random_real(random, -12.0, 12.0);
+    }
+    for (int r = 0; r < 4; r++) {
+        const double *a = axis[from[r]];
+        for (int c = 0; c < 3; c++) {
+            m[4 * r + c] = (float)(scale[r] * a[c]);
+        }
+        m[4 * r + 3] = (float)(-scale[r] * (a[0] * eye[0] + a[1] * eye[1] + a[2] * eye[2]));
+    }
+    m[11] = 0.1f; // the near plane
+}
+
+// Clusters of triangles of all sizes, one after another, so that chunks are small in space.
+static DipMesh *random_clusters(Random *random) {
+    Soup soup = make_soup(CLUSTERS * PER_CLUSTER);
+    for (int cluster = 0; cluster < CLUSTERS; cluster++) {
+        double centre[3];
+        for (int c = 0; c < 3; c++) {
+            centre[c] = random_real(random, -10.0, 10.0);
+        }
+        for (int t = 0; t < PER_CLUSTER; t++) {
+            const double size = pow(10.0, random_real(random, -3.0, 0.3));
+            for (int k = 0; k < 3; k++) {
+                add_corner(&soup, centre[0] + random_real(random, -size, size),
+                           centre[1] + random_real(random, -size, size),
+                           centre[2] + random_real(random, -size, size),
+                           random_real(random, 0.0, 1.0));
+            }
+        }
+    }
+    return mesh_of(&soup);
+}
+
+static void culling_changes_no_picture(void **state) {
+    (void)state;
+    Random random = {4711};
+    DipMesh *mesh = random_clusters(&random);
+    const uint64_t all = dip_mesh_triangle_count(mesh);
+    uint64_t read = 0;
+    uint64_t drawn = 0;
+    for (int i = 0; i < CAMERAS; i++) {
+        float m[16];
+        random_camera(&random, m);
+        const float plane[4] = {0.4f, 0.1f, 0.0f, (float)random_real(&random, -0.5, 0.5)};
+        const float *user_plane = i % 3 == 0 ? plane : NULL;
+        const DipCounters whole = draw(mesh, m, false, 1, user_plane, NULL, pictures[0]);
+        const DipCounters culled = draw(mesh, m, true, 1 + i % 3, user_plane, NULL, pictures[1]);
+        assert_memory_equal(pictures[0], pictures[1], sizeof pictures[0]);
+        assert_int_equal(culled.triangles_drawn, whole.triangles_drawn);
+        assert_int_equal(culled.tile_triangles, whole.tile_triangles);
+        assert_int_equal(whole.triangles_in, all);
+        read += culled.triangles_in;
+        drawn += culled.triangles_drawn;
+    }
+    // It culls, and there is something to see.
+    assert_true(read < all * CAMERAS / 2);
+    assert_true(drawn > all * CAMERAS / 100);
+    dip_mesh_destroy(&mesh);
+}
+
+static void assert_same_blocks(const DipRegion *region) {
+    enum { BLOCK = 8 };
+    for (int y = region->y0 / BLOCK; y <= (region->y1 - 1) / BLOCK; y++) {
+        for (int x = region->x0 / BLOCK; x <= (region->x1 - 1) / BLOCK; x++) {
+            for (int row = 0; row < BLOCK; row++) {
+                const size_t at = 4 * (size_t)(WIDTH * (y * BLOCK + row) + x * BLOCK);
+                assert_memory_equal(pictures[0] + at, pictures[1] + at, 4 * BLOCK);
+            }
+        }
+    }
+}
+
+// Wherever it is rejected, what does not reach the region: a box, a chunk, a triangle to clip.
+static void regions_hold_what_the_whole_does(void **state) {
+    (void)state;
+    enum { REGIONS = 6 };
+    Random random = {42};
+    DipMesh *mesh = random_clusters(&random);
+    for (int i = 0; i < CAMERAS / 3; i++) {
+        float m[16];
+        random_camera(&random, m);
+        const float plane[4] = {0.4f, 0.1f, 0.0f, (float)random_real(&random, -0.5, 0.5)};
+        const DipCounters whole = draw(mesh, m, false, 1, plane, NULL, pictures[0]);
+        for (int r = 0; r < REGIONS; r++) {
+            const int x0 = random_int(&random, 0, WIDTH - 1);
+            const int y0 = random_int(&random, 0, HEIGHT - 1);
+            const DipRegion region = {x0, y0, random_int(&random, x0 + 1, WIDTH),
+                                      random_int(&random, y0 + 1, HEIGHT)};
+            const DipCounters part = draw(mesh, m, r % 2, 1 + r % 2, plane, &region, pictures[1]);
+            assert_true(part.triangles_drawn <= whole.triangles_drawn);
+            assert_same_blocks(&region);
+        }
+    }
+    dip_mesh_destroy(&mesh);
+}
+
+// --- what is seen of objects -------------------------------------------------------------------
+
+enum { PLACED = 40, VIEWS = 400, POINTS = 6 }; // points per triangle
+
+// Clusters of triangles around the origin, some far from it.
+static DipMesh *random_mesh(Random *random) {
+    enum { CLUMPS = 5, PER_CLUMP = 150 };
+    Soup soup = make_soup(CLUMPS * PER_CLUMP);
+    for (int part = 0; part < CLUMPS; part++) {
+        const double far = pow(10.0, random_real(random, -1.0, 2.0));
+        const double centre[3] = {random_real(random, -far, far), random_real(random, -far, far),
+                                  random_real(random, -far, far)};
+        for (int k = 0; k < 3 * PER_CLUMP; k++) {
+            add_corner(&soup, centre[0] + random_real(random, -1.0, 1.0),
+                       centre[1] + random_real(random, -1.0, 1.0),
+                       centre[2] + random_real(random, -1.0, 1.0), 0.0);
+        }
+    }
+    return mesh_of(&soup);
+}
+
+// Any 3x3 part, so that some mirror or flatten what they place; every other turns nothing, so that
+// placed boxes are tight.
+static void random_transform(Random *random, float transform[12]) {
+    const double scale = pow(10.0, random_real(random, -2.0, 0.5));
+    for (int i = 0; i < 12; i++) {
+        transform[i] =
+            (float)(i % 4 == 3 ? random_real(random, -20.0, 20.0) : random_real(random, -1.0, 1.0));
+        transform[i] *= i % 4 == 3 ? 1.0f : (float)scale;
+    }
+    if (random_int(random, 0, 1)) {
+        for (int i = 0; i < 12; i++) {
+            transform[i] = i % 4 == 3 || i % 5 == 0 ? transform[i] : 0.0f;
+        }
+    }
+}
+
+static DipView random_view(Random *random) {
+    DipPose pose = {.fov_y_deg = random_real(random, 20.0, 100.0)};
+    double square = 0.0;
+    for (int i = 0; i < 4; i++) {
+        pose.orientation[i] = random_real(random, -1.0, 1.0);
+        square += pose.orientation[i] * pose.orientation[i];
+    }
+    for (int i = 0; i < 4; i++) {
+        pose.orientation[i] /= sqrt(square);
+    }
+    for (int c = 0; c < 3; c++) {
+        pose.position_world[c] = random_real(random, -25.0, 25.0);
+    }
+    const DipView view = dip_view_make(&pose, 0.1, (double)WIDTH / HEIGHT);
+    return random_int(random, 0, 1) ? view : dip_view_mirror(&view, random_real(random, -5.0, 5.0));
+}
+
+static DipPass random_part(Random *random, const DipView *view) {
+    DipPass pass = {.target = {NULL, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+    if (random_int(random, 0, 3)) {
+        const int x0 = random_int(random, 0, WIDTH - 1);
+        const int y0 = random_int(random, 0, HEIGHT - 1);
+        pass.region = (DipRegion){x0, y0, x0 + 1 + random_int(random, 0, WIDTH - 1 - x0),
+                                  y0 + 1 + random_int(random, 0, HEIGHT - 1 - y0)};
+    }
+    pass.clip_plane_count = random_int(random, 0, 2);
+    for (int p = 0; p < pass.clip_plane_count; p++) {
+        double plane[4];
+        double clip[4];
+        for (int i = 0; i < 4; i++) {
+            plane[i] = random_real(random, -1.0, 1.0) * (i == 3 ? 20.0 : 1.0);
+        }
+        dip_view_plane(view, plane, clip);
+        for (int i = 0; i < 4; i++) {
+            pass.clip_planes[p][i] = (float)clip[i];
+        }
+    }
+    return pass;
+}
+
+// Whether a point of the world is in the part of the picture that a pass draws.
+static bool shows(const DipPass *pass, const DipView *view, const double world[3]) {
+    double clip[4];
+    for (int r = 0; r < 4; r++) {
+        const double *m = view->world_to_clip + 4 * r;
+        clip[r] = m[0] * world[0] + m[1] * world[1] + m[2] * world[2] + m[3];
+    }
+    for (int p = 0; p < pass->clip_plane_count; p++) {
+        const float *plane = pass->clip_planes[p];
+        if (plane[0] * clip[0] + plane[1] * clip[1] + plane[2] * clip[2] + plane[3] * clip[3] < 0) {
+            return false;
+        }
+    }
+    const DipRegion whole = {0, 0, WIDTH, HEIGHT};
+    const DipRegion *region = pass->region.x1 ? &pass->region : &whole;
+    const double x = (clip[0] / clip[3] + 1.0) * 0.5 * WIDTH;
+    const double y = (1.0 - clip[1] / clip[3]) * 0.5 * HEIGHT;
+    return clip[3] >= clip[2] && x >= region->x0 && x <= region->x1 && y >= region->y0 &&
+           y <= region->y1;
+}
+
+// A random point of a chunk's triangle, every other time a corner.
+static void random_point(Random *random, const DipMesh *mesh, const DipChunk *chunk, uint32_t t,
+                         const float transform[12], double world[3]) {
+    const double u = random_real(random, 0.0, 1.0);
+    const double v = random_real(random, 0.0, 1.0 - u);
+    const bool corner = random_int(random, 0, 1);
+    const double weight[3] = {corner ? 1.0 : u, corner ? 0.0 : v, corner ? 0.0 : 1.0 - u - v};
+    double local[3] = {0.0, 0.0, 0.0};
+    for (uint32_t k = 0; k < 3; k++) {
+        const uint32_t vertex =
+            chunk->first_vertex +
+            mesh->indices[chunk->first_index + k * dip_corner_stride(chunk) + t];
+        for (uint32_t c = 0; c < 3; c++) {
+            local[c] += weight[k] * mesh->attributes[c * mesh->vertex_total + vertex];
+        }
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        const float *m = transform + 4 * axis;
+        world[axis] = m[0] * local[0] + m[1] * local[1] + m[2] * local[2] + m[3];
+    }
+}
+
+static bool shows_some(Random *random, const DipPass *pass, const DipView *view,
+                       const float transform[12], const DipMesh *mesh, uint32_t chunk) {
+    for (uint32_t t = 0; t < mesh->chunks[chunk].triangle_count; t++) {
+        for (int i = 0; i < POINTS; i++) {
+            double world[3];
+            random_point(random, mesh, &mesh->chunks[chunk], t, transform, world);
+            if (shows(pass, view, world)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+typedef struct Kept {
+    int seen;    // chunks of which some point is seen
+    int objects; // kept
+    int chunks;
+} Kept;
+
+static void check_object(Random *random, DipPass *pass, const DipView *view, const DipMesh *mesh,
+                         Kept *kept) {
+    DipVisibleChunk visible[64];
+    float transform[12];
+    float to_clip[16];
+    random_transform(random, transform);
+    dip_view_place(view, transform, to_clip);
+    const DipDraw draw = {.mesh = mesh, .bounds_to_clip = to_clip};
+    pass->draws = &draw;
+    pass->draw_count = 1;
+    const DipCullPlanes planes = dip_cull_pass_planes(pass, view);
+    const DipBox bounds = dip_cull_place_box(transform, &mesh->box);
+    const bool object = !dip_cull_outside(&planes, &bounds);
+    const uint32_t count = dip_cull_chunks(pass, visible);
+    uint32_t next = 0;
+    for (uint32_t c = 0; c < mesh->chunk_count; c++) {
+        const bool chunk = next < count && visible[next].chunk == c;
+        next += chunk;
+        if (shows_some(random, pass, view, transform, mesh, c)) {
+            assert_true(object && chunk);
+            kept->seen++;
+        }
+    }
+    assert_int_equal(next, count);
+    kept->objects += object;
+    kept->chunks += (int)count;
+}
+
+static void what_is_seen_is_kept(void **state) {
+    (void)state;
+    Random random = {1234};
+    Kept kept = {0};
+    int chunks = 0;
+    for (int m = 0; m < PLACED; m++) {
+        DipMesh *mesh = random_mesh(&random);
+        for (int i = 0; i < VIEWS / PLACED; i++) {
+            const DipView view = random_view(&random);
+            DipPass pass = random_part(&random, &view);
+            for (int object = 0; object < PLACED; object++) {
+                check_object(&random, &pass, &view, mesh, &kept);
+                chunks += (int)mesh->chunk_count;
+            }
+        }
+        dip_mesh_destroy(&mesh);
+    }
+    printf("%d objects, %d kept; %d chunks, %d kept, %d seen\n", VIEWS * PLACED, kept.objects,
+           chunks, kept.chunks, kept.seen);
+    assert_true(kept.seen > 1000);
+    assert_true(kept.objects < VIEWS * PLACED / 2);
+}
+
+// --- parts of tiles ----------------------------------------------------------------------------
+
+enum { TILE = 64, TILES_X = WIDTH / TILE, PARTS = TILES_X * (HEIGHT / TILE), MARGIN = 2 };
+
+// Whether a point of the world is in the picture; then also where, in pixels.
+static bool project_point(const DipView *view, const double world[3], double at[2]) {
+    const DipPass whole = {.target = {NULL, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+    double clip[4];
+    for (int r = 0; r < 4; r++) {
+        const double *m = view->world_to_clip + 4 * r;
+        clip[r] = m[0] * world[0] + m[1] * world[1] + m[2] * world[2] + m[3];
+    }
+    at[0] = (clip[0] / clip[3] + 1.0) * 0.5 * WIDTH;
+    at[1] = (1.0 - clip[1] / clip[3]) * 0.5 * HEIGHT;
+    return shows(&whole, view, world);
+}
+
+// All pixels of the picture around a place, up to the margin, are in their tile's part.
+static void assert_in_parts(const DipTilePart *parts, const double at[2]) {
+    for (int dy = -MARGIN; dy <= MARGIN; dy++) {
+        for (int dx = -MARGIN; dx <= MARGIN; dx++) {
+            const int x = (int)floor(at[0]) + dx;
+            const int y = (int)floor(at[1]) + dy;
+            if (x >= 0 && x < WIDTH && y >= 0 && y < HEIGHT) {
+                const DipTilePart *part = &parts[y / TILE * TILES_X + x / TILE];
+                assert_true(x % TILE >= part->x0 && x % TILE < part->x1);
+                assert_true(y % TILE >= part->y0 && y % TILE < part->y1);
+            }
+        }
+    }
+}
+
+static uint64_t area_of(const DipTilePart *parts) {
+    uint64_t area = 0;
+    for (int t = 0; t < PARTS; t++) {
+        assert_true(parts[t].x1 <= TILE && parts[t].y1 <= TILE);
+        area += (uint64_t)(parts[t].x1 - parts[t].x0) * (uint64_t)(parts[t].y1 - parts[t].y0);
+    }
+    return area;
+}
+
+// The corners of a triangle or of an upright cube.
+static void random_shape(Random *random, int count, double (*corners)[3]) {
+    const double size = pow(10.0, random_real(random, -0.5, 2.0));
+    double low[3];
+    for (int c = 0; c < 3; c++) {
+        low[c] = random_real(random, -20.0, 20.0);
+    }
+    for (int i = 0; i < count; i++) {
+        for (int c = 0; c < 3; c++) {
+            const double along = count == 8 ? i >> c & 1 : random_real(random, 0.0, 1.0);
+            corners[i][c] = low[c] + size * along;
+        }
+    }
+}
+
+// A point of the shape's hull: a random mean of its corners, mostly of few of them.
+static void mean_of(Random *random, int count, double (*corners)[3], double world[3]) {
+    double sum = 0.0;
+    world[0] = world[1] = world[2] = 0.0;
+    for (int i = 0; i < count; i++) {
+        const double weight = pow(random_real(random, 0.0, 1.0), 4.0);
+        sum += weight;
+        for (int c = 0; c < 3; c++) {
+            world[c] += weight * corners[i][c];
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        world[c] /= sum;
+    }
+}
+
+static void parts_hold_what_is_seen(void **state) {
+    (void)state;
+    enum { SHAPES = 6000, MEANS = 300 };
+    Random random = {99};
+    DipTilePart tiles[PARTS];
+    const DipParts parts = {tiles, WIDTH, HEIGHT, MARGIN};
+    int seen = 0;
+    uint64_t area = 0;
+    for (int i = 0; i < SHAPES; i++) {
+        const DipView view = random_view(&random);
+        const int count = i % 2 ? 3 : 8;
+        double corners[8][3];
+        random_shape(&random, count, corners);
+        dip_parts_clear(&parts);
+        if (count == 3) {
+            dip_parts_add_triangle(&parts, &view, (const double(*)[3])corners);
+        } else {
+            dip_parts_add_box(&parts, &view, (const double(*)[3])corners);
+        }
+        area += count == 3 ? area_of(tiles) : 0;
+        for (int k = 0; k < MEANS; k++) {
+            double world[3];
+            double at[2];
+            mean_of(&random, count, corners, world);
+            if (project_point(&view, world, at)) {
+                assert_in_parts(tiles, at);
+                seen++;
+            }
+        }
+    }
+    printf("%d points seen, the triangles' parts hold %.1f %% of the picture\n", seen,
+           100.0 * (double)area / ((double)SHAPES / 2 * WIDTH * HEIGHT));
+    assert_true(seen > 100000);
+    assert_true(area < (uint64_t)SHAPES / 2 * WIDTH * HEIGHT / 10);
+}
+
+// --- more room than expected -------------------------------------------------------------------
+
+static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+// Each triangle has a corner nearer than the near plane (z > w = 1), so that two come of it.
+static void clipping_may_double_the_triangles(void **state) {
+    (void)state;
+    enum { COUNT = 40000 };
+    for (int threads = 1; threads <= 3; threads++) {
+        Soup soup = make_soup(COUNT);
+        for (int t = 0; t < COUNT; t++) {
+            const double x = t % 200 / 100.0 - 0.995;
+            const double y = t / 200 / 100.0 - 0.995;
+            add_corner(&soup, x - 0.02, y - 0.02, 0.5, 0.0);
+            add_corner(&soup, x + 0.02, y - 0.02, 0.5, 1.0);
+            add_corner(&soup, x, y + 0.04, 1.5, 1.0);
+        }
+        DipMesh *mesh = mesh_of(&soup);
+        const DipCounters counters = draw(mesh, identity, true, threads, NULL, NULL, pictures[0]);
+        assert_int_equal(counters.triangles_in, COUNT);
+        assert_int_equal(counters.triangles_drawn, 2 * COUNT);
+        if (threads > 1) {
+            assert_memory_equal(pictures[0], pictures[1], sizeof pictures[0]);
+        }
+        memcpy(pictures[1], pictures[0], sizeof pictures[0]);
+        dip_mesh_destroy(&mesh);
+    }
+}
+
+// Each triangle's box is the picture less one row of tiles: 5 x 3 tiles, all in bins.
+static void triangles_may_lie_in_many_tiles(void **state) {
+    (void)state;
+    enum { COUNT = 30000, TILES = 5 * 3 };
+    Soup soup = make_soup(COUNT);
+    for (int t = 0; t < COUNT; t++) {
+        const double z = t / (double)COUNT;
+        add_corner(&soup, -0.99, -0.4, z, z);
+        add_corner(&soup, 0.99, -0.4, z, z);
+        add_corner(&soup, -0.99, 0.99, z, z);
+    }
+    DipMesh *mesh = mesh_of(&soup);
+    const DipCounters counters = draw(mesh, identity, true, 2, NULL, NULL, pictures[0]);
+    assert_int_equal(counters.triangles_drawn, COUNT);
+    assert_int_equal(counters.tile_triangles, (uint64_t)COUNT * TILES);
+    // The nearest, drawn last, is on top.
+    assert_int_equal(pictures[0][4 * (WIDTH * 150 + 20)], 255);
+    dip_mesh_destroy(&mesh);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(culling_changes_no_picture),
+        cmocka_unit_test(regions_hold_what_the_whole_does),
+        cmocka_unit_test(what_is_seen_is_kept),
+        cmocka_unit_test(parts_hold_what_is_seen),
+        cmocka_unit_test(clipping_may_double_the_triangles),
+        cmocka_unit_test(triangles_may_lie_in_many_tiles),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

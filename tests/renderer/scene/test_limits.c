@@ -1,0 +1,106 @@
+// What must not overflow: clipped polygons under the least helpful planes, and a pass' counts.
+#include "renderer/pipeline/geometry/clip.h"
+#include "renderer/pipeline/pipeline.h"
+#include "tests/renderer/random.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+enum { ROUNDS = 100000, BIG_MESH_TRIANGLES = 1 << 17, BIG_PASS_DRAWS = 2000 };
+
+static float symmetric(Random *random) {
+    return (float)random_real(random, -1.0, 1.0);
+}
+
+// Six user planes that are the same but for rounding. A plane adds at most one vertex to a convex
+// polygon, however its vertices on that plane round.
+static void coincident_planes_add_one_vertex_each(void **state) {
+    (void)state;
+    Random random = {1};
+    for (int round = 0; round < ROUNDS; round++) {
+        DipScreenMapping map = {.clip_plane_count = DIP_MAX_CLIP_PLANES};
+        const float normal[4] = {symmetric(&random), symmetric(&random), symmetric(&random),
+                                 symmetric(&random)};
+        for (int plane = 0; plane < DIP_MAX_CLIP_PLANES; plane++) {
+            for (int i = 0; i < 4; i++) {
+                map.clip_planes[plane][i] =
+                    normal[i] * (float)(plane + 1) * (1.0f + 1e-7f * symmetric(&random));
+            }
+        }
+        DipClipPolygon polygon = {.count = 3};
+        for (int v = 0; v < 3; v++) {
+            for (int i = 0; i < 4; i++) {
+                polygon.vertex[v].position[i] = symmetric(&random);
+            }
+        }
+        dip_clip_polygon(&polygon, DIP_CLIP_ALL_USER, &map, 0);
+        assert_in_range(polygon.count, 0, 3 + DIP_MAX_CLIP_PLANES);
+    }
+}
+
+static void vertex_shader(const DipVertexBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        for (int c = 0; c < 4; c++) {
+            batch->clip[c][i] = 0.0f;
+        }
+    }
+}
+
+static void fragment_shader(DipFragmentBatch *batch) {
+    (void)batch;
+}
+
+// Two thousand times the same mesh: more triangles than 32 bits index, in no memory worth naming.
+static void too_many_triangles_are_refused(void **state) {
+    (void)state;
+    const float point[3] = {0};
+    uint32_t *indices = calloc(3 * BIG_MESH_TRIANGLES, sizeof *indices);
+    const DipMeshData data = {.name = "many",
+                              .attributes = point,
+                              .attribute_count = 3,
+                              .vertex_count = 1,
+                              .indices = indices,
+                              .index_count = 3 * BIG_MESH_TRIANGLES};
+    DipMesh *mesh = dip_mesh_create(&data, NULL);
+    DipDraw *draws = calloc(BIG_PASS_DRAWS, sizeof *draws);
+    DipPool *pool = dip_pool_create(1, NULL);
+    DipPipeline *pipeline = dip_pipeline_create(pool, dip_isa_best(), 8, 8, NULL);
+    assert_true(indices && mesh && draws && pool && pipeline);
+    for (int i = 0; i < BIG_PASS_DRAWS; i++) {
+        draws[i] = (DipDraw){.mesh = mesh,
+                             .vertex_shader = vertex_shader,
+                             .fragment_shader = fragment_shader,
+                             .slot_count = DIP_MAX_SLOTS};
+    }
+    uint8_t rgba8[8 * 8 * 4];
+    DipPass pass = {.draws = draws,
+                    .draw_count = BIG_PASS_DRAWS,
+                    .sample_count = 1,
+                    .target = {rgba8, 8 * 4, 8, 8}};
+    DipCounters counters = {0};
+    DipStageTimes times = {0};
+    DipError err = {0};
+    assert_false(dip_pipeline_draw(pipeline, &pass, &counters, &times, &err));
+    assert_int_equal(err.code, DIP_ERROR_OVERSIZED);
+    pass.draw_count = 1;
+    assert_true(dip_pipeline_draw(pipeline, &pass, &counters, &times, &err));
+    assert_int_equal(counters.triangles_in, BIG_MESH_TRIANGLES);
+    dip_pipeline_destroy(&pipeline);
+    dip_pool_destroy(&pool);
+    dip_mesh_destroy(&mesh);
+    free(draws);
+    free(indices);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coincident_planes_add_one_vertex_each),
+        cmocka_unit_test(too_many_triangles_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,454 @@
+// Sample patterns over time and passes over clipped surfaces, against coverage by exact integers
+// and shading computed here.
+#include "renderer/base/srgb.h"
+#include "renderer/pipeline/pipeline.h"
+#include "renderer/reference/reference.h"
+#include "renderer/scene/renderer.h"
+#include "tests/renderer/pipeline/oracle.h"
+#include "tests/renderer/pipeline/screen.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/renderer/pipeline/near.h"
+
+enum { SIDE = DIP_SCREEN, PIXELS = SIDE * SIDE }; // one tile
+
+static const DipOracleRegion region = {0, 0, SIDE, SIDE};
+
+// The table of the seed: samples, samples per pass.
+static const int pairs[][2] = {{1, 1}, {2, 1}, {2, 2}, {4, 1}, {4, 2}, {6, 1},
+                               {6, 2}, {6, 3}, {8, 1}, {8, 2}, {8, 4}};
+enum { PAIRS = sizeof pairs / sizeof pairs[0] };
+
+// --- tables ------------------------------------------------------------------------------------
+
+// What temporal antialiasing adds up to, in units of 1/steps pixel.
+typedef struct Union {
+    int count; // of each pattern
+    int steps;
+    int places[16][2];
+} Union;
+
+static const Union unions[] = {
+    {2, 16, {{6, 2}, {14, 6}, {2, 10}, {10, 14}}}, // the standard pattern of 4
+    {4, 16, {{1, 7}, {3, 11}, {5, 3}, {7, 15}, {9, 1}, {11, 13}, {13, 5}, {15, 9}}},
+    {6,
+     24,
+     {{1, 19},
+      {3, 15},
+      {5, 1},
+      {7, 13},
+      {9, 3},
+      {11, 7},
+      {13, 17},
+      {15, 21},
+      {17, 11},
+      {19, 23},
+      {21, 9},
+      {23, 5}}},
+    {8,
+     256,
+     {{8, 104},
+      {24, 184},
+      {40, 216},
+      {56, 56},
+      {72, 24},
+      {88, 120},
+      {104, 248},
+      {120, 168},
+      {136, 88},
+      {152, 8},
+      {168, 136},
+      {184, 232},
+      {200, 200},
+      {216, 40},
+      {232, 72},
+      {248, 152}}},
+};
+enum { UNIONS = sizeof unions / sizeof unions[0] };
+
+static int union_place(const Union *both, int i, int axis) {
+    return (int)lround(both->places[i][axis] * 256.0 / both->steps);
+}
+
+static void temporal_patterns_are_rooks_about_the_centre(void **state) {
+    (void)state;
+    for (int u = 0; u < UNIONS; u++) {
+        const int count = unions[u].count;
+        bool met[16] = {false};
+        for (int frame = 0; frame < 2; frame++) {
+            const DipSamplePattern *pattern =
+                dip_sample_pattern_of(count, dip_pattern_kind(true, (uint64_t)frame));
+            int sum[2] = {0};
+            unsigned rows[2] = {0};
+            for (int s = 0; s < count; s++) {
+                const int at[2] = {pattern->x[s], pattern->y[s]};
+                for (int axis = 0; axis < 2; axis++) {
+                    sum[axis] += at[axis];
+                    rows[axis] |= 1u << at[axis] * count / 256;
+                }
+                for (int i = 0; i < 2 * count; i++) {
+                    met[i] |= at[0] == union_place(&unions[u], i, 0) &&
+                              at[1] == union_place(&unions[u], i, 1);
+                }
+            }
+            for (int axis = 0; axis < 2; axis++) {
+                assert_int_equal(sum[axis], 128 * count);
+                assert_int_equal(rows[axis], (1u << count) - 1);
+            }
+        }
+        for (int i = 0; i < 2 * count; i++) {
+            assert_true(met[i]);
+        }
+    }
+    assert_ptr_equal(dip_sample_pattern(4), dip_sample_pattern_of(4, dip_pattern_kind(false, 1)));
+    assert_int_equal(dip_sample_pattern_of(1, DIP_PATTERN_ODD)->x[0], 128);
+}
+
+static void passes_share_out_all_samples_and_lie_apart(void **state) {
+    (void)state;
+    for (int i = 0; i < PAIRS * DIP_PATTERN_KINDS; i++) {
+        const int *pair = pairs[i % PAIRS];
+        const DipSamplePattern *pattern =
+            dip_sample_pattern_of(pair[0], (DipPatternKind)(i / PAIRS));
+        static DipSamplePasses passes;
+        assert_true(dip_sample_passes_exist(pair[0], pair[1]));
+        dip_sample_passes_make(&passes, pattern, pair[1]);
+        assert_int_equal(passes.count, pair[0] / pair[1]);
+        unsigned all = 0;
+        int sum[2] = {0};
+        for (int p = 0; p < passes.count; p++) {
+            assert_int_equal(__builtin_popcount(passes.samples[p]), pair[1]);
+            assert_int_equal(all & passes.samples[p], 0);
+            all |= passes.samples[p];
+            const int at = passes.centroid[passes.samples[p]];
+            sum[0] += at & 255;
+            sum[1] += at >> 8;
+            for (int q = 0; q < p; q++) {
+                const int other = passes.centroid[passes.samples[q]];
+                const double distance = hypot((at & 255) - (other & 255), (at >> 8) - (other >> 8));
+                assert_true(distance >= 64.0); // a quarter of a pixel
+            }
+            for (int s = 0; s < pair[0]; s++) {
+                assert_true(!(passes.samples[p] >> s & 1) ||
+                            passes.sharing[s] == passes.samples[p]);
+            }
+        }
+        assert_int_equal(all, (1 << pair[0]) - 1);
+        for (int axis = 0; axis < 2; axis++) { // places are rounded down
+            assert_true(abs(sum[axis] - 128 * passes.count) <= passes.count);
+        }
+    }
+}
+
+// --- temporal antialiasing ---------------------------------------------------------------------
+
+enum { TRIANGLES = 5 };
+
+// White triangles on black, and the number of the union's samples that they cover per pixel.
+static void make_triangles(Random *random, const Union *both, DipTestScene *scene,
+                           int covered[PIXELS]) {
+    dip_screen_begin(scene);
+    const int material = dip_screen_add_white(scene);
+    static uint8_t masks[2][TRIANGLES][PIXELS];
+    for (int t = 0; t < TRIANGLES; t++) {
+        DipOracleTriangle triangle;
+        DipScreenPoint points[3];
+        for (int i = 0; i < 3; i++) {
+            triangle.x[i] = random_int(random, -4 * 256, (SIDE + 4) * 256);
+            triangle.y[i] = random_int(random, -4 * 256, (SIDE + 4) * 256);
+            points[i] = (DipScreenPoint){triangle.x[i] / 256.0, triangle.y[i] / 256.0, 1.0};
+        }
+        dip_screen_add_polygon(scene, material, points, 3, 0);
+        for (int half = 0; half < 2; half++) {
+            DipSamplePattern pattern = {.count = both->count};
+            for (int s = 0; s < both->count; s++) {
+                pattern.x[s] = (uint8_t)union_place(both, half * both->count + s, 0);
+                pattern.y[s] = (uint8_t)union_place(both, half * both->count + s, 1);
+            }
+            dip_oracle_cover(&triangle, &pattern, &region, masks[half][t]);
+        }
+    }
+    for (int p = 0; p < PIXELS; p++) {
+        unsigned held[2] = {0};
+        for (int t = 0; t < TRIANGLES; t++) {
+            held[0] |= masks[0][t][p];
+            held[1] |= masks[1][t][p];
+        }
+        covered[p] = __builtin_popcount(held[0]) + __builtin_popcount(held[1]);
+    }
+}
+
+// Adds a frame of the fast path: samples that are white per pixel, exactly, from the code.
+static void add_fast_frame(const DipTestScene *scene, const DipQuality *quality, int frame_index,
+                           int found[PIXELS]) {
+    DipError err;
+    DipFrame frame;
+    DipPool *pool = dip_pool_create(1, &err);
+    DipScene *fast = dip_scene_create(&scene->def, NULL, &err);
+    DipRendererDef def = dip_renderer_default_def();
+    def.pool = pool;
+    def.width = def.height = SIDE;
+    def.quality = *quality;
+    DipRenderer *renderer = dip_renderer_create(&def, &err);
+    assert_non_null(renderer);
+    dip_renderer_set_frame_index(renderer, (uint64_t)frame_index);
+    assert_true(dip_renderer_draw(renderer, fast, &scene->pose, 0, &frame, &err));
+    for (int p = 0; p < PIXELS; p++) {
+        const int code = frame.rgba8[(size_t)(p / SIDE) * frame.stride_bytes + 4 * (p % SIDE)];
+        found[p] += (int)lround(dip_srgb_decode(code / 255.0) * dip_quality_sample_count(quality));
+    }
+    dip_renderer_destroy(&renderer);
+    dip_scene_destroy(&fast);
+    dip_pool_destroy(&pool);
+}
+
+static void two_frames_are_the_union(void **state) {
+    (void)state;
+    static DipTestScene scene;
+    static int covered[PIXELS];
+    static int found[PIXELS];
+    static double pictures[2][PIXELS][3];
+    Random random = {77};
+    for (int i = 0; i < 3 * UNIONS; i++) {
+        const Union *both = &unions[i % UNIONS];
+        DipQuality quality = dip_quality_default();
+        quality.step[DIP_SETTING_AA] = (uint8_t)(both->count / 2);
+        quality.step[DIP_SETTING_TAA] = 1;
+        make_triangles(&random, both, &scene, covered);
+        DipReference *reference = dip_reference_create(&scene.def, NULL);
+        memset(found, 0, sizeof found);
+        for (int f = 0; f < 2; f++) {
+            dip_reference_set_frame_index(reference, (uint64_t)(i + f));
+            assert_true(dip_reference_draw(reference, &quality, &scene.pose, SIDE, SIDE,
+                                           &pictures[f][0][0], NULL));
+            add_fast_frame(&scene, &quality, i + f, found);
+        }
+        for (int p = 0; p < PIXELS; p++) {
+            assert_near((pictures[0][p][0] + pictures[1][p][0]) / 2,
+                        covered[p] / (2.0 * both->count), 1e-12);
+            assert_int_equal(found[p], covered[p]);
+        }
+        dip_reference_destroy(&reference);
+        dip_test_scene_free(&scene);
+    }
+}
+
+// --- adaptive antialiasing ---------------------------------------------------------------------
+
+static void vertex_shader(const DipVertexBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        for (int c = 0; c < 3; c++) {
+            batch->clip[c][i] = batch->in[c][i];
+        }
+        batch->clip[3][i] = 1.0f;
+    }
+}
+
+static void black(DipFragmentBatch *batch) {
+    memset(batch->colour, 0, sizeof batch->colour);
+}
+
+// Red and green tell the place in the pixel, squared: the mean over passes is not the centre's.
+static void place_as_colour(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        const float x = batch->x[i] - (float)(int)batch->x[i];
+        const float y = batch->y[i] - (float)(int)batch->y[i];
+        batch->colour[0][i] = x * x;
+        batch->colour[1][i] = y * y;
+        batch->colour[2][i] = 1.0f;
+    }
+}
+
+// Something that depends on every bit of the place, 1/256 pixel.
+static bool is_there(int x, int y) {
+    return ((uint32_t)(x * 40503 + y * 10007) * 2654435761u) >> 31;
+}
+
+static void ask(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->keep[i] = is_there((int)(batch->x[i] * 256.0f), (int)(batch->y[i] * 256.0f));
+    }
+}
+
+static DipMesh *mesh_of(const DipOracleTriangle *triangle, float z) {
+    float positions[3][3];
+    for (int i = 0; i < 3; i++) {
+        positions[i][0] = (float)triangle->x[i] / (SIDE / 2 * 256.0f) - 1.0f;
+        positions[i][1] = 1.0f - (float)triangle->y[i] / (SIDE / 2 * 256.0f);
+        positions[i][2] = z;
+    }
+    const DipMeshData data = {"test", &positions[0][0], 3, 3, (const uint32_t[]){0, 1, 2}, 3};
+    return dip_mesh_create(&data, NULL);
+}
+
+typedef struct Expected {
+    double rgb[PIXELS][3];
+    uint64_t asked;
+    uint64_t whole; // covered samples of the clipped triangle
+} Expected;
+
+// The mean place of some samples, 1/256 pixel, rounded down.
+static void centroid_of(const DipSamplePattern *pattern, unsigned samples, int at[2]) {
+    int n = 0;
+    at[0] = at[1] = 0;
+    for (int s = 0; s < pattern->count; s++) {
+        if (samples >> s & 1) {
+            at[0] += pattern->x[s];
+            at[1] += pattern->y[s];
+            n++;
+        }
+    }
+    at[0] /= n;
+    at[1] /= n;
+}
+
+// A clipped triangle behind an opaque one that was drawn before it.
+static void expect(const DipSamplePattern *pattern, int samples_per_pass, const uint8_t *front,
+                   const uint8_t *clipped, Expected *out) {
+    static DipSamplePasses passes;
+    dip_sample_passes_make(&passes, pattern, samples_per_pass);
+    memset(out, 0, sizeof *out);
+    for (int p = 0; p < PIXELS; p++) {
+        for (int i = 0; i < passes.count; i++) {
+            const unsigned covered = clipped[p] & passes.samples[i];
+            const unsigned held = covered & (unsigned)~front[p];
+            int at[2];
+            out->whole += (uint64_t)__builtin_popcount(covered);
+            if (!held) {
+                continue;
+            }
+            out->asked++;
+            centroid_of(pattern, covered, at);
+            if (!is_there(p % SIDE * 256 + at[0], p / SIDE * 256 + at[1])) {
+                continue;
+            }
+            centroid_of(pattern, held, at);
+            const double weight = (double)__builtin_popcount(held) / pattern->count;
+            out->rgb[p][0] += weight * at[0] * at[0] / 65536.0;
+            out->rgb[p][1] += weight * at[1] * at[1] / 65536.0;
+            out->rgb[p][2] += weight;
+        }
+    }
+}
+
+static uint8_t picture[PIXELS * 4];
+
+static DipCounters run(DipIsa isa, const DipDraw *draws, int count, const int *pair,
+                       DipPatternKind kind) {
+    const DipPass pass = {.draws = draws,
+                          .draw_count = count,
+                          .sample_count = pair[0],
+                          .pattern = kind,
+                          .samples_per_pass = pair[1],
+                          .target = {picture, (size_t)SIDE * 4, SIDE, SIDE}};
+    DipCounters counters = {0};
+    DipStageTimes times = {0};
+    DipPool *pool = dip_pool_create(1, NULL);
+    DipPipeline *pipeline = dip_pipeline_create(pool, isa, SIDE, SIDE, NULL);
+    assert_non_null(pipeline);
+    assert_true(dip_pipeline_draw(pipeline, &pass, &counters, &times, NULL));
+    dip_pipeline_destroy(&pipeline);
+    dip_pool_destroy(&pool);
+    return counters;
+}
+
+static void check_picture(const Expected *expected) {
+    static DipSrgbEncodeTable table;
+    dip_srgb_encode_table(&table);
+    for (int p = 0; p < PIXELS; p++) {
+        for (int c = 0; c < 3; c++) {
+            const int code = table.code[lround(expected->rgb[p][c] * DIP_LINEAR16_MAX)];
+            assert_in_range(picture[4 * p + c] + 1, code, code + 2); // 16 bits before the code
+        }
+    }
+}
+
+// Every pair with several passes, every pattern, random triangles.
+static void every_pass_is_clipped_and_shaded_at_its_centroid(void **state) {
+    (void)state;
+    static uint8_t masks[2][PIXELS];
+    static Expected expected;
+    Random random = {5};
+    for (int t = 0; t < 8 * PAIRS * DIP_PATTERN_KINDS; t++) {
+        const int *pair = pairs[t % PAIRS];
+        const DipPatternKind kind = (DipPatternKind)(t / PAIRS % DIP_PATTERN_KINDS);
+        const DipSamplePattern *pattern = dip_sample_pattern_of(pair[0], kind);
+        if (pair[0] == pair[1]) {
+            continue; // one pass is as no passes at all, see below
+        }
+        DipMesh *meshes[2];
+        for (int i = 0; i < 2; i++) {
+            const DipOracleTriangle triangle =
+                dip_oracle_make((DipOracleKind)random_int(&random, 0, DIP_ORACLE_KINDS - 1),
+                                &random, pattern, &region, 1 << 18);
+            dip_oracle_cover(&triangle, pattern, &region, masks[i]);
+            meshes[i] = mesh_of(&triangle, i ? 0.25f : 0.5f);
+            assert_non_null(meshes[i]);
+        }
+        const DipDraw draws[2] = {
+            {.mesh = meshes[0], .vertex_shader = vertex_shader, .fragment_shader = black},
+            {.mesh = meshes[1],
+             .vertex_shader = vertex_shader,
+             .fragment_shader = place_as_colour,
+             .clip_shader = ask}};
+        expect(pattern, pair[1], masks[0], masks[1], &expected);
+        for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
+            if (dip_isa_available((DipIsa)isa)) {
+                const DipCounters counters = run((DipIsa)isa, draws, 2, pair, kind);
+                check_picture(&expected);
+                assert_int_equal(counters.fragments_clip_tested, expected.asked);
+                assert_true(!expected.whole ||
+                            counters.clip_passes == (uint64_t)(pair[0] / pair[1]));
+            }
+        }
+        dip_mesh_destroy(&meshes[0]);
+        dip_mesh_destroy(&meshes[1]);
+    }
+}
+
+// Opaque surfaces, and clipped ones in one pass: the same picture and work as without.
+static void nothing_is_spent_without_passes(void **state) {
+    (void)state;
+    static uint8_t plain[sizeof picture];
+    const DipOracleTriangle triangle = {{500, 16000, 3000}, {700, 4000, 15000}};
+    DipMesh *mesh = mesh_of(&triangle, 0.5f);
+    for (int i = 0; i < PAIRS; i++) {
+        for (int clipped = 0; clipped < 2; clipped++) {
+            if (clipped && pairs[i][0] != pairs[i][1]) {
+                continue;
+            }
+            const DipDraw draw = {.mesh = mesh,
+                                  .vertex_shader = vertex_shader,
+                                  .fragment_shader = place_as_colour,
+                                  .clip_shader = clipped ? ask : NULL};
+            const DipCounters without =
+                run(dip_isa_best(), &draw, 1, (const int[]){pairs[i][0], 0}, DIP_PATTERN_STANDARD);
+            memcpy(plain, picture, sizeof plain);
+            const DipCounters with = run(dip_isa_best(), &draw, 1, pairs[i], DIP_PATTERN_STANDARD);
+            assert_memory_equal(picture, plain, sizeof plain);
+            assert_memory_equal(&with, &without, sizeof with);
+            assert_int_equal(with.clip_passes, clipped);
+        }
+    }
+    dip_mesh_destroy(&mesh);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(temporal_patterns_are_rooks_about_the_centre),
+        cmocka_unit_test(passes_share_out_all_samples_and_lie_apart),
+        cmocka_unit_test(two_frames_are_the_union),
+        cmocka_unit_test(every_pass_is_clipped_and_shaded_at_its_centroid),
+        cmocka_unit_test(nothing_is_spent_without_passes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,138 @@
+// Settings as text: what is accepted, what is refused and with which words.
+#include "renderer/scene/quality.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void defaults_are_those_of_the_specification(void **state) {
+    (void)state;
+    char text[256];
+    const DipQuality quality = dip_quality_default();
+    dip_quality_format(&quality, text, sizeof text);
+    assert_string_equal(text, "aa=none,taa=off,aaa=off,asd=1,af=none,aaf=off,opt=off,"
+                              "miplod=high-quality,gi=on,mipdebug=off");
+}
+
+static void text_comes_back_as_it_went_in(void **state) {
+    (void)state;
+    static const char text[] = "aa=6,taa=on,aaa=on,asd=3,af=16,aaf=on,opt=off,"
+                               "miplod=performance,gi=on,mipdebug=on";
+    DipQuality quality;
+    char back[256];
+    assert_true(dip_quality_parse(text, &quality, NULL));
+    assert_int_equal(dip_quality_format(&quality, back, sizeof back), strlen(text));
+    assert_string_equal(back, text);
+    assert_int_equal(dip_quality_sample_count(&quality), 6);
+    assert_int_equal(dip_quality_max_anisotropy(&quality), 16);
+}
+
+static void what_is_left_out_keeps_its_default(void **state) {
+    (void)state;
+    DipQuality quality;
+    assert_true(dip_quality_parse("af=4", &quality, NULL));
+    DipQuality expected = dip_quality_default();
+    expected.step[DIP_SETTING_AF] = 2;
+    assert_memory_equal(&quality, &expected, sizeof quality);
+    assert_true(dip_quality_parse("", &quality, NULL));
+}
+
+static void bad_settings_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        DipErrorCode code;
+        const char *key;
+        const char *accepted; // must stand in the message
+    } rows[] = {
+        {"aa=3", DIP_ERROR_UNKNOWN, "aa", "none|2|4|6|8"},
+        {"aa=", DIP_ERROR_UNKNOWN, "aa", "none|2|4|6|8"},
+        {"aa", DIP_ERROR_MISSING, "aa", "aa=none|2|4|6|8"},
+        {"=4", DIP_ERROR_UNKNOWN, "", "miplod"},
+        {"msaa=4", DIP_ERROR_UNKNOWN, "msaa", "aa taa"},
+        {"aa=4,aa=4", DIP_ERROR_CONFLICT, "aa", "twice"},
+        {"aa=4,,af=2", DIP_ERROR_UNKNOWN, "", "miplod"},
+        {"AA=4", DIP_ERROR_UNKNOWN, "AA", "aa taa"},
+        {"aa=4 ", DIP_ERROR_UNKNOWN, "aa", "none|2|4|6|8"},
+        {"opt=on", DIP_ERROR_UNKNOWN, "opt", "off|standard|advanced"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        DipQuality quality = dip_quality_default();
+        quality.step[DIP_SETTING_AA] = 4;
+        DipError err = {0};
+        assert_false(dip_quality_parse(rows[i].text, &quality, &err));
+        assert_int_equal(err.code, rows[i].code);
+        assert_string_equal(err.key, rows[i].key);
+        assert_non_null(strstr(err.message, rows[i].accepted));
+        assert_int_equal(quality.step[DIP_SETTING_AA], 4);
+    }
+    char longest[400];
+    memset(longest, 'a', sizeof longest);
+    longest[sizeof longest - 1] = '\0';
+    DipQuality quality;
+    DipError err;
+    assert_false(dip_quality_parse(longest, &quality, &err));
+    assert_int_equal(err.code, DIP_ERROR_OVERSIZED);
+}
+
+// Table 3 of the seed: passes per number of samples and samples per pass; 0: not in it.
+static void pairs_of_aa_and_asd_are_those_of_the_table(void **state) {
+    (void)state;
+    static const char *const aa[] = {"none", "2", "4", "6", "8"};
+    static const int passes[5][4] = {
+        {1, 0, 0, 0}, {2, 1, 0, 0}, {4, 2, 0, 0}, {6, 3, 2, 0}, {8, 4, 0, 2}};
+    for (int a = 0; a < 5; a++) {
+        for (int d = 0; d < 4; d++) {
+            char text[64];
+            DipQuality quality;
+            DipError err = {0};
+            snprintf(text, sizeof text, "aa=%s,aaa=on,asd=%d", aa[a], d + 1);
+            const bool parsed = dip_quality_parse(text, &quality, &err);
+            assert_int_equal(parsed, passes[a][d] != 0);
+            if (parsed) {
+                assert_int_equal(dip_quality_sample_count(&quality) /
+                                     dip_quality_samples_per_pass(&quality),
+                                 passes[a][d]);
+                quality.step[DIP_SETTING_AAA] = 0;
+                assert_int_equal(dip_quality_samples_per_pass(&quality),
+                                 dip_quality_sample_count(&quality));
+                continue;
+            }
+            assert_int_equal(err.code, DIP_ERROR_CONFLICT);
+            assert_string_equal(err.key, "asd");
+            snprintf(text, sizeof text, "'%d' samples per pass do not fit aa=%s", d + 1, aa[a]);
+            assert_non_null(strstr(err.message, text));
+            snprintf(text, sizeof text, "aa=%s,asd=%d", aa[a], d + 1);
+            assert_false(dip_quality_parse(text, &quality, NULL)); // in use or not
+        }
+    }
+}
+
+static void format_measures_like_snprintf(void **state) {
+    (void)state;
+    const DipQuality quality = dip_quality_default();
+    char whole[256];
+    char cut[10];
+    const size_t length = dip_quality_format(&quality, whole, sizeof whole);
+    assert_int_equal(length, strlen(whole));
+    assert_int_equal(dip_quality_format(&quality, NULL, 0), length);
+    assert_int_equal(dip_quality_format(&quality, cut, sizeof cut), length);
+    assert_memory_equal(cut, whole, sizeof cut - 1);
+    assert_int_equal(cut[sizeof cut - 1], '\0');
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(defaults_are_those_of_the_specification),
+        cmocka_unit_test(text_comes_back_as_it_went_in),
+        cmocka_unit_test(what_is_left_out_keeps_its_default),
+        cmocka_unit_test(bad_settings_are_refused),
+        cmocka_unit_test(pairs_of_aa_and_asd_are_those_of_the_table),
+        cmocka_unit_test(format_measures_like_snprintf),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
