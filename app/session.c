@@ -515,9 +515,10 @@ bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t pla
     }
     DipFrame *const panes[DIP_PANE_COUNT] = {&frame->panes[0], &frame->panes[1]};
     const int64_t begin_ns = dip_clock_ns();
-    const bool drawn = frame->copied ? draw_copied(session, pose, play_ns, frame, err)
-                                     : dip_renderer_draw_pair(session->renderers, session->scene,
-                                                              pose, play_ns, panes, err);
+    const bool drawn = frame->copied
+                           ? draw_copied(session, pose, play_ns, frame, err)
+                           : dip_renderer_draw_frames(session->renderers, DIP_PANE_COUNT,
+                                                      session->scene, pose, play_ns, panes, err);
     frame->ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
     return drawn;
 }

@@ -23,7 +23,7 @@ typedef struct Theory {
 
 static const Theory theories[] = {
     {DIP_SETTING_AA, FALLS, false, RISES, DIP_COST_COUNTER_samples_shown, FEW_PLACES},
-    {DIP_SETTING_AAA, FALLS, false, RISES, DIP_COST_COUNTER_clip_passes, FEW_PLACES},
+    {DIP_SETTING_AAA, FALLS, false, RISES, DIP_COST_COUNTER_clip_sample_groups, FEW_PLACES},
     {DIP_SETTING_TAA, FALLS, true, FREE, 0,
      "on a path that moves far between two frames their mean is blurred"},
     {DIP_SETTING_AF, FALLS, false, RISES, DIP_COST_COUNTER_texture_probes, FEW_PLACES},

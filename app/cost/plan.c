@@ -187,7 +187,7 @@ static void plan_adaptive(DipCostReport *report, const DipSession *session) {
             on.step[DIP_SETTING_AAA] = 1;
             on.step[DIP_SETTING_ASD] = (uint8_t)asd;
             if (dip_quality_check(&on, NULL) &&
-                dip_quality_samples_per_pass(&on) < dip_quality_sample_count(&on)) {
+                dip_quality_samples_per_group(&on) < dip_quality_sample_count(&on)) {
                 add_to_sweep(sweep, add_row(report, &on, path));
             }
         }
@@ -202,7 +202,7 @@ static bool is_idle(const DipQuality *q) {
     return (q->step[DIP_SETTING_AAF] && !q->step[DIP_SETTING_AF]) ||
            (q->step[DIP_SETTING_TAA] && !q->step[DIP_SETTING_AA]) ||
            (!adaptive && q->step[DIP_SETTING_ASD]) ||
-           (adaptive && dip_quality_samples_per_pass(q) == dip_quality_sample_count(q));
+           (adaptive && dip_quality_samples_per_group(q) == dip_quality_sample_count(q));
 }
 
 static bool add_combinations(DipCostReport *report, DipQuality quality, int setting,

@@ -16,15 +16,15 @@ static const float vertices[3][5] = {
 };
 static const uint32_t indices[3] = {0, 1, 2};
 
-// Positions are clip coordinates already; attributes 3 and 4 become slots 0 and 1.
+// Positions are clip coordinates already; attributes 3 and 4 become varyings 0 and 1.
 static void vertex_shader(const DipVertexBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         for (int c = 0; c < 3; c++) {
             batch->clip[c][i] = batch->in[c][i];
         }
         batch->clip[3][i] = 1.0f;
-        batch->slot[0][i] = batch->in[3][i];
-        batch->slot[1][i] = batch->in[4][i];
+        batch->varying[0][i] = batch->in[3][i];
+        batch->varying[1][i] = batch->in[4][i];
     }
 }
 
@@ -32,8 +32,8 @@ static void vertex_shader(const DipVertexBatch *batch) {
 static void fragment_shader(DipFragmentBatch *batch) {
     const float rings = *(const float *)batch->uniforms;
     for (int i = 0; i < batch->count; i++) {
-        const float u = batch->slot[0][i];
-        const float v = batch->slot[1][i];
+        const float u = batch->varying[0][i];
+        const float v = batch->varying[1][i];
         const float x = u - 0.5f;
         const float y = v - 0.4f;
         const float phase = (x * x + y * y) * rings;
@@ -63,7 +63,7 @@ static bool draw(DipPipeline *pipeline, const DipMesh *mesh, uint8_t *rgba8, Dip
         .mesh = mesh,
         .vertex_shader = vertex_shader,
         .fragment_shader = fragment_shader,
-        .slot_count = 2,
+        .varying_count = 2,
         .uniforms = &rings,
         .cull = DIP_CULL_BACK,
     };
@@ -74,7 +74,7 @@ static bool draw(DipPipeline *pipeline, const DipMesh *mesh, uint8_t *rgba8, Dip
         .clear_lin = {0.02f, 0.02f, 0.03f},
         .target = {rgba8, (size_t)WIDTH * 4, WIDTH, HEIGHT},
     };
-    DipCounters counters = {0};
+    DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     const bool drawn = dip_pipeline_draw(pipeline, &pass, &counters, &times, err);
     printf("%llu fragments shaded\n", (unsigned long long)counters.fragments_shaded);

@@ -1,31 +1,66 @@
-// Vertex and index data as the pipeline draws it: split into chunks with bounds, structure-of-
-// arrays, immutable.
+// Vertex and index data as the pipeline draws it: immutable, and split into chunks of triangles
+// with bounds, so that what is out of view is left out early.
 #ifndef DIP_RENDERER_PIPELINE_MESH_H
 #define DIP_RENDERER_PIPELINE_MESH_H
 
 #include "renderer/base/error.h"
-#include "renderer/pipeline/shader.h"
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct DipMesh DipMesh;
 
-// attributes: vertex_count rows of attribute_count floats; the first three are a position and
-// give the bounds. Copied.
+// attributes: vertex_count rows of attribute_count floats, copied. The first three floats of a row
+// are a position; they give the bounds.
 typedef struct DipMeshData {
     const char *name;
     const float *attributes;
-    int attribute_count; // 3..DIP_MAX_ATTRIBUTES
+    int attribute_count; // 3..DIP_MAX_ATTRIBUTES (shader.h)
     uint32_t vertex_count;
     const uint32_t *indices;
     uint32_t index_count; // a multiple of 3, at most 2^30
 } DipMeshData;
 
-// Fails when an index or number is out of range, a position is not finite, or memory runs out.
+// An axis-aligned box.
+typedef struct DipBox {
+    float centre[3];
+    float extent[3]; // half the box's size
+} DipBox;
+
+// Fails with RANGE if an index or a number is out of range or a position is not finite, and with
+// MEMORY.
 DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err);
+
+// Returns a mesh with arrays of its own, or NULL when memory runs out.
+DipMesh *dip_mesh_copy(const DipMesh *mesh);
+
+// Frees a mesh that no draw uses any more. *mesh may be NULL and becomes NULL.
 void dip_mesh_destroy(DipMesh **mesh);
 
 uint32_t dip_mesh_triangle_count(const DipMesh *mesh);
+size_t dip_mesh_bytes(const DipMesh *mesh); // memory of vertices, indices and bounds
+
+// The exact bounds of the positions; all 0 for a mesh without triangles.
 void dip_mesh_bounds(const DipMesh *mesh, float min[3], float max[3]);
+
+// The box that the pipeline culls the mesh by. It holds the bounds.
+DipBox dip_mesh_box(const DipMesh *mesh);
+
+// A mesh's triangles come in chunks of 1 to 128. Triangle t of a chunk has the positions
+// corners[0], corners[1] and corners[2], in the winding order of the indices.
+uint32_t dip_mesh_chunk_count(const DipMesh *mesh);
+DipBox dip_mesh_chunk_box(const DipMesh *mesh, uint32_t chunk);
+uint32_t dip_mesh_chunk_triangle_count(const DipMesh *mesh, uint32_t chunk);
+void dip_mesh_chunk_triangle(const DipMesh *mesh, uint32_t chunk, uint32_t triangle,
+                             float corners[3][3]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,5 +1,5 @@
 // Sample positions of every antialiasing step, in 1/256 pixel from the pixel's top left corner, and
-// the passes that adaptive antialiasing shares them out to.
+// the groups that adaptive antialiasing shares them out to.
 //
 // Standard, 1, 2, 4, 8: the standard patterns of Direct3D and Vulkan. 6: a six-rooks lattice chosen
 // for the least error over all edge orientations, sorted by distance from the centre. The temporal
@@ -13,7 +13,7 @@
 enum {
     DIP_MAX_SAMPLES = 8,
     DIP_SAMPLE_ROOM = 16, // so that the widest vector may be read
-    DIP_MAX_SHARING = 4,  // samples of a pass, where there are several passes
+    DIP_MAX_SHARING = 4,  // samples of a group, where there are several groups
 };
 
 typedef struct DipSamplePattern {
@@ -22,7 +22,7 @@ typedef struct DipSamplePattern {
     uint8_t greatest;
     uint8_t x[DIP_SAMPLE_ROOM];
     uint8_t y[DIP_SAMPLE_ROOM];
-    // sharing[n]: the passes of n samples each, one bit per sample, where such passes are: chosen
+    // sharing[n]: the groups of n samples each, one bit per sample, where such groups are: chosen
     // so that their centroids, taken as a pattern, have the least error over all orientations.
     uint8_t sharing[DIP_MAX_SHARING + 1][DIP_MAX_SAMPLES];
 } DipSamplePattern;
@@ -45,19 +45,19 @@ static inline DipPatternKind dip_pattern_kind(bool temporal, uint64_t frame_inde
 }
 
 // Adaptive antialiasing of one pattern.
-typedef struct DipSamplePasses {
-    int count;                        // 1: a single pass, no adaptive antialiasing
-    uint8_t samples[DIP_MAX_SAMPLES]; // of each pass, one bit each
-    uint8_t sharing[DIP_MAX_SAMPLES]; // per sample: the samples of its pass
-    // The mean place of any set of samples (its bits the index), rounded down: x | y << 8.
+typedef struct DipSampleGroups {
+    int count;                        // 1: a single group, no adaptive antialiasing
+    uint8_t samples[DIP_MAX_SAMPLES]; // of each group, one bit each
+    uint8_t sharing[DIP_MAX_SAMPLES]; // per sample: the samples of its group
+    // The mean position of any set of samples (its bits the index), rounded down: x | y << 8.
     int32_t centroid[1 << DIP_MAX_SAMPLES];
-} DipSamplePasses;
+} DipSampleGroups;
 
-// Whether the count's samples can be shared out to passes of so many.
-bool dip_sample_passes_exist(int sample_count, int samples_per_pass);
+// Whether the count's samples can be shared out to groups of so many.
+bool dip_sample_groups_exist(int sample_count, int samples_per_group);
 
-// samples_per_pass: one that dip_sample_passes_exist says is there.
-void dip_sample_passes_make(DipSamplePasses *passes, const DipSamplePattern *pattern,
-                            int samples_per_pass);
+// samples_per_group: one that dip_sample_groups_exist says is there.
+void dip_sample_groups_make(DipSampleGroups *groups, const DipSamplePattern *pattern,
+                            int samples_per_group);
 
 #endif

@@ -32,8 +32,8 @@ static uint64_t mix(uint64_t z) {
     return z ^ (z >> 31);
 }
 
-void dip_reference_place_sample(int index, int side, uint32_t seed, size_t pixel, int x, int y,
-                                double *place_x, double *place_y) {
+void dip_reference_sample_position(int index, int side, uint32_t seed, size_t pixel, int x, int y,
+                                   double *place_x, double *place_y) {
     const uint64_t key = mix(((uint64_t)seed << 32) + (uint64_t)index + 0x9e3779b97f4a7c15u);
     const uint64_t random = mix(key ^ mix(pixel + 1));
     const double jitter_x = (double)(random >> 32) * 0x1p-32;
@@ -54,27 +54,27 @@ static void start_plane(Converging *c, int index, int side, uint32_t seed) {
     for (int y = 0; y < c->height; y++) {
         for (int x = 0; x < c->width; x++) {
             const size_t pixel = (size_t)y * (size_t)c->width + (size_t)x;
-            dip_reference_place_sample(index, side, seed, pixel, x, y, &plane->x[pixel],
-                                       &plane->y[pixel]);
+            dip_reference_sample_position(index, side, seed, pixel, x, y, &plane->x[pixel],
+                                          &plane->y[pixel]);
             plane->depths[pixel] = 0.0;
             plane->triangles[pixel] = NOTHING;
         }
     }
 }
 
-static DipRefPlace place_at(const DipRefTriangle *triangle, double x, double y) {
+static DipRefPosition place_at(const DipRefTriangle *triangle, double x, double y) {
     const DipRefVertex *v = triangle->vertices;
-    return (DipRefPlace){triangle,
-                         {(v[2].x - v[1].x) * (y - v[1].y) - (v[2].y - v[1].y) * (x - v[1].x),
-                          (v[0].x - v[2].x) * (y - v[2].y) - (v[0].y - v[2].y) * (x - v[2].x),
-                          (v[1].x - v[0].x) * (y - v[0].y) - (v[1].y - v[0].y) * (x - v[0].x)},
-                         x,
-                         y};
+    return (DipRefPosition){triangle,
+                            {(v[2].x - v[1].x) * (y - v[1].y) - (v[2].y - v[1].y) * (x - v[1].x),
+                             (v[0].x - v[2].x) * (y - v[2].y) - (v[0].y - v[2].y) * (x - v[2].x),
+                             (v[1].x - v[0].x) * (y - v[0].y) - (v[1].y - v[0].y) * (x - v[0].x)},
+                            x,
+                            y};
 }
 
 static void draw_in_pixel(Converging *c, int32_t index, size_t pixel) {
     const DipRefTriangle *triangle = &c->triangles.items[index];
-    const DipRefPlace place = place_at(triangle, c->plane.x[pixel], c->plane.y[pixel]);
+    const DipRefPosition place = place_at(triangle, c->plane.x[pixel], c->plane.y[pixel]);
     if (place.edges[0] < 0.0 || place.edges[1] < 0.0 || place.edges[2] < 0.0) {
         return;
     }
@@ -110,7 +110,7 @@ static void shade(const Converging *c, size_t pixel, double rgb[3]) {
     if (index == NOTHING) {
         return;
     }
-    const DipRefPlace place =
+    const DipRefPosition place =
         place_at(&c->triangles.items[index], c->plane.x[pixel], c->plane.y[pixel]);
     dip_reference_shade(&place, NULL, rgb);
     if (c->mirrored && place.triangle->material->surface == DIP_SURFACE_WATER) {

@@ -182,8 +182,8 @@ static void place_samples(Samples *samples, int side, uint32_t seed) {
             const size_t first = first_of(samples, x, y);
             for (int s = 0; s < samples->per_pixel; s++) {
                 const size_t i = first + (size_t)s;
-                dip_reference_place_sample(s, side, seed, pixel, x, y, &samples->x[i],
-                                           &samples->y[i]);
+                dip_reference_sample_position(s, side, seed, pixel, x, y, &samples->x[i],
+                                              &samples->y[i]);
                 samples->depths[i] = 0.0;
                 samples->clip_depths[i] = 0.0;
                 samples->triangles[i] = NOTHING;
@@ -227,7 +227,7 @@ static bool misses_pixel(const Edge edges[3], int x, int y) {
 }
 
 static void draw_in_sample(Samples *samples, const DipRefTriangle *triangle, int32_t index,
-                           size_t i, const DipRefPlace *place) {
+                           size_t i, const DipRefPosition *place) {
     const double depth = dip_reference_depth(place, samples->convergence->reference->def->near_m);
     if (triangle->clipped) {
         samples->clip_depths[i] = fmax(samples->clip_depths[i], depth);
@@ -245,7 +245,7 @@ static void draw_in_sample(Samples *samples, const DipRefTriangle *triangle, int
 
 static void draw_in_pixel(Samples *samples, const DipRefTriangle *triangle, int32_t index,
                           const Edge edges[3], size_t first) {
-    DipRefPlace place = {.triangle = triangle};
+    DipRefPosition place = {.triangle = triangle};
     for (size_t i = first; i < first + (size_t)samples->per_pixel; i++) {
         place.edges[0] = edge_at(&edges[0], samples->x[i], samples->y[i]);
         place.edges[1] = edge_at(&edges[1], samples->x[i], samples->y[i]);
@@ -285,9 +285,9 @@ static void draw_triangles(Samples *samples, int tile) {
 
 // --- what is seen ------------------------------------------------------------------------------
 
-static DipRefPlace place_on(const DipRefTriangle *triangle, double x, double y) {
+static DipRefPosition place_on(const DipRefTriangle *triangle, double x, double y) {
     Edge edges[3];
-    DipRefPlace place = {.triangle = triangle, .x = x, .y = y};
+    DipRefPosition place = {.triangle = triangle, .x = x, .y = y};
     find_edges(triangle, edges);
     for (int e = 0; e < 3; e++) {
         place.edges[e] = edge_at(&edges[e], x, y);
@@ -309,7 +309,7 @@ static void shade_sample(const Samples *samples, size_t i, double rgb[3]) {
     if (samples->triangles[i] == NOTHING) {
         return;
     }
-    const DipRefPlace place =
+    const DipRefPosition place =
         place_on(&c->triangles.items[samples->triangles[i]], samples->x[i], samples->y[i]);
     dip_reference_shade(&place, NULL, rgb);
     if (samples->mirrored && shows_water(samples, i)) {
@@ -334,8 +334,8 @@ static void shade_pixel(const Samples *samples, size_t first, double share, doub
 static double depth_between(const Samples *samples, const DipRefTriangle *a,
                             const DipRefTriangle *b, double x, double y) {
     const double near_m = samples->convergence->reference->def->near_m;
-    const DipRefPlace at_a = place_on(a, x, y);
-    const DipRefPlace at_b = place_on(b, x, y);
+    const DipRefPosition at_a = place_on(a, x, y);
+    const DipRefPosition at_b = place_on(b, x, y);
     return dip_reference_depth(&at_a, near_m) - dip_reference_depth(&at_b, near_m);
 }
 

@@ -21,10 +21,10 @@ typedef struct Samples {
 typedef struct Drawing {
     const DipReference *reference;
     const DipSamplePattern *pattern;
-    DipSamplePasses passes; // of clipped surfaces
+    DipSampleGroups groups; // of clipped surfaces
     DipRefTriangles triangles;
     DipRefFilter filter;
-    DipRefFilter pass_filter; // of clipped surfaces in several passes
+    DipRefFilter group_filter; // of clipped surfaces in several groups
     Samples samples;
     DipRefShot shot;
     int width;
@@ -65,24 +65,24 @@ static bool covers(const DipRefTriangle *triangle, int64_t x, int64_t y) {
     return true;
 }
 
-static DipRefPlace place_at(const DipRefTriangle *triangle, int64_t x, int64_t y) {
+static DipRefPosition place_at(const DipRefTriangle *triangle, int64_t x, int64_t y) {
     Int128 edges[3];
     find_edges(triangle, x, y, edges);
-    return (DipRefPlace){
+    return (DipRefPosition){
         triangle, {(double)edges[0], (double)edges[1], (double)edges[2]}, (double)x, (double)y};
 }
 
 // A sample of a pixel.
-static DipRefPlace place_at_sample(const Drawing *drawing, const DipRefTriangle *triangle, int x,
-                                   int y, int sample) {
+static DipRefPosition place_at_sample(const Drawing *drawing, const DipRefTriangle *triangle, int x,
+                                      int y, int sample) {
     return place_at(triangle, (int64_t)x * 256 + drawing->pattern->x[sample],
                     (int64_t)y * 256 + drawing->pattern->y[sample]);
 }
 
 // Where a surface that has these samples of a pixel (one bit each) is shaded: the centre when it
 // has all, else the sample of the lowest index.
-static DipRefPlace place_to_shade(const Drawing *drawing, const DipRefTriangle *triangle, int x,
-                                  int y, unsigned mask) {
+static DipRefPosition place_to_shade(const Drawing *drawing, const DipRefTriangle *triangle, int x,
+                                     int y, unsigned mask) {
     if (mask == (1u << drawing->pattern->count) - 1u) {
         return place_at(triangle, (int64_t)x * 256 + 128, (int64_t)y * 256 + 128);
     }
@@ -93,17 +93,17 @@ static DipRefPlace place_to_shade(const Drawing *drawing, const DipRefTriangle *
     return place_at_sample(drawing, triangle, x, y, lowest);
 }
 
-static bool has_passes(const Drawing *drawing, const DipRefTriangle *triangle) {
-    return triangle->clipped && drawing->passes.count > 1;
+static bool has_groups(const Drawing *drawing, const DipRefTriangle *triangle) {
+    return triangle->clipped && drawing->groups.count > 1;
 }
 
 static const DipRefFilter *filter_of(const Drawing *drawing, const DipRefTriangle *triangle) {
-    return has_passes(drawing, triangle) ? &drawing->pass_filter : &drawing->filter;
+    return has_groups(drawing, triangle) ? &drawing->group_filter : &drawing->filter;
 }
 
-// Where a pass that has these samples of a pixel is shaded: their centroid, rounded down.
-static DipRefPlace place_of_pass(const Drawing *drawing, const DipRefTriangle *triangle, int x,
-                                 int y, unsigned mask) {
+// Where a group that has these samples of a pixel is shaded: their centroid, rounded down.
+static DipRefPosition place_of_pass(const Drawing *drawing, const DipRefTriangle *triangle, int x,
+                                    int y, unsigned mask) {
     int sum_x = 0, sum_y = 0, count = 0;
     for (int s = 0; s < drawing->pattern->count; s++) {
         if (mask >> s & 1) {
@@ -115,23 +115,23 @@ static DipRefPlace place_of_pass(const Drawing *drawing, const DipRefTriangle *t
     return place_at(triangle, (int64_t)x * 256 + sum_x / count, (int64_t)y * 256 + sum_y / count);
 }
 
-static bool alpha_keeps(const Drawing *drawing, const DipRefPlace *place) {
+static bool alpha_keeps(const Drawing *drawing, const DipRefPosition *place) {
     const double alpha = dip_reference_alpha(place, filter_of(drawing, place->triangle));
     return (float)alpha >= place->triangle->material->alpha_cutoff;
 }
 
-// Of the covered samples those that alpha leaves, pass by pass.
+// Of the covered samples those that alpha leaves, group by group.
 static unsigned clip_samples(const Drawing *drawing, const DipRefTriangle *triangle, int x, int y,
                              unsigned mask) {
-    if (!has_passes(drawing, triangle)) {
-        const DipRefPlace place = place_to_shade(drawing, triangle, x, y, mask);
+    if (!has_groups(drawing, triangle)) {
+        const DipRefPosition place = place_to_shade(drawing, triangle, x, y, mask);
         return alpha_keeps(drawing, &place) ? mask : 0;
     }
     unsigned kept = 0;
-    for (int p = 0; p < drawing->passes.count; p++) {
-        const unsigned covered = mask & drawing->passes.samples[p];
+    for (int p = 0; p < drawing->groups.count; p++) {
+        const unsigned covered = mask & drawing->groups.samples[p];
         if (covered) {
-            const DipRefPlace place = place_of_pass(drawing, triangle, x, y, covered);
+            const DipRefPosition place = place_of_pass(drawing, triangle, x, y, covered);
             kept |= alpha_keeps(drawing, &place) ? covered : 0;
         }
     }
@@ -153,7 +153,7 @@ static void draw_in_pixel(Drawing *drawing, int32_t index, int x, int y) {
     const size_t first = ((size_t)y * (size_t)drawing->width + (size_t)x) * (size_t)pattern->count;
     for (int s = 0; s < pattern->count; s++) {
         if (mask >> s & 1) {
-            const DipRefPlace place = place_at_sample(drawing, triangle, x, y, s);
+            const DipRefPosition place = place_at_sample(drawing, triangle, x, y, s);
             const double depth = dip_reference_depth(&place, drawing->reference->def->near_m);
             if (depth > drawing->samples.depths[first + (size_t)s]) {
                 drawing->samples.depths[first + (size_t)s] = depth;
@@ -174,13 +174,13 @@ static void draw_triangles(Drawing *drawing) {
     }
 }
 
-// A surface that has these samples of a pixel, or of one pass over it.
+// A surface that has these samples of a pixel, or of one group over it.
 static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigned mask,
                   double colour[3]) {
     const DipRefTriangle *triangle = &drawing->triangles.items[surface];
-    const DipRefPlace place = has_passes(drawing, triangle)
-                                  ? place_of_pass(drawing, triangle, x, y, mask)
-                                  : place_to_shade(drawing, triangle, x, y, mask);
+    const DipRefPosition place = has_groups(drawing, triangle)
+                                     ? place_of_pass(drawing, triangle, x, y, mask)
+                                     : place_to_shade(drawing, triangle, x, y, mask);
     dip_reference_shade(&place, filter_of(drawing, triangle), colour);
     if (drawing->mirrored && triangle->material->surface == DIP_SURFACE_WATER) {
         double mirrored[3];
@@ -202,13 +202,13 @@ static unsigned shaded_with(const Drawing *drawing, const int32_t *surfaces, int
     for (int other = 0; other < drawing->pattern->count; other++) {
         mask |= (unsigned)same_patch(drawing, surfaces[other], surfaces[s]) << other;
     }
-    if (surfaces[s] != NOTHING && has_passes(drawing, &drawing->triangles.items[surfaces[s]])) {
-        mask &= drawing->passes.sharing[s];
+    if (surfaces[s] != NOTHING && has_groups(drawing, &drawing->triangles.items[surfaces[s]])) {
+        mask &= drawing->groups.sharing[s];
     }
     return mask;
 }
 
-// The mean over a pixel's samples, each surface among them shaded once, or once per pass.
+// The mean over a pixel's samples, each surface among them shaded once, or once per group.
 static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
     const int count = drawing->pattern->count;
     const int32_t *surfaces = drawing->samples.triangles +
@@ -321,9 +321,10 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
         .width = width,
         .height = height,
     };
-    dip_sample_passes_make(&drawing.passes, drawing.pattern, dip_quality_samples_per_pass(quality));
-    drawing.pass_filter = drawing.filter;
-    drawing.pass_filter.bias -= round(128.0 * log2(drawing.passes.count)) / 256.0;
+    dip_sample_groups_make(&drawing.groups, drawing.pattern,
+                           dip_quality_samples_per_group(quality));
+    drawing.group_filter = drawing.filter;
+    drawing.group_filter.bias -= round(128.0 * log2(drawing.groups.count)) / 256.0;
     bool drawn = dip_reference_build_triangles(reference, &drawing.shot, &drawing.triangles, err);
     double *mirrored = NULL;
     if (drawn && dip_reference_reflects(reference, pose) && sees_water(&drawing)) {

@@ -53,7 +53,7 @@ static Frame judge_ellipse(const double ddx[2], const double ddy[2], int max_ani
 }
 
 DipFootprint dip_reference_footprint(const double ddx[2], const double ddy[2], int max_anisotropy,
-                                     bool advanced, int min_level) {
+                                     bool exact_footprint, int min_level) {
     if (!isfinite(ddx[0]) || !isfinite(ddx[1]) || !isfinite(ddy[0]) || !isfinite(ddy[1])) {
         return (DipFootprint){{0.0, 0.0}, 1.0, 1, NAN};
     }
@@ -61,8 +61,8 @@ DipFootprint dip_reference_footprint(const double ddx[2], const double ddy[2], i
         const double rho = fmax(hypot(ddx[0], ddx[1]), hypot(ddy[0], ddy[1]));
         return (DipFootprint){{0.0, 0.0}, 1.0, 1, log2(rho)};
     }
-    const Frame frame =
-        advanced ? judge_ellipse(ddx, ddy, max_anisotropy) : judge_plain(ddx, ddy, max_anisotropy);
+    const Frame frame = exact_footprint ? judge_ellipse(ddx, ddy, max_anisotropy)
+                                        : judge_plain(ddx, ddy, max_anisotropy);
     const double most = fmax(1.0, frame.length / (1 << min_level)); // a texel apart
     const int probe_count = (int)ceil(fmin(frame.ratio, most) - 1e-4);
     return (DipFootprint){{frame.major[0], frame.major[1]},

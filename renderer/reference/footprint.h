@@ -12,10 +12,10 @@ typedef struct DipFootprint {
 } DipFootprint;
 
 // ddx and ddy: the Jacobian in texels of level 0 per pixel. max_anisotropy 1 is trilinear, for
-// which `advanced` has no meaning. min_level: the finest that may be read; probes lie no closer
-// than its texels. For a Jacobian that is not finite: one probe, lambda NaN.
+// which `exact_footprint` has no meaning. min_level: the finest that may be read; probes lie no
+// closer than its texels. For a Jacobian that is not finite: one probe, lambda NaN.
 DipFootprint dip_reference_footprint(const double ddx[2], const double ddy[2], int max_anisotropy,
-                                     bool advanced, int min_level);
+                                     bool exact_footprint, int min_level);
 
 // The probes of the coarser of two levels, of which it has that fraction.
 int dip_reference_coarser_probes(int probe_count, double fraction);

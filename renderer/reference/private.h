@@ -87,20 +87,20 @@ bool dip_reference_build_triangles(const DipReference *reference, const DipRefSh
 void dip_reference_triangles_free(DipRefTriangles *triangles);
 
 // A triangle at one place: edge functions there (the weights of its vertices, up to a factor).
-typedef struct DipRefPlace {
+typedef struct DipRefPosition {
     const DipRefTriangle *triangle;
     double edges[3];
     double x; // in the picture, 1/256 pixel
     double y;
-} DipRefPlace;
+} DipRefPosition;
 
-double dip_reference_depth(const DipRefPlace *place, double near_m);
+double dip_reference_depth(const DipRefPosition *place, double near_m);
 
 // Alpha of a clipped surface. filter NULL: bilinear, level 0.
-double dip_reference_alpha(const DipRefPlace *place, const DipRefFilter *filter);
+double dip_reference_alpha(const DipRefPosition *place, const DipRefFilter *filter);
 
 // Linear light, 0..1. filter is the colour texture's; NULL: bilinear, level 0, for all textures.
-void dip_reference_shade(const DipRefPlace *place, const DipRefFilter *filter, double rgb[3]);
+void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter, double rgb[3]);
 
 // The light of sun and sky on a unit normal, with a part of the sun.
 extern const double dip_reference_sun[3]; // direction to it, not normalised
@@ -130,17 +130,17 @@ bool dip_reference_reflects(const DipReference *reference, const DipPose *pose);
 // Turns water's own colour at a place of a frame into what is seen, with the mirrored scene's
 // colour there.
 void dip_reference_blend_water(const DipReference *reference, const DipPose *pose, int width,
-                               int height, const DipRefPlace *place, const double mirrored[3],
+                               int height, const DipRefPosition *place, const double mirrored[3],
                                double rgb[3]);
 
 // The mirrored scene's colour at a place of a frame, bilinearly from its picture.
 void dip_reference_read_mirrored(const DipReference *reference, const double *mirrored, int width,
-                                 int height, const DipRefPlace *place, double rgb[3]);
+                                 int height, const DipRefPosition *place, double rgb[3]);
 
 // The converged picture's sample `index` of a pixel: jittered within its cell of a side x side
 // grid. pixel: y * width + x. The place is in the frame, in 1/256 pixel.
-void dip_reference_place_sample(int index, int side, uint32_t seed, size_t pixel, int x, int y,
-                                double *place_x, double *place_y);
+void dip_reference_sample_position(int index, int side, uint32_t seed, size_t pixel, int x, int y,
+                                   double *place_x, double *place_y);
 
 // The count is a square; *side is its root.
 bool dip_reference_check_samples(int sample_count, int *side, DipError *err);

@@ -1,7 +1,7 @@
 // The reference's scene: checks the description and decodes the textures that are shown.
 #include "renderer/reference/private.h"
 
-#include "renderer/pipeline/geometry/patch.h"
+#include "renderer/pipeline/patch.h"
 #include "renderer/scene/renderer.h"
 
 #include <stdlib.h>

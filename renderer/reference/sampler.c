@@ -150,8 +150,8 @@ void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filt
     const double ddx[2] = {duv_dx[0] * width, duv_dx[1] * height};
     const double ddy[2] = {duv_dy[0] * width, duv_dy[1] * height};
     const int min_level = find_min_level(texture, filter);
-    DipFootprint footprint =
-        dip_reference_footprint(ddx, ddy, filter->max_anisotropy, filter->advanced, min_level);
+    DipFootprint footprint = dip_reference_footprint(ddx, ddy, filter->max_anisotropy,
+                                                     filter->exact_footprint, min_level);
     double level =
         dip_reference_level(footprint.lambda, filter->bias, min_level, texture->level_count - 1);
     if (filter->cheap) {
@@ -174,7 +174,7 @@ DipRefFilter dip_reference_colour_filter(const DipQuality *quality) {
     const int miplod = quality->step[DIP_SETTING_MIPLOD];
     return (DipRefFilter){
         .max_anisotropy = dip_quality_max_anisotropy(quality),
-        .advanced = quality->step[DIP_SETTING_AAF] != 0,
+        .exact_footprint = quality->step[DIP_SETTING_AAF] != 0,
         .bias = bias[miplod],
         .drop_levels = miplod == DIP_MIPLOD_HIGH_PERFORMANCE,
         .mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0,

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-double dip_reference_depth(const DipRefPlace *place, double near_m) {
+double dip_reference_depth(const DipRefPosition *place, double near_m) {
     const DipRefTriangle *triangle = place->triangle;
     double sum = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -15,7 +15,7 @@ double dip_reference_depth(const DipRefPlace *place, double near_m) {
 // With U = u/w and Q = 1/w linear on the screen: u = U/Q and du/dx = (dU/dx - u dQ/dx) / Q. The
 // edge functions weigh the vertices; edge i, opposite vertex i, goes from vertex i+1 to i+2 and
 // changes by -dy per step in x and by +dx per step in y. Their common factor cancels out.
-static void interpolate(const DipRefPlace *place, int first, int count, bool derive,
+static void interpolate(const DipRefPosition *place, int first, int count, bool derive,
                         DipRefVaryings *out) {
     const DipRefVertex *v = place->triangle->vertices;
     double weights[3], weights_dx[3], weights_dy[3];
@@ -54,7 +54,7 @@ static void read_texture(const DipRefTexture *texture, const DipRefFilter *filte
     }
 }
 
-double dip_reference_alpha(const DipRefPlace *place, const DipRefFilter *filter) {
+double dip_reference_alpha(const DipRefPosition *place, const DipRefFilter *filter) {
     DipRefVaryings varyings;
     double rgba[4];
     interpolate(place, DIP_REF_U0, 2, filter != NULL, &varyings);
@@ -68,7 +68,7 @@ static void read_normal_map(const DipRefTexture *map, const DipRefFilter *filter
     read_texture(map, filter ? &own : NULL, varyings, DIP_REF_U0, texel);
 }
 
-void dip_reference_shade(const DipRefPlace *place, const DipRefFilter *filter, double rgb[3]) {
+void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter, double rgb[3]) {
     const DipRefTriangle *triangle = place->triangle;
     const DipMaterialDef *material = triangle->material;
     DipRefVaryings varyings;

@@ -26,7 +26,7 @@ typedef struct DipRefTexture {
 // How textures are read.
 typedef struct DipRefFilter {
     int max_anisotropy; // 1: trilinear
-    bool advanced;
+    bool exact_footprint;
     double bias;
     bool drop_levels; // the largest levels are left out, by size
     bool mip_colours; // colour by level instead of the texels' own

@@ -11,7 +11,7 @@ bool dip_reference_reflects(const DipReference *reference, const DipPose *pose) 
 }
 
 // The world y of the direction from the eye through a place of the frame, of length 1.
-static double look_up(const DipPose *pose, int width, int height, const DipRefPlace *place) {
+static double look_up(const DipPose *pose, int width, int height, const DipRefPosition *place) {
     const double half = tan(pose->fov_y_deg * (pi / 360.0));
     const double ray[3] = {(place->x / (128.0 * width) - 1.0) * half * width / height,
                            (1.0 - place->y / (128.0 * height)) * half, -1.0};
@@ -42,7 +42,7 @@ static double schlick(double cos_in) {
 }
 
 void dip_reference_blend_water(const DipReference *reference, const DipPose *pose, int width,
-                               int height, const DipRefPlace *place, const double mirrored[3],
+                               int height, const DipRefPosition *place, const double mirrored[3],
                                double rgb[3]) {
     const double down = -look_up(pose, width, height, place);
     if (down <= 0.0) {
@@ -56,7 +56,7 @@ void dip_reference_blend_water(const DipReference *reference, const DipPose *pos
 }
 
 void dip_reference_read_mirrored(const DipReference *reference, const double *mirrored, int width,
-                                 int height, const DipRefPlace *place, double rgb[3]) {
+                                 int height, const DipRefPosition *place, double rgb[3]) {
     const int size[2] = {reference->reflection.width, reference->reflection.height};
     const double at[2] = {place->x / (256.0 * width) * size[0] - 0.5,
                           place->y / (256.0 * height) * size[1] - 0.5};

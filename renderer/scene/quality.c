@@ -125,7 +125,7 @@ static bool check_passes(const DipQuality *quality, DipError *err) {
     const int sample_count = dip_quality_sample_count(quality);
     unsigned fitting = 0;
     for (int i = 0; i < info->step_count; i++) {
-        fitting |= (unsigned)dip_sample_passes_exist(sample_count, i + 1) << i;
+        fitting |= (unsigned)dip_sample_groups_exist(sample_count, i + 1) << i;
     }
     if (fitting >> quality->step[DIP_SETTING_ASD] & 1) {
         return true;
@@ -159,7 +159,7 @@ int dip_quality_max_anisotropy(const DipQuality *quality) {
     return 1 << quality->step[DIP_SETTING_AF];
 }
 
-int dip_quality_samples_per_pass(const DipQuality *quality) {
+int dip_quality_samples_per_group(const DipQuality *quality) {
     return quality->step[DIP_SETTING_AAA] ? quality->step[DIP_SETTING_ASD] + 1
                                           : dip_quality_sample_count(quality);
 }

@@ -93,6 +93,6 @@ int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (trilinear), 2, 
 bool dip_quality_compresses(const DipQuality *quality);
 
 // Of alpha-clipped surfaces: all samples, unless adaptive AA makes passes.
-int dip_quality_samples_per_pass(const DipQuality *quality);
+int dip_quality_samples_per_group(const DipQuality *quality);
 
 #endif

@@ -1,14 +1,8 @@
-// The renderer: a scene, a pose and settings become one or two passes.
+// Renderers: creating, changing and destroying them, and what they keep for a scene.
 #include "renderer/scene/renderer.h"
 
-#include "renderer/pipeline/pipeline.h"
-#include "renderer/scene/draw/draws.h"
-#include "renderer/scene/draw/inset.h"
+#include "renderer/scene/draw/renderer_parts.h"
 #include "renderer/scene/draw/view.h"
-#include "renderer/scene/materials/material_kernels.h"
-#include "renderer/scene/materials/sky.h"
-#include "renderer/scene/plan/plan.h"
-#include "renderer/scene/resources/instancing.h"
 #include "renderer/scene/resources/mip_debug.h"
 #include "renderer/scene/resources/scene_layout.h"
 
@@ -17,39 +11,6 @@
 #include <string.h>
 
 enum { PIXEL_ALIGN = 64 };
-
-// What the reflection takes; empty while the scene has no water.
-typedef struct Mirror {
-    DipPipeline *pipeline;
-    DipTarget target;
-    DipTilePart *tile_parts; // of the target: what the water can show
-    DipDrawSet set;
-} Mirror;
-
-struct DipRenderer {
-    DipPool *pool;
-    DipIsa isa;
-    int width;
-    int height;
-    DipQuality quality;
-    uint64_t frame_index;
-    DipPipeline *pipeline;
-    uint8_t *rgba8;
-    size_t stride_bytes;
-    DipTexture *mip_colours; // levels 1024 .. 8 of mip debugging
-    DipReflectionDef reflection;
-    bool plain_surfaces;
-    bool force_all_effects;
-    DipSkyUniforms sky; // of the frame, where a shader needs it
-
-    // For the scene drawn last.
-    uint64_t scene_serial;
-    bool reserved; // the pipeline has room for it
-    DipDrawSet set;
-    Mirror mirror;
-    DipMaterialSamplers *samplers; // per material
-    DipExpanded *expanded;         // gi=off; else NULL
-};
 
 DipRendererDef dip_renderer_default_def(void) {
     return (DipRendererDef){
@@ -119,12 +80,12 @@ DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
     return renderer;
 }
 
-static void free_mirror(Mirror *mirror) {
+static void free_mirror(DipMirror *mirror) {
     dip_pipeline_destroy(&mirror->pipeline);
     free(mirror->target.rgba8);
-    free(mirror->tile_parts);
+    free(mirror->tile_regions);
     dip_draw_set_free(&mirror->set);
-    *mirror = (Mirror){0};
+    *mirror = (DipMirror){0};
 }
 
 // Everything made for a scene.
@@ -134,7 +95,7 @@ static void forget_scene(DipRenderer *renderer) {
     free_mirror(&renderer->mirror);
     free(renderer->samplers);
     renderer->samplers = NULL;
-    dip_expanded_destroy(&renderer->expanded);
+    dip_unshared_meshes_destroy(&renderer->unshared);
 }
 
 void dip_renderer_destroy(DipRenderer **renderer_pointer) {
@@ -215,14 +176,14 @@ bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
 
 // --- what a scene takes ------------------------------------------------------------------------
 
-static DipDrawInput draw_input(const DipRenderer *renderer, const DipScene *scene) {
+DipDrawInput dip_renderer_draw_input(const DipRenderer *renderer, const DipScene *scene) {
     return (DipDrawInput){
         .scene = scene,
         .kernels = dip_material_kernels(renderer->isa),
         .quality = &renderer->quality,
         .samplers = (const DipMaterialSamplers *)renderer->samplers,
         .sky = &renderer->sky,
-        .expanded = renderer->expanded,
+        .unshared = renderer->unshared,
         .plain_surfaces = renderer->plain_surfaces,
     };
 }
@@ -232,7 +193,7 @@ static bool reserve(const DipRenderer *renderer, const DipScene *scene, bool mir
                     DipPipeline *pipeline, DipDrawSet *set, DipError *err) {
     const DipPose pose = {.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
     const DipView view = dip_view_make(&pose, (double)scene->near_m, 1.0);
-    const DipDrawInput input = draw_input(renderer, scene);
+    const DipDrawInput input = dip_renderer_draw_input(renderer, scene);
     const DipDrawView all = {.view = &view, .width = 1, .height = 1, .mirrored = mirrored};
     dip_draw_set_fill(set, &input, &all);
     const DipPass pass = {.draws = set->draws, .draw_count = set->count};
@@ -240,12 +201,12 @@ static bool reserve(const DipRenderer *renderer, const DipScene *scene, bool mir
 }
 
 static int tiles_in(int size) {
-    return (size + DIP_TILE - 1) / DIP_TILE;
+    return (size + DIP_TARGET_TILE - 1) / DIP_TARGET_TILE;
 }
 
 // Makes the reflection's target and room for its pass.
 static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *err) {
-    Mirror *mirror = &renderer->mirror;
+    DipMirror *mirror = &renderer->mirror;
     DipTarget *target = &mirror->target;
     target->width = renderer->reflection.width;
     target->height = renderer->reflection.height;
@@ -255,21 +216,18 @@ static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *
         return false;
     }
     memset(target->rgba8, 0, target->stride_bytes * (size_t)target->height);
-    mirror->tile_parts =
+    mirror->tile_regions =
         calloc((size_t)tiles_in(target->width) * (size_t)tiles_in(target->height) + 1,
-               sizeof *mirror->tile_parts);
-    if (!mirror->tile_parts) {
+               sizeof *mirror->tile_regions);
+    if (!mirror->tile_regions) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "reflection",
                              "no memory for %dx%d pixels", target->width, target->height);
     }
     return reserve(renderer, scene, true, mirror->pipeline, &mirror->set, err);
 }
 
-// Makes the arrays for a scene not drawn before.
-static bool adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *err) {
-    if (renderer->scene_serial == scene->serial) {
-        return true;
-    }
+// Makes the arrays for a scene that was not drawn before.
+static bool make_for_scene(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     forget_scene(renderer);
     renderer->samplers = calloc((size_t)scene->material_count + 1, sizeof *renderer->samplers);
     bool made =
@@ -288,274 +246,26 @@ static bool adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *
     return true;
 }
 
-static bool reserve_once(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+bool dip_renderer_adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+    if (renderer->scene_serial != scene->serial && !make_for_scene(renderer, scene, err)) {
+        return false;
+    }
     renderer->reserved = renderer->reserved ||
                          reserve(renderer, scene, false, renderer->pipeline, &renderer->set, err);
     return renderer->reserved;
 }
 
-// Makes what the settings need of the scene beside it, or gives it back.
-static bool follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     const DipQuality *quality = &renderer->quality;
     if (dip_quality_compresses(quality) &&
         !dip_scene_compress_textures(scene, renderer->pool, err)) {
         return false;
     }
     if (quality->step[DIP_SETTING_GI]) {
-        dip_expanded_destroy(&renderer->expanded);
-    } else if (!renderer->expanded) {
-        renderer->expanded = dip_expanded_create(scene, renderer->pool, err);
-        return renderer->expanded != NULL;
-    }
-    return true;
-}
-
-static bool check_pose(const DipPose *pose, DipError *err) {
-    bool finite = isfinite(pose->fov_y_deg);
-    for (int i = 0; i < 3; i++) {
-        finite = finite && isfinite(pose->position_world[i]);
-    }
-    for (int i = 0; i < 4; i++) {
-        finite = finite && isfinite(pose->orientation[i]);
-    }
-    if (!finite || pose->fov_y_deg < 1.0 || pose->fov_y_deg > 170.0) {
-        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
-                             "a pose with a field of view of %g degrees, accepted finite numbers "
-                             "and 1..170",
-                             pose->fov_y_deg);
-    }
-    return true;
-}
-
-// --- passes ------------------------------------------------------------------------------------
-
-// What every pass takes of the settings and the scene, without its draws.
-static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
-                          const DipFramePlan *plan) {
-    DipPass pass = {
-        .sample_count = dip_quality_sample_count(&renderer->quality),
-        .pattern =
-            dip_pattern_kind(renderer->quality.step[DIP_SETTING_TAA] != 0, renderer->frame_index),
-        .samples_per_pass = plan->samples_per_pass,
-    };
-    memcpy(pass.clear_lin, scene->background_lin, sizeof pass.clear_lin);
-    return pass;
-}
-
-// Gives a pass the draws of what it may show.
-static void set_draws(const DipRenderer *renderer, const DipScene *scene, DipDrawView view,
-                      DipDrawSet *set, DipPass *pass) {
-    const DipDrawInput input = draw_input(renderer, scene);
-    const DipCullPlanes seen = dip_cull_pass_planes(pass, view.view);
-    view.seen = &seen;
-    view.width = pass->target.width;
-    view.height = pass->target.height;
-    dip_draw_set_fill(set, &input, &view);
-    pass->draws = set->draws;
-    pass->draw_count = set->count;
-}
-
-// A frame in the making. Its parts point at each other.
-typedef struct Making {
-    DipRenderer *renderer;
-    const DipScene *scene;
-    DipFrame *frame;
-    DipView view;
-    DipView mirrored;
-    DipCullPlanes seen;
-    DipCullPlanes seen_mirrored;
-    DipParts parts;
-    DipPlanInput input;
-    DipFramePlan plan;
-    DipPass mirrored_pass; // where the plan reflects
-    DipPass pass;
-} Making;
-
-static DipTarget target_of(const DipRenderer *renderer) {
-    return (DipTarget){renderer->rgba8, renderer->stride_bytes, renderer->width, renderer->height};
-}
-
-// The mirrored scene above the water. What is less than two texels of the picture below it counts
-// as above, so that no background is read between a shore and its reflection.
-static void make_mirrored_pass(Making *making) {
-    const DipRenderer *renderer = making->renderer;
-    const DipView *mirrored = &making->mirrored;
-    Mirror *mirror = &making->renderer->mirror;
-    const double above[4] = {0.0, 1.0, 0.0, -renderer->reflection.level_m};
-    const double texel = 2.0 / (mirrored->scale[1] * mirror->target.height); // at a distance of 1
-    double plane[4];
-    dip_view_plane(mirrored, above, plane);
-    plane[3] += 2.0 * texel;
-    DipPass *pass = &making->mirrored_pass;
-    *pass = begin_pass(renderer, making->scene, &making->plan);
-    pass->target = mirror->target;
-    pass->region = making->plan.mirrored_region;
-    pass->tile_parts = making->plan.mirrored_parts ? mirror->tile_parts : NULL;
-    pass->clip_plane_count = 1;
-    for (int i = 0; i < 4; i++) {
-        pass->clip_planes[0][i] = (float)plane[i];
-    }
-    const DipDrawView seen = {.view = mirrored, .mirrored = true};
-    set_draws(renderer, making->scene, seen, &mirror->set, pass);
-}
-
-static void make_scene_pass(Making *making) {
-    DipRenderer *renderer = making->renderer;
-    const DipDrawView seen = {
-        .view = &making->view,
-        .shown = making->plan.water_reflects ? &renderer->mirror.target : NULL,
-        .schlick = renderer->reflection.schlick,
-    };
-    making->pass = begin_pass(renderer, making->scene, &making->plan);
-    making->pass.target = target_of(renderer);
-    set_draws(renderer, making->scene, seen, &renderer->set, &making->pass);
-}
-
-// What the effects hold, used in this frame or not.
-static void count_bytes(const DipScene *scene, DipCounters *counters) {
-    counters->normal_map_bytes = scene->normal_map_bytes;
-    counters->clip_map_bytes = scene->clip_map_bytes;
-    counters->cloud_bytes = scene->cloud_bytes;
-}
-
-static void count_mirror(const Mirror *mirror, bool drawn, DipCounters *counters) {
-    const uint64_t across = (uint64_t)tiles_in(mirror->target.width);
-    const uint64_t down = (uint64_t)tiles_in(mirror->target.height);
-    counters->reflection_bytes = mirror->target.stride_bytes * (uint64_t)mirror->target.height;
-    counters->tiles_spared += drawn ? 0 : across * down;
-}
-
-// Decides what is drawn.
-static bool begin_frame(Making *making, DipRenderer *renderer, const DipScene *scene,
-                        const DipPose *pose, int64_t time_ns, DipFrame *frame, DipError *err) {
-    if (!check_pose(pose, err) || !adopt_scene(renderer, scene, err) ||
-        !reserve_once(renderer, scene, err) || !follow_settings(renderer, scene, err)) {
-        return false;
-    }
-    making->renderer = renderer;
-    making->scene = scene;
-    making->frame = frame;
-    making->view =
-        dip_view_make(pose, (double)scene->near_m, (double)renderer->width / renderer->height);
-    making->mirrored = dip_view_mirror(&making->view, renderer->reflection.level_m);
-    making->seen = dip_cull_view_planes(&making->view);
-    making->seen_mirrored = dip_cull_view_planes(&making->mirrored);
-    // A bilinear read takes in the next texel; one more for what is rounded.
-    const Mirror *mirror = &renderer->mirror;
-    making->parts = (DipParts){mirror->tile_parts, mirror->target.width, mirror->target.height, 2};
-    making->input = (DipPlanInput){
-        .scene = scene,
-        .view = &making->view,
-        .mirrored = &making->mirrored,
-        .seen = &making->seen,
-        .seen_mirrored = &making->seen_mirrored,
-        .parts = &making->parts,
-        .reflection = &renderer->reflection,
-        .quality = &renderer->quality,
-        .plain_surfaces = renderer->plain_surfaces,
-        .force_all = renderer->force_all_effects,
-    };
-    making->plan = dip_plan_frame(&making->input);
-    dip_set_samplers(scene, &renderer->quality, renderer->mip_colours, renderer->samplers);
-    if (making->plan.effects.sky.run) {
-        renderer->sky = dip_sky_at(&scene->sky, time_ns);
-    }
-    *frame = (DipFrame){
-        .rgba8 = renderer->rgba8,
-        .stride_bytes = renderer->stride_bytes,
-        .width = renderer->width,
-        .height = renderer->height,
-        .effects = making->plan.effects,
-    };
-    if (making->plan.effects.reflection.run) {
-        make_mirrored_pass(making);
-    }
-    make_scene_pass(making);
-    return true;
-}
-
-static DipPassWork work_of(DipPipeline *pipeline, const DipPass *pass, DipFrame *frame) {
-    return (DipPassWork){pipeline, pass, &frame->counters, &frame->stages};
-}
-
-static bool draw_works(const DipPassWork *works, int count, bool same_geometry, DipError *err) {
-    if (count == 2) {
-        return dip_pipeline_draw_pair(works, same_geometry, err);
-    }
-    return !count ||
-           dip_pipeline_draw(works->pipeline, works->pass, works->counters, works->times, err);
-}
-
-// Draws one or two frames; of two, same_geometry: they differ in samples and shading alone.
-static bool draw_frames(Making *makings, int count, bool same_geometry, DipError *err) {
-    DipPassWork works[2];
-    int work_count = 0;
-    for (int i = 0; i < count; i++) {
-        if (makings[i].plan.effects.reflection.run) {
-            works[work_count++] = work_of(makings[i].renderer->mirror.pipeline,
-                                          &makings[i].mirrored_pass, makings[i].frame);
-        }
-    }
-    if (!draw_works(works, work_count, same_geometry, err)) {
-        return false;
-    }
-    for (int i = 0; i < count; i++) {
-        DipCounters *counters = &makings[i].frame->counters;
-        counters->fragments_mirrored = counters->fragments_shaded;
-        works[i] = work_of(makings[i].renderer->pipeline, &makings[i].pass, makings[i].frame);
-    }
-    return draw_works(works, count, same_geometry, err);
-}
-
-static void end_frame(const Making *making) {
-    const DipRenderer *renderer = making->renderer;
-    DipFrame *frame = making->frame;
-    const bool reflects = making->plan.effects.reflection.run;
-    count_mirror(&renderer->mirror, reflects, &frame->counters);
-    count_bytes(making->scene, &frame->counters);
-    dip_count_geometry(making->scene, renderer->expanded, &frame->counters);
-    dip_plan_settle(&making->input, &frame->counters, &frame->effects);
-    if (reflects && renderer->reflection.show) {
-        const DipTarget target = target_of(renderer);
-        dip_inset_draw(&target, &renderer->mirror.target);
-    }
-}
-
-bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
-                       int64_t time_ns, DipFrame *frame, DipError *err) {
-    Making making;
-    if (!begin_frame(&making, renderer, scene, pose, time_ns, frame, err) ||
-        !draw_frames(&making, 1, false, err)) {
-        return false;
-    }
-    end_frame(&making);
-    return true;
-}
-
-// Whether two renderers' frames differ in samples and shading alone.
-static bool same_geometry(const DipRenderer *a, const DipRenderer *b) {
-    const DipReflectionDef *r = &a->reflection;
-    const DipReflectionDef *s = &b->reflection;
-    return a->isa == b->isa && a->width == b->width && a->height == b->height &&
-           a->plain_surfaces == b->plain_surfaces && a->force_all_effects == b->force_all_effects &&
-           a->quality.step[DIP_SETTING_GI] == b->quality.step[DIP_SETTING_GI] &&
-           r->width == s->width && r->height == s->height && r->level_m == s->level_m;
-}
-
-bool dip_renderer_draw_pair(DipRenderer *const renderers[2], const DipScene *scene,
-                            const DipPose *pose, int64_t time_ns, DipFrame *const frames[2],
-                            DipError *err) {
-    Making makings[2];
-    for (int i = 0; i < 2; i++) {
-        if (!begin_frame(&makings[i], renderers[i], scene, pose, time_ns, frames[i], err)) {
-            return false;
-        }
-    }
-    if (!draw_frames(makings, 2, same_geometry(renderers[0], renderers[1]), err)) {
-        return false;
-    }
-    for (int i = 0; i < 2; i++) {
-        end_frame(&makings[i]);
+        dip_unshared_meshes_destroy(&renderer->unshared);
+    } else if (!renderer->unshared) {
+        renderer->unshared = dip_unshared_meshes_create(scene, renderer->pool, err);
+        return renderer->unshared != NULL;
     }
     return true;
 }

@@ -61,11 +61,15 @@ bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
 bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                        int64_t time_ns, DipFrame *frame, DipError *err);
 
-// Draws two renderers' frames of one pose at once, on the pool that both have: the same frames in
-// less time, since their tiles take turns on each worker, and what settings leave alike (all but
-// gi) is transformed and set up once. The time and the counters of that are in both frames.
-bool dip_renderer_draw_pair(DipRenderer *const renderers[2], const DipScene *scene,
-                            const DipPose *pose, int64_t time_ns, DipFrame *const frames[2],
-                            DipError *err);
+enum { DIP_MAX_FRAMES_AT_ONCE = 4 };
+
+// Draws the frames of several renderers at once, from one pose: frames[i] is what dip_renderer_draw
+// gives for renderers[i], to the bit, in less time. Tiles take turns on each worker, and the
+// geometry runs once if the settings differ only in samples and shading (everything but gi); its
+// time and counters are then in every frame. count: 1..DIP_MAX_FRAMES_AT_ONCE; the renderers are
+// distinct and on one pool.
+bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count, const DipScene *scene,
+                              const DipPose *pose, int64_t time_ns, DipFrame *const *frames,
+                              DipError *err);
 
 #endif

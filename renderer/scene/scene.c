@@ -3,7 +3,6 @@
 
 #include "renderer/base/clock.h"
 #include "renderer/pipeline/cull.h"
-#include "renderer/pipeline/geometry/mesh_layout.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -101,20 +100,20 @@ static bool draws_normal_map(const DipMaterialDef *material) {
            (material->lit || material->light_map != DIP_NO_TEXTURE);
 }
 
-// The slots of a normal-mapped mesh: coordinates, normal, depth and, where there are, vertex
+// The varyings of a normal-mapped mesh: coordinates, normal, depth and, where there are, vertex
 // colours.
 static void lay_out_normal_map(DipSceneMesh *out, int normal_attribute) {
     out->mapped_layout = out->layout;
     DipSurfaceUniforms *uniforms = &out->mapped_layout;
     uniforms->normal_attribute = normal_attribute;
-    uniforms->normal_map_slot = 0;
-    uniforms->normal_slot = uniforms->pass_count;
-    uniforms->depth_slot = uniforms->pass_count + 3;
-    out->mapped_slot_count = uniforms->pass_count + 4;
-    uniforms->light_slot = DIP_NO_SLOT;
-    if (uniforms->colour_attribute != DIP_NO_SLOT) {
-        uniforms->light_slot = out->mapped_slot_count;
-        out->mapped_slot_count += 3;
+    uniforms->normal_map_varying = 0;
+    uniforms->normal_varying = uniforms->copied_varying_count;
+    uniforms->depth_varying = uniforms->copied_varying_count + 3;
+    out->mapped_varying_count = uniforms->copied_varying_count + 4;
+    uniforms->light_varying = DIP_ABSENT;
+    if (uniforms->colour_attribute != DIP_ABSENT) {
+        uniforms->light_varying = out->mapped_varying_count;
+        out->mapped_varying_count += 3;
     }
 }
 
@@ -124,14 +123,14 @@ static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *materi
     VertexLayout layout = {.count = 0};
     DipSurfaceUniforms *uniforms = &out->layout;
     *uniforms = (DipSurfaceUniforms){
-        .normal_attribute = DIP_NO_SLOT,
-        .colour_attribute = DIP_NO_SLOT,
-        .light_slot = DIP_NO_SLOT,
-        .colour_slot = DIP_NO_SLOT,
-        .light_map_slot = DIP_NO_SLOT,
-        .normal_map_slot = DIP_NO_SLOT,
-        .normal_slot = DIP_NO_SLOT,
-        .depth_slot = DIP_NO_SLOT,
+        .normal_attribute = DIP_ABSENT,
+        .colour_attribute = DIP_ABSENT,
+        .light_varying = DIP_ABSENT,
+        .colour_varying = DIP_ABSENT,
+        .light_map_varying = DIP_ABSENT,
+        .normal_map_varying = DIP_ABSENT,
+        .normal_varying = DIP_ABSENT,
+        .depth_varying = DIP_ABSENT,
         .roughness = material->roughness,
         .light_map_scale = material->light_map_scale,
         .alpha_cutoff = material->alpha_cutoff,
@@ -144,26 +143,26 @@ static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *materi
     const bool textured = material->colour_texture != DIP_NO_TEXTURE && mesh->uv0;
     out->sky = material->surface == DIP_SURFACE_SKY && textured;
     if (textured || out->normal_mapped) {
-        const int slot = add_source(&layout, mesh->uv0, 2) - 3;
-        uniforms->colour_slot = textured ? slot : DIP_NO_SLOT;
+        const int varying = add_source(&layout, mesh->uv0, 2) - 3;
+        uniforms->colour_varying = textured ? varying : DIP_ABSENT;
     }
     if (light_mapped) {
-        uniforms->light_map_slot = add_source(&layout, mesh->uv1, 2) - 3;
+        uniforms->light_map_varying = add_source(&layout, mesh->uv1, 2) - 3;
     }
-    uniforms->pass_count = layout.attribute_count - 3;
-    out->slot_count = uniforms->pass_count;
+    uniforms->copied_varying_count = layout.attribute_count - 3;
+    out->varying_count = uniforms->copied_varying_count;
     const bool lit = !light_mapped && material->lit && mesh->normals;
-    int normal_attribute = DIP_NO_SLOT;
+    int normal_attribute = DIP_ABSENT;
     if (lit || out->normal_mapped) {
         normal_attribute = add_source(&layout, mesh->normals, 3);
-        uniforms->normal_attribute = lit ? normal_attribute : DIP_NO_SLOT;
+        uniforms->normal_attribute = lit ? normal_attribute : DIP_ABSENT;
     }
     if (mesh->colours_lin) {
         uniforms->colour_attribute = add_source(&layout, mesh->colours_lin, 3);
     }
-    if (uniforms->normal_attribute != DIP_NO_SLOT || uniforms->colour_attribute != DIP_NO_SLOT) {
-        uniforms->light_slot = out->slot_count;
-        out->slot_count += 3;
+    if (uniforms->normal_attribute != DIP_ABSENT || uniforms->colour_attribute != DIP_ABSENT) {
+        uniforms->light_varying = out->varying_count;
+        out->varying_count += 3;
     }
     if (out->normal_mapped) {
         lay_out_normal_map(out, normal_attribute);
@@ -242,14 +241,6 @@ static bool create_textures(const DipSceneDef *def, DipScene *scene, DipPool *po
     return made;
 }
 
-static uint64_t texel_bytes(const DipTexture *texture) {
-    return texture ? texture->texel_count * sizeof *texture->texels : 0;
-}
-
-static uint64_t alpha_bytes(const DipTexture *texture) {
-    return texture && texture->alpha ? texture->texel_count : 0;
-}
-
 // Whether a material shows a texture so.
 typedef bool TextureUse(const DipSceneMaterial *material, int texture);
 
@@ -266,7 +257,7 @@ static uint64_t bytes_used(const DipScene *scene, TextureUse *uses) {
     for (int i = 0; i < scene->texture_count; i++) {
         for (int m = 0; m < scene->material_count; m++) {
             if (uses(&scene->materials[m], i)) {
-                bytes += texel_bytes(scene->textures[i]);
+                bytes += dip_texture_colour_bytes(scene->textures[i]);
                 break;
             }
         }
@@ -279,7 +270,7 @@ static void add_effect_bytes(DipScene *scene) {
     scene->normal_map_bytes = bytes_used(scene, is_normal_map);
     scene->cloud_bytes = scene->has_sky ? bytes_used(scene, is_clouds) : 0;
     for (int i = 0; i < scene->texture_count; i++) {
-        scene->clip_map_bytes += alpha_bytes(scene->textures[i]);
+        scene->clip_map_bytes += dip_texture_alpha_bytes(scene->textures[i]);
     }
 }
 
@@ -345,8 +336,8 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
         DipSceneObject *object = &scene->objects[i];
         object->mesh = def->objects[i].mesh;
         memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
-        object->bounds =
-            dip_cull_place_box(object->transform, &scene->meshes[object->mesh].mesh->box);
+        const DipBox box = dip_mesh_box(scene->meshes[object->mesh].mesh);
+        object->bounds = dip_cull_transform_box(object->transform, &box);
         object->first_of_mesh = !placed[object->mesh];
         if (object->first_of_mesh) {
             placed[object->mesh] = true;
@@ -492,8 +483,9 @@ bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError 
 uint64_t dip_scene_texture_bytes(const DipScene *scene) {
     uint64_t bytes = 0;
     for (int i = 0; i < scene->texture_count; i++) {
-        bytes += texel_bytes(scene->textures[i]) + alpha_bytes(scene->textures[i]);
-        bytes += texel_bytes(dip_late_texture(scene->late, i)); // alpha is shared
+        bytes += dip_texture_colour_bytes(scene->textures[i]) +
+                 dip_texture_alpha_bytes(scene->textures[i]);
+        bytes += dip_texture_colour_bytes(dip_late_texture(scene->late, i)); // alpha is shared
     }
     return bytes;
 }

@@ -9,25 +9,10 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
+#include "renderer/pipeline/texture.h"
 
 #include <stdbool.h>
 #include <stdint.h>
-
-typedef enum DipWrap { DIP_WRAP_REPEAT, DIP_WRAP_CLAMP } DipWrap;
-
-// How a texture's colour channels are stored. Alpha is always linear.
-typedef enum DipEncoding { DIP_ENCODING_SRGB, DIP_ENCODING_LINEAR } DipEncoding;
-
-// 8-bit RGBA texels, row-major, the top row first (v = 0 is its upper edge), rows tightly packed.
-typedef struct DipTextureDef {
-    const char *name;
-    int width;  // 1..8192
-    int height; // 1..8192
-    const uint8_t *rgba8;
-    DipEncoding encoding;
-    DipWrap wrap_u;
-    DipWrap wrap_v;
-} DipTextureDef;
 
 // What a surface is, as the model file tags it.
 typedef enum DipSurface {

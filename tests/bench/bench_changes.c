@@ -70,8 +70,8 @@ static double draw(Court *court) {
     const int64_t begin_ns = dip_clock_ns();
     DipError err;
     DipFrame frames[2];
-    if (!dip_renderer_draw_pair(court->panes, court->scene, &pose, time_ns,
-                                (DipFrame *const[2]){&frames[0], &frames[1]}, &err)) {
+    if (!dip_renderer_draw_frames(court->panes, 2, court->scene, &pose, time_ns,
+                                  (DipFrame *const[2]){&frames[0], &frames[1]}, &err)) {
         fail(&err);
         return -1.0;
     }

@@ -53,7 +53,7 @@ static void begin_raster(int sample_count) {
 static void add_triangle(const double x[3], const double y[3]) {
     static DipScreenBatch screen;
     static uint8_t corner[3][DIP_BATCH_ALIGN];
-    static float surfaces[(1 + DIP_SETUP_EXCESS) * DIP_SURFACE_ALIGN];
+    static float surfaces[(1 + DIP_SETUP_EXCESS) * DIP_PLANES_ALIGN];
     for (int i = 0; i < 3; i++) {
         screen.x[i] = (int32_t)(x[i] * 256.0);
         screen.y[i] = (int32_t)(y[i] * 256.0);
@@ -64,7 +64,7 @@ static void add_triangle(const double x[3], const double y[3]) {
     const DipSetupTarget target = {.width = DIP_TILE,
                                    .height = DIP_TILE,
                                    .region_last = {DIP_TILE - 1, DIP_TILE - 1},
-                                   .surface_stride = DIP_SURFACE_ALIGN,
+                                   .plane_stride = DIP_PLANES_ALIGN,
                                    .cull = DIP_CULL_NONE,
                                    .sample_max = {255, 255}};
     const uint32_t patch[DIP_BATCH_ALIGN] = {0};
@@ -146,7 +146,7 @@ typedef struct Footprint {
     float x;
     float y;
     int max_anisotropy;
-    bool advanced;
+    bool exact_footprint;
 } Footprint;
 
 enum { MAGNIFIED, TRILINEAR, AF_2, AF_4, AF_16, AF_16_ADVANCED };
@@ -179,15 +179,15 @@ static void prepare_reads(int kind) {
     }
     reads.sampler = (DipSampler){.texture = reads.texture,
                                  .max_anisotropy = footprint->max_anisotropy,
-                                 .advanced = footprint->advanced};
+                                 .exact_footprint = footprint->exact_footprint};
     const float step_x = footprint->x / TEXELS;
     const float step_y = footprint->y / TEXELS;
     reads.batch.count = DIP_FRAGMENT_BATCH;
     for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
-        reads.batch.slot_dx[0][i] = step_x;
-        reads.batch.slot_dx[1][i] = 0.0f;
-        reads.batch.slot_dy[0][i] = 0.0f;
-        reads.batch.slot_dy[1][i] = step_y;
+        reads.batch.varying_dx[0][i] = step_x;
+        reads.batch.varying_dx[1][i] = 0.0f;
+        reads.batch.varying_dy[0][i] = 0.0f;
+        reads.batch.varying_dy[1][i] = step_y;
         for (int b = 0; b < BATCHES; b++) {
             const int x = b % BATCHES_X * DIP_BLOCK + dip_block_x(i);
             const int y = b / BATCHES_X * DIP_BLOCK + dip_block_y(i);
@@ -200,8 +200,8 @@ static void prepare_reads(int kind) {
 static double run_reads(const DipKernels *kernels) {
     static float out[3][DIP_FRAGMENT_BATCH];
     for (int b = 0; b < BATCHES; b++) {
-        memcpy(reads.batch.slot[0], reads.u[b], sizeof reads.u[b]);
-        memcpy(reads.batch.slot[1], reads.v[b], sizeof reads.v[b]);
+        memcpy(reads.batch.varying[0], reads.u[b], sizeof reads.u[b]);
+        memcpy(reads.batch.varying[1], reads.v[b], sizeof reads.v[b]);
         kernels->dip_kernel_sample_colour(&reads.batch, &reads.sampler, 0, out);
     }
     return BATCHES * DIP_FRAGMENT_BATCH;
@@ -224,7 +224,8 @@ static const Row rows[] = {
     {"texture, AF 16 at 2:1", "fragment", prepare_reads, run_reads, AF_2},
     {"texture, AF 16 at 4:1", "fragment", prepare_reads, run_reads, AF_4},
     {"texture, AF 16 at 16:1", "fragment", prepare_reads, run_reads, AF_16},
-    {"texture, advanced AF 16 at 16:1", "fragment", prepare_reads, run_reads, AF_16_ADVANCED},
+    {"texture, exact_footprint AF 16 at 16:1", "fragment", prepare_reads, run_reads,
+     AF_16_ADVANCED},
 };
 
 static double least_ns_per_unit(const Row *row, const DipKernels *kernels) {

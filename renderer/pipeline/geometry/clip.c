@@ -37,7 +37,7 @@ static double distance_to(int32_t code, const DipScreenMapping *map, const float
 }
 
 static void intersect(const DipClipVertex *inside, const DipClipVertex *outside, double from,
-                      double to, int slot_count, DipClipVertex *out) {
+                      double to, int varying_count, DipClipVertex *out) {
     // Where rounding put both on one side (see keep_one_run) the outside vertex itself is taken.
     const double at = from / (from - to);
     const double t = at >= 0.0 && at <= 1.0 ? at : 1.0;
@@ -45,9 +45,9 @@ static void intersect(const DipClipVertex *inside, const DipClipVertex *outside,
         const double a = inside->position[i];
         out->position[i] = (float)(a + t * ((double)outside->position[i] - a));
     }
-    for (int i = 0; i < slot_count; i++) {
-        const double a = inside->slot[i];
-        out->slot[i] = (float)(a + t * ((double)outside->slot[i] - a));
+    for (int i = 0; i < varying_count; i++) {
+        const double a = inside->varying[i];
+        out->varying[i] = (float)(a + t * ((double)outside->varying[i] - a));
     }
 }
 
@@ -76,7 +76,7 @@ static void keep_one_run(int count, const double *side, bool *inside) {
 }
 
 static void clip_by(DipClipPolygon *polygon, int32_t code, const DipScreenMapping *map,
-                    int slot_count) {
+                    int varying_count) {
     const DipClipPolygon in = *polygon;
     double side[DIP_MAX_CLIP_VERTICES];
     for (int i = 0; i < in.count; i++) {
@@ -93,7 +93,7 @@ static void clip_by(DipClipPolygon *polygon, int32_t code, const DipScreenMappin
         if (inside[i] != inside[next]) {
             const int a = inside[i] ? i : next;
             const int b = inside[i] ? next : i;
-            intersect(&in.vertex[a], &in.vertex[b], side[a], side[b], slot_count,
+            intersect(&in.vertex[a], &in.vertex[b], side[a], side[b], varying_count,
                       &polygon->vertex[polygon->count++]);
         }
     }
@@ -103,10 +103,10 @@ static void clip_by(DipClipPolygon *polygon, int32_t code, const DipScreenMappin
 }
 
 void dip_clip_polygon(DipClipPolygon *polygon, int32_t codes, const DipScreenMapping *map,
-                      int slot_count) {
+                      int varying_count) {
     for (int32_t code = 1; code < DIP_CLIP_INVALID && polygon->count; code <<= 1) {
         if (codes & DIP_CLIP_NEEDED & code) {
-            clip_by(polygon, code, map, slot_count);
+            clip_by(polygon, code, map, varying_count);
         }
     }
 }

@@ -8,7 +8,7 @@ enum { DIP_MAX_CLIP_VERTICES = 3 + 7 + DIP_MAX_CLIP_PLANES };
 
 typedef struct DipClipVertex {
     float position[4];
-    float slot[DIP_MAX_SLOTS];
+    float varying[DIP_MAX_VARYINGS];
 } DipClipVertex;
 
 typedef struct DipClipPolygon {
@@ -16,10 +16,10 @@ typedef struct DipClipPolygon {
     DipClipVertex vertex[DIP_MAX_CLIP_VERTICES];
 } DipClipPolygon;
 
-// Clips the polygon in place by the planes whose codes are set. A new vertex is always
+// Clips the polygon in position by the planes whose codes are set. A new vertex is always
 // interpolated from the inside to the outside one, so that two triangles that share an edge get
 // the same vertex.
 void dip_clip_polygon(DipClipPolygon *polygon, int32_t codes, const DipScreenMapping *map,
-                      int slot_count);
+                      int varying_count);
 
 #endif

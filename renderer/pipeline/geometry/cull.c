@@ -2,12 +2,15 @@
 // wholly inside all planes spares what it holds the test.
 #include "renderer/pipeline/cull.h"
 
+#include "renderer/pipeline/geometry/chunk_cull.h"
+#include "renderer/pipeline/geometry/mesh_layout.h"
+
 #include <math.h>
 #include <string.h>
 
 // Adds a plane. Row r of the matrix gives clip coordinate r, so a plane in clip space is a sum of
 // rows.
-static void place_plane(const float *m, const float clip[4], DipCullPlanes *planes) {
+static void transform_plane(const float *m, const float clip[4], DipCullPlanes *planes) {
     const int p = planes->count++;
     for (int c = 0; c < 4; c++) {
         planes->normal[c][p] =
@@ -27,13 +30,14 @@ static int blocks_end(int end) {
     return (end + DIP_BLOCK - 1) / DIP_BLOCK * DIP_BLOCK;
 }
 
-DipRegion dip_drawn_region(const DipPass *pass) {
-    const DipRegion *region = &pass->region;
+DipTargetRegion dip_drawn_region(const DipPass *pass) {
+    const DipTargetRegion *region = &pass->region;
     if (!region->x1) {
-        return (DipRegion){0, 0, blocks_end(pass->target.width), blocks_end(pass->target.height)};
+        return (DipTargetRegion){0, 0, blocks_end(pass->target.width),
+                                 blocks_end(pass->target.height)};
     }
-    return (DipRegion){region->x0 / DIP_BLOCK * DIP_BLOCK, region->y0 / DIP_BLOCK * DIP_BLOCK,
-                       blocks_end(region->x1), blocks_end(region->y1)};
+    return (DipTargetRegion){region->x0 / DIP_BLOCK * DIP_BLOCK, region->y0 / DIP_BLOCK * DIP_BLOCK,
+                             blocks_end(region->x1), blocks_end(region->y1)};
 }
 
 // The picture's region in x / w and y / w.
@@ -47,14 +51,14 @@ static NdcRegion ndc_region(const DipPass *pass) {
     if (!pass->region.x1) {
         return whole;
     }
-    const DipRegion region = dip_drawn_region(pass);
+    const DipTargetRegion region = dip_drawn_region(pass);
     const float x = 2.0f / (float)pass->target.width;
     const float y = 2.0f / (float)pass->target.height;
     return (NdcRegion){(float)region.x0 * x - 1.0f, (float)region.x1 * x - 1.0f,
                        1.0f - (float)region.y1 * y, 1.0f - (float)region.y0 * y};
 }
 
-static DipCullPlanes place_view(const float *m, const NdcRegion *region) {
+static DipCullPlanes view_planes(const float *m, const NdcRegion *region) {
     DipCullPlanes planes = no_planes();
     const float view[DIP_VIEW_PLANES][4] = {{1, 0, 0, -region->left},
                                             {-1, 0, 0, region->right},
@@ -63,37 +67,37 @@ static DipCullPlanes place_view(const float *m, const NdcRegion *region) {
                                             {0, 0, 1, 0},
                                             {0, 0, -1, 1}};
     for (int p = 0; p < DIP_VIEW_PLANES; p++) {
-        place_plane(m, view[p], &planes);
+        transform_plane(m, view[p], &planes);
     }
     return planes;
 }
 
-static DipCullPlanes place_planes(const DipPass *pass, const NdcRegion *region, const float *m) {
-    DipCullPlanes planes = place_view(m, region);
+static DipCullPlanes pass_planes(const DipPass *pass, const NdcRegion *region, const float *m) {
+    DipCullPlanes planes = view_planes(m, region);
     for (int p = 0; p < pass->clip_plane_count; p++) {
-        place_plane(m, pass->clip_planes[p], &planes);
+        transform_plane(m, pass->clip_planes[p], &planes);
     }
     return planes;
 }
 
-// A view's matrix as the shaders have it.
-static void world_to_clip(const DipView *view, float m[16]) {
+// Rounds a matrix as the shaders have it.
+static void round_matrix(const double matrix[16], float rounded[16]) {
     for (int i = 0; i < 16; i++) {
-        m[i] = (float)view->world_to_clip[i];
+        rounded[i] = (float)matrix[i];
     }
 }
 
-DipCullPlanes dip_cull_pass_planes(const DipPass *pass, const DipView *view) {
+DipCullPlanes dip_cull_pass_planes(const DipPass *pass, const double world_to_clip[16]) {
     const NdcRegion region = ndc_region(pass);
     float m[16];
-    world_to_clip(view, m);
-    return place_planes(pass, &region, m);
+    round_matrix(world_to_clip, m);
+    return pass_planes(pass, &region, m);
 }
 
-DipCullPlanes dip_cull_view_planes(const DipView *view) {
+DipCullPlanes dip_cull_view_planes(const double world_to_clip[16]) {
     float m[16];
-    world_to_clip(view, m);
-    return place_view(m, &whole);
+    round_matrix(world_to_clip, m);
+    return view_planes(m, &whole);
 }
 
 static double magnitude(double v) {
@@ -163,7 +167,7 @@ bool dip_cull_outside(const DipCullPlanes *planes, const DipBox *box) {
     return outside(planes, box, &crosses);
 }
 
-DipBox dip_cull_place_box(const float transform[12], const DipBox *box) {
+DipBox dip_cull_transform_box(const float transform[12], const DipBox *box) {
     DipBox placed;
     for (int axis = 0; axis < 3; axis++) {
         const float *m = transform + 4 * axis;
@@ -217,7 +221,7 @@ uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible) {
             continue;
         }
         if (draw->bounds_to_clip) {
-            planes = place_planes(pass, &region, draw->bounds_to_clip);
+            planes = pass_planes(pass, &region, draw->bounds_to_clip);
         }
         count += cull_draw(&planes, draw->mesh, d, visible + count);
     }

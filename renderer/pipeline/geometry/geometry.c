@@ -1,7 +1,7 @@
 // The geometry phase: transforming chunks in view, clipping, set-up and binning, by jobs.
 #include "renderer/pipeline/geometry/geometry.h"
 
-#include "renderer/pipeline/cull.h"
+#include "renderer/pipeline/geometry/chunk_cull.h"
 #include "renderer/pipeline/geometry/clip.h"
 #include "renderer/pipeline/geometry/mesh_layout.h"
 #include "renderer/pipeline/kernels/kernels.h"
@@ -26,7 +26,7 @@ static float bounded(float ndc) {
 }
 
 static void bound_picture(const DipPass *pass, DipScreenMapping *map) {
-    const DipRegion region = dip_drawn_region(pass);
+    const DipTargetRegion region = dip_drawn_region(pass);
     map->left = bounded((float)(region.x0 - REJECT_MARGIN_PX) / map->half_width - 1.0f);
     map->right = bounded((float)(region.x1 + REJECT_MARGIN_PX) / map->half_width - 1.0f);
     map->top = bounded(1.0f - (float)(region.y0 - REJECT_MARGIN_PX) / map->half_height);
@@ -58,7 +58,7 @@ typedef struct Needs {
     uint64_t chunks;
     uint64_t triangles;
     uint64_t blocks;
-    int surface_stride;
+    int plane_stride;
 } Needs;
 
 static uint64_t least(uint64_t a, uint64_t b) {
@@ -71,11 +71,12 @@ static uint64_t greatest(uint64_t a, uint64_t b) {
 
 static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
     Needs needs = {.draws = (uint32_t)pass->draw_count};
-    int slots = 0;
+    int varyings = 0;
     for (int d = 0; d < pass->draw_count; d++) {
         needs.chunks += pass->draws[d].mesh->chunk_count;
         needs.triangles += pass->draws[d].mesh->triangle_count;
-        slots = pass->draws[d].slot_count > slots ? pass->draws[d].slot_count : slots;
+        varyings =
+            pass->draws[d].varying_count > varyings ? pass->draws[d].varying_count : varyings;
     }
     const uint64_t jobs = least(needs.chunks, DIP_MAX_JOBS);
     const uint64_t total = needs.triangles + geometry->slack;
@@ -86,18 +87,18 @@ static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
         least(total * DIP_MAX_BIN_TILES, total * MEAN_BIN_TILES + (uint64_t)16 * geometry->slack);
     needs.blocks = entries / DIP_BIN_BLOCK +
                    least(entries, jobs * (dip_geometry_tiles(geometry) + 1)) + jobs * BLOCK_RUN;
-    needs.surface_stride = dip_surface_stride(slots);
+    needs.plane_stride = dip_plane_stride(varyings);
     return needs;
 }
 
 // Refuses a pass whose triangles cannot be counted, before any array is made for it: kernels gather
 // surfaces with signed indices.
 static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
-    return needs->triangles <= INT32_MAX / (uint64_t)needs->surface_stride ||
+    return needs->triangles <= INT32_MAX / (uint64_t)needs->plane_stride ||
            dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, "pass",
                          "%d draws that need room for %llu triangles, accepted %d",
                          pass->draw_count, (unsigned long long)needs->triangles,
-                         INT32_MAX / needs->surface_stride);
+                         INT32_MAX / needs->plane_stride);
 }
 
 // Reallocates without keeping the content.
@@ -109,7 +110,7 @@ static bool replace(void *pointer_to_array, size_t count, size_t size) {
 }
 
 static bool make_room(DipGeometry *geometry, const Needs *needs) {
-    const size_t surface_room = (size_t)needs->triangles * (size_t)needs->surface_stride;
+    const size_t plane_room = (size_t)needs->triangles * (size_t)needs->plane_stride;
     if (needs->draws > geometry->draw_room) {
         geometry->draw_room = 0;
         if (!replace(&geometry->first_patch, needs->draws, sizeof *geometry->first_patch)) {
@@ -131,12 +132,12 @@ static bool make_room(DipGeometry *geometry, const Needs *needs) {
         }
         geometry->triangle_room = (uint32_t)needs->triangles;
     }
-    if (surface_room > geometry->surface_room) {
-        geometry->surface_room = 0;
-        if (!replace(&geometry->surfaces, surface_room, sizeof *geometry->surfaces)) {
+    if (plane_room > geometry->plane_room) {
+        geometry->plane_room = 0;
+        if (!replace(&geometry->planes, plane_room, sizeof *geometry->planes)) {
             return false;
         }
-        geometry->surface_room = surface_room;
+        geometry->plane_room = plane_room;
     }
     if (needs->blocks > geometry->block_room) {
         geometry->block_room = 0;
@@ -180,7 +181,7 @@ bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass",
                              "no memory for the triangles of %d draws", pass->draw_count);
     }
-    geometry->surface_stride = needs.surface_stride;
+    geometry->plane_stride = needs.plane_stride;
     return true;
 }
 
@@ -193,14 +194,14 @@ static void number_patches(DipGeometry *geometry) {
     }
 }
 
-static DipRegion tiles_of(const DipRegion *region) {
-    return (DipRegion){region->x0 / DIP_TILE, region->y0 / DIP_TILE,
-                       (region->x1 + DIP_TILE - 1) / DIP_TILE,
-                       (region->y1 + DIP_TILE - 1) / DIP_TILE};
+static DipTargetRegion tiles_of(const DipTargetRegion *region) {
+    return (DipTargetRegion){region->x0 / DIP_TILE, region->y0 / DIP_TILE,
+                             (region->x1 + DIP_TILE - 1) / DIP_TILE,
+                             (region->y1 + DIP_TILE - 1) / DIP_TILE};
 }
 
 static bool is_wanted(const DipGeometry *geometry, size_t tile) {
-    const DipTilePart *parts = geometry->pass->tile_parts;
+    const DipTileRegion *parts = geometry->pass->tile_regions;
     return !parts || parts[tile].x1;
 }
 
@@ -209,7 +210,7 @@ static bool is_wanted(const DipGeometry *geometry, size_t tile) {
 enum { TILE_GROUP = 2 };
 
 static void list_group(DipGeometry *geometry, int x0, int y0) {
-    const DipRegion *region = &geometry->tile_region;
+    const DipTargetRegion *region = &geometry->tile_region;
     for (int x = x0; x < x0 + TILE_GROUP && x < region->x1; x++) {
         for (int y = y0; y < y0 + TILE_GROUP && y < region->y1; y++) {
             const int tile = y * geometry->tiles_x + x;
@@ -221,7 +222,7 @@ static void list_group(DipGeometry *geometry, int x0, int y0) {
 }
 
 static void list_tiles(DipGeometry *geometry) {
-    const DipRegion *region = &geometry->tile_region;
+    const DipTargetRegion *region = &geometry->tile_region;
     geometry->tile_count = 0;
     for (int y = region->y0; y < region->y1; y += TILE_GROUP) {
         for (int x = region->x0; x < region->x1; x += TILE_GROUP) {
@@ -230,23 +231,28 @@ static void list_tiles(DipGeometry *geometry) {
     }
 }
 
-static void add_samples(DipSamplePattern *samples, const DipPass *pass) {
-    const DipSamplePattern *pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
-    for (int s = 0; s < pattern->count; s++) {
-        samples->x[samples->count] = pattern->x[s];
-        samples->y[samples->count++] = pattern->y[s];
+// Adds the sample positions of each pass, once per pattern.
+static void set_samples(DipSamplePositions *samples, const DipPass *const *passes, int count) {
+    samples->count = 0;
+    for (int i = 0; i < count; i++) {
+        bool known = false;
+        for (int j = 0; j < i && !known; j++) {
+            known = passes[j]->sample_count == passes[i]->sample_count &&
+                    passes[j]->pattern == passes[i]->pattern;
+        }
+        if (!known) {
+            dip_sample_positions_add(
+                samples, dip_sample_pattern_of(passes[i]->sample_count, passes[i]->pattern));
+        }
     }
 }
 
-bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, const DipPass *also,
+bool dip_geometry_begin(DipGeometry *geometry, const DipPass *const *passes, int pass_count,
                         DipError *err) {
+    const DipPass *pass = passes[0];
     geometry->pass = pass;
     geometry->mapping = dip_screen_mapping(pass);
-    geometry->samples.count = 0;
-    add_samples(&geometry->samples, pass);
-    if (also) {
-        add_samples(&geometry->samples, also);
-    }
+    set_samples(&geometry->samples, passes, pass_count);
     geometry->region = dip_drawn_region(pass);
     geometry->tile_region = tiles_of(&geometry->region);
     list_tiles(geometry);
@@ -277,7 +283,7 @@ void dip_geometry_free(DipGeometry *geometry) {
     free(geometry->first_patch);
     free(geometry->visible);
     free(geometry->triangles);
-    free(geometry->surfaces);
+    free(geometry->planes);
     free(geometry->blocks);
     free(geometry->bins);
     free(geometry->occupied);
@@ -342,7 +348,7 @@ static void add_to_bin(JobRun *run, uint32_t triangle, size_t index) {
 
 static void bin_triangle(JobRun *run, uint32_t index) {
     const DipTriangle *triangle = &run->geometry->triangles[index];
-    const DipRegion *region = &run->geometry->tile_region;
+    const DipTargetRegion *region = &run->geometry->tile_region;
     const size_t tiles_x = (size_t)run->geometry->tiles_x;
     const size_t x0 = greatest((size_t)triangle->x0 / DIP_TILE, (size_t)region->x0);
     const size_t y0 = greatest((size_t)triangle->y0 / DIP_TILE, (size_t)region->y0);
@@ -387,9 +393,9 @@ static void add_batch(JobRun *run, const DipSetupBatch *batch) {
     }
     const DipGeometry *geometry = run->geometry;
     const uint32_t first = run->next_triangle;
-    const size_t surface = (size_t)first * (size_t)geometry->surface_stride;
+    const size_t surface = (size_t)first * (size_t)geometry->plane_stride;
     const int count = run->kernels->dip_kernel_setup(
-        &run->target, batch, geometry->triangles + first, geometry->surfaces + surface);
+        &run->target, batch, geometry->triangles + first, geometry->planes + surface);
     for (int i = 0; i < count; i++) {
         bin_triangle(run, first + (uint32_t)i);
     }
@@ -400,23 +406,23 @@ static void add_batch(JobRun *run, const DipSetupBatch *batch) {
 // Clips a triangle and sets up the fan of what remains.
 static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, int32_t codes) {
     const DipGeometryScratch *scratch = run->scratch;
-    const int slot_count = run->draw->slot_count;
+    const int varying_count = run->draw->varying_count;
     DipClipPolygon polygon = {.count = 3};
     for (int i = 0; i < 3; i++) {
         for (int c = 0; c < 4; c++) {
             polygon.vertex[i].position[c] = scratch->clip[c][corner[i]];
         }
-        for (int s = 0; s < slot_count; s++) {
-            polygon.vertex[i].slot[s] = scratch->slot[s][corner[i]];
+        for (int s = 0; s < varying_count; s++) {
+            polygon.vertex[i].varying[s] = scratch->varying[s][corner[i]];
         }
     }
-    dip_clip_polygon(&polygon, codes, &run->geometry->mapping, slot_count);
+    dip_clip_polygon(&polygon, codes, &run->geometry->mapping, varying_count);
     if (!polygon.count) {
         return;
     }
     enum { ROOM = DIP_MAX_CLIP_VERTICES + DIP_BATCH_ALIGN };
     float clip[4][ROOM] = {{0}};
-    float slots[DIP_MAX_SLOTS][ROOM];
+    float varyings[DIP_MAX_VARYINGS][ROOM];
     uint8_t fan[3][ROOM] = {{0}};
     uint32_t patches[ROOM];
     for (int i = 0; i < ROOM; i++) {
@@ -427,8 +433,8 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
         for (int c = 0; c < 4; c++) {
             clip[c][i] = polygon.vertex[i].position[c];
         }
-        for (int s = 0; s < slot_count; s++) {
-            slots[s][i] = polygon.vertex[i].slot[s];
+        for (int s = 0; s < varying_count; s++) {
+            varyings[s][i] = polygon.vertex[i].varying[s];
         }
         fan[1][i] = (uint8_t)(i + 1 < polygon.count ? i + 1 : 0);
         fan[2][i] = (uint8_t)(i + 2 < polygon.count ? i + 2 : 0);
@@ -439,8 +445,8 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
                                     .corner = {fan[0], fan[1], fan[2]},
                                     .patch = patches,
                                     .screen = &screen,
-                                    .slots = slots[0],
-                                    .slot_stride = ROOM});
+                                    .varyings = varyings[0],
+                                    .varying_stride = ROOM});
 }
 
 // --- one job -----------------------------------------------------------------------------------
@@ -451,7 +457,7 @@ enum {
 };
 
 // A chunk with vertices to clip at: its triangles in order, those between two clipped ones at once.
-static void add_mixed_chunk(JobRun *run, const DipSetupBatch *chunk) {
+static void add_clipped_chunk(JobRun *run, const DipSetupBatch *chunk) {
     uint8_t corner[3][DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {{0}};
     uint32_t patch[DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {0};
     DipSetupBatch batch = *chunk;
@@ -503,10 +509,10 @@ static void add_chunk_triangles(JobRun *run, const DipChunk *chunk) {
                                  .corner = {corner, corner + stride, corner + 2 * stride},
                                  .patch = run->draw->mesh->patches + chunk->first_triangle,
                                  .screen = screen,
-                                 .slots = run->scratch->slot[0],
-                                 .slot_stride = DIP_VERTEX_BATCH};
+                                 .varyings = run->scratch->varying[0],
+                                 .varying_stride = DIP_VERTEX_BATCH};
     if (any & (DIP_CLIP_NEEDED | DIP_CLIP_INVALID)) {
-        add_mixed_chunk(run, &batch);
+        add_clipped_chunk(run, &batch);
     } else {
         // Triangles beyond one side of the picture have no pixel in it: set-up drops them.
         add_batch(run, &batch);
@@ -521,14 +527,14 @@ static void run_chunk(JobRun *run, const DipChunk *chunk) {
         in[a] = mesh->attributes + (size_t)a * mesh->vertex_total + chunk->first_vertex;
     }
     float *clip[4];
-    float *slot[DIP_MAX_SLOTS];
+    float *varying[DIP_MAX_VARYINGS];
     for (int c = 0; c < 4; c++) {
         clip[c] = scratch->clip[c];
     }
-    for (int s = 0; s < DIP_MAX_SLOTS; s++) {
-        slot[s] = scratch->slot[s];
+    for (int s = 0; s < DIP_MAX_VARYINGS; s++) {
+        varying[s] = scratch->varying[s];
     }
-    const DipVertexBatch batch = {(int)chunk->vertex_count, in, clip, slot, run->draw->uniforms};
+    const DipVertexBatch batch = {(int)chunk->vertex_count, in, clip, varying, run->draw->uniforms};
     run->draw->vertex_shader(&batch);
     run->kernels->dip_kernel_project(&run->geometry->mapping, (int)chunk->vertex_count, clip,
                                      &scratch->screen);
@@ -536,13 +542,13 @@ static void run_chunk(JobRun *run, const DipChunk *chunk) {
 }
 
 static DipSetupTarget setup_target(const DipGeometry *geometry) {
-    const DipRegion *region = &geometry->region;
+    const DipTargetRegion *region = &geometry->region;
     DipSetupTarget target = {
         .width = geometry->pass->target.width,
         .height = geometry->pass->target.height,
         .region_first = {region->x0, region->y0},
         .region_last = {region->x1 - 1, region->y1 - 1},
-        .surface_stride = geometry->surface_stride,
+        .plane_stride = geometry->plane_stride,
         .samples = &geometry->samples,
         .sample_min = {255, 255},
     };
@@ -580,7 +586,7 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
         run.target.draw = visible.draw;
         run.target.first_patch = geometry->first_patch[visible.draw];
         run.target.cull = run.draw->cull;
-        run.target.slot_count = run.draw->slot_count;
+        run.target.varying_count = run.draw->varying_count;
         const DipChunk *chunk = &run.draw->mesh->chunks[visible.chunk];
         run.job.triangles_in += chunk->triangle_count;
         run_chunk(&run, chunk);

@@ -13,7 +13,6 @@
 #include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/pipeline/raster/tile.h"
-#include "renderer/scene/frame.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -23,7 +22,7 @@ enum {
     DIP_MAX_JOBS = 64,
     DIP_MAX_BIN_TILES = 16, // a triangle in more tiles goes to its job's list of wide ones
     DIP_BIN_BLOCK = 15,     // entries
-    DIP_MAX_BINS = DIP_MAX_FRAME_SIZE / DIP_TILE * (DIP_MAX_FRAME_SIZE / DIP_TILE) + 1,
+    DIP_MAX_BINS = DIP_MAX_TARGET_SIZE / DIP_TILE * (DIP_MAX_TARGET_SIZE / DIP_TILE) + 1,
     DIP_BIN_WORDS = (DIP_MAX_BINS + 63) / 64,
 };
 
@@ -63,27 +62,27 @@ typedef struct DipGeometryJob {
 typedef struct DipGeometry {
     const DipPass *pass;
     DipScreenMapping mapping;
-    DipSamplePattern samples; // of all passes that are drawn from it
+    DipSamplePositions samples; // those of all passes that are drawn from this geometry
     int tiles_x;
     int tiles_y;
-    DipRegion region;             // pixels that are drawn, see dip_drawn_region
-    DipRegion tile_region;        // tiles that these lie in
+    DipTargetRegion region;       // pixels that are drawn, see dip_drawn_region
+    DipTargetRegion tile_region;  // tiles that these lie in
     int tile_count;               // to be drawn
     uint16_t tiles[DIP_MAX_BINS]; // which, in the order of drawing: y * tiles_x + x
-    int surface_stride;           // floats per triangle: that of the pass' largest slot count
+    int plane_stride;             // floats per triangle: that of the pass' largest varying count
     int job_count;
     DipGeometryJob jobs[DIP_MAX_JOBS];
     uint32_t visible_count;
     uint32_t visible_room;
     uint32_t triangle_room;
     uint32_t block_room;
-    size_t surface_room; // floats
+    size_t plane_room; // floats
     uint32_t draw_room;
     uint32_t slack;        // triangles beyond those of the meshes, and blocks; grows with overflows
     uint32_t *first_patch; // of each draw: the number of its mesh's patch 0
     DipVisibleChunk *visible;
     DipTriangle *triangles;
-    float *surfaces;
+    float *planes;
     DipBinBlock *blocks;
     DipTileBin *bins;   // [job][tile], the job's wide triangles last
     uint64_t *occupied; // [tile / 64][job]: bit tile % 64 is set where the bin is not empty
@@ -96,7 +95,7 @@ typedef struct DipKernels DipKernels;
 // What one worker needs to run a job.
 typedef struct DipGeometryScratch {
     float clip[4][DIP_VERTEX_BATCH];
-    float slot[DIP_MAX_SLOTS][DIP_VERTEX_BATCH];
+    float varying[DIP_MAX_VARYINGS][DIP_VERTEX_BATCH];
     DipScreenBatch screen;
     uint64_t occupied[DIP_BIN_WORDS];
 } DipGeometryScratch;
@@ -116,9 +115,10 @@ static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, in
 // Makes room for the pass.
 bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *err);
 
-// Finds the chunks in view, cuts them into jobs and makes room for the pass. also: another pass
-// that is drawn from the same geometry, differing in samples and shading alone; NULL: none.
-bool dip_geometry_begin(DipGeometry *geometry, const DipPass *pass, const DipPass *also,
+// Finds the chunks in view of the first pass, cuts them into jobs and makes room for its triangles.
+// The other passes are drawn from the same geometry: they differ in samples and shading alone.
+// pass_count: 1..DIP_MAX_PASSES_AT_ONCE.
+bool dip_geometry_begin(DipGeometry *geometry, const DipPass *const *passes, int pass_count,
                         DipError *err);
 
 // Runs one job; any thread.

@@ -2,7 +2,7 @@
 #include "renderer/pipeline/geometry/mesh_layout.h"
 
 #include "renderer/base/assert.h"
-#include "renderer/pipeline/geometry/patch.h"
+#include "renderer/pipeline/patch.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -316,4 +316,32 @@ uint32_t dip_mesh_triangle_count(const DipMesh *mesh) {
 void dip_mesh_bounds(const DipMesh *mesh, float min[3], float max[3]) {
     memcpy(min, mesh->min, sizeof mesh->min);
     memcpy(max, mesh->max, sizeof mesh->max);
+}
+
+DipBox dip_mesh_box(const DipMesh *mesh) {
+    return mesh->box;
+}
+
+uint32_t dip_mesh_chunk_count(const DipMesh *mesh) {
+    return mesh->chunk_count;
+}
+
+DipBox dip_mesh_chunk_box(const DipMesh *mesh, uint32_t chunk) {
+    return mesh->chunks[chunk].box;
+}
+
+uint32_t dip_mesh_chunk_triangle_count(const DipMesh *mesh, uint32_t chunk) {
+    return mesh->chunks[chunk].triangle_count;
+}
+
+void dip_mesh_chunk_triangle(const DipMesh *mesh, uint32_t chunk, uint32_t triangle,
+                             float corners[3][3]) {
+    const DipChunk *from = &mesh->chunks[chunk];
+    const uint8_t *index = mesh->indices + from->first_index + triangle;
+    for (uint32_t k = 0; k < 3; k++) {
+        const uint32_t vertex = from->first_vertex + index[k * dip_corner_stride(from)];
+        for (uint32_t axis = 0; axis < 3; axis++) {
+            corners[k][axis] = mesh->attributes[axis * mesh->vertex_total + vertex];
+        }
+    }
 }

@@ -3,17 +3,12 @@
 #define DIP_RENDERER_PIPELINE_GEOMETRY_MESH_LAYOUT_H
 
 #include "renderer/pipeline/mesh.h"
+#include "renderer/pipeline/shader.h"
 
 enum {
     DIP_CHUNK_TRIANGLES = 128,
     DIP_GROUP_CHUNKS = 32, // a box holds so many chunks
 };
-
-// Axis-aligned.
-typedef struct DipBox {
-    float centre[3];
-    float extent[3]; // half its size
-} DipBox;
 
 typedef struct DipChunk {
     DipBox box;
@@ -45,10 +40,5 @@ struct DipMesh {
     float min[3];
     float max[3];
 };
-
-// A mesh with arrays of its own; NULL when memory runs out.
-DipMesh *dip_mesh_copy(const DipMesh *mesh);
-
-size_t dip_mesh_bytes(const DipMesh *mesh);
 
 #endif

@@ -1,5 +1,5 @@
 // Growing patches of triangles that join smoothly.
-#include "renderer/pipeline/geometry/patch.h"
+#include "renderer/pipeline/patch.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -61,7 +61,7 @@ VEC_INLINE Hi is_small(const Hi at[3]) {
 
 // Whether each triangle, small and wound so that its area is positive, covers a sample of a pixel
 // that its box meets.
-VEC_INLINE Hi covers_pixel(const DipSamplePattern *samples, const Hi x[3], const Hi y[3],
+VEC_INLINE Hi covers_pixel(const DipSamplePositions *samples, const Hi x[3], const Hi y[3],
                            const Hi pixel[2]) {
     Hi covers = hi_splat(0);
     for (int s = 0; s < samples->count; s++) {
@@ -286,10 +286,10 @@ VEC_INLINE void set_plane(Hf plane[3], Vd value, const Gradient *g, const Vd to_
     plane[2] = hf_from_double(g->dy);
 }
 
-VEC_INLINE void store_surfaces(const Frame *frame, const DipSetupTarget *target,
-                               const DipSetupBatch *batch, float *out) {
-    Hf values[(DIP_SURFACE_SLOTS + 3 * DIP_MAX_SLOTS + DIP_SURFACE_ALIGN - 1) / DIP_SURFACE_ALIGN *
-              DIP_SURFACE_ALIGN];
+VEC_INLINE void store_planes(const Frame *frame, const DipSetupTarget *target,
+                             const DipSetupBatch *batch, float *out) {
+    Hf values[(DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + DIP_PLANES_ALIGN - 1) /
+              DIP_PLANES_ALIGN * DIP_PLANES_ALIGN];
     Hf corner[3];
     gather3(batch->screen->rw, frame->corner, corner);
     const Vd rw[3] = {vd_from_float(corner[0]), vd_from_float(corner[1]), vd_from_float(corner[2])};
@@ -297,33 +297,33 @@ VEC_INLINE void store_surfaces(const Frame *frame, const DipSetupTarget *target,
     Vd anchor[2];
     find_anchor(frame, target, rw[0], &q, anchor);
     const Vd to_anchor[2] = {anchor[0] - frame->x0, anchor[1] - frame->y0};
-    values[DIP_SURFACE_ANCHOR] = hf_from_double(anchor[0]);
-    values[DIP_SURFACE_ANCHOR + 1] = hf_from_double(anchor[1]);
-    set_plane(values + DIP_SURFACE_RW, rw[0], &q, to_anchor);
-    for (int s = 0; s < target->slot_count; s++) {
-        gather3(batch->slots + s * batch->slot_stride, frame->corner, corner);
+    values[DIP_PLANES_ANCHOR] = hf_from_double(anchor[0]);
+    values[DIP_PLANES_ANCHOR + 1] = hf_from_double(anchor[1]);
+    set_plane(values + DIP_PLANES_RW, rw[0], &q, to_anchor);
+    for (int s = 0; s < target->varying_count; s++) {
+        gather3(batch->varyings + s * batch->varying_stride, frame->corner, corner);
         const Vd value[3] = {vd_from_float(corner[0]) * rw[0], vd_from_float(corner[1]) * rw[1],
                              vd_from_float(corner[2]) * rw[2]};
         const Gradient g = gradient(frame, value);
-        set_plane(values + DIP_SURFACE_SLOTS + 3 * s, value[0], &g, to_anchor);
+        set_plane(values + DIP_PLANES_VARYINGS + 3 * s, value[0], &g, to_anchor);
     }
-    const int used = dip_surface_floats(target->slot_count);
-    for (int f = used; f % DIP_SURFACE_ALIGN; f++) {
+    const int used = dip_plane_floats(target->varying_count);
+    for (int f = used; f % DIP_PLANES_ALIGN; f++) {
         values[f] = (Hf){0};
     }
-    for (int f = 0; f < used; f += DIP_SURFACE_ALIGN) {
+    for (int f = 0; f < used; f += DIP_PLANES_ALIGN) {
         Vl words[4];
         for (int i = 0; i < 4; i++) {
             words[i] = vl_pair((Hi)values[f + 2 * i], (Hi)values[f + 2 * i + 1]);
         }
-        vl_store_rows(out + f, (size_t)target->surface_stride * sizeof *out, words);
+        vl_store_rows(out + f, (size_t)target->plane_stride * sizeof *out, words);
     }
 }
 
 // -----------------------------------------------------------------------------------------------
 
 int DIP_KERNEL(dip_kernel_setup)(const DipSetupTarget *target, const DipSetupBatch *batch,
-                                 DipTriangle *triangles, float *surfaces) {
+                                 DipTriangle *triangles, float *planes) {
     Candidates candidates;
     int count = 0;
     for (int i = 0; i < batch->count; i += DIP_HALF_LANES) {
@@ -336,8 +336,7 @@ int DIP_KERNEL(dip_kernel_setup)(const DipSetupTarget *target, const DipSetupBat
     for (int i = 0; i < count; i += DIP_HALF_LANES) {
         const Frame frame = frame_of(&candidates, i);
         store_triangles(&frame, batch->screen, target->draw, triangles + i);
-        store_surfaces(&frame, target, batch,
-                       surfaces + (size_t)i * (size_t)target->surface_stride);
+        store_planes(&frame, target, batch, planes + (size_t)i * (size_t)target->plane_stride);
     }
     return count;
 }

@@ -26,25 +26,25 @@ typedef struct DipTriangle {
 } DipTriangle;
 
 // Shading planes, in an array of their own, triangle by triangle: anchor x, y (pixels); then 1/w
-// and each slot/w as value at the anchor, d/dx, d/dy per pixel. The anchor is the corner of the
+// and each varying/w as value at the anchor, d/dx, d/dy per pixel. The anchor is the corner of the
 // box of pixels that the triangle touches where 1/w is smallest, because float planes are most
 // exact near their anchor and the far end of a receding surface needs that most.
 enum {
-    DIP_SURFACE_ANCHOR = 0,
-    DIP_SURFACE_RW = 2,
-    DIP_SURFACE_SLOTS = 5,
+    DIP_PLANES_ANCHOR = 0,
+    DIP_PLANES_RW = 2,
+    DIP_PLANES_VARYINGS = 5,
 };
 
-static inline int dip_surface_floats(int slot_count) {
-    return DIP_SURFACE_SLOTS + 3 * slot_count;
+static inline int dip_plane_floats(int varying_count) {
+    return DIP_PLANES_VARYINGS + 3 * varying_count;
 }
 
-enum { DIP_SURFACE_ALIGN = 8 }; // floats; set-up writes so many at once
+enum { DIP_PLANES_ALIGN = 8 }; // floats; set-up writes so many at once
 
 // From one triangle's planes to the next.
-static inline int dip_surface_stride(int slot_count) {
-    return (dip_surface_floats(slot_count) + DIP_SURFACE_ALIGN - 1) / DIP_SURFACE_ALIGN *
-           DIP_SURFACE_ALIGN;
+static inline int dip_plane_stride(int varying_count) {
+    return (dip_plane_floats(varying_count) + DIP_PLANES_ALIGN - 1) / DIP_PLANES_ALIGN *
+           DIP_PLANES_ALIGN;
 }
 
 #endif

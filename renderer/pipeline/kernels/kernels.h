@@ -18,7 +18,7 @@
     /* Projected triangles to those that may cover samples, with their planes; see setup.h. */     \
     X(int, dip_kernel_setup,                                                                       \
       (const DipSetupTarget *target, const DipSetupBatch *batch, DipTriangle *triangles,           \
-       float *surfaces))                                                                           \
+       float *planes))                                                                             \
     /* Coverage and depth of a triangle in a tile that its box reaches. clip NULL: opaque. */      \
     X(void, dip_kernel_draw_triangle,                                                              \
       (DipTile * tile, const DipTriangle *triangle, uint32_t id, const DipClipTest *clip))         \
@@ -26,19 +26,19 @@
     X(void, dip_kernel_collect, (DipTileShading * shading))                                        \
     /* Varyings of a list's fragments, and derivatives but for those of the last plain_count. */   \
     X(void, dip_kernel_interpolate,                                                                \
-      (const DipShadingInput *input, const DipFragmentList *list, int slot_count, int plain_count, \
-       DipFragmentBatch *batch))                                                                   \
+      (const DipShadingInput *input, const DipFragmentList *list, int varying_count,               \
+       int plain_count, DipFragmentBatch *batch))                                                  \
     /* Shaded colours to 16-bit linear light and to sRGB pixels. */                                \
     X(void, dip_kernel_encode,                                                                     \
       (const DipFragmentBatch *batch, const uint8_t *srgb_code, DipEncodedBatch *out))             \
     X(void, dip_kernel_sample_colour,                                                              \
-      (DipFragmentBatch * batch, const DipSampler *sampler, int u_slot,                            \
+      (DipFragmentBatch * batch, const DipSampler *sampler, int u_varying,                         \
        float(*out)[DIP_FRAGMENT_BATCH]))                                                           \
     X(void, dip_kernel_sample_colours,                                                             \
-      (DipFragmentBatch * batch, const DipSampler *const samplers[2], int u_slot,                  \
+      (DipFragmentBatch * batch, const DipSampler *const samplers[2], int u_varying,               \
        float(*const out[2])[DIP_FRAGMENT_BATCH]))                                                  \
     X(void, dip_kernel_sample_alpha,                                                               \
-      (DipFragmentBatch * batch, const DipSampler *sampler, int u_slot, float *out))               \
+      (DipFragmentBatch * batch, const DipSampler *sampler, int u_varying, float *out))            \
     X(void, dip_kernel_sample_target,                                                              \
       (DipFragmentBatch * batch, const DipTarget *target, const float *u, const float *v,          \
        float(*out)[DIP_FRAGMENT_BATCH]))

@@ -18,7 +18,7 @@ enum {
     REGION_SUB_BLOCKS = REGION * REGION,
 };
 
-// The places of a 4x4 grid in lane order: pixels in a sub-block, sub-blocks in a region.
+// The positions of a 4x4 grid in lane order: pixels in a sub-block, sub-blocks in a region.
 static const int32_t lane_x[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 static const int32_t lane_y[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
@@ -266,8 +266,8 @@ VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bo
     }
 }
 
-// Only a region without partly covered sub-blocks goes without edges: in a mixed one the branch
-// costs more than the edges.
+// Only a region without partly covered sub-blocks goes without edges: in a multi_fragment one the
+// branch costs more than the edges.
 VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_count, DipTile *tile,
                             uint32_t id) {
     if (region->inside == region->reached) {
@@ -299,15 +299,15 @@ typedef struct ClipQueue {
     Waiting waiting[DIP_FRAGMENT_BATCH];
 } ClipQueue;
 
-// A place in a pixel, as in a fragment's place.
-VEC_INLINE Vi sub_place(int sub_x, int sub_y) {
-    return vi_splat(sub_x << DIP_PLACE_SUB_X | sub_y << DIP_PLACE_SUB_Y);
+// A position in a pixel, as in a fragment's position.
+VEC_INLINE Vi sub_position(int sub_x, int sub_y) {
+    return vi_splat(sub_x << DIP_POSITION_SUB_X | sub_y << DIP_POSITION_SUB_Y);
 }
 
 // Fills a waiting sub-block's masks. Finds where in their pixels its fragments are shaded: at the
 // centre where all samples are covered, else at the first covered sample.
 VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, const DipTile *tile,
-                               int sample_count, Waiting *waiting, Vi places[VECTORS]) {
+                               int sample_count, Waiting *waiting, Vi positions[VECTORS]) {
     const DipSamplePattern *pattern = tile->pattern;
     const float *const depths = tile->depth + waiting->first;
     const float corner = waiting->depth;
@@ -318,7 +318,7 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
     for (int v = 0; v < VECTORS; v++) {
         const PixelEdges edges = pixel_edges(in, region, n, v);
         unsigned whole = VEC_ALL_LANES;
-        places[v] = sub_place(128, 128);
+        positions[v] = sub_position(128, 128);
         for (int s = sample_count - 1; s >= 0; s--) {
             const Vf old = vf_load(depths + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
             const Mask covered = covered_lanes(in, &edges, s, sample_count);
@@ -327,21 +327,22 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
             waiting->visible[s] |= (uint16_t)visible;
             pixels |= visible;
             whole &= mask_bits(covered);
-            places[v] = vi_select(covered, sub_place(pattern->x[s], pattern->y[s]), places[v]);
+            positions[v] =
+                vi_select(covered, sub_position(pattern->x[s], pattern->y[s]), positions[v]);
         }
         const Mask centre = mask_from_bits(whole);
-        places[v] = vi_select(centre, sub_place(128, 128), places[v]);
+        positions[v] = vi_select(centre, sub_position(128, 128), positions[v]);
     }
     waiting->pixels = (uint16_t)pixels;
     waiting->samples = (uint8_t)((1u << sample_count) - 1);
 }
 
-// The same for the samples of one pass, shaded at the centroid of those that are covered.
-VEC_INLINE void test_pass(const InTile *in, const Region *region, int n, const DipTile *tile,
-                          const DipSamplePasses *passes, int pass, Waiting *waiting,
-                          Vi places[VECTORS]) {
+// The same for the samples of one group, shaded at the centroid of those that are covered.
+VEC_INLINE void test_group(const InTile *in, const Region *region, int n, const DipTile *tile,
+                           const DipSampleGroups *groups, int group, Waiting *waiting,
+                           Vi positions[VECTORS]) {
     const float *const depths = tile->depth + waiting->first;
-    const unsigned samples = passes->samples[pass];
+    const unsigned samples = groups->samples[group];
     unsigned pixels = 0;
     for (unsigned left = samples; left; left &= left - 1) {
         waiting->visible[__builtin_ctz(left)] = 0;
@@ -359,7 +360,7 @@ VEC_INLINE void test_pass(const InTile *in, const Region *region, int n, const D
             pixels |= visible;
             held |= vi_select(covered, vi_splat(1 << s), vi_splat(0));
         }
-        places[v] = vi_gather(passes->centroid, held) << DIP_PLACE_SUB_X;
+        positions[v] = vi_gather(groups->centroid, held) << DIP_POSITION_SUB_X;
     }
     waiting->pixels = (uint16_t)pixels;
     waiting->samples = (uint8_t)samples;
@@ -390,7 +391,7 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
                              DipTile *tile, uint32_t id) {
     DipFragmentList *list = queue->clip->list;
     for (int i = list->count; i % DIP_BATCH_ALIGN; i++) {
-        list->place[i] = list->place[list->count - 1];
+        list->position[i] = list->position[list->count - 1];
     }
     for (int i = 0; i < list->count; i += DIP_LANES) {
         vi_store((int32_t *)list->triangle + i, vi_splat((int32_t)id - 1));
@@ -403,8 +404,8 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
         }
         if (keep) {
             keep_sub_block(in, tile, &queue->waiting[i], keep, id);
-            if (queue->clip->passes) {
-                tile->passed |= block_bit(tile, &queue->waiting[i]);
+            if (queue->clip->groups) {
+                tile->grouped |= block_bit(tile, &queue->waiting[i]);
             }
         }
     }
@@ -412,19 +413,19 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
     queue->count = 0;
 }
 
-// Adds the visible pixels of sub-block n to the queue: those of a pass, where there are passes.
+// Adds the visible pixels of sub-block n to the queue: those of a group, where there are groups.
 VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region *region, int n,
-                                int pass, int sample_count, DipTile *tile) {
-    const DipSamplePasses *passes = queue->clip->passes;
+                                int group, int sample_count, DipTile *tile) {
+    const DipSampleGroups *groups = queue->clip->groups;
     DipFragmentList *list = queue->clip->list;
     Waiting *waiting = &queue->waiting[queue->count];
     waiting->first = touch_sub_block(tile, region, n, sample_count);
     waiting->depth = region->depth[n];
-    Vi places[VECTORS];
-    if (sample_count > 1 && passes) {
-        test_pass(in, region, n, tile, passes, pass, waiting, places);
+    Vi positions[VECTORS];
+    if (sample_count > 1 && groups) {
+        test_group(in, region, n, tile, groups, group, waiting, positions);
     } else {
-        test_sub_block(in, region, n, tile, sample_count, waiting, places);
+        test_sub_block(in, region, n, tile, sample_count, waiting, positions);
     }
     if (!waiting->pixels) {
         return;
@@ -433,9 +434,10 @@ VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region
                        (region->x + n % REGION) * DIP_SUB_BLOCK;
     for (int v = 0; v < VECTORS; v++) {
         const unsigned pixels = waiting->pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
-        const Vi pixel = (vi_load(lane_y + v * DIP_LANES) << DIP_PLACE_Y) +
+        const Vi pixel = (vi_load(lane_y + v * DIP_LANES) << DIP_POSITION_Y) +
                          (vi_load(lane_x + v * DIP_LANES) + corner);
-        list->count += vu_compress(list->place + list->count, pixels, (Vu)(places[v] | pixel));
+        list->count +=
+            vu_compress(list->position + list->count, pixels, (Vu)(positions[v] | pixel));
     }
     queue->count++;
 }
@@ -443,13 +445,13 @@ VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region
 VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *region,
                             const DipTriangle *triangle, int sample_count, DipTile *tile,
                             uint32_t id) {
-    const int pass_count = queue->clip->passes ? queue->clip->passes->count : 1;
+    const int group_count = queue->clip->groups ? queue->clip->groups->count : 1;
     for (unsigned left = region->reached; left; left &= left - 1) {
-        for (int pass = 0; pass < pass_count; pass++) {
+        for (int group = 0; group < group_count; group++) {
             if (queue->clip->list->count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
                 flush_clip_queue(queue, in, triangle, tile, id);
             }
-            queue_sub_block(queue, in, region, __builtin_ctz(left), pass, sample_count, tile);
+            queue_sub_block(queue, in, region, __builtin_ctz(left), group, sample_count, tile);
         }
     }
 }

@@ -1,4 +1,4 @@
-// The sample pattern tables, and passes from them.
+// The sample pattern tables, and groups from them.
 #include "renderer/pipeline/pattern.h"
 
 #include "renderer/base/assert.h"
@@ -76,13 +76,13 @@ const DipSamplePattern *dip_sample_pattern(int sample_count) {
     return dip_sample_pattern_of(sample_count, DIP_PATTERN_STANDARD);
 }
 
-bool dip_sample_passes_exist(int sample_count, int samples_per_pass) {
-    return samples_per_pass == 1 || (samples_per_pass == sample_count && sample_count == 2) ||
-           (samples_per_pass <= DIP_MAX_SHARING &&
-            dip_sample_pattern(sample_count)->sharing[samples_per_pass][0] != 0);
+bool dip_sample_groups_exist(int sample_count, int samples_per_group) {
+    return samples_per_group == 1 || (samples_per_group == sample_count && sample_count == 2) ||
+           (samples_per_group <= DIP_MAX_SHARING &&
+            dip_sample_pattern(sample_count)->sharing[samples_per_group][0] != 0);
 }
 
-static void set_centroids(DipSamplePasses *passes, const DipSamplePattern *pattern) {
+static void set_centroids(DipSampleGroups *groups, const DipSamplePattern *pattern) {
     for (unsigned set = 1; set < 1u << pattern->count; set++) {
         int x = 0;
         int y = 0;
@@ -91,24 +91,24 @@ static void set_centroids(DipSamplePasses *passes, const DipSamplePattern *patte
             y += set >> s & 1 ? pattern->y[s] : 0;
         }
         const int count = __builtin_popcount(set);
-        passes->centroid[set] = x / count | y / count << 8;
+        groups->centroid[set] = x / count | y / count << 8;
     }
 }
 
-void dip_sample_passes_make(DipSamplePasses *passes, const DipSamplePattern *pattern,
-                            int samples_per_pass) {
+void dip_sample_groups_make(DipSampleGroups *groups, const DipSamplePattern *pattern,
+                            int samples_per_group) {
     const unsigned all = (1u << pattern->count) - 1;
-    *passes = (DipSamplePasses){.count = pattern->count / samples_per_pass};
-    for (int p = 0; p < passes->count; p++) {
-        passes->samples[p] =
-            (uint8_t)(passes->count == 1      ? all
-                      : samples_per_pass == 1 ? 1u << p
-                                              : pattern->sharing[samples_per_pass][p]);
+    *groups = (DipSampleGroups){.count = pattern->count / samples_per_group};
+    for (int p = 0; p < groups->count; p++) {
+        groups->samples[p] =
+            (uint8_t)(groups->count == 1       ? all
+                      : samples_per_group == 1 ? 1u << p
+                                               : pattern->sharing[samples_per_group][p]);
     }
     for (int s = 0; s < pattern->count; s++) {
-        for (int p = 0; p < passes->count; p++) {
-            passes->sharing[s] |= passes->samples[p] >> s & 1 ? passes->samples[p] : 0;
+        for (int p = 0; p < groups->count; p++) {
+            groups->sharing[s] |= groups->samples[p] >> s & 1 ? groups->samples[p] : 0;
         }
     }
-    set_centroids(passes, pattern);
+    set_centroids(groups, pattern);
 }

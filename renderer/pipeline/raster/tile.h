@@ -8,11 +8,12 @@
 
 #include "renderer/pipeline/geometry/triangle.h"
 #include "renderer/pipeline/pattern.h"
+#include "renderer/pipeline/target.h"
 
 #include <stdint.h>
 
 enum {
-    DIP_TILE = 64,
+    DIP_TILE = DIP_TARGET_TILE,
     DIP_BLOCK = 8,
     DIP_TILE_BLOCKS = DIP_TILE / DIP_BLOCK, // per row
     DIP_BLOCKS = DIP_TILE_BLOCKS * DIP_TILE_BLOCKS,
@@ -22,7 +23,7 @@ enum {
     DIP_TILE_SUB_BLOCKS = DIP_TILE / DIP_SUB_BLOCK, // per row
 };
 
-// Pixel i (0..63) of a block: its place within the block.
+// Pixel i (0..63) of a block: its position within the block.
 static inline int dip_block_x(int i) {
     return (i >> 4 & 1) * 4 + (i & 3);
 }
@@ -40,9 +41,10 @@ typedef struct DipTile {
     int bottom;
     const DipSamplePattern *pattern;
     uint64_t touched; // bit b: block b has been cleared and holds something since
-    uint64_t passed;  // bit b: block b has held samples of an alpha-clipped triangle's passes
-    float *depth;     // [block][sample][64]; 0 is infinitely far
-    uint32_t *id;     // likewise; triangle index + 1, or 0 for none
+    uint64_t
+        grouped;  // bit b: block b has held samples of an alpha-clipped triangle's sample groups
+    float *depth; // [block][sample][64]; 0 is infinitely far
+    uint32_t *id; // likewise; triangle index + 1, or 0 for none
     uint64_t sub_blocks_tested;
     uint64_t sub_blocks_accepted;
 } DipTile;

@@ -11,7 +11,7 @@ static uint32_t *pixel_at(const DipTileShading *shading, uint32_t pixel) {
 void dip_store_whole(DipTileShading *shading, const DipFragmentList *list,
                      const DipEncodedBatch *encoded) {
     for (int i = 0; i < list->count; i += 16) {
-        uint32_t *row = pixel_at(shading, list->place[i] & DIP_PLACE_PIXEL);
+        uint32_t *row = pixel_at(shading, list->position[i] & DIP_POSITION_PIXEL);
         for (int y = 0; y < 4; y++, row += shading->stride) {
             memcpy(row, encoded->rgba8 + i + 4 * y, 4 * sizeof *row);
         }
@@ -23,7 +23,7 @@ void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list, i
     static const int bits_of[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
     const unsigned all = (1u << shading->tile->pattern->count) - 1;
     for (int i = 0; i < count; i++) {
-        const uint32_t pixel = list->place[i] & DIP_PLACE_PIXEL;
+        const uint32_t pixel = list->position[i] & DIP_POSITION_PIXEL;
         if (list->samples[i] == all) {
             *pixel_at(shading, pixel) = encoded->rgba8[i];
             continue;
@@ -35,10 +35,10 @@ void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list, i
     }
 }
 
-void dip_resolve_mixed(DipTileShading *shading, const uint8_t *srgb_code) {
+void dip_resolve_multi_fragment(DipTileShading *shading, const uint8_t *srgb_code) {
     const int count = shading->tile->pattern->count;
-    for (int i = 0; i < shading->mixed_count; i++) {
-        const uint32_t pixel = shading->mixed[i];
+    for (int i = 0; i < shading->multi_fragment_count; i++) {
+        const uint32_t pixel = shading->multi_fragment[i];
         uint32_t rgba8 = 0xff000000u;
         for (int c = 0; c < 3; c++) {
             rgba8 |= (uint32_t)srgb_code[(shading->sum[pixel][c] + count / 2) / count] << (8 * c);

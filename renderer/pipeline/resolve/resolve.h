@@ -15,6 +15,6 @@ void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list, i
 
 // Pixels of several surfaces: the mean over the samples in linear light, then encoded.
 // srgb_code: see DipSrgbEncodeTable.
-void dip_resolve_mixed(DipTileShading *shading, const uint8_t *srgb_code);
+void dip_resolve_multi_fragment(DipTileShading *shading, const uint8_t *srgb_code);
 
 #endif

@@ -8,8 +8,8 @@
 
 enum { VECTORS = 16 / DIP_LANES, ALL_PIXELS = 0xffff };
 
-// Where a sub-block's pixels lie from its first one, as places (tile_shading.h).
-static const int32_t pixel_place[16] = {
+// Where a sub-block's pixels lie from its first one, as positions (tile_shading.h).
+static const int32_t pixel_position[16] = {
     0,   1,   2,   3,   64,  65,  66,  67, // DIP_TILE to the next row
     128, 129, 130, 131, 192, 193, 194, 195,
 };
@@ -21,7 +21,7 @@ typedef struct SubBlock {
     int sample_count;
     int x0, y0; // pixels in the tile
     // The patches that the samples show, 0 where none: [sample][pixel]. Only found where samples of
-    // a pixel hold several triangles, or have passes.
+    // a pixel hold several triangles, or have groups.
     uint32_t patches[DIP_MAX_SAMPLES * DIP_SUB_BLOCK_PIXELS];
 } SubBlock;
 
@@ -56,7 +56,7 @@ static void find_patches(SubBlock *sub) {
 }
 
 // Pixels whose samples' numbers differ; stride: to the next sample's.
-VEC_INLINE unsigned mixed_pixels(const uint32_t *numbers, int sample_count, int stride) {
+VEC_INLINE unsigned multi_fragment_pixels(const uint32_t *numbers, int sample_count, int stride) {
     unsigned same = 0;
     for (int v = 0; v < VECTORS; v++) {
         const int32_t *held = (const int32_t *)numbers + v * DIP_LANES;
@@ -82,8 +82,9 @@ static inline void activate(DipTileShading *shading, uint32_t draw) {
     }
 }
 
-VEC_INLINE int32_t place_of(const SubBlock *sub, int sub_x, int sub_y) {
-    return (sub->y0 * DIP_TILE + sub->x0) | sub_x << DIP_PLACE_SUB_X | sub_y << DIP_PLACE_SUB_Y;
+VEC_INLINE int32_t position_of(const SubBlock *sub, int sub_x, int sub_y) {
+    return (sub->y0 * DIP_TILE + sub->x0) | sub_x << DIP_POSITION_SUB_X |
+           sub_y << DIP_POSITION_SUB_Y;
 }
 
 // A sub-block that one draw fills, pixels with one patch each: its 16 fragments stay together, in a
@@ -95,9 +96,9 @@ static void push_whole(const SubBlock *sub, uint32_t draw) {
     for (int v = 0; v < VECTORS; v++) {
         vi_store((int32_t *)list->triangle + list->count + v * DIP_LANES,
                  vi_load((const int32_t *)sub->ids + v * DIP_LANES) - 1);
-        const Vi at = vi_load(pixel_place + v * DIP_LANES);
-        vi_store((int32_t *)list->place + list->count + v * DIP_LANES,
-                 at + place_of(sub, 128, 128));
+        const Vi at = vi_load(pixel_position + v * DIP_LANES);
+        vi_store((int32_t *)list->position + list->count + v * DIP_LANES,
+                 at + position_of(sub, 128, 128));
     }
     list->count += 16;
     if (list->count == DIP_FRAGMENT_BATCH) {
@@ -105,10 +106,10 @@ static void push_whole(const SubBlock *sub, uint32_t draw) {
     }
 }
 
-// Pixels as fragments of a draw; ids of triangles, samples and places per vector. uniform: all
+// Pixels as fragments of a draw; ids of triangles, samples and positions per vector. uniform: all
 // lanes have the same samples.
 VEC_INLINE void push(const SubBlock *sub, uint32_t draw, unsigned pixels, const Vu *ids,
-                     const Vu *samples, const Vu *places, bool uniform) {
+                     const Vu *samples, const Vu *positions, bool uniform) {
     DipTileShading *shading = sub->shading;
     activate(shading, draw);
     DipFragmentList *list = &shading->lists[draw];
@@ -120,7 +121,7 @@ VEC_INLINE void push(const SubBlock *sub, uint32_t draw, unsigned pixels, const 
             vu_compress(list->samples + list->count, bits, samples[v]);
         }
         vu_compress(list->triangle + list->count, bits, ids[v] - 1u);
-        list->count += vu_compress(list->place + list->count, bits, places[v]);
+        list->count += vu_compress(list->position + list->count, bits, positions[v]);
     }
     if (list->count >= DIP_FRAGMENT_BATCH) {
         shading->flush(shading, draw);
@@ -132,41 +133,41 @@ VEC_INLINE void push(const SubBlock *sub, uint32_t draw, unsigned pixels, const 
 VEC_INLINE void push_uniform(const SubBlock *sub, const uint32_t *draws, unsigned left) {
     Vu ids[VECTORS];
     Vu samples[VECTORS];
-    Vu places[VECTORS];
+    Vu positions[VECTORS];
     for (int v = 0; v < VECTORS; v++) {
         ids[v] = (Vu)vi_load((const int32_t *)sub->ids + v * DIP_LANES);
         samples[v] = vu_splat((1u << sub->sample_count) - 1);
-        places[v] = (Vu)(vi_load(pixel_place + v * DIP_LANES) + place_of(sub, 128, 128));
+        positions[v] = (Vu)(vi_load(pixel_position + v * DIP_LANES) + position_of(sub, 128, 128));
     }
     while (left) {
         const uint32_t draw = draws[__builtin_ctz(left)];
         const unsigned pixels = pixels_with(draws, draw) & left;
         left &= ~pixels;
-        push(sub, draw, pixels, ids, samples, places, true);
+        push(sub, draw, pixels, ids, samples, positions, true);
     }
 }
 
-// A draw's passes, NULL where it has but one.
-static inline const DipSamplePasses *passes_of(const DipTileShading *shading, uint32_t draw) {
-    return shading->passes && shading->draws[draw].clip_shader ? shading->passes : NULL;
+// A draw's groups, NULL where it has but one.
+static inline const DipSampleGroups *groups_of(const DipTileShading *shading, uint32_t draw) {
+    return shading->groups && shading->draws[draw].clip_shader ? shading->groups : NULL;
 }
 
 // Pixels whose samples differ, all those of the patch that the first of `left` holds in sample
-// `first`: shaded at their first sample of it. Of a draw with passes only those of the sample's
-// pass, shaded at the centroid of what they hold of it. Takes them out of `left`.
-VEC_INLINE void push_mixed_patch(const SubBlock *sub, unsigned *left, int first) {
+// `first`: shaded at their first sample of it. Of a draw with groups only those of the sample's
+// group, shaded at the centroid of what they hold of it. Takes them out of `left`.
+VEC_INLINE void push_multi_fragment_patch(const SubBlock *sub, unsigned *left, int first) {
     const DipSamplePattern *pattern = sub->shading->tile->pattern;
     const int pixel = __builtin_ctz(left[first]);
     const uint32_t patch = sub->patches[first * DIP_SUB_BLOCK_PIXELS + pixel];
     const uint32_t draw = draw_of(sub->shading, sub->ids[first * DIP_BLOCK_PIXELS + pixel] - 1);
-    const DipSamplePasses *passes = passes_of(sub->shading, draw);
-    const unsigned shared = passes ? passes->sharing[first] : ~0u;
+    const DipSampleGroups *groups = groups_of(sub->shading, draw);
+    const unsigned shared = groups ? groups->sharing[first] : ~0u;
     Vu ids[VECTORS];
     Vu samples[VECTORS];
-    Vu places[VECTORS];
+    Vu positions[VECTORS];
     unsigned pixels = 0;
     for (int v = 0; v < VECTORS; v++) {
-        ids[v] = samples[v] = places[v] = vu_splat(0);
+        ids[v] = samples[v] = positions[v] = vu_splat(0);
     }
     for (int s = sub->sample_count - 1; s >= first; s--) {
         const unsigned held =
@@ -174,35 +175,36 @@ VEC_INLINE void push_mixed_patch(const SubBlock *sub, unsigned *left, int first)
                             : 0;
         left[s] &= ~held;
         pixels |= held;
-        const Vi place = vi_splat(place_of(sub, pattern->x[s], pattern->y[s]));
+        const Vi position = vi_splat(position_of(sub, pattern->x[s], pattern->y[s]));
         for (int v = 0; v < VECTORS; v++) {
             const Mask mask = mask_from_bits(held >> (v * DIP_LANES) & VEC_ALL_LANES);
             samples[v] |= (Vu)vi_select(mask, vi_splat(1 << s), vi_splat(0));
-            places[v] = (Vu)vi_select(mask, place, (Vi)places[v]);
+            positions[v] = (Vu)vi_select(mask, position, (Vi)positions[v]);
             const Vi there =
                 vi_load((const int32_t *)sub->ids + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
             ids[v] = (Vu)vi_select(mask, there, (Vi)ids[v]);
         }
     }
     for (int v = 0; v < VECTORS; v++) {
-        if (passes) {
-            const Vi centroid = vi_gather(passes->centroid, (Vi)samples[v]);
-            places[v] = (Vu)((centroid << DIP_PLACE_SUB_X) + place_of(sub, 0, 0));
+        if (groups) {
+            const Vi centroid = vi_gather(groups->centroid, (Vi)samples[v]);
+            positions[v] = (Vu)((centroid << DIP_POSITION_SUB_X) + position_of(sub, 0, 0));
         }
-        places[v] += (Vu)vi_load(pixel_place + v * DIP_LANES);
+        positions[v] += (Vu)vi_load(pixel_position + v * DIP_LANES);
     }
-    push(sub, draw, pixels, ids, samples, places, false);
+    push(sub, draw, pixels, ids, samples, positions, false);
 }
 
-// Starts the sums of mixed pixels with their uncovered samples, of which there are mostly none.
-VEC_INLINE void begin_sums(const SubBlock *sub, unsigned mixed,
+// Starts the sums of multi_fragment pixels with their uncovered samples, of which there are mostly
+// none.
+VEC_INLINE void begin_sums(const SubBlock *sub, unsigned multi_fragment,
                            const unsigned empty[DIP_MAX_SAMPLES], unsigned any_empty) {
     DipTileShading *shading = sub->shading;
     const int corner = sub->y0 * DIP_TILE + sub->x0;
-    for (unsigned left = mixed; left; left &= left - 1) {
+    for (unsigned left = multi_fragment; left; left &= left - 1) {
         const int pixel = __builtin_ctz(left);
-        const int at = corner + pixel_place[pixel];
-        shading->mixed[shading->mixed_count++] = (uint16_t)at;
+        const int at = corner + pixel_position[pixel];
+        shading->multi_fragment[shading->multi_fragment_count++] = (uint16_t)at;
         memset(shading->sum[at], 0, sizeof shading->sum[at]);
     }
     for (unsigned left = any_empty; left; left &= left - 1) {
@@ -210,27 +212,27 @@ VEC_INLINE void begin_sums(const SubBlock *sub, unsigned mixed,
         for (int s = 0; s < sub->sample_count; s++) {
             const int32_t uncovered = (int32_t)(empty[s] >> pixel & 1);
             for (int c = 0; c < 3; c++) {
-                shading->sum[corner + pixel_place[pixel]][c] +=
+                shading->sum[corner + pixel_position[pixel]][c] +=
                     shading->clear_linear16[c] * uncovered;
             }
         }
     }
 }
 
-VEC_INLINE void push_mixed(const SubBlock *sub, unsigned mixed) {
+VEC_INLINE void push_multi_fragment(const SubBlock *sub, unsigned multi_fragment) {
     unsigned left[DIP_MAX_SAMPLES];
     unsigned empty[DIP_MAX_SAMPLES];
     unsigned any_empty = 0;
     for (int s = 0; s < sub->sample_count; s++) {
-        empty[s] = pixels_with(sub->patches + s * DIP_SUB_BLOCK_PIXELS, 0) & mixed;
-        left[s] = mixed & ~empty[s];
+        empty[s] = pixels_with(sub->patches + s * DIP_SUB_BLOCK_PIXELS, 0) & multi_fragment;
+        left[s] = multi_fragment & ~empty[s];
         sub->shading->samples += (unsigned)__builtin_popcount(left[s]);
         any_empty |= empty[s];
     }
-    begin_sums(sub, mixed, empty, any_empty);
+    begin_sums(sub, multi_fragment, empty, any_empty);
     for (int s = 0; s < sub->sample_count; s++) {
         while (left[s]) {
-            push_mixed_patch(sub, left, s);
+            push_multi_fragment_patch(sub, left, s);
         }
     }
 }
@@ -238,9 +240,9 @@ VEC_INLINE void push_mixed(const SubBlock *sub, unsigned mixed) {
 static void clear_pixels(const SubBlock *sub, unsigned left) {
     const DipTileShading *shading = sub->shading;
     for (; left; left &= left - 1) {
-        const int place = sub->y0 * DIP_TILE + sub->x0 + pixel_place[__builtin_ctz(left)];
-        shading->pixels[(size_t)(place / DIP_TILE) * shading->stride + (size_t)(place % DIP_TILE)] =
-            shading->clear_rgba8;
+        const int position = sub->y0 * DIP_TILE + sub->x0 + pixel_position[__builtin_ctz(left)];
+        shading->pixels[(size_t)(position / DIP_TILE) * shading->stride +
+                        (size_t)(position % DIP_TILE)] = shading->clear_rgba8;
     }
 }
 
@@ -255,14 +257,14 @@ static unsigned pixels_in_target(const SubBlock *sub) {
     return inside;
 }
 
-// Pixels among `left`, held by one draw each, whose draw has passes.
-static unsigned pixels_in_passes(const SubBlock *sub, const uint32_t *draws, unsigned left) {
+// Pixels among `left`, held by one draw each, whose draw has groups.
+static unsigned pixels_in_groups(const SubBlock *sub, const uint32_t *draws, unsigned left) {
     unsigned found = 0;
     while (left) {
         const uint32_t draw = draws[__builtin_ctz(left)];
         const unsigned pixels = pixels_with(draws, draw) & left;
         left &= ~pixels;
-        found |= passes_of(sub->shading, draw) ? pixels : 0;
+        found |= groups_of(sub->shading, draw) ? pixels : 0;
     }
     return found;
 }
@@ -275,21 +277,22 @@ static void find_draws(const SubBlock *sub, uint32_t draws[DIP_SUB_BLOCK_PIXELS]
     }
 }
 
-// Pixels in the target that several triangles share, and draws with passes: the general case.
-static void collect_shared(SubBlock *sub, bool several, bool passed, unsigned inside) {
+// Pixels in the target that several triangles share, and draws with groups: the general case.
+static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned inside) {
     uint32_t draws[DIP_SUB_BLOCK_PIXELS]; // of the first samples
     find_draws(sub, draws);
-    unsigned mixed = 0;
-    if (several || passed) {
+    unsigned multi_fragment = 0;
+    if (several || grouped) {
         find_patches(sub);
-        mixed = mixed_pixels(sub->patches, sub->sample_count, DIP_SUB_BLOCK_PIXELS) & inside;
+        multi_fragment =
+            multi_fragment_pixels(sub->patches, sub->sample_count, DIP_SUB_BLOCK_PIXELS) & inside;
     }
-    const unsigned empty = pixels_with(sub->ids, 0) & inside & ~mixed;
-    unsigned uniform = inside & ~mixed & ~empty;
-    if (passed) {
-        const unsigned in_passes = pixels_in_passes(sub, draws, uniform);
-        mixed |= in_passes;
-        uniform &= ~in_passes;
+    const unsigned empty = pixels_with(sub->ids, 0) & inside & ~multi_fragment;
+    unsigned uniform = inside & ~multi_fragment & ~empty;
+    if (grouped) {
+        const unsigned in_groups = pixels_in_groups(sub, draws, uniform);
+        multi_fragment |= in_groups;
+        uniform &= ~in_groups;
     }
     sub->shading->samples += (unsigned)__builtin_popcount(uniform) * (unsigned)sub->sample_count;
     if (uniform == ALL_PIXELS && pixels_with(draws, draws[0]) == ALL_PIXELS) {
@@ -298,22 +301,22 @@ static void collect_shared(SubBlock *sub, bool several, bool passed, unsigned in
     }
     clear_pixels(sub, empty);
     push_uniform(sub, draws, uniform);
-    if (mixed) {
-        push_mixed(sub, mixed);
+    if (multi_fragment) {
+        push_multi_fragment(sub, multi_fragment);
     }
 }
 
-// passed: may hold triangles with passes.
-static void collect_sub_block(SubBlock *sub, bool passed) {
+// grouped: may hold triangles with groups.
+static void collect_sub_block(SubBlock *sub, bool grouped) {
     const bool within = sub->x0 + 4 <= sub->shading->width && sub->y0 + 4 <= sub->shading->height;
-    const bool several =
-        sub->sample_count > 1 && mixed_pixels(sub->ids, sub->sample_count, DIP_BLOCK_PIXELS);
-    if (within && !several && !passed && sub->ids[0] &&
+    const bool several = sub->sample_count > 1 &&
+                         multi_fragment_pixels(sub->ids, sub->sample_count, DIP_BLOCK_PIXELS);
+    if (within && !several && !grouped && sub->ids[0] &&
         pixels_with(sub->ids, sub->ids[0]) == ALL_PIXELS) {
         sub->shading->samples += DIP_SUB_BLOCK_PIXELS * (unsigned)sub->sample_count;
         push_whole(sub, draw_of(sub->shading, sub->ids[0] - 1));
     } else {
-        collect_shared(sub, several, passed, within ? ALL_PIXELS : pixels_in_target(sub));
+        collect_shared(sub, several, grouped, within ? ALL_PIXELS : pixels_in_target(sub));
     }
 }
 
@@ -352,7 +355,7 @@ void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
             sub.sample_count = tile->pattern->count;
             sub.x0 = block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * DIP_SUB_BLOCK;
             sub.y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * DIP_SUB_BLOCK;
-            collect_sub_block(&sub, tile->passed >> block & 1);
+            collect_sub_block(&sub, tile->grouped >> block & 1);
         }
     }
 }

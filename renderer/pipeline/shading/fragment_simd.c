@@ -5,24 +5,24 @@
 // Up to this many triangles of a vector are read one by one; more are gathered lane by lane.
 enum { FEW_TRIANGLES = 4 };
 
-enum { MAX_ROWS = DIP_SURFACE_SLOTS + 3 * DIP_MAX_SLOTS + 1 };
+enum { MAX_ROWS = DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + 1 };
 
 // The floats of a vector of fragments' surfaces: those of one triangle for all lanes, or (one is
 // NULL) float i of each lane's at rows[i].
-typedef struct Surfaces {
+typedef struct VaryingPlanes {
     const float *one;
     const Vf *rows;
-} Surfaces;
+} VaryingPlanes;
 
-// One plane of a surface at the fragments' places: value, d/dx, d/dy.
+// One plane of a surface at the fragments' positions: value, d/dx, d/dy.
 typedef struct Plane {
     Vf at;
     Vf dx;
     Vf dy;
 } Plane;
 
-VEC_INLINE const float *surface_of(const DipShadingInput *input, uint32_t triangle) {
-    return input->surfaces + (size_t)triangle * (size_t)input->surface_stride;
+VEC_INLINE const float *planes_of(const DipShadingInput *input, uint32_t triangle) {
+    return input->planes + (size_t)triangle * (size_t)input->plane_stride;
 }
 
 // Reads the surfaces of several triangles. Of a few, the lanes of each are blended in, which costs
@@ -30,75 +30,76 @@ VEC_INLINE const float *surface_of(const DipShadingInput *input, uint32_t triang
 VEC_INLINE void read_rows(const DipShadingInput *input, const uint32_t *triangle, unsigned left,
                           int count, Vf *rows) {
     const Vi ids = vi_load((const int32_t *)triangle);
-    const float *first = surface_of(input, triangle[0]);
+    const float *first = planes_of(input, triangle[0]);
     for (int f = 0; f < count; f++) {
         rows[f] = vf_splat(first[f]);
     }
     for (int n = 1; left && n < FEW_TRIANGLES; n++) {
         const uint32_t id = triangle[__builtin_ctz(left)];
         const Mask lanes = vi_eq(ids, vi_splat((int32_t)id));
-        const float *surface = surface_of(input, id);
+        const float *planes = planes_of(input, id);
         for (int f = 0; f < count; f++) {
-            rows[f] = vf_select(lanes, vf_splat(surface[f]), rows[f]);
+            rows[f] = vf_select(lanes, vf_splat(planes[f]), rows[f]);
         }
         left &= ~mask_bits(lanes);
     }
     if (left) {
-        const uint32_t *surfaces = (const uint32_t *)(const void *)input->surfaces;
-        const Vi offset = vi_pair_order(ids * input->surface_stride);
+        const uint32_t *planes = (const uint32_t *)(const void *)input->planes;
+        const Vi offset = vi_pair_order(ids * input->plane_stride);
         for (int f = 0; f < count; f += 2) { // a surface has room for one more
-            const VuPair pair = vu_gather_pairs(surfaces + f, offset);
+            const VuPair pair = vu_gather_pairs(planes + f, offset);
             rows[f] = (Vf)vu_pair_left(pair);
             rows[f + 1] = (Vf)vu_pair_right(pair);
         }
     }
 }
 
-VEC_INLINE Vf value_of(const Surfaces *surfaces, int i) {
-    return surfaces->one ? vf_splat(surfaces->one[i]) : surfaces->rows[i];
+VEC_INLINE Vf value_of(const VaryingPlanes *planes, int i) {
+    return planes->one ? vf_splat(planes->one[i]) : planes->rows[i];
 }
 
-VEC_INLINE Plane plane_at(const Surfaces *surfaces, int i, Vf x, Vf y) {
-    const Vf dx = value_of(surfaces, i + 1);
-    const Vf dy = value_of(surfaces, i + 2);
-    return (Plane){(value_of(surfaces, i) + dx * x) + dy * y, dx, dy};
+VEC_INLINE Plane plane_at(const VaryingPlanes *planes, int i, Vf x, Vf y) {
+    const Vf dx = value_of(planes, i + 1);
+    const Vf dy = value_of(planes, i + 2);
+    return (Plane){(value_of(planes, i) + dx * x) + dy * y, dx, dy};
 }
 
-// A place's pixel coordinate in 1/256 pixel of the tile, to pixels in the target.
+// A position's pixel coordinate in 1/256 pixel of the tile, to pixels in the target.
 VEC_INLINE Vf target_coordinate(Vi pixel, Vi sub, int tile_first) {
     return vf_from_int((pixel + tile_first) << 8 | sub) * (1.0f / 256.0f);
 }
 
 // u = (u/w) / (1/w); du/dx = (d(u/w)/dx - u d(1/w)/dx) / (1/w): exact, by the quotient rule.
-VEC_INLINE void interpolate(const Surfaces *surfaces, Vf x, Vf y, int slot_count, int plain_count,
-                            int i, DipFragmentBatch *batch) {
-    const Vf from_x = x - value_of(surfaces, DIP_SURFACE_ANCHOR);
-    const Vf from_y = y - value_of(surfaces, DIP_SURFACE_ANCHOR + 1);
-    const Plane q = plane_at(surfaces, DIP_SURFACE_RW, from_x, from_y);
+VEC_INLINE void interpolate(const VaryingPlanes *planes, Vf x, Vf y, int varying_count,
+                            int plain_count, int i, DipFragmentBatch *batch) {
+    const Vf from_x = x - value_of(planes, DIP_PLANES_ANCHOR);
+    const Vf from_y = y - value_of(planes, DIP_PLANES_ANCHOR + 1);
+    const Plane q = plane_at(planes, DIP_PLANES_RW, from_x, from_y);
     const Vf w = vf_splat(1.0f) / q.at;
-    const int gradient_count = slot_count - plain_count;
-    for (int s = gradient_count; s < slot_count; s++) {
-        const Plane over_w = plane_at(surfaces, DIP_SURFACE_SLOTS + 3 * s, from_x, from_y);
-        vf_store(batch->slot[s] + i, over_w.at * w);
+    const int gradient_count = varying_count - plain_count;
+    for (int s = gradient_count; s < varying_count; s++) {
+        const Plane over_w = plane_at(planes, DIP_PLANES_VARYINGS + 3 * s, from_x, from_y);
+        vf_store(batch->varying[s] + i, over_w.at * w);
     }
     for (int s = 0; s < gradient_count; s++) {
-        const Plane over_w = plane_at(surfaces, DIP_SURFACE_SLOTS + 3 * s, from_x, from_y);
+        const Plane over_w = plane_at(planes, DIP_PLANES_VARYINGS + 3 * s, from_x, from_y);
         const Vf value = over_w.at * w;
-        vf_store(batch->slot[s] + i, value);
-        vf_store(batch->slot_dx[s] + i, (over_w.dx - value * q.dx) * w);
-        vf_store(batch->slot_dy[s] + i, (over_w.dy - value * q.dy) * w);
+        vf_store(batch->varying[s] + i, value);
+        vf_store(batch->varying_dx[s] + i, (over_w.dx - value * q.dx) * w);
+        vf_store(batch->varying_dy[s] + i, (over_w.dy - value * q.dy) * w);
     }
 }
 
 void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipFragmentList *list,
-                                        int slot_count, int plain_count, DipFragmentBatch *batch) {
+                                        int varying_count, int plain_count,
+                                        DipFragmentBatch *batch) {
     batch->count = list->count < DIP_FRAGMENT_BATCH ? list->count : DIP_FRAGMENT_BATCH;
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        const Vi place = vi_load((const int32_t *)list->place + i);
-        const Vf x =
-            target_coordinate(place & (DIP_TILE - 1), place >> DIP_PLACE_SUB_X & 255, input->x0);
-        const Vf y = target_coordinate(place >> DIP_PLACE_Y & (DIP_TILE - 1),
-                                       place >> DIP_PLACE_SUB_Y & 255, input->y0);
+        const Vi position = vi_load((const int32_t *)list->position + i);
+        const Vf x = target_coordinate(position & (DIP_TILE - 1),
+                                       position >> DIP_POSITION_SUB_X & 255, input->x0);
+        const Vf y = target_coordinate(position >> DIP_POSITION_Y & (DIP_TILE - 1),
+                                       position >> DIP_POSITION_SUB_Y & 255, input->y0);
         vf_store(batch->x + i, x);
         vf_store(batch->y + i, y);
         const uint32_t *triangle = list->triangle + i;
@@ -106,13 +107,13 @@ void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipF
         const unsigned others =
             mask_bits(vi_eq(ids, vi_splat((int32_t)triangle[0]))) ^ VEC_ALL_LANES;
         if (!others) {
-            const Surfaces surfaces = {surface_of(input, triangle[0]), NULL};
-            interpolate(&surfaces, x, y, slot_count, plain_count, i, batch);
+            const VaryingPlanes planes = {planes_of(input, triangle[0]), NULL};
+            interpolate(&planes, x, y, varying_count, plain_count, i, batch);
         } else {
             Vf rows[MAX_ROWS];
-            const Surfaces surfaces = {NULL, rows};
-            read_rows(input, triangle, others, dip_surface_floats(slot_count), rows);
-            interpolate(&surfaces, x, y, slot_count, plain_count, i, batch);
+            const VaryingPlanes planes = {NULL, rows};
+            read_rows(input, triangle, others, dip_plane_floats(varying_count), rows);
+            interpolate(&planes, x, y, varying_count, plain_count, i, batch);
         }
     }
 }

@@ -16,13 +16,13 @@
 
 enum { DIP_TILE_PIXELS = DIP_TILE * DIP_TILE };
 
-// Where a fragment is shaded, in bits: its pixel in the tile, y * DIP_TILE + x, and the place in
+// Where a fragment is shaded, in bits: its pixel in the tile, y * DIP_TILE + x, and the position in
 // the pixel, 1/256 pixel from its top left corner.
 enum {
-    DIP_PLACE_Y = 6,      // first of 6 bits, after the 6 of x
-    DIP_PLACE_SUB_X = 12, // first of 8
-    DIP_PLACE_SUB_Y = 20,
-    DIP_PLACE_PIXEL = DIP_TILE_PIXELS - 1, // mask of x and y
+    DIP_POSITION_Y = 6,      // first of 6 bits, after the 6 of x
+    DIP_POSITION_SUB_X = 12, // first of 8
+    DIP_POSITION_SUB_Y = 20,
+    DIP_POSITION_PIXEL = DIP_TILE_PIXELS - 1, // mask of x and y
 };
 
 // A sub-block's fragments are pushed at once, past a batch's count.
@@ -32,19 +32,19 @@ enum { DIP_LIST_ROOM = DIP_FRAGMENT_BATCH + 16 };
 typedef struct DipFragmentList {
     int count;
     uint32_t triangle[DIP_LIST_ROOM]; // index into the geometry's triangles
-    uint32_t place[DIP_LIST_ROOM];
+    uint32_t position[DIP_LIST_ROOM];
     uint32_t samples[DIP_LIST_ROOM]; // bit s: holds sample s; whole lists: not set, all of them
 } DipFragmentList;
 
 // How coverage asks which fragments of an alpha-clipped triangle are there: it fills the list's
 // count, x, y and triangle (one for all; these three up to a multiple of DIP_BATCH_ALIGN) and calls
 // test, which returns a byte per fragment, 0 where the surface is not. `samples` and `pixel` are
-// not used. With passes, a pixel is asked about once in each that it has samples of.
+// not used. With groups, a pixel is asked about once in each that it has samples of.
 typedef struct DipClipTest {
     DipFragmentList *list;
     const uint8_t *(*test)(void *context, const DipTriangle *triangle);
     void *context;
-    const DipSamplePasses *passes; // NULL: one pass of all samples
+    const DipSampleGroups *groups; // NULL: one group of all samples
 } DipClipTest;
 
 // A batch after shading.
@@ -56,8 +56,8 @@ typedef struct DipEncodedBatch {
 // The geometry's arrays, as kernels read them.
 typedef struct DipShadingInput {
     const DipTriangle *triangles;
-    const float *surfaces; // of triangle i from i * surface_stride on
-    int surface_stride;
+    const float *planes; // of triangle i from i * plane_stride on
+    int plane_stride;
     int x0; // of the tile's first pixel in the target
     int y0;
 } DipShadingInput;
@@ -71,7 +71,7 @@ struct DipTileShading {
     DipTile *tile;
     DipShadingInput input;
     const DipDraw *draws;
-    const DipSamplePasses *passes; // of alpha-clipped draws; NULL: one pass of all samples
+    const DipSampleGroups *groups; // of alpha-clipped draws; NULL: one group of all samples
     DipFlushList *flush;
     DipFlushList *flush_whole;
     void *context;                // of both
@@ -86,9 +86,9 @@ struct DipTileShading {
     size_t stride;    // pixels per row of the target
     uint32_t clear_rgba8;
     int32_t clear_linear16[3];
-    int32_t (*sum)[4]; // per tile pixel: linear16 sums of a pixel with several fragments
-    uint16_t *mixed;   // such pixels
-    int mixed_count;
+    int32_t (*sum)[4];        // per tile pixel: linear16 sums of a pixel with several fragments
+    uint16_t *multi_fragment; // such pixels
+    int multi_fragment_count;
     uint64_t fragments;
     uint64_t samples; // that show a surface
 };

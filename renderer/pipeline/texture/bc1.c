@@ -1,5 +1,5 @@
 // BC1 blocks: encoding through stb_dxt, decoding to packed texels.
-#include "renderer/pipeline/texture/bc1.h"
+#include "renderer/pipeline/bc1.h"
 
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/texture/texture_layout.h"

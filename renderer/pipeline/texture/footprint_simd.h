@@ -36,12 +36,13 @@ VEC_INLINE Vf bounded(Vf v) {
 }
 
 VEC_INLINE Jacobian read_jacobian(const DipFragmentBatch *batch, const DipTexture *texture,
-                                  int slot, int i) {
+                                  int varying, int i) {
     const float width = (float)texture->width;
     const float height = (float)texture->height;
-    return (Jacobian){
-        vf_load(batch->slot_dx[slot] + i) * width, vf_load(batch->slot_dx[slot + 1] + i) * height,
-        vf_load(batch->slot_dy[slot] + i) * width, vf_load(batch->slot_dy[slot + 1] + i) * height};
+    return (Jacobian){vf_load(batch->varying_dx[varying] + i) * width,
+                      vf_load(batch->varying_dx[varying + 1] + i) * height,
+                      vf_load(batch->varying_dy[varying] + i) * width,
+                      vf_load(batch->varying_dy[varying + 1] + i) * height};
 }
 
 VEC_INLINE Jacobian bounded_jacobian(Jacobian j) {
@@ -138,8 +139,8 @@ VEC_INLINE Vf isotropic_minor2(Jacobian j) {
 
 VEC_INLINE Axis anisotropic_axis(const DipSampler *sampler, Jacobian j) {
     const Jacobian bounds = bounded_jacobian(j);
-    return sampler->advanced ? ellipse_axis(bounds, sampler->max_anisotropy)
-                             : two_frame_axis(bounds, sampler->max_anisotropy);
+    return sampler->exact_footprint ? ellipse_axis(bounds, sampler->max_anisotropy)
+                                    : two_frame_axis(bounds, sampler->max_anisotropy);
 }
 
 // The middle quarter of the way from a level to the next takes all of the blend between them;

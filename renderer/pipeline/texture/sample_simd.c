@@ -99,12 +99,12 @@ VEC_INLINE void count_work(LaneWork *work, Vi near, Vi far, int lanes) {
 
 // In short loops, for the same reason. textures: how many are read there.
 VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
-                                int slot, int textures, Footprints *out) {
+                                int varying, int textures, Footprints *out) {
     const int count = (batch->count + DIP_LANES - 1) / DIP_LANES;
     const DipTexture *texture = sampler->texture;
     Axis axes[VECTORS];
     for (int n = 0; n < count; n++) {
-        const Jacobian jacobian = read_jacobian(batch, texture, slot, n * DIP_LANES);
+        const Jacobian jacobian = read_jacobian(batch, texture, varying, n * DIP_LANES);
         if (way.anisotropic) {
             axes[n] = anisotropic_axis(sampler, jacobian);
         } else {
@@ -131,8 +131,8 @@ VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampl
         count_work(&work, near, far, batch->count - n * DIP_LANES);
     }
     for (int n = 0; n < count; n++) {
-        const Vf u = vf_load(batch->slot[slot] + n * DIP_LANES);
-        const Vf v = vf_load(batch->slot[slot + 1] + n * DIP_LANES);
+        const Vf u = vf_load(batch->varying[varying] + n * DIP_LANES);
+        const Vf v = vf_load(batch->varying[varying + 1] + n * DIP_LANES);
         out->u[n] = way.in_bits ? fraction32(u) : (Vu)u;
         out->v[n] = way.in_bits ? fraction32(v) : (Vu)v;
         if (way.anisotropic) {
@@ -156,7 +156,8 @@ typedef struct Level {
     Vi height;
 } Level;
 
-// A bilinear read: the first texel's index and its place in 1/256 texel, the whole texels included.
+// A bilinear read: the first texel's index and its position in 1/256 texel, the whole texels
+// included.
 typedef struct Taps {
     Vi index;
     Vi x8;
@@ -226,7 +227,7 @@ VEC_INLINE void next_probe(Walk *walk, Way way) {
     }
 }
 
-// The read at the walk's place.
+// The read at the walk's position.
 VEC_INLINE Taps find_taps(const DipTexture *texture, Way way, const Walk *walk) {
     const Level *level = &walk->level;
     Taps taps;
@@ -422,10 +423,10 @@ VEC_INLINE void read_vector(const Read *read, const DipSampler *sampler, Way way
 }
 
 VEC_INLINE void sample_read(DipFragmentBatch *batch, const DipSampler *sampler, Way way, Read read,
-                            int u_slot, float (*const out[2])[DIP_FRAGMENT_BATCH]) {
+                            int u_varying, float (*const out[2])[DIP_FRAGMENT_BATCH]) {
     const int vectors = (batch->count + DIP_LANES - 1) / DIP_LANES;
     Footprints footprints;
-    find_footprints(batch, sampler, way, u_slot, read.count, &footprints);
+    find_footprints(batch, sampler, way, u_varying, read.count, &footprints);
     for (int n = 0; n < vectors; n++) {
         Vf light[2][3];
         read_vector(&read, sampler, way, &footprints, n, light);
@@ -438,10 +439,10 @@ VEC_INLINE void sample_read(DipFragmentBatch *batch, const DipSampler *sampler, 
 }
 
 VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
-                              int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
+                              int u_varying, float (*out)[DIP_FRAGMENT_BATCH]) {
     const Read read = {{sampler->shown ? sampler->shown : sampler->texture, NULL}, 1};
     float(*const outs[2])[DIP_FRAGMENT_BATCH] = {out, NULL};
-    sample_read(batch, sampler, way, read, u_slot, outs);
+    sample_read(batch, sampler, way, read, u_varying, outs);
 }
 
 // --- alpha -------------------------------------------------------------------------------------
@@ -475,10 +476,10 @@ VEC_INLINE Vf mean_alpha(const DipTexture *texture, Way way, Vi level, const Foo
 }
 
 VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
-                             int u_slot, float *out) {
+                             int u_varying, float *out) {
     const DipTexture *texture = sampler->texture;
     Footprints footprints;
-    find_footprints(batch, sampler, way, u_slot, 1, &footprints);
+    find_footprints(batch, sampler, way, u_varying, 1, &footprints);
     for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
         const Vi lod8 = footprints.lod8[n];
         const Vf fraction = vf_from_int(lod8 & 255);
@@ -510,17 +511,18 @@ VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler,
     } while (false)
 
 void DIP_KERNEL(dip_kernel_sample_colour)(DipFragmentBatch *batch, const DipSampler *sampler,
-                                          int u_slot, float (*out)[DIP_FRAGMENT_BATCH]) {
+                                          int u_varying, float (*out)[DIP_FRAGMENT_BATCH]) {
     const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
-    SAMPLE_BY_WAY(sample_colour, texture->wraps_in_bits, u_slot, out);
+    SAMPLE_BY_WAY(sample_colour, texture->wraps_in_bits, u_varying, out);
 }
 
-// Whether two textures have the same texels at the same places of memory and the same footprints.
+// Whether two textures have the same texels at the same positions of memory and the same
+// footprints.
 static bool reads_alike(const DipSampler *a, const DipSampler *b) {
     const DipTexture *s = a->texture;
     const DipTexture *t = b->texture;
     return !a->shown && !b->shown && a->max_anisotropy == b->max_anisotropy &&
-           a->advanced == b->advanced && a->bias_lod8 == b->bias_lod8 &&
+           a->exact_footprint == b->exact_footprint && a->bias_lod8 == b->bias_lod8 &&
            a->min_lod8 == b->min_lod8 && a->cheap == b->cheap && s->wrap_u == t->wrap_u &&
            s->wrap_v == t->wrap_v && s->level_count == t->level_count &&
            memcmp(s->level_width, t->level_width, sizeof s->level_width) == 0 &&
@@ -528,25 +530,25 @@ static bool reads_alike(const DipSampler *a, const DipSampler *b) {
 }
 
 void DIP_KERNEL(dip_kernel_sample_colours)(DipFragmentBatch *batch,
-                                           const DipSampler *const samplers[2], int u_slot,
+                                           const DipSampler *const samplers[2], int u_varying,
                                            float (*const out[2])[DIP_FRAGMENT_BATCH]) {
     if (!reads_alike(samplers[0], samplers[1])) {
-        DIP_KERNEL(dip_kernel_sample_colour)(batch, samplers[0], u_slot, out[0]);
-        DIP_KERNEL(dip_kernel_sample_colour)(batch, samplers[1], u_slot, out[1]);
+        DIP_KERNEL(dip_kernel_sample_colour)(batch, samplers[0], u_varying, out[0]);
+        DIP_KERNEL(dip_kernel_sample_colour)(batch, samplers[1], u_varying, out[1]);
         return;
     }
     const DipSampler *sampler = samplers[0];
     const Read read = {{sampler->texture, samplers[1]->texture}, 2};
-    SAMPLE_BY_WAY(sample_read, sampler->texture->wraps_in_bits, read, u_slot, out);
+    SAMPLE_BY_WAY(sample_read, sampler->texture->wraps_in_bits, read, u_varying, out);
 }
 
 void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampler *sampler,
-                                         int u_slot, float *out) {
+                                         int u_varying, float *out) {
     if (!sampler->texture->alpha) {
         for (int i = 0; i < batch->count; i += DIP_LANES) {
             vf_store(out + i, vf_splat(1.0f));
         }
         return;
     }
-    SAMPLE_BY_WAY(sample_alpha, sampler->texture->wraps_in_bits, u_slot, out);
+    SAMPLE_BY_WAY(sample_alpha, sampler->texture->wraps_in_bits, u_varying, out);
 }

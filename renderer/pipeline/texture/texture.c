@@ -4,6 +4,7 @@
 #include "renderer/base/assert.h"
 #include "renderer/base/pages.h"
 #include "renderer/base/srgb.h"
+#include "renderer/pipeline/bc1.h"
 #include "renderer/pipeline/texture/mip.h"
 
 #include <math.h>
@@ -72,7 +73,7 @@ static bool is_power_of_two(int size) {
     return (size & (size - 1)) == 0;
 }
 
-// Appends a level's place to the table and returns the texels it takes.
+// Appends a level's position to the table and returns the texels it takes.
 static size_t place_level(DipTexture *texture, int level, int width, int height, size_t offset) {
     texture->level_width[level] = width;
     texture->level_height[level] = height;
@@ -138,10 +139,10 @@ static int padding_source(int i, int size, DipWrap wrap) {
 // height's.
 static void pack_codes(DipTexture *texture, int level, const DipTextureDef *def,
                        const CodeTables *tables, int first, int end) {
-    const size_t place =
+    const size_t position =
         (size_t)texture->level_offset[level] + (size_t)first * (size_t)(def->width + 1);
-    uint32_t *texels = texture->texels + place;
-    uint8_t *alpha = texture->alpha ? texture->alpha + place : NULL;
+    uint32_t *texels = texture->texels + position;
+    uint8_t *alpha = texture->alpha ? texture->alpha + position : NULL;
     for (int y = first; y < end; y++) {
         const uint8_t *row = def->rgba8 + (size_t)padding_source(y, def->height, texture->wrap_v) *
                                               (size_t)def->width * 4;
@@ -209,18 +210,18 @@ void dip_texture_pad_row(DipTexture *texture, int level, int y) {
     const int height = texture->level_height[level];
     const size_t stride = (size_t)width + 1;
     const size_t base = (size_t)texture->level_offset[level];
-    const size_t place = base + (size_t)y * stride;
-    const size_t source = place + (size_t)padding_source(width, width, texture->wrap_u);
+    const size_t position = base + (size_t)y * stride;
+    const size_t source = position + (size_t)padding_source(width, width, texture->wrap_u);
     const size_t below = base + (size_t)height * stride;
     const bool repeated = y == padding_source(height, height, texture->wrap_v);
-    texture->texels[place + (size_t)width] = texture->texels[source];
+    texture->texels[position + (size_t)width] = texture->texels[source];
     if (repeated) {
-        memcpy(texture->texels + below, texture->texels + place, stride * sizeof(uint32_t));
+        memcpy(texture->texels + below, texture->texels + position, stride * sizeof(uint32_t));
     }
     if (texture->alpha) {
-        texture->alpha[place + (size_t)width] = texture->alpha[source];
+        texture->alpha[position + (size_t)width] = texture->alpha[source];
         if (repeated) {
-            memcpy(texture->alpha + below, texture->alpha + place, stride);
+            memcpy(texture->alpha + below, texture->alpha + position, stride);
         }
     }
 }
@@ -228,8 +229,9 @@ void dip_texture_pad_row(DipTexture *texture, int level, int y) {
 // Packs a row of a filtered level, with the padding that repeats it.
 static void store_row(DipTexture *texture, int level, int y, const float *row) {
     const int width = texture->level_width[level];
-    const size_t place = (size_t)texture->level_offset[level] + (size_t)y * ((size_t)width + 1);
-    pack_row(row, width, texture->texels + place, texture->alpha ? texture->alpha + place : NULL);
+    const size_t position = (size_t)texture->level_offset[level] + (size_t)y * ((size_t)width + 1);
+    pack_row(row, width, texture->texels + position,
+             texture->alpha ? texture->alpha + position : NULL);
     dip_texture_pad_row(texture, level, y);
 }
 
@@ -294,7 +296,7 @@ static DipTexture *out_of_memory(DipTexture *texture, const char *name, DipError
     return NULL;
 }
 
-// A texture with its levels' places, without texels in them.
+// A texture with its levels' positions, without texels in them.
 static DipTexture *begin_texture(const DipTextureDef *def, bool clips, DipError *err) {
     if (!check_def(def, err)) {
         return NULL;
@@ -450,4 +452,21 @@ void dip_texture_destroy(DipTexture **texture) {
         free(*texture);
         *texture = NULL;
     }
+}
+
+int dip_texture_level_count(const DipTexture *texture) {
+    return texture->level_count;
+}
+
+void dip_texture_level_size(const DipTexture *texture, int level, int *width, int *height) {
+    *width = texture->level_width[level];
+    *height = texture->level_height[level];
+}
+
+uint64_t dip_texture_colour_bytes(const DipTexture *texture) {
+    return texture ? texture->texel_count * sizeof *texture->texels : 0;
+}
+
+uint64_t dip_texture_alpha_bytes(const DipTexture *texture) {
+    return texture && texture->alpha && !texture->shares_alpha ? texture->texel_count : 0;
 }

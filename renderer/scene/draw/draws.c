@@ -35,12 +35,15 @@ static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *sh
     DipSampler sampler = {
         .texture = texture,
         .max_anisotropy = dip_quality_max_anisotropy(quality),
-        .advanced = quality->step[DIP_SETTING_AAF] != 0,
+        .exact_footprint = quality->step[DIP_SETTING_AAF] != 0,
         .bias_lod8 = bias_lod8[miplod],
         .cheap = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
     };
     if (miplod == DIP_MIPLOD_HIGH_PERFORMANCE) {
-        sampler.min_lod8 = texture->width >= 1024 || texture->height >= 1024 ? 512 : 256;
+        int width;
+        int height;
+        dip_texture_level_size(texture, 0, &width, &height);
+        sampler.min_lod8 = width >= 1024 || height >= 1024 ? 512 : 256;
     }
     if (quality->step[DIP_SETTING_MIPDEBUG]) {
         sampler.shown = shown;
@@ -51,10 +54,10 @@ static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *sh
 
 // A pass' share of the pixel is smaller, so it may read finer levels: by log2(sqrt(passes)), which
 // keeps thin parts of clip maps from being averaged away.
-static int32_t pass_bias_lod8(const DipQuality *quality) {
+static int32_t group_bias_lod8(const DipQuality *quality) {
     static const int32_t bias_lod8[DIP_MAX_SAMPLES + 1] = {
         [2] = -128, [3] = -203, [4] = -256, [6] = -331, [8] = -384};
-    return bias_lod8[dip_quality_sample_count(quality) / dip_quality_samples_per_pass(quality)];
+    return bias_lod8[dip_quality_sample_count(quality) / dip_quality_samples_per_group(quality)];
 }
 
 static const DipTexture *colour_texture(const DipScene *scene, const DipQuality *quality,
@@ -72,7 +75,7 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
             DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_COLOUR];
             *sampler = colour_sampler(quality, shown, colour_texture(scene, quality, material));
             if (material->surface == DIP_SURFACE_CLIPPED) {
-                sampler->bias_lod8 += pass_bias_lod8(quality);
+                sampler->bias_lod8 += group_bias_lod8(quality);
             }
         }
         if (material->light_map != DIP_NO_TEXTURE) {
@@ -157,8 +160,8 @@ static void set_effect(const DipDrawInput *input, const DipDrawSet *set, const D
     if (mesh->normal_mapped) {
         draw->vertex_shader = kernels->dip_kernel_normal_map_vertex;
         draw->fragment_shader = kernels->dip_kernel_normal_map_fragment;
-        draw->slot_count = mesh->mapped_slot_count;
-        draw->plain_slot_count = 0;
+        draw->varying_count = mesh->mapped_varying_count;
+        draw->value_only_varying_count = 0;
     } else if (mesh->sky && !input->quality->step[DIP_SETTING_MIPDEBUG]) {
         draw->fragment_shader = kernels->dip_kernel_sky_fragment;
     }
@@ -194,24 +197,25 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
     DipDraw *draw = &set->draws[set->count];
     DipSurfaceUniforms *uniforms = &set->uniforms[set->count++];
     *uniforms = mesh->normal_mapped && !input->plain_surfaces ? mesh->mapped_layout : mesh->layout;
-    dip_view_place(pass->view, object->transform, uniforms->to_clip);
+    dip_view_object_to_clip(pass->view, object->transform, uniforms->to_clip);
     normal_matrix(object->transform, uniforms->normal_to_world);
-    if (input->quality->step[DIP_SETTING_MIPDEBUG] && uniforms->colour_slot != DIP_NO_SLOT) {
+    if (input->quality->step[DIP_SETTING_MIPDEBUG] && uniforms->colour_varying != DIP_ABSENT) {
         for (int c = 0; c < 3; c++) {
             uniforms->base_colour_lin[c] = 1.0f;
         }
     }
     const bool clipped =
-        material->surface == DIP_SURFACE_CLIPPED && uniforms->colour_slot != DIP_NO_SLOT;
+        material->surface == DIP_SURFACE_CLIPPED && uniforms->colour_varying != DIP_ABSENT;
     *draw = (DipDraw){
-        .mesh = input->expanded ? dip_expanded_mesh(input->expanded, index) : mesh->mesh,
+        .mesh = input->unshared ? dip_unshared_mesh(input->unshared, index) : mesh->mesh,
         .vertex_shader = input->kernels->dip_kernel_surface_vertex,
         .fragment_shader = input->kernels->dip_kernel_surface_fragment,
         .clip_shader = clipped ? input->kernels->dip_kernel_surface_clip : NULL,
-        .slot_count = mesh->slot_count,
-        .plain_slot_count =
-            mesh->layout.light_slot == DIP_NO_SLOT ? 0 : mesh->slot_count - mesh->layout.light_slot,
-        .clip_slot_count = clipped ? uniforms->colour_slot + 2 : 0,
+        .varying_count = mesh->varying_count,
+        .value_only_varying_count = mesh->layout.light_varying == DIP_ABSENT
+                                        ? 0
+                                        : mesh->varying_count - mesh->layout.light_varying,
+        .clip_varying_count = clipped ? uniforms->colour_varying + 2 : 0,
         .uniforms = uniforms,
         .samplers = input->samplers[mesh->material],
         .bounds_to_clip = uniforms->to_clip,

@@ -25,7 +25,7 @@ typedef struct DipDrawInput {
     const DipQuality *quality;
     const DipMaterialSamplers *samplers; // per material
     const DipSkyUniforms *sky;
-    const DipExpanded *expanded; // NULL: objects share the scene's meshes
+    const DipUnsharedMeshes *unshared; // NULL: objects share the scene's meshes
     bool plain_surfaces;
 } DipDrawInput;
 

@@ -66,7 +66,7 @@ void dip_view_plane(const DipView *view, const double plane[4], double clip[4]) 
     clip[3] = -along[2];
 }
 
-void dip_view_place(const DipView *view, const float transform[12], float product[16]) {
+void dip_view_object_to_clip(const DipView *view, const float transform[12], float product[16]) {
     const double *m = view->world_to_clip;
     for (int row = 0; row < 4; row++) {
         for (int c = 0; c < 4; c++) {

@@ -24,6 +24,6 @@ DipView dip_view_mirror(const DipView *view, double level);
 void dip_view_plane(const DipView *view, const double plane[4], double clip[4]);
 
 // product = world_to_clip * transform, whose last row is (0, 0, 0, 1).
-void dip_view_place(const DipView *view, const float transform[12], float product[16]);
+void dip_view_object_to_clip(const DipView *view, const float transform[12], float product[16]);
 
 #endif

@@ -18,15 +18,15 @@
 void DIP_KERNEL(dip_kernel_normal_map_vertex)(const DipVertexBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        place_vertices(uniforms, batch, i);
+        transform_vertices(uniforms, batch, i);
         const Vf3 turned = turn_normal(uniforms, batch, i);
         const Vf3 normal = vf3_scale(turned, inverse_length(vf3_dot(turned, turned)));
-        vf_store(batch->slot[uniforms->normal_slot] + i, normal.x);
-        vf_store(batch->slot[uniforms->normal_slot + 1] + i, normal.y);
-        vf_store(batch->slot[uniforms->normal_slot + 2] + i, normal.z);
-        vf_store(batch->slot[uniforms->depth_slot] + i, vf_load(batch->clip[3] + i));
-        for (int c = 0; c < 3 && uniforms->light_slot != DIP_NO_SLOT; c++) {
-            vf_store(batch->slot[uniforms->light_slot + c] + i,
+        vf_store(batch->varying[uniforms->normal_varying] + i, normal.x);
+        vf_store(batch->varying[uniforms->normal_varying + 1] + i, normal.y);
+        vf_store(batch->varying[uniforms->normal_varying + 2] + i, normal.z);
+        vf_store(batch->varying[uniforms->depth_varying] + i, vf_load(batch->clip[3] + i));
+        for (int c = 0; c < 3 && uniforms->light_varying != DIP_ABSENT; c++) {
+            vf_store(batch->varying[uniforms->light_varying + c] + i,
                      vf_load(batch->in[uniforms->colour_attribute + c] + i));
         }
     }
@@ -64,13 +64,13 @@ typedef struct Tangents {
 // From the derivatives of place and coordinates, so that mirrored coordinates turn them round.
 VEC_INLINE Tangents find_tangents(DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
-    const int u = uniforms->normal_map_slot;
-    const int w = uniforms->depth_slot;
-    const Vf depth = vf_load(batch->slot[w] + i);
-    const Vf3 dx = place_step(uniforms->rays->per_x, depth, ray, vf_load(batch->slot_dx[w] + i));
-    const Vf3 dy = place_step(uniforms->rays->per_y, depth, ray, vf_load(batch->slot_dy[w] + i));
-    const Vf u_dx = vf_load(batch->slot_dx[u] + i), v_dx = vf_load(batch->slot_dx[u + 1] + i);
-    const Vf u_dy = vf_load(batch->slot_dy[u] + i), v_dy = vf_load(batch->slot_dy[u + 1] + i);
+    const int u = uniforms->normal_map_varying;
+    const int w = uniforms->depth_varying;
+    const Vf depth = vf_load(batch->varying[w] + i);
+    const Vf3 dx = place_step(uniforms->rays->per_x, depth, ray, vf_load(batch->varying_dx[w] + i));
+    const Vf3 dy = place_step(uniforms->rays->per_y, depth, ray, vf_load(batch->varying_dy[w] + i));
+    const Vf u_dx = vf_load(batch->varying_dx[u] + i), v_dx = vf_load(batch->varying_dx[u + 1] + i);
+    const Vf u_dy = vf_load(batch->varying_dy[u] + i), v_dy = vf_load(batch->varying_dy[u + 1] + i);
     const Vf area = u_dx * v_dy - u_dy * v_dx;
     const Vf3 along = combine(dx, v_dy, dy, v_dx); // both times the area
     const Vf3 against = combine(dx, u_dy, dy, u_dx);
@@ -92,7 +92,7 @@ VEC_INLINE Tangents find_tangents(DipFragmentBatch *batch, int i, Vf3 ray, Vf3 n
 VEC_INLINE Facing find_facing(DipFragmentBatch *batch, int i, Vf3 ray,
                               float (*map)[DIP_FRAGMENT_BATCH]) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
-    const Vf3 vertex = vf3_load(batch->slot + uniforms->normal_slot, i);
+    const Vf3 vertex = vf3_load(batch->varying + uniforms->normal_varying, i);
     Facing facing = {.mesh = vf3_scale(vertex, inverse_length(vf3_dot(vertex, vertex)))};
     const Tangents tangents = find_tangents(batch, i, ray, facing.mesh);
     Vf3 m = vf3_load(map, i);
@@ -187,14 +187,14 @@ VEC_INLINE void start_mapped_colour(DipFragmentBatch *batch, float (*texture)[DI
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipSampler *const samplers[2] = {&batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
                                            &batch->samplers[DIP_SURFACE_SAMPLER_NORMAL_MAP]};
-    if (uniforms->colour_slot == uniforms->normal_map_slot) {
+    if (uniforms->colour_varying == uniforms->normal_map_varying) {
         float(*const out[2])[DIP_FRAGMENT_BATCH] = {texture, map};
         start_base_colour(batch);
-        batch->sample_colours(batch, samplers, uniforms->colour_slot, out);
+        batch->sample_colours(batch, samplers, uniforms->colour_varying, out);
         scale_colour(batch, texture, 1.0f);
     } else {
         start_colour(batch, texture);
-        batch->sample_colour(batch, samplers[1], uniforms->normal_map_slot, map);
+        batch->sample_colour(batch, samplers[1], uniforms->normal_map_varying, map);
     }
 }
 
@@ -203,15 +203,15 @@ void DIP_KERNEL(dip_kernel_normal_map_fragment)(DipFragmentBatch *batch) {
     float texture[3][DIP_FRAGMENT_BATCH];
     float map[3][DIP_FRAGMENT_BATCH];
     start_mapped_colour(batch, texture, map);
-    if (uniforms->light_slot != DIP_NO_SLOT) {
-        scale_colour(batch, batch->slot + uniforms->light_slot, 1.0f);
+    if (uniforms->light_varying != DIP_ABSENT) {
+        scale_colour(batch, batch->varying + uniforms->light_varying, 1.0f);
     }
-    if (uniforms->light_map_slot != DIP_NO_SLOT) {
+    if (uniforms->light_map_varying != DIP_ABSENT) {
         batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_LIGHT_MAP],
-                             uniforms->light_map_slot, texture);
+                             uniforms->light_map_varying, texture);
         light_by_map(batch, map, texture);
     } else {
         light_by_sun(batch, map);
     }
-    batch->work.normal_mapped += (uint64_t)batch->count;
+    batch->work.counts[DIP_SHADER_COUNT_NORMAL_MAPPED] += (uint64_t)batch->count;
 }

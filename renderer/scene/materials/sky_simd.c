@@ -3,8 +3,8 @@
 #include "renderer/scene/materials/material_kernels.h"
 #include "renderer/scene/materials/surface_simd.h"
 
-// Free slots for the coordinates of a layer.
-enum { LAYER_SLOT = DIP_MAX_SLOTS - 2 };
+// Free varyings for the coordinates of a layer.
+enum { LAYER_VARYING = DIP_MAX_VARYINGS - 2 };
 
 // How steeply a displacement of one texture width may change per unit of coordinates: what a
 // layer's derivatives grow by, so that a displaced layer is read from levels coarse enough.
@@ -13,16 +13,18 @@ enum { LAYER_SLOT = DIP_MAX_SLOTS - 2 };
 // A cloud at its densest is darker by this part.
 #define CLOUD_SHADE 0.2f
 
-// The slots of a read at coordinates * scale, with derivatives that are `steeper` times that.
-VEC_INLINE void scale_coordinates(DipFragmentBatch *batch, int slot, float scale, float steeper) {
+// The varyings of a read at coordinates * scale, with derivatives that are `steeper` times that.
+VEC_INLINE void scale_coordinates(DipFragmentBatch *batch, int varying, float scale,
+                                  float steeper) {
     const float slope = scale * steeper;
     for (int k = 0; k < 2; k++) {
         for (int i = 0; i < batch->count; i += DIP_LANES) {
-            vf_store(batch->slot[LAYER_SLOT + k] + i, vf_load(batch->slot[slot + k] + i) * scale);
-            vf_store(batch->slot_dx[LAYER_SLOT + k] + i,
-                     vf_load(batch->slot_dx[slot + k] + i) * slope);
-            vf_store(batch->slot_dy[LAYER_SLOT + k] + i,
-                     vf_load(batch->slot_dy[slot + k] + i) * slope);
+            vf_store(batch->varying[LAYER_VARYING + k] + i,
+                     vf_load(batch->varying[varying + k] + i) * scale);
+            vf_store(batch->varying_dx[LAYER_VARYING + k] + i,
+                     vf_load(batch->varying_dx[varying + k] + i) * slope);
+            vf_store(batch->varying_dy[LAYER_VARYING + k] + i,
+                     vf_load(batch->varying_dy[varying + k] + i) * slope);
         }
     }
 }
@@ -34,17 +36,18 @@ VEC_INLINE void read_layer(DipFragmentBatch *batch, int layer,
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipSkyUniforms *sky = uniforms->sky;
     const float far = sky->layers[layer].perturbation_widths;
-    scale_coordinates(batch, uniforms->colour_slot, sky->layers[layer].scale,
+    scale_coordinates(batch, uniforms->colour_varying, sky->layers[layer].scale,
                       1.0f + DISPLACEMENT_SLOPE * (far < 0.0f ? -far : far));
     for (int k = 0; k < 2; k++) {
         const float phase = k == 0 ? sky->layers[layer].phase : 0.0f;
         for (int i = 0; i < batch->count; i += DIP_LANES) {
             const Vf push = (vf_load(displacement[k] + i) * 2.0f - 1.0f) * far + phase;
-            float *coordinate = batch->slot[LAYER_SLOT + k] + i;
+            float *coordinate = batch->varying[LAYER_VARYING + k] + i;
             vf_store(coordinate, vf_load(coordinate) + push);
         }
     }
-    batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR], LAYER_SLOT, texels);
+    batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR], LAYER_VARYING,
+                         texels);
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         vf_store(texels[2] + i,
                  clamp01((vf_load(texels[2] + i) - sky->clear) * sky->inverse_range));
@@ -85,8 +88,8 @@ void DIP_KERNEL(dip_kernel_sky_fragment)(DipFragmentBatch *batch) {
     const DipSkyUniforms *sky = uniforms->sky;
     float displacement[3][DIP_FRAGMENT_BATCH];
     float layers[2][3][DIP_FRAGMENT_BATCH];
-    scale_coordinates(batch, uniforms->colour_slot, sky->perturbation_scale, 1.0f);
-    batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR], LAYER_SLOT,
+    scale_coordinates(batch, uniforms->colour_varying, sky->perturbation_scale, 1.0f);
+    batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR], LAYER_VARYING,
                          displacement);
     read_layer(batch, 0, displacement, layers[0]);
     read_layer(batch, 1, displacement, layers[1]);
@@ -103,5 +106,5 @@ void DIP_KERNEL(dip_kernel_sky_fragment)(DipFragmentBatch *batch) {
                      (hazy + weather.glare * sky->glare_lin[c]) * sky->tint_lin[c]);
         }
     }
-    batch->work.sky += (uint64_t)batch->count;
+    batch->work.counts[DIP_SHADER_COUNT_SKY] += (uint64_t)batch->count;
 }

@@ -4,12 +4,19 @@
 
 #include <stdbool.h>
 
+// What the materials' shaders count (DipShaderWork.counts).
+enum {
+    DIP_SHADER_COUNT_NORMAL_MAPPED,
+    DIP_SHADER_COUNT_SKY,
+    DIP_SHADER_COUNT_REFLECTING,
+};
+
 enum {
     DIP_SURFACE_SAMPLER_COLOUR,
     DIP_SURFACE_SAMPLER_LIGHT_MAP,
     DIP_SURFACE_SAMPLER_NORMAL_MAP,
     DIP_SURFACE_SAMPLER_COUNT,
-    DIP_NO_SLOT = -1
+    DIP_ABSENT = -1
 };
 
 // The view ray through a place of the target: origin + x * per_x + y * per_y with x and y in
@@ -39,24 +46,24 @@ typedef struct DipSkyUniforms {
     float tint_lin[3];
 } DipSkyUniforms;
 
-// Vertex attributes in order: position; then what passes through to the slots of the same order
-// (coordinates); then, where there is a light slot, normal (lit) and vertex colour. Of a
-// normal-mapped surface the light slot is the vertex colour alone.
+// Vertex attributes in order: position; then what passes through to the varyings of the same order
+// (coordinates); then, where there is a light varying, normal (lit) and vertex colour. Of a
+// normal-mapped surface the light varying is the vertex colour alone.
 typedef struct DipSurfaceUniforms {
     float to_clip[16];        // row-major
     float normal_to_world[9]; // row-major; directions only, not normalised
-    int pass_count;           // attributes 3.. that become slots 0..
-    int normal_attribute;     // DIP_NO_SLOT: not lit
-    int colour_attribute;     // DIP_NO_SLOT: white
-    int light_slot;           // three slots: light times vertex colour; DIP_NO_SLOT: none
-    int colour_slot;          // two slots: coordinates of the colour texture; or DIP_NO_SLOT
-    int light_map_slot;       // likewise
+    int copied_varying_count; // attributes 3.. that become varyings 0..
+    int normal_attribute;     // DIP_ABSENT: not lit
+    int colour_attribute;     // DIP_ABSENT: white
+    int light_varying;        // three varyings: light times vertex colour; DIP_ABSENT: none
+    int colour_varying;       // two varyings: coordinates of the colour texture; or DIP_ABSENT
+    int light_map_varying;    // likewise
     float base_colour_lin[3];
     float light_map_scale;
     float alpha_cutoff;
-    int normal_map_slot; // two slots: coordinates of the normal map
-    int normal_slot;     // three: unit normal of the vertex in the world
-    int depth_slot;      // clip w
+    int normal_map_varying; // two varyings: coordinates of the normal map
+    int normal_varying;     // three: unit normal of the vertex in the world
+    int depth_varying;      // clip w
     float roughness;
     const DipViewRays *rays; // of normal-mapped surfaces and sky
     const DipSkyUniforms *sky;

@@ -13,17 +13,17 @@ VEC_INLINE Vf light_of(const DipSurfaceUniforms *uniforms, const DipVertexBatch 
 void DIP_KERNEL(dip_kernel_surface_vertex)(const DipVertexBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        place_vertices(uniforms, batch, i);
-        if (uniforms->light_slot == DIP_NO_SLOT) {
+        transform_vertices(uniforms, batch, i);
+        if (uniforms->light_varying == DIP_ABSENT) {
             continue;
         }
-        const Vf light = uniforms->normal_attribute == DIP_NO_SLOT ? vf_splat(1.0f)
-                                                                   : light_of(uniforms, batch, i);
+        const Vf light = uniforms->normal_attribute == DIP_ABSENT ? vf_splat(1.0f)
+                                                                  : light_of(uniforms, batch, i);
         for (int c = 0; c < 3; c++) {
-            const Vf colour = uniforms->colour_attribute == DIP_NO_SLOT
+            const Vf colour = uniforms->colour_attribute == DIP_ABSENT
                                   ? vf_splat(1.0f)
                                   : vf_load(batch->in[uniforms->colour_attribute + c] + i);
-            vf_store(batch->slot[uniforms->light_slot + c] + i, light * colour);
+            vf_store(batch->varying[uniforms->light_varying + c] + i, light * colour);
         }
     }
 }
@@ -32,21 +32,21 @@ void DIP_KERNEL(dip_kernel_surface_fragment)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     float texture[3][DIP_FRAGMENT_BATCH];
     start_colour(batch, texture);
-    if (uniforms->light_map_slot != DIP_NO_SLOT) {
+    if (uniforms->light_map_varying != DIP_ABSENT) {
         batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_LIGHT_MAP],
-                             uniforms->light_map_slot, texture);
+                             uniforms->light_map_varying, texture);
         scale_colour(batch, texture, uniforms->light_map_scale);
     }
-    if (uniforms->light_slot != DIP_NO_SLOT) {
-        scale_colour(batch, batch->slot + uniforms->light_slot, 1.0f);
+    if (uniforms->light_varying != DIP_ABSENT) {
+        scale_colour(batch, batch->varying + uniforms->light_varying, 1.0f);
     }
 }
 
 void DIP_KERNEL(dip_kernel_surface_clip)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     float alpha[DIP_FRAGMENT_BATCH];
-    batch->sample_alpha(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR], uniforms->colour_slot,
-                        alpha);
+    batch->sample_alpha(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
+                        uniforms->colour_varying, alpha);
     for (int i = 0; i < batch->count; i++) {
         batch->keep[i] = alpha[i] >= uniforms->alpha_cutoff;
     }

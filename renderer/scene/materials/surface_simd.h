@@ -44,9 +44,9 @@ VEC_INLINE Vf clamp01(Vf v) {
     return vf_min(vf_max(v, vf_splat(0.0f)), vf_splat(1.0f));
 }
 
-// Clip positions and the slots that pass through.
-VEC_INLINE void place_vertices(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch,
-                               int i) {
+// Clip positions and the varyings that pass through.
+VEC_INLINE void transform_vertices(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch,
+                                   int i) {
     const Vf x = vf_load(batch->in[0] + i);
     const Vf y = vf_load(batch->in[1] + i);
     const Vf z = vf_load(batch->in[2] + i);
@@ -54,8 +54,8 @@ VEC_INLINE void place_vertices(const DipSurfaceUniforms *uniforms, const DipVert
         const float *m = uniforms->to_clip + 4 * c;
         vf_store(batch->clip[c] + i, ((x * m[0] + y * m[1]) + z * m[2]) + m[3]);
     }
-    for (int s = 0; s < uniforms->pass_count; s++) {
-        vf_store(batch->slot[s] + i, vf_load(batch->in[3 + s] + i));
+    for (int s = 0; s < uniforms->copied_varying_count; s++) {
+        vf_store(batch->varying[s] + i, vf_load(batch->in[3 + s] + i));
     }
 }
 
@@ -103,9 +103,9 @@ VEC_INLINE void start_base_colour(DipFragmentBatch *batch) {
 VEC_INLINE void start_colour(DipFragmentBatch *batch, float (*texture)[DIP_FRAGMENT_BATCH]) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     start_base_colour(batch);
-    if (uniforms->colour_slot != DIP_NO_SLOT) {
+    if (uniforms->colour_varying != DIP_ABSENT) {
         batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
-                             uniforms->colour_slot, texture);
+                             uniforms->colour_varying, texture);
         scale_colour(batch, texture, 1.0f);
     }
 }

@@ -51,5 +51,5 @@ void DIP_KERNEL(dip_kernel_water_fragment)(DipFragmentBatch *batch) {
             vf_store(batch->colour[c] + i, own + (vf_load(mirrored[c] + i) - own) * share);
         }
     }
-    batch->work.reflecting += (uint64_t)batch->count;
+    batch->work.counts[DIP_SHADER_COUNT_REFLECTING] += (uint64_t)batch->count;
 }

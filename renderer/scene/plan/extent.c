@@ -76,7 +76,7 @@ void dip_extent_add_triangle(DipExtent *extent, const DipView *view, const doubl
     join(extent, &shape);
 }
 
-void dip_extent_place_box(const float transform[12], const DipBox *box, double corners[8][3]) {
+void dip_extent_box_corners(const float transform[12], const DipBox *box, double corners[8][3]) {
     for (int corner = 0; corner < 8; corner++) {
         for (int axis = 0; axis < 3; axis++) {
             const float *m = transform + 4 * axis;
@@ -103,7 +103,7 @@ static bool to_pixels(double min, double max, int size, int margin, int *first, 
 }
 
 bool dip_extent_region(const DipExtent *extent, int width, int height, int margin,
-                       DipRegion *region) {
+                       DipTargetRegion *region) {
     return to_pixels(extent->min[0], extent->max[0], width, margin, &region->x0, &region->x1) &&
            to_pixels(-extent->max[1], -extent->min[1], height, margin, &region->y0, &region->y1);
 }

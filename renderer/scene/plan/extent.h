@@ -2,7 +2,7 @@
 #ifndef DIP_RENDERER_SCENE_PLAN_EXTENT_H
 #define DIP_RENDERER_SCENE_PLAN_EXTENT_H
 
-#include "renderer/pipeline/geometry/mesh_layout.h"
+#include "renderer/pipeline/mesh.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draw/view.h"
 
@@ -24,11 +24,11 @@ void dip_extent_add_box(DipExtent *extent, const DipView *view, const double cor
 void dip_extent_add_triangle(DipExtent *extent, const DipView *view, const double corners[3][3]);
 
 // A placed box' corners in the world; corner bit k: the far end of axis k.
-void dip_extent_place_box(const float transform[12], const DipBox *box, double corners[8][3]);
+void dip_extent_box_corners(const float transform[12], const DipBox *box, double corners[8][3]);
 
 // The pixels of a picture of that size which the extent touches, and `margin` more to each side.
 // False where there are none.
 bool dip_extent_region(const DipExtent *extent, int width, int height, int margin,
-                       DipRegion *region);
+                       DipTargetRegion *region);
 
 #endif

@@ -1,10 +1,11 @@
 // Cutting projected shapes to tiles.
 #include "renderer/scene/plan/parts.h"
 
-#include "renderer/pipeline/raster/tile.h"
 #include "renderer/scene/plan/extent.h"
 
 #include <string.h>
+
+enum { BLOCK = 8, TILE_BLOCKS = DIP_TARGET_TILE / BLOCK }; // pixels, and blocks per tile row
 
 enum { MAX_CORNERS = 3 + 1 + 4 }; // of a triangle cut by the near plane and a tile's sides
 
@@ -72,27 +73,27 @@ static int greatest(int a, int b) {
 }
 
 // Adds the blocks of the tile at x, y (pixels) that the bounds meet.
-static void join(DipTilePart *part, const Bounds *bounds, int x, int y) {
+static void join(DipTileRegion *part, const Bounds *bounds, int x, int y) {
     const int corner[2] = {x, y};
     int first[2];
     int last[2];
     for (int axis = 0; axis < 2; axis++) {
-        cells(bounds->min[axis] - corner[axis], bounds->max[axis] - corner[axis], DIP_BLOCK,
-              DIP_TILE_BLOCKS, &first[axis], &last[axis]);
+        cells(bounds->min[axis] - corner[axis], bounds->max[axis] - corner[axis], BLOCK,
+              TILE_BLOCKS, &first[axis], &last[axis]);
         if (last[axis] < first[axis]) {
             return;
         }
     }
     const bool empty = part->x0 == part->x1;
-    part->x0 = (uint8_t)least(empty ? DIP_TILE : part->x0, first[0] * DIP_BLOCK);
-    part->y0 = (uint8_t)least(empty ? DIP_TILE : part->y0, first[1] * DIP_BLOCK);
-    part->x1 = (uint8_t)greatest(part->x1, (last[0] + 1) * DIP_BLOCK);
-    part->y1 = (uint8_t)greatest(part->y1, (last[1] + 1) * DIP_BLOCK);
+    part->x0 = (uint8_t)least(empty ? DIP_TARGET_TILE : part->x0, first[0] * BLOCK);
+    part->y0 = (uint8_t)least(empty ? DIP_TARGET_TILE : part->y0, first[1] * BLOCK);
+    part->x1 = (uint8_t)greatest(part->x1, (last[0] + 1) * BLOCK);
+    part->y1 = (uint8_t)greatest(part->y1, (last[1] + 1) * BLOCK);
 }
 
 static void add_to_tile(const DipParts *parts, Polygon polygon, int x, int y, bool whole,
-                        DipTilePart *part) {
-    const double reach = DIP_TILE + parts->margin;
+                        DipTileRegion *part) {
+    const double reach = DIP_TARGET_TILE + parts->margin;
     const double sides[4][4] = {{1.0, 0.0, 0.0, parts->margin - x},
                                 {-1.0, 0.0, 0.0, x + reach},
                                 {0.0, 1.0, 0.0, parts->margin - y},
@@ -107,7 +108,7 @@ static void add_to_tile(const DipParts *parts, Polygon polygon, int x, int y, bo
 }
 
 static int tiles_in(int size) {
-    return (size + DIP_TILE - 1) / DIP_TILE;
+    return (size + DIP_TARGET_TILE - 1) / DIP_TARGET_TILE;
 }
 
 // In pixels.
@@ -115,12 +116,12 @@ static void add_polygon(const DipParts *parts, const Polygon *polygon) {
     const Bounds bounds = bounds_of(polygon, parts->margin);
     const int across = tiles_in(parts->width);
     int x0, x1, y0, y1;
-    cells(bounds.min[0], bounds.max[0], DIP_TILE, across, &x0, &x1);
-    cells(bounds.min[1], bounds.max[1], DIP_TILE, tiles_in(parts->height), &y0, &y1);
+    cells(bounds.min[0], bounds.max[0], DIP_TARGET_TILE, across, &x0, &x1);
+    cells(bounds.min[1], bounds.max[1], DIP_TARGET_TILE, tiles_in(parts->height), &y0, &y1);
     for (int y = y0; y <= y1; y++) {
         for (int x = x0; x <= x1; x++) {
-            add_to_tile(parts, *polygon, x * DIP_TILE, y * DIP_TILE, x0 == x1 && y0 == y1,
-                        &parts->tiles[y * across + x]);
+            add_to_tile(parts, *polygon, x * DIP_TARGET_TILE, y * DIP_TARGET_TILE,
+                        x0 == x1 && y0 == y1, &parts->tiles[y * across + x]);
         }
     }
 }

@@ -7,7 +7,7 @@
 
 // Of a picture; `tiles` has one part per tile, row by row.
 typedef struct DipParts {
-    DipTilePart *tiles;
+    DipTileRegion *tiles;
     int width; // pixels
     int height;
     int margin; // pixels to each side of a shape that count too

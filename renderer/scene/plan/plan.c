@@ -24,7 +24,7 @@ static const DipSceneMaterial *material_of(const DipScene *scene, int object) {
 }
 
 static bool object_in_view(const DipScene *scene, const DipCullPlanes *seen, int object) {
-    return mesh_of(scene, object)->mesh->chunk_count &&
+    return dip_mesh_triangle_count(mesh_of(scene, object)->mesh) &&
            !dip_cull_outside(seen, &scene->objects[object].bounds);
 }
 
@@ -76,33 +76,32 @@ static bool is_below(const DipView *view, const double (*corners)[3], int count)
 static void add_chunk_box(DipExtent *extent, const DipPlanInput *input, const float transform[12],
                           const DipBox *box) {
     double corners[8][3];
-    dip_extent_place_box(transform, box, corners);
+    dip_extent_box_corners(transform, box, corners);
     if (is_below(input->view, (const double(*)[3])corners, 8)) {
         dip_extent_add_box(extent, input->view, (const double(*)[3])corners);
         dip_parts_add_box(input->parts, input->view, (const double(*)[3])corners);
     }
 }
 
-static void place_vertex(const DipMesh *mesh, const float transform[12], uint32_t vertex,
-                         double world[3]) {
+static void transform_point(const float transform[12], const float point[3], double world[3]) {
     for (int axis = 0; axis < 3; axis++) {
         const float *m = transform + 4 * axis;
         world[axis] = m[3];
-        for (uint32_t k = 0; k < 3; k++) {
-            world[axis] += (double)m[k] * mesh->attributes[k * mesh->vertex_total + vertex];
+        for (int k = 0; k < 3; k++) {
+            world[axis] += (double)m[k] * point[k];
         }
     }
 }
 
 static void add_chunk_triangles(DipExtent *extent, const DipPlanInput *input,
-                                const float transform[12], const DipMesh *mesh,
-                                const DipChunk *chunk) {
-    const uint8_t *corner = mesh->indices + chunk->first_index;
-    const uint32_t stride = dip_corner_stride(chunk);
-    for (uint32_t t = 0; t < chunk->triangle_count; t++) {
+                                const float transform[12], const DipMesh *mesh, uint32_t chunk) {
+    const uint32_t count = dip_mesh_chunk_triangle_count(mesh, chunk);
+    for (uint32_t t = 0; t < count; t++) {
+        float points[3][3];
         double corners[3][3];
-        for (uint32_t k = 0; k < 3; k++) {
-            place_vertex(mesh, transform, chunk->first_vertex + corner[k * stride + t], corners[k]);
+        dip_mesh_chunk_triangle(mesh, chunk, t, points);
+        for (int k = 0; k < 3; k++) {
+            transform_point(transform, points[k], corners[k]);
         }
         if (is_below(input->view, (const double(*)[3])corners, 3)) {
             dip_extent_add_triangle(extent, input->view, (const double(*)[3])corners);
@@ -123,11 +122,13 @@ static DipExtent water_extent(const DipPlanInput *input) {
         }
         const float *transform = input->scene->objects[i].transform;
         const DipMesh *mesh = mesh_of(input->scene, i)->mesh;
-        for (uint32_t c = 0; c < mesh->chunk_count; c++) {
-            if (mesh->chunk_count <= FEW_CHUNKS) {
-                add_chunk_triangles(&extent, input, transform, mesh, &mesh->chunks[c]);
+        const uint32_t chunks = dip_mesh_chunk_count(mesh);
+        for (uint32_t c = 0; c < chunks; c++) {
+            if (chunks <= FEW_CHUNKS) {
+                add_chunk_triangles(&extent, input, transform, mesh, c);
             } else {
-                add_chunk_box(&extent, input, transform, &mesh->chunks[c].box);
+                const DipBox box = dip_mesh_chunk_box(mesh, c);
+                add_chunk_box(&extent, input, transform, &box);
             }
         }
     }
@@ -149,7 +150,7 @@ static DipEffect plan_reflection(const DipPlanInput *input, DipFramePlan *plan) 
         return skip("the camera is not above the water");
     }
     plan->water_reflects = true;
-    const DipRegion whole = {0, 0, reflection->width, reflection->height};
+    const DipTargetRegion whole = {0, 0, reflection->width, reflection->height};
     if (input->force_all || reflection->show) {
         plan->mirrored_region = whole;
         return run(input, "its picture is shown whole");
@@ -177,17 +178,17 @@ static DipEffect plan_alpha_clip(const DipPlanInput *input, DipFramePlan *plan) 
 // Passes cost only the tiles that hold alpha-clipped triangles: the pipeline sees to that.
 static DipEffect plan_adaptive_aa(const DipPlanInput *input, DipFramePlan *plan) {
     const int sample_count = dip_quality_sample_count(input->quality);
-    plan->samples_per_pass = sample_count;
+    plan->samples_per_group = sample_count;
     if (!input->quality->step[DIP_SETTING_AAA]) {
         return skip("it is off");
     }
-    if (dip_quality_samples_per_pass(input->quality) == sample_count) {
+    if (dip_quality_samples_per_group(input->quality) == sample_count) {
         return skip("one pass holds all samples");
     }
     if (!plan->effects.alpha_clip.run) {
         return plan->effects.alpha_clip;
     }
-    plan->samples_per_pass = dip_quality_samples_per_pass(input->quality);
+    plan->samples_per_group = dip_quality_samples_per_group(input->quality);
     return run(input, "alpha-clipped surfaces are drawn in several passes");
 }
 
@@ -248,7 +249,7 @@ void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, Dip
         return;
     }
     settle(&effects->alpha_clip, counters->fragments_clip_tested);
-    settle(&effects->adaptive_aa, counters->clip_passes);
+    settle(&effects->adaptive_aa, counters->clip_sample_groups);
     settle(&effects->normal_map, counters->fragments_normal_mapped);
     settle(&effects->sky, counters->fragments_sky);
 }

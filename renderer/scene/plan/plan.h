@@ -36,9 +36,9 @@ typedef struct DipFramePlan {
     // Water shows the mirrored scene: the eye is above the plane. Does not depend on what is in
     // view.
     bool water_reflects;
-    DipRegion mirrored_region; // what the mirrored pass draws of its target, if it runs
-    bool mirrored_parts;       // of the region only the input's parts
-    int samples_per_pass;      // of alpha-clipped surfaces
+    DipTargetRegion mirrored_region; // what the mirrored pass draws of its target, if it runs
+    bool mirrored_parts;             // of the region only the input's parts
+    int samples_per_group;           // of alpha-clipped surfaces
 } DipFramePlan;
 
 DipFramePlan dip_plan_frame(const DipPlanInput *input);

@@ -7,15 +7,16 @@
 #include "renderer/scene/scene.h"
 
 // A mesh for every object of a scene. The first object of a mesh keeps the scene's.
-typedef struct DipExpanded DipExpanded;
+typedef struct DipUnsharedMeshes DipUnsharedMeshes;
 
 // On the pool (may be NULL). To be destroyed at any time, even after the scene.
-DipExpanded *dip_expanded_create(const DipScene *scene, DipPool *pool, DipError *err);
-void dip_expanded_destroy(DipExpanded **expanded);
+DipUnsharedMeshes *dip_unshared_meshes_create(const DipScene *scene, DipPool *pool, DipError *err);
+void dip_unshared_meshes_destroy(DipUnsharedMeshes **unshared);
 
-const DipMesh *dip_expanded_mesh(const DipExpanded *expanded, int object);
+const DipMesh *dip_unshared_mesh(const DipUnsharedMeshes *unshared, int object);
 
 // Fills in the counters of geometry that the objects draw from: NULL, the scene's own meshes.
-void dip_count_geometry(const DipScene *scene, const DipExpanded *expanded, DipCounters *counters);
+void dip_count_geometry(const DipScene *scene, const DipUnsharedMeshes *unshared,
+                        DipCounters *counters);
 
 #endif

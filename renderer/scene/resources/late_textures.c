@@ -1,8 +1,6 @@
 // Making a scene's compressed textures once, for whoever asks first.
 #include "renderer/scene/resources/late_textures.h"
 
-#include "renderer/pipeline/texture/compress.h"
-
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>

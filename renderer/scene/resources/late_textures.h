@@ -3,7 +3,7 @@
 #define DIP_RENDERER_SCENE_RESOURCES_LATE_TEXTURES_H
 
 #include "renderer/base/pool.h"
-#include "renderer/pipeline/texture/texture_layout.h"
+#include "renderer/pipeline/texture.h"
 
 // The compressed textures of opt=standard and opt=advanced. Renderers on any thread share them.
 typedef struct DipLateTextures DipLateTextures;

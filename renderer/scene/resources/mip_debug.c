@@ -25,10 +25,11 @@ DipTexture *dip_mip_debug_create(const DipTextureDef *pictures[DIP_MIP_DEBUG_LEV
 
 void dip_mip_debug_levels(const DipTexture *texture, int32_t shown_level[DIP_LEVEL_TABLE]) {
     for (int level = 0; level < DIP_LEVEL_TABLE; level++) {
-        const int l = level < texture->level_count ? level : texture->level_count - 1;
-        const int32_t width = texture->level_width[l];
-        const int32_t height = texture->level_height[l];
-        const int32_t size = width > height ? width : height;
+        const int last = dip_texture_level_count(texture) - 1;
+        int width;
+        int height;
+        dip_texture_level_size(texture, level < last ? level : last, &width, &height);
+        const int size = width > height ? width : height;
         int shown = 0;
         while (shown < DIP_MIP_DEBUG_LEVELS - 1 && size < 1024 >> shown) {
             shown++;

@@ -2,7 +2,7 @@
 #ifndef DIP_RENDERER_SCENE_RESOURCES_MIP_DEBUG_H
 #define DIP_RENDERER_SCENE_RESOURCES_MIP_DEBUG_H
 
-#include "renderer/pipeline/texture/texture_layout.h"
+#include "renderer/pipeline/texture.h"
 #include "renderer/scene/renderer.h"
 
 // A texture whose level i stands for levels of 1024 >> i texels. pictures: NULL, or one entry per

@@ -2,9 +2,8 @@
 #ifndef DIP_RENDERER_SCENE_RESOURCES_SCENE_LAYOUT_H
 #define DIP_RENDERER_SCENE_RESOURCES_SCENE_LAYOUT_H
 
-#include "renderer/pipeline/geometry/mesh_layout.h"
 #include "renderer/pipeline/mesh.h"
-#include "renderer/pipeline/texture/texture_layout.h"
+#include "renderer/pipeline/texture.h"
 #include "renderer/scene/materials/surface.h"
 #include "renderer/scene/resources/late_textures.h"
 #include "renderer/scene/scene.h"
@@ -12,11 +11,12 @@
 typedef struct DipSceneMesh {
     DipMesh *mesh;
     int material;
-    DipSurfaceUniforms layout; // attributes, slots and material; matrices are filled in per frame
-    int slot_count;
+    DipSurfaceUniforms
+        layout; // attributes, varyings and material; matrices are filled in per frame
+    int varying_count;
     bool normal_mapped;
     DipSurfaceUniforms mapped_layout; // of normal_mapped, likewise
-    int mapped_slot_count;
+    int mapped_varying_count;
     bool sky; // with the texture and coordinates that the effect needs
 } DipSceneMesh;
 
@@ -24,7 +24,7 @@ typedef struct DipSceneObject {
     int mesh;
     float transform[12];
     bool first_of_mesh; // no object before it uses its mesh
-    DipBox bounds;      // in the world, see dip_cull_place_box
+    DipBox bounds;      // in the world, see dip_cull_transform_box
 } DipSceneObject;
 
 typedef struct DipSceneMaterial {

@@ -1,8 +1,8 @@
 // BC1 blocks against the published definition, written out here in whole numbers, and textures
 // against the blocks they are made of.
 #include "renderer/base/srgb.h"
-#include "renderer/pipeline/texture/bc1.h"
-#include "renderer/pipeline/texture/compress.h"
+#include "renderer/pipeline/bc1.h"
+#include "renderer/pipeline/texture/texture_layout.h"
 #include "renderer/reference/texture.h"
 #include "tests/renderer/random.h"
 

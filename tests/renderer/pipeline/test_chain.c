@@ -2,6 +2,7 @@
 // size, the addressing and the number of threads.
 #include "renderer/base/pool.h"
 #include "renderer/base/srgb.h"
+#include "renderer/pipeline/bc1.h"
 #include "renderer/pipeline/texture/texture_layout.h"
 #include "tests/renderer/random.h"
 

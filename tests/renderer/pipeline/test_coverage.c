@@ -37,12 +37,15 @@ typedef struct Case {
     DipOracleKind kind;
 } Case;
 
-static DipSetupTarget target_of(const DipSamplePattern *pattern) {
+// samples: the positions of the pattern, which the target points to.
+static DipSetupTarget target_of(const DipSamplePattern *pattern, DipSamplePositions *samples) {
+    samples->count = 0;
+    dip_sample_positions_add(samples, pattern);
     DipSetupTarget target = {.width = TARGET_WIDTH,
                              .height = TARGET_HEIGHT,
                              .region_last = {TARGET_WIDTH - 1, TARGET_HEIGHT - 1},
-                             .surface_stride = DIP_SURFACE_ALIGN,
-                             .samples = pattern,
+                             .plane_stride = DIP_PLANES_ALIGN,
+                             .samples = samples,
                              .cull = DIP_CULL_NONE,
                              .sample_min = {255, 255}};
     for (int s = 0; s < pattern->count; s++) {
@@ -88,9 +91,10 @@ static bool draw_fast(const DipKernels *kernels, const Case *c, const DipClipTes
     const uint32_t patch[DIP_BATCH_ALIGN] = {0};
     const DipSetupBatch batch = {
         .count = 1, .corner = {corner[0], corner[1], corner[2]}, .patch = patch, .screen = &screen};
-    const DipSetupTarget target = target_of(c->pattern);
+    DipSamplePositions samples;
+    const DipSetupTarget target = target_of(c->pattern, &samples);
     DipTriangle triangle[1 + DIP_SETUP_EXCESS];
-    float surface[(1 + DIP_SETUP_EXCESS) * DIP_SURFACE_ALIGN];
+    float surface[(1 + DIP_SETUP_EXCESS) * DIP_PLANES_ALIGN];
     *tile = (DipTile){.x0 = c->region.x0, .y0 = c->region.y0, .pattern = c->pattern};
     tile->depth = depth;
     tile->id = ids;
@@ -256,9 +260,9 @@ static const uint8_t *ask_chequer(void *context, const DipTriangle *triangle) {
     const DipSamplePattern *pattern = chequer->c->pattern;
     assert_in_range(chequer->list.count, 1, DIP_FRAGMENT_BATCH);
     for (int i = 0; i < chequer->list.count; i++) {
-        const uint32_t place = chequer->list.place[i];
-        const int x = place & (DIP_TILE - 1);
-        const int y = place >> DIP_PLACE_Y & (DIP_TILE - 1);
+        const uint32_t position = chequer->list.position[i];
+        const int x = position & (DIP_TILE - 1);
+        const int y = position >> DIP_POSITION_Y & (DIP_TILE - 1);
         if (x >= region->width || y >= region->height) {
             continue; // beyond the target, where nobody looks
         }
@@ -267,8 +271,8 @@ static const uint8_t *ask_chequer(void *context, const DipTriangle *triangle) {
         const int first = mask ? __builtin_ctz(mask) : 0;
         assert_int_equal(chequer->list.triangle[i], 0);
         assert_true(mask != 0);
-        assert_int_equal(place >> DIP_PLACE_SUB_X & 255, whole ? 128 : pattern->x[first]);
-        assert_int_equal(place >> DIP_PLACE_SUB_Y & 255, whole ? 128 : pattern->y[first]);
+        assert_int_equal(position >> DIP_POSITION_SUB_X & 255, whole ? 128 : pattern->x[first]);
+        assert_int_equal(position >> DIP_POSITION_SUB_Y & 255, whole ? 128 : pattern->y[first]);
         chequer->asked[y * region->width + x]++;
         chequer->keep[i] = chequer_keeps(x, y);
     }

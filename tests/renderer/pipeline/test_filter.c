@@ -1,5 +1,6 @@
 // The fast path's level of detail on a grazing plane, against the footprint in closed form: for
-// every step of anisotropic filtering, plain and advanced, with the camera rolled about its axis.
+// every step of anisotropic filtering, plain and exact_footprint, with the camera rolled about its
+// axis.
 //
 // The middle of the picture looks along the view axis at a plane 1 m below, 6 degrees down, so the
 // pixel's footprint there is an ellipse of known axes. Mip colours tell the level that was read.
@@ -49,10 +50,10 @@ static void close_bench(Bench *bench) {
 }
 
 // The colour in the middle of the picture, linear light.
-static void middle_colour(Bench *bench, int af_step, bool advanced, double rgb_lin[3]) {
+static void middle_colour(Bench *bench, int af_step, bool exact_footprint, double rgb_lin[3]) {
     DipQuality quality = dip_quality_default();
     quality.step[DIP_SETTING_AF] = (uint8_t)af_step;
-    quality.step[DIP_SETTING_AAF] = advanced;
+    quality.step[DIP_SETTING_AAF] = exact_footprint;
     quality.step[DIP_SETTING_MIPDEBUG] = 1;
     DipFrame frame;
     assert_true(dip_renderer_set_quality(bench->renderer, &quality, NULL));
@@ -93,11 +94,11 @@ static double ratio_of(double a, double b, double cap) {
 }
 
 // lambda by docs/picture.md for the ellipse seen by a camera rolled by `roll`.
-static double expected_lambda(double roll, int max, bool advanced) {
+static double expected_lambda(double roll, int max, bool exact_footprint) {
     double major;
     double minor;
     closed_form_axes(&major, &minor);
-    if (advanced && max > 1) {
+    if (exact_footprint && max > 1) {
         return log2(major / fmin(major / minor, max));
     }
     // Lengths of dX and dY in the screen's frame, and in one turned by 45 degrees.
@@ -115,7 +116,7 @@ static double expected_lambda(double roll, int max, bool advanced) {
                                        : log2(fmax(x, y) / screen_ratio);
 }
 
-static void levels_follow_the_closed_form(bool advanced) {
+static void levels_follow_the_closed_form(bool exact_footprint) {
     for (int degrees = -90; degrees <= 180; degrees += 15) {
         // A little aside of where two frames tie, and of the 22.5 degrees between.
         const double roll_deg = degrees + 2.0;
@@ -124,14 +125,15 @@ static void levels_follow_the_closed_form(bool advanced) {
         for (int step = 0; step < 5; step++) {
             double found[3];
             double expected[3];
-            const double lambda = expected_lambda(roll_deg * pi / 180.0, 1 << step, advanced);
-            middle_colour(&bench, step, advanced, found);
+            const double lambda =
+                expected_lambda(roll_deg * pi / 180.0, 1 << step, exact_footprint);
+            middle_colour(&bench, step, exact_footprint, found);
             colour_of_level(lambda, expected);
             for (int c = 0; c < 3; c++) {
                 if (fabs(found[c] - expected[c]) > tolerance_lin) {
-                    fail_msg("roll %g, af %d, advanced %d, lambda %.3f: channel %d is %.4f, "
+                    fail_msg("roll %g, af %d, exact_footprint %d, lambda %.3f: channel %d is %.4f, "
                              "expected %.4f within %g",
-                             roll_deg, 1 << step, advanced, lambda, c, found[c], expected[c],
+                             roll_deg, 1 << step, exact_footprint, lambda, c, found[c], expected[c],
                              tolerance_lin);
                 }
             }
@@ -151,12 +153,12 @@ static void advanced_af_reads_the_closed_form_level(void **state) {
 }
 
 // How much the colour moves when the camera rolls from 0 to 22.5 degrees.
-static double change_under_roll(int step, bool advanced) {
+static double change_under_roll(int step, bool exact_footprint) {
     double colours[2][3];
     for (int i = 0; i < 2; i++) {
         Bench bench;
         open_bench(&bench, i * 22.5);
-        middle_colour(&bench, step, advanced, colours[i]);
+        middle_colour(&bench, step, exact_footprint, colours[i]);
         close_bench(&bench);
     }
     double greatest = 0.0;

@@ -112,15 +112,15 @@ static void random_screen(Random *random, DipScreenBatch *screen) {
 
 static void compare_setup(const DipKernels *scalar, const DipKernels *other, Random *random) {
     static DipScreenBatch screen;
-    static float slots[DIP_MAX_SLOTS][DIP_VERTEX_BATCH];
+    static float varyings[DIP_MAX_VARYINGS][DIP_VERTEX_BATCH];
     static uint8_t corner[3][DIP_SETUP_BATCH];
     static uint32_t patch[DIP_SETUP_BATCH + DIP_BATCH_ALIGN];
     static DipTriangle triangles[2][SETUP_ROOM];
-    static float surfaces[2][SETUP_ROOM * 64];
+    static float planes[2][SETUP_ROOM * 64];
     random_screen(random, &screen);
     for (int i = 0; i < DIP_VERTEX_BATCH; i++) {
-        for (int s = 0; s < DIP_MAX_SLOTS; s++) {
-            slots[s][i] = awkward(random, 3.0);
+        for (int s = 0; s < DIP_MAX_VARYINGS; s++) {
+            varyings[s][i] = awkward(random, 3.0);
         }
     }
     for (int t = 0; t < DIP_SETUP_BATCH; t++) {
@@ -129,34 +129,36 @@ static void compare_setup(const DipKernels *scalar, const DipKernels *other, Ran
         }
         patch[t] = (uint32_t)random_int(random, 0, 999);
     }
-    const int slot_count = random_int(random, 0, DIP_MAX_SLOTS);
+    const int varying_count = random_int(random, 0, DIP_MAX_VARYINGS);
+    DipSamplePositions samples = {.count = 0};
+    dip_sample_positions_add(&samples, dip_sample_pattern(8));
     const DipSetupTarget target = {.width = random_int(random, 1, 8192),
                                    .height = random_int(random, 1, 8192),
                                    .region_first = {random_int(random, 0, 99), 0},
                                    .region_last = {random_int(random, 99, 8191), 8191},
-                                   .slot_count = slot_count,
-                                   .surface_stride = dip_surface_stride(slot_count),
+                                   .varying_count = varying_count,
+                                   .plane_stride = dip_plane_stride(varying_count),
                                    .draw = 17,
                                    .first_patch = 1000,
                                    .cull = (DipCull)random_int(random, 0, 2),
-                                   .samples = dip_sample_pattern(8),
+                                   .samples = &samples,
                                    .sample_min = {16, 16},
                                    .sample_max = {240, 240}};
     const DipSetupBatch batch = {.count = random_int(random, 1, DIP_SETUP_BATCH),
                                  .corner = {corner[0], corner[1], corner[2]},
                                  .patch = patch,
                                  .screen = &screen,
-                                 .slots = slots[0],
-                                 .slot_stride = DIP_VERTEX_BATCH};
-    const int expected = scalar->dip_kernel_setup(&target, &batch, triangles[0], surfaces[0]);
-    const int found = other->dip_kernel_setup(&target, &batch, triangles[1], surfaces[1]);
+                                 .varyings = varyings[0],
+                                 .varying_stride = DIP_VERTEX_BATCH};
+    const int expected = scalar->dip_kernel_setup(&target, &batch, triangles[0], planes[0]);
+    const int found = other->dip_kernel_setup(&target, &batch, triangles[1], planes[1]);
     assert_int_equal(found, expected);
     assert_memory_equal(triangles[0], triangles[1], (size_t)found * sizeof triangles[0][0]);
     for (int t = 0; t < found; t++) {
-        const int at = t * target.surface_stride;
-        for (int f = 0; f < dip_surface_floats(slot_count); f++) {
-            const float a = surfaces[0][at + f];
-            const float b = surfaces[1][at + f];
+        const int at = t * target.plane_stride;
+        for (int f = 0; f < dip_plane_floats(varying_count); f++) {
+            const float a = planes[0][at + f];
+            const float b = planes[1][at + f];
             assert_true(memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b)));
         }
     }
@@ -193,12 +195,12 @@ static void random_coordinates(DipFragmentBatch *batch, Random *random) {
     batch->count = random_int(random, 1, DIP_FRAGMENT_BATCH);
     for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
         for (int s = 0; s < 2; s++) {
-            batch->slot[s][i] = awkward(random, 3.0);
-            batch->slot_dx[s][i] = awkward(random, spread);
-            batch->slot_dy[s][i] = awkward(random, spread);
+            batch->varying[s][i] = awkward(random, 3.0);
+            batch->varying_dx[s][i] = awkward(random, spread);
+            batch->varying_dy[s][i] = awkward(random, spread);
         }
     }
-    batch->work = (DipSampleWork){0};
+    batch->work = (DipShaderWork){0};
 }
 
 static void compare_sampling(const DipKernels *scalar, const DipKernels *other, Random *random) {
@@ -209,15 +211,15 @@ static void compare_sampling(const DipKernels *scalar, const DipKernels *other, 
     const DipSampler sampler = {
         .texture = texture,
         .max_anisotropy = 1 << random_int(random, 0, 4),
-        .advanced = random_int(random, 0, 1) != 0,
+        .exact_footprint = random_int(random, 0, 1) != 0,
         .bias_lod8 = random_int(random, -256, 512),
         .min_lod8 = 256 * random_int(random, 0, 2),
         .cheap = random_int(random, 0, 1) != 0,
     };
     random_coordinates(&batch, random);
     scalar->dip_kernel_sample_colour(&batch, &sampler, 0, expected);
-    const DipSampleWork work = batch.work;
-    batch.work = (DipSampleWork){0};
+    const DipShaderWork work = batch.work;
+    batch.work = (DipShaderWork){0};
     other->dip_kernel_sample_colour(&batch, &sampler, 0, found);
     assert_int_equal(batch.work.probes, work.probes);
     assert_int_equal(batch.work.texels, work.texels);
@@ -255,8 +257,8 @@ static void compare_two_textures(const DipKernels *scalar, const DipKernels *oth
     for (int t = 0; t < 2; t++) {
         scalar->dip_kernel_sample_colour(&batch, &samplers[t], 0, expected[t]);
     }
-    const DipSampleWork work = batch.work;
-    batch.work = (DipSampleWork){0};
+    const DipShaderWork work = batch.work;
+    batch.work = (DipShaderWork){0};
     other->dip_kernel_sample_colours(&batch, (const DipSampler *const[2]){samplers, samplers + 1},
                                      0, (float(*const[2])[DIP_FRAGMENT_BATCH]){found[0], found[1]});
     assert_int_equal(batch.work.probes, work.probes);
@@ -281,11 +283,11 @@ static void sampling_is_the_same_for_every_isa(void **state) {
 
 // --- fragments ---------------------------------------------------------------------------------
 
-enum { TRIANGLES = 40, SLOTS = 5 };
+enum { TRIANGLES = 40, VARYINGS = 5 };
 
 static void compare_fragments(const DipKernels *scalar, const DipKernels *other, Random *random) {
     static DipTriangle triangles[TRIANGLES];
-    static float surfaces[TRIANGLES * (DIP_SURFACE_SLOTS + 3 * SLOTS + DIP_SURFACE_ALIGN)];
+    static float planes[TRIANGLES * (DIP_PLANES_VARYINGS + 3 * VARYINGS + DIP_PLANES_ALIGN)];
     static DipFragmentBatch expected;
     static DipFragmentBatch found;
     static DipSrgbEncodeTable srgb;
@@ -293,24 +295,24 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
     if (!srgb.code[DIP_LINEAR16_MAX]) {
         dip_srgb_encode_table(&srgb);
     }
-    for (size_t i = 0; i < DIP_ARRAY_COUNT(surfaces); i++) {
-        surfaces[i] = awkward(random, 2.0);
+    for (size_t i = 0; i < DIP_ARRAY_COUNT(planes); i++) {
+        planes[i] = awkward(random, 2.0);
     }
     list.count = random_int(random, 1, DIP_FRAGMENT_BATCH);
     const bool one_triangle = random_int(random, 0, 1);
     for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
         list.triangle[i] = one_triangle ? 3 : (uint32_t)random_int(random, 0, TRIANGLES - 1);
-        list.place[i] = (uint32_t)random_int(random, 0, (1 << 28) - 1);
+        list.position[i] = (uint32_t)random_int(random, 0, (1 << 28) - 1);
     }
-    const DipShadingInput input = {triangles, surfaces, dip_surface_stride(SLOTS), 576, 448};
-    scalar->dip_kernel_interpolate(&input, &list, SLOTS, 0, &expected);
-    other->dip_kernel_interpolate(&input, &list, SLOTS, 0, &found);
-    for (int s = 0; s < SLOTS; s++) {
+    const DipShadingInput input = {triangles, planes, dip_plane_stride(VARYINGS), 576, 448};
+    scalar->dip_kernel_interpolate(&input, &list, VARYINGS, 0, &expected);
+    other->dip_kernel_interpolate(&input, &list, VARYINGS, 0, &found);
+    for (int s = 0; s < VARYINGS; s++) {
         for (int i = 0; i < list.count; i++) {
             // Any NaN equals any NaN: its bits depend on the instruction's operand order.
-            const float *pairs[3][2] = {{&found.slot[s][i], &expected.slot[s][i]},
-                                        {&found.slot_dx[s][i], &expected.slot_dx[s][i]},
-                                        {&found.slot_dy[s][i], &expected.slot_dy[s][i]}};
+            const float *pairs[3][2] = {{&found.varying[s][i], &expected.varying[s][i]},
+                                        {&found.varying_dx[s][i], &expected.varying_dx[s][i]},
+                                        {&found.varying_dy[s][i], &expected.varying_dy[s][i]}};
             for (int k = 0; k < 3; k++) {
                 if (!isnan(*pairs[k][0]) || !isnan(*pairs[k][1])) {
                     assert_memory_equal(pairs[k][0], pairs[k][1], sizeof(float));

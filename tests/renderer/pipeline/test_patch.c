@@ -1,5 +1,5 @@
 // Patches: what may be shaded as one surface, and that it is.
-#include "renderer/pipeline/geometry/patch.h"
+#include "renderer/pipeline/patch.h"
 #include "renderer/pipeline/pipeline.h"
 
 #include <math.h>
@@ -195,13 +195,13 @@ static void cover(const DipVertexBatch *batch) {
         batch->clip[1][i] = 2.0f * batch->in[1][i] - 1.0f;
         batch->clip[2][i] = 0.5f;
         batch->clip[3][i] = 1.0f;
-        batch->slot[0][i] = batch->in[0][i];
+        batch->varying[0][i] = batch->in[0][i];
     }
 }
 
 static void red_ramp(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
-        batch->colour[0][i] = batch->slot[0][i];
+        batch->colour[0][i] = batch->varying[0][i];
         batch->colour[1][i] = batch->colour[2][i] = 0.0f;
     }
 }
@@ -210,13 +210,13 @@ static uint64_t fragments_of(const DipMesh *mesh, int samples) {
     const DipDraw draw = {.mesh = mesh,
                           .vertex_shader = cover,
                           .fragment_shader = red_ramp,
-                          .slot_count = 1,
+                          .varying_count = 1,
                           .cull = DIP_CULL_NONE};
     const DipPass pass = {.draws = &draw,
                           .draw_count = 1,
                           .sample_count = samples,
                           .target = {picture, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
-    DipCounters counters = {0};
+    DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     DipPool *pool = dip_pool_create(1, NULL);
     DipPipeline *pipeline = dip_pipeline_create(pool, dip_isa_best(), WIDTH, HEIGHT, NULL);

@@ -25,7 +25,7 @@ static void vertex_shader(const DipVertexBatch *batch) {
         for (int c = 0; c < 4; c++) {
             batch->clip[c][i] = batch->in[c][i];
         }
-        batch->slot[0][i] = batch->in[4][i];
+        batch->varying[0][i] = batch->in[4][i];
     }
 }
 
@@ -45,16 +45,16 @@ static void grey(DipFragmentBatch *batch) {
 static void varying(DipFragmentBatch *batch) {
     const float scale = *(const float *)batch->uniforms;
     for (int i = 0; i < batch->count; i++) {
-        batch->colour[0][i] = batch->slot[0][i];
-        batch->colour[1][i] = batch->slot_dx[0][i] * scale;
-        batch->colour[2][i] = batch->slot_dy[0][i] * scale;
+        batch->colour[0][i] = batch->varying[0][i];
+        batch->colour[1][i] = batch->varying_dx[0][i] * scale;
+        batch->colour[2][i] = batch->varying_dy[0][i] * scale;
     }
 }
 
 // There where the varying is at least one half.
 static void keep_upper_half(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
-        batch->keep[i] = batch->slot[0][i] >= 0.5f;
+        batch->keep[i] = batch->varying[0][i] >= 0.5f;
     }
 }
 
@@ -65,7 +65,7 @@ static DipDraw draw_of(const DipMesh *mesh, DipFragmentShader *shader) {
     return (DipDraw){.mesh = mesh,
                      .vertex_shader = vertex_shader,
                      .fragment_shader = shader,
-                     .slot_count = 1,
+                     .varying_count = 1,
                      .cull = DIP_CULL_NONE};
 }
 
@@ -76,8 +76,8 @@ static DipPass pass_of(const DipDraw *draws, int count, int samples) {
                      .target = {picture, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
 }
 
-static DipCounters run(const DipPass *pass) {
-    DipCounters counters = {0};
+static DipPipelineCounters run(const DipPass *pass) {
+    DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     DipPool *pool = dip_pool_create(2, NULL);
     DipPipeline *pipeline = dip_pipeline_create(pool, dip_isa_best(), WIDTH, HEIGHT, NULL);
@@ -122,7 +122,7 @@ static void every_pixel_is_drawn_once(void **state) {
     for (int samples = 1; samples <= 8; samples += samples == 1 ? 1 : 2) {
         const DipDraw draw = draw_of(mesh, white);
         const DipPass pass = pass_of(&draw, 1, samples);
-        const DipCounters counters = run(&pass);
+        const DipPipelineCounters counters = run(&pass);
         assert_int_equal(lit_pixels(), WIDTH * HEIGHT);
         // The diagonal's pixels hold both triangles, which are one patch.
         assert_int_equal(counters.fragments_shaded, WIDTH * HEIGHT);
@@ -145,7 +145,7 @@ static void samples_are_counted(void **state) {
     assert_int_equal(shown, lit_pixels());
     for (int samples = 2; samples <= 8; samples += 2) {
         const DipPass pass = pass_of(&draw, 1, samples);
-        const DipCounters counters = run(&pass);
+        const DipPipelineCounters counters = run(&pass);
         uint64_t expected = 0; // a pixel's light is how many of its samples are white
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             expected += (uint64_t)lround(samples * dip_srgb_decode(picture[4 * i] / 255.0));
@@ -202,10 +202,10 @@ static void clip_shader_decides_what_is_there(void **state) {
     DipMesh *back = screen(0.2f);
     DipDraw draws[2] = {draw_of(front, white), draw_of(back, grey)};
     draws[0].clip_shader = keep_upper_half;
-    draws[0].clip_slot_count = 1;
+    draws[0].clip_varying_count = 1;
     for (int samples = 1; samples <= 8; samples += samples == 1 ? 1 : 2) {
         const DipPass pass = pass_of(draws, 2, samples);
-        const DipCounters counters = run(&pass);
+        const DipPipelineCounters counters = run(&pass);
         // Where the front is clipped away the back shows, whichever was submitted first.
         assert_int_equal(lit_pixels(), WIDTH / 2 * HEIGHT);
         assert_true(red(0, 0) > 0 && red(0, 0) < 255);
@@ -282,11 +282,11 @@ static void a_region_spares_the_other_blocks(void **state) {
     DipPass pass = pass_of(draws, 2, 4);
     run(&pass);
     memcpy(whole, picture, sizeof whole);
-    static const DipRegion regions[] = {{0, 0, 1, 1},      {70, 0, 71, 3},   {3, 66, 60, 70},
-                                        {64, 64, 100, 70}, {63, 63, 65, 65}, {65, 8, 80, 40}};
+    static const DipTargetRegion regions[] = {{0, 0, 1, 1},      {70, 0, 71, 3},   {3, 66, 60, 70},
+                                              {64, 64, 100, 70}, {63, 63, 65, 65}, {65, 8, 80, 40}};
     for (size_t r = 0; r < sizeof regions / sizeof *regions; r++) {
         pass.region = regions[r];
-        const DipCounters counters = run(&pass);
+        const DipPipelineCounters counters = run(&pass);
         const int across = (regions[r].x1 - 1) / TILE - regions[r].x0 / TILE + 1;
         const int down = (regions[r].y1 - 1) / TILE - regions[r].y0 / TILE + 1;
         const int x0 = regions[r].x0 / BLOCK;
@@ -324,23 +324,23 @@ static void parts_of_tiles_spare_the_other_blocks(void **state) {
     DipPass pass = pass_of(&draw, 1, 4);
     run(&pass);
     memcpy(whole, picture, sizeof whole);
-    static const DipTilePart choice[] = {
+    static const DipTileRegion choice[] = {
         {0, 0, 0, 0}, {0, 0, TILE, TILE}, {8, 16, 24, 40}, {56, 0, TILE, 8}};
-    DipTilePart parts[TILES];
-    pass.tile_parts = parts;
+    DipTileRegion parts[TILES];
+    pass.tile_regions = parts;
     for (int first = 0; first < 4; first++) {
         uint64_t drawn = 0;
         for (int t = 0; t < TILES; t++) {
             parts[t] = choice[(first + t) % 4];
             drawn += parts[t].x1 != 0;
         }
-        const DipCounters counters = run(&pass);
+        const DipPipelineCounters counters = run(&pass);
         assert_int_equal(counters.tiles_drawn, drawn);
         assert_int_equal(counters.tiles_spared, TILES - drawn);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             const int x = i % WIDTH;
             const int y = i / WIDTH;
-            const DipTilePart *part = &parts[y / TILE * TILES_X + x / TILE];
+            const DipTileRegion *part = &parts[y / TILE * TILES_X + x / TILE];
             const bool within = x % TILE >= part->x0 && x % TILE < part->x1 &&
                                 y % TILE >= part->y0 && y % TILE < part->y1;
             for (int c = 0; c < 4; c++) {
@@ -450,7 +450,7 @@ static void impossible_vertices_draw_nothing(void **state) {
         draw.vertex_shader = bad_vertex_shader;
         draw.uniforms = &bad;
         const DipPass pass = pass_of(&draw, 1, 1);
-        const DipCounters counters = run(&pass);
+        const DipPipelineCounters counters = run(&pass);
         // The triangle with the bad vertex is gone, the other one whole.
         assert_int_equal(counters.triangles_drawn, 1);
         assert_int_equal(red(WIDTH / 2, HEIGHT / 2), 255);

@@ -51,19 +51,19 @@ static void place(int i, double u, double v, double major, double minor, double 
     const double dy[2] = {-minor * sin(angle), minor * cos(angle)};
     const double at[2] = {u, v};
     for (int s = 0; s < 2; s++) {
-        bench.batch.slot[s][i] = (float)(at[s] / SIZE);
-        bench.batch.slot_dx[s][i] = (float)(dx[s] / SIZE);
-        bench.batch.slot_dy[s][i] = (float)(dy[s] / SIZE);
+        bench.batch.varying[s][i] = (float)(at[s] / SIZE);
+        bench.batch.varying_dx[s][i] = (float)(dx[s] / SIZE);
+        bench.batch.varying_dy[s][i] = (float)(dy[s] / SIZE);
     }
 }
 
 static void sample(const DipKernels *kernels, bool cheap) {
     const DipSampler sampler = {
-        .texture = bench.fast, .max_anisotropy = 16, .advanced = true, .cheap = cheap};
+        .texture = bench.fast, .max_anisotropy = 16, .exact_footprint = true, .cheap = cheap};
     bench.batch.count = LANES;
-    bench.batch.work = (DipSampleWork){0};
+    bench.batch.work = (DipShaderWork){0};
     kernels->dip_kernel_sample_alpha(&bench.batch, &sampler, 0, bench.alpha);
-    bench.batch.work = (DipSampleWork){0};
+    bench.batch.work = (DipShaderWork){0};
     kernels->dip_kernel_sample_colour(&bench.batch, &sampler, 0, bench.colour);
 }
 
@@ -124,8 +124,8 @@ static void test_a_period_of_stripes_is_their_mean(void **state) {
     FOR_EACH_ISA(kernels) {
         for (int i = 0; i < LANES; i++) {
             place(i, 0.0, 100.0, 20.0, 1.25, 0.0);
-            bench.batch.slot[0][i] = (float)((100.0 + i * 0.37) / WIDTH);
-            bench.batch.slot_dx[0][i] = (float)(20.0 / WIDTH);
+            bench.batch.varying[0][i] = (float)((100.0 + i * 0.37) / WIDTH);
+            bench.batch.varying_dx[0][i] = (float)(20.0 / WIDTH);
         }
         sample(kernels, false);
         assert_int_equal(bench.batch.work.probes, LANES * 16);
@@ -182,11 +182,12 @@ static void test_noise_is_read_as_the_reference_does(void **state) {
             }
             const bool cheap = round % 2;
             sample(kernels, cheap);
-            const DipRefFilter filter = {.max_anisotropy = 16, .advanced = true, .cheap = cheap};
+            const DipRefFilter filter = {
+                .max_anisotropy = 16, .exact_footprint = true, .cheap = cheap};
             for (int i = 0; i < LANES; i++) {
-                const double uv[2] = {bench.batch.slot[0][i], bench.batch.slot[1][i]};
-                const double dx[2] = {bench.batch.slot_dx[0][i], bench.batch.slot_dx[1][i]};
-                const double dy[2] = {bench.batch.slot_dy[0][i], bench.batch.slot_dy[1][i]};
+                const double uv[2] = {bench.batch.varying[0][i], bench.batch.varying[1][i]};
+                const double dx[2] = {bench.batch.varying_dx[0][i], bench.batch.varying_dx[1][i]};
+                const double dy[2] = {bench.batch.varying_dy[0][i], bench.batch.varying_dy[1][i]};
                 double rgba[4];
                 dip_reference_sample(&bench.reference, &filter, uv, dx, dy, rgba);
                 const double off =

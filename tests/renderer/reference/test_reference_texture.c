@@ -175,8 +175,8 @@ static void test_probes_lie_at_interval_midpoints(void **state) {
     const DipTextureDef def = make_def(64, 64, DIP_ENCODING_LINEAR, DIP_WRAP_CLAMP);
     DipRefTexture texture;
     open_texture(&texture, &def);
-    for (int advanced = 0; advanced < 2; advanced++) {
-        const DipRefFilter filter = {.max_anisotropy = 16, .advanced = advanced};
+    for (int exact_footprint = 0; exact_footprint < 2; exact_footprint++) {
+        const DipRefFilter filter = {.max_anisotropy = 16, .exact_footprint = exact_footprint};
         for (int shift = -8; shift <= 8; shift++) {
             const double uv[2] = {(32.0 + shift) / 64.0, 0.5};
             const double along[2] = {16.0 / 64.0, 0.0};
@@ -225,7 +225,7 @@ static void test_any_coordinate_is_read_from_inside(void **state) {
             make_def(7, 5, DIP_ENCODING_SRGB, wrap ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT);
         DipRefTexture texture;
         open_texture(&texture, &def);
-        const DipRefFilter filter = {.max_anisotropy = 16, .advanced = wrap};
+        const DipRefFilter filter = {.max_anisotropy = 16, .exact_footprint = wrap};
         for (int i = 0; i < 9 * 9 * 9; i++) {
             const double uv[2] = {awkward[i % 9], awkward[i / 9 % 9]};
             const double dx[2] = {awkward[i / 81], 0.5};

@@ -100,7 +100,7 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
     const bool narrow = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
     const bool anisotropic = quality->step[DIP_SETTING_AF] != 0;
-    const bool passes = dip_quality_samples_per_pass(quality) < dip_quality_sample_count(quality);
+    const bool passes = dip_quality_samples_per_group(quality) < dip_quality_sample_count(quality);
     switch (kind) {
     case DIP_TEST_SCENE_sky:
         return mip_colours ? &steady : &sky;

@@ -64,8 +64,8 @@ static int draw_everything(DipRenderer *const panes[2], const DipScene *scene, D
         DipFrame frames[2];
         assert_true(dip_renderer_set_quality(panes[0], &quality, NULL));
         assert_true(dip_renderer_draw(panes[0], scene, &pose, i, &frames[0], NULL));
-        assert_true(dip_renderer_draw_pair(panes, scene, &pose, i,
-                                           (DipFrame *const[2]){&frames[0], &frames[1]}, NULL));
+        assert_true(dip_renderer_draw_frames(panes, 2, scene, &pose, i,
+                                             (DipFrame *const[2]){&frames[0], &frames[1]}, NULL));
     }
     return atomic_load(&calls) - before;
 }

@@ -119,32 +119,32 @@ static void passes_share_out_all_samples_and_lie_apart(void **state) {
         const int *pair = pairs[i % PAIRS];
         const DipSamplePattern *pattern =
             dip_sample_pattern_of(pair[0], (DipPatternKind)(i / PAIRS));
-        static DipSamplePasses passes;
-        assert_true(dip_sample_passes_exist(pair[0], pair[1]));
-        dip_sample_passes_make(&passes, pattern, pair[1]);
-        assert_int_equal(passes.count, pair[0] / pair[1]);
+        static DipSampleGroups groups;
+        assert_true(dip_sample_groups_exist(pair[0], pair[1]));
+        dip_sample_groups_make(&groups, pattern, pair[1]);
+        assert_int_equal(groups.count, pair[0] / pair[1]);
         unsigned all = 0;
         int sum[2] = {0};
-        for (int p = 0; p < passes.count; p++) {
-            assert_int_equal(__builtin_popcount(passes.samples[p]), pair[1]);
-            assert_int_equal(all & passes.samples[p], 0);
-            all |= passes.samples[p];
-            const int at = passes.centroid[passes.samples[p]];
+        for (int p = 0; p < groups.count; p++) {
+            assert_int_equal(__builtin_popcount(groups.samples[p]), pair[1]);
+            assert_int_equal(all & groups.samples[p], 0);
+            all |= groups.samples[p];
+            const int at = groups.centroid[groups.samples[p]];
             sum[0] += at & 255;
             sum[1] += at >> 8;
             for (int q = 0; q < p; q++) {
-                const int other = passes.centroid[passes.samples[q]];
+                const int other = groups.centroid[groups.samples[q]];
                 const double distance = hypot((at & 255) - (other & 255), (at >> 8) - (other >> 8));
                 assert_true(distance >= 64.0); // a quarter of a pixel
             }
             for (int s = 0; s < pair[0]; s++) {
-                assert_true(!(passes.samples[p] >> s & 1) ||
-                            passes.sharing[s] == passes.samples[p]);
+                assert_true(!(groups.samples[p] >> s & 1) ||
+                            groups.sharing[s] == groups.samples[p]);
             }
         }
         assert_int_equal(all, (1 << pair[0]) - 1);
         for (int axis = 0; axis < 2; axis++) { // places are rounded down
-            assert_true(abs(sum[axis] - 128 * passes.count) <= passes.count);
+            assert_true(abs(sum[axis] - 128 * groups.count) <= groups.count);
         }
     }
 }
@@ -257,7 +257,7 @@ static void black(DipFragmentBatch *batch) {
     memset(batch->colour, 0, sizeof batch->colour);
 }
 
-// Red and green tell the place in the pixel, squared: the mean over passes is not the centre's.
+// Red and green tell the place in the pixel, squared: the mean over groups is not the centre's.
 static void place_as_colour(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         const float x = batch->x[i] - (float)(int)batch->x[i];
@@ -312,14 +312,14 @@ static void centroid_of(const DipSamplePattern *pattern, unsigned samples, int a
 }
 
 // A clipped triangle behind an opaque one that was drawn before it.
-static void expect(const DipSamplePattern *pattern, int samples_per_pass, const uint8_t *front,
+static void expect(const DipSamplePattern *pattern, int samples_per_group, const uint8_t *front,
                    const uint8_t *clipped, Expected *out) {
-    static DipSamplePasses passes;
-    dip_sample_passes_make(&passes, pattern, samples_per_pass);
+    static DipSampleGroups groups;
+    dip_sample_groups_make(&groups, pattern, samples_per_group);
     memset(out, 0, sizeof *out);
     for (int p = 0; p < PIXELS; p++) {
-        for (int i = 0; i < passes.count; i++) {
-            const unsigned covered = clipped[p] & passes.samples[i];
+        for (int i = 0; i < groups.count; i++) {
+            const unsigned covered = clipped[p] & groups.samples[i];
             const unsigned held = covered & (unsigned)~front[p];
             int at[2];
             out->whole += (uint64_t)__builtin_popcount(covered);
@@ -342,15 +342,15 @@ static void expect(const DipSamplePattern *pattern, int samples_per_pass, const 
 
 static uint8_t picture[PIXELS * 4];
 
-static DipCounters run(DipIsa isa, const DipDraw *draws, int count, const int *pair,
-                       DipPatternKind kind) {
+static DipPipelineCounters run(DipIsa isa, const DipDraw *draws, int count, const int *pair,
+                               DipPatternKind kind) {
     const DipPass pass = {.draws = draws,
                           .draw_count = count,
                           .sample_count = pair[0],
                           .pattern = kind,
-                          .samples_per_pass = pair[1],
+                          .samples_per_group = pair[1],
                           .target = {picture, (size_t)SIDE * 4, SIDE, SIDE}};
-    DipCounters counters = {0};
+    DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     DipPool *pool = dip_pool_create(1, NULL);
     DipPipeline *pipeline = dip_pipeline_create(pool, isa, SIDE, SIDE, NULL);
@@ -372,7 +372,7 @@ static void check_picture(const Expected *expected) {
     }
 }
 
-// Every pair with several passes, every pattern, random triangles.
+// Every pair with several groups, every pattern, random triangles.
 static void every_pass_is_clipped_and_shaded_at_its_centroid(void **state) {
     (void)state;
     static uint8_t masks[2][PIXELS];
@@ -383,7 +383,7 @@ static void every_pass_is_clipped_and_shaded_at_its_centroid(void **state) {
         const DipPatternKind kind = (DipPatternKind)(t / PAIRS % DIP_PATTERN_KINDS);
         const DipSamplePattern *pattern = dip_sample_pattern_of(pair[0], kind);
         if (pair[0] == pair[1]) {
-            continue; // one pass is as no passes at all, see below
+            continue; // one pass is as no groups at all, see below
         }
         DipMesh *meshes[2];
         for (int i = 0; i < 2; i++) {
@@ -403,11 +403,11 @@ static void every_pass_is_clipped_and_shaded_at_its_centroid(void **state) {
         expect(pattern, pair[1], masks[0], masks[1], &expected);
         for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
             if (dip_isa_available((DipIsa)isa)) {
-                const DipCounters counters = run((DipIsa)isa, draws, 2, pair, kind);
+                const DipPipelineCounters counters = run((DipIsa)isa, draws, 2, pair, kind);
                 check_picture(&expected);
                 assert_int_equal(counters.fragments_clip_tested, expected.asked);
                 assert_true(!expected.whole ||
-                            counters.clip_passes == (uint64_t)(pair[0] / pair[1]));
+                            counters.clip_sample_groups == (uint64_t)(pair[0] / pair[1]));
             }
         }
         dip_mesh_destroy(&meshes[0]);
@@ -430,13 +430,13 @@ static void nothing_is_spent_without_passes(void **state) {
                                   .vertex_shader = vertex_shader,
                                   .fragment_shader = place_as_colour,
                                   .clip_shader = clipped ? ask : NULL};
-            const DipCounters without =
+            const DipPipelineCounters without =
                 run(dip_isa_best(), &draw, 1, (const int[]){pairs[i][0], 0}, DIP_PATTERN_STANDARD);
             memcpy(plain, picture, sizeof plain);
-            const DipCounters with = run(dip_isa_best(), &draw, 1, pairs[i], DIP_PATTERN_STANDARD);
+            const DipPipelineCounters with = run(dip_isa_best(), &draw, 1, pairs[i], DIP_PATTERN_STANDARD);
             assert_memory_equal(picture, plain, sizeof plain);
             assert_memory_equal(&with, &without, sizeof with);
-            assert_int_equal(with.clip_passes, clipped);
+            assert_int_equal(with.clip_sample_groups, clipped);
         }
     }
     dip_mesh_destroy(&mesh);

@@ -95,10 +95,10 @@ static void pairs_of_aa_and_asd_are_those_of_the_table(void **state) {
             assert_int_equal(parsed, passes[a][d] != 0);
             if (parsed) {
                 assert_int_equal(dip_quality_sample_count(&quality) /
-                                     dip_quality_samples_per_pass(&quality),
+                                     dip_quality_samples_per_group(&quality),
                                  passes[a][d]);
                 quality.step[DIP_SETTING_AAA] = 0;
-                assert_int_equal(dip_quality_samples_per_pass(&quality),
+                assert_int_equal(dip_quality_samples_per_group(&quality),
                                  dip_quality_sample_count(&quality));
                 continue;
             }

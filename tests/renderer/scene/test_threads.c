@@ -142,7 +142,7 @@ static void draw_both_ways(DipRenderer *const panes[2], const DipTestScene *scen
         dip_frame_hash(&alone[p], expected[p]);
     }
     DipFrame *const frames[2] = {&paired[0], &paired[1]};
-    assert_true(dip_renderer_draw_pair(panes, fast, &scene->pose, 5, frames, NULL));
+    assert_true(dip_renderer_draw_frames(panes, 2, fast, &scene->pose, 5, frames, NULL));
     for (int p = 0; p < 2; p++) {
         char hash[33];
         dip_frame_hash(&paired[p], hash);

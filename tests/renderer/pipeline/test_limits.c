@@ -75,14 +75,14 @@ static void too_many_triangles_are_refused(void **state) {
         draws[i] = (DipDraw){.mesh = mesh,
                              .vertex_shader = vertex_shader,
                              .fragment_shader = fragment_shader,
-                             .slot_count = DIP_MAX_SLOTS};
+                             .varying_count = DIP_MAX_VARYINGS};
     }
     uint8_t rgba8[8 * 8 * 4];
     DipPass pass = {.draws = draws,
                     .draw_count = BIG_PASS_DRAWS,
                     .sample_count = 1,
                     .target = {rgba8, 8 * 4, 8, 8}};
-    DipCounters counters = {0};
+    DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     DipError err = {0};
     assert_false(dip_pipeline_draw(pipeline, &pass, &counters, &times, &err));

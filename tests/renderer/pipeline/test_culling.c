@@ -1,6 +1,8 @@
 // Culling by bounds never changes a picture, leaves out what is out of view, and passes that need
 // more room than expected are drawn all the same.
 #include "renderer/pipeline/cull.h"
+#include "renderer/pipeline/geometry/chunk_cull.h"
+#include "renderer/pipeline/geometry/mesh_layout.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/plan/parts.h"
 #include "tests/renderer/random.h"
@@ -31,15 +33,15 @@ static void project(const DipVertexBatch *batch) {
                 ((row[0] * batch->in[0][i] + row[1] * batch->in[1][i]) + row[2] * batch->in[2][i]) +
                 row[3];
         }
-        batch->slot[0][i] = batch->in[3][i];
+        batch->varying[0][i] = batch->in[3][i];
     }
 }
 
 static void varying(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
-        batch->colour[0][i] = batch->slot[0][i];
+        batch->colour[0][i] = batch->varying[0][i];
         batch->colour[1][i] = 0.5f;
-        batch->colour[2][i] = 1.0f - batch->slot[0][i];
+        batch->colour[2][i] = 1.0f - batch->varying[0][i];
     }
 }
 
@@ -79,19 +81,20 @@ static DipMesh *mesh_of(Soup *soup) {
     return mesh;
 }
 
-static DipCounters draw(const DipMesh *mesh, const float *matrix, bool culled, int threads,
-                        const float *user_plane, const DipRegion *region, uint8_t *picture) {
+static DipPipelineCounters draw(const DipMesh *mesh, const float *matrix, bool culled, int threads,
+                                const float *user_plane, const DipTargetRegion *region,
+                                uint8_t *picture) {
     const DipDraw one = {.mesh = mesh,
                          .vertex_shader = project,
                          .fragment_shader = varying,
-                         .slot_count = 1,
+                         .varying_count = 1,
                          .uniforms = matrix,
                          .bounds_to_clip = culled ? matrix : NULL};
     DipPass pass = {.draws = &one,
                     .draw_count = 1,
                     .sample_count = 2,
                     .target = {picture, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
-    pass.region = region ? *region : (DipRegion){0};
+    pass.region = region ? *region : (DipTargetRegion){0};
     if (user_plane) {
         memcpy(pass.clip_planes[0], user_plane, sizeof pass.clip_planes[0]);
         pass.clip_plane_count = 1;
@@ -99,7 +102,7 @@ static DipCounters draw(const DipMesh *mesh, const float *matrix, bool culled, i
     DipPool *pool = dip_pool_create(threads, NULL);
     DipPipeline *pipeline = dip_pipeline_create(pool, dip_isa_best(), WIDTH, HEIGHT, NULL);
     assert_non_null(pipeline);
-    DipCounters counters[2] = {{0}, {0}};
+    DipPipelineCounters counters[2] = {{0}, {0}};
     for (int again = 0; again < 2; again++) {
         DipStageTimes times = {0};
         memset(picture, 77, sizeof pictures[0]);
@@ -187,8 +190,9 @@ static void culling_changes_no_picture(void **state) {
         random_camera(&random, m);
         const float plane[4] = {0.4f, 0.1f, 0.0f, (float)random_real(&random, -0.5, 0.5)};
         const float *user_plane = i % 3 == 0 ? plane : NULL;
-        const DipCounters whole = draw(mesh, m, false, 1, user_plane, NULL, pictures[0]);
-        const DipCounters culled = draw(mesh, m, true, 1 + i % 3, user_plane, NULL, pictures[1]);
+        const DipPipelineCounters whole = draw(mesh, m, false, 1, user_plane, NULL, pictures[0]);
+        const DipPipelineCounters culled =
+            draw(mesh, m, true, 1 + i % 3, user_plane, NULL, pictures[1]);
         assert_memory_equal(pictures[0], pictures[1], sizeof pictures[0]);
         assert_int_equal(culled.triangles_drawn, whole.triangles_drawn);
         assert_int_equal(culled.tile_triangles, whole.tile_triangles);
@@ -202,7 +206,7 @@ static void culling_changes_no_picture(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-static void assert_same_blocks(const DipRegion *region) {
+static void assert_same_blocks(const DipTargetRegion *region) {
     enum { BLOCK = 8 };
     for (int y = region->y0 / BLOCK; y <= (region->y1 - 1) / BLOCK; y++) {
         for (int x = region->x0 / BLOCK; x <= (region->x1 - 1) / BLOCK; x++) {
@@ -224,13 +228,14 @@ static void regions_hold_what_the_whole_does(void **state) {
         float m[16];
         random_camera(&random, m);
         const float plane[4] = {0.4f, 0.1f, 0.0f, (float)random_real(&random, -0.5, 0.5)};
-        const DipCounters whole = draw(mesh, m, false, 1, plane, NULL, pictures[0]);
+        const DipPipelineCounters whole = draw(mesh, m, false, 1, plane, NULL, pictures[0]);
         for (int r = 0; r < REGIONS; r++) {
             const int x0 = random_int(&random, 0, WIDTH - 1);
             const int y0 = random_int(&random, 0, HEIGHT - 1);
-            const DipRegion region = {x0, y0, random_int(&random, x0 + 1, WIDTH),
-                                      random_int(&random, y0 + 1, HEIGHT)};
-            const DipCounters part = draw(mesh, m, r % 2, 1 + r % 2, plane, &region, pictures[1]);
+            const DipTargetRegion region = {x0, y0, random_int(&random, x0 + 1, WIDTH),
+                                            random_int(&random, y0 + 1, HEIGHT)};
+            const DipPipelineCounters part =
+                draw(mesh, m, r % 2, 1 + r % 2, plane, &region, pictures[1]);
             assert_true(part.triangles_drawn <= whole.triangles_drawn);
             assert_same_blocks(&region);
         }
@@ -297,8 +302,8 @@ static DipPass random_part(Random *random, const DipView *view) {
     if (random_int(random, 0, 3)) {
         const int x0 = random_int(random, 0, WIDTH - 1);
         const int y0 = random_int(random, 0, HEIGHT - 1);
-        pass.region = (DipRegion){x0, y0, x0 + 1 + random_int(random, 0, WIDTH - 1 - x0),
-                                  y0 + 1 + random_int(random, 0, HEIGHT - 1 - y0)};
+        pass.region = (DipTargetRegion){x0, y0, x0 + 1 + random_int(random, 0, WIDTH - 1 - x0),
+                                        y0 + 1 + random_int(random, 0, HEIGHT - 1 - y0)};
     }
     pass.clip_plane_count = random_int(random, 0, 2);
     for (int p = 0; p < pass.clip_plane_count; p++) {
@@ -328,8 +333,8 @@ static bool shows(const DipPass *pass, const DipView *view, const double world[3
             return false;
         }
     }
-    const DipRegion whole = {0, 0, WIDTH, HEIGHT};
-    const DipRegion *region = pass->region.x1 ? &pass->region : &whole;
+    const DipTargetRegion whole = {0, 0, WIDTH, HEIGHT};
+    const DipTargetRegion *region = pass->region.x1 ? &pass->region : &whole;
     const double x = (clip[0] / clip[3] + 1.0) * 0.5 * WIDTH;
     const double y = (1.0 - clip[1] / clip[3]) * 0.5 * HEIGHT;
     return clip[3] >= clip[2] && x >= region->x0 && x <= region->x1 && y >= region->y0 &&
@@ -384,12 +389,12 @@ static void check_object(Random *random, DipPass *pass, const DipView *view, con
     float transform[12];
     float to_clip[16];
     random_transform(random, transform);
-    dip_view_place(view, transform, to_clip);
+    dip_view_object_to_clip(view, transform, to_clip);
     const DipDraw draw = {.mesh = mesh, .bounds_to_clip = to_clip};
     pass->draws = &draw;
     pass->draw_count = 1;
-    const DipCullPlanes planes = dip_cull_pass_planes(pass, view);
-    const DipBox bounds = dip_cull_place_box(transform, &mesh->box);
+    const DipCullPlanes planes = dip_cull_pass_planes(pass, view->world_to_clip);
+    const DipBox bounds = dip_cull_transform_box(transform, &mesh->box);
     const bool object = !dip_cull_outside(&planes, &bounds);
     const uint32_t count = dip_cull_chunks(pass, visible);
     uint32_t next = 0;
@@ -447,13 +452,13 @@ static bool project_point(const DipView *view, const double world[3], double at[
 }
 
 // All pixels of the picture around a place, up to the margin, are in their tile's part.
-static void assert_in_parts(const DipTilePart *parts, const double at[2]) {
+static void assert_in_parts(const DipTileRegion *parts, const double at[2]) {
     for (int dy = -MARGIN; dy <= MARGIN; dy++) {
         for (int dx = -MARGIN; dx <= MARGIN; dx++) {
             const int x = (int)floor(at[0]) + dx;
             const int y = (int)floor(at[1]) + dy;
             if (x >= 0 && x < WIDTH && y >= 0 && y < HEIGHT) {
-                const DipTilePart *part = &parts[y / TILE * TILES_X + x / TILE];
+                const DipTileRegion *part = &parts[y / TILE * TILES_X + x / TILE];
                 assert_true(x % TILE >= part->x0 && x % TILE < part->x1);
                 assert_true(y % TILE >= part->y0 && y % TILE < part->y1);
             }
@@ -461,7 +466,7 @@ static void assert_in_parts(const DipTilePart *parts, const double at[2]) {
     }
 }
 
-static uint64_t area_of(const DipTilePart *parts) {
+static uint64_t area_of(const DipTileRegion *parts) {
     uint64_t area = 0;
     for (int t = 0; t < PARTS; t++) {
         assert_true(parts[t].x1 <= TILE && parts[t].y1 <= TILE);
@@ -505,7 +510,7 @@ static void parts_hold_what_is_seen(void **state) {
     (void)state;
     enum { SHAPES = 6000, MEANS = 300 };
     Random random = {99};
-    DipTilePart tiles[PARTS];
+    DipTileRegion tiles[PARTS];
     const DipParts parts = {tiles, WIDTH, HEIGHT, MARGIN};
     int seen = 0;
     uint64_t area = 0;
@@ -555,7 +560,8 @@ static void clipping_may_double_the_triangles(void **state) {
             add_corner(&soup, x, y + 0.04, 1.5, 1.0);
         }
         DipMesh *mesh = mesh_of(&soup);
-        const DipCounters counters = draw(mesh, identity, true, threads, NULL, NULL, pictures[0]);
+        const DipPipelineCounters counters =
+            draw(mesh, identity, true, threads, NULL, NULL, pictures[0]);
         assert_int_equal(counters.triangles_in, COUNT);
         assert_int_equal(counters.triangles_drawn, 2 * COUNT);
         if (threads > 1) {
@@ -578,7 +584,7 @@ static void triangles_may_lie_in_many_tiles(void **state) {
         add_corner(&soup, -0.99, 0.99, z, z);
     }
     DipMesh *mesh = mesh_of(&soup);
-    const DipCounters counters = draw(mesh, identity, true, 2, NULL, NULL, pictures[0]);
+    const DipPipelineCounters counters = draw(mesh, identity, true, 2, NULL, NULL, pictures[0]);
     assert_int_equal(counters.triangles_drawn, COUNT);
     assert_int_equal(counters.tile_triangles, (uint64_t)COUNT * TILES);
     // The nearest, drawn last, is on top.

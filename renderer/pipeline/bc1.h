@@ -12,6 +12,10 @@ enum { DIP_BC1_SIDE = 4, DIP_BC1_BYTES = 8 };
 // rgba8: 4x4 sRGB codes, row-major, alpha ignored. The same bytes on every machine.
 void dip_bc1_encode(const uint8_t rgba8[64], uint8_t block[DIP_BC1_BYTES]);
 
+// Packs linear light, 0..1, as textures store it: 32 bits of square roots, rounded (the layout is
+// in texture/texture_layout.h).
+uint32_t dip_texel_pack(const double rgb_lin[3]);
+
 // The sRGB codes nearest to what a packed texel (texture.h) holds: what the encoder is given.
 typedef struct DipRootCodes {
     uint8_t of16[65536]; // red and green

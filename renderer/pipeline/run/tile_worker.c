@@ -1,0 +1,255 @@
+// Drawing one tile: coverage, shading, resolve.
+#include "renderer/pipeline/run/tile_worker.h"
+
+#include "renderer/base/clock.h"
+#include "renderer/pipeline/geometry/visit.h"
+#include "renderer/pipeline/resolve/resolve.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// Fills a list's tail with its last fragment, so that vectors read valid triangles.
+static void pad_list(DipFragmentList *list) {
+    const int last = list->count - 1;
+    for (int i = list->count; i % DIP_BATCH_ALIGN; i++) {
+        list->triangle[i] = list->triangle[last];
+        list->position[i] = list->position[last];
+    }
+}
+
+static void bind_batch(const DipTileWorker *worker, const DipDraw *draw, DipFragmentBatch *batch) {
+    batch->samplers = draw->samplers;
+    batch->uniforms = draw->uniforms;
+    batch->sample_colour = worker->pass->kernels->dip_kernel_sample_colour;
+    batch->sample_colours = worker->pass->kernels->dip_kernel_sample_colours;
+    batch->sample_alpha = worker->pass->kernels->dip_kernel_sample_alpha;
+    batch->sample_target = worker->pass->kernels->dip_kernel_sample_target;
+    batch->srgb_light = worker->pass->srgb_light;
+}
+
+// Shades the first fragments of a list, at most a batch, into the worker's encoded batch.
+static int shade_batch(DipTileWorker *worker, uint32_t draw_index, DipFragmentList *list) {
+    const DipTilePass *pass = worker->pass;
+    const DipDraw *draw = &pass->pass->draws[draw_index];
+    DipFragmentBatch *batch = &worker->batch;
+    pad_list(list);
+    pass->kernels->dip_kernel_interpolate(&worker->shading.input, list, draw->varying_count,
+                                          draw->value_only_varying_count, batch);
+    bind_batch(worker, draw, batch);
+    draw->fragment_shader(batch);
+    pass->kernels->dip_kernel_encode(batch, pass->srgb->code, &worker->encoded);
+    worker->shading.fragments += (uint64_t)batch->count;
+    return batch->count;
+}
+
+static void flush_list(DipTileShading *shading, uint32_t draw) {
+    DipTileWorker *worker = shading->context;
+    DipFragmentList *list = &shading->lists[draw];
+    const int count = shade_batch(worker, draw, list);
+    dip_store_fragments(shading, list, count, &worker->encoded);
+    list->count -= count;
+    const size_t left = (size_t)list->count;
+    memcpy(list->triangle, list->triangle + count, left * sizeof *list->triangle);
+    memcpy(list->position, list->position + count, left * sizeof *list->position);
+    memcpy(list->samples, list->samples + count, left * sizeof *list->samples);
+}
+
+static void flush_whole_list(DipTileShading *shading, uint32_t draw) {
+    DipTileWorker *worker = shading->context;
+    DipFragmentList *list = &shading->whole_lists[draw];
+    shade_batch(worker, draw, list);
+    dip_store_whole(shading, list, &worker->encoded);
+    list->count = 0;
+}
+
+// The clip shader's verdict on the fragments in the worker's clip list.
+static const uint8_t *clip_test(void *context, const DipTriangle *triangle) {
+    DipTileWorker *worker = context;
+    const DipTilePass *pass = worker->pass;
+    const DipDraw *draw = &pass->pass->draws[triangle->draw];
+    DipFragmentBatch *batch = &worker->clip_batch;
+    pass->kernels->dip_kernel_interpolate(&worker->shading.input, &worker->clip_list,
+                                          draw->clip_varying_count, 0, batch);
+    bind_batch(worker, draw, batch);
+    draw->clip_shader(batch);
+    worker->work->clip_tested += (uint64_t)worker->clip_list.count;
+    return batch->keep;
+}
+
+// Returns the number of sample groups of alpha-clipped draws.
+static int sample_group_count(const DipTilePass *pass) {
+    return pass->groups ? pass->groups->count : 1;
+}
+
+static void draw_triangle(void *context, uint32_t index) {
+    DipTileWorker *worker = context;
+    const DipTilePass *pass = worker->pass;
+    const DipTriangle *triangle = &pass->geometry->triangles[index];
+    const DipClipTest clip = {&worker->clip_list, clip_test, worker, pass->groups};
+    const bool clipped = pass->pass->draws[triangle->draw].clip_shader != NULL;
+    worker->work->clip_sample_groups += clipped ? (uint64_t)sample_group_count(pass) : 0;
+    pass->kernels->dip_kernel_draw_triangle(&worker->tile, triangle, index + 1,
+                                            clipped ? &clip : NULL);
+}
+
+static int greatest(int a, int b) {
+    return a > b ? a : b;
+}
+
+// Sets how many pixels at each side of the tile are not needed. region: of the target; needed: of
+// the tile, NULL for all of it.
+static void set_margins(const DipTargetRegion *region, const DipTileRegion *needed, DipTile *tile) {
+    static const DipTileRegion whole = {0, 0, DIP_TILE, DIP_TILE};
+    needed = needed ? needed : &whole;
+    tile->left = greatest(region->x0 - tile->x0, needed->x0);
+    tile->top = greatest(region->y0 - tile->y0, needed->y0);
+    tile->right = greatest(tile->x0 + DIP_TILE - region->x1, DIP_TILE - needed->x1);
+    tile->bottom = greatest(tile->y0 + DIP_TILE - region->y1, DIP_TILE - needed->y1);
+}
+
+static void begin_tile(DipTileWorker *worker, int index) {
+    const DipTilePass *pass = worker->pass;
+    const DipGeometry *geometry = pass->geometry;
+    const DipTarget *target = &pass->pass->target;
+    DipTile *tile = &worker->tile;
+    tile->x0 = index % geometry->tiles_x * DIP_TILE;
+    tile->y0 = index / geometry->tiles_x * DIP_TILE;
+    const DipTileRegion *needed = pass->pass->tile_regions;
+    set_margins(&geometry->region, needed ? &needed[index] : NULL, tile);
+    tile->pattern = pass->pattern;
+    tile->touched = 0;
+    tile->grouped = 0;
+    tile->sub_blocks_tested = 0;
+    tile->sub_blocks_accepted = 0;
+    DipTileShading *shading = &worker->shading;
+    shading->tile = tile;
+    shading->input = (DipShadingInput){geometry->triangles, geometry->planes,
+                                       geometry->plane_stride, tile->x0, tile->y0};
+    shading->draws = pass->pass->draws;
+    shading->groups = pass->groups;
+    shading->flush = flush_list;
+    shading->flush_whole = flush_whole_list;
+    shading->context = worker;
+    shading->width = target->width - tile->x0 < DIP_TILE ? target->width - tile->x0 : DIP_TILE;
+    shading->height = target->height - tile->y0 < DIP_TILE ? target->height - tile->y0 : DIP_TILE;
+    shading->stride = target->stride_bytes / 4;
+    shading->pixels =
+        (uint32_t *)(void *)target->rgba8 + (size_t)tile->y0 * shading->stride + (size_t)tile->x0;
+    shading->clear_rgba8 = pass->clear_rgba8;
+    memcpy(shading->clear_linear16, pass->clear_linear16, sizeof shading->clear_linear16);
+    shading->multi_fragment_count = 0;
+    shading->fragments = 0;
+    shading->samples = 0;
+    worker->batch.work = (DipShaderWork){0};
+    worker->clip_batch.work = (DipShaderWork){0};
+}
+
+static void shade_tile(DipTileWorker *worker) {
+    DipTileShading *shading = &worker->shading;
+    worker->pass->kernels->dip_kernel_collect(shading);
+    for (int i = 0; i < shading->active_count; i++) {
+        const uint32_t draw = shading->active[i];
+        if (shading->whole_lists[draw].count) {
+            flush_whole_list(shading, draw);
+        }
+        if (shading->lists[draw].count) {
+            flush_list(shading, draw);
+        }
+        shading->is_active[draw] = 0;
+    }
+    shading->active_count = 0;
+}
+
+static void add_shader_work(const DipShaderWork *from, DipShaderWork *to) {
+    to->probes += from->probes;
+    to->texels += from->texels;
+    for (int i = 0; i < DIP_SHADER_COUNT_MAX; i++) {
+        to->counts[i] += from->counts[i];
+    }
+}
+
+void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work) {
+    const DipTilePass *pass = worker->pass;
+    *work = (DipTileWork){.clip_tested = 0};
+    worker->work = work;
+    const int64_t begin_ns = dip_clock_ns();
+    begin_tile(worker, index);
+    dip_geometry_visit(pass->geometry, index, draw_triangle, worker);
+    const int64_t covered_ns = dip_clock_ns();
+    shade_tile(worker);
+    const int64_t shaded_ns = dip_clock_ns();
+    dip_resolve_multi_fragment(&worker->shading, pass->srgb->code);
+    const int64_t resolved_ns = dip_clock_ns();
+    work->stage_ns[DIP_TILE_STAGE_RASTER] = covered_ns - begin_ns;
+    work->stage_ns[DIP_TILE_STAGE_SHADING] = shaded_ns - covered_ns;
+    work->stage_ns[DIP_TILE_STAGE_RESOLVE] = resolved_ns - shaded_ns;
+    work->sub_blocks_tested = worker->tile.sub_blocks_tested;
+    work->sub_blocks_accepted = worker->tile.sub_blocks_accepted;
+    work->fragments = worker->shading.fragments;
+    work->samples = worker->shading.samples;
+    work->multi_fragment_pixels = (uint64_t)worker->shading.multi_fragment_count;
+    add_shader_work(&worker->batch.work, &work->sampling);
+    add_shader_work(&worker->clip_batch.work, &work->sampling);
+}
+
+// --- creating and destroying -------------------------------------------------------------------
+
+enum { CACHE_LINE = 64 };
+
+static void *allocate_aligned(size_t size_bytes) {
+    void *memory =
+        aligned_alloc(CACHE_LINE, (size_bytes + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE);
+    if (memory) {
+        memset(memory, 0, size_bytes);
+    }
+    return memory;
+}
+
+DipTileWorker *dip_tile_worker_create(const DipTilePass *pass) {
+    DipTileWorker *worker = allocate_aligned(sizeof *worker);
+    if (!worker) {
+        return NULL;
+    }
+    const size_t samples = (size_t)DIP_TILE_PIXELS * DIP_MAX_SAMPLES;
+    DipTileShading *shading = &worker->shading;
+    worker->pass = pass;
+    worker->tile.depth = allocate_aligned(samples * sizeof *worker->tile.depth);
+    worker->tile.id = allocate_aligned(samples * sizeof *worker->tile.id);
+    shading->sum = allocate_aligned(DIP_TILE_PIXELS * sizeof *shading->sum);
+    shading->multi_fragment = allocate_aligned(DIP_TILE_PIXELS * sizeof *shading->multi_fragment);
+    if (!worker->tile.depth || !worker->tile.id || !shading->sum || !shading->multi_fragment) {
+        dip_tile_worker_destroy(&worker);
+    }
+    return worker;
+}
+
+static void free_lists(DipTileShading *shading) {
+    free(shading->lists);
+    free(shading->whole_lists);
+    free(shading->active);
+    free(shading->is_active);
+}
+
+void dip_tile_worker_destroy(DipTileWorker **worker_pointer) {
+    DipTileWorker *worker = *worker_pointer;
+    if (worker) {
+        free(worker->tile.depth);
+        free(worker->tile.id);
+        free(worker->shading.sum);
+        free(worker->shading.multi_fragment);
+        free_lists(&worker->shading);
+        free(worker);
+        *worker_pointer = NULL;
+    }
+}
+
+bool dip_tile_worker_make_lists(DipTileWorker *worker, int draw_count) {
+    DipTileShading *shading = &worker->shading;
+    const size_t count = (size_t)draw_count;
+    free_lists(shading);
+    shading->lists = calloc(count, sizeof *shading->lists);
+    shading->whole_lists = calloc(count, sizeof *shading->whole_lists);
+    shading->active = calloc(count, sizeof *shading->active);
+    shading->is_active = calloc(count, sizeof *shading->is_active);
+    return shading->lists && shading->whole_lists && shading->active && shading->is_active;
+}

@@ -1,0 +1,274 @@
+// Drawing frames: a scene, a pose and settings become one or two render passes per frame.
+#include "renderer/scene/renderer.h"
+
+#include "renderer/pipeline/pipeline.h"
+#include "renderer/scene/draw/draws.h"
+#include "renderer/scene/draw/inset.h"
+#include "renderer/scene/draw/renderer_parts.h"
+#include "renderer/scene/draw/view.h"
+#include "renderer/scene/materials/sky.h"
+#include "renderer/scene/plan/plan.h"
+#include "renderer/scene/resources/scene_layout.h"
+
+#include <math.h>
+#include <string.h>
+
+static int tiles_in(int size) {
+    return (size + DIP_TARGET_TILE - 1) / DIP_TARGET_TILE;
+}
+
+static bool check_pose(const DipPose *pose, DipError *err) {
+    bool finite = isfinite(pose->fov_y_deg);
+    for (int i = 0; i < 3; i++) {
+        finite = finite && isfinite(pose->position_world[i]);
+    }
+    for (int i = 0; i < 4; i++) {
+        finite = finite && isfinite(pose->orientation[i]);
+    }
+    if (!finite || pose->fov_y_deg < 1.0 || pose->fov_y_deg > 170.0) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
+                             "a pose with a field of view of %g degrees, accepted finite numbers "
+                             "and 1..170",
+                             pose->fov_y_deg);
+    }
+    return true;
+}
+
+// --- passes ------------------------------------------------------------------------------------
+
+// What every pass takes of the settings and the scene, without its draws.
+static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
+                          const DipFramePlan *plan) {
+    DipPass pass = {
+        .sample_count = dip_quality_sample_count(&renderer->quality),
+        .pattern =
+            dip_pattern_kind(renderer->quality.step[DIP_SETTING_TAA] != 0, renderer->frame_index),
+        .samples_per_group = plan->samples_per_group,
+    };
+    memcpy(pass.clear_lin, scene->background_lin, sizeof pass.clear_lin);
+    return pass;
+}
+
+// Gives a pass the draws of what it may show.
+static void set_draws(const DipRenderer *renderer, const DipScene *scene, DipDrawView view,
+                      DipDrawSet *set, DipPass *pass) {
+    const DipDrawInput input = dip_renderer_draw_input(renderer, scene);
+    const DipCullPlanes seen = dip_cull_pass_planes(pass, view.view->world_to_clip);
+    view.seen = &seen;
+    view.width = pass->target.width;
+    view.height = pass->target.height;
+    dip_draw_set_fill(set, &input, &view);
+    pass->draws = set->draws;
+    pass->draw_count = set->count;
+}
+
+// A frame in the setup. Its parts point at each other.
+typedef struct FrameSetup {
+    DipRenderer *renderer;
+    const DipScene *scene;
+    DipFrame *frame;
+    DipView view;
+    DipView mirrored;
+    DipCullPlanes seen;
+    DipCullPlanes seen_mirrored;
+    DipParts parts;
+    DipPlanInput input;
+    DipFramePlan plan;
+    DipPass mirrored_pass; // where the plan reflects
+    DipPass pass;
+    DipPipelineCounters counters; // of both passes
+    uint64_t fragments_mirrored;
+} FrameSetup;
+
+static DipTarget target_of(const DipRenderer *renderer) {
+    return (DipTarget){renderer->rgba8, renderer->stride_bytes, renderer->width, renderer->height};
+}
+
+// The mirrored scene above the water. What is less than two texels of the picture below it counts
+// as above, so that no background is read between a shore and its reflection.
+static void make_mirrored_pass(FrameSetup *setup) {
+    const DipRenderer *renderer = setup->renderer;
+    const DipView *mirrored = &setup->mirrored;
+    DipMirror *mirror = &setup->renderer->mirror;
+    const double above[4] = {0.0, 1.0, 0.0, -renderer->reflection.level_m};
+    const double texel = 2.0 / (mirrored->scale[1] * mirror->target.height); // at a distance of 1
+    double plane[4];
+    dip_view_plane(mirrored, above, plane);
+    plane[3] += 2.0 * texel;
+    DipPass *pass = &setup->mirrored_pass;
+    *pass = begin_pass(renderer, setup->scene, &setup->plan);
+    pass->target = mirror->target;
+    pass->region = setup->plan.mirrored_region;
+    pass->tile_regions = setup->plan.mirrored_parts ? mirror->tile_regions : NULL;
+    pass->clip_plane_count = 1;
+    for (int i = 0; i < 4; i++) {
+        pass->clip_planes[0][i] = (float)plane[i];
+    }
+    const DipDrawView seen = {.view = mirrored, .mirrored = true};
+    set_draws(renderer, setup->scene, seen, &mirror->set, pass);
+}
+
+static void make_scene_pass(FrameSetup *setup) {
+    DipRenderer *renderer = setup->renderer;
+    const DipDrawView seen = {
+        .view = &setup->view,
+        .shown = setup->plan.water_reflects ? &renderer->mirror.target : NULL,
+        .schlick = renderer->reflection.schlick,
+    };
+    setup->pass = begin_pass(renderer, setup->scene, &setup->plan);
+    setup->pass.target = target_of(renderer);
+    set_draws(renderer, setup->scene, seen, &renderer->set, &setup->pass);
+}
+
+// What the effects hold, used in this frame or not.
+static void count_bytes(const DipScene *scene, DipCounters *counters) {
+    counters->normal_map_bytes = scene->normal_map_bytes;
+    counters->clip_map_bytes = scene->clip_map_bytes;
+    counters->cloud_bytes = scene->cloud_bytes;
+}
+
+static void count_mirror(const DipMirror *mirror, bool drawn, DipCounters *counters) {
+    const uint64_t across = (uint64_t)tiles_in(mirror->target.width);
+    const uint64_t down = (uint64_t)tiles_in(mirror->target.height);
+    counters->reflection_bytes = mirror->target.stride_bytes * (uint64_t)mirror->target.height;
+    counters->tiles_spared += drawn ? 0 : across * down;
+}
+
+// Decides what is drawn.
+static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene *scene,
+                        const DipPose *pose, int64_t time_ns, DipFrame *frame, DipError *err) {
+    if (!check_pose(pose, err) || !dip_renderer_adopt_scene(renderer, scene, err) ||
+        !dip_renderer_follow_settings(renderer, scene, err)) {
+        return false;
+    }
+    *setup = (FrameSetup){.renderer = renderer, .scene = scene, .frame = frame};
+    setup->view =
+        dip_view_make(pose, (double)scene->near_m, (double)renderer->width / renderer->height);
+    setup->mirrored = dip_view_mirror(&setup->view, renderer->reflection.level_m);
+    setup->seen = dip_cull_view_planes(setup->view.world_to_clip);
+    setup->seen_mirrored = dip_cull_view_planes(setup->mirrored.world_to_clip);
+    // A bilinear read takes in the next texel; one more for what is rounded.
+    const DipMirror *mirror = &renderer->mirror;
+    setup->parts = (DipParts){mirror->tile_regions, mirror->target.width, mirror->target.height, 2};
+    setup->input = (DipPlanInput){
+        .scene = scene,
+        .view = &setup->view,
+        .mirrored = &setup->mirrored,
+        .seen = &setup->seen,
+        .seen_mirrored = &setup->seen_mirrored,
+        .parts = &setup->parts,
+        .reflection = &renderer->reflection,
+        .quality = &renderer->quality,
+        .plain_surfaces = renderer->plain_surfaces,
+        .force_all = renderer->force_all_effects,
+    };
+    setup->plan = dip_plan_frame(&setup->input);
+    dip_set_samplers(scene, &renderer->quality, renderer->mip_colours, renderer->samplers);
+    if (setup->plan.effects.sky.run) {
+        renderer->sky = dip_sky_at(&scene->sky, time_ns);
+    }
+    *frame = (DipFrame){
+        .rgba8 = renderer->rgba8,
+        .stride_bytes = renderer->stride_bytes,
+        .width = renderer->width,
+        .height = renderer->height,
+        .effects = setup->plan.effects,
+    };
+    if (setup->plan.effects.reflection.run) {
+        make_mirrored_pass(setup);
+    }
+    make_scene_pass(setup);
+    return true;
+}
+
+static DipPassWork work_of(DipPipeline *pipeline, const DipPass *pass, FrameSetup *setup) {
+    return (DipPassWork){pipeline, pass, &setup->counters, &setup->frame->stages};
+}
+
+// Draws frames at once. same_geometry: they differ only in samples and shading.
+static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipError *err) {
+    DipPassWork works[DIP_MAX_FRAMES_AT_ONCE] = {{.pipeline = NULL}};
+    int work_count = 0;
+    for (int i = 0; i < count; i++) {
+        if (setups[i].plan.effects.reflection.run) {
+            works[work_count++] =
+                work_of(setups[i].renderer->mirror.pipeline, &setups[i].mirrored_pass, &setups[i]);
+        }
+    }
+    if (work_count && !dip_pipeline_draw_passes(works, work_count, same_geometry, err)) {
+        return false;
+    }
+    for (int i = 0; i < count; i++) {
+        setups[i].fragments_mirrored = setups[i].counters.fragments_shaded;
+        works[i] = work_of(setups[i].renderer->pipeline, &setups[i].pass, &setups[i]);
+    }
+    return dip_pipeline_draw_passes(works, count, same_geometry, err);
+}
+
+// The counters of the passes, under the names that the frame gives them.
+static DipCounters frame_counters(const DipPipelineCounters *passes) {
+    DipCounters counters = {
+        .fragments_normal_mapped = passes->shader_counts[DIP_SHADER_COUNT_NORMAL_MAPPED],
+        .fragments_sky = passes->shader_counts[DIP_SHADER_COUNT_SKY],
+        .fragments_reflecting = passes->shader_counts[DIP_SHADER_COUNT_REFLECTING],
+    };
+#define COPY(name, text) counters.name = passes->name;
+    DIP_PIPELINE_COUNTER_LIST(COPY)
+#undef COPY
+    return counters;
+}
+
+static void end_frame(const FrameSetup *setup) {
+    const DipRenderer *renderer = setup->renderer;
+    DipFrame *frame = setup->frame;
+    frame->counters = frame_counters(&setup->counters);
+    frame->counters.fragments_mirrored = setup->fragments_mirrored;
+    const bool reflects = setup->plan.effects.reflection.run;
+    count_mirror(&renderer->mirror, reflects, &frame->counters);
+    count_bytes(setup->scene, &frame->counters);
+    dip_count_geometry(setup->scene, renderer->unshared, &frame->counters);
+    dip_plan_settle(&setup->input, &frame->counters, &frame->effects);
+    if (reflects && renderer->reflection.show) {
+        const DipTarget target = target_of(renderer);
+        dip_inset_draw(&target, &renderer->mirror.target);
+    }
+}
+
+// Whether two renderers' frames differ only in samples and shading.
+static bool same_geometry(const DipRenderer *a, const DipRenderer *b) {
+    const DipReflectionDef *r = &a->reflection;
+    const DipReflectionDef *s = &b->reflection;
+    return a->isa == b->isa && a->width == b->width && a->height == b->height &&
+           a->plain_surfaces == b->plain_surfaces && a->force_all_effects == b->force_all_effects &&
+           a->quality.step[DIP_SETTING_GI] == b->quality.step[DIP_SETTING_GI] &&
+           r->width == s->width && r->height == s->height && r->level_m == s->level_m;
+}
+
+bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count, const DipScene *scene,
+                              const DipPose *pose, int64_t time_ns, DipFrame *const *frames,
+                              DipError *err) {
+    FrameSetup setups[DIP_MAX_FRAMES_AT_ONCE];
+    if (count < 1 || count > DIP_MAX_FRAMES_AT_ONCE) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "count", "%d frames, accepted 1..%d",
+                             count, DIP_MAX_FRAMES_AT_ONCE);
+    }
+    bool same = true;
+    for (int i = 0; i < count; i++) {
+        if (!begin_frame(&setups[i], renderers[i], scene, pose, time_ns, frames[i], err)) {
+            return false;
+        }
+        same = same && same_geometry(renderers[0], renderers[i]);
+    }
+    if (!draw_frames(setups, count, same, err)) {
+        return false;
+    }
+    for (int i = 0; i < count; i++) {
+        end_frame(&setups[i]);
+    }
+    return true;
+}
+
+bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
+                       int64_t time_ns, DipFrame *frame, DipError *err) {
+    return dip_renderer_draw_frames(&renderer, 1, scene, pose, time_ns, &frame, err);
+}
