@@ -2,9 +2,11 @@
 #ifndef DIP_RENDERER_BASE_ASSERT_H
 #define DIP_RENDERER_BASE_ASSERT_H
 
+#include "renderer/base/api.h"
+
 #if defined(DIP_ASSERTS) && DIP_ASSERTS
 // Prints the condition and its place, then aborts. Does not return.
-_Noreturn void dip_assert_failed(const char *condition, const char *file, int line);
+_Noreturn DIP_API void dip_assert_failed(const char *condition, const char *file, int line);
 #define DIP_ASSERT(condition)                                                                      \
     ((condition) ? (void)0 : dip_assert_failed(#condition, __FILE__, __LINE__))
 #else

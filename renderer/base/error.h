@@ -5,8 +5,14 @@
 #ifndef DIP_RENDERER_BASE_ERROR_H
 #define DIP_RENDERER_BASE_ERROR_H
 
+#include "renderer/base/api.h"
+
 #include <stdbool.h>
 #include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // X(name, what went wrong in a few words). Tests assert the code, users read the message.
 #define DIP_ERROR_LIST(X)                                                                          \
@@ -44,15 +50,16 @@ typedef struct DipError {
 
 // Fills *err (which may be NULL) and returns false, so that a caller can `return` it.
 // file and key may be NULL. The format's output is cut at the message's size.
-bool dip_error_set(DipError *err, DipErrorCode code, const char *file, int line, const char *key,
-                   const char *format, ...) __attribute__((format(printf, 6, 7)));
+DIP_API bool dip_error_set(DipError *err, DipErrorCode code, const char *file, int line,
+                           const char *key, const char *format, ...)
+    __attribute__((format(printf, 6, 7)));
 
 // Writes "file:line: [key] message" (parts that do not apply left out) and returns the length the
 // whole text has, as snprintf does.
-size_t dip_error_format(const DipError *err, char *buffer, size_t size_bytes);
+DIP_API size_t dip_error_format(const DipError *err, char *buffer, size_t size_bytes);
 
 // "IO", "RANGE", ...
-const char *dip_error_code_name(DipErrorCode code);
+DIP_API const char *dip_error_code_name(DipErrorCode code);
 
 // Every fault of one file, in the order met. Zero-initialise; free with dip_error_list_free.
 typedef struct DipErrorList {
@@ -63,7 +70,11 @@ typedef struct DipErrorList {
 } DipErrorList;
 
 // Appends a copy. When memory runs out the fault is counted but its text is lost.
-void dip_error_list_add(DipErrorList *list, const DipError *err);
-void dip_error_list_free(DipErrorList *list);
+DIP_API void dip_error_list_add(DipErrorList *list, const DipError *err);
+DIP_API void dip_error_list_free(DipErrorList *list);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -2,7 +2,13 @@
 #ifndef DIP_RENDERER_BASE_ISA_H
 #define DIP_RENDERER_BASE_ISA_H
 
+#include "renderer/base/api.h"
+
 #include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // X(name, NAME, lanes): in ascending order of preference. A picture is the same with each.
 #define DIP_ISA_LIST(X)                                                                            \
@@ -19,9 +25,13 @@ typedef enum DipIsa {
         DIP_ISA_COUNT
 } DipIsa;
 
-const char *dip_isa_name(DipIsa isa);
-bool dip_isa_parse(const char *name, DipIsa *isa); // exact names of the list
-bool dip_isa_available(DipIsa isa);                // built in, and this processor has it
-DipIsa dip_isa_best(void);
+DIP_API const char *dip_isa_name(DipIsa isa);
+DIP_API bool dip_isa_parse(const char *name, DipIsa *isa); // exact names of the list
+DIP_API bool dip_isa_available(DipIsa isa);                // built in, and this processor has it
+DIP_API DipIsa dip_isa_best(void);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

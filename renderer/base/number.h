@@ -2,8 +2,14 @@
 #ifndef DIP_RENDERER_BASE_NUMBER_H
 #define DIP_RENDERER_BASE_NUMBER_H
 
+#include "renderer/base/api.h"
+
 #include <stdbool.h>
 #include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum {
     DIP_MAX_NUMBER_LENGTH = 63, // characters of a number's text
@@ -14,13 +20,17 @@ enum {
 // least one digit. No white space, hexadecimal, "inf" or "nan"; a number too great for a double is
 // refused, one too small becomes 0 or the nearest subnormal. *value is unchanged on failure.
 // Correctly rounded. Thread-safe.
-bool dip_number_parse(const char *text, size_t length, double *value);
+DIP_API bool dip_number_parse(const char *text, size_t length, double *value);
 
 // As above for an optional sign and digits, within int.
-bool dip_integer_parse(const char *text, size_t length, int *value);
+DIP_API bool dip_integer_parse(const char *text, size_t length, int *value);
 
 // Writes the shortest of 15, 16 or 17 significant digits that reads back as the same double (a
 // finite one). Returns the length. Thread-safe.
-size_t dip_number_format(double value, char buffer[DIP_NUMBER_TEXT_SIZE]);
+DIP_API size_t dip_number_format(double value, char buffer[DIP_NUMBER_TEXT_SIZE]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -5,16 +5,22 @@
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_BC1_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_BC1_H
 
+#include "renderer/base/api.h"
+
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum { DIP_BC1_SIDE = 4, DIP_BC1_BYTES = 8 };
 
 // rgba8: 4x4 sRGB codes, row-major, alpha ignored. The same bytes on every machine.
-void dip_bc1_encode(const uint8_t rgba8[64], uint8_t block[DIP_BC1_BYTES]);
+DIP_API void dip_bc1_encode(const uint8_t rgba8[64], uint8_t block[DIP_BC1_BYTES]);
 
 // Packs linear light, 0..1, as textures store it: 32 bits of square roots, rounded (the layout is
 // in texture/texture_layout.h).
-uint32_t dip_texel_pack(const double rgb_lin[3]);
+DIP_API uint32_t dip_texel_pack(const double rgb_lin[3]);
 
 // The sRGB codes nearest to what a packed texel (texture.h) holds: what the encoder is given.
 typedef struct DipRootCodes {
@@ -22,7 +28,7 @@ typedef struct DipRootCodes {
     uint8_t of10[1024];  // blue
 } DipRootCodes;
 
-void dip_root_codes_fill(DipRootCodes *codes);
+DIP_API void dip_root_codes_fill(DipRootCodes *codes);
 
 static inline void dip_root_codes_read(const DipRootCodes *codes, uint32_t texel, uint8_t rgb8[3]) {
     rgb8[0] = codes->of16[texel >> 16];
@@ -37,15 +43,19 @@ typedef struct DipBc1Light {
     double of6[6 * 63 + 1];
 } DipBc1Light;
 
-void dip_bc1_light_fill(DipBc1Light *light);
+DIP_API void dip_bc1_light_fill(DipBc1Light *light);
 
 // The four packed texels that a block chooses from.
-void dip_bc1_palette(const DipBc1Light *light, const uint8_t block[DIP_BC1_BYTES],
-                     uint32_t texels[4]);
+DIP_API void dip_bc1_palette(const DipBc1Light *light, const uint8_t block[DIP_BC1_BYTES],
+                             uint32_t texels[4]);
 
 // Which of them texel i = 4 y + x shows.
 static inline int dip_bc1_choice(const uint8_t block[DIP_BC1_BYTES], int i) {
     return block[4 + (i >> 2)] >> 2 * (i & 3) & 3;
 }
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

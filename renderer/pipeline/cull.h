@@ -2,6 +2,7 @@
 #ifndef DIP_RENDERER_PIPELINE_CULL_H
 #define DIP_RENDERER_PIPELINE_CULL_H
 
+#include "renderer/base/api.h"
 #include "renderer/pipeline/mesh.h"
 #include "renderer/pipeline/pipeline.h"
 
@@ -22,17 +23,17 @@ typedef struct DipCullPlanes {
 
 // The planes, in the world, of what a pass draws: the view volume, narrowed to the pass's region,
 // and the user's clip planes. world_to_clip: 4x4, row-major. The pass's draws are not read.
-DipCullPlanes dip_cull_pass_planes(const DipPass *pass, const double world_to_clip[16]);
+DIP_API DipCullPlanes dip_cull_pass_planes(const DipPass *pass, const double world_to_clip[16]);
 
 // The planes, in the world, of the whole view volume.
-DipCullPlanes dip_cull_view_planes(const double world_to_clip[16]);
+DIP_API DipCullPlanes dip_cull_view_planes(const double world_to_clip[16]);
 
 // Returns whether a box lies wholly outside one of the planes.
-bool dip_cull_outside(const DipCullPlanes *planes, const DipBox *box);
+DIP_API bool dip_cull_outside(const DipCullPlanes *planes, const DipBox *box);
 
 // Returns a box in the world that holds a transformed one, with a margin for the rounding of the
 // shader that transforms the vertices. transform: rows of a 3x4 matrix.
-DipBox dip_cull_transform_box(const float transform[12], const DipBox *box);
+DIP_API DipBox dip_cull_transform_box(const float transform[12], const DipBox *box);
 
 #ifdef __cplusplus
 }

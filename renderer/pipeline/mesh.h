@@ -3,6 +3,7 @@
 #ifndef DIP_RENDERER_PIPELINE_MESH_H
 #define DIP_RENDERER_PIPELINE_MESH_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
@@ -34,30 +35,30 @@ typedef struct DipBox {
 
 // Fails with RANGE if an index or a number is out of range or a position is not finite, and with
 // MEMORY.
-DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err);
+DIP_API DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err);
 
 // Returns a mesh with arrays of its own, or NULL when memory runs out.
-DipMesh *dip_mesh_copy(const DipMesh *mesh);
+DIP_API DipMesh *dip_mesh_copy(const DipMesh *mesh);
 
 // Frees a mesh that no draw uses any more. *mesh may be NULL and becomes NULL.
-void dip_mesh_destroy(DipMesh **mesh);
+DIP_API void dip_mesh_destroy(DipMesh **mesh);
 
-uint32_t dip_mesh_triangle_count(const DipMesh *mesh);
-size_t dip_mesh_bytes(const DipMesh *mesh); // memory of vertices, indices and bounds
+DIP_API uint32_t dip_mesh_triangle_count(const DipMesh *mesh);
+DIP_API size_t dip_mesh_bytes(const DipMesh *mesh); // memory of vertices, indices and bounds
 
 // The exact bounds of the positions; all 0 for a mesh without triangles.
-void dip_mesh_bounds(const DipMesh *mesh, float min[3], float max[3]);
+DIP_API void dip_mesh_bounds(const DipMesh *mesh, float min[3], float max[3]);
 
 // The box that the pipeline culls the mesh by. It holds the bounds.
-DipBox dip_mesh_box(const DipMesh *mesh);
+DIP_API DipBox dip_mesh_box(const DipMesh *mesh);
 
 // A mesh's triangles come in chunks of 1 to 128. Triangle t of a chunk has the positions
 // corners[0], corners[1] and corners[2], in the winding order of the indices.
-uint32_t dip_mesh_chunk_count(const DipMesh *mesh);
-DipBox dip_mesh_chunk_box(const DipMesh *mesh, uint32_t chunk);
-uint32_t dip_mesh_chunk_triangle_count(const DipMesh *mesh, uint32_t chunk);
-void dip_mesh_chunk_triangle(const DipMesh *mesh, uint32_t chunk, uint32_t triangle,
-                             float corners[3][3]);
+DIP_API uint32_t dip_mesh_chunk_count(const DipMesh *mesh);
+DIP_API DipBox dip_mesh_chunk_box(const DipMesh *mesh, uint32_t chunk);
+DIP_API uint32_t dip_mesh_chunk_triangle_count(const DipMesh *mesh, uint32_t chunk);
+DIP_API void dip_mesh_chunk_triangle(const DipMesh *mesh, uint32_t chunk, uint32_t triangle,
+                                     float corners[3][3]);
 
 #ifdef __cplusplus
 }

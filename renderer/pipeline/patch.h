@@ -3,9 +3,15 @@
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_PATCH_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_PATCH_H
 
+#include "renderer/base/api.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum {
     DIP_PATCH_TRIANGLES = 16, // at most
@@ -18,8 +24,12 @@ enum {
 // positions: x, y, z of vertex v from positions[v * stride] on. Triangles without an area, or with
 // corners that are not finite, are patches of their own. The same patches on every machine; any
 // thread. False when memory runs out.
-bool dip_patches_find(const float *positions, size_t stride, uint32_t vertex_count,
-                      const uint32_t *indices, uint32_t index_count, uint32_t *patches,
-                      uint32_t *count);
+DIP_API bool dip_patches_find(const float *positions, size_t stride, uint32_t vertex_count,
+                              const uint32_t *indices, uint32_t index_count, uint32_t *patches,
+                              uint32_t *count);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

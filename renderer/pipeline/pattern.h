@@ -7,8 +7,14 @@
 #ifndef DIP_RENDERER_PIPELINE_PATTERN_H
 #define DIP_RENDERER_PIPELINE_PATTERN_H
 
+#include "renderer/base/api.h"
+
 #include <stdbool.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum {
     DIP_MAX_SAMPLES = 8,
@@ -35,10 +41,10 @@ typedef enum DipPatternKind {
 } DipPatternKind;
 
 // sample_count: 1, 2, 4, 6 or 8. Static storage.
-const DipSamplePattern *dip_sample_pattern(int sample_count);
+DIP_API const DipSamplePattern *dip_sample_pattern(int sample_count);
 
 // The same; a single sample stays in the centre whatever the kind.
-const DipSamplePattern *dip_sample_pattern_of(int sample_count, DipPatternKind kind);
+DIP_API const DipSamplePattern *dip_sample_pattern_of(int sample_count, DipPatternKind kind);
 
 static inline DipPatternKind dip_pattern_kind(bool temporal, uint64_t frame_index) {
     return !temporal ? DIP_PATTERN_STANDARD : frame_index % 2 ? DIP_PATTERN_ODD : DIP_PATTERN_EVEN;
@@ -54,10 +60,14 @@ typedef struct DipSampleGroups {
 } DipSampleGroups;
 
 // Whether the count's samples can be shared out to groups of so many.
-bool dip_sample_groups_exist(int sample_count, int samples_per_group);
+DIP_API bool dip_sample_groups_exist(int sample_count, int samples_per_group);
 
 // samples_per_group: one that dip_sample_groups_exist says is there.
-void dip_sample_groups_make(DipSampleGroups *groups, const DipSamplePattern *pattern,
-                            int samples_per_group);
+DIP_API void dip_sample_groups_make(DipSampleGroups *groups, const DipSamplePattern *pattern,
+                                    int samples_per_group);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

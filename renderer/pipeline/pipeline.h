@@ -6,6 +6,7 @@
 #ifndef DIP_RENDERER_PIPELINE_PIPELINE_H
 #define DIP_RENDERER_PIPELINE_PIPELINE_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 #include "renderer/base/isa.h"
 #include "renderer/base/pool.h"
@@ -74,8 +75,9 @@ typedef struct DipPipeline DipPipeline;
 
 // width, height: 1..DIP_MAX_TARGET_SIZE pixels. The pool is borrowed and must outlive the pipeline.
 // Fails with RANGE, UNSUPPORTED (an instruction set that this machine lacks) or MEMORY.
-DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height, DipError *err);
-void dip_pipeline_destroy(DipPipeline **pipeline);
+DIP_API DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height,
+                                         DipError *err);
+DIP_API void dip_pipeline_destroy(DipPipeline **pipeline);
 
 // Draws a pass and adds to *counters and *times. It fails with
 // - RANGE, CONFLICT or MISSING, with the field as the error's key, if a field does not keep to its
@@ -83,8 +85,8 @@ void dip_pipeline_destroy(DipPipeline **pipeline);
 // - OVERSIZED if 32 bits cannot index the pass's triangles: about 2^31 / (8 + 3 * the largest
 //   varying_count) of them, counted once for each draw that uses them, in view or not;
 // - MEMORY; then the target's content is undefined.
-bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipPipelineCounters *counters,
-                       DipStageTimes *times, DipError *err);
+DIP_API bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass,
+                               DipPipelineCounters *counters, DipStageTimes *times, DipError *err);
 
 // A pass, the pipeline that draws it, and what drawing adds to.
 typedef struct DipPassWork {
@@ -105,12 +107,12 @@ enum { DIP_MAX_PASSES_AT_ONCE = 8 };
 // time and counters are added to each. Every pass's stages of tiles are timed apart.
 // Errors are those of dip_pipeline_draw, and CONFLICT for pipelines that are not distinct or not on
 // one pool.
-bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geometry,
-                              DipError *err);
+DIP_API bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geometry,
+                                      DipError *err);
 
 // Allocates what drawing the pass needs, so that drawing it later allocates nothing (except what
 // clipping may add). The pass's target and uniforms are not read.
-bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err);
+DIP_API bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
 
@@ -41,39 +42,40 @@ typedef struct DipTexture DipTexture;
 
 // Makes a texture with its whole mip chain from a copy of the texels. Runs on the caller's thread.
 // Fails with RANGE (size) or MEMORY.
-DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err);
+DIP_API DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err);
 
 // Makes textures[0..count-1] with their mip chains on the pool (NULL: on the caller's thread), all
 // or none. The texels are the same for every number of threads.
 // used: textures[i] becomes NULL where used[i] is false; NULL means all are used.
 // keep_alpha: the alpha plane is kept where keep_alpha[i] is true; NULL means wherever some texel
 // is not opaque.
-bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool *keep_alpha,
-                         int count, DipPool *pool, DipTexture **textures, DipError *err);
+DIP_API bool dip_textures_create(const DipTextureDef *defs, const bool *used,
+                                 const bool *keep_alpha, int count, DipPool *pool,
+                                 DipTexture **textures, DipError *err);
 
 // Makes a texture whose mip levels are the given pictures, of any sizes, instead of a chain of
 // halves. level_count: 1..DIP_MAX_LEVELS.
-DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
-                                           DipError *err);
+DIP_API DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
+                                                   DipError *err);
 
 // Makes compressed[i] from textures[i] as BC1 shows it: the colours of every level are encoded and
 // decoded, at the same size in memory. compressed[i] is NULL where wanted[i] is false; all or none
 // are made. It shares the alpha plane of textures[i], which must outlive it. Runs on the pool
 // (NULL: on the caller's thread); the texels are the same for every number of threads.
-bool dip_textures_compress(DipTexture *const *textures, const bool *wanted, int count,
-                           DipPool *pool, DipTexture **compressed, DipError *err);
+DIP_API bool dip_textures_compress(DipTexture *const *textures, const bool *wanted, int count,
+                                   DipPool *pool, DipTexture **compressed, DipError *err);
 
 // Frees a texture that no draw uses any more. *texture may be NULL and becomes NULL.
-void dip_texture_destroy(DipTexture **texture);
+DIP_API void dip_texture_destroy(DipTexture **texture);
 
-int dip_texture_level_count(const DipTexture *texture);
+DIP_API int dip_texture_level_count(const DipTexture *texture);
 
 // Size of a level in texels; level 0 is the largest. level: 0..dip_texture_level_count - 1.
-void dip_texture_level_size(const DipTexture *texture, int level, int *width, int *height);
+DIP_API void dip_texture_level_size(const DipTexture *texture, int level, int *width, int *height);
 
 // Memory that the texture's colours take, and its alpha plane unless it is shared. 0 for NULL.
-uint64_t dip_texture_colour_bytes(const DipTexture *texture);
-uint64_t dip_texture_alpha_bytes(const DipTexture *texture);
+DIP_API uint64_t dip_texture_colour_bytes(const DipTexture *texture);
+DIP_API uint64_t dip_texture_alpha_bytes(const DipTexture *texture);
 
 // How a shader reads a texture. Numbers of levels of detail are in 1/256 level.
 typedef struct DipSampler {

@@ -1,8 +1,7 @@
 // BC1 as its definition has it: blocks of every level, and the colours they stand for.
-#include "renderer/reference/texture.h"
+#include "renderer/reference/internal/texture.h"
 
 #include "renderer/pipeline/bc1.h"
-#include "renderer/pipeline/texture/texture_layout.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 // The converged picture: planes of one jittered sample per pixel, each drawn whole, averaged.
-#include "renderer/reference/private.h"
+#include "renderer/reference/internal/internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 // All arithmetic on samples is converge.c's; only what cannot be seen is skipped.
 #include "renderer/reference/convergence.h"
 
-#include "renderer/reference/private.h"
+#include "renderer/reference/internal/internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // The picture of the settings: exact coverage, depth per sample, one shading per pixel and patch.
-#include "renderer/reference/private.h"
+#include "renderer/reference/internal/internal.h"
 
 #include "renderer/pipeline/pattern.h"
 

@@ -1,5 +1,5 @@
 // From the Jacobian of texture coordinates to probes and a level: docs/picture.md, "Textures".
-#include "renderer/reference/footprint.h"
+#include "renderer/reference/internal/footprint.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 // From the scene's meshes to screen triangles: transform, vertex light, near plane, facing.
-#include "renderer/reference/private.h"
+#include "renderer/reference/internal/internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // Light and highlight of normal-mapped surfaces: docs/picture.md, "Normal maps".
-#include "renderer/reference/private.h"
+#include "renderer/reference/internal/internal.h"
 
 #include <math.h>
 

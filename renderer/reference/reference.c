@@ -1,5 +1,5 @@
 // The reference's scene: checks the description and decodes the textures that are shown.
-#include "renderer/reference/private.h"
+#include "renderer/reference/internal/internal.h"
 
 #include "renderer/pipeline/patch.h"
 #include "renderer/scene/renderer.h"

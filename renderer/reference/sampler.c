@@ -1,6 +1,6 @@
 // Reading textures: wrap, bilinear, trilinear, anisotropic, mip colours.
-#include "renderer/reference/footprint.h"
-#include "renderer/reference/texture.h"
+#include "renderer/reference/internal/footprint.h"
+#include "renderer/reference/internal/texture.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 // What a triangle looks like at a place: interpolation, derivatives, textures, light.
-#include "renderer/reference/private.h"
+#include "renderer/reference/internal/internal.h"
 
 #include <math.h>
 

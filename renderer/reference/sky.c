@@ -1,5 +1,5 @@
 // The sky with its clouds: docs/picture.md, "Sky".
-#include "renderer/reference/private.h"
+#include "renderer/reference/internal/internal.h"
 
 #include <math.h>
 

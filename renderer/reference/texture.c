@@ -1,5 +1,5 @@
 // sRGB, and mip chains by exact area weights.
-#include "renderer/reference/texture.h"
+#include "renderer/reference/internal/texture.h"
 
 #include <math.h>
 #include <stdlib.h>

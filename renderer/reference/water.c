@@ -1,5 +1,5 @@
 // What water adds: which part of its colour is the mirrored scene's.
-#include "renderer/reference/private.h"
+#include "renderer/reference/internal/internal.h"
 
 #include <math.h>
 

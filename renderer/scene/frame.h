@@ -2,12 +2,17 @@
 #ifndef DIP_RENDERER_SCENE_FRAME_H
 #define DIP_RENDERER_SCENE_FRAME_H
 
+#include "renderer/base/api.h"
 #include "renderer/pipeline/counters.h"
 #include "renderer/pipeline/target.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, in pixels
 
@@ -71,6 +76,10 @@ typedef struct DipFrame {
 
 // 128-bit hash of the frame's pixels (not of its padding or counters) as 32 hex digits. FNV-1a in
 // two lanes: guards determinism, is no protection against forgery.
-void dip_frame_hash(const DipFrame *frame, char hex[33]);
+DIP_API void dip_frame_hash(const DipFrame *frame, char hex[33]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

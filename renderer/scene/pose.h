@@ -5,10 +5,18 @@
 #ifndef DIP_RENDERER_SCENE_POSE_H
 #define DIP_RENDERER_SCENE_POSE_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct DipPose {
     double position_world[3];
     double orientation[4]; // unit quaternion x, y, z, w
     double fov_y_deg;      // vertical field of view, 1..170
 } DipPose;
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -8,11 +8,16 @@
 #ifndef DIP_RENDERER_SCENE_QUALITY_H
 #define DIP_RENDERER_SCENE_QUALITY_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // X(key, NAME, "Title", default step, (steps), "what it does")
 #define DIP_SETTING_LIST(X)                                                                        \
@@ -70,29 +75,33 @@ typedef struct DipSettingInfo {
     const char *steps[DIP_MAX_STEPS]; // "none", "2", ...
 } DipSettingInfo;
 
-const DipSettingInfo *dip_setting_info(DipSetting setting);
+DIP_API const DipSettingInfo *dip_setting_info(DipSetting setting);
 
-DipQuality dip_quality_default(void);
+DIP_API DipQuality dip_quality_default(void);
 
 // Reads settings as text over the defaults. NULL err is allowed. Fails with DIP_ERROR_UNKNOWN
 // (setting or step), CONFLICT (a setting twice); then
 // *quality is unchanged. Thread-safe.
-bool dip_quality_parse(const char *text, DipQuality *quality, DipError *err);
+DIP_API bool dip_quality_parse(const char *text, DipQuality *quality, DipError *err);
 
 // Writes all settings in list order, "aa=none,taa=off,..."; returns the length as snprintf does.
-size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_bytes);
+DIP_API size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_bytes);
 
 // Fails when a step is out of range (RANGE) or does not fit another setting (CONFLICT: an asd that
 // aa has no passes for).
-bool dip_quality_check(const DipQuality *quality, DipError *err);
+DIP_API bool dip_quality_check(const DipQuality *quality, DipError *err);
 
-int dip_quality_sample_count(const DipQuality *quality);   // 1, 2, 4, 6 or 8
-int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (trilinear), 2, 4, 8 or 16
+DIP_API int dip_quality_sample_count(const DipQuality *quality);   // 1, 2, 4, 6 or 8
+DIP_API int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (trilinear), 2, 4, 8 or 16
 
 // Whether colour textures are shown compressed. Mip colours hide them.
-bool dip_quality_compresses(const DipQuality *quality);
+DIP_API bool dip_quality_compresses(const DipQuality *quality);
 
 // Of alpha-clipped surfaces: all samples, unless adaptive AA makes passes.
-int dip_quality_samples_per_group(const DipQuality *quality);
+DIP_API int dip_quality_samples_per_group(const DipQuality *quality);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -4,6 +4,10 @@
 
 #include <stdbool.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 // All of a scene's water (DIP_SURFACE_WATER) counts as horizontal and shows the same picture: the
 // scene mirrored at one height, whatever the height of each pool.
 typedef struct DipReflectionDef {
@@ -16,5 +20,9 @@ typedef struct DipReflectionDef {
 
 // Refractive index of water.
 #define DIP_WATER_INDEX 1.333
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -5,6 +5,7 @@
 #ifndef DIP_RENDERER_SCENE_RENDERER_H
 #define DIP_RENDERER_SCENE_RENDERER_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 #include "renderer/base/isa.h"
 #include "renderer/base/pool.h"
@@ -15,6 +16,10 @@
 #include "renderer/scene/scene.h"
 
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct DipRendererDef {
     DipPool *pool; // borrowed; must outlive the renderer
@@ -32,34 +37,35 @@ typedef struct DipRendererDef {
 typedef struct DipRenderer DipRenderer;
 
 // Default settings, 640x480, the best instruction set, no reflection; the pool must be filled in.
-DipRendererDef dip_renderer_default_def(void);
+DIP_API DipRendererDef dip_renderer_default_def(void);
 
-DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err);
-void dip_renderer_destroy(DipRenderer **renderer);
+DIP_API DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err);
+DIP_API void dip_renderer_destroy(DipRenderer **renderer);
 
 // Each takes effect in the next frame. On failure nothing changes.
-bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality, DipError *err);
-bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *reflection,
-                                 DipError *err);
-bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError *err);
+DIP_API bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality,
+                                      DipError *err);
+DIP_API bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *reflection,
+                                         DipError *err);
+DIP_API bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError *err);
 
-DipQuality dip_renderer_quality(const DipRenderer *renderer);
+DIP_API DipQuality dip_renderer_quality(const DipRenderer *renderer);
 
 // The number of the next frames, 0 at first; the caller counts. Only its parity matters, and only
 // to temporal antialiasing: which of the two sample patterns is drawn with.
-void dip_renderer_set_frame_index(DipRenderer *renderer, uint64_t frame_index);
+DIP_API void dip_renderer_set_frame_index(DipRenderer *renderer, uint64_t frame_index);
 
 // Pictures for mip debugging instead of the flat colours: up to one per level size 1024, 512, ...,
 // 8 (index 0..7). A NULL picture keeps the flat colour. Copied.
 enum { DIP_MIP_DEBUG_LEVELS = 8 };
-bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
-                                   const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
-                                   DipError *err);
+DIP_API bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
+                                           const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
+                                           DipError *err);
 
 // Draws the scene at a time (nanoseconds since the path's start). The frame is the same to the
 // bit for any pool size and instruction set.
-bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
-                       int64_t time_ns, DipFrame *frame, DipError *err);
+DIP_API bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
+                               int64_t time_ns, DipFrame *frame, DipError *err);
 
 enum { DIP_MAX_FRAMES_AT_ONCE = 4 };
 
@@ -68,8 +74,12 @@ enum { DIP_MAX_FRAMES_AT_ONCE = 4 };
 // geometry runs once if the settings differ only in samples and shading (everything but gi); its
 // time and counters are then in every frame. count: 1..DIP_MAX_FRAMES_AT_ONCE; the renderers are
 // distinct and on one pool.
-bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count, const DipScene *scene,
-                              const DipPose *pose, int64_t time_ns, DipFrame *const *frames,
-                              DipError *err);
+DIP_API bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count,
+                                      const DipScene *scene, const DipPose *pose, int64_t time_ns,
+                                      DipFrame *const *frames, DipError *err);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -7,12 +7,17 @@
 #ifndef DIP_RENDERER_SCENE_SCENE_H
 #define DIP_RENDERER_SCENE_SCENE_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
 #include "renderer/pipeline/texture.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 // What a surface is, as the model file tags it.
 typedef enum DipSurface {
@@ -89,7 +94,7 @@ typedef struct DipSkyDef {
 } DipSkyDef;
 
 // Blue sky, half overcast.
-DipSkyDef dip_sky_default(void);
+DIP_API DipSkyDef dip_sky_default(void);
 
 typedef struct DipSceneDef {
     const DipTextureDef *textures;
@@ -109,30 +114,34 @@ typedef struct DipScene DipScene;
 
 // Copies the description; nothing of *def is kept. The pool (may be NULL) speeds it up. Fails
 // with a reason when an index, size or number is out of range or memory runs out.
-DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err);
-void dip_scene_destroy(DipScene **scene);
+DIP_API DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err);
+DIP_API void dip_scene_destroy(DipScene **scene);
 
 // Makes the textures that opt=standard and opt=advanced show, unless they are there already; else
 // the first frame that shows them does, and takes as long. They stay until the scene is destroyed.
 // Beside it other threads may draw the scene, with a pool of their own; those that need the
 // textures wait for them. Without a pool (NULL) the caller's thread does all the work.
-bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError *err);
+DIP_API bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError *err);
 
 // How long the parts of making it took, milliseconds.
 typedef struct DipSceneTimes {
     double textures_ms; // mip chains
     double meshes_ms;
 } DipSceneTimes;
-DipSceneTimes dip_scene_times(const DipScene *scene);
+DIP_API DipSceneTimes dip_scene_times(const DipScene *scene);
 
 // Axis-aligned bounds of all objects in world space; of sky only where there is nothing else, so
 // that a camera made for the bounds does not look at a sky dome from outside.
-void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]);
+DIP_API void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]);
 
 // Height (world y) of the scene's lowest water; false when it has none.
-bool dip_scene_water_level(const DipScene *scene, double *level_m);
+DIP_API bool dip_scene_water_level(const DipScene *scene, double *level_m);
 
-uint64_t dip_scene_triangle_count(const DipScene *scene);
-uint64_t dip_scene_texture_bytes(const DipScene *scene); // held now
+DIP_API uint64_t dip_scene_triangle_count(const DipScene *scene);
+DIP_API uint64_t dip_scene_texture_bytes(const DipScene *scene); // held now
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -9,7 +9,6 @@
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/pipeline/raster/tile.h"
 #include "renderer/pipeline/shader.h"
-#include "renderer/scene/frame.h"
 
 #include <stdbool.h>
 #include <stdint.h>

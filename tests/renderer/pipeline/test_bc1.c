@@ -3,7 +3,7 @@
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/bc1.h"
 #include "renderer/pipeline/texture/texture_layout.h"
-#include "renderer/reference/texture.h"
+#include "renderer/reference/internal/texture.h"
 #include "tests/renderer/random.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 // instruction set against closed forms and the reference in double.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/texture_layout.h"
-#include "renderer/reference/texture.h"
+#include "renderer/reference/internal/texture.h"
 #include "tests/renderer/random.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // Level of detail and anisotropy of the reference against Jacobians whose axes are known.
-#include "renderer/reference/footprint.h"
+#include "renderer/reference/internal/footprint.h"
 #include "tests/renderer/random.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // Decoding, mip chains and filtering of the reference against closed forms.
-#include "renderer/reference/texture.h"
+#include "renderer/reference/internal/texture.h"
 #include "tests/renderer/random.h"
 
 #include <math.h>

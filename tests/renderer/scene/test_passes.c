@@ -433,7 +433,8 @@ static void nothing_is_spent_without_passes(void **state) {
             const DipPipelineCounters without =
                 run(dip_isa_best(), &draw, 1, (const int[]){pairs[i][0], 0}, DIP_PATTERN_STANDARD);
             memcpy(plain, picture, sizeof plain);
-            const DipPipelineCounters with = run(dip_isa_best(), &draw, 1, pairs[i], DIP_PATTERN_STANDARD);
+            const DipPipelineCounters with =
+                run(dip_isa_best(), &draw, 1, pairs[i], DIP_PATTERN_STANDARD);
             assert_memory_equal(picture, plain, sizeof plain);
             assert_memory_equal(&with, &without, sizeof with);
             assert_int_equal(with.clip_sample_groups, clipped);

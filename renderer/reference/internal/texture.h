@@ -1,6 +1,6 @@
 // Private to the reference path (and its tests): decoded mip chains and how they are read.
-#ifndef DIP_RENDERER_REFERENCE_TEXTURE_H
-#define DIP_RENDERER_REFERENCE_TEXTURE_H
+#ifndef DIP_RENDERER_REFERENCE_INTERNAL_TEXTURE_H
+#define DIP_RENDERER_REFERENCE_INTERNAL_TEXTURE_H
 
 #include "renderer/base/error.h"
 #include "renderer/scene/quality.h"

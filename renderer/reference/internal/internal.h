@@ -1,9 +1,9 @@
 // Private to the reference path: its scene, its triangles and what they share.
-#ifndef DIP_RENDERER_REFERENCE_PRIVATE_H
-#define DIP_RENDERER_REFERENCE_PRIVATE_H
+#ifndef DIP_RENDERER_REFERENCE_INTERNAL_INTERNAL_H
+#define DIP_RENDERER_REFERENCE_INTERNAL_INTERNAL_H
 
 #include "renderer/reference/reference.h"
-#include "renderer/reference/texture.h"
+#include "renderer/reference/internal/texture.h"
 
 #include <stddef.h>
 

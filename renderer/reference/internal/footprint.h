@@ -1,6 +1,6 @@
 // Private to the reference path (and its tests): level of detail and anisotropy of a footprint.
-#ifndef DIP_RENDERER_REFERENCE_FOOTPRINT_H
-#define DIP_RENDERER_REFERENCE_FOOTPRINT_H
+#ifndef DIP_RENDERER_REFERENCE_INTERNAL_FOOTPRINT_H
+#define DIP_RENDERER_REFERENCE_INTERNAL_FOOTPRINT_H
 
 #include <stdbool.h>
 

@@ -1,0 +1,58 @@
+#!/bin/sh
+# Fails when a file includes a header of a library that it may not use, or a private header of
+# another library. tests/borders/layers.txt says who may use what.
+#
+# Usage: check_includes.sh LAYERS ROOT [LEAST]
+# LEAST: the number of includes between libraries that the tree has at least.
+set -eu
+layers=$1
+cd "$2"
+find renderer config campaths assets app -name '*.[ch]' | sort |
+    xargs awk -v LAYERS="$layers" -v LEAST="${3:-100}" '
+    function library_of(path,    best, name) {
+        best = ""
+        for (name in allowed) {
+            if (index(path, name "/") == 1 && length(name) > length(best)) {
+                best = name
+            }
+        }
+        return best
+    }
+    BEGIN {
+        while ((getline line < LAYERS) > 0) {
+            if (line !~ /^#/ && split(line, field) > 0) {
+                allowed[field[1]] = " "
+                for (i = 2; i in field; i++) {
+                    allowed[field[1]] = allowed[field[1]] field[i] " "
+                }
+                delete field
+            }
+        }
+    }
+    FNR == 1 { from = library_of(FILENAME) }
+    /^#include "/ {
+        split($0, part, "\"")
+        to = library_of(part[2])
+        if (to == "" || to == from) {
+            next
+        }
+        included++
+        if (index(allowed[from], " " to " ") == 0) {
+            printf "%s:%d: %s may not include headers of %s (%s)\n", FILENAME, FNR, from, to, part[2]
+            crossed = 1
+        } else if (substr(part[2], length(to) + 2) ~ /\// || part[2] ~ /_(private|parts)\.h$/) {
+            printf "%s:%d: %s is a private header of %s\n", FILENAME, FNR, part[2], to
+            crossed = 1
+        }
+    }
+    /^#include <SDL2/ && FILENAME !~ /^app\/display\/sdl\// {
+        printf "%s:%d: only app/display/sdl/ may include SDL\n", FILENAME, FNR
+        crossed = 1
+    }
+    END {
+        if (included < LEAST) {
+            printf "only %d includes cross a border; has the tree moved?\n", included
+            crossed = 1
+        }
+        exit crossed
+    }'
