@@ -1,6 +1,7 @@
 // Passes that cannot be drawn are refused with the field at fault, in release builds too; and
 // passes drawn at once are the same as passes drawn one by one.
 #include "renderer/pipeline/pipeline.h"
+#include "tests/renderer/random.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,7 +11,7 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 100, HEIGHT = 70, PASSES = DIP_MAX_PASSES_AT_ONCE };
+enum { WIDTH = 100, HEIGHT = 70, PASSES = DIP_MAX_PASSES_AT_ONCE, SMALL = 2000 };
 
 static uint8_t pictures[2][PASSES][WIDTH * HEIGHT * 4];
 
@@ -40,14 +41,36 @@ static void show_varying(DipFragmentBatch *batch) {
     batch->work.counts[1] += (uint64_t)batch->count;
 }
 
+// One large triangle behind many that are smaller than a pixel, so that each falls between the
+// samples of some patterns and on a sample of others.
+static DipMesh *make_mesh(void) {
+    static const float large[3][3] = {
+        {-0.9f, -0.8f, 0.2f}, {0.9f, -0.7f, 0.2f}, {0.1f, 0.9f, 0.2f}};
+    static float vertices[3 * (1 + SMALL)][3];
+    static uint32_t indices[3 * (1 + SMALL)];
+    Random random = {99};
+    memcpy(vertices, large, sizeof large);
+    for (int t = 1; t <= SMALL; t++) {
+        const float x = (float)random_real(&random, -1.0, 0.98);
+        const float y = (float)random_real(&random, -1.0, 0.98);
+        for (int k = 0; k < 3; k++) {
+            vertices[3 * t + k][0] = x + (k == 1 ? 0.013f : 0.0f);
+            vertices[3 * t + k][1] = y + (k == 2 ? 0.018f : 0.0f);
+            vertices[3 * t + k][2] = 0.5f;
+        }
+    }
+    for (uint32_t i = 0; i < 3 * (1 + SMALL); i++) {
+        indices[i] = i;
+    }
+    const DipMeshData data = {"triangles",     &vertices[0][0], 3,
+                              3 * (1 + SMALL), indices,         3 * (1 + SMALL)};
+    return dip_mesh_create(&data, NULL);
+}
+
 static int open_stage(void **state) {
-    static const float vertices[3][3] = {
-        {-0.9f, -0.8f, 0.5f}, {0.9f, -0.7f, 0.5f}, {0.1f, 0.9f, 0.5f}};
-    static const uint32_t indices[3] = {0, 1, 2};
     static Stage stage;
-    const DipMeshData data = {"triangle", &vertices[0][0], 3, 3, indices, 3};
     stage.pool = dip_pool_create(2, NULL);
-    stage.mesh = dip_mesh_create(&data, NULL);
+    stage.mesh = make_mesh();
     for (int i = 0; i < PASSES; i++) {
         stage.pipelines[i] = dip_pipeline_create(stage.pool, dip_isa_best(), WIDTH, HEIGHT, NULL);
         assert_non_null(stage.pipelines[i]);
