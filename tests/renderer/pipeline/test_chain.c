@@ -94,7 +94,7 @@ static void check_level(const DipTexture *texture, int level, const Plain *plain
             const int at = texture->level_offset[level] + y * (plain->width + 1) + x;
             if (texture->texels[at] != dip_texel_pack(rgb) ||
                 (texture->alpha && texture->alpha[at] != (uint8_t)(texel[3] * 255.0f + 0.5f))) {
-                fail_msg("level %d, texel %d, %d", level, x, y);
+                fail_msg("level %d differs from the definition at texel (%d, %d)", level, x, y);
             }
         }
     }
