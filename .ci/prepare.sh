@@ -1,4 +1,4 @@
-# Shared by ./run and ./test: packages and builds. Sourced from the repository's top folder.
+# Installs packages and builds. ./run and ./test source this file from the repository's top folder.
 
 TOP=$PWD
 PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libsdl2-ttf-dev libfontconfig-dev
@@ -9,13 +9,13 @@ is_installed() {
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
 }
 
-# require_packages NAME...: installs what is missing, after showing the command.
+# require_packages NAME...: installs the packages that are missing. Prints the command first.
 require_packages() {
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
         [ -d "$TOP/build/release" ] || cat >&2 <<TEXT
-This system has no apt-get. Diptych needs, by their Debian names:
+This system has no apt-get. Diptych needs the following packages (Debian names):
     $*
-Install what your system calls them; the build goes on and says what is missing.
+Install the corresponding packages of your system. The build continues and reports what is missing.
 TEXT
         return 0
     fi
@@ -27,7 +27,7 @@ TEXT
     as_root=
     if [ "$(id -u)" != 0 ]; then
         if ! command -v sudo >/dev/null; then
-            echo "Missing packages, to be installed as root: apt-get install$missing" >&2
+            echo "Packages are missing. Install them as root: apt-get install$missing" >&2
             return 1
         fi
         as_root=sudo
@@ -38,17 +38,17 @@ TEXT
     DEBIAN_FRONTEND=noninteractive $install >&2
 }
 
-# build PRESET [TARGET]: configures once and builds; quiet unless something goes wrong.
+# build PRESET [TARGET]: configures and builds. Shows the build's output only if it fails.
 build() {
     log="$TOP/build/$1.log"
     mkdir -p "$TOP/build"
     if [ ! -f "$TOP/build/$1/build.ninja" ]; then
-        echo "Configuring and building ($1); the first time takes a minute ..." >&2
+        echo "Configuring and building ($1). The first time takes about a minute ..." >&2
     fi
     if ! (cd "$TOP" && cmake --preset "$1" && cmake --build --preset "$1" ${2:+--target "$2"}) \
         >"$log" 2>&1; then
         cat "$log" >&2
-        echo "The build failed; its output is in $log" >&2
+        echo "The build failed. Its output is also in $log" >&2
         return 1
     fi
 }

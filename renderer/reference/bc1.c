@@ -1,4 +1,4 @@
-// BC1 as its definition has it: blocks of every level, and the colours they stand for.
+// BC1 by its definition: encodes the blocks of every level and decodes their colours.
 #include "renderer/reference/internal/texture.h"
 
 #include "renderer/pipeline/bc1.h"
@@ -9,8 +9,9 @@ static size_t blocks_across(int size) {
     return (size_t)(size + 3) / 4;
 }
 
-// What the encoder is given is rounded as the fast path's texels are, since it may answer a
-// difference of one code with another block; what is read from the block is not.
+// Encodes the block at texel (x, y). The encoder's input is rounded as the fast renderer's texels
+// are, since a difference of one code may produce another block. Colours that are read from the
+// block are not rounded.
 static void encode_block(const DipRefTexture *texture, int level, int x, int y,
                          const DipRootCodes *codes, uint8_t *block) {
     uint8_t rgba8[64];
@@ -52,7 +53,7 @@ bool dip_reference_texture_compress(DipRefTexture *texture, DipError *err) {
                                  "no memory for its blocks");
 }
 
-// A colour of 5, 6 and 5 bits as sRGB, 0..1.
+// Converts a colour of 5, 6 and 5 bits to sRGB, 0..1.
 static void unpack(unsigned colour, double srgb[3]) {
     srgb[0] = (colour >> 11) / 31.0;
     srgb[1] = (colour >> 5 & 63) / 63.0;
@@ -81,6 +82,6 @@ void dip_reference_compressed_texel(const DipRefTexture *texture, int level, int
                                     double rgba[4]) {
     const size_t across = blocks_across(texture->widths[level]);
     const size_t index = (size_t)(y / 4) * across + (size_t)(x / 4);
-    dip_reference_texel(texture, level, x, y, rgba); // its alpha stays
+    dip_reference_texel(texture, level, x, y, rgba); // alpha stays the texture's own
     dip_reference_block_colour(texture->blocks[level] + index * DIP_BC1_BYTES, x % 4, y % 4, rgba);
 }

@@ -1,4 +1,5 @@
-// The converged picture: planes of one jittered sample per pixel, each drawn whole, averaged.
+// Draws the converged picture as the mean of planes. A plane holds one jittered sample of every
+// pixel and is drawn as a whole.
 #include "renderer/reference/internal/internal.h"
 
 #include <math.h>
@@ -6,9 +7,9 @@
 
 enum { NOTHING = -1 };
 
-// One sample of every pixel.
+// A plane: one sample of every pixel.
 typedef struct Plane {
-    double *x; // the sample's place within the frame, 1/256 pixel
+    double *x; // position of the sample in the frame, in 1/256 pixel
     double *y;
     double *depths;
     int32_t *triangles;
@@ -19,13 +20,13 @@ typedef struct Converging {
     const DipPose *pose;
     DipRefTriangles triangles;
     Plane plane;
-    const struct Converging *mirrored; // the mirrored scene at the same places; NULL: none
+    const struct Converging *mirrored; // the mirrored scene at the same positions, or NULL
     int width;
     int height;
 } Converging;
 
-// A bijection of 64-bit numbers whose output bits each depend on all input bits (splitmix64's
-// finaliser): consecutive inputs give unrelated outputs.
+// A bijection of 64-bit numbers in which each output bit depends on all input bits (the finaliser
+// of splitmix64), so consecutive inputs give unrelated outputs.
 static uint64_t mix(uint64_t z) {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -45,8 +46,8 @@ void dip_reference_sample_position(int index, int side, uint32_t seed, size_t pi
 bool dip_reference_check_samples(int sample_count, int *side, DipError *err) {
     *side = sample_count > 0 ? (int)lround(sqrt(sample_count)) : 0;
     return (sample_count >= 1 && *side * *side == sample_count) ||
-           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "samples", "%d per pixel, accepted squares",
-                         sample_count);
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "samples",
+                         "%d per pixel is not a square, accepted 1, 4, 9, 16, ...", sample_count);
 }
 
 static void start_plane(Converging *c, int index, int side, uint32_t seed) {
@@ -101,7 +102,7 @@ static void draw_plane(Converging *c) {
     }
 }
 
-// The colour of a pixel's sample.
+// Computes the colour of the plane's sample in a pixel.
 static void shade(const Converging *c, size_t pixel, double rgb[3]) {
     const int32_t index = c->plane.triangles[pixel];
     for (int i = 0; i < 3; i++) {

@@ -1,5 +1,5 @@
-// Tiles of the converged picture: the triangles that reach a tile, sample by sample of its pixels.
-// All arithmetic on samples is converge.c's; only what cannot be seen is skipped.
+// Draws the converged picture in tiles, from the triangles that reach each tile. The arithmetic on
+// samples is the same as in converge.c; this file only skips what cannot be visible.
 #include "renderer/reference/convergence.h"
 
 #include "renderer/reference/internal/internal.h"
@@ -7,9 +7,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { NOTHING = -1, TILE = 8 }; // pixels; a tile's samples fit a second-level cache
+enum { NOTHING = -1, TILE = 8 }; // in pixels; a tile's samples fit the second-level cache
 
-// Triangle i reaches the tiles from first[i]: items[first[tile]] .. items[first[tile + 1] - 1].
+// The triangles that reach each tile: items[first[tile]] .. items[first[tile + 1] - 1] are their
+// indices.
 typedef struct Bins {
     size_t *first;
     int32_t *items;
@@ -18,7 +19,7 @@ typedef struct Bins {
 struct DipConvergence {
     const DipReference *reference;
     DipPose pose;
-    DipConvergence *mirrored; // what water shows: the same frame of the mirrored scene; or NULL
+    DipConvergence *mirrored; // the same frame of the mirrored scene, which water shows; or NULL
     DipRefTriangles triangles;
     Bins bins;
     int width;
@@ -27,17 +28,17 @@ struct DipConvergence {
     int tiles_y;
 };
 
-// A tile's samples, pixel by pixel.
+// The samples of a tile, pixel by pixel.
 typedef struct Samples {
     const DipConvergence *convergence;
-    const struct Samples *mirrored; // at the same places; NULL: no water is seen that reflects
-    double *x;                      // place within the frame, 1/256 pixel
+    const struct Samples *mirrored; // at the same positions; NULL if no reflecting water is visible
+    double *x;                      // position in the frame, in 1/256 pixel
     double *y;
     double *depths;
-    double *clip_depths; // of the nearest alpha-clipped surface, there or not
+    double *clip_depths; // depth of the nearest alpha-clipped triangle, even where alpha removes it
     int32_t *triangles;
     int per_pixel;
-    int x0; // the tile's pixels
+    int x0; // the tile's pixels, from (x0, y0) on
     int y0;
     int x1; // exclusive
     int y1;
@@ -46,8 +47,8 @@ typedef struct Samples {
 
 // --- bins --------------------------------------------------------------------------------------
 
-// Goes through all tiles that each triangle reaches, in submission order. Returns false when it is
-// to stop.
+// Visits all tiles that each triangle reaches, in submission order. Counts the triangles of each
+// tile, or also writes their indices. Returns false if the work should stop.
 static bool fill_bins(DipConvergence *c, size_t *cursor, bool count_only) {
     for (size_t t = 0; t < c->triangles.count; t++) {
         const DipRefTriangle *triangle = &c->triangles.items[t];
@@ -170,7 +171,7 @@ static bool make_samples(const DipConvergence *c, int tile, int per_pixel, Sampl
     return memory != NULL;
 }
 
-// Of the first sample of a pixel.
+// Returns the index of a pixel's first sample.
 static size_t first_of(const Samples *samples, int x, int y) {
     return (size_t)((y - samples->y0) * TILE + (x - samples->x0)) * (size_t)samples->per_pixel;
 }
@@ -194,8 +195,8 @@ static void place_samples(Samples *samples, int side, uint32_t seed) {
 
 // --- triangles ---------------------------------------------------------------------------------
 
-// An edge function is a * (y - y0) - b * (x - x0). Rounding keeps it monotone in x and in y, so
-// that its greatest value within a box is that of one corner, to the bit.
+// An edge function, a * (y - y0) - b * (x - x0). Rounding keeps it monotone in x and in y, so its
+// greatest value within a box is its value at a corner, to the bit.
 typedef struct Edge {
     double a;
     double b;
@@ -330,7 +331,8 @@ static void shade_pixel(const Samples *samples, size_t first, double share, doub
     }
 }
 
-// How far the plane of one triangle is before that of another at a place, as depths.
+// Returns how far the plane of triangle a lies in front of that of triangle b at a position, as a
+// difference of depths.
 static double depth_between(const Samples *samples, const DipRefTriangle *a,
                             const DipRefTriangle *b, double x, double y) {
     const double near_m = samples->convergence->reference->def->near_m;
@@ -339,9 +341,10 @@ static double depth_between(const Samples *samples, const DipRefTriangle *a,
     return dip_reference_depth(&at_a, near_m) - dip_reference_depth(&at_b, near_m);
 }
 
-// Whether what sample i sees goes on from what the first sample sees: one material, on planes that
-// meet within a pixel. Depths are linear on the screen, and so is their difference. Corners between
-// walls go on; edges with something behind do not.
+// Returns true if sample i shows a continuation of the surface that the first sample shows: the
+// same material, on planes that meet within a pixel. Depths are linear on the screen, and so is
+// their difference. A corner between two walls counts as a continuation; an edge with something
+// behind it does not.
 static bool goes_on(const Samples *samples, size_t first, size_t i) {
     const DipConvergence *c = samples->convergence;
     if (samples->triangles[i] == samples->triangles[first]) {
@@ -395,7 +398,7 @@ static bool any_water(const Samples *samples) {
     return false;
 }
 
-// Places a tile's samples and finds what each of them sees.
+// Places the samples of a tile and finds the triangle that each of them shows.
 static bool draw_samples(const DipConvergence *convergence, int tile, int sample_count, int side,
                          uint32_t seed, Samples *samples) {
     if (!make_samples(convergence, tile, sample_count, samples)) {

@@ -1,4 +1,5 @@
-// The picture of the settings: exact coverage, depth per sample, one shading per pixel and patch.
+// Draws the picture of the settings: exact coverage, depth per sample, one shading per pixel and
+// patch.
 #include "renderer/reference/internal/internal.h"
 
 #include "renderer/pipeline/pattern.h"
@@ -12,7 +13,7 @@ __extension__ typedef __int128 Int128;
 
 enum { NOTHING = -1 };
 
-// The nearest surface so far, per sample: depth and the index of its triangle.
+// The nearest surface so far at each sample: its depth and the index of its triangle.
 typedef struct Samples {
     double *depths;
     int32_t *triangles;
@@ -21,26 +22,27 @@ typedef struct Samples {
 typedef struct Drawing {
     const DipReference *reference;
     const DipSamplePattern *pattern;
-    DipSampleGroups groups; // of clipped surfaces
+    DipSampleGroups groups; // the sample groups of clipped surfaces
     DipRefTriangles triangles;
     DipRefFilter filter;
-    DipRefFilter group_filter; // of clipped surfaces in several groups
+    DipRefFilter group_filter; // filter of clipped surfaces if there are several sample groups
     Samples samples;
     DipRefShot shot;
     int width;
     int height;
-    const double *mirrored; // the mirrored scene's picture; NULL: water does not reflect
+    const double *mirrored; // picture of the mirrored scene; NULL if water does not reflect
 } Drawing;
 
-// Twice the area of (from, to, place), exactly; positions in 1/256 pixel.
+// Returns twice the area of the triangle (from, to, (x, y)), exactly. Positions are in 1/256 pixel.
 static Int128 find_edge(const DipRefVertex *from, const DipRefVertex *to, int64_t x, int64_t y) {
     const int64_t from_x = (int64_t)from->x, from_y = (int64_t)from->y;
     return (Int128)((int64_t)to->x - from_x) * (y - from_y) -
            (Int128)((int64_t)to->y - from_y) * (x - from_x);
 }
 
-// Whether samples on this edge belong to the triangle: the edge is exactly horizontal and above
-// the rest, or the rest lies to its right. Corners go clockwise to the eye.
+// Returns true if samples on this edge belong to the triangle: the edge is exactly horizontal with
+// the rest of the triangle below it, or the rest lies to its right. The corners are clockwise to
+// the eye.
 static bool is_top_left(const DipRefVertex *from, const DipRefVertex *to) {
     return to->y < from->y || (to->y == from->y && to->x > from->x);
 }
@@ -72,15 +74,15 @@ static DipRefPosition place_at(const DipRefTriangle *triangle, int64_t x, int64_
         triangle, {(double)edges[0], (double)edges[1], (double)edges[2]}, (double)x, (double)y};
 }
 
-// A sample of a pixel.
+// The position of one of a pixel's samples on a triangle.
 static DipRefPosition place_at_sample(const Drawing *drawing, const DipRefTriangle *triangle, int x,
                                       int y, int sample) {
     return place_at(triangle, (int64_t)x * 256 + drawing->pattern->x[sample],
                     (int64_t)y * 256 + drawing->pattern->y[sample]);
 }
 
-// Where a surface that has these samples of a pixel (one bit each) is shaded: the centre when it
-// has all, else the sample of the lowest index.
+// Returns where a surface that holds these samples of a pixel (one bit each) is shaded: at the
+// centre if it holds all of them, otherwise at the sample with the lowest index.
 static DipRefPosition place_to_shade(const Drawing *drawing, const DipRefTriangle *triangle, int x,
                                      int y, unsigned mask) {
     if (mask == (1u << drawing->pattern->count) - 1u) {
@@ -101,7 +103,8 @@ static const DipRefFilter *filter_of(const Drawing *drawing, const DipRefTriangl
     return has_groups(drawing, triangle) ? &drawing->group_filter : &drawing->filter;
 }
 
-// Where a group that has these samples of a pixel is shaded: their centroid, rounded down.
+// Returns where a sample group that holds these samples of a pixel is shaded: at their centroid,
+// rounded down.
 static DipRefPosition place_of_pass(const Drawing *drawing, const DipRefTriangle *triangle, int x,
                                     int y, unsigned mask) {
     int sum_x = 0, sum_y = 0, count = 0;
@@ -120,7 +123,8 @@ static bool alpha_keeps(const Drawing *drawing, const DipRefPosition *place) {
     return (float)alpha >= place->triangle->material->alpha_cutoff;
 }
 
-// Of the covered samples those that alpha leaves, group by group.
+// Returns those of the covered samples that the alpha test keeps. Each sample group is tested on
+// its own.
 static unsigned clip_samples(const Drawing *drawing, const DipRefTriangle *triangle, int x, int y,
                              unsigned mask) {
     if (!has_groups(drawing, triangle)) {
@@ -174,7 +178,7 @@ static void draw_triangles(Drawing *drawing) {
     }
 }
 
-// A surface that has these samples of a pixel, or of one group over it.
+// Shades a surface that holds these samples of a pixel, or of one sample group of the pixel.
 static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigned mask,
                   double colour[3]) {
     const DipRefTriangle *triangle = &drawing->triangles.items[surface];
@@ -196,7 +200,7 @@ static bool same_patch(const Drawing *drawing, int32_t a, int32_t b) {
     return a == b || (a != NOTHING && b != NOTHING && triangles[a].patch == triangles[b].patch);
 }
 
-// The samples that are shaded together with sample s.
+// Returns the samples that are shaded together with sample s.
 static unsigned shaded_with(const Drawing *drawing, const int32_t *surfaces, int s) {
     unsigned mask = 0;
     for (int other = 0; other < drawing->pattern->count; other++) {
@@ -208,7 +212,8 @@ static unsigned shaded_with(const Drawing *drawing, const int32_t *surfaces, int
     return mask;
 }
 
-// The mean over a pixel's samples, each surface among them shaded once, or once per group.
+// Computes the mean of a pixel's samples. Each surface among them is shaded once, or once per
+// sample group.
 static void resolve_pixel(const Drawing *drawing, int x, int y, double rgb[3]) {
     const int count = drawing->pattern->count;
     const int32_t *surfaces = drawing->samples.triangles +
@@ -244,7 +249,7 @@ static bool make_samples(Drawing *drawing, DipError *err) {
     drawing->samples.depths = calloc(count, sizeof *drawing->samples.depths); // 0: infinitely far
     drawing->samples.triangles = malloc(count * sizeof *drawing->samples.triangles);
     if (!drawing->samples.depths || !drawing->samples.triangles) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for %zu samples",
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "out of memory for %zu samples",
                              count);
     }
     for (size_t i = 0; i < count; i++) {
@@ -262,7 +267,7 @@ static bool sees_water(const Drawing *drawing) {
     return false;
 }
 
-// The picture of a shot whose triangles are built.
+// Draws the picture of a shot whose triangles are built.
 static bool draw_built(Drawing *drawing, double *rgb_lin, DipError *err) {
     const bool made = make_samples(drawing, err);
     if (made) {
@@ -279,19 +284,19 @@ static bool draw_built(Drawing *drawing, double *rgb_lin, DipError *err) {
     return made;
 }
 
-// The mirrored scene's picture as the same settings draw it; NULL on failure.
+// Draws the mirrored scene with the same settings. Returns NULL on failure.
 static double *draw_mirrored(const Drawing *drawing, DipError *err) {
     const DipReflectionDef *reflection = &drawing->reference->reflection;
     Drawing mirrored = *drawing;
     mirrored.width = mirrored.shot.width = reflection->width;
     mirrored.height = mirrored.shot.height = reflection->height;
     mirrored.shot.mirrored = true;
-    // Two pixels of the picture, at a distance of 1.
+    // The height of two pixels of the mirrored picture, at a distance of 1.
     mirrored.shot.margin =
         4.0 * tan(drawing->shot.pose->fov_y_deg * (pi / 360.0)) / reflection->height;
     double *rgb_lin = malloc((size_t)mirrored.width * (size_t)mirrored.height * 3 * sizeof(double));
     if (!rgb_lin) {
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reflection");
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "out of memory for the reflection");
         return NULL;
     }
     const bool drawn = dip_reference_build_triangles(drawing->reference, &mirrored.shot,

@@ -1,9 +1,9 @@
-// From the Jacobian of texture coordinates to probes and a level: docs/picture.md, "Textures".
+// Converts the Jacobian of texture coordinates to probes and a level: docs/picture.md, "Textures".
 #include "renderer/reference/internal/footprint.h"
 
 #include <math.h>
 
-// One frame in which plain AF judges a footprint: its longer and its shorter derivative.
+// The major axis of a footprint, its length, and its ratio to the minor axis.
 typedef struct Frame {
     double major[2];
     double length;
@@ -32,9 +32,10 @@ static Frame judge_plain(const double ddx[2], const double ddy[2], int max_aniso
     return turned.ratio > screen.ratio ? turned : screen;
 }
 
-// Singular values and the major left singular vector of a 2x2 matrix without cancellation: the
-// matrix is the sum of a scaled rotation (length q, angle of (e, h)) and a scaled reflection
-// (length r, angle of (f, g)); M = q + r, m = |det| / M, the direction halves both angles.
+// Finds the singular values and the major left singular vector of a 2x2 matrix without
+// cancellation. The matrix is the sum of a scaled rotation (length q, the angle of (e, h)) and a
+// scaled reflection (length r, the angle of (f, g)). Then M = q + r, m = |det| / M, and the
+// direction is half the sum of both angles.
 static Frame judge_ellipse(const double ddx[2], const double ddy[2], int max_anisotropy) {
     const double e = (ddx[0] + ddy[1]) * 0.5;
     const double f = (ddx[0] - ddy[1]) * 0.5;
@@ -63,7 +64,7 @@ DipFootprint dip_reference_footprint(const double ddx[2], const double ddy[2], i
     }
     const Frame frame = exact_footprint ? judge_ellipse(ddx, ddy, max_anisotropy)
                                         : judge_plain(ddx, ddy, max_anisotropy);
-    const double most = fmax(1.0, frame.length / (1 << min_level)); // a texel apart
+    const double most = fmax(1.0, frame.length / (1 << min_level)); // keeps probes a texel apart
     const int probe_count = (int)ceil(fmin(frame.ratio, most) - 1e-4);
     return (DipFootprint){{frame.major[0], frame.major[1]},
                           frame.ratio,
@@ -78,7 +79,7 @@ int dip_reference_coarser_probes(int probe_count, double fraction) {
 double dip_reference_level(double lambda, double bias, int min_level, int last_level) {
     const double first = min_level < last_level ? min_level : last_level;
     const double biased = lambda + bias;
-    // NaN fails the comparison and takes the smallest level.
+    // NaN fails the comparison and selects the smallest level.
     const double level = biased < last_level ? fmax(biased, first) : last_level;
     return floor(level * 256.0 + 0.5) / 256.0;
 }

@@ -1,4 +1,4 @@
-// From the scene's meshes to screen triangles: transform, vertex light, near plane, facing.
+// Converts the scene's meshes to screen triangles: transform, vertex light, near plane, facing.
 #include "renderer/reference/internal/internal.h"
 
 #include <math.h>
@@ -9,10 +9,10 @@ static const double pi = 3.14159265358979323846;
 
 // A vertex before the division by w.
 typedef struct ClipVertex {
-    double x; // clip space
+    double x; // in clip space
     double y;
-    double w;     // distance along the view axis, metres
-    double above; // what is below 0 is cut off
+    double w;     // distance along the view axis, in metres
+    double above; // signed height above the cut; negative parts are cut off
     double varyings[DIP_REF_VARYINGS];
 } ClipVertex;
 
@@ -65,8 +65,9 @@ typedef struct Turn {
     bool mirrored;
 } Turn;
 
-// Normals turn with the inverse transpose, whose direction the cofactors have without a division;
-// the sign keeps normals outside when the object is mirrored.
+// Computes the matrix that turns normals: the inverse transpose. Its cofactors have the same
+// direction and need no division. The sign keeps normals pointing outwards if the object is
+// mirrored.
 static Turn find_turn(const float matrix[12]) {
     const double r[3][3] = {{matrix[0], matrix[1], matrix[2]},
                             {matrix[4], matrix[5], matrix[6]},
@@ -86,7 +87,7 @@ static Turn find_turn(const float matrix[12]) {
     return turn;
 }
 
-// A normal of the mesh in the world, of length 1.
+// Turns a normal of the mesh into the world and normalises it.
 static void turn_normal(const Turn *turn, const float normal[3], double turned[3]) {
     const double local[3] = {normal[0], normal[1], normal[2]};
     for (int i = 0; i < 3; i++) {
@@ -98,7 +99,7 @@ static void turn_normal(const Turn *turn, const float normal[3], double turned[3
     }
 }
 
-// lit: by the vertices' normals.
+// Transforms one vertex. lit: light it by its normal.
 static ClipVertex transform_vertex(const Camera *camera, const float m[12], const DipMeshDef *mesh,
                                    const Turn *turn, bool lit, uint32_t index) {
     const float *p = mesh->positions + 3 * (size_t)index;
@@ -132,7 +133,8 @@ static ClipVertex transform_vertex(const Camera *camera, const float m[12], cons
     }
     memcpy(vertex.varyings + DIP_REF_X, from_camera, sizeof from_camera);
     if (camera->mirrored) {
-        vertex.varyings[DIP_REF_Y] = -from_camera[1]; // what lights the surface is not mirrored
+        vertex.varyings[DIP_REF_Y] =
+            -from_camera[1]; // the surface is lit as if it were not mirrored
     }
     const double light = lit && mesh->normals ? dip_reference_light(normal, 1.0) : 1.0;
     for (int i = 0; i < 3; i++) {
@@ -146,7 +148,7 @@ static bool is_finite(const ClipVertex *vertex) {
     return isfinite(vertex->x) && isfinite(vertex->y) && isfinite(vertex->w);
 }
 
-// A place on an edge that leaves through a plane.
+// Interpolates the point at t on an edge that crosses a plane.
 static ClipVertex cut_edge(const ClipVertex *inside, const ClipVertex *outside, double t) {
     ClipVertex cut = {.x = inside->x + (outside->x - inside->x) * t,
                       .y = inside->y + (outside->y - inside->y) * t,
@@ -158,16 +160,17 @@ static ClipVertex cut_edge(const ClipVertex *inside, const ClipVertex *outside, 
     return cut;
 }
 
-enum { MAX_CORNERS = 5 }; // a triangle cut at two planes
+enum { MAX_CORNERS = 5 }; // of a triangle that is cut at two planes
 
-// Where an edge that leaves through the near plane meets it.
+// Returns the point where an edge crosses the near plane.
 static ClipVertex cut_near(const ClipVertex *inside, const ClipVertex *outside, double near_m) {
     ClipVertex cut = cut_edge(inside, outside, (inside->w - near_m) / (inside->w - outside->w));
     cut.w = near_m;
     return cut;
 }
 
-// Keeps what is at the near plane or beyond it; returns the number of corners, 0, 3 or 4.
+// Keeps the part of a triangle at or beyond the near plane. Returns the number of corners: 0, 3 or
+// 4.
 static int clip_near(const ClipVertex *const corners[3], double near_m,
                      ClipVertex polygon[MAX_CORNERS]) {
     int count = 0;
@@ -187,7 +190,8 @@ static int clip_near(const ClipVertex *const corners[3], double near_m,
     return count >= 3 ? count : 0;
 }
 
-// Positions stay below 2^40 steps, so that their products fit 128 bits and doubles hold them.
+// Converts pixels to steps of 1/256 pixel. Positions stay below 2^40 steps, so that products of two
+// fit 128 bits and doubles hold the positions exactly.
 static double to_steps(double px, bool rounded) {
     const double steps = fmin(fmax(px * 256.0, -0x1p40), 0x1p40);
     return rounded ? rint(steps) : steps;
@@ -205,8 +209,8 @@ static DipRefVertex project(const Camera *camera, const ClipVertex *vertex) {
 
 __extension__ typedef __int128 Int128;
 
-// Twice the area, positive where the corners go clockwise to the eye (y points down). Exact for
-// rounded positions.
+// Returns twice the area of a triangle, positive if its corners are clockwise to the eye (y points
+// down). The area is exact for rounded positions.
 static double find_area(const DipRefVertex v[3], bool rounded) {
     const double x1 = v[1].x - v[0].x, y1 = v[1].y - v[0].y;
     const double x2 = v[2].x - v[0].x, y2 = v[2].y - v[0].y;
@@ -216,8 +220,8 @@ static double find_area(const DipRefVertex v[3], bool rounded) {
     return (double)((Int128)(int64_t)x1 * (int64_t)y2 - (Int128)(int64_t)y1 * (int64_t)x2);
 }
 
-// The pixels between two places in steps of 1/256 pixel, cut to the frame; one more at either
-// end, since samples may lie anywhere in a pixel.
+// Finds the pixels that an interval of positions covers along one axis, cut to the frame. One more
+// pixel is included at either end, since samples may lie anywhere in a pixel.
 static bool find_pixels(double a, double b, double c, int size_px, int *first, int *last) {
     const double from = floor(fmin(a, fmin(b, c)) / 256.0) - 1.0;
     const double to = floor(fmax(a, fmax(b, c)) / 256.0) + 1.0;
@@ -240,7 +244,8 @@ static bool append(DipRefTriangles *triangles, const DipRefTriangle *triangle) {
     return true;
 }
 
-// Adds a piece of a triangle if it can be seen. *like has what is common to its mesh.
+// Adds a piece of a triangle if it may be visible. *like holds what all triangles of the mesh have
+// in common.
 static bool add_piece(const Camera *camera, const ClipVertex *a, const ClipVertex *b,
                       const ClipVertex *c, const DipRefTriangle *like, DipRefTriangles *triangles) {
     DipRefTriangle piece = *like;
@@ -266,8 +271,8 @@ static bool add_piece(const Camera *camera, const ClipVertex *a, const ClipVerte
     return append(triangles, &piece);
 }
 
-// Keeps what is above the level where the scene is mirrored there; returns the number of corners,
-// at most one more.
+// Keeps the part above the level if the scene is mirrored there. Returns the number of corners, at
+// most one more than before.
 static int clip_below(int count, ClipVertex polygon[MAX_CORNERS]) {
     ClipVertex from[MAX_CORNERS];
     memcpy(from, polygon, sizeof from);
@@ -288,7 +293,8 @@ static int clip_below(int count, ClipVertex polygon[MAX_CORNERS]) {
     return kept >= 3 ? kept : 0;
 }
 
-// *like has what is common; it also gives the number of the mesh's first patch.
+// Adds the triangles of a mesh. *like holds what they have in common, and the number of the mesh's
+// first patch.
 static bool add_mesh(const DipReference *reference, const Camera *camera, int mesh_index,
                      const ClipVertex *vertices, const DipRefTriangle *like,
                      DipRefTriangles *triangles) {
@@ -318,7 +324,7 @@ static bool add_mesh(const DipReference *reference, const Camera *camera, int me
     return true;
 }
 
-// What all triangles of a mesh have in common.
+// Returns what all triangles of a mesh have in common.
 static DipRefTriangle describe_mesh(const DipReference *reference, const DipMeshDef *mesh) {
     const DipMaterialDef *material = &reference->def->materials[mesh->material];
     DipRefTriangle like = {.material = material};
@@ -340,7 +346,8 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
     return like;
 }
 
-// first_patch: a number such that no other object has it or one of the next 2^32.
+// Adds the triangles of an object. Its patches have numbers from first_patch on; no other object
+// uses the 2^32 numbers from there.
 static bool add_object(const DipReference *reference, const Camera *camera,
                        const DipObjectDef *object, uint64_t first_patch,
                        DipRefTriangles *triangles) {

@@ -16,7 +16,7 @@ static void normalise(double v[3]) {
     }
 }
 
-// How steeply the sun meets a surface.
+// Returns the cosine between a normal and the direction to the sun, or 0 if the surface faces away.
 static double meet_sun(const double normal[3]) {
     return fmax(0.0,
                 dot(normal, dip_reference_sun) / sqrt(dot(dip_reference_sun, dip_reference_sun)));
@@ -33,9 +33,10 @@ bool dip_reference_is_bumpy(const DipMaterialDef *material) {
     return is_solid && has_light && material->normal_map != DIP_NO_TEXTURE;
 }
 
-// The direction in which u grows while v stays, at right angles to the normal, and square to both
-// the one in which v shrinks: dP/du = (dP/dx dv/dy - dP/dy dv/dx) / (du/dx dv/dy - du/dy dv/dx),
-// and alike for v. False where there is none.
+// Finds the tangents: the direction in which u grows while v stays constant, made perpendicular to
+// the normal, and perpendicular to both the direction in which v shrinks. dP/du = (dP/dx dv/dy -
+// dP/dy dv/dx) / (du/dx dv/dy - du/dy dv/dx), and accordingly for v. Returns false if the texture
+// coordinates have no area.
 static bool find_tangents(const DipRefVaryings *varyings, const double normal[3], double along_u[3],
                           double against_v[3]) {
     const double *dx = varyings->ddx;
@@ -67,7 +68,7 @@ static bool find_tangents(const DipRefVaryings *varyings, const double normal[3]
     return dot(along_u, along_u) > 0.0;
 }
 
-// Returns the length that the map's filtered normal has.
+// Applies the map's filtered normal. Returns the length that it has.
 static double map_normal(const DipRefVaryings *varyings, const double texel[3],
                          const double normal[3], double mapped[3]) {
     double along_u[3];

@@ -1,4 +1,4 @@
-// The reference's scene: checks the description and decodes the textures that are shown.
+// The reference's scene: checks the description and decodes the textures that surfaces show.
 #include "renderer/reference/internal/internal.h"
 
 #include "renderer/pipeline/patch.h"
@@ -9,8 +9,8 @@
 static bool check_index(const char *name, const char *what, int index, int count, int least,
                         DipError *err) {
     return (index >= least && index < count) ||
-           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, name, "%s %d, accepted %d..%d", what, index,
-                         least, count - 1);
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, name,
+                         "%s %d is out of range, accepted %d..%d", what, index, least, count - 1);
 }
 
 static bool check_mesh(const DipMeshDef *mesh, int material_count, DipError *err) {
@@ -19,12 +19,13 @@ static bool check_mesh(const DipMeshDef *mesh, int material_count, DipError *err
     }
     if (mesh->index_count % 3 != 0) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, mesh->name,
-                             "%u indices, accepted multiples of 3", mesh->index_count);
+                             "%u indices are not a multiple of 3", mesh->index_count);
     }
     for (uint32_t i = 0; i < mesh->index_count; i++) {
         if (mesh->indices[i] >= mesh->vertex_count) {
             return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, mesh->name,
-                                 "index %u of %u vertices", mesh->indices[i], mesh->vertex_count);
+                                 "index %u is out of range: the mesh has %u vertices",
+                                 mesh->indices[i], mesh->vertex_count);
         }
     }
     return true;
@@ -53,8 +54,9 @@ static bool check_scene(const DipSceneDef *def, DipError *err) {
             return false;
         }
     }
-    return def->near_m > 0.0f || dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "near",
-                                               "%g m, accepted > 0", (double)def->near_m);
+    return def->near_m > 0.0f ||
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "near",
+                         "%g m is out of range, accepted > 0", (double)def->near_m);
 }
 
 static bool load_texture(DipReference *reference, int index, DipError *err) {
@@ -63,7 +65,7 @@ static bool load_texture(DipReference *reference, int index, DipError *err) {
                                       reference->for_truth ? 1 : DIP_REF_MAX_LEVELS, err);
 }
 
-// Colour textures of all but skies.
+// Compresses the material's colour texture, except a sky's.
 static bool compress_texture(DipReference *reference, const DipMaterialDef *material,
                              DipError *err) {
     if (material->surface == DIP_SURFACE_SKY || material->colour_texture == DIP_NO_TEXTURE) {
@@ -171,6 +173,7 @@ void dip_reference_set_time(DipReference *reference, int64_t time_ns) {
 bool dip_reference_check_size(int width, int height, DipError *err) {
     return (width >= 1 && width <= DIP_MAX_FRAME_SIZE && height >= 1 &&
             height <= DIP_MAX_FRAME_SIZE) ||
-           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "size", "%dx%d, accepted 1..%d", width,
-                         height, DIP_MAX_FRAME_SIZE);
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "size",
+                         "%dx%d is out of range, accepted 1..%d each", width, height,
+                         DIP_MAX_FRAME_SIZE);
 }

@@ -1,6 +1,7 @@
-// The reference path: the picture of docs/picture.md in double precision, plain and slow, one
-// sample at a time, no tiles, no SIMD. It reads the scene's description and shares no derived data
-// with the fast path. Single-threaded; give each thread its own.
+// The reference renderer. It draws the picture that docs/picture.md defines, in double precision,
+// one sample at a time, without tiles or SIMD: plain and slow. It reads the scene's description and
+// shares no derived data with the fast renderer. It is single-threaded; give each thread a
+// reference of its own.
 #ifndef DIP_RENDERER_REFERENCE_REFERENCE_H
 #define DIP_RENDERER_REFERENCE_REFERENCE_H
 
@@ -25,35 +26,37 @@ typedef atomic_bool DipCancelFlag;
 
 typedef struct DipReference DipReference;
 
-// Builds its own decoded mip chains from *def, which is borrowed until destroy.
+// Creates a reference for *def, which is borrowed until destroy. The reference decodes its own mip
+// chains.
 DIP_API DipReference *dip_reference_create(const DipSceneDef *def, DipError *err);
 
-// Likewise for converged pictures alone: it has neither smaller mip levels nor compressed
-// textures. Making it, and making a convergence with it, fail soon after *stop becomes true; stop
-// is
+// Creates a reference that draws converged pictures only. It has neither smaller mip levels nor
+// compressed textures. This function, and creating a convergence with the reference, fail soon
+// after *stop becomes true. stop is borrowed until destroy; NULL never stops.
 DIP_API DipReference *dip_reference_create_for_truth(const DipSceneDef *def,
                                                      const DipCancelFlag *stop, DipError *err);
 DIP_API void dip_reference_destroy(DipReference **reference);
 
-// The number of the frames drawn next, as dip_renderer_set_frame_index.
+// Sets the number of the frames drawn next, as dip_renderer_set_frame_index does.
 DIP_API void dip_reference_set_frame_index(DipReference *reference, uint64_t frame_index);
 
-// The time of the pictures drawn after: nanoseconds since the path's start, 0 at first.
+// Sets the time of the pictures drawn next, in nanoseconds since the start of the path; 0 at first.
 DIP_API void dip_reference_set_time(DipReference *reference, int64_t time_ns);
-// Without it water does not reflect. The def's `show` has no meaning here. Not checked.
+// Sets how water reflects. Without a call, water does not reflect. The def's `show` has no effect
+// here. The def is not checked.
 DIP_API void dip_reference_set_reflection(DipReference *reference,
                                           const DipReflectionDef *reflection);
 
-// What the fast path should draw with these settings. rgb_lin: width*height*3 doubles, linear
-// light, resolved but not encoded, the top row first.
+// Draws what the fast renderer should draw with these settings. rgb_lin receives width * height * 3
+// doubles, the top row first, in linear light: resolved but not encoded.
 DIP_API bool dip_reference_draw(const DipReference *reference, const DipQuality *quality,
                                 const DipPose *pose, int width, int height, double *rgb_lin,
                                 DipError *err);
 
-// The converged picture: sample_count (a square) jittered samples in a grid per pixel, each shaded
-// at its own place, alpha tested per sample, textures read bilinearly from level 0, positions not
-// rounded; the mean in linear light. seed chooses the jitter: two seeds give independent
-// pictures.
+// Draws the converged picture. Each pixel has sample_count (a square) samples, jittered within the
+// cells of a grid. Each sample is shaded at its own position, with its own alpha test; textures are
+// read bilinearly from level 0, and positions are not rounded. A pixel is the mean in linear light.
+// seed selects the jitter: two seeds give independent pictures.
 DIP_API bool dip_reference_converge(const DipReference *reference, const DipPose *pose, int width,
                                     int height, int sample_count, uint32_t seed, double *rgb_lin,
                                     DipError *err);

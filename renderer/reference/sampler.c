@@ -1,11 +1,11 @@
-// Reading textures: wrap, bilinear, trilinear, anisotropic, mip colours.
+// Reads textures: address modes, bilinear, trilinear and anisotropic filtering, mip colours.
 #include "renderer/reference/internal/footprint.h"
 #include "renderer/reference/internal/texture.h"
 
 #include <math.h>
 
-// The index of a texel beside the edge, as the axis' address mode has it. The texel is a whole
-// number in double, so that no coordinate is too large to convert.
+// Maps a texel's index, which may lie outside the texture, into the texture by the axis' address
+// mode. The index is a whole number in a double, so that no coordinate is too large to convert.
 static int address(double texel, int size, DipWrap wrap) {
     if (!isfinite(texel)) {
         return 0;
@@ -21,13 +21,14 @@ static int address(double texel, int size, DipWrap wrap) {
     return (int)(wrapped < 0.0 ? wrapped + size : wrapped);
 }
 
-// The two texels that a coordinate lies between and how far it is from the first to the second.
+// The two texels that a coordinate lies between, and its distance from the first, in texels.
 typedef struct Pair {
     int index[2];
     double fraction;
 } Pair;
 
-// grain: the coordinate is rounded down to 1/grain texel; 0: not at all.
+// Finds the texels around a coordinate. The position in texels is rounded down to 1/grain texel;
+// grain 0 means no rounding.
 static Pair find_pair(double coordinate, int size, DipWrap wrap, double grain) {
     double place = coordinate * size - 0.5;
     if (grain > 0.0) {
@@ -60,7 +61,7 @@ void dip_reference_sample_finest(const DipRefTexture *texture, const double uv[2
     sample_bilinear(texture, false, 0, uv, 0.0, rgba);
 }
 
-// The mean of so many probes along a footprint's major axis, all of one level.
+// Computes the mean of probe_count probes along the major axis of a footprint, all from one level.
 static void sample_line(const DipRefTexture *texture, bool compressed, int level,
                         const double uv[2], const DipFootprint *footprint, int probe_count,
                         double rgba[4]) {
@@ -80,7 +81,7 @@ static void sample_line(const DipRefTexture *texture, bool compressed, int level
     }
 }
 
-// Blends the level with the next, which takes fewer probes.
+// Blends a level with the next one, which takes fewer probes.
 static void sample_levels(const DipRefTexture *texture, bool compressed, double level,
                           const double uv[2], const DipFootprint *footprint, double rgba[4]) {
     const int finer = (int)level;
@@ -116,7 +117,7 @@ static void mip_colour(const DipRefTexture *texture, int level, double rgb[3]) {
     }
 }
 
-// Replaces the colour of a sample, leaves its alpha.
+// Replaces the colour of a sample by its mip colour. Alpha stays.
 static void paint_mip_colour(const DipRefTexture *texture, double level, double rgba[4]) {
     const int finer = (int)level;
     const int last = texture->level_count - 1;
@@ -136,7 +137,7 @@ static int find_min_level(const DipRefTexture *texture, const DipRefFilter *filt
     return dropped < texture->level_count ? dropped : texture->level_count - 1;
 }
 
-// All of the blend takes place in the middle quarter of the way to the next level.
+// Limits the blend of two levels to the middle quarter of the way from one to the next.
 static double narrow_blend(double level) {
     const double finer = floor(level);
     return finer + fmin(fmax((level - finer - 0.375) * 4.0, 0.0), 1.0);

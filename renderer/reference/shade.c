@@ -1,4 +1,4 @@
-// What a triangle looks like at a place: interpolation, derivatives, textures, light.
+// Shades a triangle at a position: interpolation, derivatives, textures, light.
 #include "renderer/reference/internal/internal.h"
 
 #include <math.h>
@@ -12,9 +12,10 @@ double dip_reference_depth(const DipRefPosition *place, double near_m) {
     return near_m * sum / triangle->area;
 }
 
-// With U = u/w and Q = 1/w linear on the screen: u = U/Q and du/dx = (dU/dx - u dQ/dx) / Q. The
-// edge functions weigh the vertices; edge i, opposite vertex i, goes from vertex i+1 to i+2 and
-// changes by -dy per step in x and by +dx per step in y. Their common factor cancels out.
+// Interpolates varyings. U = u/w and Q = 1/w are linear on the screen, so u = U/Q and du/dx =
+// (dU/dx - u dQ/dx) / Q. The edge functions weigh the vertices: edge i lies opposite vertex i, runs
+// from vertex i+1 to i+2, and changes by -dy per step in x and by +dx per step in y. Their common
+// factor cancels out.
 static void interpolate(const DipRefPosition *place, int first, int count, bool derive,
                         DipRefVaryings *out) {
     const DipRefVertex *v = place->triangle->vertices;

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-// How far a layer has scrolled, modulo its period in whole nanoseconds.
+// Returns how far a layer has scrolled, modulo its period in whole nanoseconds.
 static double find_scroll(const DipSkyLayer *layer, int64_t time_ns) {
     if (fabs(layer->speed_per_min) < 1e-6) {
         return 0.0;
@@ -12,7 +12,8 @@ static double find_scroll(const DipSkyLayer *layer, int64_t time_ns) {
     return copysign((double)(time_ns % period_ns) / (double)period_ns, layer->speed_per_min);
 }
 
-// Reads the sky's texture at coordinates * scale + shift.
+// Reads the sky's texture at coordinates * scale + shift, with derivatives multiplied by scale *
+// slope.
 static void read_sky(const DipRefTriangle *triangle, const DipRefFilter *filter,
                      const DipRefVaryings *varyings, double scale, double slope,
                      const double shift[2], double rgba[4]) {

@@ -13,8 +13,8 @@ double dip_reference_encode_srgb(double linear) {
     return linear <= 0.0031308 ? linear * 12.92 : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-// The mean of a row's texels over [from, to), in texels: every texel weighs as much as the part of
-// it that is covered. Columns are averaged alike by the caller.
+// Computes the mean of a level's texels over the box from..to, in texels. Each texel weighs as much
+// as the part of it that the box covers.
 static void average_box(const DipRefTexture *texture, int level, const double from[2],
                         const double to[2], double rgba[4]) {
     double sum[4] = {0};
@@ -43,7 +43,7 @@ static void fill_level(DipRefTexture *texture, int level) {
     double *texel = texture->levels[level];
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++, texel += 4) {
-            // i * n / m is exact where it is whole, so that even sizes take whole texels.
+            // x * n / m is exact where it is a whole number, so even sizes average whole texels.
             const double from[2] = {(double)x * finer_width / width,
                                     (double)y * finer_height / height};
             const double to[2] = {(x + 1.0) * finer_width / width,
@@ -59,9 +59,10 @@ bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def
     texture->def = def;
     if (!def->rgba8 || def->width < 1 || def->width > 8192 || def->height < 1 ||
         def->height > 8192) {
-        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, def->name,
-                             "a texture of %dx%d, accepted 1..8192 with texels", def->width,
-                             def->height);
+        return dip_error_set(
+            err, DIP_ERROR_RANGE, NULL, 0, def->name,
+            "a texture of %dx%d is invalid: the size must be 1..8192 each, with texels", def->width,
+            def->height);
     }
     for (int i = 0; i < 256; i++) {
         const double code = i / 255.0;

@@ -1,4 +1,4 @@
-// What water adds: which part of its colour is the mirrored scene's.
+// Blends water with the mirrored scene by its reflectance.
 #include "renderer/reference/internal/internal.h"
 
 #include <math.h>
@@ -10,12 +10,12 @@ bool dip_reference_reflects(const DipReference *reference, const DipPose *pose) 
            pose->position_world[1] > reference->reflection.level_m;
 }
 
-// The world y of the direction from the eye through a place of the frame, of length 1.
+// Returns the world y of the normalised direction from the eye through a position of the frame.
 static double look_up(const DipPose *pose, int width, int height, const DipRefPosition *place) {
     const double half = tan(pose->fov_y_deg * (pi / 360.0));
     const double ray[3] = {(place->x / (128.0 * width) - 1.0) * half * width / height,
                            (1.0 - place->y / (128.0 * height)) * half, -1.0};
-    // Turned by the quaternion: v + 2 q x (q x v + w v), its y.
+    // The quaternion turns v to v + 2 q x (q x v + w v); this is its y.
     const double *q = pose->orientation;
     const double cross[3] = {q[1] * ray[2] - q[2] * ray[1] + q[3] * ray[0],
                              q[2] * ray[0] - q[0] * ray[2] + q[3] * ray[1],
@@ -25,7 +25,7 @@ static double look_up(const DipPose *pose, int width, int height, const DipRefPo
     return turned / sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
 }
 
-// By the angles on both sides of the surface.
+// Fresnel's reflectance of unpolarised light, from the angles on both sides of the surface.
 static double reflectance(double cos_in) {
     const double sin_out = sqrt(1.0 - cos_in * cos_in) / DIP_WATER_INDEX;
     const double cos_out = sqrt(1.0 - sin_out * sin_out);
@@ -60,7 +60,7 @@ void dip_reference_read_mirrored(const DipReference *reference, const double *mi
     const int size[2] = {reference->reflection.width, reference->reflection.height};
     const double at[2] = {place->x / (256.0 * width) * size[0] - 0.5,
                           place->y / (256.0 * height) * size[1] - 0.5};
-    size_t texel[2][2]; // per axis, both
+    size_t texel[2][2]; // for each axis, the two texels around the position
     double share[2];
     for (int axis = 0; axis < 2; axis++) {
         const double within = fmin(fmax(at[axis], 0.0), size[axis] - 1.0);

@@ -1,4 +1,4 @@
-// Opening llvmpipe: environment, EGL, functions, extensions.
+// Opens llvmpipe: environment variables, EGL context, functions and extensions.
 #include "tests/peer/gl.h"
 
 #include <stdio.h>
@@ -9,7 +9,8 @@ static bool refuse(DipError *err, const char *what) {
     return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "EGL", "%s", what);
 }
 
-// Read by Mesa when the display is opened. What the caller has set of the last one stays.
+// Sets the variables that Mesa reads when the display is opened. A MESA_SHADER_CACHE_DISABLE that
+// the caller has set stays as it is.
 static void set_environment(int threads) {
     char text[16];
     snprintf(text, sizeof text, "%d", threads);
@@ -25,7 +26,7 @@ static bool open_display(DipGl *gl, DipError *err) {
     gl->display =
         get_display ? get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL) : NULL;
     if (!gl->display || !eglInitialize(gl->display, NULL, NULL)) {
-        return refuse(err, "no surfaceless display, accepted Mesa's EGL");
+        return refuse(err, "EGL has no surfaceless display; install Mesa's EGL (libegl-mesa0)");
     }
     return true;
 }
@@ -39,11 +40,11 @@ static bool make_context(DipGl *gl, DipError *err) {
                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                         EGL_NONE};
     if (!eglBindAPI(EGL_OPENGL_API)) {
-        return refuse(err, "EGL without OpenGL");
+        return refuse(err, "EGL does not support OpenGL");
     }
     gl->context = eglCreateContext(gl->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
     if (!gl->context || !eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context)) {
-        return refuse(err, "no context of OpenGL 3.3 core without a surface");
+        return refuse(err, "EGL cannot create a context of OpenGL 3.3 core without a surface");
     }
     return true;
 }
@@ -52,7 +53,7 @@ static bool load_functions(DipGl *gl, DipError *err) {
 #define LOAD(name, NAME)                                                                           \
     gl->name = (PFNGL##NAME##PROC)eglGetProcAddress("gl" #name);                                   \
     if (!gl->name) {                                                                               \
-        return refuse(err, "OpenGL without gl" #name);                                             \
+        return refuse(err, "OpenGL has no function gl" #name);                                     \
     }
     DIP_GL_LIST(LOAD)
 #undef LOAD
@@ -76,11 +77,11 @@ static bool identify(DipGl *gl, DipError *err) {
     gl->GetIntegerv(GL_MAX_SAMPLES, &gl->max_samples);
     if (strncmp(gl->renderer, "llvmpipe", strlen("llvmpipe")) != 0) {
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "EGL",
-                             "OpenGL is drawn by '%s', accepted llvmpipe", gl->renderer);
+                             "OpenGL is drawn by '%s', not by llvmpipe", gl->renderer);
     }
     if (!has_extension(gl, "GL_ARB_clip_control") ||
         !has_extension(gl, "GL_EXT_texture_filter_anisotropic")) {
-        return refuse(err, "OpenGL without ARB_clip_control or EXT_texture_filter_anisotropic");
+        return refuse(err, "OpenGL lacks ARB_clip_control or EXT_texture_filter_anisotropic");
     }
     return true;
 }

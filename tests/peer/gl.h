@@ -1,4 +1,4 @@
-// OpenGL without a display: an EGL surfaceless context on Mesa's llvmpipe and its functions.
+// OpenGL without a display: a surfaceless EGL context on Mesa's llvmpipe, and OpenGL's functions.
 #ifndef DIP_TESTS_PEER_GL_H
 #define DIP_TESTS_PEER_GL_H
 
@@ -8,10 +8,10 @@
 #include <EGL/eglext.h>
 #include <GL/glcorearb.h>
 
-// EXT_texture_filter_anisotropic has the numbers that OpenGL 4.6 took over.
+// OpenGL 4.6 took this number over from EXT_texture_filter_anisotropic.
 #define DIP_GL_TEXTURE_MAX_ANISOTROPY 0x84FE
 
-// X(name without gl, NAME as in its pointer type): what the peer calls.
+// The functions that the peer calls. X(name without "gl", NAME as in its pointer type)
 #define DIP_GL_LIST(X)                                                                             \
     X(ActiveTexture, ACTIVETEXTURE)                                                                \
     X(AttachShader, ATTACHSHADER)                                                                  \
@@ -71,8 +71,8 @@
     X(VertexAttribPointer, VERTEXATTRIBPOINTER)                                                    \
     X(Viewport, VIEWPORT)
 
-// A context, current on the thread that opened it. All OpenGL objects belong to it and end with
-// it, so nobody deletes them one by one.
+// A context, which is current on the thread that opened it. All OpenGL objects belong to it and are
+// freed with it, so no code deletes them one by one.
 typedef struct DipGl {
 #define DIP_GL_FIELD(name, NAME) PFNGL##NAME##PROC name;
     DIP_GL_LIST(DIP_GL_FIELD)
@@ -84,13 +84,15 @@ typedef struct DipGl {
     int max_samples;
 } DipGl;
 
-// threads: llvmpipe's rasteriser threads, 1..32; beside them it sets triangles up on the caller's.
-// To be called before anything else uses OpenGL in this process. Fails with UNSUPPORTED when there
-// is no llvmpipe with OpenGL 3.3 and the extensions needed; *gl is then closed.
+// Opens the context. threads is the number of llvmpipe's rasteriser threads, 1..32; llvmpipe also
+// sets up triangles on the calling thread. Call this before anything else uses OpenGL in this
+// process. Fails with UNSUPPORTED if there is no llvmpipe with OpenGL 3.3 and the extensions that
+// the peer needs; *gl is then closed.
 bool dip_gl_open(DipGl *gl, int threads, DipError *err);
-void dip_gl_close(DipGl *gl); // accepts a zeroed one
+void dip_gl_close(DipGl *gl); // accepts a zeroed context
 
-// Fails with RUNTIME when OpenGL has noted an error since the last call.
+// Fails with RUNTIME if OpenGL has recorded an error since the last call, with MEMORY if it ran out
+// of memory. `what` names the operation in the message.
 bool dip_gl_check(const DipGl *gl, const char *what, DipError *err);
 
 #endif

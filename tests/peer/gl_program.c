@@ -1,4 +1,4 @@
-// Compiling the peer's shaders.
+// The peer's GLSL sources and their compilation.
 #include "tests/peer/gl_program.h"
 
 #include <stdio.h>
@@ -35,7 +35,7 @@ static const char vertex_source[] =
     "#endif\n"
     "}\n";
 
-// The alpha test stands after the last texture read, where derivatives are still defined.
+// The alpha test follows the last texture read: after a discard, derivatives would be undefined.
 static const char fragment_source[] =
     "in vec2 colour_uv;\n"
     "in vec2 light_uv;\n"

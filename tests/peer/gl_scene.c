@@ -1,4 +1,4 @@
-// Uploading and drawing a scene description.
+// Uploads and draws a scene description.
 #include "tests/peer/gl_scene.h"
 
 #include "tests/peer/gl_texture.h"
@@ -10,7 +10,7 @@
 
 // --- meshes ------------------------------------------------------------------------------------
 
-// What the mesh's material needs of it and what it has: docs/picture.md, Shading.
+// The features that the mesh has and its material uses: docs/picture.md, Shading.
 static int features_of(const DipMeshDef *mesh, const DipMaterialDef *material) {
     int features = 0;
     if (material->colour_texture != DIP_NO_TEXTURE && mesh->uv0) {
@@ -42,7 +42,8 @@ typedef struct Attribute {
     const float *source;
 } Attribute;
 
-// One interleaved buffer, as OpenGL's vendors advise. Returns NULL when memory runs out.
+// Copies the attributes into one interleaved buffer, as OpenGL's vendors advise. Returns NULL if
+// memory runs out.
 static float *interleave(const Attribute *attributes, int count, size_t stride,
                          uint32_t vertex_count) {
     float *rows = malloc((stride * vertex_count + 1) * sizeof *rows);

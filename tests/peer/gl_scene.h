@@ -1,4 +1,4 @@
-// A scene description in OpenGL's memory, and how its objects are drawn.
+// A scene description in OpenGL's memory, and the drawing of its objects.
 #ifndef DIP_TESTS_PEER_GL_SCENE_H
 #define DIP_TESTS_PEER_GL_SCENE_H
 
@@ -11,33 +11,34 @@ typedef struct DipGlMesh {
     GLuint vertex_array;
     GLsizei index_count;
     int material;
-    int features; // of the program that draws it
-    float min[3]; // bounds
+    int features; // of the program that draws the mesh
+    float min[3]; // bounding box
     float max[3];
 } DipGlMesh;
 
-// A sampler for each pair of address modes.
+// One sampler for each pair of address modes.
 typedef struct DipGlSamplers {
     GLuint name[2][2]; // [wrap_u][wrap_v]
 } DipGlSamplers;
 
 typedef struct DipGlScene {
     const DipSceneDef *def; // borrowed
-    DipGlMesh *meshes;      // per mesh
-    GLuint *textures;       // per texture; 0 where no material uses it
+    DipGlMesh *meshes;      // one per mesh
+    GLuint *textures;       // one per texture; 0 if no material uses it
     DipGlProgram programs[DIP_GL_PROGRAM_COUNT];
     DipGlSamplers colour;
     DipGlSamplers light_map;
 } DipGlScene;
 
-// Uploads everything. def is borrowed until the scene is freed. On failure *scene is freed.
+// Uploads the scene. def is borrowed until the scene is freed. On failure *scene is freed.
 bool dip_gl_scene_make(const DipGl *gl, const DipSceneDef *def, DipGlScene *scene, DipError *err);
-void dip_gl_scene_free(DipGlScene *scene); // OpenGL's objects end with the context
+void dip_gl_scene_free(DipGlScene *scene); // OpenGL's objects are freed with the context
 
-// 1 (trilinear) to 16, for colour textures; light maps stay trilinear.
+// Sets the anisotropy of colour textures, 1 (trilinear) to 16. Light maps stay trilinear.
 void dip_gl_scene_set_anisotropy(const DipGl *gl, const DipGlScene *scene, int max_anisotropy);
 
-// Draws all objects that a box test does not exclude, in their order, into the bound target.
+// Draws into the bound target all objects that a bounding-box test does not exclude, in the scene's
+// order.
 void dip_gl_scene_draw(const DipGl *gl, const DipGlScene *scene, const DipPose *pose,
                        double aspect);
 

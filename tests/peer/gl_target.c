@@ -1,4 +1,4 @@
-// Framebuffers of the peer.
+// Creates, clears, resolves and reads the peer's framebuffers.
 #include "tests/peer/gl_target.h"
 
 static GLuint make_buffer(const DipGl *gl, const DipGlTarget *target, int sample_count,
@@ -25,8 +25,8 @@ static bool make_framebuffer(const DipGl *gl, const DipGlTarget *target, int sam
     if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE ||
         made != (sample_count > 1 ? sample_count : 0)) {
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "framebuffer",
-                             "no %dx%d pixels with %d samples", target->width, target->height,
-                             sample_count);
+                             "OpenGL cannot create a target of %dx%d pixels with %d samples",
+                             target->width, target->height, sample_count);
     }
     return dip_gl_check(gl, "framebuffer", err);
 }
@@ -45,7 +45,8 @@ void dip_gl_target_begin(const DipGl *gl, const DipGlTarget *target, const float
     gl->BindFramebuffer(GL_FRAMEBUFFER, target->drawn);
     gl->Viewport(0, 0, target->width, target->height);
     gl->Enable(GL_FRAMEBUFFER_SRGB);
-    // Row 0 is the top one and depth is clip z / w, as ours: 1 at the near plane, 0 at infinity.
+    // Row 0 is the top row, and depth is clip z / w, as in our renderer: 1 at the near plane, 0 at
+    // infinity.
     gl->ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     gl->Enable(GL_DEPTH_TEST);
     gl->DepthFunc(GL_GREATER);

@@ -1,4 +1,4 @@
-// Where the peer draws: an sRGB picture, its top row first, with or without samples.
+// The peer's render target: an sRGB picture, its top row first, with or without multisampling.
 #ifndef DIP_TESTS_PEER_GL_TARGET_H
 #define DIP_TESTS_PEER_GL_TARGET_H
 
@@ -6,21 +6,21 @@
 
 #include <stdint.h>
 
-// GL_SRGB8_ALPHA8 and reversed 32-bit float depth. With samples there is a second framebuffer
-// without, into which they are resolved in linear light.
+// A framebuffer with GL_SRGB8_ALPHA8 colour and reversed 32-bit float depth. If it is multisampled,
+// a second framebuffer holds the picture into which the samples are resolved in linear light.
 typedef struct DipGlTarget {
     int width;
     int height;
     int sample_count;
     GLuint drawn;   // framebuffer that is drawn into
-    GLuint picture; // framebuffer that holds the picture: the same when sample_count is 1
+    GLuint picture; // framebuffer that holds the picture; the same as `drawn` if sample_count is 1
 } DipGlTarget;
 
-// sample_count: 1..gl->max_samples. Fails with UNSUPPORTED or RUNTIME.
+// Creates a target. sample_count is 1..gl->max_samples. Fails with UNSUPPORTED or RUNTIME.
 bool dip_gl_target_make(const DipGl *gl, int width, int height, int sample_count,
                         DipGlTarget *target, DipError *err);
 
-// Binds and clears it.
+// Binds and clears the target.
 void dip_gl_target_begin(const DipGl *gl, const DipGlTarget *target, const float clear_lin[3]);
 
 // Resolves the samples, if any, and returns when the picture is complete.

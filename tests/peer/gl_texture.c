@@ -1,4 +1,4 @@
-// Uploading textures level by level.
+// Uploads textures level by level.
 #include "tests/peer/gl_texture.h"
 
 #include "renderer/base/srgb.h"
@@ -7,7 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Interleaved codes to the rows of a level, see renderer/pipeline/texture/mip.h.
+// Converts interleaved codes to the rows of a level; renderer/pipeline/texture/mip.h describes the
+// layout.
 static void decode(const DipTextureDef *def, float *rows) {
     DipSrgbDecodeTable srgb;
     dip_srgb_decode_table(&srgb);

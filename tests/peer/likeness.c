@@ -1,4 +1,4 @@
-// Squared error and PSNR of pictures.
+// Squared error and PSNR of two pictures.
 #include "tests/peer/likeness.h"
 
 #include <math.h>

@@ -1,11 +1,11 @@
-// Matrices from a pose and a placement.
+// Computes matrices from a pose and an object's transform.
 #include "tests/peer/matrices.h"
 
 #include <math.h>
 
 void dip_peer_world_to_clip(const DipPose *pose, double aspect, double near_m, double m[16]) {
     const double *q = pose->orientation;
-    // The camera's right, up and back in the world: the axes turned by the quaternion.
+    // The camera's right, up and back directions in the world: the axes turned by the quaternion.
     const double right[3] = {1 - 2 * (q[1] * q[1] + q[2] * q[2]), 2 * (q[0] * q[1] + q[3] * q[2]),
                              2 * (q[0] * q[2] - q[3] * q[1])};
     const double up[3] = {2 * (q[0] * q[1] - q[3] * q[2]), 1 - 2 * (q[0] * q[0] + q[2] * q[2]),
@@ -61,7 +61,7 @@ bool dip_peer_normal_matrix(const float t[12], float normal_to_world[9]) {
 }
 
 bool dip_peer_box_visible(const float to_clip[16], const float min[3], const float max[3]) {
-    // Corners outside the left, right, lower, upper and near planes.
+    // How many corners lie outside the left, right, lower, upper and near plane.
     int outside[5] = {0};
     for (int corner = 0; corner < 8; corner++) {
         const float p[3] = {corner & 1 ? max[0] : min[0], corner & 2 ? max[1] : min[1],

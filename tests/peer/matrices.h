@@ -1,4 +1,4 @@
-// Matrices of the peer, from docs/picture.md and not from the renderer's code.
+// The peer's matrices. They follow docs/picture.md and share no code with the renderer.
 #ifndef DIP_TESTS_PEER_MATRICES_H
 #define DIP_TESTS_PEER_MATRICES_H
 
@@ -6,17 +6,19 @@
 
 #include <stdbool.h>
 
-// World to clip space, row-major: clip z is near_m everywhere, clip w the distance along the view.
+// Computes the matrix from world to clip space, row-major. Clip z is near_m everywhere; clip w is
+// the distance along the view axis.
 void dip_peer_world_to_clip(const DipPose *pose, double aspect, double near_m, double m[16]);
 
-// m * transform, where transform is a 3x4 matrix with the last row (0, 0, 0, 1).
+// Computes m * transform, where transform is a 3x4 matrix whose last row is (0, 0, 0, 1).
 void dip_peer_place(const double m[16], const float transform[12], float product[16]);
 
-// The inverse transpose of a transform's 3x3 part, to a positive factor. Returns whether the
-// transform mirrors.
+// Computes the inverse transpose of a transform's 3x3 part, up to a positive factor. Returns true
+// if the transform mirrors.
 bool dip_peer_normal_matrix(const float transform[12], float normal_to_world[9]);
 
-// False when the box lies outside one of the planes of what is seen and may be left out.
+// Returns false if the box lies wholly outside one of the view volume's planes, so that it can be
+// left out.
 bool dip_peer_box_visible(const float to_clip[16], const float min[3], const float max[3]);
 
 #endif

@@ -1,4 +1,4 @@
-// Measuring one row.
+// Measures one row.
 #include "tests/peer/measure.h"
 
 #include "renderer/base/clock.h"
@@ -12,7 +12,7 @@
 
 enum { PEER_MAX_SAMPLES = 4 };
 
-// A frame that takes the peer longer than this when it is first drawn is not drawn again.
+// A frame that takes the peer longer than this in its first draw is not drawn again.
 static const double SLOW_FRAME_MS = 10000.0;
 
 const DipPeerRow dip_peer_rows[DIP_PEER_ROW_COUNT] = {
@@ -53,7 +53,7 @@ static bool set_row(const DipPeerBench *bench, const DipPeerRow *row, DipError *
             dip_peer_set(bench->peer, row->sample_count, row->max_anisotropy, err));
 }
 
-// Returns the milliseconds that it took.
+// Draws a frame with the peer. Returns the milliseconds that it took.
 static double draw_peer(const DipPeerBench *bench, const DipPose *pose) {
     const int64_t begin_ns = dip_clock_ns();
     dip_peer_draw(bench->peer, pose);
@@ -62,7 +62,7 @@ static double draw_peer(const DipPeerBench *bench, const DipPose *pose) {
 
 // --- likeness ----------------------------------------------------------------------------------
 
-// Draws a frame on both sides and returns its squared error and the peer's time.
+// Draws a frame on both sides. Returns the squared error between the pictures and the peer's time.
 static bool compare_frame(const DipPeerBench *bench, const DipPeerRow *row, int index,
                           double *error, double *peer_ms, DipError *err) {
     const DipPose pose = dip_peer_scene_pose(bench->scene, index, bench->frames);
@@ -104,8 +104,8 @@ static bool compare_frames(const DipPeerBench *bench, DipPeerMeasurement *m, Dip
 
 // --- time --------------------------------------------------------------------------------------
 
-// A frame of an animation follows another: each side draws one a little earlier on the path first,
-// so that neither is timed with what the other has left in the caches.
+// In an animation, every frame follows another. So each side first draws a frame slightly earlier
+// on the path; then neither side is timed with the caches as the other left them.
 enum { STEPS_PER_FRAME = 64 };
 
 static DipPose pose_before(const DipPeerBench *bench, int index) {
@@ -113,7 +113,7 @@ static DipPose pose_before(const DipPeerBench *bench, int index) {
     return dip_peer_scene_pose(bench->scene, (index * STEPS_PER_FRAME + steps - 1) % steps, steps);
 }
 
-// A pause in which the side that has just drawn puts its threads to sleep.
+// Pauses, so that the side that has just drawn puts its threads to sleep.
 static void rest(void) {
     nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
 }
@@ -131,8 +131,8 @@ static bool time_ours(const DipPeerBench *bench, const DipPose *before, const Di
     return drawn;
 }
 
-// Frames that are slow beyond reason lie far above the median whatever their exact time is;
-// compiling shaders is a small part of the first one's.
+// Times the peer. If a frame is extremely slow, the time of its first draw is used: the frame lies
+// far above the median whatever its exact time, and compiling shaders is a small part of that time.
 static void time_peer(const DipPeerBench *bench, const DipPose *before, const DipPose *pose,
                       double first_ms, double *ms) {
     if (first_ms > SLOW_FRAME_MS) {
@@ -149,7 +149,7 @@ static bool toss(DipPeerBench *bench) {
     return bench->random >> 63;
 }
 
-// Both sides of one frame, next to each other in time, in an order that is tossed for.
+// Times both sides of one frame directly after each other. A coin toss decides which side is first.
 static bool time_frame(DipPeerBench *bench, DipPeerMeasurement *m, int round, int index,
                        DipError *err) {
     const DipPose before = pose_before(bench, index);

@@ -1,4 +1,4 @@
-// Drawing the rows of the table: both sides in turn, frame by frame, round by round.
+// Measures the rows of the table: both sides in turn, frame by frame, round by round.
 #ifndef DIP_TESTS_PEER_MEASURE_H
 #define DIP_TESTS_PEER_MEASURE_H
 
@@ -9,10 +9,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Settings as both sides have them.
+// Settings that both sides have.
 typedef struct DipPeerRow {
-    const char *name;     // as --rows has it
-    const char *settings; // ours
+    const char *name;     // as in --rows
+    const char *settings; // the same, as our renderer's settings
     int sample_count;
     int max_anisotropy; // 1: trilinear
 } DipPeerRow;
@@ -20,24 +20,25 @@ typedef struct DipPeerRow {
 enum { DIP_PEER_ROW_COUNT = 7 };
 extern const DipPeerRow dip_peer_rows[DIP_PEER_ROW_COUNT];
 
-int dip_peer_row_find(const char *name, size_t length); // -1: none
-bool dip_peer_row_has_peer(const DipPeerRow *row);      // llvmpipe has no more than 4 samples
-// Rows whose pictures should be alike: those the peer draws, without AF, as a bit mask.
+int dip_peer_row_find(const char *name, size_t length); // -1: no such row
+bool dip_peer_row_has_peer(const DipPeerRow *row);      // false above 4 samples, llvmpipe's limit
+// Returns, as a bit mask, the rows whose pictures should be alike: the rows without AF that the
+// peer can draw.
 unsigned dip_peer_rows_alike(void);
 
-// What is measured with; everything is borrowed.
+// What a measurement needs. Everything is borrowed.
 typedef struct DipPeerBench {
     const DipPeerScene *scene;
-    const DipScene *drawn; // scene->def, made ours
+    const DipScene *drawn; // our scene, created from scene->def
     DipRenderer *renderer;
     DipPeer *peer;
     int width;
     int height;
     int frames;
     int rounds;           // 0: only compare the pictures
-    const char *pictures; // folder; NULL: none are written
+    const char *pictures; // folder; NULL: write no pictures
     uint8_t *peer_rgba8;  // width * height * 4 bytes
-    uint64_t random;      // state of the order's draws, seeded by the caller
+    uint64_t random;      // state of the generator that tosses for the order; the caller seeds it
 } DipPeerBench;
 
 typedef struct DipPeerMeasurement {
@@ -45,15 +46,15 @@ typedef struct DipPeerMeasurement {
     int frames;
     int rounds;
     double *ours_ms;       // [round * frames + frame]
-    double *peer_ms;       // likewise; not filled in where the peer has no such row
-    double *first_peer_ms; // [frame], when the pictures were compared, compiling included
-    double psnr_db;        // of the mean squared error over all frames; NaN without a peer
+    double *peer_ms;       // same index; not filled if the peer does not have the row
+    double *first_peer_ms; // [frame], of the first, untimed draw, with the compilation of shaders
+    double psnr_db;        // from the mean squared error of all frames; NaN without a peer
     double worst_psnr_db;
     int worst_frame;
 } DipPeerMeasurement;
 
-// Draws every frame once untimed (the peer compiles its shaders then; the pictures are compared),
-// then measures. On success the measurement belongs to the caller.
+// Draws every frame once without timing it (the peer compiles its shaders, and the pictures are
+// compared), then measures. On success the caller owns the measurement and frees it.
 bool dip_peer_measure(DipPeerBench *bench, const DipPeerRow *row, DipPeerMeasurement *measurement,
                       DipError *err);
 void dip_peer_measurement_free(DipPeerMeasurement *measurement);

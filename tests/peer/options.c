@@ -1,4 +1,4 @@
-// Parsing the bench's command line.
+// The option table of the peer bench, its parser and its help.
 #include "tests/peer/options.h"
 
 #include "app/bench/synthetic.h"
@@ -14,7 +14,8 @@ enum { MAX_FRAMES = 10000, MAX_ROUNDS = 1000, MAX_PEER_THREADS = 32 };
 typedef bool SetOption(DipPeerOptions *options, const char *key, const char *value, DipError *err);
 
 static bool refuse(DipError *err, const char *key, const char *value, const char *accepted) {
-    return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, key, "'%s', accepted %s", value, accepted);
+    return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, key, "'%s' is not valid; give %s", value,
+                         accepted);
 }
 
 static bool parse_integer(const char *text, int low, int high, int *value) {
@@ -23,7 +24,7 @@ static bool parse_integer(const char *text, int low, int high, int *value) {
 
 static bool set_model(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
     if (options->model_count == DIP_PEER_MAX_MODELS) {
-        return refuse(err, key, value, "64 files");
+        return refuse(err, key, value, "at most 64 files");
     }
     options->scene = DIP_PEER_SCENE_MODELS;
     options->models[options->model_count++] = value;
@@ -39,7 +40,7 @@ static bool set_scene(DipPeerOptions *options, const char *key, const char *valu
                parse_integer(value + 5, 2, DIP_SYNTHETIC_MAX_TRIANGLES, &options->grid_triangles)) {
         options->scene = DIP_PEER_SCENE_GRID;
     } else {
-        return refuse(err, key, value, "large, tiny or grid=N with 2..20000000 triangles");
+        return refuse(err, key, value, "large, tiny, or grid=N with N from 2 to 20000000");
     }
     return true;
 }
@@ -54,13 +55,13 @@ static bool set_path(DipPeerOptions *options, const char *key, const char *value
 static bool set_fov(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
     return (dip_number_parse(value, strlen(value), &options->fov_y_deg) &&
             options->fov_y_deg >= 1.0 && options->fov_y_deg <= 170.0) ||
-           refuse(err, key, value, "1..170 degrees");
+           refuse(err, key, value, "an angle from 1 to 170 degrees");
 }
 
 static bool set_turn(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
     return (dip_number_parse(value, strlen(value), &options->turn_deg) &&
             options->turn_deg >= -180.0 && options->turn_deg <= 180.0) ||
-           refuse(err, key, value, "-180..180 degrees");
+           refuse(err, key, value, "an angle from -180 to 180 degrees");
 }
 
 static bool set_size(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
@@ -68,28 +69,29 @@ static bool set_size(DipPeerOptions *options, const char *key, const char *value
     return (times && dip_integer_parse(value, (size_t)(times - value), &options->width) &&
             options->width >= 1 && options->width <= DIP_MAX_FRAME_SIZE &&
             parse_integer(times + 1, 1, DIP_MAX_FRAME_SIZE, &options->height)) ||
-           refuse(err, key, value, "WIDTHxHEIGHT of 1..8192 pixels each");
+           refuse(err, key, value, "WIDTHxHEIGHT, each from 1 to 8192 pixels");
 }
 
 static bool set_threads(DipPeerOptions *options, const char *key, const char *value,
                         DipError *err) {
     return parse_integer(value, 1, MAX_PEER_THREADS, &options->threads) ||
-           refuse(err, key, value, "1..32");
+           refuse(err, key, value, "a number from 1 to 32");
 }
 
 static bool set_isa(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
     return (dip_isa_parse(value, &options->isa) && dip_isa_available(options->isa)) ||
-           refuse(err, key, value, "scalar, sse2, avx2, avx512 or neon, if the processor has it");
+           refuse(err, key, value,
+                  "one of scalar, sse2, avx2, avx512 and neon that this processor has");
 }
 
 static bool set_frames(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
     return parse_integer(value, 1, MAX_FRAMES, &options->frames) ||
-           refuse(err, key, value, "1..10000");
+           refuse(err, key, value, "a number from 1 to 10000");
 }
 
 static bool set_rounds(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
     return parse_integer(value, 1, MAX_ROUNDS, &options->rounds) ||
-           refuse(err, key, value, "1..1000");
+           refuse(err, key, value, "a number from 1 to 1000");
 }
 
 static bool set_rows(DipPeerOptions *options, const char *key, const char *value, DipError *err) {
@@ -98,7 +100,7 @@ static bool set_rows(DipPeerOptions *options, const char *key, const char *value
         const size_t length = strcspn(name, ",");
         const int row = dip_peer_row_find(name, length);
         if (row < 0) {
-            return refuse(err, key, value, "some of none,af4,af16,4x,4x+af16,8x,8x+af16");
+            return refuse(err, key, value, "a list of none,af4,af16,4x,4x+af16,8x,8x+af16");
         }
         options->rows |= 1u << row;
         name += length + (name[length] == ',');
@@ -139,25 +141,28 @@ static bool set_help(DipPeerOptions *options, const char *key, const char *value
 
 static const struct {
     const char *name;
-    const char *argument; // NULL: takes none
+    const char *argument; // NULL if the option takes no value
     SetOption *set;
     const char *text;
 } rows[] = {
-    {"--model", "FILE", set_model, "a model instead of the courtyard; may be repeated"},
-    {"--scene", "NAME", set_scene, "large, tiny or grid=N: scenes made of numbers"},
-    {"--path", "FILE", set_path, "a camera path instead of the scene's own (models: an orbit)"},
-    {"--fov", "DEG", set_fov, "vertical field of view"},
-    {"--turn", "DEG", set_turn, "tiny, grid: turn the camera left; 40 half away, 180 away (0)"},
-    {"--size", "WxH", set_size, "pixels (640x480)"},
-    {"--threads", "N", set_threads, "threads of each (2)"},
-    {"--isa", "NAME", set_isa, "our instruction set (the best)"},
-    {"--frames", "N", set_frames, "frames of the path, evenly (16; with --check 6)"},
-    {"--rounds", "N", set_rounds, "times each frame is measured (5)"},
-    {"--rows", "LIST", set_rows, "some of none,af4,af16,4x,4x+af16,8x,8x+af16 (all)"},
-    {"--csv", "FILE", set_csv, "write every measured frame there"},
-    {"--pictures", "DIR", set_pictures, "write both pictures of every row and frame there, PPM"},
-    {"--check", NULL, set_check, "only compare pictures; exit 1 below 40 dB without AF"},
-    {"--help", NULL, set_help, "this help"},
+    {"--model", "FILE", set_model, "draw a model instead of the courtyard; may be repeated"},
+    {"--scene", "NAME", set_scene, "draw a synthetic scene: large, tiny or grid=N"},
+    {"--path", "FILE", set_path, "follow this camera path, not the scene's own (models: an orbit)"},
+    {"--fov", "DEG", set_fov, "vertical field of view, in degrees"},
+    {"--turn", "DEG", set_turn,
+     "tiny, grid: turn the camera left; 40 half away, 180 fully away (0)"},
+    {"--size", "WxH", set_size, "size of the frames in pixels (640x480)"},
+    {"--threads", "N", set_threads, "threads of each side (2)"},
+    {"--isa", "NAME", set_isa, "Diptych's instruction set (the best of this processor)"},
+    {"--frames", "N", set_frames,
+     "number of frames, spread evenly over the path (16; with --check 6)"},
+    {"--rounds", "N", set_rounds, "how often each frame is measured (5)"},
+    {"--rows", "LIST", set_rows, "rows to measure: none,af4,af16,4x,4x+af16,8x,8x+af16 (all)"},
+    {"--csv", "FILE", set_csv, "write the times of every measured frame to this file"},
+    {"--pictures", "DIR", set_pictures, "write both pictures of every row and frame there, as PPM"},
+    {"--check", NULL, set_check,
+     "only compare pictures; exit with 1 if a row without AF is below 40 dB"},
+    {"--help", NULL, set_help, "print this help"},
 };
 
 static bool parse_option(int argc, char *const *argv, int *index, DipPeerOptions *options,
@@ -171,13 +176,13 @@ static bool parse_option(int argc, char *const *argv, int *index, DipPeerOptions
             return rows[i].set(options, name, NULL, err);
         }
         if (*index + 1 == argc) {
-            return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, name, "no value, accepted %s",
-                                 rows[i].argument);
+            return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, name,
+                                 "the value is missing; give %s", rows[i].argument);
         }
         return rows[i].set(options, name, argv[++*index], err);
     }
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, name,
-                         "no such option; --help lists them");
+                         "no such option; --help lists the options");
 }
 
 bool dip_peer_options_parse(int argc, char *const *argv, DipPeerOptions *options, DipError *err) {
@@ -190,7 +195,7 @@ bool dip_peer_options_parse(int argc, char *const *argv, DipPeerOptions *options
     }
     if (options->model_count && options->scene != DIP_PEER_SCENE_MODELS) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--scene",
-                             "a scene and a model, accepted one of them");
+                             "cannot be combined with --model; give one of them");
     }
     if (!options->frames) {
         options->frames = options->check ? 6 : 16;
@@ -202,12 +207,15 @@ bool dip_peer_options_parse(int argc, char *const *argv, DipPeerOptions *options
 }
 
 void dip_peer_options_help(FILE *out) {
-    fprintf(out, "The same frames by Diptych's renderer and by Mesa's llvmpipe, in turn.\n"
-                 "Usage: dip_peer [OPTION]...\n\n");
+    fprintf(out,
+            "Draws the same frames with Diptych's renderer and with Mesa's llvmpipe, in turn.\n"
+            "Usage: dip_peer [OPTION]...\n\n");
     for (size_t i = 0; i < DIP_ARRAY_COUNT(rows); i++) {
         fprintf(out, "  %-10s %-5s %s\n", rows[i].name, rows[i].argument ? rows[i].argument : "",
                 rows[i].text);
     }
-    fprintf(out, "\nExit codes: 0 done, 1 failed, 2 bad command line, 77 no llvmpipe here.\n"
-                 "docs/peer.md tells how to read the table.\n");
+    fprintf(
+        out,
+        "\nExit codes: 0 success, 1 failure, 2 bad command line, 77 llvmpipe is not installed.\n"
+        "docs/peer.md explains the table.\n");
 }

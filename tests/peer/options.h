@@ -1,4 +1,4 @@
-// The peer bench's command line.
+// The command line of the peer bench.
 #ifndef DIP_TESTS_PEER_OPTIONS_H
 #define DIP_TESTS_PEER_OPTIONS_H
 
@@ -18,29 +18,30 @@ typedef enum DipPeerSceneKind {
     DIP_PEER_SCENE_GRID,
 } DipPeerSceneKind;
 
-// Texts are borrowed from argv; NULL: not given.
+// The parsed options. Texts are borrowed from argv; they are NULL if not given.
 typedef struct DipPeerOptions {
     DipPeerSceneKind scene;
     int grid_triangles;
     const char *models[DIP_PEER_MAX_MODELS];
     int model_count;
     const char *path;
-    double fov_y_deg; // 0: as the scene has it
-    double turn_deg;  // of the camera before a relief, about the vertical; 180: away from it
+    double fov_y_deg; // vertical; 0: the scene's own
+    double turn_deg;  // turns the camera before a relief about the vertical axis; 180: away from it
     int width;        // pixels
     int height;
     int threads;
     DipIsa isa;
-    int frames;    // of the path, evenly
-    int rounds;    // times that each frame is drawn and measured
-    unsigned rows; // bit i: row i of measure.h
+    int frames;    // number of frames, spread evenly over the path
+    int rounds;    // number of times that each frame is drawn and measured
+    unsigned rows; // bit i: row i of dip_peer_rows (measure.h)
     const char *csv;
-    const char *pictures; // folder
+    const char *pictures; // folder; NULL: write no pictures
     bool check;
     bool help;
 } DipPeerOptions;
 
-// Fails with the option at fault as key: found, accepted.
+// Parses the command line. On failure, the error's key is the option at fault, and its message says
+// what was found and what is accepted.
 bool dip_peer_options_parse(int argc, char *const *argv, DipPeerOptions *options, DipError *err);
 void dip_peer_options_help(FILE *out);
 

@@ -1,4 +1,4 @@
-// The peer: context, scene and targets.
+// Creates the peer's OpenGL context, its scene and its targets, and draws with them.
 #include "tests/peer/peer.h"
 
 #include "tests/peer/gl.h"
@@ -14,7 +14,7 @@ struct DipPeer {
     DipGlScene scene;
     int width;
     int height;
-    DipGlTarget targets[MAX_SAMPLES + 1]; // by sample count, made when first asked for
+    DipGlTarget targets[MAX_SAMPLES + 1]; // by sample count; created when a count is first set
     int sample_count;
 };
 
@@ -54,7 +54,8 @@ const char *dip_peer_version(const DipPeer *peer) {
 bool dip_peer_set(DipPeer *peer, int sample_count, int max_anisotropy, DipError *err) {
     if (sample_count < 1 || sample_count > MAX_SAMPLES || sample_count > peer->gl.max_samples) {
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "samples",
-                             "the peer has no %d samples per pixel, accepted 1 or 4", sample_count);
+                             "llvmpipe does not support %d samples per pixel; give 1 or 4",
+                             sample_count);
     }
     DipGlTarget *target = &peer->targets[sample_count];
     if (!target->drawn &&

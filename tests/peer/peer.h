@@ -1,4 +1,5 @@
-// The peer as a whole: a scene drawn by llvmpipe from a pose, with the settings both know.
+// The peer: Mesa's llvmpipe, which draws a scene from a pose, with the settings that both sides
+// have.
 #ifndef DIP_TESTS_PEER_PEER_H
 #define DIP_TESTS_PEER_PEER_H
 
@@ -11,21 +12,23 @@
 
 typedef struct DipPeer DipPeer;
 
-// def is borrowed for the peer's life. threads: llvmpipe's rasteriser threads. One peer per
-// process, used on the thread that made it. Fails with UNSUPPORTED where llvmpipe is not there.
+// Creates the peer for frames of width x height pixels. def is borrowed for the peer's life.
+// threads is the number of llvmpipe's rasteriser threads. A process has at most one peer, which
+// only the thread that created it may use. Fails with UNSUPPORTED if llvmpipe is not installed.
 DipPeer *dip_peer_create(const DipSceneDef *def, int width, int height, int threads, DipError *err);
 void dip_peer_destroy(DipPeer **peer);
 
-const char *dip_peer_renderer(const DipPeer *peer); // valid as long as the peer
+const char *dip_peer_renderer(const DipPeer *peer); // valid until the peer is destroyed
 const char *dip_peer_version(const DipPeer *peer);
 
-// Settings of the next frames. sample_count: 1 or 4; max_anisotropy: 1 (trilinear)..16.
+// Sets what the next frames are drawn with. sample_count is 1 or 4, max_anisotropy 1 (trilinear) to
+// 16.
 bool dip_peer_set(DipPeer *peer, int sample_count, int max_anisotropy, DipError *err);
 
-// Returns when the picture is complete in memory.
+// Draws a frame. Returns when the picture is complete in memory.
 void dip_peer_draw(DipPeer *peer, const DipPose *pose);
 
-// Copies the last picture: width * height sRGB pixels R, G, B, A, the top row first.
+// Copies the last picture: width * height sRGB pixels of R, G, B, A, the top row first.
 bool dip_peer_read(DipPeer *peer, uint8_t *rgba8, DipError *err);
 
 #endif

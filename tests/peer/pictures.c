@@ -1,4 +1,4 @@
-// Binary PPM files.
+// Writes binary PPM files.
 #include "tests/peer/pictures.h"
 
 #include <errno.h>

@@ -1,4 +1,4 @@
-// Loading the shipped courtyard, models, or a synthetic scene.
+// Loads the shipped courtyard or models, or creates a synthetic scene.
 #include "tests/peer/scene.h"
 
 #include "config/config.h"

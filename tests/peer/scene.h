@@ -1,4 +1,4 @@
-// What is drawn: a description for both sides, a camera path, a field of view.
+// What both sides draw: a scene description, a camera path and a field of view.
 #ifndef DIP_TESTS_PEER_SCENE_H
 #define DIP_TESTS_PEER_SCENE_H
 
@@ -10,21 +10,21 @@
 
 typedef struct DipPeerScene {
     char name[96];
-    DipSceneDef def; // borrows from the model or the synthetic scene
+    DipSceneDef def; // borrows from model or synthetic
     uint64_t triangle_count;
-    bool all_in_view; // triangles per second mean something
+    bool all_in_view; // true if triangles per second are meaningful
     DipCamPath *path;
     double fov_y_deg;
     DipModel *model;
     DipSynthetic *synthetic;
 } DipPeerScene;
 
-// Loads or makes what the options ask for. On failure *scene is closed.
+// Loads or creates the scene that the options ask for. On failure *scene is closed.
 bool dip_peer_scene_open(const DipPeerOptions *options, DipPool *pool, DipPeerScene *scene,
                          DipError *err);
 void dip_peer_scene_close(DipPeerScene *scene);
 
-// The pose of frame `index` of `count` that divide the path evenly.
+// Returns the pose of frame `index`, where `count` frames divide the path evenly.
 DipPose dip_peer_scene_pose(const DipPeerScene *scene, int index, int count);
 
 #endif

@@ -1,4 +1,4 @@
-// Printing the table.
+// Prints the table and writes the CSV file.
 #include "tests/peer/table.h"
 
 #include "app/machine.h"
@@ -28,10 +28,12 @@ void dip_table_print_heading(FILE *out, const DipPeerOptions *options, const Dip
 
 // --- rows --------------------------------------------------------------------------------------
 
-// A frame of the peer is out of the ordinary from this many times its median on.
+// A frame of the peer counts as pathological if it takes at least this many times the peer's
+// median.
 static const double PATHOLOGICAL = 10.0;
 
-// At 4x with AF llvmpipe is known to be out of the ordinary: not to be read with the other rows.
+// llvmpipe is known to have pathological frames at 4x with AF, so these rows are printed apart from
+// the others.
 static bool stands_apart(const DipPeerRow *row) {
     return row->sample_count > 1 && row->max_anisotropy > 1 && dip_peer_row_has_peer(row);
 }
@@ -67,7 +69,8 @@ static void print_row(FILE *out, const DipPeerMeasurement *m, double *scratch) {
     print_decibels(out, m);
 }
 
-// Says so where single frames of the peer take many times its median: its mean means nothing then.
+// Prints a note if single frames of the peer take many times its median: the mean of such a row
+// says nothing.
 static void print_note(FILE *out, const DipPeerMeasurement *m, double *scratch) {
     const int count = m->frames * m->rounds;
     if (!count || !dip_peer_row_has_peer(m->row)) {

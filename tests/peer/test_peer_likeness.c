@@ -1,4 +1,4 @@
-// Errors of pictures against ones worked out by hand.
+// Compares errors of pictures with errors worked out by hand.
 #include "tests/peer/likeness.h"
 
 #include <setjmp.h>
@@ -10,8 +10,9 @@
 
 #include <math.h>
 
-// 2 x 2 pixels in rows of different strides; one channel differs by 6, alpha and padding by more.
-static void errors_count_colours_only(void **state) {
+// Both pictures have 2 x 2 pixels, in rows of different strides. One channel differs by 6; alpha
+// and padding differ by more.
+static void squared_error_ignores_alpha_and_padding(void **state) {
     (void)state;
     const uint8_t a[2 * 12] = {10, 20, 30, 255, 1, 2, 3, 255, 99, 99, 99, 99,
                                5,  5,  5,  255, 0, 0, 0, 255, 99, 99, 99, 99};
@@ -24,6 +25,6 @@ static void errors_count_colours_only(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(errors_count_colours_only)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(squared_error_ignores_alpha_and_padding)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// A small seeded generator for tests, so that a failure can be replayed.
+// A small random generator for tests. Tests seed it, so that a failure can be repeated.
 #ifndef DIP_TESTS_RENDERER_RANDOM_H
 #define DIP_TESTS_RENDERER_RANDOM_H
 
@@ -8,7 +8,7 @@ typedef struct Random {
     uint64_t state;
 } Random;
 
-// SplitMix64.
+// The SplitMix64 generator.
 static inline uint64_t random_u64(Random *random) {
     uint64_t z = random->state += 0x9e3779b97f4a7c15u;
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
@@ -16,7 +16,7 @@ static inline uint64_t random_u64(Random *random) {
     return z ^ z >> 31;
 }
 
-// low..high, both included.
+// Returns a number from low to high, both included.
 static inline int random_int(Random *random, int low, int high) {
     return low + (int)(random_u64(random) % (uint64_t)((int64_t)high - low + 1));
 }

@@ -1,4 +1,4 @@
-// Private to the reference path (and its tests): decoded mip chains and how they are read.
+// Private to the reference renderer and its tests: decoded mip chains, and how they are read.
 #ifndef DIP_RENDERER_REFERENCE_INTERNAL_TEXTURE_H
 #define DIP_RENDERER_REFERENCE_INTERNAL_TEXTURE_H
 
@@ -10,40 +10,42 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { DIP_REF_MAX_LEVELS = 14 }; // 8192 down to 1
+enum { DIP_REF_MAX_LEVELS = 14 }; // levels of 8192 texels down to 1
 
-// Level 0 stays in the description's bytes and is decoded when read; the others are decoded means.
+// A mip chain. Level 0 stays in the description's bytes and is decoded when it is read. The other
+// levels hold means of decoded texels.
 typedef struct DipRefTexture {
     const DipTextureDef *def;            // borrowed
-    double decode[256];                  // a colour byte to linear light
-    double *levels[DIP_REF_MAX_LEVELS];  // r, g, b, a per texel; levels[0] is NULL
-    uint8_t *blocks[DIP_REF_MAX_LEVELS]; // BC1, row by row; NULL where it is not compressed
-    int widths[DIP_REF_MAX_LEVELS];      // texels
+    double decode[256];                  // linear light of each colour byte
+    double *levels[DIP_REF_MAX_LEVELS];  // r, g, b, a of each texel; levels[0] is NULL
+    uint8_t *blocks[DIP_REF_MAX_LEVELS]; // BC1 blocks, row by row; NULL if not compressed
+    int widths[DIP_REF_MAX_LEVELS];      // in texels
     int heights[DIP_REF_MAX_LEVELS];
     int level_count;
 } DipRefTexture;
 
-// How textures are read.
+// How a texture is filtered. The settings are those of docs/picture.md, "Textures".
 typedef struct DipRefFilter {
     int max_anisotropy; // 1: trilinear
     bool exact_footprint;
     double bias;
-    bool drop_levels; // the largest levels are left out, by size
-    bool mip_colours; // colour by level instead of the texels' own
-    bool compressed;  // colours of the texture's blocks
-    bool cheap;       // a narrow blend of levels, half the probes
+    bool drop_levels; // leave out the largest levels, by the texture's size
+    bool mip_colours; // show each level in one colour, not the texels' own
+    bool compressed;  // show the colours of the texture's BC1 blocks
+    bool cheap;       // use a narrow blend of levels and half the probes
 } DipRefFilter;
 
-// Inverse of the sRGB encoding: code 0..1 to linear light 0..1.
+// Decodes sRGB: converts a code, 0..1, to linear light, 0..1.
 double dip_reference_decode_srgb(double code);
 double dip_reference_encode_srgb(double linear);
 
-// most_levels: the smaller ones are left out.
+// Builds the mip chain of *def, which is borrowed. Levels beyond the first most_levels are left
+// out.
 bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def, int most_levels,
                                 DipError *err);
 void dip_reference_texture_free(DipRefTexture *texture);
 
-// One texel, indices within the level; r, g, b in linear light, a.
+// Reads one texel at indices within the level: r, g, b in linear light, and alpha.
 static inline void dip_reference_texel(const DipRefTexture *texture, int level, int x, int y,
                                        double rgba[4]) {
     const size_t index = 4 * ((size_t)y * (size_t)texture->widths[level] + (size_t)x);
@@ -58,28 +60,29 @@ static inline void dip_reference_texel(const DipRefTexture *texture, int level, 
     rgba[3] = bytes[3] / 255.0;
 }
 
-// Makes the blocks of every level.
+// Encodes the BC1 blocks of every level.
 bool dip_reference_texture_compress(DipRefTexture *texture, DipError *err);
 
-// The same texel as its block shows it; alpha is the texture's own.
+// Reads one texel with the colour that its block shows; alpha is the texture's own.
 void dip_reference_compressed_texel(const DipRefTexture *texture, int level, int x, int y,
                                     double rgba[4]);
 
-// The colour of a block's texel, x and y 0..3, linear light.
+// Decodes the colour of one texel of a block to linear light. x and y are 0..3.
 void dip_reference_block_colour(const uint8_t block[8], int x, int y, double rgb[3]);
 
 DipRefFilter dip_reference_colour_filter(const DipQuality *quality);
 DipRefFilter dip_reference_light_map_filter(void);
 
-// Of what is read as the colour texture is but holds no colours: no mip colours, no compression.
+// Returns the filter of a texture that is read as the colour texture is but holds data, not
+// colours: without mip colours and compression.
 DipRefFilter dip_reference_data_filter(const DipRefFilter *colour);
 
-// Reads at (u, v) with the derivatives of (u, v) per pixel in x and y.
+// Reads a texture at uv with the given derivatives of uv per pixel in x and y.
 void dip_reference_sample(const DipRefTexture *texture, const DipRefFilter *filter,
                           const double uv[2], const double duv_dx[2], const double duv_dy[2],
                           double rgba[4]);
 
-// Bilinearly from level 0, the place not rounded: what the converged picture reads.
+// Reads level 0 bilinearly at unrounded coordinates, as the converged picture does.
 void dip_reference_sample_finest(const DipRefTexture *texture, const double uv[2], double rgba[4]);
 
 #endif

@@ -1,4 +1,4 @@
-// The worker pool: every index runs exactly once, whatever the threads, again and again.
+// Tests the worker pool: every index runs exactly once, with any number of threads, run after run.
 #include "renderer/base/pool.h"
 
 #include <setjmp.h>
@@ -16,7 +16,7 @@ typedef struct Tally {
     atomic_int runs[MAX_COUNT];
     int thread_count;
     atomic_int bad_worker;
-    int64_t plain[MAX_COUNT]; // written without atomics: the pool must order it
+    int64_t plain[MAX_COUNT]; // written without atomics, so the pool must order the writes
 } Tally;
 
 static void tally(void *context, int index, int worker) {
@@ -44,7 +44,7 @@ static void every_index_runs_once(void **state) {
         for (int run = 0; run < RUNS; run++) {
             dip_pool_run(pool, run * 5, tally, &all);
             if (run % 50 == 0) {
-                sleep_ms(5); // long enough that workers fall asleep
+                sleep_ms(5); // long enough for workers to fall asleep
             }
         }
         for (int i = 0; i < MAX_COUNT; i++) {
@@ -58,8 +58,8 @@ static void every_index_runs_once(void **state) {
     }
 }
 
-// Workers that wake too late for a run meet the next ones.
-static void short_runs_follow_each_other(void **state) {
+// A worker that wakes too late for one run joins the next one.
+static void workers_that_wake_late_join_the_next_run(void **state) {
     (void)state;
     enum { THREADS = 4, SHORT_RUNS = 20000, TASKS = 3 };
     static Tally all;
@@ -78,8 +78,9 @@ static void short_runs_follow_each_other(void **state) {
     dip_pool_destroy(&pool);
 }
 
-// A pool that is destroyed while its workers still look for the run before ends all of them.
-static void ends_in_the_middle_of_a_run(void **state) {
+// A pool may be destroyed while its workers still look for work of the last run. All workers must
+// end.
+static void a_pool_can_be_destroyed_right_after_a_run(void **state) {
     (void)state;
     enum { THREADS = 4, POOLS = 4000, RUNS_EACH = 2 };
     static Tally all;
@@ -95,7 +96,7 @@ static void ends_in_the_middle_of_a_run(void **state) {
     assert_int_equal(all.runs[0], POOLS * RUNS_EACH);
 }
 
-static void refuses_impossible_thread_counts(void **state) {
+static void impossible_thread_counts_are_refused(void **state) {
     (void)state;
     DipError err = {0};
     assert_null(dip_pool_create(-1, &err));
@@ -108,9 +109,9 @@ static void refuses_impossible_thread_counts(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_index_runs_once),
-        cmocka_unit_test(short_runs_follow_each_other),
-        cmocka_unit_test(ends_in_the_middle_of_a_run),
-        cmocka_unit_test(refuses_impossible_thread_counts),
+        cmocka_unit_test(workers_that_wake_late_join_the_next_run),
+        cmocka_unit_test(a_pool_can_be_destroyed_right_after_a_run),
+        cmocka_unit_test(impossible_thread_counts_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

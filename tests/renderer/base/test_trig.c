@@ -1,4 +1,4 @@
-// dip_sin and its kin against the C library's long double functions.
+// Compares dip_sin and the other functions of trig.h with the C library's long double functions.
 #include "renderer/base/trig.h"
 
 #include <setjmp.h>
@@ -13,7 +13,8 @@
 
 static uint64_t state = 1;
 
-// 0 <= u < 1; xorshift64*, so that every run tests the same angles.
+// Returns 0 <= u < 1. The generator is xorshift64* with a fixed state, so every run tests the same
+// angles.
 static double uniform(void) {
     state ^= state >> 12;
     state ^= state << 25;
@@ -48,9 +49,9 @@ static void sin_cos_tan_match_libm(void **context) {
     }
 }
 
-// Where the reduction cancels most: the doubles next to multiples of pi/4. Relative, so that the
-// small values there are right in all their digits.
-static void multiples_of_quarter_pi_keep_their_digits(void **context) {
+// The argument reduction cancels most next to multiples of pi/4. The bound is relative there, so
+// that all digits of the small results must be right.
+static void results_near_multiples_of_quarter_pi_keep_their_digits(void **context) {
     (void)context;
     for (int n = 1; n <= 20000; n++) {
         double angle = (double)(n * (3.14159265358979323846264338L / 4.0L));
@@ -106,7 +107,7 @@ static void atan2_matches_libm(void **context) {
 static void acos_asin_match_libm(void **context) {
     (void)context;
     for (int i = 0; i < 200000; i++) {
-        // Half of them crowd towards 1, where acos is small.
+        // Half of the values lie close to 1, where acos is small.
         const double u = 2.0 * uniform() - 1.0;
         const double x = i & 1 ? u : 1.0 - fabs(u) * exp2(-40.0 * uniform());
         check_near(dip_acos(x), acosl(x), 1e-15 * (double)acosl(x) + 1e-300, x);
@@ -116,8 +117,8 @@ static void acos_asin_match_libm(void **context) {
     assert_true(isnan(dip_acos(1.0000001)) && isnan(dip_asin(-1.0000001)) && isnan(dip_acos(NAN)));
 }
 
-// One number for the bits of 60000 values: guards determinism across compilers and processors.
-static void the_bits_are_the_same_everywhere(void **context) {
+// One hash over the bits of 60000 values guards determinism across compilers and processors.
+static void results_have_the_same_bits_everywhere(void **context) {
     (void)context;
     uint64_t hash = UINT64_C(14695981039346656037);
     for (int i = 0; i < 10000; i++) {
@@ -137,11 +138,11 @@ static void the_bits_are_the_same_everywhere(void **context) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sin_cos_tan_match_libm),
-        cmocka_unit_test(multiples_of_quarter_pi_keep_their_digits),
+        cmocka_unit_test(results_near_multiples_of_quarter_pi_keep_their_digits),
         cmocka_unit_test(out_of_range_angles_are_nan),
         cmocka_unit_test(atan2_matches_libm),
         cmocka_unit_test(acos_asin_match_libm),
-        cmocka_unit_test(the_bits_are_the_same_everywhere),
+        cmocka_unit_test(results_have_the_same_bits_everywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,11 @@
-// assert_near: that a number is what it should be, or tells both. Include after <cmocka.h>.
+// assert_near checks that a number is what it should be, and prints both if it is not. Include this
+// file after <cmocka.h>.
 #ifndef DIP_TESTS_RENDERER_PIPELINE_NEAR_H
 #define DIP_TESTS_RENDERER_PIPELINE_NEAR_H
 
 #include <math.h>
 
-// NaN is near nothing.
+// A NaN fails the check.
 #define assert_near(value, expected, tolerance)                                                    \
     do {                                                                                           \
         const double near_value = (value);                                                         \

@@ -8,17 +8,19 @@
 __extension__ typedef __int128 Int128;
 
 typedef struct Edge {
-    int64_t x, y;   // where it starts
-    int64_t dx, dy; // where it leads
-    bool owns;      // the samples that lie on it
+    int64_t x, y;   // start of the edge
+    int64_t dx, dy; // direction to its end
+    bool owns;      // true if samples on the edge belong to the triangle
 } Edge;
 
-// Twice the area of the edge and the point; positive to the right of the edge as the eye sees it.
+// Returns twice the area of the triangle of the edge and the point. It is positive if the point
+// lies to the right of the edge as the eye sees it.
 static Int128 side_of(const Edge *edge, int64_t x, int64_t y) {
     return (Int128)edge->dx * (y - edge->y) - (Int128)edge->dy * (x - edge->x);
 }
 
-// The edges in clockwise order, so that the inside lies to their right; false without an area.
+// Makes the edges in clockwise order, so that the inside lies to their right. Returns false if the
+// triangle has no area.
 static bool make_edges(const DipOracleTriangle *t, Edge edges[3]) {
     const Edge base = {t->x[0], t->y[0], (int64_t)t->x[1] - t->x[0], (int64_t)t->y[1] - t->y[0],
                        false};
@@ -30,7 +32,7 @@ static bool make_edges(const DipOracleTriangle *t, Edge edges[3]) {
         Edge *edge = &edges[i];
         *edge = (Edge){t->x[from], t->y[from], (int64_t)t->x[to] - t->x[from],
                        (int64_t)t->y[to] - t->y[from], false};
-        // Clockwise, a left edge leads up; the upper horizontal edge leads right.
+        // In clockwise order, left edges lead up and the upper horizontal edge leads right.
         edge->owns = edge->dy < 0 || (edge->dy == 0 && edge->dx > 0);
     }
     return area != 0;
@@ -60,7 +62,7 @@ uint64_t dip_oracle_cover(const DipOracleTriangle *triangle, const DipSamplePatt
                           const DipOracleRegion *region, uint8_t *masks) {
     Edge edges[3];
     const bool has_area = make_edges(triangle, edges);
-    // No pixel outside the corners' own can have a sample inside.
+    // No sample outside the bounding box of the corners' pixels can lie inside.
     const int low_x = least(triangle->x) >> 8, high_x = greatest(triangle->x) >> 8;
     const int low_y = least(triangle->y) >> 8, high_y = greatest(triangle->y) >> 8;
     uint64_t count = 0;
@@ -98,7 +100,7 @@ typedef struct Maker {
     int32_t limit;
 } Maker;
 
-// Within the region and `margin` pixels about it.
+// Returns a random point in the region or up to `margin` pixels around it.
 static Point any_point(const Maker *maker, int margin) {
     const DipOracleRegion *r = maker->region;
     return (Point){
@@ -135,7 +137,7 @@ static Point far_point(const Maker *maker) {
     return p;
 }
 
-// On the line through two points, whole multiples of their distance away from the first.
+// Returns a point on the line through p and q, at a whole multiple of their distance from p.
 static Point beyond(const Maker *maker, Point p, Point q, int least_step, int most_step) {
     const int step = random_int(maker->random, least_step, most_step);
     return (Point){p.x + step * (q.x - p.x), p.y + step * (q.y - p.y)};
@@ -216,7 +218,7 @@ DipOracleTriangle dip_oracle_make(DipOracleKind kind, Random *random,
     makers[kind](&maker, v);
     DipOracleTriangle triangle;
     const int first = random_int(random, 0, 2);
-    const int turn = random_int(random, 1, 2); // either winding, from any corner
+    const int turn = random_int(random, 1, 2); // either winding, starting at any corner
     for (int i = 0; i < 3; i++) {
         triangle.x[i] = clamp(v[(first + i * turn) % 3].x, limit);
         triangle.y[i] = clamp(v[(first + i * turn) % 3].y, limit);
@@ -228,8 +230,9 @@ void dip_oracle_make_fan(Random *random, const DipSamplePattern *pattern,
                          const DipOracleRegion *region, DipOracleTriangle fan[DIP_ORACLE_FAN]) {
     const Maker maker = {random, pattern, region, 0};
     const Point hub = random_int(random, 0, 1) ? sample_point(&maker) : any_point(&maker, 0);
-    // One corner in each of as many equal sectors about the hub, far enough out that the sides
-    // between neighbours (under 90 degrees apart) stay outside the region.
+    // The rim has one corner in each of DIP_ORACLE_FAN equal sectors around the hub. The corners
+    // lie so far away that the sides between neighbours (less than 90 degrees apart) stay outside
+    // the region.
     const double radius = 256.0 * 4.0 * (region->width + region->height);
     Point rim[DIP_ORACLE_FAN];
     for (int i = 0; i < DIP_ORACLE_FAN; i++) {
@@ -237,7 +240,7 @@ void dip_oracle_make_fan(Random *random, const DipSamplePattern *pattern,
             (i + random_real(random, 0.0, 0.9)) * (6.283185307179586 / DIP_ORACLE_FAN);
         const double far = radius * random_real(random, 1.0, 3.0);
         rim[i] = (Point){hub.x + llrint(far * cos(angle)), hub.y + llrint(far * sin(angle))};
-        if (random_int(random, 0, 3) == 0) { // along a row of samples, if the hub is on one
+        if (random_int(random, 0, 3) == 0) { // along a row of samples, if the hub lies on one
             rim[i].x = i == 2 || i == 6 ? hub.x : rim[i].x;
             rim[i].y = i == 0 || i == 4 ? hub.y : rim[i].y;
         }

@@ -1,4 +1,4 @@
-// Scenes whose vertices fall on chosen screen positions, for tests of the reference.
+// Creates scenes whose vertices fall on chosen screen positions, for tests of the reference.
 #include "tests/renderer/pipeline/screen.h"
 
 #include <math.h>

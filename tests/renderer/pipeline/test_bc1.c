@@ -1,5 +1,5 @@
-// BC1 blocks against the published definition, written out here in whole numbers, and textures
-// against the blocks they are made of.
+// Compares the decoding of BC1 blocks with the published definition, written out here in whole
+// numbers, and compressed textures with the blocks that they are made of.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/bc1.h"
 #include "renderer/pipeline/texture/texture_layout.h"
@@ -16,7 +16,7 @@
 
 #include <cmocka.h>
 
-// Of a packed texel: half a step of the ten bits of blue, sRGB 0..1, where the curve is steepest.
+// Half a step of blue's ten bits in a packed texel, as sRGB 0..1, where the curve is steepest.
 static const double texel_tolerance_srgb = 0.19 / 255.0;
 
 static void light_of_texel(uint32_t texel, double rgb[3]) {
@@ -33,7 +33,7 @@ static void expect_srgb(const double rgb_lin[3], const double srgb[3], double to
     }
 }
 
-// Both decoders on one block: texel (x, y) must be srgb.
+// Checks that both decoders decode texel (x, y) of a block to srgb.
 static void expect_texel(const DipBc1Light *light, const uint8_t block[8], int x, int y,
                          const double srgb[3]) {
     double rgb[3];
@@ -45,7 +45,7 @@ static void expect_texel(const DipBc1Light *light, const uint8_t block[8], int x
     expect_srgb(rgb, srgb, texel_tolerance_srgb);
 }
 
-// A block by its parts: colours of 5, 6 and 5 bits and a code per texel.
+// The parts of a block: two colours of 5, 6 and 5 bits and a code per texel.
 typedef struct Parts {
     int colour[2][3];
     int code[16];
@@ -64,7 +64,7 @@ static Parts random_parts(Random *random, bool alike) {
     return parts;
 }
 
-// As bytes; returns whether the first colour is the greater number.
+// Packs the parts into bytes. Returns true if the first colour is the greater number.
 static bool pack_parts(const Parts *parts, uint8_t block[8]) {
     int number[2];
     for (int i = 0; i < 2; i++) {
@@ -80,9 +80,10 @@ static bool pack_parts(const Parts *parts, uint8_t block[8]) {
     return number[0] > number[1];
 }
 
-// S3TC's definition: colours little-endian, red in the highest bits. Where the first is the greater
-// number, codes 0 to 3 are the first, the second, 2/3 of the first and 1/3 of the second, the
-// reverse; else the first, the second, their mean, black.
+// S3TC's definition: colours are little-endian, with red in the highest bits. If the first colour
+// is the greater number, codes 0 to 3 stand for the first colour, the second, 2/3 of the first plus
+// 1/3 of the second, and 1/3 of the first plus 2/3 of the second. Otherwise they stand for the
+// first colour, the second, their mean, and black.
 static void decoders_follow_the_definition(void **state) {
     (void)state;
     static const double shares[2][4][2] = {
@@ -107,13 +108,13 @@ static void decoders_follow_the_definition(void **state) {
     }
 }
 
-// A texel holds an 8-bit code well enough to give it back.
-static void codes_come_back_from_texels(void **state) {
+// A packed texel is precise enough to give an 8-bit code back.
+static void packed_texels_give_8_bit_codes_back(void **state) {
     (void)state;
     static DipRootCodes codes;
     dip_root_codes_fill(&codes);
     for (int i = 0; i < 65536; i++) {
-        const int mix = i * 37; // blue takes every value beside every red
+        const int mix = i * 37; // blue takes every value beside every value of red
         const uint8_t rgb8[3] = {(uint8_t)i, (uint8_t)(i >> 8), (uint8_t)(mix >> 4)};
         double light[3];
         uint8_t back[3];
@@ -125,9 +126,9 @@ static void codes_come_back_from_texels(void **state) {
     }
 }
 
-// Colours that a block can hold come back as they were; of a gradient the error stays below the
+// Colours that a block can represent come back unchanged. The error of a gradient stays below one
 // step of 5 bits.
-static void encoder_finds_what_a_block_can_hold(void **state) {
+static void the_encoder_keeps_colours_that_a_block_can_hold(void **state) {
     (void)state;
     uint8_t rgba8[64];
     uint8_t block[8];
@@ -189,9 +190,9 @@ static void expect_texture(const DipTextureDef *def, DipPool *pool) {
     dip_texture_destroy(&texture);
 }
 
-// Every texel of every level, padding and alpha included, for sizes that are no multiple of 4, on
-// a pool and without.
-static void textures_show_their_blocks(void **state) {
+// Compares every texel of every level, with padding and alpha. Sizes that are no multiple of 4 are
+// included, as is compression with and without a pool.
+static void compressed_textures_show_what_their_blocks_decode_to(void **state) {
     (void)state;
     static const int sizes[][2] = {{64, 64}, {1, 1}, {7, 5}, {2, 9}, {33, 16}};
     static uint8_t rgba8[64 * 64 * 4];
@@ -213,9 +214,9 @@ static void textures_show_their_blocks(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(decoders_follow_the_definition),
-        cmocka_unit_test(codes_come_back_from_texels),
-        cmocka_unit_test(encoder_finds_what_a_block_can_hold),
-        cmocka_unit_test(textures_show_their_blocks),
+        cmocka_unit_test(packed_texels_give_8_bit_codes_back),
+        cmocka_unit_test(the_encoder_keeps_colours_that_a_block_can_hold),
+        cmocka_unit_test(compressed_textures_show_what_their_blocks_decode_to),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// Mip chains against the definition worked out one texel at a time: no bit may differ, whatever the
-// size, the addressing and the number of threads.
+// Compares mip chains with the definition, computed one texel at a time. No bit may differ, for any
+// size, address mode or number of threads.
 #include "renderer/base/pool.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/bc1.h"
@@ -37,7 +37,8 @@ static Plain decode(const DipTextureDef *def) {
     return level;
 }
 
-// Shares of the source texels from 2i on that target texel i covers.
+// Computes the shares of the source texels, from 2i on, that target texel i covers. Returns their
+// number.
 static int shares(int i, int size, int next, float share[3]) {
     if (size == next) {
         share[0] = 1.0f;
@@ -93,7 +94,7 @@ static void check_level(const DipTexture *texture, int level, const Plain *plain
             const int at = texture->level_offset[level] + y * (plain->width + 1) + x;
             if (texture->texels[at] != dip_texel_pack(rgb) ||
                 (texture->alpha && texture->alpha[at] != (uint8_t)(texel[3] * 255.0f + 0.5f))) {
-                fail_msg("level %d, texel %d, %d", level, x, y);
+                fail_msg("level %d differs from the definition at texel (%d, %d)", level, x, y);
             }
         }
     }
@@ -166,8 +167,8 @@ static void chains_are_exact_on_many_threads(void **state) {
     }
 }
 
-// A size out of range in the middle: the reason, and nothing left behind.
-static void all_or_none(void **state) {
+// One texture in the middle has an invalid size. The error names it, and no texture is created.
+static void either_all_textures_are_created_or_none(void **state) {
     (void)state;
     const uint8_t codes[4 * 4] = {0};
     const DipTextureDef defs[] = {
@@ -188,7 +189,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(chains_are_exact_on_one_thread),
         cmocka_unit_test(chains_are_exact_on_many_threads),
-        cmocka_unit_test(all_or_none),
+        cmocka_unit_test(either_all_textures_are_created_or_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// The fast path's coverage against exact integers: every sample pattern, every instruction set, no
-// difference allowed.
+// Compares the fast renderer's coverage with exact integers, for every sample pattern and every
+// instruction set. No difference is allowed.
 //
 //   test_coverage [--triangles N]
 #include "renderer/base/assert.h"
@@ -19,20 +19,20 @@
 
 enum {
     SEED = 90125,
-    TARGET_WIDTH = 3 * DIP_TILE - 21, // so that the last tiles are cut
+    TARGET_WIDTH = 3 * DIP_TILE - 21, // no multiple of the tile size, so the last tiles are cut
     TARGET_HEIGHT = 2 * DIP_TILE - 6,
 };
 
 static const int sample_counts[] = {1, 2, 4, 6, 8};
 static long triangle_count = 60000;
 
-// A tile as the pipeline has it.
+// The depths and triangle numbers of a tile, as the pipeline lays them out.
 static _Alignas(64) float depth[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
 static _Alignas(64) uint32_t ids[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
 
 typedef struct Case {
     const DipSamplePattern *pattern;
-    DipOracleRegion region; // the tile's pixels that the target has
+    DipOracleRegion region; // the tile's pixels that lie in the target
     DipOracleTriangle triangle;
     DipOracleKind kind;
 } Case;
@@ -70,13 +70,14 @@ static DipOracleRegion random_tile(Random *random) {
     return region;
 }
 
-// Whether the triangle reaches the tile's pixels at all: others are not given to it.
+// Returns true if the triangle reaches the tile's pixels. The pipeline gives a tile only such
+// triangles.
 static bool meets(const DipTriangle *triangle, const DipOracleRegion *region) {
     return triangle->x0 < region->x0 + region->width && triangle->x1 >= region->x0 &&
            triangle->y0 < region->y0 + region->height && triangle->y1 >= region->y0;
 }
 
-// Draws the case's triangle; false when it is culled or does not reach the tile.
+// Draws the case's triangle. Returns false if it is culled or does not reach the tile.
 static bool draw_fast(const DipKernels *kernels, const Case *c, const DipClipTest *clip,
                       DipTile *tile) {
     static DipScreenBatch screen;
@@ -106,7 +107,7 @@ static bool draw_fast(const DipKernels *kernels, const Case *c, const DipClipTes
     return true;
 }
 
-// Fills masks as the oracle does.
+// Fills masks in the oracle's format.
 static void read_masks(const Case *c, const DipTile *tile, uint8_t *masks) {
     memset(masks, 0, (size_t)c->region.width * (size_t)c->region.height);
     for (int block = 0; block < DIP_BLOCKS; block++) {
@@ -142,7 +143,7 @@ static void fail_at(const Case *c, DipIsa isa, const uint8_t *expected, const ui
         c->region.y0 + at / c->region.width, found[at]);
 }
 
-static void test_coverage_is_exact(void **state) {
+static void coverage_is_exact(void **state) {
     (void)state;
     static uint8_t expected[DIP_TILE * DIP_TILE];
     static uint8_t found[DIP_TILE * DIP_TILE];
@@ -169,14 +170,14 @@ static void test_coverage_is_exact(void **state) {
     for (int kind = 0; kind < DIP_ORACLE_KINDS; kind++) {
         printf(" %s %llu", dip_oracle_kind_name((DipOracleKind)kind),
                (unsigned long long)covered[kind]);
-        // Flat ones cover nothing, the others must not be empty air.
+        // Triangles without area cover nothing. All other kinds must cover some samples.
         assert_true(kind == DIP_ORACLE_flat ? covered[kind] == 0 : covered[kind] > 0);
     }
     printf("\n");
 }
 
-// Large triangles of which one pixel at the target's corner lies in the target.
-static void test_large_triangles_in_one_pixel(void **state) {
+// Large triangles that meet the target in one pixel at its corner only.
+static void large_triangles_that_meet_one_pixel_are_exact(void **state) {
     (void)state;
     static uint8_t expected[DIP_TILE * DIP_TILE];
     static uint8_t found[DIP_TILE * DIP_TILE];
@@ -205,8 +206,9 @@ static void test_large_triangles_in_one_pixel(void **state) {
     assert_true(covered > 10000);
 }
 
-// Every sample about a hub that neighbours share is hit once, by the oracle and by the kernels.
-static void test_fans_hit_every_sample_once(void **state) {
+// Neighbours share edges around a hub. Every sample around the hub is covered exactly once, by the
+// oracle and by the kernels.
+static void fans_cover_every_sample_exactly_once(void **state) {
     (void)state;
     static uint8_t masks[DIP_TILE * DIP_TILE];
     static uint8_t hit[2][DIP_TILE * DIP_TILE];
@@ -240,13 +242,13 @@ static void test_fans_hit_every_sample_once(void **state) {
     }
 }
 
-// A clip test that keeps a chequer of pixels and checks where it is asked.
+// A clip test that keeps a chequer of pixels and checks the positions at which it is asked.
 typedef struct Chequer {
     const Case *c;
-    const uint8_t *covered; // as the oracle says
+    const uint8_t *covered; // the oracle's masks
     DipFragmentList list;
     uint8_t keep[DIP_FRAGMENT_BATCH];
-    uint8_t asked[DIP_TILE * DIP_TILE]; // times, per pixel of the region
+    uint8_t asked[DIP_TILE * DIP_TILE]; // number of times, per pixel of the region
 } Chequer;
 
 static bool chequer_keeps(int x, int y) {
@@ -264,7 +266,7 @@ static const uint8_t *ask_chequer(void *context, const DipTriangle *triangle) {
         const int x = position & (DIP_TILE - 1);
         const int y = position >> DIP_POSITION_Y & (DIP_TILE - 1);
         if (x >= region->width || y >= region->height) {
-            continue; // beyond the target, where nobody looks
+            continue; // outside the target, where the result is not used
         }
         const unsigned mask = chequer->covered[y * region->width + x];
         const bool whole = mask == (1u << pattern->count) - 1u;
@@ -279,9 +281,10 @@ static const uint8_t *ask_chequer(void *context, const DipTriangle *triangle) {
     return chequer->keep;
 }
 
-// Every covered pixel is asked about once, at its centre or first covered sample, and drawn with
-// its covered samples where the answer is yes. The counters do not depend on the vector's width.
-static void test_clip_test_is_asked_and_obeyed(void **state) {
+// The clip test is asked once for every covered pixel, at the pixel's centre or its first covered
+// sample. If it answers yes, the covered samples are drawn. The counters do not depend on the
+// vector width.
+static void the_clip_test_is_asked_once_per_pixel_and_obeyed(void **state) {
     (void)state;
     static uint8_t expected[DIP_TILE * DIP_TILE];
     static uint8_t found[DIP_TILE * DIP_TILE];
@@ -318,7 +321,7 @@ static void test_clip_test_is_asked_and_obeyed(void **state) {
     }
 }
 
-static void test_patterns_lie_within_their_bounds(void **state) {
+static void patterns_lie_within_their_bounds(void **state) {
     (void)state;
     for (int i = 0; i < 5; i++) {
         const DipSamplePattern *pattern = dip_sample_pattern(sample_counts[i]);
@@ -336,19 +339,20 @@ static void test_patterns_lie_within_their_bounds(void **state) {
     }
 }
 
-// The oracle itself, on a square of 2x2 pixels cut along its diagonal: edges on sample rows and
-// columns belong to the left and upper triangle only.
-static void test_oracle_by_hand(void **state) {
+// Tests the oracle itself, on a square of 2x2 pixels that is cut along its diagonal. Samples on
+// edges belong only to the triangle to the left or above.
+static void the_oracle_agrees_with_an_example_worked_by_hand(void **state) {
     (void)state;
     const DipSamplePattern *centre = dip_sample_pattern(1);
     const DipOracleRegion region = {0, 0, 4, 4};
     uint8_t masks[16];
-    // Corners on the centres of pixels (0,0), (2,0), (0,2): a right angle at the top left.
+    // The corners lie on the centres of the pixels (0,0), (2,0) and (0,2), with the right angle at
+    // the top left.
     const DipOracleTriangle upper = {{128, 640, 128}, {128, 128, 640}};
     assert_int_equal(dip_oracle_cover(&upper, centre, &region, masks), 3);
     assert_int_equal(masks[0] & masks[1] & masks[4], 1);
-    // The other half of the square: the diagonal is its left edge, its right and lower edges are
-    // not its own.
+    // The other half of the square. The diagonal is its left edge; samples on its right and lower
+    // edges do not belong to it.
     const DipOracleTriangle lower = {{640, 640, 128}, {128, 640, 640}};
     assert_int_equal(dip_oracle_cover(&lower, centre, &region, masks), 1);
     assert_int_equal(masks[5], 1);
@@ -359,12 +363,12 @@ int main(int argc, char **argv) {
         triangle_count = strtol(argv[2], NULL, 10);
     }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_oracle_by_hand),
-        cmocka_unit_test(test_patterns_lie_within_their_bounds),
-        cmocka_unit_test(test_coverage_is_exact),
-        cmocka_unit_test(test_clip_test_is_asked_and_obeyed),
-        cmocka_unit_test(test_large_triangles_in_one_pixel),
-        cmocka_unit_test(test_fans_hit_every_sample_once),
+        cmocka_unit_test(the_oracle_agrees_with_an_example_worked_by_hand),
+        cmocka_unit_test(patterns_lie_within_their_bounds),
+        cmocka_unit_test(coverage_is_exact),
+        cmocka_unit_test(the_clip_test_is_asked_once_per_pixel_and_obeyed),
+        cmocka_unit_test(large_triangles_that_meet_one_pixel_are_exact),
+        cmocka_unit_test(fans_cover_every_sample_exactly_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

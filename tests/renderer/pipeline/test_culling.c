@@ -1,5 +1,5 @@
-// Culling by bounds never changes a picture, leaves out what is out of view, and passes that need
-// more room than expected are drawn all the same.
+// Tests that culling by bounds never changes a picture and leaves out what is out of view, and that
+// passes are drawn correctly if they need more room than expected.
 #include "renderer/pipeline/cull.h"
 #include "renderer/pipeline/geometry/chunk_cull.h"
 #include "renderer/pipeline/geometry/mesh_layout.h"
@@ -22,7 +22,7 @@ enum { WIDTH = 320, HEIGHT = 256, FLOATS = 4, CAMERAS = 60, CLUSTERS = 200, PER_
 
 static uint8_t pictures[2][WIDTH * HEIGHT * 4];
 
-// --- a mesh of positions and one varying, projected by the matrix that is the uniforms ---------
+// --- a mesh of positions and one varying, projected by a matrix in the uniforms -----------------
 
 static void project(const DipVertexBatch *batch) {
     const float *m = batch->uniforms;
@@ -48,7 +48,7 @@ static void varying(DipFragmentBatch *batch) {
 typedef struct Soup {
     float *vertices;
     uint32_t *indices;
-    uint32_t count; // of vertices; no two triangles share one
+    uint32_t count; // number of vertices; each belongs to one triangle only
 } Soup;
 
 static Soup make_soup(uint32_t triangles) {
@@ -116,7 +116,8 @@ static DipPipelineCounters draw(const DipMesh *mesh, const float *matrix, bool c
 
 // --- cameras -----------------------------------------------------------------------------------
 
-// Looks from `eye` along a random direction: an orthonormal frame times a perspective matrix.
+// Makes a camera at a random position that looks in a random direction: an orthonormal frame times
+// a perspective matrix.
 static void random_camera(Random *random, float m[16]) {
     double axis[3][3];
     for (int a = 0; a < 2; a++) {
@@ -157,7 +158,8 @@ static void random_camera(Random *random, float m[16]) {
     m[11] = 0.1f; // the near plane
 }
 
-// Clusters of triangles of all sizes, one after another, so that chunks are small in space.
+// Makes clusters of triangles of all sizes, one after another, so that each chunk covers a small
+// part of space.
 static DipMesh *random_clusters(Random *random) {
     Soup soup = make_soup(CLUSTERS * PER_CLUSTER);
     for (int cluster = 0; cluster < CLUSTERS; cluster++) {
@@ -178,7 +180,7 @@ static DipMesh *random_clusters(Random *random) {
     return mesh_of(&soup);
 }
 
-static void culling_changes_no_picture(void **state) {
+static void culling_never_changes_a_picture(void **state) {
     (void)state;
     Random random = {4711};
     DipMesh *mesh = random_clusters(&random);
@@ -200,7 +202,7 @@ static void culling_changes_no_picture(void **state) {
         read += culled.triangles_in;
         drawn += culled.triangles_drawn;
     }
-    // It culls, and there is something to see.
+    // Something is culled, and something is visible.
     assert_true(read < all * CAMERAS / 2);
     assert_true(drawn > all * CAMERAS / 100);
     dip_mesh_destroy(&mesh);
@@ -218,8 +220,9 @@ static void assert_same_blocks(const DipTargetRegion *region) {
     }
 }
 
-// Wherever it is rejected, what does not reach the region: a box, a chunk, a triangle to clip.
-static void regions_hold_what_the_whole_does(void **state) {
+// Whatever does not reach the region may be rejected: a box, a chunk, or a triangle that would be
+// clipped. The region must still hold what the whole picture holds there.
+static void a_region_holds_what_the_whole_picture_holds_there(void **state) {
     (void)state;
     enum { REGIONS = 6 };
     Random random = {42};
@@ -243,11 +246,11 @@ static void regions_hold_what_the_whole_does(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// --- what is seen of objects -------------------------------------------------------------------
+// --- visible parts of objects --------------------------------------------------------------------
 
-enum { PLACED = 40, VIEWS = 400, POINTS = 6 }; // points per triangle
+enum { PLACED = 40, VIEWS = 400, POINTS = 6 }; // points tested per triangle
 
-// Clusters of triangles around the origin, some far from it.
+// Makes clusters of triangles around the origin, some of them far away from it.
 static DipMesh *random_mesh(Random *random) {
     enum { CLUMPS = 5, PER_CLUMP = 150 };
     Soup soup = make_soup(CLUMPS * PER_CLUMP);
@@ -264,8 +267,8 @@ static DipMesh *random_mesh(Random *random) {
     return mesh_of(&soup);
 }
 
-// Any 3x3 part, so that some mirror or flatten what they place; every other turns nothing, so that
-// placed boxes are tight.
+// Makes a transform with any 3x3 part, so that some mirror or flatten the object. Every other one
+// does not rotate, so that transformed boxes are tight.
 static void random_transform(Random *random, float transform[12]) {
     const double scale = pow(10.0, random_real(random, -2.0, 0.5));
     for (int i = 0; i < 12; i++) {
@@ -320,7 +323,7 @@ static DipPass random_part(Random *random, const DipView *view) {
     return pass;
 }
 
-// Whether a point of the world is in the part of the picture that a pass draws.
+// Returns true if a point of the world lies in the part of the picture that a pass draws.
 static bool shows(const DipPass *pass, const DipView *view, const double world[3]) {
     double clip[4];
     for (int r = 0; r < 4; r++) {
@@ -341,7 +344,7 @@ static bool shows(const DipPass *pass, const DipView *view, const double world[3
            y <= region->y1;
 }
 
-// A random point of a chunk's triangle, every other time a corner.
+// Picks a random point of one of a chunk's triangles; half of the time it is a corner.
 static void random_point(Random *random, const DipMesh *mesh, const DipChunk *chunk, uint32_t t,
                          const float transform[12], double world[3]) {
     const double u = random_real(random, 0.0, 1.0);
@@ -378,8 +381,8 @@ static bool shows_some(Random *random, const DipPass *pass, const DipView *view,
 }
 
 typedef struct Kept {
-    int seen;    // chunks of which some point is seen
-    int objects; // kept
+    int seen;    // chunks with a visible point
+    int objects; // objects that culling keeps
     int chunks;
 } Kept;
 
@@ -411,7 +414,7 @@ static void check_object(Random *random, DipPass *pass, const DipView *view, con
     kept->chunks += (int)count;
 }
 
-static void what_is_seen_is_kept(void **state) {
+static void culling_keeps_everything_visible(void **state) {
     (void)state;
     Random random = {1234};
     Kept kept = {0};
@@ -438,7 +441,7 @@ static void what_is_seen_is_kept(void **state) {
 
 enum { TILE = 64, TILES_X = WIDTH / TILE, PARTS = TILES_X * (HEIGHT / TILE), MARGIN = 2 };
 
-// Whether a point of the world is in the picture; then also where, in pixels.
+// Returns true if a point of the world is in the picture. Also computes its position, in pixels.
 static bool project_point(const DipView *view, const double world[3], double at[2]) {
     const DipPass whole = {.target = {NULL, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
     double clip[4];
@@ -451,7 +454,8 @@ static bool project_point(const DipView *view, const double world[3], double at[
     return shows(&whole, view, world);
 }
 
-// All pixels of the picture around a place, up to the margin, are in their tile's part.
+// Checks that all pixels of the picture around a position, up to the margin, lie in the parts of
+// their tiles.
 static void assert_in_parts(const DipTileRegion *parts, const double at[2]) {
     for (int dy = -MARGIN; dy <= MARGIN; dy++) {
         for (int dx = -MARGIN; dx <= MARGIN; dx++) {
@@ -475,7 +479,7 @@ static uint64_t area_of(const DipTileRegion *parts) {
     return area;
 }
 
-// The corners of a triangle or of an upright cube.
+// Makes the corners of a random triangle or of a random upright cube.
 static void random_shape(Random *random, int count, double (*corners)[3]) {
     const double size = pow(10.0, random_real(random, -0.5, 2.0));
     double low[3];
@@ -490,7 +494,8 @@ static void random_shape(Random *random, int count, double (*corners)[3]) {
     }
 }
 
-// A point of the shape's hull: a random mean of its corners, mostly of few of them.
+// Picks a point in the hull of the shape: a random mean of its corners that mostly depends on few
+// of them.
 static void mean_of(Random *random, int count, double (*corners)[3], double world[3]) {
     double sum = 0.0;
     world[0] = world[1] = world[2] = 0.0;
@@ -506,7 +511,7 @@ static void mean_of(Random *random, int count, double (*corners)[3], double worl
     }
 }
 
-static void parts_hold_what_is_seen(void **state) {
+static void tile_parts_hold_everything_visible(void **state) {
     (void)state;
     enum { SHAPES = 6000, MEANS = 300 };
     Random random = {99};
@@ -546,8 +551,9 @@ static void parts_hold_what_is_seen(void **state) {
 
 static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-// Each triangle has a corner nearer than the near plane (z > w = 1), so that two come of it.
-static void clipping_may_double_the_triangles(void **state) {
+// One corner of each triangle is in front of the near plane (z > w = 1), so clipping makes two
+// triangles of each.
+static void clipping_can_double_the_triangles(void **state) {
     (void)state;
     enum { COUNT = 40000 };
     for (int threads = 1; threads <= 3; threads++) {
@@ -572,8 +578,8 @@ static void clipping_may_double_the_triangles(void **state) {
     }
 }
 
-// Each triangle's box is the picture less one row of tiles: 5 x 3 tiles, all in bins.
-static void triangles_may_lie_in_many_tiles(void **state) {
+// The box of each triangle covers the picture except one row of tiles: 5 x 3 tiles, all in bins.
+static void many_triangles_can_lie_in_many_tiles(void **state) {
     (void)state;
     enum { COUNT = 30000, TILES = 5 * 3 };
     Soup soup = make_soup(COUNT);
@@ -587,19 +593,19 @@ static void triangles_may_lie_in_many_tiles(void **state) {
     const DipPipelineCounters counters = draw(mesh, identity, true, 2, NULL, NULL, pictures[0]);
     assert_int_equal(counters.triangles_drawn, COUNT);
     assert_int_equal(counters.tile_triangles, (uint64_t)COUNT * TILES);
-    // The nearest, drawn last, is on top.
+    // The nearest triangle, which is drawn last, is on top.
     assert_int_equal(pictures[0][4 * (WIDTH * 150 + 20)], 255);
     dip_mesh_destroy(&mesh);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(culling_changes_no_picture),
-        cmocka_unit_test(regions_hold_what_the_whole_does),
-        cmocka_unit_test(what_is_seen_is_kept),
-        cmocka_unit_test(parts_hold_what_is_seen),
-        cmocka_unit_test(clipping_may_double_the_triangles),
-        cmocka_unit_test(triangles_may_lie_in_many_tiles),
+        cmocka_unit_test(culling_never_changes_a_picture),
+        cmocka_unit_test(a_region_holds_what_the_whole_picture_holds_there),
+        cmocka_unit_test(culling_keeps_everything_visible),
+        cmocka_unit_test(tile_parts_hold_everything_visible),
+        cmocka_unit_test(clipping_can_double_the_triangles),
+        cmocka_unit_test(many_triangles_can_lie_in_many_tiles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,9 @@
-// The fast path's level of detail on a grazing plane, against the footprint in closed form: for
-// every step of anisotropic filtering, plain and exact_footprint, with the camera rolled about its
-// axis.
+// Compares the fast renderer's level of detail on a grazing plane with the footprint in closed
+// form, for every step of anisotropic filtering, plain and advanced, with the camera rolled about
+// its view axis.
 //
-// The middle of the picture looks along the view axis at a plane 1 m below, 6 degrees down, so the
-// pixel's footprint there is an ellipse of known axes. Mip colours tell the level that was read.
+// In the middle of the picture, the view axis points 6 degrees down at a plane 1 m below, so the
+// pixel's footprint there is an ellipse with known axes. Mip colours show which level was read.
 #include "renderer/base/srgb.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
@@ -20,7 +20,8 @@
 enum { WIDTH = 15, HEIGHT = 961, TEXELS = 256 };
 
 static const double pi = 3.14159265358979323846;
-static const double tolerance_lin = 0.012; // of a colour: 8 bits, rounded positions, float lambda
+static const double tolerance_lin =
+    0.012; // of a colour; allows for 8 bits, rounded positions and a float lambda
 
 typedef struct Bench {
     DipTestScene scene;
@@ -49,7 +50,7 @@ static void close_bench(Bench *bench) {
     dip_test_scene_free(&bench->scene);
 }
 
-// The colour in the middle of the picture, linear light.
+// Returns the colour in the middle of the picture, in linear light.
 static void middle_colour(Bench *bench, int af_step, bool exact_footprint, double rgb_lin[3]) {
     DipQuality quality = dip_quality_default();
     quality.step[DIP_SETTING_AF] = (uint8_t)af_step;
@@ -66,7 +67,7 @@ static void middle_colour(Bench *bench, int af_step, bool exact_footprint, doubl
     }
 }
 
-// The seed's Table 4 from 256 texels on, sRGB.
+// Blends the mip colours of docs/picture.md from 256 texels on; the codes are sRGB.
 static void colour_of_level(double lambda, double rgb_lin[3]) {
     static const double codes[][3] = {{255, 0, 0}, {255, 128, 0}, {255, 255, 0},
                                       {0, 255, 0}, {0, 0, 255},   {128, 0, 128}};
@@ -80,7 +81,7 @@ static void colour_of_level(double lambda, double rgb_lin[3]) {
     }
 }
 
-// The footprint in the middle: its axes in texels.
+// Computes the axes of the footprint in the middle of the picture, in texels.
 static void closed_form_axes(double *major, double *minor) {
     const double down = 6.0 * pi / 180.0;
     const double pixel = 2.0 * tan(30.0 * pi / 180.0) / HEIGHT;
@@ -93,7 +94,8 @@ static double ratio_of(double a, double b, double cap) {
     return fmax(fmin(fmax(a, b) / fmin(a, b), cap), 1.0);
 }
 
-// lambda by docs/picture.md for the ellipse seen by a camera rolled by `roll`.
+// Returns the lambda that docs/picture.md defines for the ellipse, seen by a camera rolled by
+// `roll`.
 static double expected_lambda(double roll, int max, bool exact_footprint) {
     double major;
     double minor;
@@ -101,7 +103,7 @@ static double expected_lambda(double roll, int max, bool exact_footprint) {
     if (exact_footprint && max > 1) {
         return log2(major / fmin(major / minor, max));
     }
-    // Lengths of dX and dY in the screen's frame, and in one turned by 45 degrees.
+    // The lengths of dX and dY, in the screen's frame and in one turned by 45 degrees.
     const double x = hypot(major * sin(roll), minor * cos(roll));
     const double y = hypot(major * cos(roll), minor * sin(roll));
     if (max == 1) {
@@ -118,7 +120,8 @@ static double expected_lambda(double roll, int max, bool exact_footprint) {
 
 static void levels_follow_the_closed_form(bool exact_footprint) {
     for (int degrees = -90; degrees <= 180; degrees += 15) {
-        // A little aside of where two frames tie, and of the 22.5 degrees between.
+        // The roll is a little off the angles at which two frames tie, and off the 22.5 degrees
+        // between them.
         const double roll_deg = degrees + 2.0;
         Bench bench;
         open_bench(&bench, roll_deg);
@@ -152,7 +155,7 @@ static void advanced_af_reads_the_closed_form_level(void **state) {
     levels_follow_the_closed_form(true);
 }
 
-// How much the colour moves when the camera rolls from 0 to 22.5 degrees.
+// Returns the greatest change of the colour when the camera rolls from 0 to 22.5 degrees.
 static double change_under_roll(int step, bool exact_footprint) {
     double colours[2][3];
     for (int i = 0; i < 2; i++) {
@@ -168,7 +171,7 @@ static double change_under_roll(int step, bool exact_footprint) {
     return greatest;
 }
 
-static void roll_changes_plain_af_and_not_advanced(void **state) {
+static void camera_roll_changes_plain_af_but_not_advanced_af(void **state) {
     (void)state;
     for (int step = 2; step < 5; step++) {
         assert_true(change_under_roll(step, true) <= tolerance_lin);
@@ -180,7 +183,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plain_af_reads_the_closed_form_level),
         cmocka_unit_test(advanced_af_reads_the_closed_form_level),
-        cmocka_unit_test(roll_changes_plain_af_and_not_advanced),
+        cmocka_unit_test(camera_roll_changes_plain_af_but_not_advanced_af),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// Every kernel of every instruction set against the scalar one, bit for bit, on random input with
-// the values that break things: zeros, infinities, NaN, huge and tiny numbers.
+// Compares every kernel of every instruction set with the scalar kernel, bit for bit, on random
+// input that includes the values that break things: zeros, infinities, NaN, huge and tiny numbers.
 #include "renderer/base/assert.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/kernels/kernels.h"
@@ -18,7 +18,7 @@
 
 enum { ROUNDS = 300, SEED = 20261 };
 
-// A number of any size, now and then one of the awkward ones.
+// Returns a number of any size, now and then one of the values that break things.
 static float awkward(Random *random, double magnitude) {
     static const float specials[] = {0.0f, -0.0f,  1.0f,   -1.0f, INFINITY, -INFINITY,
                                      NAN,  1e-38f, 1e-45f, 3e38f, -3e38f,   0.5f};
@@ -80,7 +80,7 @@ static void compare_project(const DipKernels *scalar, const DipKernels *other, R
     for (size_t i = 0; i < n; i++) {
         assert_int_equal(found.code[i], expected.code[i]);
         if (expected.code[i] & (DIP_CLIP_INVALID | DIP_CLIP_NEEDED)) {
-            continue; // nothing of use
+            continue; // the other results are undefined then
         }
         assert_int_equal(found.x[i], expected.x[i]);
         assert_int_equal(found.y[i], expected.y[i]);
@@ -89,7 +89,7 @@ static void compare_project(const DipKernels *scalar, const DipKernels *other, R
     }
 }
 
-static void project_is_the_same_for_every_isa(void **state) {
+static void projection_is_the_same_for_every_isa(void **state) {
     (void)state;
     compare_all(compare_project);
 }
@@ -98,7 +98,8 @@ static void project_is_the_same_for_every_isa(void **state) {
 
 enum { SETUP_ROOM = DIP_SETUP_BATCH + DIP_SETUP_EXCESS };
 
-// Vertices on a coarse lattice now and then, so that edges meet samples and areas vanish.
+// Makes random vertices. Now and then they lie on a coarse lattice, so that edges meet samples and
+// areas vanish.
 static void random_screen(Random *random, DipScreenBatch *screen) {
     const int far = 1 << random_int(random, 4, 22);
     const int step = 1 << random_int(random, 0, 8);
@@ -236,7 +237,8 @@ static void compare_sampling(const DipKernels *scalar, const DipKernels *other, 
     dip_texture_destroy(&texture);
 }
 
-// Two textures at once read what each reads alone, alike or not.
+// Reading two textures at once gives what reading each alone gives, whether the two are alike or
+// not.
 static void compare_two_textures(const DipKernels *scalar, const DipKernels *other,
                                  Random *random) {
     static DipFragmentBatch batch;
@@ -271,7 +273,7 @@ static void compare_two_textures(const DipKernels *scalar, const DipKernels *oth
     }
 }
 
-static void two_textures_are_read_as_each_is_alone(void **state) {
+static void reading_two_textures_at_once_equals_reading_each_alone(void **state) {
     (void)state;
     compare_all(compare_two_textures);
 }
@@ -309,7 +311,8 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
     other->dip_kernel_interpolate(&input, &list, VARYINGS, 0, &found);
     for (int s = 0; s < VARYINGS; s++) {
         for (int i = 0; i < list.count; i++) {
-            // Any NaN equals any NaN: its bits depend on the instruction's operand order.
+            // Any NaN equals any other NaN: its bits depend on the order of an instruction's
+            // operands.
             const float *pairs[3][2] = {{&found.varying[s][i], &expected.varying[s][i]},
                                         {&found.varying_dx[s][i], &expected.varying_dx[s][i]},
                                         {&found.varying_dy[s][i], &expected.varying_dy[s][i]}};
@@ -336,18 +339,18 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
     }
 }
 
-static void fragments_are_the_same_for_every_isa(void **state) {
+static void interpolation_and_encoding_are_the_same_for_every_isa(void **state) {
     (void)state;
     compare_all(compare_fragments);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(project_is_the_same_for_every_isa),
+        cmocka_unit_test(projection_is_the_same_for_every_isa),
         cmocka_unit_test(setup_is_the_same_for_every_isa),
         cmocka_unit_test(sampling_is_the_same_for_every_isa),
-        cmocka_unit_test(two_textures_are_read_as_each_is_alone),
-        cmocka_unit_test(fragments_are_the_same_for_every_isa),
+        cmocka_unit_test(reading_two_textures_at_once_equals_reading_each_alone),
+        cmocka_unit_test(interpolation_and_encoding_are_the_same_for_every_isa),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

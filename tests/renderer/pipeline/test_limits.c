@@ -1,4 +1,5 @@
-// What must not overflow: clipped polygons under the least helpful planes, and a pass' counts.
+// Tests two limits that must not overflow: the vertices of a clipped polygon under the least
+// favourable planes, and the triangle count of a pass.
 #include "renderer/pipeline/geometry/clip.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tests/renderer/random.h"
@@ -17,8 +18,8 @@ static float symmetric(Random *random) {
     return (float)random_real(random, -1.0, 1.0);
 }
 
-// Six user planes that are the same but for rounding. A plane adds at most one vertex to a convex
-// polygon, however its vertices on that plane round.
+// Six user planes are equal except for rounding. Each plane adds at most one vertex to a convex
+// polygon, however the vertices on it are rounded.
 static void coincident_planes_add_one_vertex_each(void **state) {
     (void)state;
     Random random = {1};
@@ -55,8 +56,9 @@ static void fragment_shader(DipFragmentBatch *batch) {
     (void)batch;
 }
 
-// Two thousand times the same mesh: more triangles than 32 bits index, in no memory worth naming.
-static void too_many_triangles_are_refused(void **state) {
+// Two thousand draws of the same mesh have more triangles than 32 bits can count, but take hardly
+// any memory.
+static void passes_with_too_many_triangles_are_refused(void **state) {
     (void)state;
     const float point[3] = {0};
     uint32_t *indices = calloc(3 * BIG_MESH_TRIANGLES, sizeof *indices);
@@ -100,7 +102,7 @@ static void too_many_triangles_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coincident_planes_add_one_vertex_each),
-        cmocka_unit_test(too_many_triangles_are_refused),
+        cmocka_unit_test(passes_with_too_many_triangles_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-// Patches: what may be shaded as one surface, and that it is.
+// Tests patches: which triangles may be shaded as one surface, and that pixels are shaded once per
+// patch.
 #include "renderer/pipeline/patch.h"
 #include "renderer/pipeline/pipeline.h"
 
@@ -14,7 +15,7 @@
 
 enum { SIDE = 24, VERTICES = (SIDE + 1) * (SIDE + 1), TRIANGLES = 2 * SIDE * SIDE };
 
-// A grid of quads over the unit square, at heights of its own.
+// A grid of quads over the unit square, with a height at each vertex.
 typedef struct Grid {
     float positions[3 * VERTICES];
     uint32_t indices[3 * TRIANGLES];
@@ -90,7 +91,7 @@ static bool neighbours(const Grid *grid, uint32_t a, uint32_t b) {
     return shared == 2;
 }
 
-// Everything the header promises of a patch, checked from the grid alone.
+// Checks everything that the header promises of a patch, from the grid alone.
 static void check_patch(const Grid *grid, uint32_t patch) {
     uint32_t members[TRIANGLES];
     uint32_t count = 0;
@@ -126,12 +127,12 @@ static void patches_are_small_connected_and_smooth(void **state) {
         for (uint32_t p = 0; p < grid.count; p++) {
             check_patch(&grid, p);
         }
-        // Few are left over with less than they may hold.
+        // Only a few patches hold fewer triangles than they could.
         assert_true(grid.count < 2 * TRIANGLES / DIP_PATCH_TRIANGLES);
     }
 }
 
-static void a_crease_parts_patches(void **state) {
+static void patches_do_not_cross_a_crease(void **state) {
     (void)state;
     static Grid grid;
     make_grid(&grid, roof);
@@ -146,7 +147,8 @@ static void a_crease_parts_patches(void **state) {
 static void triangles_without_area_or_neighbours_stand_alone(void **state) {
     (void)state;
     const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 5, 5, 5, 6, 5, 5, 5, 6, 5};
-    // A triangle, one without an area on its edge, one that shares a corner, one far away.
+    // A triangle, one without area on the first one's edge, one that shares only a corner, and one
+    // far away.
     const uint32_t indices[] = {0, 1, 2, 0, 1, 3, 1, 3, 4, 4, 5, 6};
     uint32_t patches[4], count;
     assert_true(dip_patches_find(positions, 3, 7, indices, 12, patches, &count));
@@ -155,8 +157,9 @@ static void triangles_without_area_or_neighbours_stand_alone(void **state) {
     assert_int_equal(count, 0);
 }
 
-// Vertices and edges that very many triangles share: looking at all for each would take hours.
-static void wide_fans_take_no_time(void **state) {
+// Very many triangles share a vertex or an edge. Looking at all of them for each triangle would
+// take hours.
+static void patches_of_wide_fans_are_found_quickly(void **state) {
     (void)state;
     enum { FAN = 400000 };
     float *positions = malloc(3 * (FAN + 2) * sizeof *positions);
@@ -188,7 +191,7 @@ enum { WIDTH = 128, HEIGHT = 96 };
 
 static uint8_t picture[WIDTH * HEIGHT * 4];
 
-// A grid over the whole picture.
+// Stretches the grid over the whole picture.
 static void cover(const DipVertexBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         batch->clip[0][i] = 2.0f * batch->in[0][i] - 1.0f;
@@ -227,8 +230,8 @@ static uint64_t fragments_of(const DipMesh *mesh, int samples) {
     return counters.fragments_shaded;
 }
 
-// Pixels with samples in several patches, from the grid's straight lines: each triangle is found
-// again from the place of each sample.
+// Counts the patches that have samples in each pixel, summed over all pixels. The grid's lines are
+// straight, so the triangle of each sample follows from the sample's position.
 static uint64_t expected_fragments(const Grid *grid, int samples) {
     const DipSamplePattern *pattern = dip_sample_pattern(samples);
     uint64_t fragments = 0;
@@ -257,12 +260,12 @@ static void a_pixel_is_shaded_once_per_patch(void **state) {
     DipMesh *mesh = dip_mesh_create(&data, NULL);
     assert_non_null(mesh);
     for (int samples = 2; samples <= DIP_MAX_SAMPLES; samples += 2) {
-        // Samples that lie on lines of the grid within rounding may go either way.
+        // Samples on the grid's lines may belong to either side because of rounding.
         const double expected = (double)expected_fragments(&grid, samples);
         const double found = (double)fragments_of(mesh, samples);
         assert_true(found >= WIDTH * HEIGHT && fabs(found - expected) <= 0.005 * expected);
         assert_true(expected < 1.25 * WIDTH * HEIGHT);
-        // The ramp shows no seams: within a code of where the pixel's own samples put it.
+        // The ramp shows no seams: no pixel is darker than its left neighbour.
         for (int x = 8; x < WIDTH; x++) {
             assert_true(picture[4 * (40 * WIDTH + x)] >= picture[4 * (40 * WIDTH + x - 1)]);
         }
@@ -273,9 +276,9 @@ static void a_pixel_is_shaded_once_per_patch(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patches_are_small_connected_and_smooth),
-        cmocka_unit_test(a_crease_parts_patches),
+        cmocka_unit_test(patches_do_not_cross_a_crease),
         cmocka_unit_test(triangles_without_area_or_neighbours_stand_alone),
-        cmocka_unit_test(wide_fans_take_no_time),
+        cmocka_unit_test(patches_of_wide_fans_are_found_quickly),
         cmocka_unit_test(a_pixel_is_shaded_once_per_patch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

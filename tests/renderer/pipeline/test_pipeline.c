@@ -1,5 +1,5 @@
-// The pipeline as its callers see it: shaders of their own, culling, user clip planes, clip
-// shaders, the near plane, and what must never be drawn.
+// Tests the pipeline as its callers use it: with shaders of their own, culling, user clip planes,
+// clip shaders, the near plane, and input that must draw nothing.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
 
@@ -14,7 +14,7 @@
 
 enum { WIDTH = 100, HEIGHT = 70 };
 
-// Vertices are clip positions x, y, z, w and one varying.
+// A vertex is a clip position x, y, z, w and one varying.
 typedef struct Vertex {
     float clip[4];
     float value;
@@ -41,7 +41,7 @@ static void grey(DipFragmentBatch *batch) {
     }
 }
 
-// The varying as red, its derivatives as green and blue, scaled by the uniforms.
+// Shows the varying as red and its derivatives as green and blue, scaled by the uniforms.
 static void varying(DipFragmentBatch *batch) {
     const float scale = *(const float *)batch->uniforms;
     for (int i = 0; i < batch->count; i++) {
@@ -51,7 +51,7 @@ static void varying(DipFragmentBatch *batch) {
     }
 }
 
-// There where the varying is at least one half.
+// Keeps a fragment if its varying is at least one half.
 static void keep_upper_half(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         batch->keep[i] = batch->varying[0][i] >= 0.5f;
@@ -60,7 +60,7 @@ static void keep_upper_half(DipFragmentBatch *batch) {
 
 static uint8_t picture[WIDTH * HEIGHT * 4];
 
-// A draw of these vertices with everything at its default.
+// Makes a draw of a mesh with everything at its default.
 static DipDraw draw_of(const DipMesh *mesh, DipFragmentShader *shader) {
     return (DipDraw){.mesh = mesh,
                      .vertex_shader = vertex_shader,
@@ -97,7 +97,8 @@ static DipMesh *mesh_of(const Vertex *vertices, uint32_t vertex_count, const uin
     return mesh;
 }
 
-// The whole picture at depth z, counter-clockwise as seen; the varying runs from 0 left to 1 right.
+// Makes a quad over the whole picture at depth z, counter-clockwise to the eye. The varying runs
+// from 0 at the left to 1 at the right.
 static DipMesh *screen(float z) {
     const Vertex vertices[4] = {
         {{-1, -1, z, 1}, 0}, {{1, -1, z, 1}, 1}, {{1, 1, z, 1}, 1}, {{-1, 1, z, 1}, 0}};
@@ -124,7 +125,7 @@ static void every_pixel_is_drawn_once(void **state) {
         const DipPass pass = pass_of(&draw, 1, samples);
         const DipPipelineCounters counters = run(&pass);
         assert_int_equal(lit_pixels(), WIDTH * HEIGHT);
-        // The diagonal's pixels hold both triangles, which are one patch.
+        // Pixels on the diagonal hold samples of both triangles, but these belong to one patch.
         assert_int_equal(counters.fragments_shaded, WIDTH * HEIGHT);
         assert_int_equal(counters.triangles_drawn, 2);
         assert_int_equal(counters.samples_shown, WIDTH * HEIGHT * samples);
@@ -133,8 +134,9 @@ static void every_pixel_is_drawn_once(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// Samples of a white triangle before black, counted in the picture.
-static void samples_are_counted(void **state) {
+// The number of visible samples equals that of the picture, in which a white triangle lies on
+// black.
+static void visible_samples_are_counted(void **state) {
     (void)state;
     const Vertex vertices[3] = {
         {{-0.9f, -0.7f, 0.5f, 1}, 0}, {{0.8f, -0.4f, 0.5f, 1}, 0}, {{-0.2f, 0.9f, 0.5f, 1}, 0}};
@@ -146,7 +148,7 @@ static void samples_are_counted(void **state) {
     for (int samples = 2; samples <= 8; samples += 2) {
         const DipPass pass = pass_of(&draw, 1, samples);
         const DipPipelineCounters counters = run(&pass);
-        uint64_t expected = 0; // a pixel's light is how many of its samples are white
+        uint64_t expected = 0; // a pixel's light tells how many of its samples are white
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             expected += (uint64_t)lround(samples * dip_srgb_decode(picture[4 * i] / 255.0));
         }
@@ -155,7 +157,8 @@ static void samples_are_counted(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-static void culling_knows_the_front(void **state) {
+// Back-face culling keeps a counter-clockwise mesh; front-face culling removes it.
+static void back_and_front_faces_are_culled_by_winding(void **state) {
     (void)state;
     DipMesh *mesh = screen(0.5f);
     DipDraw draw = draw_of(mesh, white);
@@ -169,13 +172,13 @@ static void culling_knows_the_front(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// A plane x * 1 + w * c >= 0 keeps what lies right of x = -c.
-static void user_planes_cut_where_they_stand(void **state) {
+// The plane x * 1 + w * c >= 0 keeps what lies to the right of x = -c.
+static void user_planes_cut_exactly_where_they_lie(void **state) {
     (void)state;
     DipMesh *mesh = screen(0.5f);
     const DipDraw draw = draw_of(mesh, white);
     DipPass pass = pass_of(&draw, 1, 1);
-    // The last one cuts off two columns: its outside vertices are only just outside.
+    // The last offset cuts off all but two columns: the vertices outside are only just outside.
     const float offsets[4] = {0.0f, 0.5f, -0.5f, 0.96f};
     for (int i = 0; i < 4; i++) {
         pass.clip_plane_count = 1;
@@ -186,7 +189,7 @@ static void user_planes_cut_where_they_stand(void **state) {
         assert_int_equal(red(first - 1, 9), 0);
         assert_int_equal(red(first, 9), 255);
     }
-    // All six at once leave the rectangle they bound.
+    // All six planes together leave the rectangle that they bound.
     const float planes[6][4] = {{1, 0, 0, 0.5f},  {-1, 0, 0, 0.5f}, {0, 1, 0, 0.6f},
                                 {0, -1, 0, 0.6f}, {1, 0, 0, 0.9f},  {0, 0, 1, 0}};
     pass.clip_plane_count = 6;
@@ -196,7 +199,7 @@ static void user_planes_cut_where_they_stand(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-static void clip_shader_decides_what_is_there(void **state) {
+static void a_clip_shader_removes_fragments_before_depth(void **state) {
     (void)state;
     DipMesh *front = screen(0.8f);
     DipMesh *back = screen(0.2f);
@@ -206,7 +209,8 @@ static void clip_shader_decides_what_is_there(void **state) {
     for (int samples = 1; samples <= 8; samples += samples == 1 ? 1 : 2) {
         const DipPass pass = pass_of(draws, 2, samples);
         const DipPipelineCounters counters = run(&pass);
-        // Where the front is clipped away the back shows, whichever was submitted first.
+        // Where the front quad is clipped away, the back one is visible, although it was submitted
+        // later.
         assert_int_equal(lit_pixels(), WIDTH / 2 * HEIGHT);
         assert_true(red(0, 0) > 0 && red(0, 0) < 255);
         assert_true(counters.fragments_clip_tested >= WIDTH * HEIGHT);
@@ -215,7 +219,7 @@ static void clip_shader_decides_what_is_there(void **state) {
     dip_mesh_destroy(&back);
 }
 
-static void nearer_wins_and_the_first_of_equals_stays(void **state) {
+static void nearer_surfaces_win_and_the_first_of_equals_stays(void **state) {
     (void)state;
     DipMesh *front = screen(0.8f);
     DipMesh *back = screen(0.2f);
@@ -229,8 +233,9 @@ static void nearer_wins_and_the_first_of_equals_stays(void **state) {
     dip_mesh_destroy(&same);
 }
 
-// With w from 1 left to 3 right the varying is u(x) = (x / 3) / ((1 - x) + x / 3), x = 0..1.
-static void varyings_follow_the_perspective(void **state) {
+// With w from 1 at the left to 3 at the right, the varying is u(x) = (x / 3) / ((1 - x) + x / 3), x
+// = 0..1.
+static void varyings_are_interpolated_in_perspective(void **state) {
     (void)state;
     const Vertex vertices[4] = {
         {{-1, -1, 0.5f, 1}, 0}, {{3, -3, 0.5f, 3}, 1}, {{3, 3, 0.5f, 3}, 1}, {{-1, 1, 0.5f, 1}, 0}};
@@ -256,7 +261,7 @@ static void varyings_follow_the_perspective(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// Triangles in perspective that cross the picture and its sides.
+// Makes triangles in perspective that cross the picture and its borders.
 static DipMesh *wide(void) {
     const Vertex vertices[4] = {{{-3, -1.5f, 0.2f, 2}, 0},
                                 {{2, -2, 0.3f, 1}, 1},
@@ -265,8 +270,9 @@ static DipMesh *wide(void) {
     return mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3, 1, 3, 0}, 9);
 }
 
-// Blocks that the region meets hold what they do without it, the others what they held before.
-static void a_region_spares_the_other_blocks(void **state) {
+// Blocks inside the region hold the same as without a region. The other blocks hold what they held
+// before.
+static void blocks_outside_a_region_are_left_untouched(void **state) {
     (void)state;
     enum { TILE = 64, BLOCK = 8 };
     static uint8_t whole[sizeof picture];
@@ -295,7 +301,7 @@ static void a_region_spares_the_other_blocks(void **state) {
         const int y1 = (regions[r].y1 - 1) / BLOCK;
         assert_int_equal(counters.tiles_drawn, across * down);
         assert_int_equal(counters.tiles_spared, 4 - counters.tiles_drawn);
-        // The small triangle is in the last region only.
+        // The small triangle lies in the last region only.
         const bool last = r + 1 == sizeof regions / sizeof *regions;
         assert_int_equal(counters.triangles_in, last ? 4 : 3);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -311,8 +317,9 @@ static void a_region_spares_the_other_blocks(void **state) {
     dip_mesh_destroy(&bounded);
 }
 
-// Likewise of every tile but its part, also of triangles that are in bins and of wide ones.
-static void parts_of_tiles_spare_the_other_blocks(void **state) {
+// Blocks outside a tile's part are left untouched, whether their triangles are in bins or in the
+// list of wide ones.
+static void blocks_outside_tile_parts_are_left_untouched(void **state) {
     (void)state;
     enum { TILE = 64, BLOCK = 8, TILES_X = (WIDTH + TILE - 1) / TILE };
     enum { TILES = TILES_X * ((HEIGHT + TILE - 1) / TILE) };
@@ -351,7 +358,7 @@ static void parts_of_tiles_spare_the_other_blocks(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// The target given as uniforms, turned by half a turn.
+// Samples the target in the uniforms, rotated by 180 degrees.
 static void turned_copy(DipFragmentBatch *batch) {
     float u[DIP_FRAGMENT_BATCH] = {0};
     float v[DIP_FRAGMENT_BATCH] = {0};
@@ -362,7 +369,8 @@ static void turned_copy(DipFragmentBatch *batch) {
     batch->sample_target(batch, batch->uniforms, u, v, batch->colour);
 }
 
-// Between centres it is the mean of the neighbours' light, at the edge the edge's.
+// Samples the first row: halfway between two texel centres in the left half of the picture, and far
+// outside the target in the right half.
 static void halfway(DipFragmentBatch *batch) {
     float u[DIP_FRAGMENT_BATCH] = {0};
     float v[DIP_FRAGMENT_BATCH] = {0};
@@ -374,13 +382,13 @@ static void halfway(DipFragmentBatch *batch) {
     batch->sample_target(batch, batch->uniforms, u, v, batch->colour);
 }
 
-static void a_pass_samples_the_target_of_a_pass_before(void **state) {
+static void a_pass_samples_the_target_of_an_earlier_pass(void **state) {
     (void)state;
     static uint8_t before[sizeof picture];
     for (size_t i = 0; i < sizeof before; i++) {
         before[i] = i % 4 == 3 ? 255 : (uint8_t)(i * 2654435761u >> 13);
     }
-    before[0] = 0; // the first row's red begins black, white and ends at 200
+    before[0] = 0; // in its first row, red begins with black and white and ends with 200
     before[4] = 255;
     before[4 * (WIDTH - 1)] = 200;
     const DipTarget target = {before, (size_t)WIDTH * 4, WIDTH, HEIGHT};
@@ -401,11 +409,11 @@ static void a_pass_samples_the_target_of_a_pass_before(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// A floor that begins behind the eye: what lies before the near plane (z = w) is seen, no more.
-static void near_plane_cuts_exactly(void **state) {
+// A floor begins behind the eye. Only what lies beyond the near plane (z = w) is visible.
+static void the_near_plane_cuts_exactly(void **state) {
     (void)state;
-    // y = -1/2 and w runs from -1 (behind) to 3; z is 1 everywhere, so the cut is at w = 1, which
-    // the picture shows at y = -1/2; w = 3 is at y = -1/6.
+    // y is -1/2, and w runs from -1 (behind the eye) to 3. z is 1 everywhere, so the floor is cut
+    // at w = 1, which the picture shows at y = -1/2; w = 3 is at y = -1/6.
     const Vertex vertices[4] = {{{-9, -0.5f, 1, -1}, 0},
                                 {{9, -0.5f, 1, -1}, 0},
                                 {{9, -0.5f, 1, 3}, 1},
@@ -425,7 +433,7 @@ static void near_plane_cuts_exactly(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// As vertex_shader, but the third vertex gets one bad clip coordinate: {which, value}.
+// A clip coordinate of the third vertex, and the bad value that replaces it.
 typedef struct Bad {
     int coordinate;
     float value;
@@ -437,7 +445,7 @@ static void bad_vertex_shader(const DipVertexBatch *batch) {
     batch->clip[bad->coordinate][2] = bad->value;
 }
 
-static void impossible_vertices_draw_nothing(void **state) {
+static void triangles_with_impossible_vertices_are_not_drawn(void **state) {
     (void)state;
     const float values[] = {NAN, INFINITY, -INFINITY, 3e38f};
     const Vertex vertices[6] = {{{-1, -1, 0.5f, 1}, 0},      {{1, -1, 0.5f, 1}, 0},
@@ -451,7 +459,7 @@ static void impossible_vertices_draw_nothing(void **state) {
         draw.uniforms = &bad;
         const DipPass pass = pass_of(&draw, 1, 1);
         const DipPipelineCounters counters = run(&pass);
-        // The triangle with the bad vertex is gone, the other one whole.
+        // The triangle with the bad vertex is not drawn; the other one is drawn completely.
         assert_int_equal(counters.triangles_drawn, 1);
         assert_int_equal(red(WIDTH / 2, HEIGHT / 2), 255);
         assert_int_equal(red(WIDTH / 2, HEIGHT - 2), 0);
@@ -459,7 +467,7 @@ static void impossible_vertices_draw_nothing(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-static void meshes_of_bad_numbers_are_refused(void **state) {
+static void invalid_mesh_data_is_refused(void **state) {
     (void)state;
     const float good[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     const float nan[9] = {0, 0, 0, 1, NAN, 0, 0, 1, 0};
@@ -492,18 +500,18 @@ static void meshes_of_bad_numbers_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pixel_is_drawn_once),
-        cmocka_unit_test(samples_are_counted),
-        cmocka_unit_test(culling_knows_the_front),
-        cmocka_unit_test(user_planes_cut_where_they_stand),
-        cmocka_unit_test(clip_shader_decides_what_is_there),
-        cmocka_unit_test(nearer_wins_and_the_first_of_equals_stays),
-        cmocka_unit_test(varyings_follow_the_perspective),
-        cmocka_unit_test(near_plane_cuts_exactly),
-        cmocka_unit_test(a_region_spares_the_other_blocks),
-        cmocka_unit_test(parts_of_tiles_spare_the_other_blocks),
-        cmocka_unit_test(a_pass_samples_the_target_of_a_pass_before),
-        cmocka_unit_test(impossible_vertices_draw_nothing),
-        cmocka_unit_test(meshes_of_bad_numbers_are_refused),
+        cmocka_unit_test(visible_samples_are_counted),
+        cmocka_unit_test(back_and_front_faces_are_culled_by_winding),
+        cmocka_unit_test(user_planes_cut_exactly_where_they_lie),
+        cmocka_unit_test(a_clip_shader_removes_fragments_before_depth),
+        cmocka_unit_test(nearer_surfaces_win_and_the_first_of_equals_stays),
+        cmocka_unit_test(varyings_are_interpolated_in_perspective),
+        cmocka_unit_test(the_near_plane_cuts_exactly),
+        cmocka_unit_test(blocks_outside_a_region_are_left_untouched),
+        cmocka_unit_test(blocks_outside_tile_parts_are_left_untouched),
+        cmocka_unit_test(a_pass_samples_the_target_of_an_earlier_pass),
+        cmocka_unit_test(triangles_with_impossible_vertices_are_not_drawn),
+        cmocka_unit_test(invalid_mesh_data_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

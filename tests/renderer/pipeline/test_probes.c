@@ -1,5 +1,5 @@
-// Anisotropic reads, whose two levels take different numbers of probes: the kernels of every
-// instruction set against closed forms and the reference in double.
+// Tests anisotropic reads, in which the two levels take different numbers of probes. The kernels of
+// every instruction set are compared with closed forms and with the reference in double.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/texture_layout.h"
 #include "renderer/reference/internal/texture.h"
@@ -20,7 +20,7 @@ enum { SIZE = 256, LANES = DIP_FRAGMENT_BATCH };
 
 static uint8_t texels[4 * SIZE * SIZE];
 
-// Reads of a texture by a kernel of some instruction set and by the reference.
+// One texture, read by a kernel of some instruction set and by the reference.
 typedef struct Bench {
     DipTexture *fast;
     DipRefTexture reference;
@@ -44,8 +44,8 @@ static void close_bench(void) {
     dip_reference_texture_free(&bench.reference);
 }
 
-// Lane i looks at (u, v) texels, its footprint is `major` texels long, `minor` wide and turned by
-// `angle`.
+// Places the footprint of lane i at (u, v), in texels. It is `major` texels long, `minor` texels
+// wide, and turned by `angle`.
 static void place(int i, double u, double v, double major, double minor, double angle) {
     const double dx[2] = {major * cos(angle), major * sin(angle)};
     const double dy[2] = {-minor * sin(angle), minor * cos(angle)};
@@ -73,9 +73,10 @@ static void sample(const DipKernels *kernels, bool cheap) {
                                                                         : NULL;                    \
              kernels; kernels = NULL)
 
-// The codes rise by one per column and fall by one per row, light is linear in them: a footprint
-// reads what is in its middle, however many probes its levels take, if these lie evenly about it.
-static void test_ramp_is_read_exactly(void **state) {
+// The codes rise by one per column and fall by one per row, and light is linear in them. A
+// footprint therefore reads the value at its middle, however many probes its levels take, if the
+// probes are spread evenly around the middle.
+static void a_ramp_is_read_exactly(void **state) {
     (void)state;
     for (int i = 0; i < SIZE * SIZE; i++) {
         const uint8_t texel[4] = {(uint8_t)(i % SIZE), (uint8_t)(SIZE - 1 - i / SIZE), 0,
@@ -96,8 +97,8 @@ static void test_ramp_is_read_exactly(void **state) {
             }
             sample(kernels, round % 2);
             for (int i = 0; i < LANES; i++) {
-                // Places are rounded down by up to 8/256 texel of the ramp; alpha is 8 bits; texels
-                // of red and green are steps of 1/2048 of the root of light.
+                // Probe positions are rounded down by up to 8/256 texel of the ramp. Alpha has 8
+                // bits. Red and green texels are steps of 1/2048 of the square root of light.
                 assert_near(bench.colour[0][i] * 255.0, u[i] - 0.5 - 1.0 / 64.0, 0.14);
                 assert_near(bench.colour[1][i] * 255.0, SIZE - 0.5 - v[i] + 1.0 / 64.0, 0.14);
                 assert_near(bench.alpha[i] * 255.0, u[i] - 0.5 - 1.0 / 64.0, 0.6);
@@ -107,11 +108,12 @@ static void test_ramp_is_read_exactly(void **state) {
     close_bench();
 }
 
-// Stripes of 10 and 10 texels along u under a footprint 20 texels long and 1.25 wide: 16 probes of
-// level 0, at a fraction of log2 1.25 half of them of level 1. Both numbers are even, so that every
-// probe has another that lies half a period off and reads the complement: the box's mean is 1/2
-// wherever it lies, which is not so with an odd number or with probes that lie otherwise.
-static void test_a_period_of_stripes_is_their_mean(void **state) {
+// Stripes of 10 texels each along u, read by a footprint 20 texels long and 1.25 wide: 16 probes in
+// level 0 and, at a fraction of log2 1.25, half as many in level 1. Both numbers are even, so every
+// probe has a partner half a period away that reads the complement. The mean is therefore 1/2
+// wherever the footprint lies. With an odd number of probes, or with probes in other positions, it
+// would not be.
+static void a_footprint_of_one_period_reads_the_mean_of_stripes(void **state) {
     (void)state;
     enum { PERIOD = 20, WIDTH = 240 };
     for (int i = 0; i < SIZE * SIZE; i++) {
@@ -138,8 +140,8 @@ static void test_a_period_of_stripes_is_their_mean(void **state) {
     dip_texture_destroy(&bench.fast);
 }
 
-// At a fraction f the coarser level takes ceil(N max(1/2, f)) of N probes, none where f is 0.
-static void test_levels_take_their_share_of_probes(void **state) {
+// At a fraction f, the coarser level takes ceil(N max(1/2, f)) of the N probes, and none if f is 0.
+static void the_coarser_level_takes_fewer_probes(void **state) {
     (void)state;
     static const struct {
         double major, minor;
@@ -161,8 +163,8 @@ static void test_levels_take_their_share_of_probes(void **state) {
     close_bench();
 }
 
-// Noise, whose smallest difference in place or number of probes shows.
-static void test_noise_is_read_as_the_reference_does(void **state) {
+// Noise reveals the smallest difference in the positions or the number of probes.
+static void noise_is_read_as_the_reference_reads_it(void **state) {
     (void)state;
     Random noise = {11};
     for (int i = 0; i < 4 * SIZE * SIZE; i++) {
@@ -205,10 +207,10 @@ static void test_noise_is_read_as_the_reference_does(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ramp_is_read_exactly),
-        cmocka_unit_test(test_a_period_of_stripes_is_their_mean),
-        cmocka_unit_test(test_levels_take_their_share_of_probes),
-        cmocka_unit_test(test_noise_is_read_as_the_reference_does),
+        cmocka_unit_test(a_ramp_is_read_exactly),
+        cmocka_unit_test(a_footprint_of_one_period_reads_the_mean_of_stripes),
+        cmocka_unit_test(the_coarser_level_takes_fewer_probes),
+        cmocka_unit_test(noise_is_read_as_the_reference_reads_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// The converged picture: right on the mean, and better with more samples.
+// Tests the converged picture: it is right on the mean, and it improves with more samples.
 #include "renderer/reference/convergence.h"
 #include "tests/renderer/pipeline/screen.h"
 #include "tests/renderer/scene/image.h"
@@ -22,9 +22,9 @@ static double decode(double code) {
     return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
 }
 
-// A texture of 8x8 repeats once per pixel. Bilinear weights sum to one over a period, so the mean
-// over a pixel is the mean of the texels, in linear light.
-static void test_texture_converges_to_its_mean(void **state) {
+// A texture of 8x8 texels repeats once per pixel. Bilinear weights sum to one over a period, so the
+// mean over a pixel is the mean of the texels, in linear light.
+static void textures_converge_to_their_mean(void **state) {
     (void)state;
     DipTestScene scene;
     dip_screen_begin(&scene);
@@ -42,15 +42,16 @@ static void test_texture_converges_to_its_mean(void **state) {
             assert_near(value, expected, 0.12);
             mean += value / (DIP_SCREEN * DIP_SCREEN);
         }
-        // 4096 pixels of 64 jittered samples whose deviation is below 0.3.
+        // The mean of 4096 pixels with 64 jittered samples each, whose standard deviation is below
+        // 0.3.
         assert_near(mean, expected, 4.0 * 0.3 / sqrt(4096.0 * 64.0));
     }
     dip_test_scene_free(&scene);
 }
 
-// Along a ramp of 4 codes a pixel the mean over a pixel is the value at its centre; a jittered
+// On a ramp of 4 codes per pixel, the mean over a pixel is the value at its centre. A jittered
 // sample is off by at most one cell of the grid.
-static void test_ramp_converges_to_its_centre(void **state) {
+static void a_ramp_converges_to_its_value_at_pixel_centres(void **state) {
     (void)state;
     DipTestScene scene;
     dip_screen_begin(&scene);
@@ -71,14 +72,15 @@ static void test_ramp_converges_to_its_centre(void **state) {
             error += picture[y][x][0] - expected;
         }
     }
-    // Deviation of a mean: a cell's width / sqrt 12 / sqrt of the samples of all pixels.
+    // The standard deviation of the mean is a cell's width / sqrt 12 / sqrt of the number of all
+    // samples.
     assert_near(error / (64 * 62), 0.0, 4.0 * (4.0 / 255.0 / 8.0 / sqrt(12.0 * 64 * 62 * 64)));
     dip_test_scene_free(&scene);
 }
 
-// Over one period the texture is u times v: its mean under independent u and v is 1/4 (1/3 if they
-// were the same). Single samples, one per pixel.
-static void test_jitter_is_independent_in_x_and_y(void **state) {
+// Over one period, the texture is u times v. Its mean is 1/4 if u and v are independent, and 1/3 if
+// they were equal. Each pixel has a single sample.
+static void jitter_is_independent_in_x_and_y(void **state) {
     (void)state;
     DipTestScene scene;
     dip_screen_begin(&scene);
@@ -95,7 +97,7 @@ static void test_jitter_is_independent_in_x_and_y(void **state) {
         for (int i = 0; i < DIP_SCREEN * DIP_SCREEN; i++) {
             mean += picture[i / DIP_SCREEN][i % DIP_SCREEN][0] / (DIP_SCREEN * DIP_SCREEN);
         }
-        assert_near(mean, 0.25, 4.0 * 0.22 / 64.0); // u v deviates by 0.22
+        assert_near(mean, 0.25, 4.0 * 0.22 / 64.0); // the standard deviation of u v is 0.22
     }
     dip_test_scene_free(&scene);
 }
@@ -106,8 +108,9 @@ static double rms_of_two_seeds(const DipTestScene *scene, int sample_count) {
     return dip_image_rms(&picture[0][0][0], &other[0][0][0], VALUES);
 }
 
-// Edges fall by 4^(3/4), what is smooth within a cell by 4; both are in the scene.
-static void test_seeds_agree_better_with_more_samples(void **state) {
+// With four times as many samples, the error at edges falls by 4^(3/4), and by 4 where the picture
+// is smooth within a cell. The scene has both.
+static void pictures_of_two_seeds_approach_with_more_samples(void **state) {
     (void)state;
     DipTestScene scene;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_soup);
@@ -120,7 +123,7 @@ static void test_seeds_agree_better_with_more_samples(void **state) {
     dip_test_scene_free(&scene);
 }
 
-static void test_a_seed_gives_one_picture(void **state) {
+static void the_same_seed_gives_the_same_picture(void **state) {
     (void)state;
     DipTestScene scene;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_soup);
@@ -130,8 +133,8 @@ static void test_a_seed_gives_one_picture(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// What more samples are for.
-static void test_antialiasing_approaches_the_converged_picture(void **state) {
+// More samples must bring the drawn picture closer to the converged one.
+static void antialiasing_approaches_the_converged_picture(void **state) {
     (void)state;
     static const char *const settings[] = {"aa=none", "aa=2", "aa=4", "aa=6", "aa=8"};
     DipTestScene scene;
@@ -149,7 +152,8 @@ static void test_antialiasing_approaches_the_converged_picture(void **state) {
 
 static uint8_t classes[DIP_SCREEN * DIP_SCREEN];
 
-// The picture and classes by tiles, from last to first; rows are packed.
+// Converges a picture and its classes tile by tile, from the last tile to the first. Rows are
+// packed.
 static void converge_tiles(const DipTestScene *scene, int width, int height, int sample_count,
                            DipScreenPicture rgb_lin) {
     DipError err = {0};
@@ -170,7 +174,7 @@ static void converge_tiles(const DipTestScene *scene, int width, int height, int
     dip_reference_destroy(&reference);
 }
 
-static void test_tiles_make_the_same_picture(void **state) {
+static void tiles_give_the_same_picture_as_the_whole(void **state) {
     (void)state;
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
         DipTestScene scene;
@@ -196,8 +200,8 @@ static int count_class(DipSeen seen) {
     return count;
 }
 
-// A textured square of 32x32 pixels from (10.5, 8) before a white one of 40x40 at twice the
-// distance; nothing behind both.
+// Makes a textured square of 32x32 pixels, at (10.5, 8), in front of a white square of 40x40 pixels
+// at twice the distance. There is nothing behind them.
 static void make_squares(DipTestScene *scene, DipSurface surface) {
     dip_screen_begin(scene);
     const int texture = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 8, 8);
@@ -214,12 +218,13 @@ static void make_squares(DipTestScene *scene, DipSurface surface) {
     }
 }
 
-static void test_pixels_are_what_is_seen(void **state) {
+static void pixels_are_classified_by_what_is_visible(void **state) {
     (void)state;
     DipTestScene scene;
     make_squares(&scene, DIP_SURFACE_OPAQUE);
     converge_tiles(&scene, DIP_SCREEN, DIP_SCREEN, 16, picture);
-    // Only the upright sides of the near square cut pixels; two triangles' common edge does not.
+    // Only the upright sides of the near square cut through pixels. The edge that its two triangles
+    // share does not count.
     assert_int_equal(count_class(DIP_SEEN_EDGE), 2 * 32);
     assert_int_equal(count_class(DIP_SEEN_TEXTURED), 31 * 32);
     assert_int_equal(count_class(DIP_SEEN_PLAIN), DIP_SCREEN * DIP_SCREEN - 33 * 32);
@@ -230,7 +235,8 @@ static void test_pixels_are_what_is_seen(void **state) {
     assert_int_equal(count_class(DIP_SEEN_WATER), 33 * 32);
     dip_test_scene_free(&scene);
 
-    // Where it is and, with half of its texels away, where it would be.
+    // All pixels of the clipped square count, also those where alpha removes it; half of its texels
+    // are transparent.
     make_squares(&scene, DIP_SURFACE_CLIPPED);
     uint8_t *texels = dip_test_scene_texels(&scene, 0);
     for (int i = 0; i < 32; i++) {
@@ -242,8 +248,8 @@ static void test_pixels_are_what_is_seen(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// A corner of two walls of one material goes on; a step in depth does not.
-static void test_corners_are_no_edges(void **state) {
+// A corner between two walls of one material is no edge; a step in depth is one.
+static void corners_of_one_surface_are_not_classified_as_edges(void **state) {
     (void)state;
     for (int step = 0; step < 2; step++) {
         DipTestScene scene;
@@ -263,15 +269,15 @@ static void test_corners_are_no_edges(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_texture_converges_to_its_mean),
-        cmocka_unit_test(test_ramp_converges_to_its_centre),
-        cmocka_unit_test(test_jitter_is_independent_in_x_and_y),
-        cmocka_unit_test(test_seeds_agree_better_with_more_samples),
-        cmocka_unit_test(test_a_seed_gives_one_picture),
-        cmocka_unit_test(test_antialiasing_approaches_the_converged_picture),
-        cmocka_unit_test(test_tiles_make_the_same_picture),
-        cmocka_unit_test(test_pixels_are_what_is_seen),
-        cmocka_unit_test(test_corners_are_no_edges),
+        cmocka_unit_test(textures_converge_to_their_mean),
+        cmocka_unit_test(a_ramp_converges_to_its_value_at_pixel_centres),
+        cmocka_unit_test(jitter_is_independent_in_x_and_y),
+        cmocka_unit_test(pictures_of_two_seeds_approach_with_more_samples),
+        cmocka_unit_test(the_same_seed_gives_the_same_picture),
+        cmocka_unit_test(antialiasing_approaches_the_converged_picture),
+        cmocka_unit_test(tiles_give_the_same_picture_as_the_whole),
+        cmocka_unit_test(pixels_are_classified_by_what_is_visible),
+        cmocka_unit_test(corners_of_one_surface_are_not_classified_as_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// What the reference covers: half-planes, closed meshes, facing, depth, the near plane.
+// Tests what the reference covers: half-planes, closed meshes, facing, depth, and the near plane.
 #include "renderer/base/assert.h"
 #include "renderer/pipeline/pattern.h"
 #include "tests/renderer/pipeline/screen.h"
@@ -22,8 +22,8 @@ static const char *const aa_settings[] = {"aa=none", "aa=2", "aa=4", "aa=6", "aa
 static DipScreenPicture picture;
 static DipScreenPicture other;
 
-// The area of a pixel that lies where n . p >= d: the unit square cut by the line, by the shoelace
-// formula.
+// Returns the area of a pixel that lies where n . p >= d: the unit square is cut by the line, and
+// the shoelace formula gives the area.
 static double half_plane_area(const double n[2], double d, int x, int y) {
     const double square[4][2] = {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}};
     double polygon[8][2];
@@ -53,11 +53,11 @@ static double half_plane_area(const double n[2], double d, int x, int y) {
 
 typedef struct HalfPlane {
     DipTestScene scene;
-    double normal[2]; // of its edge, towards the covered side
+    double normal[2]; // of its edge, pointing to the covered side
     double distance;
 } HalfPlane;
 
-// A white quad of which only one edge crosses the picture.
+// Makes a white quad of which only one edge crosses the picture.
 static void make_half_plane(HalfPlane *half, Random *random) {
     const double angle = random_real(random, 0.0, 2.0 * pi);
     const double along[2] = {cos(angle) * 200.0, sin(angle) * 200.0};
@@ -80,7 +80,8 @@ typedef struct Deviation {
     int count;
 } Deviation;
 
-// Of the pixels that the edge crosses.
+// Adds the deviations of the pixels that the edge crosses, and checks that all other pixels are
+// exact.
 static void add_deviations(const HalfPlane *half, Deviation *deviation) {
     for (int y = 0; y < DIP_SCREEN; y++) {
         for (int x = 0; x < DIP_SCREEN; x++) {
@@ -97,8 +98,8 @@ static void add_deviations(const HalfPlane *half, Deviation *deviation) {
     }
 }
 
-// The bounds are those of the patterns themselves, worked out from their positions alone.
-static void test_half_plane_coverage_is_as_near_as_the_pattern_allows(void **state) {
+// The bounds follow from the sample positions of the patterns alone.
+static void coverage_of_half_planes_is_as_exact_as_the_pattern_allows(void **state) {
     (void)state;
     static const double greatest[] = {0.5, 0.497, 0.308, 0.220, 0.226};
     double last_rms = 1.0;
@@ -114,13 +115,14 @@ static void test_half_plane_coverage_is_as_near_as_the_pattern_allows(void **sta
         }
         const double rms = sqrt(deviation.squares / deviation.count);
         assert_true(deviation.greatest <= greatest[i] + 0.002);
-        assert_true(deviation.greatest >= 0.8 * greatest[i]); // or this measures nothing
+        assert_true(deviation.greatest >=
+                    0.8 * greatest[i]); // guards against a test that measures nothing
         assert_true(rms < last_rms);
         last_rms = rms;
     }
 }
 
-static void test_converged_half_plane_is_its_area(void **state) {
+static void the_converged_coverage_of_a_half_plane_is_its_area(void **state) {
     (void)state;
     Random random = {9};
     Deviation deviation = {0};
@@ -131,15 +133,15 @@ static void test_converged_half_plane_is_its_area(void **state) {
         add_deviations(&half, &deviation);
         dip_test_scene_free(&half.scene);
     }
-    // A jittered grid of 256: 1.5 codes RMS, 6.3 codes at most.
+    // A jittered grid of 256 samples deviates by 1.5 codes RMS and by at most 6.3 codes.
     assert_true(sqrt(deviation.squares / deviation.count) < 2.0 / 255.0);
     assert_true(deviation.greatest < 9.0 / 255.0);
 }
 
 enum { CELLS = 6 };
 
-// A grid of points that reaches over the picture's edges, moved about at random; every third one
-// lies exactly on a sample position of the pattern.
+// Makes a grid of points that reaches beyond the picture's edges. The points are moved at random,
+// and every third lies exactly on a sample position of the pattern.
 static void make_grid(DipScreenPoint grid[CELLS + 1][CELLS + 1], const DipSamplePattern *pattern,
                       Random *random) {
     for (int j = 0; j <= CELLS; j++) {
@@ -172,8 +174,8 @@ static void add_picture_of(const DipScreenPoint *triangle, const char *settings)
     }
 }
 
-// The triangles of a closed mesh, each drawn alone: their coverages add up to one, everywhere.
-static void test_closed_mesh_covers_every_sample_once(void **state) {
+// Draws each triangle of a closed mesh alone. Their coverages must add up to one everywhere.
+static void a_closed_mesh_covers_every_sample_once(void **state) {
     (void)state;
     for (int k = 0; k < 5; k++) {
         Random random = {(uint64_t)k};
@@ -197,7 +199,7 @@ static void test_closed_mesh_covers_every_sample_once(void **state) {
     }
 }
 
-// A triangle about the picture's middle, counter-clockwise to the eye.
+// A triangle around the picture's middle, counter-clockwise to the eye.
 static const DipScreenPoint middle_triangle[3] = {{32, 10, 2}, {10, 50, 2}, {54, 50, 2}};
 
 static void set_base_colour(DipTestScene *scene, int material, float r, float g, float b) {
@@ -207,9 +209,9 @@ static void set_base_colour(DipTestScene *scene, int material, float r, float g,
     base[2] = b;
 }
 
-static void test_facing(void **state) {
+static void only_front_faces_and_double_sided_surfaces_are_visible(void **state) {
     (void)state;
-    // Seen or not: counter-clockwise, clockwise; then the same in a mirrored object.
+    // Draws counter-clockwise and clockwise triangles, in plain and in mirrored objects.
     for (int kind = 0; kind < 8; kind++) {
         const bool clockwise = kind & 1;
         const bool mirrored = kind & 2;
@@ -225,13 +227,13 @@ static void test_facing(void **state) {
         }
         scene.objects[0].transform[0] = mirrored ? -1.0f : 1.0f;
         dip_screen_draw(&scene, "aa=none", picture);
-        // A mesh that is turned to the eye stays so in the mirror.
+        // A mesh that faces the eye also faces it if it is mirrored.
         assert_near(picture[32][32][0], double_sided || !clockwise ? 1.0 : 0.0, 0.0);
         dip_test_scene_free(&scene);
     }
 }
 
-static void test_first_submitted_of_coplanar_stays_and_nearer_wins(void **state) {
+static void nearer_surfaces_win_and_the_first_of_coplanar_ones_stays(void **state) {
     (void)state;
     static const double distances[][2] = {{2, 2}, {2, 1}, {1, 2}};
     static const int seen[] = {0, 1, 0};
@@ -253,9 +255,10 @@ static void test_first_submitted_of_coplanar_stays_and_nearer_wins(void **state)
     }
 }
 
-// Two quads that cross where both are at the same depth: 1/w = 1 - x/128 and 1/2 + x/128 meet at
-// x = 32, between two columns; shifted, at x = 32.5, where depth decides per sample.
-static void test_depth_is_decided_per_sample(void **state) {
+// Two quads cross where both have the same depth: 1/w = 1 - x/128 and 1/w = 1/2 + x/128 meet at x =
+// 32, between two columns. Shifted by half a pixel, they meet at x = 32.5, where depth decides per
+// sample.
+static void depth_is_decided_per_sample(void **state) {
     (void)state;
     DipTestScene scene;
     dip_screen_begin(&scene);
@@ -264,7 +267,7 @@ static void test_depth_is_decided_per_sample(void **state) {
         set_base_colour(&scene, material, i == 0, i == 1, 0);
         const double left = i == 0 ? 1.0 : 2.0;
         const double right = 3.0 - left;
-        // Crosses where x is 0.5 + 32.
+        // The quads cross at x = 32.5.
         const DipScreenPoint p[4] = {
             {0.5, 0, left}, {0.5, 64, left}, {64.5, 64, right}, {64.5, 0, right}};
         dip_screen_add_polygon(&scene, material, p, 4, 0);
@@ -284,12 +287,12 @@ static void test_depth_is_decided_per_sample(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// What is at the near plane (1/16 m) is seen, what is nearer is not. In the third case the upper
-// half leans from the plane's near side to it.
-static void test_near_plane_cuts(void **state) {
+// A surface at the near plane (1/16 m) is visible; a nearer one is not. In the third case, the
+// upper half leans from in front of the near plane to the near plane.
+static void surfaces_before_the_near_plane_are_cut_off(void **state) {
     (void)state;
     static const double distances[][2] = {{0.0625, 0.0625}, {0.03125, 0.03125}, {0.03125, 0.0625}};
-    static const int seen[][2] = {{1, 1}, {0, 0}, {0, 1}}; // at y = 12 and 40
+    static const int seen[][2] = {{1, 1}, {0, 0}, {0, 1}}; // at y = 12 and y = 40
     for (int k = 0; k < 3; k++) {
         DipTestScene scene;
         dip_screen_begin(&scene);
@@ -308,10 +311,10 @@ static void test_near_plane_cuts(void **state) {
     }
 }
 
-// A floor 1 m below the eye that begins behind it, with one corner far behind and one between the
-// eye and the near plane, coloured by where it is: rays through the
-// pixels' centres meet it at a place that is worked out here.
-static void test_floor_through_the_near_plane(void **state) {
+// A floor 1 m below the eye begins behind the eye. One corner lies far behind the eye, and one
+// between the eye and the near plane. Its colour is its position, so the test computes where the
+// rays through the pixels' centres meet it.
+static void a_floor_that_begins_behind_the_eye_is_cut_at_the_near_plane(void **state) {
     (void)state;
     DipTestScene scene;
     dip_screen_begin(&scene);
@@ -331,11 +334,11 @@ static void test_floor_through_the_near_plane(void **state) {
         for (int x = 0; x < DIP_SCREEN; x++) {
             const double ray[2] = {(x + 0.5) / 32.0 - 1.0, 1.0 - (y + 0.5) / 32.0};
             const double w = -1.0 / ray[1];
-            if (ray[1] > -0.07) { // beyond the far edge at w = 16, 1/16 below the horizon
+            if (ray[1] > -0.07) { // near and beyond the far edge at w = 16, 1/16 below the horizon
                 assert_near(picture[y][x][2], y < 32 || w > 16.0 ? 0.0 : 1.0, 0.0);
                 continue;
             }
-            // The cut corners are rounded to 1/256 pixel, a thousand pixels away.
+            // The cut corners are rounded to 1/256 pixel, although they lie a thousand pixels away.
             assert_near(picture[y][x][0], ray[0] * w / 32.0 + 0.5, 2e-3);
             assert_near(picture[y][x][1], -w / 32.0 + 0.5, 2e-3);
         }
@@ -345,14 +348,14 @@ static void test_floor_through_the_near_plane(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_half_plane_coverage_is_as_near_as_the_pattern_allows),
-        cmocka_unit_test(test_converged_half_plane_is_its_area),
-        cmocka_unit_test(test_closed_mesh_covers_every_sample_once),
-        cmocka_unit_test(test_facing),
-        cmocka_unit_test(test_first_submitted_of_coplanar_stays_and_nearer_wins),
-        cmocka_unit_test(test_depth_is_decided_per_sample),
-        cmocka_unit_test(test_near_plane_cuts),
-        cmocka_unit_test(test_floor_through_the_near_plane),
+        cmocka_unit_test(coverage_of_half_planes_is_as_exact_as_the_pattern_allows),
+        cmocka_unit_test(the_converged_coverage_of_a_half_plane_is_its_area),
+        cmocka_unit_test(a_closed_mesh_covers_every_sample_once),
+        cmocka_unit_test(only_front_faces_and_double_sided_surfaces_are_visible),
+        cmocka_unit_test(nearer_surfaces_win_and_the_first_of_coplanar_ones_stays),
+        cmocka_unit_test(depth_is_decided_per_sample),
+        cmocka_unit_test(surfaces_before_the_near_plane_are_cut_off),
+        cmocka_unit_test(a_floor_that_begins_behind_the_eye_is_cut_at_the_near_plane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// Level of detail and anisotropy of the reference against Jacobians whose axes are known.
+// Compares the reference's level of detail and anisotropy with Jacobians whose axes are known.
 #include "renderer/reference/internal/footprint.h"
 #include "tests/renderer/random.h"
 
@@ -14,8 +14,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-// The Jacobian of an ellipse with semi-axes of these lengths: the major one lies at `direction` in
-// the texture; the screen is turned by `roll` against the axes.
+// Makes the Jacobian of an ellipse with semi-axes of the given lengths. The major axis points to
+// `direction` in the texture, and the screen is turned by `roll` against the axes.
 static void make_jacobian(double major, double minor, double direction, double roll, double dx[2],
                           double dy[2]) {
     const double along[2] = {major * cos(direction), major * sin(direction)};
@@ -26,7 +26,7 @@ static void make_jacobian(double major, double minor, double direction, double r
     }
 }
 
-static void test_trilinear_takes_the_longer_derivative(void **state) {
+static void trilinear_takes_the_longer_derivative(void **state) {
     (void)state;
     const double dx[2] = {3.0, 4.0};
     const double dy[2] = {0.0, 8.0};
@@ -36,7 +36,7 @@ static void test_trilinear_takes_the_longer_derivative(void **state) {
     assert_near(dip_reference_footprint(dy, dx, 1, false, 0).lambda, 3.0, 1e-12);
 }
 
-static void test_advanced_finds_the_axes_at_any_roll(void **state) {
+static void advanced_af_finds_the_axes_at_any_roll(void **state) {
     (void)state;
     Random random = {1};
     for (int i = 0; i < 20000; i++) {
@@ -54,7 +54,7 @@ static void test_advanced_finds_the_axes_at_any_roll(void **state) {
         if (fabs(probes - rint(probes)) > 1e-8) {
             assert_int_equal(f.probe_count, (int)ceil(probes));
         }
-        if (ratio > 1.01) { // a line, so either sense
+        if (ratio > 1.01) { // the axis is a line, so either direction is right
             const double cross =
                 f.major_texels[0] * sin(direction) - f.major_texels[1] * cos(direction);
             assert_near(cross / (minor * ratio), 0.0, 1e-9 / (ratio - 1.0));
@@ -70,7 +70,7 @@ static double plain_eta(double ratio, double roll_deg, int max) {
     return dip_reference_footprint(dx, dy, max, false, 0).eta;
 }
 
-// Ratio of the two derivatives of an ellipse that is turned against the frame.
+// Returns the ratio of the two derivatives of an ellipse that is turned against the frame.
 static double frame_ratio(double m, double roll) {
     const double c = cos(roll) * cos(roll);
     const double s = sin(roll) * sin(roll);
@@ -78,13 +78,14 @@ static double frame_ratio(double m, double roll) {
     return fmax(ratio, 1.0 / ratio);
 }
 
-static void test_plain_follows_the_cot_law(void **state) {
+static void plain_af_loses_anisotropy_with_roll_as_the_cotangent_predicts(void **state) {
     (void)state;
     assert_near(plain_eta(16.0, 0.0, 16), 16.0, 1e-9);
     assert_near(plain_eta(16.0, 45.0, 16), 8.0, 1e-9);
     assert_near(plain_eta(16.0, 22.5, 16), 2.39, 0.005);
-    assert_near(plain_eta(1e6, 22.5, 16), 1.0 + sqrt(2.0), 1e-6); // cot 22.5
-    assert_near(plain_eta(16.0, 45.0, 2), 1.0, 1e-12);            // half of 2 is 1
+    assert_near(plain_eta(1e6, 22.5, 16), 1.0 + sqrt(2.0), 1e-6); // the cotangent of 22.5 degrees
+    assert_near(plain_eta(16.0, 45.0, 2), 1.0,
+                1e-12); // the cap of the turned frame, half of 2, is 1
     for (double roll_deg = -180.0; roll_deg <= 180.0; roll_deg += 1.0) {
         const double roll = roll_deg * pi / 180.0;
         const double expected = fmax(fmin(frame_ratio(16.0, roll), 16.0),
@@ -93,19 +94,19 @@ static void test_plain_follows_the_cot_law(void **state) {
     }
 }
 
-static void test_plain_level_belongs_to_the_frame_it_chose(void **state) {
+static void plain_af_takes_the_level_of_the_frame_it_uses(void **state) {
     (void)state;
     double dx[2], dy[2];
     make_jacobian(16.0, 1.0, 0.3, 45.0 * pi / 180.0, dx, dy);
     const DipFootprint turned = dip_reference_footprint(dx, dy, 16, false, 0);
-    assert_near(turned.lambda, 1.0, 1e-9); // 16 texels over 8 probes
+    assert_near(turned.lambda, 1.0, 1e-9); // 16 texels divided by 8 probes
     assert_int_equal(turned.probe_count, 8);
-    // The axis found is the ellipse's own.
+    // The axis that is found is the ellipse's own major axis.
     assert_near(fabs(turned.major_texels[0]), 16.0 * cos(0.3), 1e-9);
     assert_near(fabs(turned.major_texels[1]), 16.0 * sin(0.3), 1e-9);
 }
 
-// Any number a derivative may be, of any magnitude; now and then one of the awkward ones.
+// Returns any finite number of any magnitude, now and then one of the values that break things.
 static double awkward(Random *random) {
     static const double specials[] = {0.0, -0.0, 1.0, -1.0, 1e308, -1e308, 5e-324, 1e-300};
     if (random_int(random, 0, 2) == 0) {
@@ -114,13 +115,13 @@ static double awkward(Random *random) {
     return exp2(random_real(random, -300.0, 300.0)) * (random_int(random, 0, 1) ? 1.0 : -1.0);
 }
 
-static void test_level_is_finite_for_any_jacobian(void **state) {
+static void the_level_is_finite_for_any_jacobian(void **state) {
     (void)state;
     Random random = {2};
     for (int i = 0; i < 100000; i++) {
         double dx[2] = {awkward(&random), awkward(&random)};
         double dy[2] = {awkward(&random), awkward(&random)};
-        if (i % 4 == 0) { // collinear
+        if (i % 4 == 0) { // collinear derivatives
             dy[0] = dx[0] * 3.0;
             dy[1] = dx[1] * 3.0;
         }
@@ -133,7 +134,7 @@ static void test_level_is_finite_for_any_jacobian(void **state) {
     }
 }
 
-static void test_degenerate_jacobians(void **state) {
+static void degenerate_jacobians_have_defined_footprints(void **state) {
     (void)state;
     const double zero[2] = {0.0, 0.0};
     const double line[2] = {8.0, 0.0};
@@ -151,9 +152,9 @@ static void test_degenerate_jacobians(void **state) {
     }
 }
 
-// A footprint of 6 x 0.1 texels asks for 16 probes; six are a texel apart already. With two levels
-// dropped a texel is 4 wide.
-static void test_probes_are_no_closer_than_texels(void **state) {
+// A footprint of 6 x 0.1 texels has an eta of 16, but six probes already are a texel apart. With
+// two levels dropped, a texel is 4 texels of level 0 wide.
+static void probes_are_no_closer_than_texels(void **state) {
     (void)state;
     const double along[2] = {6.0, 0.0};
     const double across[2] = {0.0, 0.1};
@@ -167,12 +168,12 @@ static void test_probes_are_no_closer_than_texels(void **state) {
     }
 }
 
-static void test_level_is_biased_clamped_and_rounded(void **state) {
+static void the_level_is_biased_clamped_and_rounded(void **state) {
     (void)state;
     assert_near(dip_reference_level(2.0, 0.5, 0, 9), 2.5, 0.0);
     assert_near(dip_reference_level(1.0, 1.5, 0, 2), 2.0, 0.0);
     assert_near(dip_reference_level(-3.0, 1.5, 2, 9), 2.0, 0.0);
-    assert_near(dip_reference_level(0.0, 0.0, 2, 1), 1.0, 0.0); // the chain ends first
+    assert_near(dip_reference_level(0.0, 0.0, 2, 1), 1.0, 0.0); // the chain ends before min_level
     assert_near(dip_reference_level(1.0 + 0.4 / 256.0, 0.0, 0, 9), 1.0, 0.0);
     assert_near(dip_reference_level(1.0 + 0.6 / 256.0, 0.0, 0, 9), 1.0 + 1.0 / 256.0, 0.0);
     assert_near(dip_reference_level(INFINITY, 0.0, 0, 9), 9.0, 0.0);
@@ -181,14 +182,14 @@ static void test_level_is_biased_clamped_and_rounded(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_trilinear_takes_the_longer_derivative),
-        cmocka_unit_test(test_advanced_finds_the_axes_at_any_roll),
-        cmocka_unit_test(test_plain_follows_the_cot_law),
-        cmocka_unit_test(test_plain_level_belongs_to_the_frame_it_chose),
-        cmocka_unit_test(test_level_is_finite_for_any_jacobian),
-        cmocka_unit_test(test_degenerate_jacobians),
-        cmocka_unit_test(test_probes_are_no_closer_than_texels),
-        cmocka_unit_test(test_level_is_biased_clamped_and_rounded),
+        cmocka_unit_test(trilinear_takes_the_longer_derivative),
+        cmocka_unit_test(advanced_af_finds_the_axes_at_any_roll),
+        cmocka_unit_test(plain_af_loses_anisotropy_with_roll_as_the_cotangent_predicts),
+        cmocka_unit_test(plain_af_takes_the_level_of_the_frame_it_uses),
+        cmocka_unit_test(the_level_is_finite_for_any_jacobian),
+        cmocka_unit_test(degenerate_jacobians_have_defined_footprints),
+        cmocka_unit_test(probes_are_no_closer_than_texels),
+        cmocka_unit_test(the_level_is_biased_clamped_and_rounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

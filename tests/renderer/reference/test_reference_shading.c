@@ -1,5 +1,5 @@
-// How the reference shades: interpolation against ray casting, level of detail on a plane of known
-// Jacobian, light, light maps, alpha, and what it refuses.
+// Tests how the reference shades: interpolation against ray casting, level of detail on a plane
+// with a known Jacobian, light, light maps and alpha. Also tests which input it refuses.
 #include "renderer/pipeline/pattern.h"
 #include "tests/renderer/pipeline/screen.h"
 #include "tests/renderer/random.h"
@@ -26,8 +26,9 @@ static double determinant(const double a[3], const double b[3], const double c[3
            a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-// Where the ray through a screen position meets the triangle, as weights of its corners: Cramer's
-// rule on corner sum = ray, scaled to a sum of 1. All three positive: a hit.
+// Finds where the ray through a screen position meets the triangle, as weights of its corners, by
+// Cramer's rule on "sum of weighted corners = ray", scaled so that the weights add up to 1. If all
+// three are positive, the ray hits the triangle.
 static void cast_ray(const DipTestMesh *mesh, double x, double y, double weights[3]) {
     const double ray[3] = {x / 32.0 - 1.0, 1.0 - y / 32.0, -1.0};
     double v[3][3];
@@ -58,7 +59,8 @@ static DipTestMesh add_random_triangle(DipTestScene *scene, Random *random) {
     return mesh;
 }
 
-// What the pixel should be; false when a sample is too close to an edge to tell by rays.
+// Computes the expected colour of a pixel. Returns false if a sample lies too close to an edge for
+// ray casting to decide.
 static bool expect_pixel(const DipTestMesh *mesh, const DipSamplePattern *pattern, int x, int y,
                          double rgb[3]) {
     double weights[3];
@@ -92,7 +94,7 @@ static bool expect_pixel(const DipTestMesh *mesh, const DipSamplePattern *patter
     return true;
 }
 
-static void test_interpolation_is_what_rays_hit(void **state) {
+static void interpolation_agrees_with_ray_casting(void **state) {
     (void)state;
     static const int counts[] = {1, 2, 4, 6, 8};
     static const char *const settings[] = {"aa=none", "aa=2", "aa=4", "aa=6", "aa=8"};
@@ -119,8 +121,8 @@ static void test_interpolation_is_what_rays_hit(void **state) {
     assert_true(told > 40 * DIP_SCREEN * DIP_SCREEN * 99 / 100);
 }
 
-// The ground 1 m below the eye, x across and w ahead, from w = 1 to 16; uv = (x, w) times 256
-// texels. On the screen w = 1 / (y / 32 - 1), x = (x / 32 - 1) w.
+// Makes a ground 1 m below the eye, with x across and w ahead, from w = 1 to w = 16. Its uv = (x,
+// w), times 256 texels. On the screen, w = 1 / (y / 32 - 1) and x = (x_px / 32 - 1) w.
 static void make_ground(DipTestScene *scene) {
     dip_screen_begin(scene);
     const int texture = dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 256, 256);
@@ -141,7 +143,7 @@ static void ground_jacobian(double x, double y, double dx[2], double dy[2]) {
     dy[1] = 256.0 * (-w * w / 32.0);
 }
 
-// The greater eigenvalue of J J^T is M^2; the determinant gives m.
+// The greater eigenvalue of J J^T is M^2, and the determinant gives m.
 static double advanced_lambda(const double dx[2], const double dy[2], double max) {
     const double a = dx[0] * dx[0] + dy[0] * dy[0];
     const double b = dx[0] * dx[1] + dy[0] * dy[1];
@@ -183,7 +185,7 @@ static void check_ground(const char *settings, double max_anisotropy, double bia
     dip_test_scene_free(&scene);
 }
 
-static void test_level_of_detail_on_the_ground(void **state) {
+static void level_of_detail_on_the_ground_follows_the_jacobian(void **state) {
     (void)state;
     check_ground("mipdebug=on", 1.0, 0.0);
     check_ground("mipdebug=on,miplod=quality", 1.0, 0.5);
@@ -192,7 +194,7 @@ static void test_level_of_detail_on_the_ground(void **state) {
     check_ground("mipdebug=on,af=16,aaf=on", 16.0, 0.0);
 }
 
-static void test_light_of_a_normal(void **state) {
+static void light_follows_the_normal(void **state) {
     (void)state;
     const double sun[3] = {-0.42, 0.67, 0.61};
     const double length = sqrt(0.42 * 0.42 + 0.67 * 0.67 + 0.61 * 0.61);
@@ -218,7 +220,7 @@ static void test_light_of_a_normal(void **state) {
     }
 }
 
-// A texture of one texel (or a row of them), of one grey each.
+// Adds a texture with one row of texels, each of one grey.
 static int add_grey(DipTestScene *scene, int width, const uint8_t *grey, DipEncoding encoding) {
     const int texture = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, width, 1);
     uint8_t *texels = dip_test_scene_texels(scene, texture);
@@ -230,7 +232,7 @@ static int add_grey(DipTestScene *scene, int width, const uint8_t *grey, DipEnco
     return texture;
 }
 
-static void test_colour_is_base_times_texture_times_light_map(void **state) {
+static void colour_is_base_times_texture_times_light_map(void **state) {
     (void)state;
     DipTestScene scene;
     dip_screen_begin(&scene);
@@ -242,7 +244,7 @@ static void test_colour_is_base_times_texture_times_light_map(void **state) {
     scene.materials[material].base_colour_lin[2] = 0.25f;
     dip_screen_add_cover(&scene, material, 1.0f, 1.0f);
     const double texel = decode(188.0 / 255.0);
-    // Without second coordinates there is no light map.
+    // Without second texture coordinates, the light map has no effect.
     dip_screen_draw(&scene, "af=16", picture);
     assert_near(picture[9][5][0], texel, 1e-12);
     scene.meshes[0].uv1 = scene.meshes[0].uv0;
@@ -266,7 +268,7 @@ static void make_clipped(DipTestScene *scene, int width, const uint8_t *alpha, f
     dip_screen_add_cover(scene, material, 1.0f, 1.0f);
 }
 
-static void test_alpha_at_the_cutoff_stays(void **state) {
+static void alpha_at_the_cutoff_keeps_the_sample(void **state) {
     (void)state;
     for (int code = 1; code < 256; code++) {
         const uint8_t alpha = (uint8_t)code;
@@ -281,10 +283,10 @@ static void test_alpha_at_the_cutoff_stays(void **state) {
     }
 }
 
-// Alpha rises from 0 to 1 between u = 1/4 and 3/4, over 32 pixels: the cutoff of 0.375 lies where
-// column 28 begins, that of 0.38 at 28.16. Whole pixels go by their centre, whatever aa is; the
-// converged picture goes by area.
-static void test_alpha_is_tested_at_centres_and_converges_to_area(void **state) {
+// Alpha rises from 0 to 1 between u = 1/4 and u = 3/4, over 32 pixels. The cutoff of 0.375 lies
+// where column 28 begins, and the cutoff of 0.38 at 28.16. The test at whole pixels takes place at
+// their centre, whatever aa is. The converged picture depends on the area.
+static void alpha_is_tested_at_centres_and_converges_to_area(void **state) {
     (void)state;
     static const float cutoffs[] = {0.375f, 0.38f, 0.395f};
     static const double area[] = {1.0, 0.84, 0.36};
@@ -292,7 +294,7 @@ static void test_alpha_is_tested_at_centres_and_converges_to_area(void **state) 
     for (int k = 0; k < 3; k++) {
         DipTestScene scene;
         make_clipped(&scene, 2, (const uint8_t[]){0, 255}, cutoffs[k]);
-        // Colour as alpha, so divide it out: only presence is looked at.
+        // The texture's colour equals its alpha, so this only checks whether the pixel is drawn.
         dip_screen_draw(&scene, "aa=8", picture);
         assert_near(picture[7][27][0], 0.0, 0.0);
         assert_int_equal(picture[7][28][0] > 0.0, centre_is_in[k]);
@@ -302,14 +304,14 @@ static void test_alpha_is_tested_at_centres_and_converges_to_area(void **state) 
         for (int y = 0; y < DIP_SCREEN; y++) {
             column += picture[y][28][0] / DIP_SCREEN;
         }
-        // The mean of alpha over the part that stays.
+        // The mean of alpha over the part that is kept.
         const double mean = area[k] * (12.0 + 1.0 - area[k] * 0.5) / 32.0;
         assert_near(column, mean, 2e-3);
         dip_test_scene_free(&scene);
     }
 }
 
-static void test_what_is_refused(void **state) {
+static void invalid_input_is_refused(void **state) {
     (void)state;
     DipTestScene scene;
     dip_screen_begin(&scene);
@@ -331,7 +333,7 @@ static void test_what_is_refused(void **state) {
     assert_false(
         dip_reference_draw(reference, &quality, &scene.pose, 64, 64, &picture[0][0][0], &err));
     dip_reference_destroy(&reference);
-    dip_reference_destroy(&reference); // nothing left: harmless
+    dip_reference_destroy(&reference); // destroying it again is harmless
     scene.objects[0].mesh = 1;
     assert_null(dip_reference_create(&scene.def, &err));
     assert_int_equal(err.code, DIP_ERROR_RANGE);
@@ -343,13 +345,13 @@ static void test_what_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_interpolation_is_what_rays_hit),
-        cmocka_unit_test(test_level_of_detail_on_the_ground),
-        cmocka_unit_test(test_light_of_a_normal),
-        cmocka_unit_test(test_colour_is_base_times_texture_times_light_map),
-        cmocka_unit_test(test_alpha_at_the_cutoff_stays),
-        cmocka_unit_test(test_alpha_is_tested_at_centres_and_converges_to_area),
-        cmocka_unit_test(test_what_is_refused),
+        cmocka_unit_test(interpolation_agrees_with_ray_casting),
+        cmocka_unit_test(level_of_detail_on_the_ground_follows_the_jacobian),
+        cmocka_unit_test(light_follows_the_normal),
+        cmocka_unit_test(colour_is_base_times_texture_times_light_map),
+        cmocka_unit_test(alpha_at_the_cutoff_keeps_the_sample),
+        cmocka_unit_test(alpha_is_tested_at_centres_and_converges_to_area),
+        cmocka_unit_test(invalid_input_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// Decoding, mip chains and filtering of the reference against closed forms.
+// Compares the reference's decoding, mip chains and filtering with closed forms.
 #include "renderer/reference/internal/texture.h"
 #include "tests/renderer/random.h"
 
@@ -33,7 +33,7 @@ static void fill_noise(int width, int height) {
     }
 }
 
-// Red is the column, green the row, blue 0, alpha 255 less the column.
+// Fills texels: red is the column, green the row, blue 0, and alpha 255 minus the column.
 static void fill_ramp(int width, int height) {
     for (int i = 0; i < width * height; i++) {
         const uint8_t texel[4] = {(uint8_t)(i % width), (uint8_t)(i / width), 0,
@@ -42,9 +42,9 @@ static void fill_ramp(int width, int height) {
     }
 }
 
-static void test_srgb_is_the_published_curve(void **state) {
+static void srgb_is_the_published_curve(void **state) {
     (void)state;
-    // IEC 61966-2-1, worked out to ten digits apart from this code.
+    // Values of IEC 61966-2-1, computed to ten digits independently of this code.
     static const double pairs[][2] = {{0, 0.0},
                                       {1, 0.0003035269835},
                                       {10, 0.0030352698355},
@@ -74,8 +74,8 @@ static void mean_of_level(const DipRefTexture *texture, int level, double mean[4
     }
 }
 
-// Every texel of a level covers as much of the texture as any other, so the plain mean must stay.
-static void test_chain_keeps_the_mean(void **state) {
+// Every texel of a level covers the same area of the texture, so the plain mean must stay the same.
+static void mip_levels_keep_the_mean(void **state) {
     (void)state;
     static const int sizes[][2] = {{7, 5}, {1, 1}, {1, 9}, {13, 1}, {5, 5}, {64, 64}, {127, 33}};
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
@@ -101,9 +101,10 @@ static void test_chain_keeps_the_mean(void **state) {
     }
 }
 
-// 7 columns to 3: the first target takes columns 0, 1 and a third of 2, the second two thirds of
-// 2, 3 and two thirds of 4; 5 rows to 2: rows 0, 1 and half of 2.
-static void test_odd_sizes_weigh_by_area(void **state) {
+// From 7 columns to 3: the first target column takes columns 0, 1 and a third of 2; the second
+// takes two thirds of 2, 3 and two thirds of 4. From 5 rows to 2: the first target row takes rows
+// 0, 1 and half of 2.
+static void odd_sizes_are_weighted_by_area(void **state) {
     (void)state;
     fill_ramp(7, 5);
     const DipTextureDef def = make_def(7, 5, DIP_ENCODING_LINEAR, DIP_WRAP_REPEAT);
@@ -119,7 +120,7 @@ static void test_odd_sizes_weigh_by_area(void **state) {
     dip_reference_texture_free(&texture);
 }
 
-// Reads with a square footprint of 2^lambda texels.
+// Reads with a square footprint whose sides are 2^lambda texels long.
 static void read_at(const DipRefTexture *texture, const DipRefFilter *filter, double u, double v,
                     double lambda, double rgba[4]) {
     const double uv[2] = {u, v};
@@ -128,7 +129,7 @@ static void read_at(const DipRefTexture *texture, const DipRefFilter *filter, do
     dip_reference_sample(texture, filter, uv, dx, dy, rgba);
 }
 
-static void test_ramp_is_read_exactly(void **state) {
+static void a_ramp_is_read_exactly(void **state) {
     (void)state;
     fill_ramp(256, 256);
     const DipTextureDef def = make_def(256, 256, DIP_ENCODING_LINEAR, DIP_WRAP_CLAMP);
@@ -137,7 +138,7 @@ static void test_ramp_is_read_exactly(void **state) {
     const DipRefFilter trilinear = {.max_anisotropy = 1};
     Random random = {5};
     for (int i = 0; i < 5000; i++) {
-        // Far enough from the edges for level 3 to be linear there.
+        // Far enough from the edges for level 3 to be linear.
         const double column = random_real(&random, 16.0, 240.0);
         const double row = random_real(&random, 16.0, 240.0);
         const double uv[2] = {(column + 0.5) / 256.0, (row + 0.5) / 256.0};
@@ -149,8 +150,8 @@ static void test_ramp_is_read_exactly(void **state) {
         const double grid[2] = {(floor(column * 256.0) / 256.0 + 0.5) / 256.0, uv[1]};
         read_at(&texture, &trilinear, uv[0], uv[1], 0.0, rgba);
         assert_near(rgba[0] * 255.0, grid[0] * 256.0 - 0.5, 1e-9);
-        // Every level of the ramp is the same ramp, so any blend of levels reads the same but
-        // for rounding down by less than 1/256 texel of the coarser level.
+        // Every level of the ramp is the same ramp. Any blend of levels reads the same value,
+        // except that it is rounded down by less than 1/256 texel of the coarser level.
         const double lambda = random_real(&random, 0.0, 3.0);
         read_at(&texture, &trilinear, uv[0], uv[1], lambda, rgba);
         const double low = column - exp2(floor(lambda) + 1.0) / 256.0;
@@ -159,17 +160,17 @@ static void test_ramp_is_read_exactly(void **state) {
     dip_reference_texture_free(&texture);
 }
 
-// Black to column 31, white from column 32.
+// Fills texels with a step: black up to column 31, white from column 32 on.
 static void fill_step(void) {
     for (int i = 0; i < 64 * 64; i++) {
         memset(texels + 4 * i, i % 64 < 32 ? 0 : 255, 4);
     }
 }
 
-// Probes one texel apart at -7.5..7.5 about a place 7 texels left of the step's middle (column
-// 32's left edge): only the last lies right of it, and on texel centres. Spacing them otherwise,
-// say by 16/17, reads something between.
-static void test_probes_lie_at_interval_midpoints(void **state) {
+// 16 probes lie one texel apart, at -7.5..7.5 texels around the read position, on texel centres.
+// Seven texels left of the step (the left edge of column 32), for example, only the last probe lies
+// to its right. With another spacing, for example of 16/17 texel, the result would lie in between.
+static void probes_lie_at_interval_midpoints(void **state) {
     (void)state;
     fill_step();
     const DipTextureDef def = make_def(64, 64, DIP_ENCODING_LINEAR, DIP_WRAP_CLAMP);
@@ -191,7 +192,7 @@ static void test_probes_lie_at_interval_midpoints(void **state) {
     dip_reference_texture_free(&texture);
 }
 
-static void test_address_modes(void **state) {
+static void coordinates_repeat_or_clamp_as_the_address_mode_says(void **state) {
     (void)state;
     fill_noise(7, 5);
     DipTextureDef def = make_def(7, 5, DIP_ENCODING_SRGB, DIP_WRAP_REPEAT);
@@ -215,7 +216,7 @@ static void test_address_modes(void **state) {
     dip_reference_texture_free(&texture);
 }
 
-static void test_any_coordinate_is_read_from_inside(void **state) {
+static void any_coordinate_is_read_from_inside_the_texture(void **state) {
     (void)state;
     static const double awkward[] = {0.0,    -1e-18,   1.0,       -1.0, 1e30,
                                      -1e300, INFINITY, -INFINITY, NAN};
@@ -239,7 +240,7 @@ static void test_any_coordinate_is_read_from_inside(void **state) {
     }
 }
 
-static void test_mip_colours_go_by_size(void **state) {
+static void mip_colours_follow_the_level_size(void **state) {
     (void)state;
     static const uint8_t codes[][3] = {{0, 0, 0},     {128, 0, 0},  {255, 0, 0}, {255, 128, 0},
                                        {255, 255, 0}, {0, 255, 0},  {0, 0, 255}, {128, 0, 128},
@@ -262,7 +263,7 @@ static void test_mip_colours_go_by_size(void **state) {
     dip_reference_texture_free(&texture);
 }
 
-static void test_high_performance_drops_levels_by_size(void **state) {
+static void high_performance_drops_levels_by_size(void **state) {
     (void)state;
     static const int sizes[][3] = {{512, 64, 1}, {1024, 8, 2}, {8, 1024, 2}, {1, 1, 0}, {2, 1, 1}};
     DipQuality quality = dip_quality_default();
@@ -276,8 +277,8 @@ static void test_high_performance_drops_levels_by_size(void **state) {
         DipRefTexture texture;
         open_texture(&texture, &def);
         const int level = sizes[s][2];
-        // Nearer to the corner than the centre of the first texel, where a finer level reads
-        // another texel.
+        // This position is closer to the corner than the centre of the first texel. A finer level
+        // would read another texel there.
         double expected[4], got[4];
         dip_reference_texel(&texture, level, 0, 0, expected);
         read_at(&texture, &filter, 0.25 / texture.widths[level], 0.25 / texture.heights[level],
@@ -291,15 +292,15 @@ static void test_high_performance_drops_levels_by_size(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_srgb_is_the_published_curve),
-        cmocka_unit_test(test_chain_keeps_the_mean),
-        cmocka_unit_test(test_odd_sizes_weigh_by_area),
-        cmocka_unit_test(test_ramp_is_read_exactly),
-        cmocka_unit_test(test_probes_lie_at_interval_midpoints),
-        cmocka_unit_test(test_address_modes),
-        cmocka_unit_test(test_any_coordinate_is_read_from_inside),
-        cmocka_unit_test(test_mip_colours_go_by_size),
-        cmocka_unit_test(test_high_performance_drops_levels_by_size),
+        cmocka_unit_test(srgb_is_the_published_curve),
+        cmocka_unit_test(mip_levels_keep_the_mean),
+        cmocka_unit_test(odd_sizes_are_weighted_by_area),
+        cmocka_unit_test(a_ramp_is_read_exactly),
+        cmocka_unit_test(probes_lie_at_interval_midpoints),
+        cmocka_unit_test(coordinates_repeat_or_clamp_as_the_address_mode_says),
+        cmocka_unit_test(any_coordinate_is_read_from_inside_the_texture),
+        cmocka_unit_test(mip_colours_follow_the_level_size),
+        cmocka_unit_test(high_performance_drops_levels_by_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

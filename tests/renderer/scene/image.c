@@ -1,4 +1,4 @@
-// Comparing a drawn frame with the picture it should be.
+// Compares a drawn frame with the picture that is expected.
 #include "tests/renderer/scene/image.h"
 
 #include <math.h>

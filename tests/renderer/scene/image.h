@@ -1,4 +1,4 @@
-// Comparing a drawn frame with the picture it should be.
+// Compares a drawn frame with the picture that is expected.
 #ifndef DIP_TESTS_RENDERER_SCENE_IMAGE_H
 #define DIP_TESTS_RENDERER_SCENE_IMAGE_H
 
@@ -7,33 +7,36 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Errors are in linear light, 0..1; a pixel's error is the greatest of its channels.
+// The error of a frame. Errors are in linear light, 0..1. The error of a pixel is that of its worst
+// channel.
 typedef struct DipImageError {
     double rms_lin;
-    double mean_lin; // of the absolute differences
+    double mean_lin; // mean absolute difference
     double max_lin;
-    double psnr_db;    // on sRGB codes; infinite for equal pictures
-    size_t over_count; // pixels with more than pixel_lin
-    int first_x;       // of these, in reading order; -1 for none
+    double psnr_db;    // of sRGB codes; infinite if the pictures are equal
+    size_t over_count; // number of pixels whose error is greater than pixel_lin
+    int first_x;       // the first such pixel in reading order; -1 if there is none
     int first_y;
 } DipImageError;
 
-// rgb_lin: expected, width*height*3, not encoded. The frame's bytes are decoded.
+// Compares a frame, whose bytes are decoded to linear light, with the expected picture: rgb_lin has
+// width*height*3 values in linear light.
 DipImageError dip_image_compare(const double *rgb_lin, const DipFrame *frame, double pixel_lin);
 
-// Of two pictures in linear light.
+// Returns the RMS difference of two pictures in linear light.
 double dip_image_rms(const double *a, const double *b, size_t value_count);
 
 typedef struct DipImageBounds {
     double rms_lin;
-    double pixel_lin;    // a pixel may be off by this much,
-    double over_share;   // and this share of the pixels by more,
-    double over_max_lin; // but none by more than this
+    double pixel_lin;    // the error that any pixel may have
+    double over_share;   // the share of pixels whose error may be greater
+    double over_max_lin; // the error that no pixel may exceed
 } DipImageBounds;
 
-// Whether the frame keeps the bounds. If not, says how many pixels are over, the first of them and
-// both its colours, and writes <name>_expected.png, _got.png and _difference.png (absolute
-// difference in linear light, 16 times) to the working folder.
+// Returns true if the frame stays within the bounds. Otherwise prints the number of pixels with too
+// great an error, and the first of them with its expected and its actual colour, and writes
+// <name>_expected.png, <name>_got.png and <name>_difference.png (16 times the absolute difference
+// in linear light) to the working folder.
 bool dip_image_check(const char *name, const double *rgb_lin, const DipFrame *frame,
                      const DipImageBounds *bounds);
 

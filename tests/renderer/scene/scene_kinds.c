@@ -1,4 +1,4 @@
-// Scenes made in code: the list of kinds.
+// Scenes made in code: one function per kind.
 #include "tests/renderer/random.h"
 #include "tests/renderer/scene/scenes_private.h"
 
@@ -19,7 +19,7 @@ static void make_grazing_rolled(DipTestScene *scene) {
     dip_test_scene_make_grazing(scene, DIP_TEST_CHECKER, 256, 45.0);
 }
 
-// Six quads about the origin, facing out, with sides of 1.
+// Adds a cube with sides of 1 m around a centre: six quads that face outwards.
 static void add_cube(DipTestScene *scene, int material, const float centre[3]) {
     static const float axes[6][6] = {{0, 0, -1, 0, 1, 0}, {0, 0, 1, 0, 1, 0}, {1, 0, 0, 0, 0, -1},
                                      {1, 0, 0, 0, 0, 1},  {1, 0, 0, 0, 1, 0}, {-1, 0, 0, 0, 1, 0}};
@@ -57,7 +57,8 @@ static void make_cube_on_plane(DipTestScene *scene) {
     scene->materials[sides].lit = true;
     scene->materials[sides].base_colour_lin[2] = 0.5f;
     dip_test_scene_add_ground(scene, ground);
-    // On the ground's own vertices: never seen, since the first submitted stays.
+    // The decal lies on the ground's own vertices. It is never visible, since the first of coplanar
+    // surfaces stays.
     const int decal = dip_test_scene_add_material(scene, DIP_NO_TEXTURE);
     dip_test_scene_add_ground(scene, decal);
     add_cube(scene, sides, (const float[]){0.3f, -0.5f, -3.0f});
@@ -156,7 +157,7 @@ static void make_huge(DipTestScene *scene) {
     const int texture = dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 256, 256);
     const int material = dip_test_scene_add_material(scene, texture);
     scene->materials[material].double_sided = true;
-    // A floor, a leaning wall and a ceiling that all begin behind the eye.
+    // A floor, a leaning wall and a ceiling, which all begin behind the eye.
     dip_test_scene_add_quad(scene, material, (const float[]){-3000, -0.7f, 900},
                             (const float[]){6000, 1, 0}, (const float[]){0, 0, -6000}, 600, 600);
     dip_test_scene_add_quad(scene, material, (const float[]){3, -900, 700},
@@ -247,9 +248,9 @@ static void make_lit_sphere(DipTestScene *scene) {
     fill_sphere(&mesh);
     static const float transforms[4][12] = {
         {1, 0, 0, -1.3f, 0, 1, 0, 0.9f, 0, 0, 1, -4},
-        {1.2f, 0.3f, 0, 1.4f, 0, 0.4f, 0, 0.9f, 0, 0, 0.8f, -4},          // uneven, sheared
-        {-0.9f, 0, 0, -1.2f, 0, 0.9f, 0, -1.1f, 0, 0, 0.9f, -4},          // mirrored
-        {4e-4f, 0, 0, 1.2e-3f, 0, 4e-4f, 0, -1e-3f, 0, 0, 4e-4f, -4e-3f}, // tiny, at the eye
+        {1.2f, 0.3f, 0, 1.4f, 0, 0.4f, 0, 0.9f, 0, 0, 0.8f, -4}, // scaled unevenly and sheared
+        {-0.9f, 0, 0, -1.2f, 0, 0.9f, 0, -1.1f, 0, 0, 0.9f, -4}, // mirrored
+        {4e-4f, 0, 0, 1.2e-3f, 0, 4e-4f, 0, -1e-3f, 0, 0, 4e-4f, -4e-3f}, // tiny, close to the eye
     };
     scene->def.object_count = 4;
     scene->def.near_m = 0.001f;
@@ -269,7 +270,7 @@ static void make_light_map(DipTestScene *scene) {
     const int material = dip_test_scene_add_material(scene, texture);
     scene->materials[material].light_map = light;
     scene->materials[material].light_map_scale = 2.0f;
-    scene->materials[material].lit = true; // the light map goes before the normals
+    scene->materials[material].lit = true; // the light map takes precedence over the normals
     const DipTestMesh mesh = dip_test_scene_add_mesh(
         scene, 4, 6, DIP_TEST_UV0 | DIP_TEST_UV1 | DIP_TEST_NORMALS, material);
     static const float positions[12] = {-3, -1, -1, 3, -1, -1, 3, -1, -12, -3, -1, -12};
@@ -285,7 +286,8 @@ static void make_light_map(DipTestScene *scene) {
     }
 }
 
-// A quad with normals along +z or, lying, +y, and all arrays; corners as positions go.
+// Adds a quad with all arrays. Its normals point along +z or, if it lies on the ground, along +y.
+// Texture coordinates follow the order of the positions.
 static void add_bumpy_quad(DipTestScene *scene, int material, const float positions[12],
                            const float uv0[8], bool lies) {
     const DipTestMesh mesh = dip_test_scene_add_mesh(
@@ -303,7 +305,7 @@ static void add_bumpy_quad(DipTestScene *scene, int material, const float positi
     }
 }
 
-// Longitude along u, latitude along v; at the poles coordinates have no area.
+// Sets longitude along u and latitude along v. At the poles the coordinates have no area.
 static void wrap_sphere(const DipTestMesh *mesh) {
     for (int r = 0; r <= RINGS; r++) {
         for (int s = 0; s <= SECTORS; s++) {
@@ -338,7 +340,8 @@ static void make_normal_map(DipTestScene *scene) {
     static const float floor_at[12] = {-3, -1, -1, 3, -1, -1, 3, -1, -12, -3, -1, -12};
     static const float wall_at[12] = {-3, -1, -8, 0, -1, -8, 0, 2, -8, -3, 2, -8};
     static const float flat_at[12] = {0, -1, -8, 1, -1, -8, 1, 2, -8, 0, 2, -8};
-    static const float sheet_at[12] = {3, -1, -7, 1, -1, -7, 1, 2, -7, 3, 2, -7}; // from behind
+    static const float sheet_at[12] = {3, -1, -7, 1, -1, -7,
+                                       1, 2,  -7, 3, 2,  -7}; // seen from behind
     static const float tiled[8] = {0, 5, 3, 5, 3, 0, 0, 0};
     static const float mirrored[8] = {2, 2, 0, 2, 0, 0, 2, 0};
     static const float nowhere[8] = {0.3f, 0.6f, 0.3f, 0.6f, 0.3f, 0.6f, 0.3f, 0.6f};
@@ -369,7 +372,7 @@ static void add_clouds(DipTestScene *scene, const float corner[3]) {
 static void make_sky(DipTestScene *scene) {
     dip_test_scene_begin(scene);
     add_clouds(scene, (const float[]){-400, 60, 120});
-    // Round, and up by 35 degrees: the sun stands to the right.
+    // Turned around and up by 35 degrees, so that the sun is to the right.
     const double up = 35.0 * pi / 360.0;
     scene->pose.orientation[0] = 0.0;
     scene->pose.orientation[1] = cos(up);

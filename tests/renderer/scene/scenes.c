@@ -1,4 +1,4 @@
-// Scenes made in code: the parts they are built from and the grazing plane.
+// Scenes made in code: the parts that they are built from, and the grazing plane.
 #include "tests/renderer/scene/scenes.h"
 
 #include "tests/renderer/random.h"
@@ -14,7 +14,7 @@ static const double pi = 3.14159265358979323846;
 void *dip_test_scene_alloc(DipTestScene *scene, size_t count, size_t size) {
     void *block = scene->block_count < DIP_TEST_SCENE_BLOCKS ? calloc(count + 1, size) : NULL;
     if (!block) {
-        fprintf(stderr, "no room for a test scene\n");
+        fprintf(stderr, "a test scene needs more blocks or memory than there are\n");
         abort();
     }
     scene->blocks[scene->block_count++] = block;
@@ -89,7 +89,7 @@ int dip_test_scene_add_material(DipTestScene *scene, int colour_texture) {
     return scene->def.material_count++;
 }
 
-// A texture of linear encoding with size x size texels of zero.
+// Adds a texture of linear encoding with size x size texels of zero.
 static uint8_t *add_data(DipTestScene *scene, int size) {
     uint8_t *rgba8 = dip_test_scene_alloc(scene, (size_t)size * (size_t)size, 4);
     scene->textures[scene->def.texture_count++] = (DipTextureDef){.name = "test",
@@ -187,7 +187,7 @@ void dip_test_scene_make_grazing(DipTestScene *scene, DipTestTexture texture, in
     const int material =
         dip_test_scene_add_material(scene, dip_test_scene_add_texture(scene, texture, size, size));
     dip_test_scene_add_ground(scene, material);
-    // Half turns about the view axis, after looking down a little.
+    // Half the angles of two rotations: first down a little, then about the view axis.
     const double roll = roll_deg * pi / 360.0;
     const double down = -6.0 * pi / 360.0;
     scene->pose.orientation[0] = sin(down) * cos(roll);

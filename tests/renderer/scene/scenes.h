@@ -1,4 +1,4 @@
-// Scenes made in code for picture tests, each with a pose that shows what it is about.
+// Scenes made in code for picture tests, each with a pose that shows what the scene tests.
 #ifndef DIP_TESTS_RENDERER_SCENE_SCENES_H
 #define DIP_TESTS_RENDERER_SCENE_SCENES_H
 
@@ -6,25 +6,27 @@
 #include "renderer/scene/reflection.h"
 #include "renderer/scene/scene.h"
 
-// X(name, "what it is about")
+// The kinds of scenes. X(name, "what the scene tests")
 #define DIP_TEST_SCENE_LIST(X)                                                                     \
     X(grazing_checker, "a plane to the horizon, 512-texel checker")                                \
-    X(grazing_noise, "the same, 1024-texel noise, rolled by 22.5 degrees")                         \
-    X(grazing_rolled, "the same, 256-texel checker, rolled by 45 degrees")                         \
-    X(cube_on_plane, "closed mesh over a textured plane, coplanar decal")                          \
-    X(fence, "alpha-clipped bars of 4 in 32 texels before a plane")                                \
-    X(soup, "400 random triangles, double-sided, vertex colours")                                  \
-    X(slivers, "triangles thinner than a pixel and than 1/256 pixel")                              \
+    X(grazing_noise, "a plane to the horizon, 1024-texel noise, rolled by 22.5 degrees")           \
+    X(grazing_rolled, "a plane to the horizon, 256-texel checker, rolled by 45 degrees")           \
+    X(cube_on_plane, "a closed mesh over a textured plane, and a coplanar decal")                  \
+    X(fence, "alpha-clipped bars, 4 of every 32 texels wide, in front of a plane")                 \
+    X(soup, "400 random triangles, double-sided, with vertex colours")                             \
+    X(slivers, "triangles thinner than a pixel, some thinner than 1/256 pixel")                    \
     X(huge, "triangles that cross the near plane and reach far beyond the guard band")             \
-    X(odd_textures, "1x1, 7x5, 1x9 texels, repeat and clamp, coordinates beyond 0..1")             \
+    X(odd_textures,                                                                                \
+      "textures of 1x1, 7x5 and 1x9 texels, repeated and clamped, coordinates outside 0..1")       \
     X(vertex_colours, "vertex colours over a perspective quad, no texture")                        \
-    X(lit_sphere, "smooth normals, also scaled unevenly, mirrored and very small")                 \
-    X(light_map, "second coordinates, scaled light map, linear encoding")                          \
+    X(lit_sphere, "spheres with smooth normals, also scaled unevenly, mirrored and very small")    \
+    X(light_map, "a scaled light map at second texture coordinates, linear encoding")              \
     X(normal_map,                                                                                  \
-      "bumps under light map and sun; coordinates mirrored, without area, on a sphere")            \
+      "bumps under a light map and the sun; coordinates mirrored, without area, on a sphere")      \
     X(sky, "two layers of cloud over a quad to the horizon")                                       \
     X(water, "pools at two heights that reflect what stands in and around them")                   \
-    X(water_effects, "a pool under clouds, before a fence and bumps: all effects, mirrored too")
+    X(water_effects,                                                                               \
+      "a pool under clouds by a fence and a bumpy wall: all effects, which the pool mirrors")
 
 typedef enum DipTestSceneKind {
 #define DIP_TEST_SCENE_ENUM(name, text) DIP_TEST_SCENE_##name,
@@ -35,11 +37,12 @@ typedef enum DipTestSceneKind {
 
 enum { DIP_TEST_SCENE_PARTS = 8, DIP_TEST_SCENE_BLOCKS = 64 };
 
-// Owns all that def points to. def points into the struct: it must not be copied or moved.
+// A scene. It owns everything that def points to. def points into this struct, which must therefore
+// not be copied or moved.
 typedef struct DipTestScene {
     DipSceneDef def;
     DipPose pose;
-    DipReflectionDef reflection; // width 0 unless the scene is about it
+    DipReflectionDef reflection; // width 0 if the scene does not test water
     DipTextureDef textures[DIP_TEST_SCENE_PARTS];
     DipMaterialDef materials[DIP_TEST_SCENE_PARTS];
     DipMeshDef meshes[DIP_TEST_SCENE_PARTS];
@@ -54,29 +57,32 @@ void dip_test_scene_free(DipTestScene *scene);
 
 typedef enum DipTestTexture { DIP_TEST_CHECKER, DIP_TEST_NOISE } DipTestTexture;
 
-// A plane 1 m below the eye, seen towards the horizon, with the camera rolled about its axis. The
-// texture repeats every metre.
+// Makes a plane 1 m below the eye that reaches to the horizon, seen by a camera that is rolled
+// about its view axis. The texture repeats every metre.
 void dip_test_scene_make_grazing(DipTestScene *scene, DipTestTexture texture, int size,
                                  double roll_deg);
 
-// --- parts, for tests that build their own -----------------------------------------------------
+// --- parts, for tests that build their own scenes ----------------------------------------------
 
-// An empty scene: grey background, near plane at 0.1 m, camera at the origin, 60 degrees high.
+// Begins an empty scene with a grey background, a near plane at 0.1 m, and a camera at the origin
+// with a vertical field of view of 60 degrees.
 void dip_test_scene_begin(DipTestScene *scene);
 
-// Zeroed memory that the scene owns.
+// Allocates zeroed memory that the scene owns.
 void *dip_test_scene_alloc(DipTestScene *scene, size_t count, size_t size);
 
-// Each returns the index of what it added. Texels are opaque; they may be written after.
+// Each of these functions returns the index of what it added. Texels are opaque; the test may
+// change them afterwards.
 int dip_test_scene_add_texture(DipTestScene *scene, DipTestTexture texture, int width, int height);
 int dip_test_scene_add_material(DipTestScene *scene, int colour_texture);
 
-// A normal map of round bumps that repeats, and a sky's data: soft noise. Linear encoding.
+// Adds a normal map of round bumps, which can be repeated, or soft noise as the data of a sky. The
+// encoding is linear.
 int dip_test_scene_add_bumps(DipTestScene *scene, int size);
 int dip_test_scene_add_clouds(DipTestScene *scene, int size);
 uint8_t *dip_test_scene_texels(DipTestScene *scene, int texture);
 
-// Arrays of a mesh that is being made; those of a kind not asked for are NULL.
+// The arrays of a mesh that is being made. Arrays that the test did not ask for are NULL.
 typedef struct DipTestMesh {
     float *positions;
     float *normals;
@@ -88,11 +94,12 @@ typedef struct DipTestMesh {
 
 enum { DIP_TEST_NORMALS = 1, DIP_TEST_UV0 = 2, DIP_TEST_UV1 = 4, DIP_TEST_COLOURS = 8 };
 
-// Adds a mesh and an object that places it as it is; the arrays are to be filled in.
+// Adds a mesh, and an object that draws it without a transform. The test fills the arrays.
 DipTestMesh dip_test_scene_add_mesh(DipTestScene *scene, uint32_t vertex_count,
                                     uint32_t index_count, int arrays, int material);
 
-// A quad of corner p and sides a and b, facing along a x b, uv0 (0,0)..(u,v) along a and b.
+// Adds a quad with corner p and sides a and b that faces along a x b. Its uv0 run from (0,0) to
+// (u,v) along a and b.
 void dip_test_scene_add_quad(DipTestScene *scene, int material, const float p[3], const float a[3],
                              const float b[3], float u, float v);
 

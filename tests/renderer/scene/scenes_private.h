@@ -1,10 +1,10 @@
-// What the two files of scenes share.
+// Shared by the two source files that make scenes.
 #ifndef DIP_TESTS_RENDERER_SCENE_SCENES_PRIVATE_H
 #define DIP_TESTS_RENDERER_SCENE_SCENES_PRIVATE_H
 
 #include "tests/renderer/scene/scenes.h"
 
-// A plane 1 m below the origin that reaches 195 m ahead; the texture repeats every metre.
+// Adds a plane 1 m below the origin that reaches 195 m ahead. The texture repeats every metre.
 void dip_test_scene_add_ground(DipTestScene *scene, int material);
 
 #endif

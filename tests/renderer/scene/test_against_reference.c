@@ -1,4 +1,5 @@
-// The fast path against the reference path: every step of every setting over scenes made in code.
+// Compares the fast renderer with the reference: every step of every setting, on scenes made in
+// code.
 #include "renderer/reference/reference.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/image.h"
@@ -15,9 +16,9 @@
 
 static const int sizes[][2] = {{160, 120}, {97, 61}};
 
-static const int64_t time_ns = INT64_C(123456789012); // for what moves
+static const int64_t time_ns = INT64_C(123456789012); // of everything that moves
 
-// One scene in both paths.
+// One scene in both renderers.
 typedef struct Pair {
     DipTestScene scene;
     DipReference *reference;
@@ -69,33 +70,36 @@ static void close_pair(Pair *pair) {
     free(pair->expected);
 }
 
-// Where nothing can flip, what remains is the frame's 8 bits (half a code is up to 0.0045 at white)
-// and the fast path's texels and floats.
+// The bounds of scenes in which no sample can flip. The remaining differences come from the frame's
+// 8 bits (half a code is up to 0.0045 at white) and from the fast renderer's texels and floats.
 static const DipImageBounds steady = {0.0016, 0.01, 0.0, 0.01};
 
 static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *quality) {
-    // A clipped pixel whose alpha is close to the cutoff may come or go.
+    // A clipped pixel whose alpha is close to the cutoff may appear or disappear.
     static const DipImageBounds fence = {0.004, 0.01, 0.0015, 1.0};
     static const DipImageBounds fence_mips = {0.010, 0.01, 0.0015, 1.0};
-    // Bright, and so are its few that flip.
+    // This scene is bright, and so are its few pixels that flip.
     static const DipImageBounds mirrored_fence = {0.008, 0.01, 0.0015, 1.0};
-    // With passes there are more columns of places that may lie on the edge of an upright bar,
-    // where u is the same along the bar's length; each weighs a pass' samples only.
+    // With sample groups, there are more columns of positions that may lie on the edge of an
+    // upright bar, along which u is constant. Each position decides about the samples of one group
+    // only.
     static const DipImageBounds fence_passes = {0.004, 0.01, 0.006, 0.5};
-    // A position that falls between two steps may be rounded to either; a sliver shows that most.
+    // A position between two steps may be rounded to either; slivers show this most.
     static const DipImageBounds slivers = {0.004, 0.01, 0.001, 0.5};
     // Corners that the guard band cuts are rounded too. On a floor that runs from the eye to the
-    // horizon 1/512 pixel there moves 1/w by a tenth at the far edge, hence the level of detail.
-    // With AF the number of probes of the coarser level follows from that in steps.
+    // horizon, an error of 1/512 pixel there changes 1/w by a tenth at the far edge, and with it
+    // the level of detail. With AF, the number of probes in the coarser level changes in steps with
+    // the level of detail.
     static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.05};
     static const DipImageBounds huge_af = {0.0025, 0.025, 0.0005, 0.08};
     static const DipImageBounds huge_mips = {0.06, 0.01, 0.03, 1.0};
-    // The narrow blend between levels makes four times of a difference in the level of detail.
+    // The narrow blend multiplies a difference in the level of detail by four.
     static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
     static const DipImageBounds huge_narrow = {0.0025, 0.025, 0.0005, 0.1};
-    // What water shows is rounded to 8 bits twice, and sharper than with the wide blend.
+    // Reflections in water are rounded to 8 bits twice, and are sharper than with the wide blend.
     static const DipImageBounds water_narrow = {0.0018, 0.01, 0.0, 0.01};
-    // A displacement read from rounded texels moves the clouds, whose edges the cover steepens.
+    // A displacement that is read from rounded texels moves the clouds; the cover makes their edges
+    // steep.
     static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
     const bool narrow = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
@@ -139,8 +143,8 @@ static bool matches(Pair *pair, DipTestSceneKind kind, const char *settings, int
     return dip_image_check(name, pair->expected, &frame, bounds_of(kind, &quality));
 }
 
-// All settings of the list over all scenes and sizes, in the first frames of each, before any
-// failure is told.
+// Compares all settings of the list in all scenes and sizes, in the first frames of each, and
+// reports all failures before it fails.
 static void check_all(const char *const *settings, size_t count, int frame_count) {
     int missed = 0;
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
@@ -163,18 +167,18 @@ static void check_all(const char *const *settings, size_t count, int frame_count
         check_all(settings, sizeof settings / sizeof settings[0], frame_count);                    \
     } while (0)
 
-static void test_antialiasing(void **state) {
+static void antialiasing_matches_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "aa=none", "aa=2", "aa=4", "aa=6", "aa=8", "aa=4,af=16,aaf=on", "aa=6,af=4");
 }
 
-static void test_temporal_antialiasing(void **state) {
+static void temporal_antialiasing_matches_the_reference(void **state) {
     (void)state;
     CHECK_ALL(2, "aa=2,taa=on", "aa=4,taa=on", "aa=6,taa=on", "aa=8,taa=on",
               "aa=8,taa=on,aaa=on,asd=2,af=4");
 }
 
-static void test_adaptive_antialiasing(void **state) {
+static void adaptive_antialiasing_matches_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "aaa=on", "aa=2,aaa=on", "aa=2,aaa=on,asd=2", "aa=4,aaa=on", "aa=4,aaa=on,asd=2",
               "aa=6,aaa=on", "aa=6,aaa=on,asd=2", "aa=6,aaa=on,asd=3", "aa=8,aaa=on",
@@ -182,25 +186,25 @@ static void test_adaptive_antialiasing(void **state) {
               "aa=4,aaa=on,asd=2,af=16,aaf=on", "aa=6,aaa=on,miplod=high-performance");
 }
 
-static void test_anisotropy(void **state) {
+static void anisotropic_filtering_matches_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "af=2", "af=4", "af=8", "af=16", "af=2,aaf=on", "af=4,aaf=on", "af=8,aaf=on",
               "af=16,aaf=on", "aaf=on");
 }
 
-static void test_mip_level_of_detail(void **state) {
+static void mip_level_of_detail_matches_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "miplod=quality", "miplod=performance", "miplod=high-performance",
               "miplod=high-performance,af=16,aaf=on", "miplod=quality,af=8,aa=2");
 }
 
-static void test_mip_colours(void **state) {
+static void mip_colours_match_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "mipdebug=on", "mipdebug=on,af=16", "mipdebug=on,af=16,aaf=on,aa=4",
               "mipdebug=on,miplod=high-performance");
 }
 
-static void test_texture_optimisation(void **state) {
+static void texture_optimisation_matches_the_reference(void **state) {
     (void)state;
     CHECK_ALL(1, "opt=standard", "opt=standard,af=16,aaf=on,aa=4", "opt=advanced",
               "opt=advanced,af=2", "opt=advanced,af=8", "opt=advanced,af=16,aaf=on",
@@ -210,10 +214,13 @@ static void test_texture_optimisation(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_antialiasing),          cmocka_unit_test(test_temporal_antialiasing),
-        cmocka_unit_test(test_adaptive_antialiasing), cmocka_unit_test(test_anisotropy),
-        cmocka_unit_test(test_mip_level_of_detail),   cmocka_unit_test(test_mip_colours),
-        cmocka_unit_test(test_texture_optimisation),
+        cmocka_unit_test(antialiasing_matches_the_reference),
+        cmocka_unit_test(temporal_antialiasing_matches_the_reference),
+        cmocka_unit_test(adaptive_antialiasing_matches_the_reference),
+        cmocka_unit_test(anisotropic_filtering_matches_the_reference),
+        cmocka_unit_test(mip_level_of_detail_matches_the_reference),
+        cmocka_unit_test(mip_colours_match_the_reference),
+        cmocka_unit_test(texture_optimisation_matches_the_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-// A frame allocates nothing: after a scene's first frame, drawing it with any settings, along any
-// camera, calls no allocator. The linker sends the library's calls here (--wrap).
+// Tests that a frame allocates nothing: after the first frame of a scene, drawing it with any
+// settings and any camera calls no allocator. The linker redirects the library's calls to this file
+// (--wrap).
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
 
@@ -12,7 +13,7 @@
 
 #include <cmocka.h>
 
-static atomic_int calls; // workers allocate too
+static atomic_int calls; // atomic, since workers allocate too
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
@@ -43,8 +44,8 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return __real_aligned_alloc(alignment, size);
 }
 
-// Draws with the steps of every setting from several places, alone and beside another pane; returns
-// the allocations that took.
+// Draws with the steps of every setting from several positions, alone and together with another
+// pane. Returns the number of allocations.
 static int draw_everything(DipRenderer *const panes[2], const DipScene *scene, DipPose pose,
                            bool instancing) {
     const int before = atomic_load(&calls);
@@ -70,7 +71,7 @@ static int draw_everything(DipRenderer *const panes[2], const DipScene *scene, D
     return atomic_load(&calls) - before;
 }
 
-static void frames_allocate_nothing(void **state) {
+static void frames_after_the_first_allocate_nothing(void **state) {
     (void)state;
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
         static DipTestScene scene;
@@ -86,18 +87,19 @@ static void frames_allocate_nothing(void **state) {
         DipRenderer *panes[2] = {dip_renderer_create(&def, NULL), dip_renderer_create(&def, NULL)};
         DipFrame frame;
         assert_true(panes[0] && panes[1]);
-        assert_true(atomic_load(&calls) > before); // the count works
-        // The first frame sees nothing: what it makes room for does not depend on the view.
+        assert_true(atomic_load(&calls) > before); // proves that calls are counted
+        // The first frame shows nothing: the memory that it allocates does not depend on the view.
         DipPose away = scene.pose;
         away.position_world[1] += 1000.0;
         away.orientation[0] = away.orientation[3] = 0.7071067811865476;
         for (int p = 0; p < 2; p++) {
             assert_true(dip_renderer_draw(panes[p], fast, &away, 0, &frame, NULL));
         }
-        // Made ahead; then a frame of either kind finds what it needs.
+        // Textures are compressed ahead, so that frames with and without compression find what they
+        // need.
         assert_true(dip_scene_compress_textures(fast, pool, NULL));
         assert_int_equal(draw_everything(panes, fast, scene.pose, true), 0);
-        // The first frame without instancing makes the objects' own meshes.
+        // The first frame without instancing creates a mesh for each object.
         (void)draw_everything(panes, fast, scene.pose, false);
         assert_int_equal(draw_everything(panes, fast, scene.pose, false), 0);
         dip_renderer_destroy(&panes[0]);
@@ -109,6 +111,6 @@ static void frames_allocate_nothing(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(frames_allocate_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(frames_after_the_first_allocate_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// A million triangles: drawn alike by any number of threads, in memory that follows what is in
-// view, and at next to no cost where they are not.
+// Draws a million triangles: any number of threads gives the same picture, memory follows what is
+// in view, and triangles out of view cost next to nothing.
 #include "renderer/scene/renderer.h"
 
 #include <setjmp.h>
@@ -14,7 +14,7 @@
 
 enum { SIDE = 708, TRIANGLES = 2 * SIDE * SIDE, MOST_MIB = 600 };
 
-// A square of 20 m in front of a camera at the origin, in waves of depth.
+// Makes a square with sides of 20 m in front of a camera at the origin, with waves in depth.
 static DipScene *make_scene(void) {
     float *positions = malloc(sizeof(float) * 3 * (SIDE + 1) * (SIDE + 1));
     float *colours = malloc(sizeof(float) * 3 * (SIDE + 1) * (SIDE + 1));
@@ -100,7 +100,7 @@ static Drawn draw(const DipScene *scene, int threads) {
     return drawn;
 }
 
-static void a_million_triangles(void **state) {
+static void a_million_triangles_draw_alike_and_cost_little_out_of_view(void **state) {
     (void)state;
     DipScene *scene = make_scene();
     const Drawn one = draw(scene, 1);
@@ -118,6 +118,7 @@ static void a_million_triangles(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_million_triangles)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_million_triangles_draw_alike_and_cost_little_out_of_view)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

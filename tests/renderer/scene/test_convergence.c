@@ -1,8 +1,8 @@
-// What the settings buy: the error against the converged reference along the courtyard's paths
-// must fall at every step of antialiasing and of anisotropic filtering.
+// Tests that the settings improve the picture: along the courtyard's paths, the error against the
+// converged reference must fall at every step of antialiasing and of anisotropic filtering.
 //
 // Usage: test_convergence [--samples N] [--frames N] [--size WxH]
-// Error: RMS over all pixels and channels in linear light of the path's frames.
+// The error is the RMS over all pixels and channels of the path's frames, in linear light.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/base/srgb.h"
@@ -31,10 +31,10 @@ typedef struct Bench {
     DipReference *reference;
     DipRenderer *renderer;
     DipSrgbDecodeTable srgb;
-    double *truth; // of all frames
+    double *truth; // converged pictures of all frames
 } Bench;
 
-// A path and settings whose errors must fall from row to row.
+// A path and a list of settings whose errors must fall from row to row.
 typedef struct Sweep {
     const char *path;
     double fov_y_deg;
@@ -193,7 +193,7 @@ static bool run_sweep(Bench *bench, const Sweep *sweep, const DipPose *poses) {
     return falls;
 }
 
-// Runs every sweep, with one converged truth per path.
+// Runs every sweep. The frames of each path are converged once.
 static bool run_all(Bench *bench) {
     bool passed = true;
     const char *truth_of = "";

@@ -1,7 +1,7 @@
-// The courtyard as the fast path and as the reference draw it, along every path.
+// Compares the courtyard as the fast renderer and as the reference draw it, along every path.
 //
 // Usage: test_courtyard [--size WxH] [--frames N] [--time]
-// --time: only prints what the reference takes, milliseconds.
+// --time compares nothing. It prints how long the reference takes, in milliseconds.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/base/clock.h"
@@ -27,8 +27,8 @@ static const char *const settings[] = {
     "opt=advanced,aa=2,af=16",
 };
 
-// Rounding of positions and of alpha near the cutoff moves single samples of the fence and of far,
-// small triangles; all else is as near as eight bits allow.
+// Rounding of positions, and of alpha close to the cutoff, moves single samples of the fence and of
+// small triangles far away. Everything else is as close as eight bits allow.
 static const DipImageBounds bounds = {0.012, 0.02, 0.002, 1.0};
 
 static const DipReflectionDef reflection = {.width = 80, .height = 60, .level_m = 0.66};
@@ -123,7 +123,7 @@ static void print_times(Court *court, const DipPose *pose) {
     }
 }
 
-// Returns how many frames missed, or -1.
+// Returns the number of frames that missed the bounds, or -1 on failure.
 static int follow(Court *court, const char *name, bool only_time) {
     char file[512];
     DipError err = {0};

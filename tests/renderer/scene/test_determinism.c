@@ -1,10 +1,11 @@
-// The courtyard along the ambient path, every antialiasing and filtering step, drawn with every
-// thread count and instruction set: all must give the hashes of one list, which gcc and clang
-// builds share. A missing or changed hash fails, and so does a difference in any work counter.
+// Draws the courtyard along the ambient path, with every step of antialiasing and filtering, every
+// thread count and every instruction set. All pictures must have the hashes of one list, which the
+// gcc and clang builds share. A missing or different hash fails, and so does a difference in any
+// work counter.
 //
 // Usage: test_determinism LIST [--write] [--every N] [--size WxH]
-// --write makes the list with the scalar kernels on one thread. --every N draws every N-th frame of
-// the path instead of the list's few and compares the combinations with each other.
+// --write creates the list, with the scalar kernels on one thread. --every N draws every N-th frame
+// of the path, not only the list's few frames, and compares the combinations with each other.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/scene/renderer.h"
@@ -18,7 +19,7 @@ enum { MAX_SETTINGS = 64, FEW = 3, FRAMES_PER_SECOND = 30 };
 typedef struct Options {
     const char *list;
     bool write;
-    int every; // 0: the list's few frames
+    int every; // 0: only the list's few frames
     int width;
     int height;
 } Options;
@@ -31,7 +32,7 @@ typedef struct Stage {
     int frames[4096];
     int frame_count;
     Options options;
-    DipCounters *work; // of the first run, per setting and frame
+    DipCounters *work; // counters of the first run, per setting and frame
     bool work_known;
 } Stage;
 
@@ -116,7 +117,8 @@ static void list_frames(Stage *stage) {
 // One hash per setting and frame, 33 characters each.
 typedef char Hash[33];
 
-// Counters are the same everywhere, too: those of the first run are kept, others held to them.
+// Counters must be the same everywhere, too. Keeps those of the first run and compares all others
+// with them.
 static bool check_work(Stage *stage, int index, const DipCounters *counters) {
     if (!stage->work_known) {
         stage->work[index] = *counters;
@@ -124,7 +126,7 @@ static bool check_work(Stage *stage, int index, const DipCounters *counters) {
     if (memcmp(&stage->work[index], counters, sizeof *counters) == 0) {
         return true;
     }
-    fprintf(stderr, "%s frame %d: its counters differ from the first run's\n",
+    fprintf(stderr, "%s frame %d: the counters differ from those of the first run\n",
             stage->settings[index / stage->frame_count], stage->frames[index % stage->frame_count]);
     return false;
 }
@@ -192,7 +194,7 @@ static bool read_list(const Stage *stage, Hash *hashes) {
     if (list) {
         fclose(list);
     }
-    return complete || !fail("the list is missing, or not of these settings and frames:", NULL);
+    return complete || !fail("the list is missing, or has other settings or frames:", NULL);
 }
 
 static int compare(const Stage *stage, const Hash *expected, const Hash *found, DipIsa isa,

@@ -1,5 +1,5 @@
-// Normal maps and the sky's clouds: light against formulas written out here, exact periods, and
-// that a scene without them spends nothing.
+// Tests normal maps and the sky's clouds: light against formulas written out in this file, exact
+// periods, and that a scene without these effects spends nothing on them.
 #include "renderer/scene/materials/sky.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
@@ -19,7 +19,7 @@ static const int64_t second_ns = INT64_C(1000000000);
 
 static DipTestScene scene;
 
-// A renderer of its own for `scene`.
+// A renderer for `scene`.
 typedef struct Stage {
     DipPool *pool;
     DipScene *scene;
@@ -73,7 +73,7 @@ static double decode(uint8_t code) {
     return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
 }
 
-// A wall before the eye, seen straight on, whose map's normal is (x, y, z) everywhere.
+// Makes a wall in front of the eye, seen straight on. The normal in its map is the same everywhere.
 static void make_wall(const int code[3], const float uv0[8], bool from_behind) {
     dip_test_scene_begin(&scene);
     const int map = dip_test_scene_add_bumps(&scene, 4);
@@ -103,7 +103,7 @@ static void make_wall(const int code[3], const float uv0[8], bool from_behind) {
     }
 }
 
-// What docs/picture.md says of a wall at right angles to the view whose normal is n.
+// The light that docs/picture.md defines for a wall perpendicular to the view with the normal n.
 static double expected_light(Vec n, double map_length) {
     Vec sun = {-0.42, 0.67, 0.61};
     Vec half = {0.0, 0.0, 1.0};
@@ -127,7 +127,7 @@ static void check_wall(const int code[3], const float uv0[8], bool from_behind, 
     const DipFrame frame = draw(&stage, 0);
     const Vec m = {(code[0] - 128) / 127.0, (code[1] - 128) / 127.0, (code[2] - 128) / 127.0};
     Vec n = {m[0] * right, m[1] * up, m[2]};
-    if (right == 0.0) { // the map says nothing
+    if (right == 0.0) { // the coordinates have no area, so the map has no effect
         n[0] = n[1] = 0.0;
         n[2] = 1.0;
     }
@@ -150,7 +150,8 @@ static void mapped_normals_are_lit_as_the_definition_says(void **state) {
     static const int flat[3] = {128, 128, 255};
     static const int leaning[3] = {204, 64, 214};
     static const int tilted[3] = {52, 128, 230};
-    static const int short_one[3] = {110, 150, 190}; // filtered: spreads the highlight
+    static const int short_one[3] = {110, 150,
+                                     190}; // shortened by filtering, so the highlight is wider
     check_wall(flat, upright, false, 1, 1);
     check_wall(leaning, upright, false, 1, 1);
     check_wall(leaning, mirrored, false, -1, 1);
@@ -159,8 +160,8 @@ static void mapped_normals_are_lit_as_the_definition_says(void **state) {
     check_wall(short_one, upright, false, 1, 1);
 }
 
-// Normals that cancel out: the mesh's own, with the widest highlight.
-static void a_zero_vector_leaves_the_meshs_normal(void **state) {
+// Where normals cancel out, the mesh's own normal remains, with the widest highlight.
+static void normals_that_cancel_out_leave_the_meshs_normal(void **state) {
     (void)state;
     make_wall((const int[]){128, 128, 128}, upright, false);
     Stage stage = open_stage(false);
@@ -173,7 +174,7 @@ static void a_zero_vector_leaves_the_meshs_normal(void **state) {
     dip_test_scene_free(&scene);
 }
 
-static void hard_coordinates_leave_the_meshs_normal(void **state) {
+static void coordinates_without_area_leave_the_meshs_normal(void **state) {
     (void)state;
     static const int leaning[3] = {204, 64, 214};
     static const float point[8] = {0.3f, 0.4f, 0.3f, 0.4f, 0.3f, 0.4f, 0.3f, 0.4f};
@@ -182,8 +183,8 @@ static void hard_coordinates_leave_the_meshs_normal(void **state) {
     check_wall(leaning, line, false, 0, 0);
 }
 
-// The mesh's normal counts on both sides; u grows to the left as the eye sees it.
-static void both_sides_have_one_normal(void **state) {
+// The mesh's normal applies to both sides. Seen from behind, u grows to the left.
+static void both_sides_of_a_surface_have_the_same_normal(void **state) {
     (void)state;
     static const int leaning[3] = {204, 64, 214};
     check_wall(leaning, upright, true, -1, 1);
@@ -202,7 +203,8 @@ static void phases_repeat_to_the_bit_and_run_evenly(void **state) {
             assert_true(dip_sky_phase(speeds[i], at) ==
                         dip_sky_phase(speeds[i], at + 1000 * period_ns));
         }
-        // A frame's step at 0 and after 32 years, modulo a width.
+        // The step from one frame to the next at time 0 and after 32 years, modulo one texture
+        // width.
         const int64_t late = INT64_C(1000000000) * second_ns + 12345;
         for (int frame = 0; frame < 100; frame++) {
             const int64_t dt = frame * INT64_C(16666667);
@@ -226,7 +228,7 @@ static void clouds_repeat_to_the_bit_and_move_between(void **state) {
     (void)state;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_sky);
     scene.def.sky.layers[0].speed_per_min = 0.5;   // 120 s
-    scene.def.sky.layers[1].speed_per_min = -0.75; // 80 s; both: 240 s
+    scene.def.sky.layers[1].speed_per_min = -0.75; // 80 s; both layers repeat after 240 s
     Stage stage = open_stage(false);
     const int64_t period_ns = 240 * second_ns;
     const int64_t long_ns = INT64_C(4166667) * period_ns; // 1e9 s and 80 s
@@ -237,7 +239,8 @@ static void clouds_repeat_to_the_bit_and_move_between(void **state) {
         assert_string_equal(first, again);
         hash_at(&stage, t + long_ns, again);
         assert_string_equal(first, again);
-        hash_at(&stage, t + 120 * second_ns, again); // the second layer's period has not passed
+        hash_at(&stage, t + 120 * second_ns,
+                again); // not a whole number of the second layer's periods
         assert_string_not_equal(first, again);
         hash_at(&stage, t + second_ns, again);
         assert_string_not_equal(first, again);
@@ -246,9 +249,9 @@ static void clouds_repeat_to_the_bit_and_move_between(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// --- only what is called for -------------------------------------------------------------------
+// --- cost only where needed ----------------------------------------------------------------------
 
-static void without_effects_nothing_is_spent(void **state) {
+static void scenes_without_effects_spend_nothing_on_them(void **state) {
     (void)state;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_light_map);
     Stage stage = open_stage(false);
@@ -262,7 +265,7 @@ static void without_effects_nothing_is_spent(void **state) {
     char hash[33], other[33];
     dip_frame_hash(&frame, hash);
     close_stage(&stage);
-    // A map on a surface that nothing lights is neither made nor drawn.
+    // A normal map on a surface that no light falls on is neither created nor drawn.
     scene.materials[0].lit = false;
     scene.materials[0].light_map = DIP_NO_TEXTURE;
     stage = open_stage(false);
@@ -274,7 +277,8 @@ static void without_effects_nothing_is_spent(void **state) {
     assert_int_equal(dip_scene_texture_bytes(stage.scene), unlit_bytes);
     close_stage(&stage);
     dip_test_scene_free(&scene);
-    // Drawn plain, a normal-mapped scene is the one without maps to the bit.
+    // With plain surfaces, a normal-mapped scene looks, to the bit, like the scene without its
+    // maps.
     dip_test_scene_make(&scene, DIP_TEST_SCENE_normal_map);
     stage = open_stage(true);
     hash_at(&stage, 0, hash);
@@ -290,7 +294,7 @@ static void without_effects_nothing_is_spent(void **state) {
     dip_test_scene_free(&scene);
 }
 
-static void only_what_the_scene_has_takes_memory(void **state) {
+static void only_effects_of_the_scene_take_memory(void **state) {
     (void)state;
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
         dip_test_scene_make(&scene, (DipTestSceneKind)kind);
@@ -301,7 +305,7 @@ static void only_what_the_scene_has_takes_memory(void **state) {
         assert_int_equal(counters.cloud_bytes > 0, all || kind == DIP_TEST_SCENE_sky);
         assert_int_equal(counters.clip_map_bytes > 0, all || kind == DIP_TEST_SCENE_fence);
         close_stage(&stage);
-        // Alpha that clips nothing is not kept.
+        // Alpha that clips nothing is not stored.
         for (int i = 0; i < scene.def.material_count; i++) {
             if (scene.materials[i].surface == DIP_SURFACE_CLIPPED) {
                 scene.materials[i].surface = DIP_SURFACE_OPAQUE;
@@ -314,7 +318,7 @@ static void only_what_the_scene_has_takes_memory(void **state) {
     }
 }
 
-static void effects_out_of_view_say_so(void **state) {
+static void effects_out_of_view_do_not_run(void **state) {
     (void)state;
     static const DipTestSceneKind kinds[] = {DIP_TEST_SCENE_normal_map, DIP_TEST_SCENE_sky};
     for (int i = 0; i < 2; i++) {
@@ -337,14 +341,14 @@ static void effects_out_of_view_say_so(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mapped_normals_are_lit_as_the_definition_says),
-        cmocka_unit_test(a_zero_vector_leaves_the_meshs_normal),
-        cmocka_unit_test(hard_coordinates_leave_the_meshs_normal),
-        cmocka_unit_test(both_sides_have_one_normal),
+        cmocka_unit_test(normals_that_cancel_out_leave_the_meshs_normal),
+        cmocka_unit_test(coordinates_without_area_leave_the_meshs_normal),
+        cmocka_unit_test(both_sides_of_a_surface_have_the_same_normal),
         cmocka_unit_test(phases_repeat_to_the_bit_and_run_evenly),
         cmocka_unit_test(clouds_repeat_to_the_bit_and_move_between),
-        cmocka_unit_test(without_effects_nothing_is_spent),
-        cmocka_unit_test(only_what_the_scene_has_takes_memory),
-        cmocka_unit_test(effects_out_of_view_say_so),
+        cmocka_unit_test(scenes_without_effects_spend_nothing_on_them),
+        cmocka_unit_test(only_effects_of_the_scene_take_memory),
+        cmocka_unit_test(effects_out_of_view_do_not_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

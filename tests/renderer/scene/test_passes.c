@@ -1,5 +1,5 @@
-// Sample patterns over time and passes over clipped surfaces, against coverage by exact integers
-// and shading computed here.
+// Tests the sample patterns of temporal AA and the sample groups of adaptive AA, against coverage
+// by exact integers and shading computed in this file.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/reference/reference.h"
@@ -23,22 +23,22 @@ enum { SIDE = DIP_SCREEN, PIXELS = SIDE * SIDE }; // one tile
 
 static const DipOracleRegion region = {0, 0, SIDE, SIDE};
 
-// The table of the seed: samples, samples per pass.
+// The table in docs/picture.md, Adaptive AA: samples, and samples per group.
 static const int pairs[][2] = {{1, 1}, {2, 1}, {2, 2}, {4, 1}, {4, 2}, {6, 1},
                                {6, 2}, {6, 3}, {8, 1}, {8, 2}, {8, 4}};
 enum { PAIRS = sizeof pairs / sizeof pairs[0] };
 
 // --- tables ------------------------------------------------------------------------------------
 
-// What temporal antialiasing adds up to, in units of 1/steps pixel.
+// The union of the two patterns of temporal antialiasing, in units of 1/steps pixel.
 typedef struct Union {
-    int count; // of each pattern
+    int count; // samples of each pattern
     int steps;
     int places[16][2];
 } Union;
 
 static const Union unions[] = {
-    {2, 16, {{6, 2}, {14, 6}, {2, 10}, {10, 14}}}, // the standard pattern of 4
+    {2, 16, {{6, 2}, {14, 6}, {2, 10}, {10, 14}}}, // the standard pattern of 4 samples
     {4, 16, {{1, 7}, {3, 11}, {5, 3}, {7, 15}, {9, 1}, {11, 13}, {13, 5}, {15, 9}}},
     {6,
      24,
@@ -79,7 +79,7 @@ static int union_place(const Union *both, int i, int axis) {
     return (int)lround(both->places[i][axis] * 256.0 / both->steps);
 }
 
-static void temporal_patterns_are_rooks_about_the_centre(void **state) {
+static void temporal_patterns_have_a_sample_per_row_and_column(void **state) {
     (void)state;
     for (int u = 0; u < UNIONS; u++) {
         const int count = unions[u].count;
@@ -113,7 +113,7 @@ static void temporal_patterns_are_rooks_about_the_centre(void **state) {
     assert_int_equal(dip_sample_pattern_of(1, DIP_PATTERN_ODD)->x[0], 128);
 }
 
-static void passes_share_out_all_samples_and_lie_apart(void **state) {
+static void sample_groups_divide_all_samples_and_lie_apart(void **state) {
     (void)state;
     for (int i = 0; i < PAIRS * DIP_PATTERN_KINDS; i++) {
         const int *pair = pairs[i % PAIRS];
@@ -143,7 +143,7 @@ static void passes_share_out_all_samples_and_lie_apart(void **state) {
             }
         }
         assert_int_equal(all, (1 << pair[0]) - 1);
-        for (int axis = 0; axis < 2; axis++) { // places are rounded down
+        for (int axis = 0; axis < 2; axis++) { // positions are rounded down
             assert_true(abs(sum[axis] - 128 * groups.count) <= groups.count);
         }
     }
@@ -153,7 +153,8 @@ static void passes_share_out_all_samples_and_lie_apart(void **state) {
 
 enum { TRIANGLES = 5 };
 
-// White triangles on black, and the number of the union's samples that they cover per pixel.
+// Makes white triangles on black, and counts the samples of the union that they cover in each
+// pixel.
 static void make_triangles(Random *random, const Union *both, DipTestScene *scene,
                            int covered[PIXELS]) {
     dip_screen_begin(scene);
@@ -187,7 +188,8 @@ static void make_triangles(Random *random, const Union *both, DipTestScene *scen
     }
 }
 
-// Adds a frame of the fast path: samples that are white per pixel, exactly, from the code.
+// Draws a frame with the fast renderer and adds the number of white samples in each pixel, which
+// follows exactly from the pixel's code.
 static void add_fast_frame(const DipTestScene *scene, const DipQuality *quality, int frame_index,
                            int found[PIXELS]) {
     DipError err;
@@ -211,7 +213,7 @@ static void add_fast_frame(const DipTestScene *scene, const DipQuality *quality,
     dip_pool_destroy(&pool);
 }
 
-static void two_frames_are_the_union(void **state) {
+static void the_mean_of_two_frames_has_the_samples_of_both_patterns(void **state) {
     (void)state;
     static DipTestScene scene;
     static int covered[PIXELS];
@@ -257,7 +259,8 @@ static void black(DipFragmentBatch *batch) {
     memset(batch->colour, 0, sizeof batch->colour);
 }
 
-// Red and green tell the place in the pixel, squared: the mean over groups is not the centre's.
+// Red and green hold the squared position within the pixel. They are squared so that their mean
+// over the sample groups is not their value at the centre.
 static void place_as_colour(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         const float x = batch->x[i] - (float)(int)batch->x[i];
@@ -268,7 +271,7 @@ static void place_as_colour(DipFragmentBatch *batch) {
     }
 }
 
-// Something that depends on every bit of the place, 1/256 pixel.
+// A clip test that depends on every bit of the position, in 1/256 pixel.
 static bool is_there(int x, int y) {
     return ((uint32_t)(x * 40503 + y * 10007) * 2654435761u) >> 31;
 }
@@ -293,10 +296,10 @@ static DipMesh *mesh_of(const DipOracleTriangle *triangle, float z) {
 typedef struct Expected {
     double rgb[PIXELS][3];
     uint64_t asked;
-    uint64_t whole; // covered samples of the clipped triangle
+    uint64_t whole; // number of covered samples of the clipped triangle
 } Expected;
 
-// The mean place of some samples, 1/256 pixel, rounded down.
+// Computes the mean position of some samples, in 1/256 pixel, rounded down.
 static void centroid_of(const DipSamplePattern *pattern, unsigned samples, int at[2]) {
     int n = 0;
     at[0] = at[1] = 0;
@@ -311,7 +314,7 @@ static void centroid_of(const DipSamplePattern *pattern, unsigned samples, int a
     at[1] /= n;
 }
 
-// A clipped triangle behind an opaque one that was drawn before it.
+// Computes the picture of a clipped triangle behind an opaque one that is drawn first.
 static void expect(const DipSamplePattern *pattern, int samples_per_group, const uint8_t *front,
                    const uint8_t *clipped, Expected *out) {
     static DipSampleGroups groups;
@@ -367,13 +370,14 @@ static void check_picture(const Expected *expected) {
     for (int p = 0; p < PIXELS; p++) {
         for (int c = 0; c < 3; c++) {
             const int code = table.code[lround(expected->rgb[p][c] * DIP_LINEAR16_MAX)];
-            assert_in_range(picture[4 * p + c] + 1, code, code + 2); // 16 bits before the code
+            assert_in_range(picture[4 * p + c] + 1, code,
+                            code + 2); // the code is rounded twice, the first time to 16 bits
         }
     }
 }
 
-// Every pair with several groups, every pattern, random triangles.
-static void every_pass_is_clipped_and_shaded_at_its_centroid(void **state) {
+// Tests every pair with several groups, with every pattern, on random triangles.
+static void every_sample_group_is_clipped_and_shaded_at_its_centroid(void **state) {
     (void)state;
     static uint8_t masks[2][PIXELS];
     static Expected expected;
@@ -383,7 +387,7 @@ static void every_pass_is_clipped_and_shaded_at_its_centroid(void **state) {
         const DipPatternKind kind = (DipPatternKind)(t / PAIRS % DIP_PATTERN_KINDS);
         const DipSamplePattern *pattern = dip_sample_pattern_of(pair[0], kind);
         if (pair[0] == pair[1]) {
-            continue; // one pass is as no groups at all, see below
+            continue; // one group is the same as no groups, see below
         }
         DipMesh *meshes[2];
         for (int i = 0; i < 2; i++) {
@@ -415,8 +419,9 @@ static void every_pass_is_clipped_and_shaded_at_its_centroid(void **state) {
     }
 }
 
-// Opaque surfaces, and clipped ones in one pass: the same picture and work as without.
-static void nothing_is_spent_without_passes(void **state) {
+// Opaque surfaces, and clipped surfaces with one group, take the same work and give the same
+// picture as without adaptive AA.
+static void one_sample_group_takes_no_extra_work(void **state) {
     (void)state;
     static uint8_t plain[sizeof picture];
     const DipOracleTriangle triangle = {{500, 16000, 3000}, {700, 4000, 15000}};
@@ -445,11 +450,11 @@ static void nothing_is_spent_without_passes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(temporal_patterns_are_rooks_about_the_centre),
-        cmocka_unit_test(passes_share_out_all_samples_and_lie_apart),
-        cmocka_unit_test(two_frames_are_the_union),
-        cmocka_unit_test(every_pass_is_clipped_and_shaded_at_its_centroid),
-        cmocka_unit_test(nothing_is_spent_without_passes),
+        cmocka_unit_test(temporal_patterns_have_a_sample_per_row_and_column),
+        cmocka_unit_test(sample_groups_divide_all_samples_and_lie_apart),
+        cmocka_unit_test(the_mean_of_two_frames_has_the_samples_of_both_patterns),
+        cmocka_unit_test(every_sample_group_is_clipped_and_shaded_at_its_centroid),
+        cmocka_unit_test(one_sample_group_takes_no_extra_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

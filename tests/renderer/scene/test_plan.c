@@ -1,5 +1,5 @@
-// The courtyard along its paths, with what the plan finds needed and with all effects forced: the
-// same pictures, at less work.
+// Draws the courtyard along its paths, with the effects that the plan finds necessary and with all
+// effects forced. The pictures must be the same, and the planned ones must take less work.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/scene/renderer.h"
@@ -66,7 +66,7 @@ static int close_court(void **state) {
     return 0;
 }
 
-// What a path's frames took, and what forcing added.
+// What the frames of a path took, planned and forced.
 typedef struct Sums {
     uint64_t fragments[2];
     uint64_t spared[2];
@@ -105,7 +105,7 @@ static Sums follow(int path, const char *settings) {
     return sums;
 }
 
-static void planned_frames_are_the_forced_ones(void **state) {
+static void planned_frames_equal_forced_frames_at_less_work(void **state) {
     (void)state;
     static const char *const settings[] = {"aa=none", "aa=4,taa=on,aaa=on,asd=2,af=8"};
     for (int p = 0; p < PATHS; p++) {
@@ -123,6 +123,7 @@ static void planned_frames_are_the_forced_ones(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(planned_frames_are_the_forced_ones)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(planned_frames_equal_forced_frames_at_less_work)};
     return cmocka_run_group_tests(tests, open_court, close_court);
 }

@@ -1,4 +1,4 @@
-// Settings as text: what is accepted, what is refused and with which words.
+// Tests settings as text: which are accepted, and which are refused with which message.
 #include "renderer/scene/quality.h"
 
 #include <setjmp.h>
@@ -18,7 +18,7 @@ static void defaults_are_those_of_the_specification(void **state) {
                               "miplod=high-quality,gi=on,mipdebug=off");
 }
 
-static void text_comes_back_as_it_went_in(void **state) {
+static void formatting_gives_the_parsed_text_back(void **state) {
     (void)state;
     static const char text[] = "aa=6,taa=on,aaa=on,asd=3,af=16,aaf=on,opt=off,"
                                "miplod=performance,gi=on,mipdebug=on";
@@ -31,7 +31,7 @@ static void text_comes_back_as_it_went_in(void **state) {
     assert_int_equal(dip_quality_max_anisotropy(&quality), 16);
 }
 
-static void what_is_left_out_keeps_its_default(void **state) {
+static void settings_that_are_left_out_keep_their_defaults(void **state) {
     (void)state;
     DipQuality quality;
     assert_true(dip_quality_parse("af=4", &quality, NULL));
@@ -47,7 +47,7 @@ static void bad_settings_are_refused(void **state) {
         const char *text;
         DipErrorCode code;
         const char *key;
-        const char *accepted; // must stand in the message
+        const char *accepted; // text that the message must contain
     } rows[] = {
         {"aa=3", DIP_ERROR_UNKNOWN, "aa", "none|2|4|6|8"},
         {"aa=", DIP_ERROR_UNKNOWN, "aa", "none|2|4|6|8"},
@@ -79,8 +79,9 @@ static void bad_settings_are_refused(void **state) {
     assert_int_equal(err.code, DIP_ERROR_OVERSIZED);
 }
 
-// Table 3 of the seed: passes per number of samples and samples per pass; 0: not in it.
-static void pairs_of_aa_and_asd_are_those_of_the_table(void **state) {
+// The table in docs/picture.md, Adaptive AA: number of sample groups by samples and samples per
+// group. 0 means that the pair is not in the table.
+static void only_pairs_of_aa_and_asd_in_the_table_are_accepted(void **state) {
     (void)state;
     static const char *const aa[] = {"none", "2", "4", "6", "8"};
     static const int passes[5][4] = {
@@ -107,12 +108,13 @@ static void pairs_of_aa_and_asd_are_those_of_the_table(void **state) {
             snprintf(text, sizeof text, "'%d' samples per pass do not fit aa=%s", d + 1, aa[a]);
             assert_non_null(strstr(err.message, text));
             snprintf(text, sizeof text, "aa=%s,asd=%d", aa[a], d + 1);
-            assert_false(dip_quality_parse(text, &quality, NULL)); // in use or not
+            assert_false(
+                dip_quality_parse(text, &quality, NULL)); // refused even if adaptive AA is off
         }
     }
 }
 
-static void format_measures_like_snprintf(void **state) {
+static void formatting_returns_the_length_as_snprintf_does(void **state) {
     (void)state;
     const DipQuality quality = dip_quality_default();
     char whole[256];
@@ -128,11 +130,11 @@ static void format_measures_like_snprintf(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_are_those_of_the_specification),
-        cmocka_unit_test(text_comes_back_as_it_went_in),
-        cmocka_unit_test(what_is_left_out_keeps_its_default),
+        cmocka_unit_test(formatting_gives_the_parsed_text_back),
+        cmocka_unit_test(settings_that_are_left_out_keep_their_defaults),
         cmocka_unit_test(bad_settings_are_refused),
-        cmocka_unit_test(pairs_of_aa_and_asd_are_those_of_the_table),
-        cmocka_unit_test(format_measures_like_snprintf),
+        cmocka_unit_test(only_pairs_of_aa_and_asd_in_the_table_are_accepted),
+        cmocka_unit_test(formatting_returns_the_length_as_snprintf_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-// Water's reflection against the mirrored scene drawn directly, its hard cases, and the plan: what
-// it leaves out cannot be seen, and a scene without water pays nothing.
+// Compares the reflection in water with the mirrored scene drawn directly, tests its hard cases,
+// and tests the plan: what it leaves out cannot be visible, and a scene without water costs
+// nothing.
 #include "renderer/reference/reference.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/random.h"
@@ -21,7 +22,7 @@ enum { WIDTH = 192, HEIGHT = 144, MIRRORED_WIDTH = 96, MIRRORED_HEIGHT = 72 };
 
 static const double pi = 3.14159265358979323846;
 
-// A scene with its renderer, on one thread.
+// A scene and its renderer, on one thread.
 typedef struct Stage {
     DipPool *pool;
     DipScene *scene;
@@ -56,7 +57,7 @@ static DipFrame draw(const Stage *stage, const DipPose *pose) {
     return frame;
 }
 
-// Turned about the vertical, then down, degrees.
+// Turns the camera about the vertical axis, then down, by angles in degrees.
 static void turn(DipPose *pose, double yaw_deg, double down_deg) {
     const double yaw = yaw_deg * pi / 360.0;
     const double pitch = -down_deg * pi / 360.0;
@@ -74,7 +75,7 @@ static int add_water(DipTestScene *scene, const float corner[3], float size_x, f
     return material;
 }
 
-// Single-sided triangles with colours and a texture between two heights; y is how high.
+// Adds single-sided triangles with colours and a texture. Their y lies between low and high.
 static void add_soup(DipTestScene *scene, int texture, Random *random, double low, double high) {
     enum { TRIANGLES = 120 };
     const int material = dip_test_scene_add_material(scene, texture);
@@ -108,8 +109,10 @@ static void decode_frame(const DipFrame *frame, double *rgb_lin) {
     }
 }
 
-// Soup above a random level, soup below it, and water; another renderer draws the soup above turned
-// over by its transform. The picture in the corner must be that.
+// One renderer draws random triangles above a random level, others below it, and water. Another
+// renderer draws only the triangles above, mirrored by their transform. The first renderer must
+// show the second one's picture as its mirrored picture, which it shows in its corner for this
+// test.
 static bool mirrors_at(Random *random, int index, const char *settings) {
     static DipTestScene scene;
     static double expected[MIRRORED_WIDTH * MIRRORED_HEIGHT * 3];
@@ -144,7 +147,7 @@ static bool mirrors_at(Random *random, int index, const char *settings) {
     DipFrame corner = draw(&stage, &pose);
     corner.width = MIRRORED_WIDTH;
     corner.height = MIRRORED_HEIGHT;
-    // Of positions that fall between two steps, either is right.
+    // A position between two steps may be rounded to either.
     static const DipImageBounds bounds = {0.02, 0.02, 0.01, 1.0};
     char name[64];
     snprintf(name, sizeof name, "mirrored_%d", index);
@@ -155,7 +158,7 @@ static bool mirrors_at(Random *random, int index, const char *settings) {
     return same;
 }
 
-static void the_mirrored_picture_is_the_mirrored_scene(void **state) {
+static void the_mirrored_picture_shows_the_mirrored_scene(void **state) {
     (void)state;
     static const char *const settings[] = {"aa=none", "aa=4,af=16,aaf=on", "mipdebug=on"};
     Random random = {5};
@@ -168,7 +171,7 @@ static void the_mirrored_picture_is_the_mirrored_scene(void **state) {
 
 // --- hard cases --------------------------------------------------------------------------------
 
-// A closed grey room, flooded up to 0.3, before a background of another colour.
+// Makes a closed grey room that is flooded up to 0.3 m, in front of a background of another colour.
 static void make_room(DipTestScene *scene) {
     static const float sides[6][9] = {
         {-4, -1, -4, 8, 0, 0, 0, 4, 0}, {4, -1, 4, -8, 0, 0, 0, 4, 0},
@@ -200,9 +203,9 @@ static int other_than_grey(const DipFrame *frame) {
     return count;
 }
 
-// Every surface is grey, and what reflects it too: whatever else is seen leaked in. From far above
-// the water to in it and beneath; but not from near the walls, of whose height a pixel
-// takes in very much when the eye looks down along them.
+// Every surface is grey, and so is everything that the water reflects; any other colour has leaked
+// in. The eye moves from far above the water to within it and below. It stays away from the walls:
+// a pixel would cover much of a wall's height where the eye looks down along it.
 static void no_background_shows_at_the_waterline(void **state) {
     (void)state;
     static DipTestScene scene;
@@ -228,9 +231,9 @@ static void no_background_shows_at_the_waterline(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// Seen along the surface, water is as thin as the eye is near to its plane: from both sides
-// pictures come to that of an eye in it.
-static void pictures_are_continuous_through_the_plane(void **state) {
+// Seen along its surface, water covers the less of the picture the closer the eye is to its plane.
+// From both sides, pictures converge to that of an eye in the plane.
+static void pictures_are_continuous_as_the_eye_crosses_the_water(void **state) {
     (void)state;
     static DipTestScene scene;
     static double in_plane[WIDTH * HEIGHT * 3];
@@ -330,7 +333,7 @@ static void forcing_all_effects_changes_nothing(void **state) {
     force_all(DIP_TEST_SCENE_water_effects, "aa=4,taa=on,aaa=on,af=4");
 }
 
-static void effects_give_their_reasons(void **state) {
+static void effects_report_why_they_run_or_not(void **state) {
     (void)state;
     static DipTestScene scene;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_water);
@@ -364,8 +367,8 @@ static void effects_give_their_reasons(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// Also when all effects are forced: there is nothing to run.
-static void a_scene_without_water_pays_nothing(void **state) {
+// This holds even if all effects are forced: there is nothing to run.
+static void a_scene_without_water_costs_nothing(void **state) {
     (void)state;
     static DipTestScene dry;
     static DipTestScene wet;
@@ -396,9 +399,10 @@ static void a_scene_without_water_pays_nothing(void **state) {
 
 // --- Fresnel -----------------------------------------------------------------------------------
 
-// Black water under a white sky, seen at an angle in the middle of the picture: what is seen is the
-// share itself, by Fresnel's equations in the angles on both sides of the surface.
-static void the_share_is_that_of_water(void **state) {
+// Black water lies under a white sky and is seen at an angle in the middle of the picture. The
+// visible light is the reflected share itself, which follows from Fresnel's equations with the
+// angles on both sides of the surface.
+static void water_reflects_the_share_that_fresnel_gives(void **state) {
     (void)state;
     static DipTestScene scene;
     dip_test_scene_begin(&scene);
@@ -436,8 +440,8 @@ static void the_share_is_that_of_water(void **state) {
 
 // --- the converged picture ---------------------------------------------------------------------
 
-// With more and more pixels in the mirrored picture the drawn one comes near the converged one.
-static void more_pixels_come_nearer_the_converged_picture(void **state) {
+// The more pixels the mirrored picture has, the closer the drawn picture is to the converged one.
+static void more_mirrored_pixels_approach_the_converged_picture(void **state) {
     (void)state;
     enum { W = 80, H = 60 };
     static DipTestScene scene;
@@ -473,14 +477,14 @@ static void more_pixels_come_nearer_the_converged_picture(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_mirrored_picture_is_the_mirrored_scene),
+        cmocka_unit_test(the_mirrored_picture_shows_the_mirrored_scene),
         cmocka_unit_test(no_background_shows_at_the_waterline),
-        cmocka_unit_test(pictures_are_continuous_through_the_plane),
+        cmocka_unit_test(pictures_are_continuous_as_the_eye_crosses_the_water),
         cmocka_unit_test(forcing_all_effects_changes_nothing),
-        cmocka_unit_test(effects_give_their_reasons),
-        cmocka_unit_test(a_scene_without_water_pays_nothing),
-        cmocka_unit_test(the_share_is_that_of_water),
-        cmocka_unit_test(more_pixels_come_nearer_the_converged_picture),
+        cmocka_unit_test(effects_report_why_they_run_or_not),
+        cmocka_unit_test(a_scene_without_water_costs_nothing),
+        cmocka_unit_test(water_reflects_the_share_that_fresnel_gives),
+        cmocka_unit_test(more_mirrored_pixels_approach_the_converged_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

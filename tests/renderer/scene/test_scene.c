@@ -1,4 +1,5 @@
-// Making scenes: bounds, and descriptions that do not hold together.
+// Tests the creation of scenes: bounds, and descriptions that are refused because they are
+// inconsistent.
 #include "renderer/scene/scene.h"
 #include "tests/renderer/scene/scenes.h"
 
@@ -12,7 +13,7 @@
 
 static DipTestScene scene;
 
-// A quad of side 2 about (x, 0, -5), of a material with the given surface.
+// Adds a quad with sides of 2 m around (x, 0, -5), with a material of the given surface.
 static void add_quad_at(float x, DipSurface surface) {
     const int material = dip_test_scene_add_material(&scene, DIP_NO_TEXTURE);
     scene.materials[material].surface = surface;
@@ -31,10 +32,10 @@ static void assert_bounds_x(float low, float high) {
     assert_null(made);
 }
 
-static void bounds_leave_the_sky_out_where_there_is_more(void **state) {
+static void bounds_ignore_the_sky_if_there_are_other_surfaces(void **state) {
     (void)state;
     dip_test_scene_begin(&scene);
-    assert_bounds_x(0, 0); // nothing at all
+    assert_bounds_x(0, 0); // an empty scene
     add_quad_at(100, DIP_SURFACE_SKY);
     assert_bounds_x(99, 101);
     add_quad_at(5, DIP_SURFACE_WATER);
@@ -52,7 +53,7 @@ static void expect_refusal(DipErrorCode code, const char *key) {
     assert_true(strlen(err.message) > 0);
 }
 
-static void descriptions_that_do_not_hold_are_refused(void **state) {
+static void inconsistent_descriptions_are_refused(void **state) {
     (void)state;
     dip_test_scene_begin(&scene);
     add_quad_at(0, DIP_SURFACE_OPAQUE);
@@ -86,8 +87,8 @@ static void descriptions_that_do_not_hold_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bounds_leave_the_sky_out_where_there_is_more),
-        cmocka_unit_test(descriptions_that_do_not_hold_are_refused),
+        cmocka_unit_test(bounds_ignore_the_sky_if_there_are_other_surfaces),
+        cmocka_unit_test(inconsistent_descriptions_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-// Settings that change how a picture is made, on the courtyard: without instancing it is the same
-// to the bit from more memory, with optimised textures it takes less work.
+// Tests settings that change how a picture is made, on the courtyard. Without instancing, the
+// picture is the same to the bit and takes more memory; with optimised textures, it takes less
+// work.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/scene/renderer.h"
@@ -39,7 +40,8 @@ static int open_court(void **state) {
 
 static int close_court(void **state) {
     (void)state;
-    dip_scene_destroy(&scene); // before the renderer, which may still hold copies of its meshes
+    dip_scene_destroy(
+        &scene); // before the renderer, which may still hold copies of the scene's meshes
     dip_renderer_destroy(&renderer);
     dip_campath_destroy(&path);
     dip_pool_destroy(&pool);
@@ -80,7 +82,7 @@ static void pictures_do_not_depend_on_instancing(void **state) {
     }
 }
 
-static void counters_tell_what_instancing_saves(void **state) {
+static void counters_show_what_instancing_saves(void **state) {
     (void)state;
     const DipCounters shared = draw("gi=on", 0).counters;
     const DipCounters own = draw("gi=off", 0).counters;
@@ -113,7 +115,8 @@ static void advanced_optimisation_saves_work(void **state) {
         assert_int_equal(texels[1], texels[0]);
         assert_int_equal(probes[1], probes[0]);
         assert_true((double)texels[2] < 0.9 * (double)texels[0]);
-        // Trilinear: one probe each; alpha between other levels clips a few other fragments.
+        // Trilinear filtering takes one probe per read. Alpha that is read from other levels clips
+        // slightly different fragments, so the sums may differ a little.
         const double share = (double)probes[2] / (double)probes[0];
         assert_true(i == 0 ? share > 0.99 && share < 1.01 : share < 0.9);
     }
@@ -135,9 +138,9 @@ static void compressed_textures_cost_nothing_unless_shown(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(compressed_textures_cost_nothing_unless_shown), // first of all
+        cmocka_unit_test(compressed_textures_cost_nothing_unless_shown), // must be the first test
         cmocka_unit_test(pictures_do_not_depend_on_instancing),
-        cmocka_unit_test(counters_tell_what_instancing_saves),
+        cmocka_unit_test(counters_show_what_instancing_saves),
         cmocka_unit_test(advanced_optimisation_saves_work),
     };
     return cmocka_run_group_tests(tests, open_court, close_court);

@@ -1,5 +1,5 @@
-// Any number of threads draws the same picture and counts the same work; so does drawing again, and
-// drawing a part of a picture's size.
+// Tests that any number of threads draws the same picture and counts the same work, and that
+// drawing again or at another size changes nothing else.
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
 
@@ -36,7 +36,7 @@ static DipRenderer *pane_of(DipPool *pool, const DipTestScene *scene, const char
     return renderer;
 }
 
-// Draws a scene twice with a pool of its own.
+// Draws a scene twice, with a pool that serves only this function.
 static Result draw(const DipTestScene *scene, const DipScene *fast, int threads, const int size[2],
                    const char *text) {
     Result result[DRAWN_TWICE];
@@ -55,7 +55,7 @@ static Result draw(const DipTestScene *scene, const DipScene *fast, int threads,
     return result[0];
 }
 
-static void threads_change_nothing(void **state) {
+static void any_number_of_threads_draws_the_same_picture(void **state) {
     (void)state;
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
         static DipTestScene scene;
@@ -77,8 +77,9 @@ static void threads_change_nothing(void **state) {
     }
 }
 
-// Two panes of one scene and one pool, of different settings and sizes, do not disturb each other.
-static void panes_share_a_scene(void **state) {
+// Two panes with different settings and sizes share one scene and one pool, and do not disturb each
+// other.
+static void panes_that_share_a_scene_do_not_disturb_each_other(void **state) {
     (void)state;
     static DipTestScene scene;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_fence);
@@ -115,14 +116,16 @@ static void panes_share_a_scene(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// Settings of two panes: samples alone, temporal patterns, passes, textures, meshes of their own.
+// Pairs of settings that differ in samples only, temporal patterns, sample groups, textures, and
+// copies of meshes.
 static const char *const pairs[][2] = {{"aa=8,af=16", "aa=4,af=16"},
                                        {"aa=none", "aa=2,af=4,aaf=on"},
                                        {"aa=6,taa=on", "aa=8,aaa=on,asd=2"},
                                        {"opt=standard,miplod=performance", "aa=4,mipdebug=on"},
                                        {"aa=4,gi=off", "aa=8"}};
 
-// What shading does does not depend on the other pane; geometry keeps what either may show.
+// The work of shading does not depend on the other pane. Geometry keeps every triangle that either
+// pane may show.
 static void compare_work(const DipFrame *alone, const DipFrame *paired) {
     assert_int_equal(paired->counters.fragments_shaded, alone->counters.fragments_shaded);
     assert_int_equal(paired->counters.samples_shown, alone->counters.samples_shown);
@@ -151,8 +154,9 @@ static void draw_both_ways(DipRenderer *const panes[2], const DipTestScene *scen
     }
 }
 
-// Two frames drawn at once are those that are drawn one by one, to the bit; also of two sizes.
-static void a_pair_is_what_its_frames_are_alone(void **state) {
+// Two frames that are drawn at once equal those drawn one by one, to the bit, even if their sizes
+// differ.
+static void frames_drawn_as_a_pair_equal_frames_drawn_alone(void **state) {
     (void)state;
     static const int other_size[2] = {90, 130};
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
@@ -176,7 +180,8 @@ static void a_pair_is_what_its_frames_are_alone(void **state) {
     }
 }
 
-// A change of settings or size shows in the next frame, and back again gives the picture of before.
+// A change of settings or size shows in the next frame, and changing it back gives the earlier
+// picture.
 static void changes_show_in_the_next_frame(void **state) {
     (void)state;
     static DipTestScene scene;
@@ -244,8 +249,9 @@ static void *compress(void *scene) {
     return dip_scene_compress_textures(scene, NULL, NULL) ? scene : NULL;
 }
 
-// Textures are compressed beside the frames of one renderer; another asks for them meanwhile.
-static void textures_are_compressed_beside_frames(void **state) {
+// One thread compresses the textures while a renderer draws frames, and another renderer asks for
+// them meanwhile.
+static void textures_can_be_compressed_while_frames_are_drawn(void **state) {
     (void)state;
     static DipTestScene scene;
     static const int size[2] = {64, 48};
@@ -269,11 +275,11 @@ static void textures_are_compressed_beside_frames(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(panes_share_a_scene),
-        cmocka_unit_test(a_pair_is_what_its_frames_are_alone),
+        cmocka_unit_test(any_number_of_threads_draws_the_same_picture),
+        cmocka_unit_test(panes_that_share_a_scene_do_not_disturb_each_other),
+        cmocka_unit_test(frames_drawn_as_a_pair_equal_frames_drawn_alone),
         cmocka_unit_test(changes_show_in_the_next_frame),
-        cmocka_unit_test(textures_are_compressed_beside_frames),
+        cmocka_unit_test(textures_can_be_compressed_while_frames_are_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
