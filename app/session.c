@@ -315,14 +315,20 @@ static bool make_orbit(DipSession *session, const DipOptions *options, DipErrorL
         def.min_world[axis] = low[axis];
         def.max_world[axis] = high[axis];
     }
+    const char *file = session->config.file;
+    if (options->model_count) {
+        file = options->models[0];
+    } else {
+        def.fov_y_deg = session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg;
+    }
     DipCamPath *path;
     DipError err;
-    if (!check_extent(low, high, options->models[0], faults)) {
+    if (!check_extent(low, high, file, faults)) {
         return false;
     }
     if (!dip_campath_orbit(&def, &path, &err)) {
         DipError named;
-        dip_error_set(&named, err.code, options->models[0], 0, err.key, "%s", err.message);
+        dip_error_set(&named, err.code, file, 0, err.key, "%s", err.message);
         return add_fault(faults, &named);
     }
     keep_path(session, path, 0, def.fov_y_deg);
@@ -373,6 +379,9 @@ static bool load_paths(DipSession *session, const DipOptions *options, DipErrorL
     for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
         loaded = load_category(session, c, faults) && loaded;
     }
+    if (!session->config.camera[DIP_CATEGORY_DEFAULT].file.path && session->scene) {
+        loaded = make_orbit(session, options, faults) && loaded;
+    }
     return choose_category(session, options, faults) && loaded;
 }
 
@@ -388,7 +397,8 @@ static void set_reflection(DipSession *session, const DipOptions *options) {
         .schlick = config->water_schlick,
         .show = config->debug_show_reflection,
     };
-    if (options->model_count && session->scene) {
+    const bool has_level = config->line[DIP_KEY_FOUNTAIN_WATER_LEVEL] > 0;
+    if ((options->model_count || !has_level) && session->scene) {
         dip_scene_water_level(session->scene, &session->reflection.level_m);
     }
 }

@@ -1,4 +1,5 @@
-// What the parts of the configuration share: the table of keys, the reader, the values.
+// Shared by the parts of the configuration: the table of keys, the reader and the values. Private
+// to config/.
 #ifndef DIP_CONFIG_CONFIG_PRIVATE_H
 #define DIP_CONFIG_CONFIG_PRIVATE_H
 
@@ -21,41 +22,45 @@ typedef enum DipConfigType {
 typedef struct DipConfigKeyInfo {
     const char *name;
     DipConfigType type;
-    const char *fallback; // NULL: required
-    double low;
-    double high;
-    const char *text;
-    size_t offset; // of the field in DipConfig
+    const char *fallback; // default as text; NULL: the key is required
+    double low;           // lowest accepted number, of types that have a range
+    double high;          // highest accepted number
+    const char *text;     // meaning, for messages and documentation
+    size_t offset;        // byte offset of the key's field in DipConfig
 } DipConfigKeyInfo;
 
 const DipConfigKeyInfo *dip_config_key_info(DipConfigKey key);
+
+// Returns false when no key has exactly this name.
 bool dip_config_find_key(const char *name, DipConfigKey *key);
 
-// The known key nearest to a name in edit distance, NULL when none is near.
+// The key that a misspelt name most resembles: at most a third of its letters differ, or one in a
+// short name. NULL when no key is that near.
 const char *dip_config_nearest_key(const char *name);
 
-// What a key accepts, for messages and the table: "WIDTHxHEIGHT, 1..8192 each".
+// Writes what a key accepts, for messages and the table: "WIDTHxHEIGHT, 1..8192 each".
 void dip_config_describe(DipConfigKey key, char *buffer, size_t size_bytes);
 
-// Reads a value's text into its field; line 0 stands for a default. On failure *err is filled but
-// for its file and line.
+// Parses a value's text into the key's field. line is where the ini gives the value, 0 for a
+// default. On failure fills *err except its file and line and leaves the field unchanged.
 bool dip_config_set_value(DipConfig *config, DipConfigKey key, const char *text, int line,
                           DipError *err);
 
-// A stream for ini_parse_stream that hands out clean lines only. inih itself would cut long lines,
-// read an indented line as more of the one above and keep silent on lines without a value.
+// Source of lines for ini_parse_stream that passes on only clean lines. inih alone would split long
+// lines, join an indented line to the one above it, and ignore lines without a value.
 typedef struct DipConfigReader {
     FILE *stream;
     const char *file;
     DipErrorList *faults;
-    int line; // of the line handed out last, 1-based
-    size_t size_bytes;
-    bool stopped;
+    int line;          // number of the last line passed on, 1-based
+    size_t size_bytes; // bytes read so far
+    bool stopped;      // the rest of the file is not read
 } DipConfigReader;
 
-// fgets' shape: the ini_reader of inih, context being the DipConfigReader.
+// The ini_reader callback of inih, which has the shape of fgets. context is a DipConfigReader.
 char *dip_config_read_line(char *to, int room, void *context);
 
+// Appends a fault of the reader's file to its list. line 0 and key NULL: not applicable.
 void dip_config_add_fault(DipConfigReader *reader, DipErrorCode code, DipSeverity severity,
                           int line, const char *key, const char *format, ...)
     __attribute__((format(printf, 6, 7)));

@@ -1,4 +1,5 @@
-// The table of keys: look-up, the nearest name, and how each is described.
+// The table of keys: look-up, the key nearest to a misspelt name, and descriptions for messages and
+// documentation.
 #include "config/config_private.h"
 
 #include "renderer/base/assert.h"
@@ -7,25 +8,25 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_NAME = 64 }; // longer names resemble no key
+enum { MAX_NAME = 64 }; // Longer names get no suggestion.
 
 static const DipConfigKeyInfo infos[DIP_KEY_COUNT] = {
 #define INFO_KEY(NAME, field, TYPE, fallback, low, high, text)                                     \
     {#NAME, DIP_TYPE_##TYPE, fallback, low, high, text, offsetof(DipConfig, field)},
-#define INFO_CAMERA(NAME, fallback, text)                                                          \
+#define INFO_CAMERA(NAME, fov, text)                                                               \
     {"CAMPATH_" #NAME,                                                                             \
      DIP_TYPE_FILE,                                                                                \
-     fallback,                                                                                     \
+     "",                                                                                           \
      0,                                                                                            \
      0,                                                                                            \
      "camera path " text,                                                                          \
      offsetof(DipConfig, camera[DIP_CATEGORY_##NAME].file)},                                       \
         {"CAMPATH_" #NAME "_FOV",                                                                  \
          DIP_TYPE_NUMBER,                                                                          \
-         fallback,                                                                                 \
+         fov,                                                                                      \
          1,                                                                                        \
          170,                                                                                      \
-         "its vertical field of view, degrees",                                                    \
+         "vertical field of view of that path, degrees",                                           \
          offsetof(DipConfig, camera[DIP_CATEGORY_##NAME].fov_y_deg)},
 #define INFO_PICTURE(NAME, size, text)                                                             \
     {#NAME,                                                                                        \
@@ -33,7 +34,7 @@ static const DipConfigKeyInfo infos[DIP_KEY_COUNT] = {
      "",                                                                                           \
      0,                                                                                            \
      0,                                                                                            \
-     "mip-debug picture for level size " text,                                                     \
+     "picture that replaces the flat colour of mip levels of size " text,                          \
      offsetof(DipConfig, mip_picture[DIP_MIP_LEVEL_##size])},
     DIP_CONFIG_LIST(INFO_KEY, INFO_CAMERA, INFO_PICTURE)};
 
@@ -61,24 +62,34 @@ static int min3(int a, int b, int c) {
     return least < c ? least : c;
 }
 
-// Levenshtein's distance, without regard to case. Both shorter than MAX_NAME.
+static bool same_letter(char a, char b) {
+    return toupper((unsigned char)a) == toupper((unsigned char)b);
+}
+
+// Optimal string alignment distance, ignoring case: the number of letters to insert, delete or
+// replace and of neighbours to swap. Both strings are shorter than MAX_NAME.
 static int edit_distance(const char *a, const char *b) {
     const int b_length = (int)strlen(b);
-    int row[MAX_NAME];
+    int rows[3][MAX_NAME]; // row i of the table is rows[i % 3]
     for (int j = 0; j <= b_length; j++) {
-        row[j] = j;
+        rows[0][j] = j;
     }
-    for (int i = 1; a[i - 1]; i++) {
-        int diagonal = row[0];
+    int i = 1;
+    for (; a[i - 1]; i++) {
+        int *row = rows[i % 3];
+        const int *above = rows[(i + 2) % 3];
+        const int *two_above = rows[(i + 1) % 3];
         row[0] = i;
         for (int j = 1; j <= b_length; j++) {
-            const bool same = toupper((unsigned char)a[i - 1]) == toupper((unsigned char)b[j - 1]);
-            const int cost = min3(row[j] + 1, row[j - 1] + 1, diagonal + !same);
-            diagonal = row[j];
-            row[j] = cost;
+            const int replaced = above[j - 1] + !same_letter(a[i - 1], b[j - 1]);
+            row[j] = min3(above[j] + 1, row[j - 1] + 1, replaced);
+            if (i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) &&
+                same_letter(a[i - 2], b[j - 1]) && two_above[j - 2] + 1 < row[j]) {
+                row[j] = two_above[j - 2] + 1;
+            }
         }
     }
-    return row[b_length];
+    return rows[(i - 1) % 3][b_length];
 }
 
 const char *dip_config_nearest_key(const char *name) {
@@ -86,8 +97,8 @@ const char *dip_config_nearest_key(const char *name) {
     if (length >= MAX_NAME) {
         return NULL;
     }
-    // A third of the letters wrong, or two of a short name, and it is another word.
-    int nearest = 1 + (int)(length / 3 > 2 ? length / 3 : 2);
+    // A name with more than a third of its letters wrong is another word.
+    int nearest = 1 + (int)(length / 3 > 1 ? length / 3 : 1);
     const char *found = NULL;
     for (int k = 0; k < DIP_KEY_COUNT; k++) {
         const int distance = edit_distance(name, infos[k].name);
@@ -137,15 +148,29 @@ void dip_config_describe(DipConfigKey key, char *buffer, size_t size_bytes) {
     }
 }
 
+// What holds when the ini leaves a key out, for the table in docs/config.md.
+static const char *default_in_words(DipConfigKey key) {
+    const DipConfigKeyInfo *info = dip_config_key_info(key);
+    if (!info->fallback) {
+        return "*required*";
+    }
+    if (info->fallback[0]) {
+        return info->fallback;
+    }
+    if (info->type == DIP_TYPE_SETTINGS) {
+        return "each setting's own";
+    }
+    if (key == DIP_KEY_CAMPATH_DEFAULT) {
+        return "an orbit";
+    }
+    return strncmp(info->name, "CAMPATH_", 8) == 0 ? "`CAMPATH_DEFAULT`" : "none";
+}
+
 size_t dip_config_document_key(DipConfigKey key, char *buffer, size_t size_bytes) {
     const DipConfigKeyInfo *info = dip_config_key_info(key);
     char accepted[128];
     dip_config_describe(key, accepted, sizeof accepted);
-    const char *fallback = info->fallback ? info->fallback : "*required*";
-    if (info->fallback && !info->fallback[0]) {
-        fallback = info->type == DIP_TYPE_SETTINGS ? "each setting's own" : "none";
-    }
     const int length = snprintf(buffer, size_bytes, "| `%s` | %s | %s | %s |", info->name, accepted,
-                                fallback, info->text);
+                                default_in_words(key), info->text);
     return (size_t)length;
 }

@@ -1,4 +1,5 @@
-// Loading: inih's key and value pairs into the struct, then what concerns several keys.
+// Loads an ini: reads the key and value pairs that inih finds, then fills in defaults and checks
+// values that depend on each other.
 #include "config/config_private.h"
 
 #include <errno.h>
@@ -11,7 +12,7 @@
 typedef struct Loader {
     DipConfigReader reader;
     DipConfig *config;
-    bool failed[DIP_KEY_COUNT]; // given, but with a bad value: not missing
+    bool failed[DIP_KEY_COUNT]; // The ini gives the key, but with a bad value.
 } Loader;
 
 static void add(Loader *loader, DipErrorCode code, int line, DipConfigKey key,
@@ -25,13 +26,13 @@ static void refuse_name(Loader *loader, const char *name) {
     const char *nearest = dip_config_nearest_key(name);
     if (!name[0]) {
         dip_config_add_fault(&loader->reader, DIP_ERROR_FORMAT, DIP_SEVERITY_ERROR, line, NULL,
-                             "no key before the value, accepted KEY: value");
+                             "there is no key before the value, accepted KEY: value");
     } else if (nearest) {
         dip_config_add_fault(&loader->reader, DIP_ERROR_UNKNOWN, DIP_SEVERITY_ERROR, line, name,
-                             "no such key, accepted is the similar %s", nearest);
+                             "there is no such key, did you mean %s?", nearest);
     } else {
         dip_config_add_fault(&loader->reader, DIP_ERROR_UNKNOWN, DIP_SEVERITY_ERROR, line, name,
-                             "no such key, accepted are those in docs/config.md");
+                             "there is no such key, accepted are the keys in docs/config.md");
     }
 }
 
@@ -40,13 +41,14 @@ static void warn_if_repeated(Loader *loader, DipConfigKey key) {
     if (before && dip_config_key_info(key)->type != DIP_TYPE_FILES) {
         dip_config_add_fault(&loader->reader, DIP_ERROR_CONFLICT, DIP_SEVERITY_WARNING,
                              loader->reader.line, dip_config_key_name(key),
-                             "given in line %d already, accepted is this later value", before);
+                             "line %d gives this key too; this later value is accepted", before);
     }
 }
 
-// The ini_handler. Always 1: faults are collected here, with their lines, not by inih.
+// The ini_handler callback of inih. Returns 1 (success) in any case, because this file collects the
+// faults and knows their lines.
 static int handle(void *context, const char *section, const char *name, const char *value) {
-    (void)section; // the reader lets none through
+    (void)section; // The reader refuses sections.
     Loader *loader = context;
     DipConfigKey key;
     if (!dip_config_find_key(name, &key)) {
@@ -61,7 +63,7 @@ static int handle(void *context, const char *section, const char *name, const ch
         char accepted[128];
         dip_config_describe(key, accepted, sizeof accepted);
         dip_config_add_fault(&loader->reader, DIP_ERROR_MISSING, DIP_SEVERITY_ERROR, line, name,
-                             "no value, accepted %s", accepted);
+                             "has no value, accepted %s", accepted);
         loader->failed[key] = true;
     } else if (!dip_config_set_value(loader->config, key, value, line, &err)) {
         dip_config_add_fault(&loader->reader, err.code, DIP_SEVERITY_ERROR, line, name, "%s",
@@ -71,11 +73,11 @@ static int handle(void *context, const char *section, const char *name, const ch
     return 1;
 }
 
-// ---- What concerns several keys ----
+// ---- Checks of several keys ----
 
 static DipConfigKey path_key(int category) {
     static const DipConfigKey keys[] = {
-#define PATH_KEY(NAME, fallback, text) DIP_KEY_CAMPATH_##NAME,
+#define PATH_KEY(NAME, fov, text) DIP_KEY_CAMPATH_##NAME,
         DIP_CONFIG_LIST(DIP_CONFIG_NONE, PATH_KEY, DIP_CONFIG_NONE)
 #undef PATH_KEY
     };
@@ -83,7 +85,7 @@ static DipConfigKey path_key(int category) {
 }
 
 static DipConfigKey fov_key(int category) {
-    return (DipConfigKey)(path_key(category) + 1); // the list gives them side by side
+    return (DipConfigKey)(path_key(category) + 1); // CAMPATH_X_FOV follows CAMPATH_X in the enum.
 }
 
 static bool is_fov_key(int key) {
@@ -95,6 +97,7 @@ static bool is_fov_key(int key) {
     return false;
 }
 
+// Skips "./" and repeated slashes, which do not change what a path names.
 static const char *skip_idle(const char *at) {
     while ((at[0] == '.' && at[1] == '/') || at[0] == '/') {
         at += at[0] == '.' ? 2 : 1;
@@ -102,7 +105,8 @@ static const char *skip_idle(const char *at) {
     return at;
 }
 
-// Component by component, past "./" and doubled slashes. ".." stays: what it means is up to links.
+// Compares the paths component by component. ".." is compared as text, because symbolic links
+// decide what it means.
 bool dip_config_same_file(const DipConfigFile *a, const DipConfigFile *b) {
     if (!a->path || !b->path || (a->path[0] == '/') != (b->path[0] == '/')) {
         return false;
@@ -125,29 +129,35 @@ static bool has_fov(const Loader *loader, int category) {
     return loader->config->line[fov_key(category)] && !loader->failed[fov_key(category)];
 }
 
-static void require_keys(Loader *loader) {
+// Sets a key that the ini leaves out to its default, or reports that it is missing.
+static void set_default(Loader *loader, DipConfigKey key) {
+    const DipConfigKeyInfo *info = dip_config_key_info(key);
+    DipError err;
+    if (!info->fallback) {
+        char accepted[128];
+        dip_config_describe(key, accepted, sizeof accepted);
+        dip_config_add_fault(&loader->reader, DIP_ERROR_MISSING, DIP_SEVERITY_ERROR, 0, info->name,
+                             "is missing (%s), accepted %s", info->text, accepted);
+        return;
+    }
+    const bool has_value = info->fallback[0] || info->type == DIP_TYPE_SETTINGS;
+    if (has_value && !dip_config_set_value(loader->config, key, info->fallback, 0, &err)) {
+        add(loader, err.code, 0, key, err.message);
+    }
+}
+
+static void set_defaults(Loader *loader) {
     for (int k = 0; k < DIP_KEY_COUNT; k++) {
-        const DipConfigKeyInfo *info = dip_config_key_info((DipConfigKey)k);
-        if (loader->config->line[k] || is_fov_key(k)) {
-            continue;
-        }
-        DipError err;
-        if (!info->fallback) {
-            char accepted[128];
-            dip_config_describe((DipConfigKey)k, accepted, sizeof accepted);
-            dip_config_add_fault(&loader->reader, DIP_ERROR_MISSING, DIP_SEVERITY_ERROR, 0,
-                                 info->name, "missing, accepted %s: %s", accepted, info->text);
-        } else if (info->type != DIP_TYPE_FILE &&
-                   !dip_config_set_value(loader->config, (DipConfigKey)k, info->fallback, 0,
-                                         &err)) {
-            add(loader, err.code, 0, (DipConfigKey)k, err.message);
+        if (!loader->config->line[k] && !is_fov_key(k)) {
+            set_default(loader, (DipConfigKey)k);
         }
     }
 }
 
-// Figure 12 gives CAMPATH_AAA_FOV twice and CAMPATH_AAF_FOV not at all; a path that another
-// category flies too has that category's field of view.
-static void borrow_fov(Loader *loader, int category) {
+// A category without a field of view takes that of a category with the same path, else the default.
+// The ini of the 2006 ATI Catalyst Control Preview report, its Figure 12, relies on this: it gives
+// CAMPATH_AAA_FOV twice and CAMPATH_AAF_FOV not at all.
+static void settle_fov(Loader *loader, int category) {
     DipConfig *config = loader->config;
     DipConfigCamera *camera = &config->camera[category];
     for (int other = 0; other < DIP_CATEGORY_COUNT; other++) {
@@ -157,11 +167,10 @@ static void borrow_fov(Loader *loader, int category) {
             return;
         }
     }
-    add(loader, DIP_ERROR_MISSING, 0, fov_key(category),
-        "missing, accepted a number 1..170, or another category with the same path file");
+    set_default(loader, fov_key(category));
 }
 
-// Against the first category with the same path, so that one odd value is one fault.
+// Compares with the first category that has the same path only, so that one odd value is one fault.
 static void compare_fov(Loader *loader, int category) {
     DipConfig *config = loader->config;
     const DipConfigCamera *camera = &config->camera[category];
@@ -174,7 +183,7 @@ static void compare_fov(Loader *loader, int category) {
             dip_config_add_fault(
                 &loader->reader, DIP_ERROR_CONFLICT, DIP_SEVERITY_ERROR,
                 config->line[fov_key(category)], dip_config_key_name(fov_key(category)),
-                "%g, but %s in line %d is %g for the same path '%s', accepted one value",
+                "is %g, but %s in line %d is %g for the same path '%s', accepted one value",
                 camera->fov_y_deg, dip_config_key_name(fov_key(first)),
                 config->line[fov_key(first)], config->camera[first].fov_y_deg, camera->file.text);
         }
@@ -182,6 +191,8 @@ static void compare_fov(Loader *loader, int category) {
     }
 }
 
+// CAMPATH_DEFAULT_FOV needs no path beside it: it also applies to the orbit that takes the place of
+// a path, and to a path that the command line names.
 static void settle_cameras(Loader *loader) {
     DipConfig *config = loader->config;
     for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
@@ -189,14 +200,12 @@ static void settle_cameras(Loader *loader) {
         const int fov_line = config->line[fov_key(c)];
         if (has_fov(loader, c) && has_path) {
             compare_fov(loader, c);
-        } else if (has_path && !fov_line) {
-            borrow_fov(loader, c);
+        } else if ((has_path || c == DIP_CATEGORY_DEFAULT) && !fov_line) {
+            settle_fov(loader, c);
         } else if (!has_path && fov_line && !config->line[path_key(c)] &&
-                   dip_config_key_info(path_key(c))->fallback) {
+                   c != DIP_CATEGORY_DEFAULT) {
             add(loader, DIP_ERROR_MISSING, fov_line, path_key(c),
-                "missing beside its field of view, accepted a file");
-        } else if (!has_path && !fov_line && !dip_config_key_info(fov_key(c))->fallback) {
-            add(loader, DIP_ERROR_MISSING, 0, fov_key(c), "missing, accepted a number 1..170");
+                "is missing, but its field of view is given, accepted a file");
         }
     }
 }
@@ -211,7 +220,7 @@ static void compare_sky(Loader *loader) {
         config->line[DIP_KEY_SKY_DENSE] ? DIP_KEY_SKY_DENSE : DIP_KEY_SKY_CLEAR;
     dip_config_add_fault(&loader->reader, DIP_ERROR_CONFLICT, DIP_SEVERITY_ERROR, config->line[key],
                          dip_config_key_name(key),
-                         "SKY_DENSE is %g and SKY_CLEAR %g, accepted the former greater",
+                         "SKY_DENSE is %g and SKY_CLEAR %g, accepted a SKY_DENSE above SKY_CLEAR",
                          config->sky_dense, config->sky_clear);
 }
 
@@ -230,11 +239,11 @@ static bool read_file(Loader *loader) {
         dip_config_add_fault(reader, DIP_ERROR_IO, DIP_SEVERITY_ERROR, 0, NULL,
                              "cannot be read, accepted an ini file");
     } else if (result != 0) {
-        // Lines come clean and the handler never objects, so only memory is left.
+        // The lines are clean and the handler always succeeds, so inih must be out of memory.
         dip_config_add_fault(reader, DIP_ERROR_MEMORY, DIP_SEVERITY_ERROR, 0, NULL,
-                             "no memory to read it");
+                             "is not read: out of memory");
     }
-    // What stands below a stop would only seem to be missing.
+    // After a stop, keys below it would be reported as missing although the file gives them.
     return !is_broken && result == 0 && !reader->stopped;
 }
 
@@ -245,12 +254,12 @@ bool dip_config_load(const char *file, DipConfig *config, DipErrorList *faults) 
     config->file = malloc(strlen(file) + 1);
     if (!config->file) {
         dip_config_add_fault(&loader.reader, DIP_ERROR_MEMORY, DIP_SEVERITY_ERROR, 0, NULL,
-                             "no memory to read it");
+                             "is not read: out of memory");
         return false;
     }
     strcpy(config->file, file);
     if (read_file(&loader)) {
-        require_keys(&loader);
+        set_defaults(&loader);
         settle_cameras(&loader);
         compare_sky(&loader);
     }

@@ -1,5 +1,5 @@
-// The reader between a file and inih: counts lines, cleans them, and refuses what inih would pass
-// over or misread in silence.
+// Reads lines for inih: counts and cleans them, and refuses what inih would silently ignore or
+// misread.
 #include "config/config_private.h"
 
 #include <stdarg.h>
@@ -24,25 +24,26 @@ static void refuse(DipConfigReader *reader, DipErrorCode code, const char *key,
     dip_config_add_fault(reader, code, DIP_SEVERITY_ERROR, reader->line, key, "%s", message);
 }
 
-// One line as far as it means something: without indentation, comment and trailing white space.
+// A line without its indentation and comment.
 typedef struct Line {
     char text[DIP_CONFIG_MAX_LINE + 1];
-    int length;      // what it would have; more than limit: over-long, the text is cut
-    int limit;       // DIP_CONFIG_MAX_LINE, or less where inih takes less
-    bool in_comment; // the rest does not count
-    bool has_bad_control;
-    bool after_space;
-    int ended_length; // length without trailing white space
+    int length;           // bytes so far; beyond limit, text lacks the bytes from limit on
+    int limit;            // DIP_CONFIG_MAX_LINE, or less where inih's buffer is smaller
+    bool in_comment;      // a comment has begun, which lasts to the end of the line
+    bool has_bad_control; // contains a control character that is not white space
+    bool after_space;     // the last byte was white space
+    int ended_length;     // length without trailing white space
 } Line;
 
-static void put(Line *line, char c) {
+static void append(Line *line, char c) {
     if (line->length < line->limit) {
         line->text[line->length] = c;
     }
     line->length++;
 }
 
-static void take(Line *line, int c) {
+// Adds a byte of the file to the line, unless it is indentation or part of a comment.
+static void add_byte(Line *line, int c) {
     const bool is_space = c == ' ' || c == '\t' || c == '\v' || c == '\f';
     if (line->in_comment || (is_space && line->length == 0)) {
         return;
@@ -55,7 +56,7 @@ static void take(Line *line, int c) {
         line->has_bad_control = true;
     }
     line->after_space = is_space;
-    put(line, (char)c);
+    append(line, (char)c);
     if (!is_space) {
         line->ended_length = line->length;
     }
@@ -65,7 +66,7 @@ static int next_byte(DipConfigReader *reader) {
     const int c = getc(reader->stream);
     if (c != EOF && ++reader->size_bytes > DIP_CONFIG_MAX_FILE_BYTES) {
         dip_config_add_fault(reader, DIP_ERROR_OVERSIZED, DIP_SEVERITY_ERROR, reader->line, NULL,
-                             "the file goes on, accepted up to %d bytes",
+                             "the file is too long, accepted up to %d bytes",
                              DIP_CONFIG_MAX_FILE_BYTES);
         reader->stopped = true;
         return EOF;
@@ -73,14 +74,14 @@ static int next_byte(DipConfigReader *reader) {
     return c;
 }
 
-// False at the end of the file, and where reading must stop.
+// Reads one line. Returns false at the end of the file and where reading must stop.
 static bool scan(DipConfigReader *reader, Line *line) {
     reader->line++;
     int c = next_byte(reader);
     if (c == EOF) {
         return false;
     }
-    if (reader->line == 1 && c == 0xef) { // a byte order mark, EF BB BF; else another letter
+    if (reader->line == 1 && c == 0xef) { // UTF-8 byte order mark EF BB BF
         const int second = next_byte(reader);
         const int third = next_byte(reader);
         if (second != 0xbb || third != 0xbf) {
@@ -92,7 +93,7 @@ static bool scan(DipConfigReader *reader, Line *line) {
     }
     for (; c != EOF && c != '\n'; c = next_byte(reader)) {
         if (c == '\0') {
-            refuse(reader, DIP_ERROR_FORMAT, NULL, "a NUL byte, accepted a text file");
+            refuse(reader, DIP_ERROR_FORMAT, NULL, "contains a NUL byte, accepted a text file");
             reader->stopped = true;
             return false;
         }
@@ -103,12 +104,12 @@ static bool scan(DipConfigReader *reader, Line *line) {
                 continue;
             }
         }
-        take(line, c);
+        add_byte(line, c);
     }
     return !reader->stopped;
 }
 
-// The key a faulty line seems to set, for its message.
+// Copies the key that a faulty line seems to set, for its message.
 static void guess_key(const char *text, char key[64]) {
     const size_t length = strcspn(text, ":= \t");
     snprintf(key, 64, "%.*s", (int)(length < 63 ? length : 63), text);
@@ -118,18 +119,19 @@ static bool check(DipConfigReader *reader, const Line *line) {
     char key[64];
     guess_key(line->text, key);
     if (line->has_bad_control) {
-        refuse(reader, DIP_ERROR_FORMAT, NULL, "a control character, accepted printed text");
+        refuse(reader, DIP_ERROR_FORMAT, NULL,
+               "contains a control character, accepted printable text");
         return false;
     }
     if (line->ended_length > line->limit) {
         dip_config_add_fault(reader, DIP_ERROR_OVERSIZED, DIP_SEVERITY_ERROR, reader->line, key,
-                             "a line of %d bytes, accepted up to %d without its comment",
+                             "the line has %d bytes, accepted up to %d without its comment",
                              line->ended_length, line->limit);
         return false;
     }
     if (line->text[0] == '[') {
         dip_config_add_fault(reader, DIP_ERROR_FORMAT, DIP_SEVERITY_ERROR, reader->line, NULL,
-                             "a section '%.60s', accepted keys alone, without sections",
+                             "'%.60s' begins a section, accepted keys without sections",
                              line->text);
         return false;
     }
@@ -144,7 +146,7 @@ static bool check(DipConfigReader *reader, const Line *line) {
 static bool may_go_on(DipConfigReader *reader) {
     if (!reader->stopped && reader->faults->count >= DIP_CONFIG_MAX_FAULTS) {
         refuse(reader, DIP_ERROR_OVERSIZED, NULL,
-               "too many faults, accepted a configuration; the rest is not read");
+               "has too many faults, so the rest is not read, accepted an ini file");
         reader->stopped = true;
     }
     return !reader->stopped;
@@ -156,7 +158,7 @@ char *dip_config_read_line(char *to, int room, void *context) {
     if (!may_go_on(reader) || !scan(reader, &line)) {
         return NULL;
     }
-    // inih sees an empty line in place of what was refused, and so reports nothing of its own.
+    // inih gets an empty line in place of a refused one, so that it reports no second error.
     const int kept = line.ended_length < line.limit ? line.ended_length : line.limit;
     line.text[kept] = '\0';
     const bool is_good = line.ended_length == 0 || check(reader, &line);

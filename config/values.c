@@ -1,4 +1,4 @@
-// Values: text to a typed field, with what was found and what is accepted when it does not fit.
+// Parses values into typed fields. Error messages quote the value and say what is accepted.
 #include "config/config_private.h"
 
 #include "renderer/base/number.h"
@@ -8,22 +8,35 @@
 #include <string.h>
 
 static bool refuse(DipConfigKey key, DipErrorCode code, const char *text, const char *fault,
-                   DipError *err) {
+                   const char *example, DipError *err) {
     char accepted[128];
     dip_config_describe(key, accepted, sizeof accepted);
-    return dip_error_set(err, code, NULL, 0, dip_config_key_name(key), "'%s' %s, accepted %s", text,
-                         fault, accepted);
+    return dip_error_set(err, code, NULL, 0, dip_config_key_name(key), "'%s' %s, accepted %s%s",
+                         text, fault, accepted, example);
 }
 
+// Says which shape the value should have: "'640' is not WIDTHxHEIGHT, accepted ...".
 static bool refuse_type(DipConfigKey key, const char *text, DipError *err) {
-    return refuse(key, DIP_ERROR_TYPE, text, "is of another type", err);
+    switch (dip_config_key_info(key)->type) {
+    case DIP_TYPE_SIZE:
+        return refuse(key, DIP_ERROR_TYPE, text, "is not WIDTHxHEIGHT", ", for example 640x480",
+                      err);
+    case DIP_TYPE_COLOR:
+        return refuse(key, DIP_ERROR_TYPE, text, "is not R,G,B", ", for example 64,128,255", err);
+    case DIP_TYPE_INTEGER:
+        return refuse(key, DIP_ERROR_TYPE, text, "is not a whole number", "", err);
+    case DIP_TYPE_FLAG:
+        return refuse(key, DIP_ERROR_TYPE, text, "is neither true nor false", "", err);
+    default:
+        return refuse(key, DIP_ERROR_TYPE, text, "is not a number", "", err);
+    }
 }
 
 static bool refuse_range(DipConfigKey key, const char *text, DipError *err) {
-    return refuse(key, DIP_ERROR_RANGE, text, "is out of range", err);
+    return refuse(key, DIP_ERROR_RANGE, text, "is out of range", "", err);
 }
 
-// Reads exactly `count` whole numbers with `separator` between them.
+// Parses exactly `count` whole numbers with `separator` between them.
 static bool read_integers(DipConfigKey key, const char *text, char separator, int count,
                           int *values, DipError *err) {
     const DipConfigKeyInfo *info = dip_config_key_info(key);
@@ -31,7 +44,8 @@ static bool read_integers(DipConfigKey key, const char *text, char separator, in
     bool in_range = true;
     for (int i = 0; i < count; i++) {
         const char *end = i + 1 < count ? strchr(at, separator) : at + strlen(at);
-        double number; // as a double too, so that a number beyond int is out of range, not of type
+        double number; // A double, so that a number beyond int is out of range and not of another
+                       // type.
         if (!end || !dip_number_parse(at, (size_t)(end - at), &number) ||
             strcspn(at, ".eE") < (size_t)(end - at)) {
             return refuse_type(key, text, err);
@@ -101,13 +115,13 @@ static bool set_isa(DipConfigKey key, const char *text, int *isa, DipError *err)
         }
     }
     if (strcmp(text, "auto") != 0) {
-        return refuse(key, DIP_ERROR_UNKNOWN, text, "is no instruction set", err);
+        return refuse(key, DIP_ERROR_UNKNOWN, text, "is not an instruction set", "", err);
     }
     *isa = DIP_CONFIG_ISA_AUTO;
     return true;
 }
 
-// The vocabulary's own message, with the setting's name before it.
+// Puts the setting's name before the message of the settings parser.
 static bool set_settings(DipConfigKey key, const char *text, DipQuality *quality, DipError *err) {
     DipError inner = {0};
     if (dip_quality_parse(text, quality, &inner)) {
@@ -123,7 +137,7 @@ static void free_file(DipConfigFile *file) {
     *file = (DipConfigFile){0};
 }
 
-// Copies a name and joins it to the ini's folder.
+// Copies a file name and joins it to the ini's folder.
 static bool make_file(const DipConfig *config, DipConfigKey key, const char *text, int line,
                       DipConfigFile *file, DipError *err) {
     const char *slash = strrchr(config->file, '/');
@@ -134,7 +148,7 @@ static bool make_file(const DipConfig *config, DipConfigKey key, const char *tex
     if (!file->path || !file->text) {
         free_file(file);
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, dip_config_key_name(key),
-                             "no memory for a name");
+                             "out of memory");
     }
     memcpy(file->path, config->file, folder);
     memcpy(file->path + folder, text, length + 1);
@@ -157,13 +171,13 @@ static bool add_file(const DipConfig *config, DipConfigKey key, const char *text
                      DipConfigFiles *files, DipError *err) {
     if (files->count == DIP_CONFIG_MAX_MODELS) {
         return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, dip_config_key_name(key),
-                             "one file more than %d, accepted up to %d", DIP_CONFIG_MAX_MODELS,
-                             DIP_CONFIG_MAX_MODELS);
+                             "is given more than %d times, accepted up to %d models",
+                             DIP_CONFIG_MAX_MODELS, DIP_CONFIG_MAX_MODELS);
     }
     DipConfigFile *items = realloc(files->items, (files->count + 1) * sizeof *items);
     if (!items) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, dip_config_key_name(key),
-                             "no memory for a name");
+                             "out of memory");
     }
     files->items = items;
     if (!make_file(config, key, text, line, &items[files->count], err)) {

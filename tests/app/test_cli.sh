@@ -123,6 +123,9 @@ expect 2 'missing.ini:[0-9]+: \[XFILE\] .*none.gltf' "$diptych" dump --hash --co
 sed 's/aa.pth/none.pth/' good.ini >missing.ini
 most_lines=3 expect 2 'missing.ini:[0-9]+: \[CAMPATH_AA\] .*none.pth' "$diptych" dump --hash \
     --config missing.ini
+printf 'XFILE: %s/assets/courtyard/court.gltf\nRES: 32x24\n' "$source" >minimal.ini
+expect 0 '' "$diptych" dump --hash --config minimal.ini --frames 0:1
+check "an ini with a model and a resolution alone gives no warning" test ! -s err.txt
 check "nothing was written so far" test -z "$(find . -name '*.png' -o -name '*.json' -o -name '*.tmp')"
 
 sed 's/^ISA:.*/ISA: neon/' good.ini >isa.ini

@@ -1,5 +1,5 @@
-// The ini: Figure 12 and the shipped file load with every value as it stands; the documentation
-// knows every key.
+// Good ini files: the one of the 2006 ATI Catalyst Control Preview report (its Figure 12) and the
+// shipped one load with every value they give; defaults apply; the documentation has every key.
 #include "config/config.h"
 
 #include <setjmp.h>
@@ -47,14 +47,14 @@ static void load_text(const char *file, const char *text, DipConfig *config, Dip
     remove(file);
 }
 
-// Every key that is required, each as short as it can be.
-#define MINIMAL                                                                                    \
+// An ini of 17 lines that gives every older key, each value as short as it can be.
+#define SHORT                                                                                      \
     "RES:1x2\nREFLECTION_RES=3x4\nFOUNTAIN_WATER_LEVEL:-.5\nDEBUG_SHOW_REFLECTION=true\n"          \
     "XFILE:a.x\nCAMPATH_RESET_ON_SWITCH:false\nCAMPATH_DEFAULT:p\nCAMPATH_AA:p\nCAMPATH_AF:p\n"    \
     "CAMPATH_TAA:p\nCAMPATH_AAF:p\nCAMPATH_AAA:p\nCAMPATH_CAI:p\nCAMPATH_MIPLOD:p\nCAMPATH_GI:p\n" \
     "CAMPATH_DEFAULT_FOV:60\nMIPDEBUG:true\n"
 
-static void figure12_loads_with_its_key_set_unchanged(void **context) {
+static void the_ini_of_figure_12_loads_as_printed(void **context) {
     (void)context;
     DipConfig config;
     DipErrorList faults;
@@ -79,14 +79,14 @@ static void figure12_loads_with_its_key_set_unchanged(void **context) {
     };
     for (size_t c = 0; c < sizeof paths / sizeof *paths; c++) {
         assert_string_equal(config.camera[c].file.text, paths[c]);
-        assert_true(config.camera[c].fov_y_deg == 55.0); // AAF's is AF's
+        assert_true(config.camera[c].fov_y_deg == 55.0); // AAF takes the value of AF.
     }
     assert_null(config.camera[DIP_CATEGORY_WATER].file.path);
     assert_false(config.mipdebug);
     static const char *const pictures[] = {
         "./Mipdebug_textures/texbase1024.bmp", "./Mipdebug_textures/tex512.bmp",
         "./Mipdebug_textures/tex256.bmp",      "./Mipdebug_textures/tex128.bmp",
-        "./Mipdebug_textures/tex64.bmp",       "./Mipdebug_textures/tex16.bmp", // the later one
+        "./Mipdebug_textures/tex64.bmp",       "./Mipdebug_textures/tex16.bmp", // later value
         "./Mipdebug_textures/tex8.bmp",
     };
     for (int l = 0; l < 7; l++) {
@@ -101,7 +101,7 @@ static void figure12_loads_with_its_key_set_unchanged(void **context) {
     dip_config_free(&config);
 }
 
-static void the_shipped_courtyard_loads_without_a_fault(void **context) {
+static void the_shipped_ini_loads_without_a_fault(void **context) {
     (void)context;
     DipConfig config;
     DipErrorList faults;
@@ -121,21 +121,21 @@ static void the_shipped_courtyard_loads_without_a_fault(void **context) {
     assert_int_equal(dip_quality_sample_count(&config.requested), 4);
     assert_int_equal(dip_quality_max_anisotropy(&config.requested), 16);
     dip_config_free(&config);
-    dip_config_free(&config); // a zeroed one
+    dip_config_free(&config); // A zeroed config may be freed again.
 }
 
-static void what_is_left_out_has_its_default(void **context) {
+static void keys_that_are_left_out_have_their_defaults(void **context) {
     (void)context;
     DipConfig config;
     DipErrorList faults;
-    load_text("test.ini", MINIMAL, &config, &faults);
+    load_text("test.ini", SHORT, &config, &faults);
     assert_int_equal(faults.count, 0);
     assert_int_equal(config.res.height, 2);
     assert_int_equal(config.reflection_res.width, 3);
     assert_true(config.fountain_water_level == -0.5);
     assert_true(config.debug_show_reflection && config.mipdebug);
     assert_false(config.campath_reset_on_switch);
-    assert_string_equal(config.xfile.items[0].path, "a.x"); // the ini stands in this folder
+    assert_string_equal(config.xfile.items[0].path, "a.x"); // The ini is in the working folder.
     assert_true(config.camera[DIP_CATEGORY_GI].fov_y_deg == 60.0);
     const DipQuality quality = dip_quality_default();
     assert_memory_equal(&config.current, &quality, sizeof quality);
@@ -150,15 +150,51 @@ static void what_is_left_out_has_its_default(void **context) {
     dip_config_free(&config);
 }
 
-static void our_own_keys_are_read(void **context) {
+static void a_model_and_a_resolution_are_enough(void **context) {
+    (void)context;
+    DipConfig config;
+    DipErrorList faults;
+    load_text("test.ini", "XFILE: a.gltf\nRES: 64x48\n", &config, &faults);
+    assert_int_equal(faults.count, 0);
+    assert_int_equal(config.res.width, 64);
+    assert_int_equal(config.reflection_res.width, 320);
+    assert_int_equal(config.reflection_res.height, 240);
+    assert_true(config.fountain_water_level == 0.0);
+    assert_int_equal(config.line[DIP_KEY_FOUNTAIN_WATER_LEVEL], 0);
+    assert_false(config.debug_show_reflection || config.mipdebug);
+    assert_true(config.campath_reset_on_switch);
+    for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
+        assert_null(config.camera[c].file.path);
+    }
+    assert_true(config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg == 55.0);
+    dip_config_free(&config);
+}
+
+static void a_path_without_a_field_of_view_has_the_default(void **context) {
+    (void)context;
+    DipConfig config;
+    DipErrorList faults;
+    load_text("test.ini",
+              "XFILE: a.gltf\nRES: 64x48\nCAMPATH_AA: a.pth\nCAMPATH_AF: b.pth\n"
+              "CAMPATH_AAF: ./b.pth\nCAMPATH_AAF_FOV: 40\nCAMPATH_DEFAULT_FOV: 30\n",
+              &config, &faults);
+    assert_int_equal(faults.count, 0);
+    assert_true(config.camera[DIP_CATEGORY_AA].fov_y_deg == 55.0);
+    assert_true(config.camera[DIP_CATEGORY_AF].fov_y_deg == 40.0); // AAF has the same file.
+    assert_true(config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg == 30.0);
+    assert_null(config.camera[DIP_CATEGORY_DEFAULT].file.path);
+    dip_config_free(&config);
+}
+
+static void the_newer_keys_are_read(void **context) {
     (void)context;
     DipConfig config;
     DipErrorList faults;
     load_text("./test.ini",
-              MINIMAL "CURRENT: aa=2\nREQUESTED = aa=8,aaf=on,miplod=performance ; text\n"
-                      "THREADS: 256\nISA: sse2\nNEAR: 1e-2\nBACKGROUND: 0,255,7\n"
-                      "LOG: /var/log/diptych.log\nCAMPATH_WATER: w\nCAMPATH_WATER_FOV: 44.5\n"
-                      "MIPDEBUG8: eight.png\nXFILE: sub/b.gltf\n",
+              SHORT "CURRENT: aa=2\nREQUESTED = aa=8,aaf=on,miplod=performance ; text\n"
+                    "THREADS: 256\nISA: sse2\nNEAR: 1e-2\nBACKGROUND: 0,255,7\n"
+                    "LOG: /var/log/diptych.log\nCAMPATH_WATER: w\nCAMPATH_WATER_FOV: 44.5\n"
+                    "MIPDEBUG8: eight.png\nXFILE: sub/b.gltf\n",
               &config, &faults);
     assert_int_equal(faults.count, 0);
     assert_int_equal(dip_quality_sample_count(&config.current), 2);
@@ -185,8 +221,8 @@ static void our_own_keys_are_read(void **context) {
     dip_config_free(&config);
 }
 
-// What inih alone gets wrong or passes over.
-static void odd_but_good_layout_is_read(void **context) {
+// inih alone would misread or ignore most of these lines.
+static void comments_and_white_space_are_ignored(void **context) {
     (void)context;
     DipConfig config;
     DipErrorList faults;
@@ -196,14 +232,14 @@ static void odd_but_good_layout_is_read(void **context) {
     comment[sizeof comment - 1] = '\0';
     char text[4096];
     snprintf(text, sizeof text,
-             "\xef\xbb\xbf" MINIMAL "%s\r\n# a comment: too\r\n\r\n"
+             "\xef\xbb\xbf" SHORT "%s\r\n# a comment: too\r\n\r\n"
              "   THREADS :\t3 ; three  \r\n\tISA\t=  scalar%s\r\n"
              "LOG: a;b c.log\t;comment",
              comment, "    ");
     load_text("test.ini", text, &config, &faults);
     assert_int_equal(faults.count, 0);
     assert_int_equal(config.res.width, 1);
-    assert_int_equal(config.threads, 3); // indented: still a key of its own
+    assert_int_equal(config.threads, 3); // An indented line is a key of its own.
     assert_int_equal(config.line[DIP_KEY_THREADS], 21);
     assert_int_equal(config.isa, DIP_ISA_SCALAR);
     assert_string_equal(config.log.text, "a;b c.log");
@@ -213,13 +249,13 @@ static void odd_but_good_layout_is_read(void **context) {
     memset(longest, 'y', sizeof longest);
     memcpy(longest, "LOG:", 4);
     longest[DIP_CONFIG_MAX_LINE] = '\0';
-    snprintf(text, sizeof text, MINIMAL "%s %s\n", longest, comment);
+    snprintf(text, sizeof text, SHORT "%s %s\n", longest, comment);
     load_text("test.ini", text, &config, &faults);
     assert_int_equal(strlen(config.log.text), DIP_CONFIG_MAX_LINE - 4);
     dip_config_free(&config);
 }
 
-static void names_of_one_file_are_recognised(void **context) {
+static void two_names_of_one_file_are_recognised(void **context) {
     (void)context;
     static const struct {
         char *a, *b;
@@ -248,7 +284,7 @@ static void names_of_one_file_are_recognised(void **context) {
     assert_false(dip_config_same_file(&none, &none));
 }
 
-static void the_documentation_has_every_key(void **context) {
+static void the_documentation_has_a_row_for_every_key(void **context) {
     (void)context;
     static char document[1 << 16];
     FILE *stream = fopen(DIP_SOURCE_DIR "/docs/config.md", "rb");
@@ -268,7 +304,7 @@ static void the_documentation_has_every_key(void **context) {
     for (const char *at = document; (at = strstr(at, "\n| `")) != NULL; at++) {
         rows++;
     }
-    assert_int_equal(rows, DIP_KEY_COUNT - missing); // none twice, none that is gone
+    assert_int_equal(rows, DIP_KEY_COUNT - missing); // No row is repeated or obsolete.
     if (missing) {
         fail_msg("docs/config.md lacks the %d rows above", missing);
     }
@@ -276,13 +312,15 @@ static void the_documentation_has_every_key(void **context) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(figure12_loads_with_its_key_set_unchanged),
-        cmocka_unit_test(the_shipped_courtyard_loads_without_a_fault),
-        cmocka_unit_test(what_is_left_out_has_its_default),
-        cmocka_unit_test(our_own_keys_are_read),
-        cmocka_unit_test(odd_but_good_layout_is_read),
-        cmocka_unit_test(names_of_one_file_are_recognised),
-        cmocka_unit_test(the_documentation_has_every_key),
+        cmocka_unit_test(the_ini_of_figure_12_loads_as_printed),
+        cmocka_unit_test(the_shipped_ini_loads_without_a_fault),
+        cmocka_unit_test(keys_that_are_left_out_have_their_defaults),
+        cmocka_unit_test(a_model_and_a_resolution_are_enough),
+        cmocka_unit_test(a_path_without_a_field_of_view_has_the_default),
+        cmocka_unit_test(the_newer_keys_are_read),
+        cmocka_unit_test(comments_and_white_space_are_ignored),
+        cmocka_unit_test(two_names_of_one_file_are_recognised),
+        cmocka_unit_test(the_documentation_has_a_row_for_every_key),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
