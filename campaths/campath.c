@@ -1,4 +1,4 @@
-// A camera path in memory: rules for keys, info, and the pose at a time.
+// A camera path in memory: the rules for its keys, figures about it, and the pose at a time.
 #include "campaths/campath_private.h"
 
 #include "renderer/base/assert.h"
@@ -10,8 +10,8 @@
 
 const char *const dip_campath_key_names[7] = {"x", "y", "z", "qx", "qy", "qz", "qw"};
 
-static const double MIN_QUATERNION = 1e-6; // of each file's quaternions, length
-static const double MAX_QUATERNION = 1e6;
+static const double MIN_QUATERNION = 1e-6; // lowest accepted length of a quaternion
+static const double MAX_QUATERNION = 1e6;  // highest accepted length of a quaternion
 
 double dip_campath_dot(const double a[4], const double b[4]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
@@ -25,8 +25,8 @@ double dip_campath_component(const DipCamKey *key, int index) {
     return index < 3 ? key->position_world[index] : key->orientation[index - 3];
 }
 
-// One division leaves the squared length within 1e-15 of 1, which is_unit then accepts as it is:
-// normalising twice changes nothing.
+// After one division the squared length is within 1e-15 of 1. dip_campath_is_unit accepts that, so
+// a quaternion is never normalised twice.
 static void normalise(double q[4]) {
     const double length = sqrt(dip_campath_dot(q, q));
     for (int i = 0; i < 4; i++) {
@@ -49,7 +49,7 @@ bool dip_campath_admit(DipCamKey *key, const DipCamKey *before, const char *name
         const double length = sqrt(dip_campath_dot(q, q));
         if (length < MIN_QUATERNION || length > MAX_QUATERNION) {
             return dip_error_set(err, DIP_ERROR_RANGE, name, line, "qx qy qz qw",
-                                 "a quaternion of length %.9g, accepted %g..%g", length,
+                                 "the quaternion has length %.9g, accepted %g..%g", length,
                                  MIN_QUATERNION, MAX_QUATERNION);
         }
         normalise(q);
@@ -68,7 +68,8 @@ DipCamPath *dip_campath_allocate(size_t key_count, int64_t period_ns, const char
     // At most 1e6 * 56 bytes, and 3.6e18 ns: neither product can overflow.
     DipCamPath *path = malloc(sizeof *path + key_count * sizeof path->keys[0]);
     if (!path) {
-        dip_error_set(err, DIP_ERROR_MEMORY, name, 0, NULL, "no memory for %zu keys", key_count);
+        dip_error_set(err, DIP_ERROR_MEMORY, name, 0, NULL, "out of memory for %zu keys",
+                      key_count);
         return NULL;
     }
     path->key_count = key_count;
@@ -125,7 +126,7 @@ DipCamKey dip_campath_key(const DipCamPath *path, size_t index) {
     return path->keys[index];
 }
 
-// The orientation that a step from `index` ends in, on the hemisphere of the one it starts from.
+// Orientation at the end of the step that starts at key `index`, on the hemisphere of that key.
 static void step_target(const DipCamPath *path, size_t index, double q[4]) {
     const size_t next = index + 1 < path->key_count ? index + 1 : 0;
     const double sign = next == 0 ? path->closing_sign : 1.0;
@@ -134,8 +135,8 @@ static void step_target(const DipCamPath *path, size_t index, double q[4]) {
     }
 }
 
-// Angle between unit quaternions as 4-vectors, half that of the rotations. From chords, not from
-// acos of the dot product, which loses half the digits where the angle is small.
+// Angle between two unit quaternions as 4-vectors, which is half the angle between the rotations.
+// Computed from chords, because acos of the dot product loses half its digits at small angles.
 static double angle_between(const double a[4], const double b[4]) {
     double apart = 0.0;
     double along = 0.0;
@@ -146,14 +147,14 @@ static double angle_between(const double a[4], const double b[4]) {
     return 2.0 * dip_atan2(sqrt(apart), sqrt(along));
 }
 
-// a and b lie on one hemisphere, so their angle is at most pi/2 and its sine vanishes only where
-// they are equal. Orientations 180 degrees apart have the angle pi/2: the axis of the turn is
-// theirs, its sense is that of the signs which alignment has settled.
+// a and b lie on one hemisphere, so their angle is at most pi/2 and its sine is 0 only if they are
+// equal. Orientations 180 degrees apart have the angle pi/2; the signs of their quaternions decide
+// which way the camera turns.
 static void slerp(const double a[4], const double b[4], double u, double q[4]) {
     const double angle = angle_between(a, b);
     double from = 1.0 - u;
     double to = u;
-    if (angle > 1e-6) { // below, LERP differs by less than 1e-18
+    if (angle > 1e-6) { // At smaller angles LERP differs from SLERP by less than 1e-18.
         const double sine = dip_sin(angle);
         from = dip_sin((1.0 - u) * angle) / sine;
         to = dip_sin(u * angle) / sine;

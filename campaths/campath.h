@@ -1,35 +1,39 @@
 // A camera path: keys of position and orientation at equal steps of time, flown in a closed loop.
 //
-// Key i stands at time i * period; the last key is followed by the first, so a path of N keys has
-// the duration N * period and comes back to where it began. Between keys positions are
-// interpolated linearly (LERP), orientations along the shortest arc at constant speed (SLERP). One
-// key alone is a still camera. Conventions of space are those of renderer/scene/pose.h. The field
-// of view is not part of a path.
+// Key i is reached at time i * period. The first key follows the last one, so a path of N keys
+// lasts N * period and ends where it began. Between keys, positions are interpolated linearly
+// (LERP) and orientations along the shortest arc at constant speed (SLERP). A path with a single
+// key is a still camera. renderer/scene/pose.h defines the coordinate system. The field of view is
+// not part of a path.
 //
-// Text, `.pth`. ASCII, '\n' or '\r\n', '#' begins a comment anywhere, empty lines do not count,
-// tokens are separated by spaces or tabs:
+// Text format, `.pth`. ASCII; lines end in '\n' or '\r\n'; '#' begins a comment anywhere; empty
+// lines are ignored; spaces or tabs separate tokens:
 //
-//     diptych-path 1              the format and its version, on the first line that counts
+//     diptych-path 1              format and version, on the first line with a token
 //     period 0.25                 seconds from key to key, once, before the keys
 //     x y z qx qy qz qw           one key per line: position in metres, quaternion
 //
-// Numbers are decimal, finite, with '.' in every locale. The period is rounded to nanoseconds.
-// Quaternions need not be of unit length (1e-6..1e6 is accepted); loading normalises them, unless
-// they are already within DIP_CAMPATH_UNIT_TOLERANCE, and negates those that lie on the other
-// hemisphere than the key before. Both leave alone what they made themselves, so that loading,
-// saving and converting any number of times, through either format, keeps every bit.
+// Numbers are decimal and finite, with '.' in every locale. The period is rounded to nanoseconds.
+// Quaternions may have any length from 1e-6 to 1e6. Loading normalises a quaternion unless its
+// squared length is within DIP_CAMPATH_UNIT_TOLERANCE of 1, and negates it if it lies on the other
+// hemisphere than the key before it. Loading changes nothing in keys that it has already treated,
+// so a path keeps every bit when it is loaded, saved and converted any number of times, in either
+// format.
 //
-// Binary, `.bth`. All numbers little-endian on every host:
+// Binary format, `.bth`. All numbers are little-endian on every host:
 //
 //     byte  size  content
 //        0     8  magic 89 44 49 50 42 54 48 0A ("\x89" "DIPBTH" "\n")
 //        8     4  version, unsigned: 1
 //       12     4  key count N, unsigned: 1..DIP_CAMPATH_MAX_KEYS
 //       16     8  period in nanoseconds, signed: DIP_CAMPATH_MIN_PERIOD_NS..MAX
-//       24  56*N  keys: x y z qx qy qz qw as IEEE 754 binary64, each; quaternions of unit length
-//                 and each on the hemisphere of the one before (dot product >= 0)
+//       24  56*N  keys: x y z qx qy qz qw, each an IEEE 754 binary64; quaternions of unit length,
+//                 each on the hemisphere of the one before it (dot product >= 0)
 //
-// and nothing after the keys. docs/campaths.md shows a file byte by byte.
+// The file ends after the keys. docs/campaths.md shows a file byte by byte.
+//
+// Threads: a DipCamPath never changes after its creation, so any number of threads may read it.
+// Functions that create, load or save paths may run at the same time on different paths and files.
 #ifndef DIP_CAMPATHS_CAMPATH_H
 #define DIP_CAMPATHS_CAMPATH_H
 
@@ -40,81 +44,97 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum {
     DIP_CAMPATH_VERSION = 1,
     DIP_CAMPATH_MAX_KEYS = 1000000,
-    DIP_CAMPATH_MAX_LINE = 1000, // characters of a text line
+    DIP_CAMPATH_MAX_LINE = 1000, // bytes in a line of text
     DIP_CAMPATH_HEADER_BYTES = 24,
     DIP_CAMPATH_KEY_BYTES = 56
 };
 
 #define DIP_CAMPATH_MAX_FILE_BYTES ((size_t)256 << 20)
-#define DIP_CAMPATH_MAX_POSITION   1e9                    // metres, either sign
+#define DIP_CAMPATH_MAX_POSITION   1e9                    // metres, of either sign
 #define DIP_CAMPATH_MIN_PERIOD_NS  INT64_C(1000)          // a microsecond
 #define DIP_CAMPATH_MAX_PERIOD_NS  INT64_C(3600000000000) // an hour
-#define DIP_CAMPATH_UNIT_TOLERANCE 1e-14                  // of the squared length of a quaternion
+#define DIP_CAMPATH_UNIT_TOLERANCE 1e-14                  // of a quaternion's squared length
 
 typedef struct DipCamKey {
     double position_world[3];
-    double orientation[4]; // x, y, z, w
+    double orientation[4]; // quaternion x, y, z, w
 } DipCamKey;
 
-// Immutable once made, so that any number of threads may sample it.
 typedef struct DipCamPath DipCamPath;
 
-// What `diptych path info` shows.
+// Figures about a path, as `diptych path info` shows them.
 typedef struct DipCamPathInfo {
     size_t key_count;
     int64_t period_ns;
-    int64_t duration_ns; // key_count * period_ns
-    double min_world[3]; // box around the positions
-    double max_world[3];
-    double length_m;           // of the whole loop
-    double max_speed_m_per_s;  // over any one step
-    double max_turn_deg_per_s; // likewise
+    int64_t duration_ns;       // key_count * period_ns
+    double min_world[3];       // lowest corner of the box around the positions
+    double max_world[3];       // highest corner of that box
+    double length_m;           // length of the whole loop
+    double max_speed_m_per_s;  // greatest speed between two keys
+    double max_turn_deg_per_s; // greatest speed of turning between two keys
 } DipCamPathInfo;
 
-// Makes a path from keys under the rules of the text format; keys are copied. Fails with RANGE
-// (count, period, a number), MEMORY.
+// Creates a path from keys, which must follow the rules of the text format. The keys are copied.
+// The caller owns *path and destroys it with dip_campath_destroy. On failure *path is NULL; codes:
+// RANGE (count, period or a number), MEMORY.
 bool dip_campath_create(const DipCamKey *keys, size_t key_count, int64_t period_ns,
                         DipCamPath **path, DipError *err);
 
-// Accepts NULL and nulls the pointer.
+// Destroys the path and sets the pointer to NULL. Accepts NULL and a pointer to NULL.
 void dip_campath_destroy(DipCamPath **path);
 
-// Reads either format, told apart by content. On failure *path is NULL and *err names file, line
-// (text) or byte (binary, in the message), key and what is accepted. Codes: IO, FORMAT (no path
-// file, another version, a malformed line), TYPE (no number), RANGE, MISSING (header, period or
-// keys), CONFLICT (a second period), TRUNCATED, OVERSIZED, MEMORY.
+// Loads either format; the content decides which it is, not the name. The caller owns *path. On
+// failure *path is NULL and *err names the file, the line (text) or byte (binary, in the message),
+// the key, and what is accepted. Codes: IO, FORMAT (not a path file, another version, a malformed
+// line), TYPE (not a number), RANGE, MISSING (header, period or keys), CONFLICT (a second period),
+// TRUNCATED, OVERSIZED, MEMORY.
 bool dip_campath_load(const char *file, DipCamPath **path, DipError *err);
 
-// As above from memory; name stands for the file in messages.
+// Like dip_campath_load, but reads the file's bytes from memory. Messages call the file `name`.
 bool dip_campath_parse(const void *bytes, size_t size_bytes, const char *name, DipCamPath **path,
                        DipError *err);
 
-// Each replaces the file. Fails with IO; a file half written is then removed.
+// Each saves the path in one format and replaces an existing file. Fails with IO and then removes
+// what it has written.
 bool dip_campath_save_pth(const DipCamPath *path, const char *file, DipError *err);
 bool dip_campath_save_bth(const DipCamPath *path, const char *file, DipError *err);
 
 DipCamPathInfo dip_campath_info(const DipCamPath *path);
 DipCamKey dip_campath_key(const DipCamPath *path, size_t index); // index < key_count
 
-// Fills position and orientation at any time, also a negative one; fov_y_deg is left alone. The
-// time is reduced to the duration in integers: times a duration apart give the same bits.
+// Sets the pose's position and orientation to those at a time, which may be negative, and leaves
+// fov_y_deg unchanged. The time is reduced to the duration in integers, so that times one duration
+// apart give the same bits.
 void dip_campath_sample(const DipCamPath *path, int64_t time_ns, DipPose *pose);
 
-// An orbit about a model's bounding box: a full turn at constant speed, from +Z over +X, looking at
-// the box's middle from 15 degrees above it, as near as keeps the whole box in the picture.
+// An orbit about a model's bounding box: one full turn at constant speed, from +Z over +X. The
+// camera looks at the middle of the box from 15 degrees above the horizon, from the shortest
+// distance that keeps the whole box in the picture.
 typedef struct DipCamOrbitDef {
     double min_world[3]; // min <= max, within DIP_CAMPATH_MAX_POSITION / 100
     double max_world[3];
-    double fov_y_deg;    // 1..170
+    double fov_y_deg;    // vertical field of view, 1..170
     double aspect;       // width / height of the picture, 0.01..100
-    int64_t duration_ns; // of a turn, rounded down to a multiple of 100 ns
+    int64_t duration_ns; // time of a turn; rounded down to a multiple of 100 ns
 } DipCamOrbitDef;
 
-// 20 s, 50 degrees, 4:3, a unit cube about the origin.
+// Returns an orbit of 20 s about a unit cube at the origin, with a field of view of 50 degrees and
+// an aspect of 4:3.
 DipCamOrbitDef dip_campath_default_orbit(void);
+
+// Creates the path of an orbit, which the caller owns. On failure *path is NULL; codes: RANGE (box,
+// fov, aspect or period), MEMORY.
 bool dip_campath_orbit(const DipCamOrbitDef *def, DipCamPath **path, DipError *err);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,4 +1,4 @@
-// Camera path files: the binary format, read and written.
+// Reads and writes the binary format of camera paths.
 #include "campaths/campath_private.h"
 
 #include <math.h>
@@ -27,13 +27,15 @@ static bool check_header(const unsigned char *bytes, size_t size_bytes, const ch
                          DipError *err) {
     const size_t compared = size_bytes < 8 ? size_bytes : 8;
     if (memcmp(bytes, dip_campath_magic, compared) != 0) {
-        return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, "magic",
-                             "at byte 0: another file's magic bytes, accepted 89 'DIPBTH' 0A");
+        return dip_error_set(
+            err, DIP_ERROR_FORMAT, name, 0, "magic",
+            "at byte 0: these are not the magic bytes of a .bth file, accepted 89 'DIPBTH' 0A");
     }
     if (size_bytes < DIP_CAMPATH_HEADER_BYTES) {
-        return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, "header",
-                             "at byte %zu: ends within the header, accepted %d bytes of it",
-                             size_bytes, DIP_CAMPATH_HEADER_BYTES);
+        return dip_error_set(
+            err, DIP_ERROR_TRUNCATED, name, 0, "header",
+            "at byte %zu: the file ends within its header, accepted a header of %d bytes",
+            size_bytes, DIP_CAMPATH_HEADER_BYTES);
     }
     const unsigned version = (unsigned)read_little_endian(bytes + 8, 4);
     if (version != DIP_CAMPATH_VERSION) {
@@ -58,7 +60,8 @@ static bool check_header(const unsigned char *bytes, size_t size_bytes, const ch
         return dip_error_set(err, is_short ? DIP_ERROR_TRUNCATED : DIP_ERROR_OVERSIZED, name, 0,
                              "keys", "at byte %llu: %s, accepted %llu bytes for %u keys",
                              (unsigned long long)(is_short ? size_bytes : expected),
-                             is_short ? "ends too early" : "goes on after the last key",
+                             is_short ? "the file ends too early"
+                                      : "the file goes on after the last key",
                              (unsigned long long)expected, count);
     }
     return true;
@@ -77,9 +80,10 @@ static bool check_key(const DipCamKey *key, const DipCamKey *before, size_t offs
     }
     const char *reason = NULL;
     if (!dip_campath_is_unit(key->orientation)) {
-        reason = "the quaternion is not of unit length, accepted normalised ones";
+        reason = "the quaternion is not of unit length, accepted a normalised one";
     } else if (before && dip_campath_dot(before->orientation, key->orientation) < 0.0) {
-        reason = "the quaternion is on the other hemisphere, accepted the sign nearer to the last";
+        reason =
+            "the quaternion is on the other hemisphere than the one before, accepted its negative";
     }
     return !reason || dip_error_set(err, DIP_ERROR_RANGE, name, 0, "qx qy qz qw", "at byte %zu: %s",
                                     offset + 24, reason);

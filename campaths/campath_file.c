@@ -1,4 +1,4 @@
-// Camera path files: opening, telling the formats apart, saving.
+// Loads and saves camera path files, and recognises their format.
 #include "campaths/campath_private.h"
 
 #include <errno.h>
@@ -12,26 +12,26 @@ bool dip_campath_parse(const void *bytes, size_t size_bytes, const char *name, D
     *path = NULL;
     if (size_bytes == 0) {
         return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL,
-                             "is empty, accepted a .pth or .bth camera path");
+                             "the file is empty, accepted a .pth or .bth camera path");
     }
-    // No text begins with this byte, not even UTF-8.
+    // No text begins with this byte, not even in UTF-8.
     if (*(const unsigned char *)bytes == dip_campath_magic[0]) {
         return dip_campath_parse_binary(bytes, size_bytes, name, path, err);
     }
     return dip_campath_parse_text(bytes, size_bytes, name, path, err);
 }
 
-// The size of an open regular file within the limit, else false.
+// Finds the size of an open file. Fails for anything but a regular file within the size limit.
 static bool measure(FILE *stream, const char *file, size_t *size_bytes, DipError *err) {
     struct stat status;
     if (fstat(fileno(stream), &status) != 0 || !S_ISREG(status.st_mode)) {
         return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL,
-                             "is no regular file, accepted a .pth or .bth camera path");
+                             "is not a regular file, accepted a .pth or .bth camera path");
     }
     if ((uint64_t)status.st_size > DIP_CAMPATH_MAX_FILE_BYTES) {
         return dip_error_set(err, DIP_ERROR_OVERSIZED, file, 0, NULL,
-                             "a file of %lld bytes, accepted up to %zu", (long long)status.st_size,
-                             DIP_CAMPATH_MAX_FILE_BYTES);
+                             "the file has %lld bytes, accepted up to %zu",
+                             (long long)status.st_size, DIP_CAMPATH_MAX_FILE_BYTES);
     }
     *size_bytes = (size_t)status.st_size;
     return true;
@@ -50,7 +50,7 @@ bool dip_campath_load(const char *file, DipCamPath **path, DipError *err) {
     if (loaded) {
         unsigned char *bytes = malloc(size_bytes + 1);
         if (!bytes) {
-            loaded = dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "no memory to read it");
+            loaded = dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
         } else if (fread(bytes, 1, size_bytes, stream) != size_bytes) {
             loaded = dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be read to its end");
         } else {
@@ -74,7 +74,7 @@ static bool save(const DipCamPath *path, const char *file,
     struct stat status;
     const bool is_regular = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode);
     if (fclose(stream) != 0 || failed) {
-        if (is_regular) { // never a device
+        if (is_regular) { // A device must not be removed.
             remove(file);
         }
         return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written to its end");

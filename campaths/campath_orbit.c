@@ -1,15 +1,15 @@
-// An orbit about a bounding box, for models that come without a path.
+// Creates an orbit about a bounding box, for models that come without a path.
 #include "campaths/campath_private.h"
 
 #include "renderer/base/trig.h"
 
 #include <math.h>
 
-enum { ORBIT_KEYS = 100 }; // 3.6 degrees a step: the chord is 0.05 % nearer than the circle
+enum { ORBIT_KEYS = 100 }; // 3.6 degrees per step; the chord comes 0.05 % nearer than the circle
 
 static const double ELEVATION_RAD = 15.0 * DIP_PI / 180.0;
-static const double MARGIN = 1.05;      // of the distance, for the eye and for the chords
-static const double MIN_RADIUS_M = 0.5; // what a single point is framed as
+static const double MARGIN = 1.05;      // factor of the distance, for a border and for the chords
+static const double MIN_RADIUS_M = 0.5; // half size in which a model of a single point is framed
 
 DipCamOrbitDef dip_campath_default_orbit(void) {
     return (DipCamOrbitDef){
@@ -21,7 +21,7 @@ DipCamOrbitDef dip_campath_default_orbit(void) {
     };
 }
 
-// The camera's axes in the world when it stands at `yaw` (from +Z over +X) and looks inwards.
+// World-space axes of a camera that stands at `yaw` (from +Z over +X) and looks at the middle.
 typedef struct Axes {
     double right[3];
     double up[3];
@@ -44,8 +44,8 @@ static double dot3(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The distance from the middle at which every corner of the box with these half sizes lies in the
-// picture, wherever on the orbit: a corner at depth d in front of the camera is in it when
+// Distance from the middle at which every corner of the box (half: its half sizes) lies in the
+// picture everywhere on the orbit. A corner at depth d in front of the camera is in the picture if
 // |x| <= d * tan_x and |y| <= d * tan_y.
 static double framing_distance(const double half[3], double tan_x, double tan_y) {
     double distance = 0.0;
@@ -107,7 +107,7 @@ bool dip_campath_orbit(const DipCamOrbitDef *def, DipCamPath **path, DipError *e
     for (int k = 0; k < ORBIT_KEYS; k++) {
         const double yaw = 2.0 * DIP_PI * k / ORBIT_KEYS;
         const Axes axes = axes_at(yaw);
-        // Yaw about +Y times pitch about +X, from half angles.
+        // Quaternion of the yaw about +Y times the pitch about +X, from half angles.
         const double sy = dip_sin(0.5 * yaw);
         const double cy = dip_cos(0.5 * yaw);
         const double sp = dip_sin(-0.5 * ELEVATION_RAD);

@@ -1,4 +1,4 @@
-// Camera path files: the text format, read and written.
+// Reads and writes the text format of camera paths.
 #include "campaths/campath_private.h"
 
 #include "renderer/base/number.h"
@@ -6,24 +6,25 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 typedef struct Token {
     const char *text;
     size_t length;
 } Token;
 
-enum { MAX_TOKENS = 8 }; // one more than a key has, to notice what is too many
+enum { MAX_TOKENS = 8 }; // One more than a key has, so that a line with too many is noticed.
 
 typedef struct TextReader {
-    const char *name;
-    const char *at;
+    const char *name; // the file, in messages
+    const char *at;   // next byte to read
     const char *end;
-    int line;
+    int line; // of the last line read, 1-based
     bool has_header;
-    int64_t period_ns; // 0: not met yet
-    DipCamPath *path;  // grows
-    size_t capacity;
-    size_t count;
+    int64_t period_ns; // 0 until it is read
+    DipCamPath *path;  // the keys so far; reallocated as they grow
+    size_t capacity;   // keys that path has room for
+    size_t count;      // keys read so far
     DipError *err;
 } TextReader;
 
@@ -32,30 +33,44 @@ static bool fault(const TextReader *reader, DipErrorCode code, const char *key,
     return dip_error_set(reader->err, code, reader->name, reader->line, key, "%s", message);
 }
 
-// Cuts the next line into tokens, without its comment.
-static bool next_line(TextReader *reader, Token tokens[MAX_TOKENS], int *count) {
-    const size_t left = (size_t)(reader->end - reader->at);
-    const char *newline = memchr(reader->at, '\n', left);
-    const char *at = reader->at;
-    const char *end = newline ? newline : reader->end;
-    reader->line++;
-    reader->at = newline ? newline + 1 : reader->end;
-    *count = 0;
-    if (end - at > DIP_CAMPATH_MAX_LINE) {
+// Reports a file that is not a camera path at all. `found` says what it has instead of a header.
+// Files named like models get a hint, because they are easily confused on the command line.
+static bool not_a_path(const TextReader *reader, const char *found) {
+    static const char *const model_endings[] = {".gltf", ".glb", ".obj", ".ply", ".stl", ".x",
+                                                ".dae",  ".fbx", ".3ds", ".md2", ".off"};
+    const char *ending = strrchr(reader->name, '.');
+    const char *hint = "";
+    for (size_t i = 0; ending && i < sizeof model_endings / sizeof *model_endings; i++) {
+        hint = strcasecmp(ending, model_endings[i]) == 0 ? "; load a model with --model" : hint;
+    }
+    return dip_error_set(reader->err, DIP_ERROR_FORMAT, reader->name, reader->line, "diptych-path",
+                         "the file %s, so it is not a camera path, accepted .pth text that begins "
+                         "with 'diptych-path 1' or .bth binary%s",
+                         found, hint);
+}
+
+// Refuses a line that is too long or binary. Before the header that means another kind of file.
+static bool check_line(const TextReader *reader, const char *at, const char *end) {
+    const bool may_be_path = reader->has_header || *at == '#';
+    const bool is_long = end - at > DIP_CAMPATH_MAX_LINE;
+    if (!is_long && !memchr(at, '\0', (size_t)(end - at))) {
+        return true;
+    }
+    if (!may_be_path) {
+        return not_a_path(reader, is_long ? "has a line of over 1000 bytes" : "contains NUL bytes");
+    }
+    if (is_long) {
         return dip_error_set(reader->err, DIP_ERROR_OVERSIZED, reader->name, reader->line, NULL,
-                             "a line of %zu characters, accepted up to %d", (size_t)(end - at),
+                             "the line has %zu bytes, accepted up to %d", (size_t)(end - at),
                              DIP_CAMPATH_MAX_LINE);
     }
-    if (memchr(at, '\0', (size_t)(end - at))) {
-        return fault(reader, DIP_ERROR_FORMAT, NULL,
-                     "a NUL byte, accepted a text or a .bth file with its magic bytes");
-    }
-    if (end > at && end[-1] == '\r') {
-        end--;
-    }
-    const char *comment = memchr(at, '#', (size_t)(end - at));
-    end = comment ? comment : end;
-    while (*count < MAX_TOKENS) {
+    return fault(reader, DIP_ERROR_FORMAT, NULL, "the line contains a NUL byte, accepted text");
+}
+
+// Splits the text between at and end at spaces and tabs. Returns the number of tokens.
+static int split(const char *at, const char *end, Token tokens[MAX_TOKENS]) {
+    int count = 0;
+    while (count < MAX_TOKENS) {
         while (at < end && (*at == ' ' || *at == '\t')) {
             at++;
         }
@@ -66,8 +81,27 @@ static bool next_line(TextReader *reader, Token tokens[MAX_TOKENS], int *count) 
         while (at < end && *at != ' ' && *at != '\t') {
             at++;
         }
-        tokens[(*count)++] = (Token){start, (size_t)(at - start)};
+        tokens[count++] = (Token){start, (size_t)(at - start)};
     }
+    return count;
+}
+
+// Reads the next line and splits it into tokens, without its comment.
+static bool next_line(TextReader *reader, Token tokens[MAX_TOKENS], int *count) {
+    const size_t left = (size_t)(reader->end - reader->at);
+    const char *newline = memchr(reader->at, '\n', left);
+    const char *at = reader->at;
+    const char *end = newline ? newline : reader->end;
+    reader->line++;
+    reader->at = newline ? newline + 1 : reader->end;
+    if (!check_line(reader, at, end)) {
+        return false;
+    }
+    if (end > at && end[-1] == '\r') {
+        end--;
+    }
+    const char *comment = memchr(at, '#', (size_t)(end - at));
+    *count = split(at, comment ? comment : end, tokens);
     return true;
 }
 
@@ -75,7 +109,7 @@ static bool token_is(Token token, const char *word) {
     return token.length == strlen(word) && memcmp(token.text, word, token.length) == 0;
 }
 
-// A token as it may be shown: cut, and with '?' for what is not printable ASCII.
+// Copies a token for a message: at most 40 bytes, with '?' for what is not printable ASCII.
 static const char *show(Token token, char buffer[41]) {
     const size_t length = token.length < 40 ? token.length : 40;
     for (size_t i = 0; i < length; i++) {
@@ -92,20 +126,20 @@ static bool read_number(const TextReader *reader, Token token, const char *key, 
     }
     char shown[41];
     return dip_error_set(reader->err, DIP_ERROR_TYPE, reader->name, reader->line, key,
-                         "'%s' is no number, accepted a finite decimal such as -1.25e-3",
+                         "'%s' is not a number, accepted a finite decimal such as -1.25e-3",
                          show(token, shown));
 }
 
 static bool read_header(TextReader *reader, const Token *tokens, int count) {
     char shown[41];
     if (!token_is(tokens[0], "diptych-path")) {
-        return dip_error_set(
-            reader->err, DIP_ERROR_FORMAT, reader->name, reader->line, "diptych-path",
-            "begins with '%s', accepted 'diptych-path 1' or a .bth file", show(tokens[0], shown));
+        char found[64];
+        snprintf(found, sizeof found, "begins with '%s'", show(tokens[0], shown));
+        return not_a_path(reader, found);
     }
     if (count != 2 || !token_is(tokens[1], "1")) {
         return dip_error_set(reader->err, DIP_ERROR_FORMAT, reader->name, reader->line,
-                             "diptych-path", "version '%s', accepted 1",
+                             "diptych-path", "the version is '%s', accepted 1",
                              count > 1 ? show(tokens[count - 1], shown) : "");
     }
     reader->has_header = true;
@@ -115,16 +149,17 @@ static bool read_header(TextReader *reader, const Token *tokens, int count) {
 static bool read_period(TextReader *reader, const Token *tokens, int count) {
     double seconds;
     if (reader->period_ns) {
-        return fault(reader, DIP_ERROR_CONFLICT, "period", "a second period, accepted one");
+        return fault(reader, DIP_ERROR_CONFLICT, "period",
+                     "the period is given twice, accepted one");
     }
     if (count != 2) {
         return fault(reader, DIP_ERROR_FORMAT, "period",
-                     "not one value, accepted 'period' and a number of seconds");
+                     "does not have exactly one value, accepted 'period' and a number of seconds");
     }
     if (!read_number(reader, tokens[1], "period", &seconds)) {
         return false;
     }
-    // Compared before the conversion, which is undefined for what does not fit.
+    // Compared before the conversion to an integer, which is undefined for values that do not fit.
     const double ns = seconds * 1e9 + 0.5;
     if (!(ns >= (double)DIP_CAMPATH_MIN_PERIOD_NS) ||
         !(ns < (double)DIP_CAMPATH_MAX_PERIOD_NS + 1.0)) {
@@ -143,14 +178,13 @@ static bool grow(TextReader *reader) {
     }
     if (reader->count == DIP_CAMPATH_MAX_KEYS) {
         return dip_error_set(reader->err, DIP_ERROR_OVERSIZED, reader->name, reader->line, "keys",
-                             "more keys than %d, accepted up to %d", DIP_CAMPATH_MAX_KEYS,
-                             DIP_CAMPATH_MAX_KEYS);
+                             "the path has too many keys, accepted up to %d", DIP_CAMPATH_MAX_KEYS);
     }
     size_t capacity = reader->capacity ? 2 * reader->capacity : 256;
     capacity = capacity < DIP_CAMPATH_MAX_KEYS ? capacity : DIP_CAMPATH_MAX_KEYS;
     DipCamPath *path = realloc(reader->path, sizeof *path + capacity * sizeof path->keys[0]);
     if (!path) {
-        return fault(reader, DIP_ERROR_MEMORY, "keys", "no memory for more keys");
+        return fault(reader, DIP_ERROR_MEMORY, "keys", "out of memory");
     }
     reader->path = path;
     reader->capacity = capacity;
@@ -160,7 +194,7 @@ static bool grow(TextReader *reader) {
 static bool read_key(TextReader *reader, const Token *tokens, int count) {
     if (count != 7) {
         return dip_error_set(reader->err, DIP_ERROR_FORMAT, reader->name, reader->line, "keys",
-                             "%s%d values, accepted 7: x y z qx qy qz qw",
+                             "the line has %s%d values, accepted 7: x y z qx qy qz qw",
                              count >= MAX_TOKENS ? "more than " : "",
                              count >= MAX_TOKENS ? 7 : count);
     }
@@ -190,8 +224,9 @@ static bool read_line(TextReader *reader, const Token *tokens, int count) {
         return read_period(reader, tokens, count);
     }
     if (!reader->period_ns) {
-        return fault(reader, DIP_ERROR_MISSING, "period",
-                     "no period before the keys, accepted 'period' and a number of seconds");
+        return fault(
+            reader, DIP_ERROR_MISSING, "period",
+            "there is no period before the keys, accepted 'period' and a number of seconds");
     }
     return read_key(reader, tokens, count);
 }
@@ -208,15 +243,15 @@ static bool read_text(TextReader *reader) {
     reader->line = reader->line ? reader->line : 1;
     if (!reader->has_header) {
         return fault(reader, DIP_ERROR_MISSING, "diptych-path",
-                     "nothing but comments, accepted 'diptych-path 1' or a .bth file");
+                     "the file has nothing but comments, accepted 'diptych-path 1' or a .bth file");
     }
     if (!reader->period_ns) {
         return fault(reader, DIP_ERROR_MISSING, "period",
-                     "no period, accepted 'period' and a number of seconds");
+                     "there is no period, accepted 'period' and a number of seconds");
     }
     if (reader->count == 0) {
         return fault(reader, DIP_ERROR_MISSING, "keys",
-                     "no keys, accepted lines of x y z qx qy qz qw");
+                     "there are no keys, accepted lines of x y z qx qy qz qw");
     }
     return true;
 }
@@ -241,7 +276,7 @@ bool dip_campath_parse_text(const char *text, size_t size_bytes, const char *nam
     return made != NULL;
 }
 
-// Seconds with as many of nine decimals as are needed, exact where a double would not be.
+// Writes the period in seconds with up to nine decimals, from integers, so that it is exact.
 static void write_period(FILE *stream, int64_t period_ns) {
     char decimals[16];
     snprintf(decimals, sizeof decimals, "%09d", (int)(period_ns % 1000000000));

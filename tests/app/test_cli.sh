@@ -109,6 +109,8 @@ expect 2 'none.pth: ' "$diptych" dump --hash --path none.pth
 expect 2 'none.pth: ' "$diptych" path info none.pth
 printf 'v 0 0 0\nv 1e-7 0 0\nv 0 1e-7 0\nf 1 2 3\n' >tiny.obj
 expect 2 'tiny.obj: \[box\] the model is 1e-07 large' "$diptych" dump --hash --model tiny.obj
+expect 2 'tiny.obj:1: .* not a camera path, .*; load a model with --model$' \
+    "$diptych" path convert tiny.obj tiny.pth
 sed 's/1e-7/1e12/' tiny.obj >huge.obj
 expect 2 'huge.obj: \[box\] 0\.\.9\.9+6e\+11 along axis 0' "$diptych" dump --hash --model huge.obj
 printf 'diptych-path 1\nperiod 1\n0 0 0 0 0 0 1\n0 0 nan 0 0 0 1\n' >nan.pth

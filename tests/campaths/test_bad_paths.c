@@ -1,5 +1,5 @@
-// Camera path files that must be refused, each with its place and reason; and mutations of good
-// files, which may be refused but never crash.
+// Camera path files that must be refused, each with its line or byte and the reason. Mutations of
+// good files may be refused but never crash.
 #include "campaths/campath.h"
 
 #include <setjmp.h>
@@ -19,7 +19,7 @@ typedef struct BadText {
     DipErrorCode code;
     int line;
     const char *key;
-    const char *said; // part of the message
+    const char *said; // text that the message contains
 } BadText;
 
 #define HEAD "diptych-path 1\nperiod 1\n"
@@ -28,21 +28,23 @@ typedef struct BadText {
 static const BadText bad_texts[] = {
     {"comments alone are no path", "# nothing\n\n# here\n", DIP_ERROR_MISSING, 3, "diptych-path",
      "diptych-path 1"},
-    {"another text file", "hello world\n", DIP_ERROR_FORMAT, 1, "diptych-path", "'hello'"},
+    {"another text file", "hello world\n", DIP_ERROR_FORMAT, 1, "diptych-path",
+     "the file begins with 'hello', so it is not a camera path, accepted .pth text"},
     {"keys without a header", "# path\n" KEY, DIP_ERROR_FORMAT, 2, "diptych-path", "'0'"},
     {"a later version", "diptych-path 2\nperiod 1\n" KEY, DIP_ERROR_FORMAT, 1, "diptych-path",
-     "version '2', accepted 1"},
+     "the version is '2', accepted 1"},
     {"no version", "diptych-path\nperiod 1\n" KEY, DIP_ERROR_FORMAT, 1, "diptych-path",
      "accepted 1"},
-    {"two versions", "diptych-path 1 2\n", DIP_ERROR_FORMAT, 1, "diptych-path", "version '2'"},
+    {"two versions", "diptych-path 1 2\n", DIP_ERROR_FORMAT, 1, "diptych-path",
+     "the version is '2'"},
     {"no period", "diptych-path 1\n", DIP_ERROR_MISSING, 1, "period", "seconds"},
     {"keys before the period", "diptych-path 1\n" KEY "period 1\n", DIP_ERROR_MISSING, 2, "period",
      "before the keys"},
     {"a second period", HEAD "\nperiod 2\n" KEY, DIP_ERROR_CONFLICT, 4, "period", "accepted one"},
     {"period without a value", "diptych-path 1\nperiod\n", DIP_ERROR_FORMAT, 2, "period",
-     "not one"},
+     "exactly one value"},
     {"period with a unit", "diptych-path 1\nperiod 1 s\n", DIP_ERROR_FORMAT, 2, "period",
-     "not one"},
+     "exactly one value"},
     {"period of no number", "diptych-path 1\nperiod 1s\n", DIP_ERROR_TYPE, 2, "period", "'1s'"},
     {"period zero", "diptych-path 1\nperiod 0\n", DIP_ERROR_RANGE, 2, "period", "1e-06..3600"},
     {"period negative", "diptych-path 1\nperiod -1\n", DIP_ERROR_RANGE, 2, "period", "-1 s"},
@@ -53,10 +55,10 @@ static const BadText bad_texts[] = {
     {"no keys", HEAD "# none\n", DIP_ERROR_MISSING, 3, "keys", "x y z qx qy qz qw"},
     {"a key of six values", HEAD KEY "0 0 0 0 0 1\n", DIP_ERROR_FORMAT, 4, "keys", "6 values"},
     {"a key of eight values", HEAD KEY "0 0 0 0 0 0 1 50\n", DIP_ERROR_FORMAT, 4, "keys",
-     "more than 7 values, accepted 7"},
+     "the line has more than 7 values, accepted 7"},
     {"a key cut by the file's end", HEAD KEY "0 0 0 0", DIP_ERROR_FORMAT, 4, "keys", "4 values"},
     {"a word among the numbers", HEAD "0 0 x 0 0 0 1\n", DIP_ERROR_TYPE, 3, "z",
-     "'x' is no number"},
+     "'x' is not a number"},
     {"nan", HEAD "nan 0 0 0 0 0 1\n", DIP_ERROR_TYPE, 3, "x", "'nan'"},
     {"infinity", HEAD "0 -Infinity 0 0 0 0 1\n", DIP_ERROR_TYPE, 3, "y", "'-Infinity'"},
     {"a number beyond double", HEAD "0 0 1e999 0 0 0 1\n", DIP_ERROR_TYPE, 3, "z", "'1e999'"},
@@ -68,11 +70,11 @@ static const BadText bad_texts[] = {
     {"an exponent without digits", HEAD "0 0 0 0 0 0 1e+\n", DIP_ERROR_TYPE, 3, "qw", "'1e+'"},
     {"a number of 64 digits",
      HEAD "0 0000000000000000000000000000000000000000000000000000000000000000 0 0 0 0 1\n",
-     DIP_ERROR_TYPE, 3, "y", "is no number"},
+     DIP_ERROR_TYPE, 3, "y", "is not a number"},
     {"a position out of the world", HEAD "0 0 -1.1e9 0 0 0 1\n", DIP_ERROR_RANGE, 3, "z",
      "-1e+09..1e+09"},
     {"a zero quaternion", HEAD KEY "# still\n0 0 0 0 0 0 0\n", DIP_ERROR_RANGE, 5, "qx qy qz qw",
-     "length 0, accepted"},
+     "has length 0, accepted"},
     {"a vanishing quaternion", HEAD "0 0 0 0 0 0 9e-7\n", DIP_ERROR_RANGE, 3, "qx qy qz qw",
      "length 9e-07"},
     {"a quaternion beyond all bounds", HEAD "0 0 0 0 0 0 1e200\n", DIP_ERROR_RANGE, 3, "qw",
@@ -130,7 +132,8 @@ static void an_empty_file_is_refused(void **context) {
 static void a_nul_byte_is_refused(void **context) {
     (void)context;
     static const char text[] = HEAD "0 0 0\0 0 0 0 1\n";
-    check_refused("a NUL byte", text, sizeof text - 1, DIP_ERROR_FORMAT, 3, "", "a NUL byte");
+    check_refused("a NUL byte", text, sizeof text - 1, DIP_ERROR_FORMAT, 3, "",
+                  "contains a NUL byte");
 }
 
 static void an_over_long_line_is_refused(void **context) {
@@ -139,7 +142,30 @@ static void an_over_long_line_is_refused(void **context) {
     const int head = snprintf(text, sizeof text, HEAD);
     memset(text + head, '#', DIP_CAMPATH_MAX_LINE + 1);
     check_refused("an over-long line", text, (size_t)head + DIP_CAMPATH_MAX_LINE + 1,
-                  DIP_ERROR_OVERSIZED, 3, "", "1001 characters, accepted up to 1000");
+                  DIP_ERROR_OVERSIZED, 3, "", "the line has 1001 bytes, accepted up to 1000");
+}
+
+static void check_not_a_path(const char *name, const char *bytes, size_t size_bytes,
+                             const char *found, bool hints_at_models) {
+    DipCamPath *path;
+    DipError err = {0};
+    assert_false(dip_campath_parse(bytes, size_bytes, name, &path, &err));
+    check_error(name, &err, DIP_ERROR_FORMAT, 1, "diptych-path", found);
+    assert_non_null(strstr(err.message, "it is not a camera path"));
+    assert_int_equal(strstr(err.message, "load a model with --model") != NULL, hints_at_models);
+}
+
+static void other_files_are_said_to_be_no_camera_path(void **context) {
+    (void)context;
+    char binary[3000];
+    memset(binary, 0xAA, sizeof binary);
+    check_not_a_path("my.glb", binary, sizeof binary, "has a line of over 1000 bytes", true);
+    check_not_a_path("my.pth", binary, sizeof binary, "has a line of over 1000 bytes", false);
+    static const char glb[] = "glTF\2\0\0\0";
+    check_not_a_path("My.GLB", glb, sizeof glb - 1, "contains NUL bytes", true);
+    static const char obj[] = "v 0 0 0\n";
+    check_not_a_path("my.obj", obj, sizeof obj - 1, "begins with 'v'", true);
+    check_not_a_path("my", obj, sizeof obj - 1, "begins with 'v'", false);
 }
 
 static void too_many_keys_are_refused(void **context) {
@@ -167,8 +193,8 @@ enum { GOOD_BYTES = 24 + 2 * 56 };
 
 typedef struct BadBinary {
     const char *promise;
-    size_t size_bytes; // what is kept of the good file, or its size with bytes added
-    size_t offset;     // of the bytes changed
+    size_t size_bytes; // size of the file: the good one, cut or with zeros added
+    size_t offset;     // where bytes are changed
     size_t count;
     unsigned char bytes[8];
     DipErrorCode code;
@@ -233,7 +259,7 @@ static const BadBinary bad_binaries[] = {
      {0},
      DIP_ERROR_TRUNCATED,
      "keys",
-     "at byte 80: ends too early"},
+     "at byte 80: the file ends too early"},
     {"half a key", 24 + 56 + 20, 0, 0, {0}, DIP_ERROR_TRUNCATED, "keys", "at byte 100"},
     {"the last byte missing", GOOD_BYTES - 1, 0, 0, {0}, DIP_ERROR_TRUNCATED, "keys", "byte 135"},
     {"a byte after the keys",
@@ -243,7 +269,7 @@ static const BadBinary bad_binaries[] = {
      {0},
      DIP_ERROR_OVERSIZED,
      "keys",
-     "at byte 136: goes on"},
+     "at byte 136: the file goes on"},
     {"NaN in a position",
      GOOD_BYTES,
      24 + 8,
@@ -409,9 +435,13 @@ static void mutations_never_crash(void **context) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_texts_are_refused),     cmocka_unit_test(an_empty_file_is_refused),
-        cmocka_unit_test(a_nul_byte_is_refused),     cmocka_unit_test(an_over_long_line_is_refused),
-        cmocka_unit_test(too_many_keys_are_refused), cmocka_unit_test(bad_binaries_are_refused),
+        cmocka_unit_test(bad_texts_are_refused),
+        cmocka_unit_test(an_empty_file_is_refused),
+        cmocka_unit_test(a_nul_byte_is_refused),
+        cmocka_unit_test(an_over_long_line_is_refused),
+        cmocka_unit_test(other_files_are_said_to_be_no_camera_path),
+        cmocka_unit_test(too_many_keys_are_refused),
+        cmocka_unit_test(bad_binaries_are_refused),
         cmocka_unit_test(mutations_never_crash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-// Camera paths: sampling against closed forms, both file formats, orbit, track.
+// Camera paths: sampling compared with closed forms, both file formats, the orbit and the track.
 #include "campaths/campath.h"
 #include "campaths/camtrack.h"
 
@@ -35,7 +35,7 @@ static DipPose sample(const DipCamPath *path, int64_t time_ns) {
     return pose;
 }
 
-// Equal as rotations: q and -q are one.
+// Compares rotations: q and -q are the same one.
 static void check_orientation(const double q[4], double x, double y, double z, double w,
                               double bound) {
     const double sign = q[0] * x + q[1] * y + q[2] * z + q[3] * w < 0.0 ? -1.0 : 1.0;
@@ -62,7 +62,7 @@ static void read_file(const char *file, unsigned char *bytes, size_t room, size_
 
 // ---- Sampling ----
 
-static void positions_lerp_and_the_loop_closes(void **context) {
+static void positions_move_linearly_and_the_loop_closes(void **context) {
     (void)context;
     DipCamPath *path = parse("diptych-path 1\nperiod 2\n"
                              "0 0 0 0 0 0 1\n10 4 -2 0 0 0 1\n10 8 0 0 0 0 1\n");
@@ -92,8 +92,8 @@ static void positions_lerp_and_the_loop_closes(void **context) {
     dip_campath_destroy(NULL);
 }
 
-// A turn of `angle` about +Y is, u of the way, a turn of u times it.
-static void slerp_turns_at_constant_speed(void **context) {
+// After a fraction u of a step that turns by `angle` about +Y, the camera has turned by u * angle.
+static void orientations_turn_at_constant_speed(void **context) {
     (void)context;
     static const double angles_deg[] = {1e-7, 1e-4, 1.1e-4, 1.2e-4, 0.0115, 0.5, 1.62, 30, 90, 179};
     for (size_t a = 0; a < sizeof angles_deg / sizeof *angles_deg; a++) {
@@ -110,7 +110,7 @@ static void slerp_turns_at_constant_speed(void **context) {
     }
 }
 
-static void signs_of_quaternions_do_not_matter(void **context) {
+static void the_sign_of_a_quaternion_does_not_matter(void **context) {
     (void)context;
     DipCamPath *path = parse("diptych-path 1\nperiod 1\n"
                              "0 0 0 0 0 0 1\n"
@@ -122,9 +122,9 @@ static void signs_of_quaternions_do_not_matter(void **context) {
     dip_campath_destroy(&path);
 }
 
-// Four quarter turns come back to the first orientation with the other sign: the closing step is
-// still a quarter turn.
-static void a_full_turn_closes_the_short_way(void **context) {
+// Four quarter turns end at the first orientation with the opposite sign. The closing step must
+// still be a quarter turn.
+static void the_closing_step_of_a_full_turn_is_short(void **context) {
     (void)context;
     DipCamKey keys[4];
     for (int k = 0; k < 4; k++) {
@@ -141,7 +141,7 @@ static void a_full_turn_closes_the_short_way(void **context) {
     dip_campath_destroy(&path);
 }
 
-static void half_turns_are_defined(void **context) {
+static void a_half_turn_is_interpolated(void **context) {
     (void)context;
     DipCamPath *path = parse("diptych-path 1\nperiod 1\n0 0 0 0 0 0 1\n0 0 0 0 1 0 0\n");
     const DipPose there = sample(path, SECOND / 3);
@@ -161,7 +161,7 @@ static void times_a_duration_apart_give_the_same_bits(void **context) {
     assert_true(duration_ns == INT64_C(1666666665));
     for (int64_t t = 0; t < duration_ns; t += 12345677) {
         const DipPose expected = sample(path, t);
-        const int64_t loops[] = {1, -1, 600000000, -600000000}; // the last beyond 1e9 s
+        const int64_t loops[] = {1, -1, 600000000, -600000000}; // the last two go beyond 1e9 s
         for (int i = 0; i < 4; i++) {
             const DipPose pose = sample(path, t + loops[i] * duration_ns);
             assert_memory_equal(&pose, &expected, sizeof pose);
@@ -175,7 +175,7 @@ static void times_a_duration_apart_give_the_same_bits(void **context) {
     dip_campath_destroy(&path);
 }
 
-static void one_key_is_a_still(void **context) {
+static void a_path_of_one_key_is_a_still_camera(void **context) {
     (void)context;
     DipCamPath *path = parse("diptych-path 1\nperiod 1\n1 2 3 0 0 0 2\n");
     static const int64_t times_ns[] = {0, 1, 500000000, -7, INT64_MAX};
@@ -187,7 +187,7 @@ static void one_key_is_a_still(void **context) {
     dip_campath_destroy(&path);
 }
 
-static void info_sums_up(void **context) {
+static void info_gives_length_speed_and_box(void **context) {
     (void)context;
     DipCamPath *path = parse("diptych-path 1\nperiod 0.5\n"
                              "0 0 0 0 0 0 1\n3 4 0 0 0 0 1\n3 4 12 0 0 0 1\n");
@@ -277,9 +277,9 @@ static void check_same_keys(const DipCamPath *a, const DipCamPath *b) {
     }
 }
 
-// Random quaternions of any length and sign through .pth and .bth and back: loading the text once
-// settles every bit.
-static void conversion_loses_nothing(void **context) {
+// Converts random quaternions of any length and sign to .pth, .bth and back. No bit changes after
+// the first load.
+static void converting_between_the_formats_keeps_every_bit(void **context) {
     (void)context;
     enum { KEYS = 2000 };
     static DipCamKey keys[KEYS];
@@ -356,7 +356,7 @@ static void a_comma_locale_changes_nothing(void **context) {
     dip_campath_destroy(&path);
 }
 
-static void files_that_cannot_be_read_or_written_are_named(void **context) {
+static void errors_name_files_that_cannot_be_read_or_written(void **context) {
     (void)context;
     DipCamPath *path = parse("diptych-path 1\nperiod 1\n0 0 0 0 0 0 1\n");
     DipCamPath *none = path;
@@ -394,7 +394,8 @@ static void files_that_cannot_be_read_or_written_are_named(void **context) {
 
 // ---- Orbit ----
 
-// v in the camera's axes: the inverse rotation by matrix, independent of how the orbit made it.
+// Transforms v into camera space with the matrix of the inverse rotation, which is independent of
+// the orbit's own formulas.
 static void to_camera(const DipPose *pose, const double v_world[3], double v[3]) {
     const double x = pose->orientation[0];
     const double y = pose->orientation[1];
@@ -413,7 +414,7 @@ static void to_camera(const DipPose *pose, const double v_world[3], double v[3])
     }
 }
 
-// The greatest |x| or |y| of a corner, 1 being the picture's edge.
+// Greatest |x| or |y| of a corner of the box in the picture; 1 is the picture's edge.
 static double reach_of_box(const DipCamOrbitDef *def, const DipPose *pose) {
     const double tan_y = tan(def->fov_y_deg * PI / 360.0);
     double reach = 0.0;
@@ -459,11 +460,11 @@ static void the_orbit_shows_the_whole_box(void **context) {
             widest = fmax(widest, reach_of_box(&def, &pose));
             double v[3];
             to_camera(&pose, middle, v);
-            // Between keys the eye is on the chord, up to 0.05 % nearer.
+            // Between keys the camera is on a chord, which is up to 0.05 % nearer.
             assert_true(fabs(v[0]) < 2e-4 * -v[2] && fabs(v[1]) < 2e-4 * -v[2]);
             assert_true(pose.position_world[1] > middle[1]);
         }
-        // A long box is framed for the end that comes near, hence not tightly.
+        // A long box is framed for the end that is near, so elsewhere there is more border.
         if (!(widest < 1.0 && widest > 0.75)) {
             fail_msg("case %zu: the box reaches to %.3f of the picture", c, widest);
         }
@@ -514,9 +515,9 @@ static void bad_orbits_and_keys_are_refused(void **context) {
     assert_null(path);
 }
 
-// One number for the bits of 5000 poses: guards determinism across compilers and processors, says
-// nothing about truth.
-static void the_bits_are_the_same_everywhere(void **context) {
+// A hash over the bits of 5000 poses. It shows that compilers and processors agree, not that the
+// poses are right.
+static void poses_have_the_same_bits_on_every_machine(void **context) {
     (void)context;
     const DipCamOrbitDef def = dip_campath_default_orbit();
     DipCamPath *path;
@@ -536,7 +537,7 @@ static void the_bits_are_the_same_everywhere(void **context) {
 
 // ---- Track ----
 
-static void the_track_resets_or_resumes(void **context) {
+static void a_new_path_starts_anew_or_at_the_old_time(void **context) {
     (void)context;
     DipCamPath *a = parse("diptych-path 1\nperiod 1\n0 0 0 0 0 0 1\n10 0 0 0 0 0 1\n");
     DipCamPath *b = parse("diptych-path 1\nperiod 4\n0 5 0 0 0 0 1\n40 5 0 0 0 0 1\n");
@@ -569,25 +570,25 @@ static void the_track_resets_or_resumes(void **context) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(positions_lerp_and_the_loop_closes),
-        cmocka_unit_test(slerp_turns_at_constant_speed),
-        cmocka_unit_test(signs_of_quaternions_do_not_matter),
-        cmocka_unit_test(a_full_turn_closes_the_short_way),
-        cmocka_unit_test(half_turns_are_defined),
+        cmocka_unit_test(positions_move_linearly_and_the_loop_closes),
+        cmocka_unit_test(orientations_turn_at_constant_speed),
+        cmocka_unit_test(the_sign_of_a_quaternion_does_not_matter),
+        cmocka_unit_test(the_closing_step_of_a_full_turn_is_short),
+        cmocka_unit_test(a_half_turn_is_interpolated),
         cmocka_unit_test(times_a_duration_apart_give_the_same_bits),
-        cmocka_unit_test(one_key_is_a_still),
-        cmocka_unit_test(info_sums_up),
+        cmocka_unit_test(a_path_of_one_key_is_a_still_camera),
+        cmocka_unit_test(info_gives_length_speed_and_box),
         cmocka_unit_test(the_binary_layout_is_as_documented),
         cmocka_unit_test(the_text_format_is_as_documented),
-        cmocka_unit_test(conversion_loses_nothing),
+        cmocka_unit_test(converting_between_the_formats_keeps_every_bit),
         cmocka_unit_test(periods_keep_every_nanosecond),
         cmocka_unit_test(a_comma_locale_changes_nothing),
-        cmocka_unit_test(files_that_cannot_be_read_or_written_are_named),
+        cmocka_unit_test(errors_name_files_that_cannot_be_read_or_written),
         cmocka_unit_test(the_orbit_shows_the_whole_box),
         cmocka_unit_test(the_orbit_begins_in_front_and_turns_over_plus_x),
         cmocka_unit_test(bad_orbits_and_keys_are_refused),
-        cmocka_unit_test(the_bits_are_the_same_everywhere),
-        cmocka_unit_test(the_track_resets_or_resumes),
+        cmocka_unit_test(poses_have_the_same_bits_on_every_machine),
+        cmocka_unit_test(a_new_path_starts_anew_or_at_the_old_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
