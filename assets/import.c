@@ -1,8 +1,8 @@
-// Model files through assimp, checked before and after its processing.
+// Imports model files with assimp and checks the result before and after assimp's processing.
 //
-// assimp's processing steps trust indices and counts, so a file is imported bare, checked, and only
-// then processed. Its readers recurse as deep as the file nests, so they get a stack of their own
-// (see also precheck.c).
+// assimp's processing steps trust indices and counts, so a file is imported without processing,
+// checked, and only then processed. assimp's readers recurse as deep as the file nests, so they run
+// on a thread with a large stack. precheck.c limits the depth.
 #include "assets/model_parts.h"
 
 #include <assimp/cimport.h>
@@ -16,17 +16,29 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// Not aiProcess_JoinIdenticalVertices: it merges vertices that differ in their second texture
-// coordinates alone, which tears light maps. mesh.c joins on all attributes.
+// aiProcess_JoinIdenticalVertices is left out. It merges vertices that differ only in their second
+// texture coordinates and so tears light maps; mesh.c compares all attributes.
 static const unsigned process_flags =
     aiProcess_Triangulate | aiProcess_FlipUVs | aiProcess_SortByPType;
 
-static const size_t import_stack_bytes = (size_t)256 << 20; // address space; touched as needed
+static const size_t import_stack_bytes = (size_t)256
+                                         << 20; // address space; memory is used as needed
 
 enum {
-    MAX_NODE_DEPTH = 512,
-    MAX_LOG_WARNINGS = 8,
+    MAX_NODE_DEPTH = 512, // levels of child nodes
+    MAX_LOG_WARNINGS = 8, // warnings of assimp that are passed on per file
 };
+
+static bool check_extension(const char *path, DipError *err) {
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash ? slash : path, '.');
+    return (dot && aiIsExtensionSupported(dot)) ||
+           dip_error_set(
+               err, DIP_ERROR_FORMAT, path, 0, NULL,
+               "%s%s%s is not a supported model format, accepted .gltf, .glb, .obj, .ply, "
+               ".stl, .x and others (docs/models.md)",
+               dot ? "\"" : "", dot ? dot : "a name without an extension", dot ? "\"" : "");
+}
 
 static bool check_file(const char *path, DipError *err) {
     struct stat info = {0};
@@ -34,32 +46,24 @@ static bool check_file(const char *path, DipError *err) {
     if (!file) {
         const bool missing = errno == ENOENT || errno == ENOTDIR;
         return dip_error_set(err, missing ? DIP_ERROR_MISSING : DIP_ERROR_IO, path, 0, NULL,
-                             "cannot open model: %s", strerror(errno));
+                             "cannot open the model: %s", strerror(errno));
     }
     const bool known = fstat(fileno(file), &info) == 0;
     fclose(file);
     if (!known || !S_ISREG(info.st_mode)) {
-        return dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "model is not a file");
+        return dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "the model is not a regular file");
     }
     if (info.st_size == 0) {
-        return dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, NULL, "model file is empty");
+        return dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, NULL, "the model file is empty");
     }
-    const char *slash = strrchr(path, '/');
-    const char *dot = strrchr(slash ? slash : path, '.');
-    if (!dot || !aiIsExtensionSupported(dot)) {
-        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL,
-                             "\"%s\" is no model format that can be read, accepted .gltf, .glb, "
-                             ".obj, .x, .ply, .stl, .md2, .dae and others",
-                             dot ? dot : "no extension");
-    }
-    return true;
+    return check_extension(path, err);
 }
 
 static bool check_mesh(const char *path, const struct aiMesh *mesh, bool processed, DipError *err) {
     const char *name = mesh->mName.data;
     const bool triangles = processed && dip_mesh_is_triangles(mesh);
     if ((mesh->mNumVertices > 0 && !mesh->mVertices) || (mesh->mNumFaces > 0 && !mesh->mFaces)) {
-        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, name, "mesh lacks its vertices");
+        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, name, "the mesh lacks its vertices");
     }
     for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
         const struct aiVector3D v = mesh->mVertices[i];
@@ -77,7 +81,8 @@ static bool check_mesh(const char *path, const struct aiMesh *mesh, bool process
                                  f);
         }
         if (triangles && face->mNumIndices != 3) {
-            return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, name, "face %u is no triangle", f);
+            return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, name, "face %u is not a triangle",
+                                 f);
         }
         for (unsigned k = 0; k < face->mNumIndices; ++k) {
             if (face->mIndices[k] >= mesh->mNumVertices) {
@@ -87,9 +92,9 @@ static bool check_mesh(const char *path, const struct aiMesh *mesh, bool process
             }
         }
     }
-    // assimp stops the whole program when a mesh that calls itself polygons has none.
+    // assimp ends the whole program if a mesh claims to have polygons but has none.
     if ((mesh->mPrimitiveTypes & aiPrimitiveType_POLYGON) && polygons == 0) {
-        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, name, "mesh lacks its polygons");
+        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, name, "the mesh lacks its polygons");
     }
     return true;
 }
@@ -103,12 +108,12 @@ static bool check_node(const char *path, const struct aiScene *scene, const stru
     }
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
         if (node->mMeshes[i] >= scene->mNumMeshes) {
-            return dip_error_set(err, DIP_ERROR_RANGE, path, 0, name, "node uses mesh %u of %u",
+            return dip_error_set(err, DIP_ERROR_RANGE, path, 0, name, "the node uses mesh %u of %u",
                                  node->mMeshes[i], scene->mNumMeshes);
         }
     }
     for (unsigned i = 0; i < node->mNumChildren; ++i) {
-        const struct aiNode *child = node->mChildren[i]; // NULL: see close_gaps
+        const struct aiNode *child = node->mChildren[i]; // May be NULL; see close_gaps.
         if (child && !check_node(path, scene, child, depth + 1, err)) {
             return false;
         }
@@ -119,10 +124,10 @@ static bool check_node(const char *path, const struct aiScene *scene, const stru
 static bool check_scene(const char *path, const struct aiScene *scene, bool processed,
                         DipError *err) {
     if (scene->mNumMeshes == 0) {
-        return dip_error_set(err, DIP_ERROR_MISSING, path, 0, NULL, "model has no triangles");
+        return dip_error_set(err, DIP_ERROR_MISSING, path, 0, NULL, "the model has no triangles");
     }
     if (!scene->mRootNode || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE)) {
-        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL, "file holds no scene");
+        return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL, "the file has no scene");
     }
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
         if (!check_mesh(path, scene->mMeshes[i], processed, err)) {
@@ -130,14 +135,15 @@ static bool check_scene(const char *path, const struct aiScene *scene, bool proc
         }
         if (scene->mMeshes[i]->mMaterialIndex >= scene->mNumMaterials) {
             return dip_error_set(err, DIP_ERROR_RANGE, path, 0, scene->mMeshes[i]->mName.data,
-                                 "mesh uses material %u of %u", scene->mMeshes[i]->mMaterialIndex,
-                                 scene->mNumMaterials);
+                                 "the mesh uses material %u of %u",
+                                 scene->mMeshes[i]->mMaterialIndex, scene->mNumMaterials);
         }
     }
     return check_node(path, scene, scene->mRootNode, 0, err);
 }
 
-// Some readers (RAW) leave gaps among a node's children; assimp's own processing follows them.
+// Removes NULLs among a node's children. Some of assimp's readers (RAW) leave them, and its
+// processing would follow them.
 static void close_gaps(struct aiNode *node) {
     unsigned kept = 0;
     for (unsigned i = 0; i < node->mNumChildren; ++i) {
@@ -149,12 +155,15 @@ static void close_gaps(struct aiNode *node) {
     node->mNumChildren = kept;
 }
 
-// Mends a checked scene so that no processing step throws: aiApplyPostProcessing then frees the
-// scene twice and the program dies. Steps throw at meshes without a kind, which are those without
-// faces (an STL's empty solid; as points they are left alone), and at scenes that are flagged as
-// sharing vertices between faces (written by assimp itself), as other formats do unflagged.
+// Changes a checked scene so that no processing step throws an exception. After an exception
+// aiApplyPostProcessing frees the scene twice, which ends the program. Two things make steps throw:
+// - Meshes without a primitive type, which have no faces (an empty solid in an STL file). Marked as
+//   points they are skipped.
+// - Scenes flagged as sharing vertices between faces (files that assimp wrote). Scenes of other
+// formats
+//   share vertices without the flag and are processed.
 static void mend_scene(const struct aiScene *checked) {
-    struct aiScene *scene = (struct aiScene *)checked; // assimp hands out its own, writable one
+    struct aiScene *scene = (struct aiScene *)checked; // assimp allocated it writable.
     scene->mFlags &= ~(unsigned)AI_SCENE_FLAGS_NON_VERBOSE_FORMAT;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
         if (scene->mMeshes[i]->mPrimitiveTypes == 0) {
@@ -176,7 +185,7 @@ static bool is_gltf(const struct aiScene *scene) {
     return false;
 }
 
-// Control characters of other people's messages would break our lines.
+// Replaces control characters, because messages must stay on one line.
 static void make_one_line(char *text) {
     for (char *c = text; *c; ++c) {
         *c = (unsigned char)*c < ' ' ? ' ' : *c;
@@ -190,8 +199,8 @@ static bool import_error(const char *path, DipError *err) {
     char reason[200] = "";
     snprintf(reason, sizeof reason, "%s", aiGetErrorString());
     make_one_line(reason);
-    return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL, "model cannot be read: %s",
-                         reason[0] ? reason : "no reason known");
+    return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL, "the model cannot be read: %s",
+                         reason[0] ? reason : "assimp gives no reason");
 }
 
 static void count_left_out(DipModel *model, const char *path, const struct aiScene *scene) {
@@ -201,24 +210,25 @@ static void count_left_out(DipModel *model, const char *path, const struct aiSce
         left_out += dip_mesh_is_triangles(mesh) ? 0 : mesh->mNumFaces;
     }
     if (left_out > 0) {
-        dip_model_warn(model, path, NULL, "%u points and lines are left out", left_out);
+        dip_model_warn(model, path, NULL, "%u points and lines are not drawn", left_out);
     }
 }
 
-// What assimp logs while it reads a file.
+// Collects what assimp logs while it reads a file.
 typedef struct ImportLog {
     DipModel *model;
     const char *path;
     int warning_count;
-    bool indices_dropped;
+    bool indices_dropped; // assimp has dropped faces whose indices are out of range
 } ImportLog;
 
-// Lines look like "Warn,  T0: text". That faces with wild indices were dropped is only said here.
-static void take_log_line(const char *line, char *user) {
+// The callback of aiLogStream. Lines look like "Warn,  T0: text". Only the log says when assimp has
+// dropped faces because of their indices.
+static void add_log_line(const char *line, char *user) {
     ImportLog *log = (ImportLog *)(void *)user;
-    const bool worth_telling = strncmp(line, "Warn", 4) == 0 || strncmp(line, "Error", 5) == 0;
+    const bool matters = strncmp(line, "Warn", 4) == 0 || strncmp(line, "Error", 5) == 0;
     const char *text = strstr(line, ": ");
-    if (!worth_telling || !text) {
+    if (!matters || !text) {
         return;
     }
     log->indices_dropped = log->indices_dropped || strstr(text, "out-of-range indices");
@@ -233,18 +243,18 @@ static void take_log_line(const char *line, char *user) {
 static bool import_bare(DipModel *model, DipModelFile *file, DipError *err) {
     ImportLog log = {.model = model, .path = file->path};
     const size_t warnings_before = model->warnings ? model->warnings->count : 0;
-    const struct aiLogStream stream = {take_log_line, (char *)(void *)&log};
+    const struct aiLogStream stream = {add_log_line, (char *)(void *)&log};
     aiAttachLogStream(&stream);
     file->scene = aiImportFile(file->path, 0);
     aiDetachLogStream(&stream);
     if ((!file->scene || log.indices_dropped) && model->warnings) {
-        model->warnings->count = warnings_before; // the error says it once
+        model->warnings->count = warnings_before; // The error replaces them.
     }
     if (!file->scene) {
         return import_error(file->path, err);
     }
     return !log.indices_dropped || dip_error_set(err, DIP_ERROR_RANGE, file->path, 0, NULL,
-                                                 "a face uses a vertex that is not there");
+                                                 "a face uses a vertex that does not exist");
 }
 
 static bool import_and_check(DipModel *model, DipModelFile *file, DipError *err) {
@@ -254,7 +264,7 @@ static bool import_and_check(DipModel *model, DipModelFile *file, DipError *err)
     mend_scene(file->scene);
     const struct aiScene *processed = aiApplyPostProcessing(file->scene, process_flags);
     if (!processed) {
-        file->scene = NULL; // freed by assimp
+        file->scene = NULL; // assimp has freed it.
         return import_error(file->path, err);
     }
     file->scene = processed;
@@ -270,22 +280,22 @@ typedef struct ImportTask {
     bool ok;
 } ImportTask;
 
-// assimp's last error and log are the whole process's, so imports take turns.
+// Imports run one at a time, because assimp's last error and its log belong to the whole process.
 static void *import_thread(void *context) {
-    static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+    static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
     ImportTask *task = context;
-    pthread_mutex_lock(&turn);
+    pthread_mutex_lock(&mutex);
     task->ok = import_and_check(task->model, task->file, task->err);
     if (!task->ok && task->file->scene) {
         aiReleaseImport(task->file->scene);
         task->file->scene = NULL;
     }
-    pthread_mutex_unlock(&turn);
+    pthread_mutex_unlock(&mutex);
     return NULL;
 }
 
 bool dip_model_import(DipModel *model, DipModelFile *file, DipError *err) {
-    if (!check_file(file->path, err) || !dip_model_precheck(file->path, err)) {
+    if (!check_file(file->path, err) || !dip_model_precheck(model, file->path, err)) {
         return false;
     }
     ImportTask task = {.model = model, .file = file, .err = err};

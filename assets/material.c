@@ -1,4 +1,4 @@
-// Materials: what assimp says of a surface to the scene's few kinds.
+// Converts assimp's materials to those of the scene.
 #include "assets/model_parts.h"
 
 #include <assimp/GltfMaterial.h>
@@ -11,7 +11,7 @@
 
 static const float default_cutoff = 0.5f;
 static const float default_roughness = 0.6f;
-static const float light_map_scale = 2.0f; // of object-tagged light maps: stored as light / 2
+static const float light_map_scale = 2.0f; // Light maps marked by `lightmapped` store light / 2.
 
 float dip_model_colour_to_linear(float value, bool linear) {
     const double x = value > 0.0f ? (value < 1.0f ? (double)value : 1.0) : 0.0; // NaN: 0
@@ -23,7 +23,8 @@ float dip_model_colour_to_linear(float value, bool linear) {
 
 static DipWrap wrap_of(DipModel *model, const char *path, const char *name, int mode) {
     if (mode == aiTextureMapMode_Mirror) {
-        dip_model_warn(model, path, name, "mirrored wrapping is drawn as repeat");
+        dip_model_warn(model, path, name,
+                       "the texture repeats mirrored, but is drawn repeating without mirroring");
     }
     const bool clamp = mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal;
     return clamp ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT;
@@ -37,11 +38,12 @@ static void warn_of_transform(DipModel *model, const char *path, const char *nam
     }
     const bool moves = t.mTranslation.x != 0.0f || t.mTranslation.y != 0.0f || t.mRotation != 0.0f;
     if (moves || t.mScaling.x != 1.0f || t.mScaling.y != 1.0f) {
-        dip_model_warn(model, path, name, "the texture's offset, scale and turn are left out");
+        dip_model_warn(model, path, name, "the texture's offset, scale and rotation are not drawn");
     }
 }
 
-// The first of the kinds that the material has a picture of and the mesh has coordinates for.
+// Returns the use of the first of these types of picture that the material has and the mesh has
+// texture coordinates for.
 static DipTextureUse texture_use(DipModel *model, int file, const char *name,
                                  const struct aiMesh *mesh, const enum aiTextureType *types,
                                  size_t type_count) {
@@ -72,7 +74,8 @@ static DipTextureUse texture_use(DipModel *model, int file, const char *name,
         return use;
     }
     if (without_coordinates.length > 0) {
-        dip_model_warn(model, path, name, "mesh \"%s\" has no coordinates for picture %s",
+        dip_model_warn(model, path, name,
+                       "mesh \"%s\" has no texture coordinates, so its texture %s is ignored",
                        mesh->mName.data, without_coordinates.data);
     }
     return use;
@@ -86,7 +89,7 @@ static float float_property(const struct aiMaterial *material, const char *key, 
     return found && isfinite(value) ? value : otherwise;
 }
 
-// Returns the colour's alpha.
+// Reads the base colour and returns its alpha.
 static float read_base_colour(const DipModelFile *file, const struct aiMaterial *material,
                               bool textured, float base_lin[3]) {
     struct aiColor4D colour = {1.0f, 1.0f, 1.0f, 1.0f};
@@ -103,7 +106,8 @@ static float read_base_colour(const DipModelFile *file, const struct aiMaterial 
     return colour.a;
 }
 
-// Alpha-clipped or not, and at which alpha. base_alpha multiplies every texel's alpha.
+// Decides whether the surface is alpha-clipped and at which alpha. base_alpha multiplies the alpha
+// of every texel.
 static void read_alpha(DipModel *model, const DipModelFile *file, const struct aiMaterial *material,
                        float base_alpha, DipMaterialPlan *plan, DipMaterialDef *def) {
     struct aiString mode = {0};
@@ -120,11 +124,12 @@ static void read_alpha(DipModel *model, const DipModelFile *file, const struct a
     } else if (blended) {
         dip_model_warn(
             model, file->path, def->name,
-            "blended surfaces are drawn solid where their picture's alpha is 0.5 or more");
+            "blending is not drawn: the surface is solid where its texture's alpha is 0.5 or more");
     }
     if (!file->linear_colours && float_property(material, AI_MATKEY_OPACITY, 1.0f) < 1.0f &&
         plan->opacity.picture < 0) {
-        dip_model_warn(model, file->path, def->name, "a see-through surface is drawn solid");
+        dip_model_warn(model, file->path, def->name,
+                       "transparency is not drawn: the surface is solid");
     }
     if (masked || blended || plan->opacity.picture >= 0 || plan->tag == DIP_TAG_MASK) {
         def->surface = DIP_SURFACE_CLIPPED;
@@ -144,7 +149,7 @@ static void read_pictures(DipModel *model, int file, const char *name, const str
         plan->normal = texture_use(model, file, name, mesh, normal, 2);
     }
     plan->light = (DipTextureUse){.picture = DIP_NO_TEXTURE};
-    // glTF's occlusion picture is a light map only where the object says so.
+    // In glTF the occlusion picture is a light map only if the object's metadata says so.
     if (plan->light_mapped || !model->files[file].linear_colours) {
         plan->light = texture_use(model, file, name, mesh, light, 1);
     }
@@ -176,7 +181,7 @@ static void fill_material(DipModel *model, int file_index, const struct aiMesh *
     def->colour_texture = def->light_map = def->normal_map = DIP_NO_TEXTURE;
 }
 
-// A mesh that lacks coordinates cannot share the material of one that has them.
+// A mesh without some texture coordinates cannot share the material of a mesh that has them.
 static unsigned coordinate_mask(const struct aiMesh *mesh) {
     unsigned mask = 0;
     for (unsigned i = 0; i < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++i) {
@@ -222,7 +227,8 @@ static const DipPicture *decoded(const DipModel *model, int picture) {
     return usable ? &model->pictures[picture].picture : NULL;
 }
 
-// The picture a texture shows: the colour picture, or it with the opacity picture's alpha.
+// Returns the picture of a texture: the colour picture, with the alpha of the opacity picture if
+// there is one.
 static const DipPicture *merged_picture(DipModel *model, const DipTextureKey *key) {
     const DipPicture *colour = decoded(model, key->picture);
     const DipPicture *opacity = decoded(model, key->opacity_picture);
@@ -268,7 +274,8 @@ static int add_texture(DipModel *model, const DipTextureKey *key, const DipTextu
     return model->def.texture_count++;
 }
 
-// DIP_NO_TEXTURE when there is no picture to show; *ok is false when memory runs out.
+// Returns the texture that shows a picture, or DIP_NO_TEXTURE if there is no decoded one. Sets *ok
+// to false when memory runs out.
 static int texture_of(DipModel *model, const DipTextureUse *use, const DipTextureUse *opacity,
                       DipEncoding encoding, bool *ok) {
     const DipTextureKey key = {

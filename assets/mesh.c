@@ -1,4 +1,4 @@
-// Meshes: assimp's arrays of structures to the scene's packed arrays.
+// Converts assimp's meshes to the packed arrays of the scene.
 #include "assets/model_parts.h"
 
 #include <assimp/mesh.h>
@@ -9,13 +9,14 @@
 #include <string.h>
 
 bool dip_mesh_is_triangles(const struct aiMesh *mesh) {
-    const unsigned kinds = aiPrimitiveType_POINT | aiPrimitiveType_LINE | aiPrimitiveType_TRIANGLE |
-                           aiPrimitiveType_POLYGON; // the other bits say where triangles come from
+    const unsigned kinds =
+        aiPrimitiveType_POINT | aiPrimitiveType_LINE | aiPrimitiveType_TRIANGLE |
+        aiPrimitiveType_POLYGON; // Other bits tell what the triangles were made from.
     return (mesh->mPrimitiveTypes & kinds) == aiPrimitiveType_TRIANGLE;
 }
 
-// Which of the file's vertices become vertices of ours, in which order: each once, or, where
-// normals must be made, one per corner of a face.
+// Decides which vertices of the file become vertices of the mesh, and in which order: each vertex
+// once, or, if normals must be made, one vertex per corner of a face.
 typedef struct VertexSource {
     const struct aiMesh *mesh;
     bool by_corner;
@@ -87,14 +88,15 @@ static float *pack_colours(DipModel *model, const VertexSource *source, bool lin
 
 enum { ATTRIBUTE_COUNT = 5 };
 
-// The arrays that make up a mesh's vertices; NULL where it has none of a kind.
+// The arrays of a mesh's vertices: positions, normals, both coordinates and colours. NULL if the
+// mesh lacks an attribute.
 typedef struct VertexArrays {
     float *values[ATTRIBUTE_COUNT];
 } VertexArrays;
 
 static const size_t attribute_width[ATTRIBUTE_COUNT] = {3, 3, 2, 2, 3};
 
-// FNV-1a over the values' bits.
+// FNV-1a over the bits of the values.
 static uint32_t hash_vertex(const VertexArrays *arrays, size_t vertex) {
     uint32_t hash = 2166136261u;
     for (int a = 0; a < ATTRIBUTE_COUNT; ++a) {
@@ -130,8 +132,8 @@ static void move_vertex(const VertexArrays *arrays, size_t to, size_t from) {
     }
 }
 
-// Joins vertices that are equal in every bit of every attribute and closes the gaps. Fills remap
-// (old index to new); returns the count that is left, 0 when memory runs out.
+// Merges vertices that are equal in every bit of every attribute and packs the rest. Fills remap
+// (from old index to new) and returns the new number of vertices, or 0 when memory runs out.
 static uint32_t join_vertices(const VertexArrays *arrays, uint32_t count, uint32_t *remap) {
     size_t slots = 16;
     while (slots < 2 * (size_t)count) {
@@ -141,7 +143,7 @@ static uint32_t join_vertices(const VertexArrays *arrays, uint32_t count, uint32
     if (!table) {
         return 0;
     }
-    memset(table, 0xff, slots * sizeof *table); // UINT32_MAX: free
+    memset(table, 0xff, slots * sizeof *table); // UINT32_MAX marks a free slot.
     uint32_t kept = 0;
     for (uint32_t vertex = 0; vertex < count; ++vertex) {
         size_t slot = hash_vertex(arrays, vertex) & (slots - 1);
@@ -234,8 +236,8 @@ int dip_model_mesh(DipModel *model, int file, unsigned source, int material, Dip
     const struct aiMesh *mesh = model->files[file].scene->mMeshes[source];
     const char *path = model->files[file].path;
     if (mesh->mNumFaces > UINT32_MAX / 3) {
-        dip_error_set(err, DIP_ERROR_RANGE, path, 0, mesh->mName.data, "mesh has %u triangles",
-                      mesh->mNumFaces);
+        dip_error_set(err, DIP_ERROR_RANGE, path, 0, mesh->mName.data,
+                      "the mesh has too many triangles: %u", mesh->mNumFaces);
         return DIP_NOT_FOUND;
     }
     DipMeshDef def = {

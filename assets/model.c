@@ -1,4 +1,5 @@
-// Loading a model: files to objects, then pictures, then the finished description.
+// Loads a model: turns the nodes of the files into objects, has the pictures decoded and completes
+// the scene description.
 #include "assets/model.h"
 
 #include "assets/model_parts.h"
@@ -15,14 +16,14 @@
 
 enum { MAX_OBJECTS = 1 << 20 };
 
-// A dark slate behind models that bring no sky.
+// A dark grey behind models without a sky.
 static const float background_lin[3] = {0.022f, 0.026f, 0.034f};
 
-// The near plane's distance as a part of the model's diagonal. Depth is reversed and has no far
-// plane, so a small distance costs no precision.
-static const double near_part = 1e-4;
+// Distance of the near plane as a fraction of the model's diagonal. Depth is reversed and has no
+// far plane, so a small distance costs no precision.
+static const double near_fraction = 1e-4;
 
-// What a node hands down to its children.
+// State that a node's children inherit.
 typedef struct NodeState {
     double world[12]; // rows of a 3x4 matrix
     DipTag tag;
@@ -124,7 +125,8 @@ static void read_tags(DipModel *model, const char *path, const struct aiNode *no
         }
     }
     dip_model_warn(model, path, node->mName.data,
-                   "surface \"%s\" is not known, accepted solid, mask, glass, water or sky", name);
+                   "the surface \"%s\" is not known, accepted solid, mask, glass, water or sky",
+                   name);
 }
 
 static void multiply(const double a[12], const struct aiMatrix4x4 *b, double to[12]) {
@@ -157,8 +159,8 @@ static bool add_object(DipModel *model, int file, const struct aiNode *node, uns
     }
     const char *path = model->files[file].path;
     if (model->def.object_count == MAX_OBJECTS) {
-        return dip_error_set(err, DIP_ERROR_RANGE, path, 0, NULL, "model has more than %d objects",
-                             MAX_OBJECTS);
+        return dip_error_set(err, DIP_ERROR_RANGE, path, 0, NULL,
+                             "the model has more than %d objects", MAX_OBJECTS);
     }
     DipObjectDef object = {.mesh = dip_model_mesh(model, file, source, material, err)};
     if (object.mesh < 0) {
@@ -178,7 +180,7 @@ static bool add_object(DipModel *model, int file, const struct aiNode *node, uns
     return true;
 }
 
-// Depth is bounded: the import has checked it.
+// Adds a node and its children to the objects. The import has limited the depth of nodes.
 static bool walk(DipModel *model, int file, const struct aiNode *node, const NodeState *parent,
                  DipError *err) {
     NodeState state = *parent;
@@ -186,7 +188,7 @@ static bool walk(DipModel *model, int file, const struct aiNode *node, const Nod
     for (int i = 0; i < 12; ++i) {
         if (!isfinite((float)state.world[i])) {
             return dip_error_set(err, DIP_ERROR_RANGE, model->files[file].path, 0, node->mName.data,
-                                 "node's transform is not finite");
+                                 "the node's transform is not finite");
         }
     }
     read_tags(model, model->files[file].path, node, &state);
@@ -219,7 +221,7 @@ static bool load_file(DipModel *model, int index, const char *path, DipError *er
         return false;
     }
     if (model->def.object_count == objects_before) {
-        return dip_error_set(err, DIP_ERROR_MISSING, path, 0, NULL, "model has no triangles");
+        return dip_error_set(err, DIP_ERROR_MISSING, path, 0, NULL, "the model has no triangles");
     }
     return true;
 }
@@ -248,7 +250,8 @@ static void extend_bounds(double low[3], double high[3], const DipMeshDef *mesh,
     }
 }
 
-// The sky is left out: it stands wherever the author put it.
+// Finds the distance of the near plane from the size of the model without its sky, which may be as
+// large as its author likes.
 static float near_distance(const DipModel *model) {
     double low[3] = {INFINITY, INFINITY, INFINITY};
     double high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -262,7 +265,7 @@ static float near_distance(const DipModel *model) {
     for (int axis = 0; axis < 3; ++axis) {
         square += (high[axis] - low[axis]) * (high[axis] - low[axis]);
     }
-    const double near_m = near_part * sqrt(square);
+    const double near_m = near_fraction * sqrt(square);
     return isfinite(near_m) ? (float)fmin(fmax(near_m, 1e-9), 1e9) : 0.01f;
 }
 

@@ -1,22 +1,27 @@
-// Model files (glTF, OBJ, X, PLY, STL and what else assimp reads) and the pictures they name, as
-// one scene description for the renderer.
+// Loads model files (glTF, OBJ, X, PLY, STL and other formats that assimp reads) and the pictures
+// they name into one scene description for the renderer.
 //
-// What is taken over, and how:
-// - Triangles; polygons are triangulated, points and lines are left out with a warning. Missing
-//   normals are made, smooth where faces meet at less than 60 degrees. A mesh that several nodes
-//   use stays one mesh with several objects; a node that mirrors gets a copy of the mesh whose
-//   winding is reversed, so that fronts are counter-clockwise in world space.
-// - Base colours and vertex colours are linear in glTF; of all other formats they are taken to be
-//   sRGB, as those formats' programs show them. A black base colour under a colour texture, which
-//   many exporters write for "none", counts as white.
-// - Alpha: glTF's MASK with its cutoff, its BLEND as MASK at 0.5 (with a warning); of other formats
-//   opacity pictures, clipped at 0.5. A surface whose alpha never falls below the cutoff is opaque.
-// - Sides: as the file says; of formats that cannot say, both are seen.
-// - Node metadata (glTF: object extras) of a node or the nearest node above it: `surface` = solid,
-//   mask, glass, water or sky, and `lightmapped` = 1 when the material's occlusion picture is a
-//   light map stored as light / 2. Other formats' light maps are taken as they are.
-// - Lit by the renderer's fixed light: what has no light map and is not sky, water or glass.
-// - Roughness is glTF's; 0.6 where a file does not say. A sky's picture is data (DipSkyDef), not
+// docs/models.md explains for authors what the loader reads. In short:
+// - Polygons are triangulated; points and lines are left out with a warning. A mesh without normals
+//   gets some, smooth where faces meet at less than 60 degrees. A mesh that several nodes use stays
+//   one mesh with several objects. A node that mirrors uses the same mesh; the renderer turns the
+//   winding back (docs/picture.md, Coverage).
+// - Base colours and vertex colours are linear in glTF. Those of all other formats are taken as
+// sRGB,
+//   because the programs that write these formats show them so. Outside glTF a black base colour
+//   with a colour texture counts as white, because many exporters write black for "none".
+// - Alpha: glTF's MASK keeps its cutoff; BLEND is drawn as MASK with a cutoff of 0.5 and a warning.
+// In
+//   other formats an opacity picture clips at 0.5. A surface whose texture is opaque throughout is
+//   an opaque surface.
+// - A surface is double-sided if the file says so, and in formats that cannot say.
+// - Node metadata (glTF: extras) of a node, or of the nearest node above it that has some:
+// `surface` is
+//   solid, mask, glass, water or sky; `lightmapped` is 1 if the material's occlusion picture is a
+//   light map that stores light / 2. Light maps of other formats store the light itself.
+// - The renderer's fixed light lights solid and mask surfaces without a light map.
+// - Roughness comes from glTF, or is 0.6 if the file has none. A sky's texture is data (DipSkyDef),
+// not
 //   colour, and is read as linear.
 // - Texture coordinates have v = 0 at the picture's upper edge.
 #ifndef DIP_ASSETS_MODEL_H
@@ -26,37 +31,53 @@
 #include "renderer/base/pool.h"
 #include "renderer/scene/scene.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// A loaded model. It owns the arrays, texts and texels that its scene description points to. It
+// never changes after loading, so any number of threads may read it.
 typedef struct DipModel DipModel;
 
 enum { DIP_MAX_MODEL_FILES = 256 };
 
-// Loads 1..DIP_MAX_MODEL_FILES files into one description. All or nothing: on failure returns NULL
-// and fills *err (may be NULL) with the file and the reason. Faults one can look past, such as a
-// picture that is not there (its surface is drawn in its base colour), are added to *warnings (may
-// be NULL) with severity warning. Pictures are read and decoded on the pool (may be NULL:
-// serially).
+// Loads 1..DIP_MAX_MODEL_FILES files into one description. The caller owns the model and destroys
+// it with dip_model_destroy. If any file fails, returns NULL and fills *err (may be NULL) with the
+// file and the reason. Faults that leave a usable model, such as a missing picture (its surface is
+// drawn in its base colour), are added to *warnings (may be NULL). The pool (may be NULL) reads and
+// decodes pictures in parallel; no other thread may use it meanwhile.
 //
-// Refused: a file that is missing, empty, truncated or of no readable format; an index out of
-// range; a position or transform that is not finite; no triangle at all; a picture that is there
-// but broken or larger than 8192 pixels. Different models may be loaded on different threads.
+// Codes: MISSING (no such file, or no triangle), IO, TRUNCATED, FORMAT (not a supported format, or
+// malformed), UNSUPPORTED (a required glTF extension), RANGE (an index out of range; a position or
+// transform that is not finite; a picture of more than 8192 pixels in a direction), OVERSIZED (a
+// picture file), RUNTIME, MEMORY. A picture that exists but is broken fails the load.
 //
-// Normal maps are neither looked for nor decoded: materials then have none.
+// Threads: different models may be loaded at the same time on different threads.
+//
+// Normal maps are not loaded: the materials have none.
 DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
                          DipErrorList *warnings, DipError *err);
 
-// The same with normal maps.
+// Like dip_model_load, but also loads normal maps.
 DipModel *dip_model_load_with_normals(const char *const *files, int file_count, DipPool *pool,
                                       DipErrorList *warnings, DipError *err);
+
+// Destroys the model and sets the pointer to NULL. Accepts a pointer to NULL.
 void dip_model_destroy(DipModel **model);
 
-// How long the parts of the load took, milliseconds.
+// Durations of the parts of a load, in milliseconds.
 typedef struct DipModelTimes {
-    double import_ms;   // model files to meshes and materials
-    double pictures_ms; // reading and decoding
+    double import_ms;   // from model files to meshes and materials
+    double pictures_ms; // reading and decoding pictures
 } DipModelTimes;
 DipModelTimes dip_model_times(const DipModel *model);
 
-// Valid until the model is destroyed; dip_scene_create copies what it needs.
+// The description belongs to the model and is valid until the model is destroyed. dip_scene_create
+// copies what it needs.
 const DipSceneDef *dip_model_scene_def(const DipModel *model);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

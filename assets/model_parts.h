@@ -1,8 +1,9 @@
-// What the parts of the model loader share: the model under construction. Private to assets/.
+// Shared by the parts of the model loader: the model while it is loaded. Private to assets/.
 //
-// The course of a load: each file is imported and checked (import.c), its nodes are walked and
-// turned into objects, which ask for meshes (mesh.c), which ask for materials (material.c), which
-// ask for pictures. Then all pictures are decoded and materials get their textures.
+// A load has these steps. Each file is imported and checked (import.c). model.c walks its nodes and
+// turns them into objects; each object needs a mesh (mesh.c) and a material (material.c), and the
+// material registers its pictures (pictures.c). Then all pictures are decoded and the materials get
+// their textures.
 #ifndef DIP_ASSETS_MODEL_PARTS_H
 #define DIP_ASSETS_MODEL_PARTS_H
 
@@ -21,7 +22,7 @@ struct aiScene;
 
 enum { DIP_NOT_FOUND = -1 };
 
-// What an object's metadata says of its surface.
+// Kind of surface that an object's metadata names.
 typedef enum DipTag {
     DIP_TAG_SOLID,
     DIP_TAG_MASK,
@@ -30,60 +31,61 @@ typedef enum DipTag {
     DIP_TAG_SKY
 } DipTag;
 
-// A picture that some material uses; decoded once however many do.
+// A picture that one or more materials use. It is decoded once.
 typedef struct DipPictureEntry {
-    char *name;           // the file's path, or the embedded picture's name
-    int file;             // index of the model file that uses it first
-    const uint8_t *bytes; // embedded: borrowed from the imported scene; NULL: a file
-    size_t size_bytes;    // embedded and compressed
-    uint32_t raw_width;   // embedded, b g r a texels; 0 when compressed
-    uint32_t raw_height;
+    char *name;           // path of the file, or name of the embedded picture
+    int file;             // index of the first model file that uses the picture
+    const uint8_t *bytes; // an embedded picture, which the imported scene owns; NULL for a file
+    size_t size_bytes;    // size of an embedded picture file
+    uint32_t raw_width;   // width of embedded b, g, r, a texels; 0 for an embedded picture file
+    uint32_t raw_height;  // height of these texels, or 0
     DipPicture picture;
-    DipError error; // code NONE: decoded
+    DipError error; // why decoding failed; code NONE after success
 } DipPictureEntry;
 
-// A material's use of a picture.
+// How a material uses a picture.
 typedef struct DipTextureUse {
-    int picture; // index or DIP_NO_TEXTURE
-    int uv_channel;
+    int picture;    // index of a picture, or DIP_NO_TEXTURE
+    int uv_channel; // set of texture coordinates in the file
     DipWrap wrap_u;
     DipWrap wrap_v;
 } DipTextureUse;
 
-// Beside each DipMaterialDef: what tells it from others, and what waits for the pictures.
+// One per DipMaterialDef: what distinguishes it from other materials, and what is needed once the
+// pictures are decoded.
 typedef struct DipMaterialPlan {
-    int file;
-    unsigned source;      // index in the file
-    unsigned coordinates; // bit i: the mesh has texture coordinates i
+    int file;             // index of the model file
+    unsigned source;      // index of the material in that file
+    unsigned coordinates; // bit i is set if the mesh has texture coordinates i
     DipTag tag;
-    bool light_mapped;
-    bool has_uv0;
-    bool has_uv1;
-    bool invisible; // by its own opacity, below the cutoff everywhere
+    bool light_mapped; // the occlusion picture is a light map
+    bool has_uv0;      // the mesh needs coordinates for colour, opacity or normal map
+    bool has_uv1;      // the mesh needs coordinates for the light map
+    bool invisible;    // the material's own opacity is below its cutoff
     DipTextureUse colour;
     DipTextureUse opacity;
     DipTextureUse light;
     DipTextureUse normal;
 } DipMaterialPlan;
 
-// Beside each DipTextureDef: what tells it from others.
+// One per DipTextureDef: what distinguishes it from other textures.
 typedef struct DipTextureKey {
     int picture;
     int opacity_picture;
     bool has_alpha;
 } DipTextureKey;
 
-// Beside each DipMeshDef: likewise.
+// One per DipMeshDef: what distinguishes it from other meshes.
 typedef struct DipMeshKey {
-    int file;
-    unsigned source;
-    int material;
+    int file;        // index of the model file
+    unsigned source; // index of the mesh in that file
+    int material;    // index of the DipMaterialDef
 } DipMeshKey;
 
 typedef struct DipModelFile {
-    const char *path; // as the caller wrote it; owned by the model
-    const struct aiScene *scene;
-    bool linear_colours; // glTF
+    const char *path;            // as the caller gave it; owned by the model
+    const struct aiScene *scene; // owned; NULL before the import and after the load
+    bool linear_colours;         // colours are linear, as in glTF, and not sRGB
 } DipModelFile;
 
 struct DipModel {
@@ -97,61 +99,73 @@ struct DipModel {
     DipObjectDef *objects;
     DipPictureEntry *pictures;
     int picture_count;
-    DipPicture *merged; // colour and opacity in one
+    DipPicture *merged; // pictures made of a colour and an opacity picture
     int merged_count;
-    void **blocks; // names and arrays that the definitions point to
+    void **blocks; // memory of dip_model_alloc
     int block_count;
     DipModelFile *files;
     int file_count;
-    DipErrorList *warnings; // may be NULL
+    DipErrorList *warnings; // the caller's, only during the load; may be NULL
     DipModelTimes times;
-    bool normal_maps; // to be loaded
+    bool normal_maps; // normal maps are to be loaded
 };
 
-// Room for one more item in an array of `count`: the array, moved if need be, or NULL, and then the
-// old one stays valid.
+// Makes room for one more item in an array of `count` items. Returns the array, which may have
+// moved. On failure returns NULL and the old array stays valid.
 void *dip_array_grow(void *items, int count, size_t item_bytes);
 
-// Memory that lives as long as the model. NULL when there is none.
+// Allocates zeroed memory that lives as long as the model. Returns NULL when memory runs out.
 void *dip_model_alloc(DipModel *model, size_t count, size_t item_bytes);
 char *dip_model_copy_text(DipModel *model, const char *text);
 
+// Adds a warning, unless the caller wants none. key may be NULL.
+
 void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+
+// Fills *err and returns false.
 bool dip_model_out_of_memory(DipError *err, const char *file);
 
-// A colour channel of a file to linear light, clamped to 0..1. linear: it is so already.
+// Converts a colour channel of a file to linear light and clamps it to 0..1. linear: it is linear
+// already, and is only clamped.
 float dip_model_colour_to_linear(float value, bool linear);
 
-// mesh.c: whether a processed mesh consists of triangles.
+// mesh.c: true if a processed mesh consists of triangles.
 bool dip_mesh_is_triangles(const struct aiMesh *mesh);
 
-// precheck.c: refuses files that would make assimp run out of stack or time.
-bool dip_model_precheck(const char *path, DipError *err);
+// precheck.c: refuses files that would make assimp run out of stack, memory or time, and glTF files
+// that need an extension that cannot be decoded.
+bool dip_model_precheck(DipModel *model, const char *path, DipError *err);
 
-// import.c: reads and checks a file; fills file->scene.
+// import.c: imports and checks a file, and sets file->scene.
 bool dip_model_import(DipModel *model, DipModelFile *file, DipError *err);
 
-// mesh.c: the index of a mesh for one placement; DIP_NOT_FOUND when it fails.
+// mesh.c: returns the index of a mesh with this material, which is added if it is new. Returns
+// DIP_NOT_FOUND on failure.
 int dip_model_mesh(DipModel *model, int file, unsigned source, int material, DipError *err);
 
-// mesh.c: n to length 1; one that is zero or not finite (of a face without area) points up.
+// mesh.c: normalises n. A vector that is zero or not finite (a face without area has such a normal)
+// becomes +Y.
 void dip_model_unit_normal(const double n[3], float to[3]);
 
-// normals.c: three floats per corner of a mesh of triangles, smooth where faces meet at less than
-// 60 degrees. Lives as long as the model; NULL when memory runs out.
+// normals.c: makes normals for a mesh of triangles, three floats per corner, smooth where faces
+// meet at less than 60 degrees. The model owns them. Returns NULL when memory runs out.
 float *dip_model_make_normals(DipModel *model, const struct aiMesh *mesh);
 
-// material.c: the index of a material for a mesh of a tagged object; DIP_NOT_FOUND when it fails.
+// material.c: returns the index of the material of a mesh in an object with this tag, which is
+// added if it is new. Returns DIP_NOT_FOUND on failure.
 int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, DipTag tag,
                        bool light_mapped, DipError *err);
 
 // pictures.c: registers a picture of a material and returns its index, or DIP_NO_TEXTURE when
-// memory runs out. Decodes all registered ones on the pool; fails when one is there but broken.
+// memory runs out.
 int dip_model_picture(DipModel *model, int file, const char *path);
+
+// pictures.c: decodes all registered pictures on the pool. A missing picture is a warning; a broken
+// one fails.
 bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err);
 
-// material.c: once pictures are decoded: makes the textures and settles what is opaque.
+// material.c: makes the textures from the decoded pictures and decides which surfaces are opaque.
 bool dip_model_finish_materials(DipModel *model, DipError *err);
 
 #endif

@@ -1,7 +1,7 @@
-// Normals for meshes that bring none.
+// Makes normals for meshes that have none.
 //
-// assimp's own step writes a face's normal to its vertices and then averages vertices of the same
-// place, which is right only when no two faces share a vertex; in glTF and PLY they do.
+// assimp's own step writes a face's normal to its vertices and then averages vertices at the same
+// position. That is right only if no two faces share a vertex, but in glTF and PLY they do.
 #include "assets/model_parts.h"
 
 #include <assimp/mesh.h>
@@ -9,34 +9,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_FACES_AT_A_POINT = 1024 }; // more stay flat: their pairs would take for ever
+// Where more faces meet they stay flat, because comparing all pairs would take too long.
+enum { MAX_FACES_AT_A_POINT = 1024 };
 
-static const double smoothing_cosine = 0.5; // of 60 degrees: faces that meet at more keep an edge
+static const double smoothing_cosine = 0.5; // cos 60 degrees; faces that meet at more keep an edge
 static const uint32_t free_slot = UINT32_MAX;
 
-// The corners of all faces, three a face, in one list per place.
+// The corners of all faces, three per face. Those at the same position form a linked list.
 typedef struct Corners {
     const struct aiMesh *mesh;
     uint32_t count;
-    double (*face_normal)[3]; // per face, as long as twice its area
-    uint32_t *next;           // per corner: the place's next one
-    uint32_t *length;         // per corner: of the list that begins with it
-    uint32_t *table;          // open addressing by place: a list's first corner
-    size_t slots;
+    double (*face_normal)[3]; // per face; its length is twice the face's area
+    uint32_t *next;           // per corner: the next corner of its list
+    uint32_t *length;         // per corner: length of the list that begins with it
+    uint32_t *table;          // hash table by position, open addressing: first corner of a list
+    size_t slots;             // size of the hash table, a power of two
 } Corners;
 
-static struct aiVector3D place_of(const Corners *corners, uint32_t corner) {
+static struct aiVector3D position_of(const Corners *corners, uint32_t corner) {
     return corners->mesh->mVertices[corners->mesh->mFaces[corner / 3].mIndices[corner % 3]];
 }
 
-static bool same_place(const Corners *corners, uint32_t one, uint32_t other) {
-    const struct aiVector3D a = place_of(corners, one);
-    const struct aiVector3D b = place_of(corners, other);
+static bool same_position(const Corners *corners, uint32_t one, uint32_t other) {
+    const struct aiVector3D a = position_of(corners, one);
+    const struct aiVector3D b = position_of(corners, other);
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-// FNV-1a over the bits; -0 hashes as 0.
-static uint32_t hash_place(struct aiVector3D p) {
+// FNV-1a over the bits of the position; -0 hashes as 0.
+static uint32_t hash_position(struct aiVector3D p) {
     const float values[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};
     uint32_t bits[3];
     uint32_t hash = 2166136261u;
@@ -51,9 +52,9 @@ static uint32_t hash_place(struct aiVector3D p) {
 static void list_corners(Corners *corners) {
     memset(corners->table, 0xff, corners->slots * sizeof *corners->table);
     for (uint32_t corner = 0; corner < corners->count; ++corner) {
-        size_t slot = hash_place(place_of(corners, corner)) & (corners->slots - 1);
+        size_t slot = hash_position(position_of(corners, corner)) & (corners->slots - 1);
         while (corners->table[slot] != free_slot &&
-               !same_place(corners, corners->table[slot], corner)) {
+               !same_position(corners, corners->table[slot], corner)) {
             slot = (slot + 1) & (corners->slots - 1);
         }
         const uint32_t first = corners->table[slot];
@@ -65,9 +66,9 @@ static void list_corners(Corners *corners) {
 
 static void set_face_normals(Corners *corners) {
     for (uint32_t face = 0; face < corners->count / 3; ++face) {
-        const struct aiVector3D a = place_of(corners, 3 * face);
-        const struct aiVector3D b = place_of(corners, 3 * face + 1);
-        const struct aiVector3D c = place_of(corners, 3 * face + 2);
+        const struct aiVector3D a = position_of(corners, 3 * face);
+        const struct aiVector3D b = position_of(corners, 3 * face + 1);
+        const struct aiVector3D c = position_of(corners, 3 * face + 2);
         const double u[3] = {(double)b.x - a.x, (double)b.y - a.y, (double)b.z - a.z};
         const double v[3] = {(double)c.x - a.x, (double)c.y - a.y, (double)c.z - a.z};
         for (int i = 0; i < 3; ++i) {
@@ -82,8 +83,8 @@ static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The sum over the place's faces that meet this one smoothly, weighted by area, so that it does not
-// matter how polygons were cut into triangles.
+// Sums the normals of the faces that meet this corner's face smoothly at this position. They are
+// weighted by area, so that the way polygons were triangulated does not matter.
 static void smooth(const Corners *corners, uint32_t first, uint32_t corner, float to[3]) {
     const double *own = corners->face_normal[corner / 3];
     double sum[3] = {own[0], own[1], own[2]};

@@ -1,4 +1,5 @@
-// Pictures through stb_image, with the checks it leaves out: size limits and truncated files.
+// Decodes pictures with stb_image and adds the checks that it leaves out: the size of the picture
+// and truncated files.
 #include "assets/picture.h"
 
 #include <errno.h>
@@ -7,7 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// stb_image's code, kept to this file: the formats that are promised, from memory only.
+// stb_image's code is compiled into this file only, with the supported formats and without file
+// access.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
@@ -19,8 +21,8 @@
 
 static const size_t max_file_bytes = (size_t)512 << 20;
 
-// stb_image takes bytes beyond the end of TGA, BMP and JPEG data for zeros, so the source watches
-// whether the end was passed.
+// stb_image reads zeros beyond the end of TGA, BMP and JPEG data, so the source notes a read past
+// the end.
 typedef struct Source {
     const uint8_t *bytes;
     size_t size_bytes;
@@ -28,7 +30,9 @@ typedef struct Source {
     bool passed_end;
 } Source;
 
-enum { STB_REFILL_BYTES = 128 }; // stb_image's own buffer: only these reads may fall short
+enum {
+    STB_REFILL_BYTES = 128
+}; // Size of stb_image's own buffer. Only reads of this size may be cut short.
 
 static int source_read(void *user, char *data, int size) {
     Source *source = user;
@@ -65,7 +69,7 @@ static int source_at_end(void *user) {
 static bool check_size(long long width, long long height, const char *name, DipError *err) {
     if (width < 1 || height < 1 || width > DIP_MAX_PICTURE_SIZE || height > DIP_MAX_PICTURE_SIZE) {
         return dip_error_set(err, DIP_ERROR_RANGE, name, 0, NULL,
-                             "picture is %lld x %lld pixels, accepted 1..%d in each direction",
+                             "the picture has %lld x %lld pixels, accepted 1..%d in each direction",
                              width, height, DIP_MAX_PICTURE_SIZE);
     }
     return true;
@@ -86,14 +90,14 @@ bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *nam
     static const stbi_io_callbacks callbacks = {source_read, source_skip, source_at_end};
     *picture = (DipPicture){0};
     if (size_bytes == 0) {
-        return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL, "picture file is empty");
+        return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL, "the picture file is empty");
     }
     Source source = {.bytes = bytes, .size_bytes = size_bytes};
     int channels = 0;
     if (!stbi_info_from_callbacks(&callbacks, &source, &picture->width, &picture->height,
                                   &channels)) {
         return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL,
-                             "not a picture that can be read, accepted PNG, JPEG, BMP or TGA");
+                             "the file is not a supported picture, accepted PNG, JPEG, BMP or TGA");
     }
     if (!check_size(picture->width, picture->height, name, err)) {
         return false;
@@ -106,10 +110,10 @@ bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *nam
         dip_picture_free(picture);
         if (source.passed_end) {
             return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL,
-                                 "picture file ends too early");
+                                 "the picture file ends too early");
         }
-        return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL, "picture cannot be read: %s",
-                             reason ? reason : "no reason known");
+        return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL, "the picture cannot be read: %s",
+                             reason ? reason : "stb_image gives no reason");
     }
     picture->has_alpha = (channels == 2 || channels == 4) && any_alpha(picture);
     return true;
@@ -120,23 +124,24 @@ static uint8_t *read_bytes(const char *path, size_t *size_bytes, DipError *err) 
     if (!file) {
         const bool missing = errno == ENOENT || errno == ENOTDIR;
         dip_error_set(err, missing ? DIP_ERROR_MISSING : DIP_ERROR_IO, path, 0, NULL,
-                      "cannot open picture: %s", strerror(errno));
+                      "cannot open the picture: %s", strerror(errno));
         return NULL;
     }
     struct stat info = {0};
     uint8_t *bytes = NULL;
     if (fstat(fileno(file), &info) != 0 || !S_ISREG(info.st_mode)) {
-        dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "is not a file");
+        dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "the picture is not a regular file");
     } else if (info.st_size < 0 || (size_t)info.st_size > max_file_bytes) {
         dip_error_set(err, DIP_ERROR_OVERSIZED, path, 0, NULL,
-                      "picture file has %lld bytes, accepted at most %zu", (long long)info.st_size,
-                      max_file_bytes);
+                      "the picture file has %lld bytes, accepted at most %zu",
+                      (long long)info.st_size, max_file_bytes);
     } else if (!(bytes = malloc((size_t)info.st_size + 1))) {
         dip_error_set(err, DIP_ERROR_MEMORY, path, 0, NULL, "out of memory");
     } else {
         *size_bytes = fread(bytes, 1, (size_t)info.st_size, file);
         if (*size_bytes != (size_t)info.st_size) {
-            dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "picture file cannot be read whole");
+            dip_error_set(err, DIP_ERROR_IO, path, 0, NULL,
+                          "the picture file cannot be read to its end");
             free(bytes);
             bytes = NULL;
         }

@@ -1,4 +1,10 @@
-// Pictures (PNG, JPEG, BMP, TGA) to 8-bit RGBA texels.
+// Decodes pictures (PNG, JPEG, BMP, TGA) to 8-bit RGBA texels.
+//
+// Every function that fills a DipPicture gives the caller ownership of its texels, which
+// dip_picture_free frees. On failure it returns false, leaves rgba8 NULL and fills *err (may be
+// NULL).
+//
+// Threads: the functions share no state and may run at the same time on different pictures.
 #ifndef DIP_ASSETS_PICTURE_H
 #define DIP_ASSETS_PICTURE_H
 
@@ -8,32 +14,43 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { DIP_MAX_PICTURE_SIZE = 8192 }; // width and height, pixels
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { DIP_MAX_PICTURE_SIZE = 8192 }; // greatest width and height, pixels
 
 typedef struct DipPicture {
-    uint8_t *rgba8; // row-major, the top row first; owned
-    int width;
-    int height;
-    bool has_alpha; // some texel's alpha is below 255
+    uint8_t *rgba8; // texels, row-major, the top row first, rows tightly packed; owned
+    int width;      // pixels
+    int height;     // pixels
+    bool has_alpha; // true if the alpha of some texel is below 255
 } DipPicture;
 
-// name: for messages. Thread-safe.
+// Decodes the bytes of a picture file. Messages call it `name`. Codes: FORMAT, TRUNCATED, RANGE
+// (size).
 bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
                         DipPicture *picture, DipError *err);
 
-// DIP_ERROR_MISSING when there is no such file; any other code means it is there and broken.
+// Reads and decodes a file. Code MISSING: there is no such file. Other codes (IO, OVERSIZED, MEMORY
+// and those of dip_picture_decode): the file exists, but it cannot be used.
 bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err);
 
-// Takes over texels stored as b, g, r, a.
+// Copies texels that are stored as b, g, r, a. Codes: RANGE (size), MEMORY.
 bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_t height, const char *name,
                            DipPicture *picture, DipError *err);
 
-// Replaces the alpha by the opacity picture's: its own alpha where it has any, else its
-// brightness; sampled at the nearest texel when sizes differ. colour NULL: white. The result is a
-// picture of its own; false when memory runs out.
+// Makes a new picture from the colours of one picture (NULL: white) and the opacity picture's
+// alpha: its alpha channel if it has one, else its brightness. If the sizes differ, the nearest
+// texel of the opacity picture is used. Returns false when memory runs out.
 bool dip_picture_with_opacity(const DipPicture *colour, const DipPicture *opacity,
                               DipPicture *picture);
 
+// Frees the texels and zeroes the picture. Accepts a zeroed picture.
 void dip_picture_free(DipPicture *picture);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,4 +1,4 @@
-// The pictures of a model: found, each loaded once, decoded side by side.
+// Finds the pictures of a model and decodes each of them once, in parallel.
 #include "assets/model_parts.h"
 
 #include <assimp/scene.h>
@@ -15,7 +15,8 @@ static const char *base_name(const char *path) {
     return slash ? slash + 1 : path;
 }
 
-// "*3" names the fourth embedded picture; else one is named by its file's last part.
+// Finds an embedded picture. "*3" is the fourth one; otherwise the last part of the file names are
+// compared.
 static const struct aiTexture *find_embedded(const struct aiScene *scene, const char *path) {
     if (path[0] == '*') {
         char *end = NULL;
@@ -46,7 +47,7 @@ static void use_forward_slashes(char *path) {
     }
 }
 
-// "%20" to " ", as glTF's addresses have it.
+// Decodes the percent-encoding of glTF's addresses, such as "%20" for a space.
 static void decode_percent(char *path) {
     char *to = path;
     for (const char *from = path; *from; ++to) {
@@ -63,9 +64,10 @@ static void decode_percent(char *path) {
     *to = '\0';
 }
 
-// Where the picture is: at its path, taken from the model's folder, or beside the model, which
-// finds pictures that were named by another machine's absolute path. The first candidate stands
-// for messages when there is none. Newly allocated.
+// Finds a picture file: at its path relative to the model's folder, or under its last part in that
+// folder, because some models hold absolute paths of another machine. Both are tried as written and
+// then with percent-encoding decoded. Returns the path, or the first path tried if there is no
+// file. The caller frees it; NULL when memory runs out.
 static char *find_file(const char *model_path, const char *picture_path) {
     const size_t folder_length = (size_t)(base_name(model_path) - model_path);
     const size_t size_bytes = folder_length + strlen(picture_path) + 1;
@@ -121,7 +123,7 @@ static int embedded_picture(DipModel *model, int file, const char *path,
     if (known >= 0) {
         return known;
     }
-    char name[sizeof(struct aiString) + 256]; // an over-long path is cut
+    char name[sizeof(struct aiString) + 256]; // A longer path is cut.
     const char *own_name = texture->mFilename.data[0] ? texture->mFilename.data : path;
     snprintf(name, sizeof name, "%.250s:%s", model->files[file].path, own_name);
     const bool compressed = texture->mHeight == 0;
@@ -164,7 +166,7 @@ static void decode(DipPictureEntry *entry) {
     }
 }
 
-// A picture by how long it will take.
+// A picture to decode, with its size in bytes as a measure of the time that takes.
 typedef struct DecodeJob {
     DipPictureEntry *entry;
     size_t size_bytes;
@@ -186,7 +188,7 @@ static void decode_task(void *context, int index, int worker) {
     decode(((const DecodeJob *)context)[index].entry);
 }
 
-// Largest first, so that no thread begins a long one at the end.
+// Decodes the largest pictures first, so that no thread starts a long one at the end.
 static bool decode_all(DipModel *model, DipPool *pool) {
     DecodeJob *jobs = malloc(((size_t)model->picture_count + 1) * sizeof *jobs);
     if (!jobs) {
@@ -215,9 +217,10 @@ bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
     for (int i = 0; i < model->picture_count; ++i) {
         const DipPictureEntry *entry = &model->pictures[i];
         if (entry->error.code == DIP_ERROR_MISSING) {
-            dip_model_warn(model, model->files[entry->file].path, NULL,
-                           "picture %s is missing, surfaces are drawn in their base colour",
-                           entry->name);
+            dip_model_warn(
+                model, model->files[entry->file].path, NULL,
+                "the picture %s is missing, so its surfaces are drawn in their base colour",
+                entry->name);
         } else if (entry->error.code != DIP_ERROR_NONE) {
             if (err) {
                 *err = entry->error;

@@ -1,4 +1,5 @@
-// Checks of model files before assimp sees them: what would make it run out of stack or time.
+// Checks of model files before assimp reads them. They refuse files that would make assimp run out
+// of stack, memory or time, and glTF files that need an extension Diptych cannot decode.
 #include "assets/model_parts.h"
 
 #include <stdio.h>
@@ -8,66 +9,118 @@
 
 enum {
     MAX_JSON_DEPTH = 512,
-    // Each node with children has a list, so this bounds how deep nodes nest; assimp spends some
-    // 600 bytes of stack a level.
+    // Every node with children has an array, so this also limits how deep nodes nest. assimp uses
+    // some 600 bytes of stack per level.
     MAX_JSON_ARRAYS = 400000,
+    MAX_EXTENSION_NAME = 64,
 };
 
 typedef struct JsonScan {
+    DipModel *model; // receives the warnings
+    const char *path;
     bool in_string;
-    bool escaped;
-    int depth;
+    bool escaped; // the character before was an unescaped backslash
+    int depth;    // of nested objects and arrays
     int max_depth;
     long array_count;
+    char text[MAX_EXTENSION_NAME];    // the string being read; a longer one is cut
+    bool lists_required;              // the last string at depth 1 was "extensionsRequired"
+    char refused[MAX_EXTENSION_NAME]; // the first required extension that cannot be decoded, or ""
 } JsonScan;
+
+// Extensions that describe how surfaces look or are lit. The model can be read without them.
+static bool can_read_without(const char *extension) {
+    return strncmp(extension, "KHR_materials_", strlen("KHR_materials_")) == 0 ||
+           strcmp(extension, "KHR_lights_punctual") == 0 ||
+           strcmp(extension, "KHR_texture_transform") == 0;
+}
+
+// A string of the outermost object is a key (or a value, which changes nothing); a string one level
+// deeper, after the key "extensionsRequired", is the name of an extension.
+static void end_string(JsonScan *scan) {
+    if (scan->depth == 1) {
+        scan->lists_required = strcmp(scan->text, "extensionsRequired") == 0;
+    } else if (scan->depth == 2 && scan->lists_required && !scan->refused[0]) {
+        if (can_read_without(scan->text)) {
+            dip_model_warn(scan->model, scan->path, "extensionsRequired",
+                           "the effect of the glTF extension %s is not drawn", scan->text);
+        } else {
+            memcpy(scan->refused, scan->text, sizeof scan->refused);
+        }
+    }
+}
+
+static void scan_string(JsonScan *scan, int c) {
+    const size_t length = strlen(scan->text);
+    if (c == '"' && !scan->escaped) {
+        scan->in_string = false;
+        end_string(scan);
+    } else if (length + 1 < sizeof scan->text) {
+        scan->text[length] = c >= ' ' && c <= '~' ? (char)c : '?';
+        scan->text[length + 1] = '\0';
+    }
+    scan->escaped = !scan->escaped && c == '\\';
+}
 
 static void scan_character(JsonScan *scan, int c) {
     if (scan->in_string) {
-        scan->in_string = scan->escaped || c != '"';
-        scan->escaped = !scan->escaped && c == '\\';
+        scan_string(scan, c);
         return;
     }
-    scan->in_string = c == '"';
+    if (c == '"') {
+        scan->in_string = true;
+        scan->text[0] = '\0';
+    }
     scan->array_count += c == '[';
     scan->depth += (c == '{' || c == '[') - (c == '}' || c == ']');
     scan->max_depth = scan->depth > scan->max_depth ? scan->depth : scan->max_depth;
 }
 
-// The text of a .gltf, or of a .glb's first chunk.
-static bool check_json(const char *path, bool binary, DipError *err) {
+static bool check_scan(const JsonScan *scan, DipError *err) {
+    if (scan->max_depth > MAX_JSON_DEPTH || scan->array_count > MAX_JSON_ARRAYS) {
+        return dip_error_set(err, DIP_ERROR_RANGE, scan->path, 0, NULL,
+                             "JSON is nested %d deep and has %ld arrays, accepted %d and %d",
+                             scan->max_depth, scan->array_count, MAX_JSON_DEPTH, MAX_JSON_ARRAYS);
+    }
+    return !scan->refused[0] ||
+           dip_error_set(err, DIP_ERROR_UNSUPPORTED, scan->path, 0, "extensionsRequired",
+                         "the model needs the glTF extension \"%s\", which cannot be decoded, "
+                         "accepted KHR_materials_*, KHR_lights_punctual and KHR_texture_transform "
+                         "(docs/models.md)",
+                         scan->refused);
+}
+
+// Scans the text of a .gltf, or of the first chunk of a .glb (binary).
+static bool check_json(DipModel *model, const char *path, bool binary, DipError *err) {
     FILE *file = fopen(path, "rb");
     unsigned char header[20] = {0}; // glb: 12 bytes, then the JSON chunk's length and type
     if (!file || (binary && fread(header, 1, sizeof header, file) != sizeof header)) {
         if (file) {
             fclose(file);
         }
-        return dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, NULL, "model file ends too early");
+        return dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, NULL,
+                             "the model file ends too early");
     }
     unsigned long left = binary
                              ? header[12] | (unsigned long)header[13] << 8 |
                                    (unsigned long)header[14] << 16 | (unsigned long)header[15] << 24
                              : ~0UL;
-    JsonScan scan = {0};
+    JsonScan scan = {.model = model, .path = path};
     for (int c = 0; left > 0 && (c = getc(file)) != EOF; --left) {
         scan_character(&scan, c);
     }
     fclose(file);
-    if (scan.max_depth > MAX_JSON_DEPTH || scan.array_count > MAX_JSON_ARRAYS) {
-        return dip_error_set(err, DIP_ERROR_RANGE, path, 0, NULL,
-                             "JSON is nested %d deep and has %ld lists, accepted %d and %d",
-                             scan.max_depth, scan.array_count, MAX_JSON_DEPTH, MAX_JSON_ARRAYS);
-    }
-    return true;
+    return check_scan(&scan, err);
 }
 
-// Opens a file and tells its size.
+// Opens a file and finds its size.
 static FILE *open_sized(const char *path, long *size_bytes, DipError *err) {
     FILE *file = fopen(path, "rb");
     if (!file || fseek(file, 0, SEEK_END) != 0) {
         if (file) {
             fclose(file);
         }
-        dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "model file cannot be read");
+        dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "the model file cannot be read");
         return NULL;
     }
     *size_bytes = ftell(file);
@@ -75,7 +128,8 @@ static FILE *open_sized(const char *path, long *size_bytes, DipError *err) {
     return file;
 }
 
-// An element takes at least a byte, in text and in binary files.
+// Compares the counts in a PLY header with the file's size. An element takes at least one byte, in
+// text and in binary files.
 static bool check_ply(const char *path, DipError *err) {
     long size_bytes;
     FILE *file = open_sized(path, &size_bytes, err);
@@ -94,11 +148,12 @@ static bool check_ply(const char *path, DipError *err) {
         fits = !counts || (count >= 0.0 && count <= (double)size_bytes);
     }
     fclose(file);
-    return fits || dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, element,
-                                 "file of %ld bytes cannot hold %.0f elements", size_bytes, count);
+    return fits ||
+           dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, element,
+                         "a file of %ld bytes cannot hold %.0f elements", size_bytes, count);
 }
 
-// The next number of an OFF file's header, past comments; false when something else stands there.
+// Reads the next number of an OFF header and skips comments. Returns false if there is no number.
 static bool next_count(FILE *file, double *count) {
     int c = getc(file);
     while (c == '#' || c == ' ' || c == '\t' || c == '\r' || c == '\n') {
@@ -110,7 +165,8 @@ static bool next_count(FILE *file, double *count) {
     return ungetc(c, file) != EOF && fscanf(file, "%lf", count) == 1;
 }
 
-// assimp makes room for as many vertices and faces as the header says. Each takes at least a byte.
+// Compares the counts in an OFF header with the file's size, because assimp allocates memory for
+// all vertices and faces at once. Each takes at least one byte in the file.
 static bool check_off(const char *path, DipError *err) {
     long size_bytes;
     FILE *file = open_sized(path, &size_bytes, err);
@@ -120,7 +176,7 @@ static bool check_off(const char *path, DipError *err) {
     char word[64] = "";
     double count = 0.0;
     bool fits = true;
-    // [ST][C][N][4][n]OFF; n: the dimension comes before the counts.
+    // The first word is [ST][C][N][4][n]OFF. With n, the dimension comes before the counts.
     if (fscanf(file, "%63s", word) == 1 && strstr(word, "OFF") &&
         (!strchr(word, 'n') || next_count(file, &count))) {
         for (int i = 0; i < 2 && fits && next_count(file, &count); ++i) {
@@ -128,11 +184,12 @@ static bool check_off(const char *path, DipError *err) {
         }
     }
     fclose(file);
-    return fits || dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, NULL,
-                                 "file of %ld bytes cannot hold %.0f elements", size_bytes, count);
+    return fits ||
+           dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, NULL,
+                         "a file of %ld bytes cannot hold %.0f elements", size_bytes, count);
 }
 
-bool dip_model_precheck(const char *path, DipError *err) {
+bool dip_model_precheck(DipModel *model, const char *path, DipError *err) {
     const char *dot = strrchr(path, '.');
     if (!dot) {
         return true;
@@ -144,5 +201,5 @@ bool dip_model_precheck(const char *path, DipError *err) {
         return check_off(path, err);
     }
     const bool binary = strcasecmp(dot, ".glb") == 0;
-    return (!binary && strcasecmp(dot, ".gltf") != 0) || check_json(path, binary, err);
+    return (!binary && strcasecmp(dot, ".gltf") != 0) || check_json(model, path, binary, err);
 }

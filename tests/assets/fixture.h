@@ -1,4 +1,4 @@
-// Files for the tests of assets/: a folder of their own and small pictures to put there.
+// Files for the tests of assets/: a temporary folder, and small pictures and copies to put there.
 #ifndef DIP_TESTS_ASSETS_FIXTURE_H
 #define DIP_TESTS_ASSETS_FIXTURE_H
 
@@ -10,21 +10,25 @@ extern const uint8_t fixture_png[76];
 
 enum { FIXTURE_PATH = 512 };
 
-// Set-up and tear-down of a group of tests: make the folder, remove it with its files.
+// Set-up and tear-down of a group of tests: create the folder, and remove it with its files.
 int fixture_open(void **state);
 int fixture_close(void **state);
 
-// The path of a file in the folder; the buffer is reused after four calls.
+// Returns the path of a file in the folder. The buffer is reused after four calls.
 const char *fixture_path(const char *name);
-const char *fixture_data(const char *name); // of a file in tests/assets/data; likewise
+
+// Returns the path of a file in tests/assets/data, in the same buffers.
+const char *fixture_data(const char *name);
+
+// Each writes a file into the folder, the last one a copy of a file in tests/assets/data.
 void fixture_write(const char *name, const void *bytes, size_t size_bytes);
 void fixture_write_text(const char *name, const char *text);
 void fixture_copy(const char *data_name);
 
-// An uncompressed TGA, 24 bits, top row first, every pixel the same grey.
+// Writes an uncompressed TGA of 24 bits, top row first, whose pixels have one grey.
 void fixture_write_tga(const char *name, int width, int height, uint8_t grey);
 
-// Reads a whole file, to be freed.
+// Reads a file of less than 1 MiB. The caller frees the bytes; there is room for one more.
 uint8_t *fixture_read(const char *path, size_t *size_bytes);
 
 #endif

@@ -1,4 +1,4 @@
-// Broken and hostile model files: each refused with its name, a reason and the right code.
+// Broken and hostile model files. Each is refused with its name, a reason and the right code.
 #include "assets/model.h"
 #include "tests/assets/fixture.h"
 
@@ -12,20 +12,20 @@
 typedef struct BadFile {
     const char *name;
     DipErrorCode code;
-    const char *reason; // part of the message
+    const char *reason; // text that the message contains
 } BadFile;
 
 static const BadFile bad_files[] = {
     {"no_such.gltf", DIP_ERROR_MISSING, "cannot open"},
     {"bad_empty.obj", DIP_ERROR_TRUNCATED, "empty"},
-    {"bad_format.txt", DIP_ERROR_FORMAT, ".txt"},
-    {".", DIP_ERROR_IO, "not a file"},
+    {"bad_format.txt", DIP_ERROR_FORMAT, "\".txt\" is not a supported model format"},
+    {".", DIP_ERROR_IO, "not a regular file"},
     {"bad_text.gltf", DIP_ERROR_FORMAT, "cannot be read"},
     {"bad_json.gltf", DIP_ERROR_FORMAT, "cannot be read"},
     {"bad_array.gltf", DIP_ERROR_FORMAT, "cannot be read"},
     {"bad_types.gltf", DIP_ERROR_FORMAT, "cannot be read"},
     {"bad_version.gltf", DIP_ERROR_FORMAT, "cannot be read"},
-    {"bad_index.gltf", DIP_ERROR_RANGE, "vertex that is not there"},
+    {"bad_index.gltf", DIP_ERROR_RANGE, "vertex that does not exist"},
     {"bad_index.obj", DIP_ERROR_FORMAT, "out of range"},
     {"bad_index_type.gltf", DIP_ERROR_FORMAT, "out of range"},
     {"bad_nan.gltf", DIP_ERROR_RANGE, "vertex 1 is not finite"},
@@ -51,7 +51,7 @@ static const BadFile bad_files[] = {
     {"bad_scene_index.gltf", DIP_ERROR_FORMAT, "No scene"},
     {"bad_node_cycle.gltf", DIP_ERROR_FORMAT, "recursive"},
     {"bad_node_itself.gltf", DIP_ERROR_FORMAT, "recursive"},
-    {"bad_draco.gltf", DIP_ERROR_FORMAT, "Draco"},
+    {"bad_draco.gltf", DIP_ERROR_UNSUPPORTED, "\"KHR_draco_mesh_compression\", which cannot be"},
     {"bad_no_mesh.gltf", DIP_ERROR_MISSING, "no triangles"},
     {"bad_no_primitives.gltf", DIP_ERROR_MISSING, "no triangles"},
     {"bad_no_positions.gltf", DIP_ERROR_FORMAT, "no faces"},
@@ -86,7 +86,7 @@ static void bad_files_are_refused(void **state) {
     }
 }
 
-// A chain of nodes, each the child of the one before.
+// Writes a chain of nodes, each the child of the one before.
 static void write_chain(const char *name, int depth) {
     FILE *file = fopen(fixture_path(name), "w");
     assert_non_null(file);
@@ -111,7 +111,7 @@ static void deep_nesting_is_refused(void **state) {
     assert_refused(fixture_path("brackets.gltf"), DIP_ERROR_RANGE, "nested 4000 deep");
 }
 
-static void cut_glb_is_refused(void **state) {
+static void a_cut_glb_file_is_refused(void **state) {
     (void)state;
     const uint8_t header[20] = {'g',  'l',  'T',  'F',  2,    0,    0,   0,   0xff, 0xff,
                                 0xff, 0x7f, 0xff, 0xff, 0xff, 0x7f, 'J', 'S', 'O',  'N'};
@@ -121,12 +121,74 @@ static void cut_glb_is_refused(void **state) {
     assert_refused(fixture_path("cut.glb"), DIP_ERROR_FORMAT, "cannot be read");
 }
 
-static void off_counts_are_checked(void **state) {
+static void impossible_counts_in_off_files_are_refused(void **state) {
     (void)state;
     fixture_write_text("many.off", "OFF\n# comment\n353535235358 6 0\n0 0 0\n");
     assert_refused(fixture_path("many.off"), DIP_ERROR_TRUNCATED, "353535235358");
     fixture_write_text("faces.off", "4nOFF 3\n3 4000000000 0\n0 0 0 0\n");
     assert_refused(fixture_path("faces.off"), DIP_ERROR_TRUNCATED, "4000000000");
+}
+
+static const char *write_gltf(const char *name, const char *members) {
+    char text[1000];
+    snprintf(text, sizeof text, "{\"asset\":{\"version\":\"2.0\"},%s}", members);
+    fixture_write_text(name, text);
+    return fixture_path(name);
+}
+
+static void required_extensions_that_cannot_be_decoded_are_refused(void **state) {
+    (void)state;
+    static const char *const members[] = {
+        "\"extensionsRequired\":[\"KHR_mesh_quantization\"]",
+        "\"extensionsUsed\":[\"A\"],\"extensionsRequired\" : [ \"KHR_materials_unlit\",\n"
+        "\"KHR_mesh_quantization\", \"B\"]",
+        "\"asset2\":\"\\\"extensionsRequired\",\"extensionsRequired\":[\"KHR_mesh_quantization\"],"
+        "\"nodes\":[]",
+    };
+    for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
+        assert_refused(
+            write_gltf("required.gltf", members[i]), DIP_ERROR_UNSUPPORTED,
+            "needs the glTF extension \"KHR_mesh_quantization\", which cannot be decoded, "
+            "accepted KHR_materials_*");
+    }
+    assert_refused(write_gltf("control.gltf", "\"extensionsRequired\":[\"a\tb\"]"),
+                   DIP_ERROR_UNSUPPORTED, "\"a?b\"");
+}
+
+// assimp refuses these files, but only because they have no scene.
+static void other_mentions_of_extensions_are_ignored(void **state) {
+    (void)state;
+    static const char *const members[] = {
+        "\"extensionsUsed\":[\"KHR_mesh_quantization\"]",
+        "\"extensionsRequired\":[]",
+        "\"extensionsRequired\":[\"KHR_materials_unlit\",\"KHR_lights_punctual\"]",
+        "\"extras\":{\"extensionsRequired\":[\"KHR_mesh_quantization\"]}",
+        "\"extensionsRequired\":[],\"extensionsUsed\":[\"KHR_mesh_quantization\"]",
+    };
+    for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
+        assert_refused(write_gltf("mentions.gltf", members[i]), DIP_ERROR_FORMAT, "No scene");
+    }
+}
+
+static void a_glb_file_may_require_extensions_too(void **state) {
+    (void)state;
+    static const char json[] = "{\"extensionsRequired\":[\"EXT_meshopt_compression\"]}";
+    uint8_t glb[200] = {'g', 'l', 'T', 'F', 2, [12] = sizeof json - 1, [16] = 'J', 'S', 'O', 'N'};
+    glb[8] = (uint8_t)(20 + sizeof json - 1);
+    memcpy(glb + 20, json, sizeof json - 1);
+    fixture_write("required.glb", glb, 20 + sizeof json - 1);
+    assert_refused(fixture_path("required.glb"), DIP_ERROR_UNSUPPORTED, "EXT_meshopt_compression");
+}
+
+static void compressed_meshes_are_refused_without_the_declaration(void **state) {
+    (void)state;
+    size_t size_bytes = 0;
+    uint8_t *bytes = fixture_read(fixture_data("bad_draco.gltf"), &size_bytes);
+    bytes[size_bytes] = '\0';
+    memcpy(strstr((char *)bytes, "extensionsRequired"), "extensionsOptional", 18);
+    fixture_write("draco.gltf", bytes, size_bytes);
+    free(bytes);
+    assert_refused(fixture_path("draco.gltf"), DIP_ERROR_FORMAT, "Draco");
 }
 
 static void assert_all_refused(const char *const *paths, int count, const char *culprit) {
@@ -135,7 +197,7 @@ static void assert_all_refused(const char *const *paths, int count, const char *
     assert_non_null(strstr(err.file, culprit));
 }
 
-static void one_file_at_fault_fails_all(void **state) {
+static void one_bad_file_fails_the_whole_load(void **state) {
     (void)state;
     const char *files[2] = {fixture_data("square.gltf"), fixture_data("bad_nan.obj")};
     assert_all_refused(files, 2, "bad_nan.obj");
@@ -149,9 +211,15 @@ static void one_file_at_fault_fails_all(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_files_are_refused),       cmocka_unit_test(deep_nesting_is_refused),
-        cmocka_unit_test(cut_glb_is_refused),          cmocka_unit_test(off_counts_are_checked),
-        cmocka_unit_test(one_file_at_fault_fails_all),
+        cmocka_unit_test(bad_files_are_refused),
+        cmocka_unit_test(deep_nesting_is_refused),
+        cmocka_unit_test(a_cut_glb_file_is_refused),
+        cmocka_unit_test(impossible_counts_in_off_files_are_refused),
+        cmocka_unit_test(required_extensions_that_cannot_be_decoded_are_refused),
+        cmocka_unit_test(other_mentions_of_extensions_are_ignored),
+        cmocka_unit_test(a_glb_file_may_require_extensions_too),
+        cmocka_unit_test(compressed_meshes_are_refused_without_the_declaration),
+        cmocka_unit_test(one_bad_file_fails_the_whole_load),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

@@ -1,4 +1,4 @@
-// Models: what arrives in the scene definition, held against what the files say.
+// Models: the scene description is compared with what the files say.
 #include "assets/model.h"
 #include "renderer/scene/renderer.h"
 #include "tests/assets/fixture.h"
@@ -38,8 +38,8 @@ static int find_object(const DipSceneDef *def, const char *name) {
     return -1;
 }
 
-// Ten of the pictures are normal maps, which nothing draws yet.
-static void normal_maps_wait_until_they_are_wanted(void **state) {
+// Ten of the courtyard's pictures are normal maps.
+static void normal_maps_are_loaded_only_on_request(void **state) {
     (void)state;
     DipModel *model = load(DIP_ASSETS_DIR "/courtyard/court.gltf", NULL, NULL);
     const DipSceneDef *def = dip_model_scene_def(model);
@@ -73,7 +73,8 @@ static double winding_z(const DipSceneDef *def, int object) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-// Whether an object shows to a camera in front of its first corner when it has one side only.
+// True if a camera in front of the object's first corner sees it when all surfaces are
+// single-sided.
 static bool faces_forward(const DipSceneDef *def, int object) {
     DipMaterialDef materials[8];
     DipSceneDef alone = *def;
@@ -104,7 +105,7 @@ static bool faces_forward(const DipSceneDef *def, int object) {
     return seen;
 }
 
-// The first material of that name.
+// Returns the first material of that name.
 static const DipMaterialDef *find_material(const DipSceneDef *def, const char *name) {
     for (int i = 0; i < def->material_count; ++i) {
         if (strcmp(def->materials[i].name, name) == 0) {
@@ -115,7 +116,7 @@ static const DipMaterialDef *find_material(const DipSceneDef *def, const char *n
     return NULL;
 }
 
-static void courtyard_arrives_whole(void **state) {
+static void the_courtyard_is_loaded_completely(void **state) {
     (void)state;
     DipErrorList warnings = {0};
     DipPool *pool = dip_pool_create(2, NULL);
@@ -124,7 +125,7 @@ static void courtyard_arrives_whole(void **state) {
     assert_non_null(model);
     const DipSceneDef *def = dip_model_scene_def(model);
     assert_int_equal(warnings.count, 0);
-    // As assets/author/gltf.py says that it wrote them; each primitive of a mesh is a mesh here.
+    // The numbers that assets/author/gltf.py prints. Each primitive of a glTF mesh is a mesh here.
     assert_int_equal(def->mesh_count, 181);
     assert_int_equal(def->object_count, 540);
     uint64_t triangles = 0;
@@ -137,7 +138,7 @@ static void courtyard_arrives_whole(void **state) {
     }
     assert_int_equal(triangles, 35239);
     assert_int_equal(stored, 14873);
-    // Every picture of the folder's 21 is one texture.
+    // The folder has 21 pictures, and each is one texture.
     assert_int_equal(def->texture_count, 21);
     static const struct {
         const char *name;
@@ -182,8 +183,8 @@ static void courtyard_arrives_whole(void **state) {
     dip_error_list_free(&warnings);
 }
 
-// Of the columns of a wing that stand in the same light, and of the fence's panels.
-static void courtyard_repeats_its_parts(void **state) {
+// Columns in the same light share a mesh, and so do the panels of the fence.
+static void repeated_parts_of_the_courtyard_share_meshes(void **state) {
     (void)state;
     DipModel *model = load(DIP_ASSETS_DIR "/courtyard/court.gltf", NULL, NULL);
     const DipSceneDef *def = dip_model_scene_def(model);
@@ -220,7 +221,7 @@ static void assert_square_material(const DipSceneDef *def) {
     assert_int_equal(material->surface, DIP_SURFACE_CLIPPED);
     assert_true(material->alpha_cutoff == 0.25f);
     assert_true(material->double_sided);
-    assert_true(material->lit); // occlusion is no light map without the object's word
+    assert_true(material->lit); // Without extras the occlusion picture is not a light map.
     assert_int_equal(material->light_map, DIP_NO_TEXTURE);
     assert_true(material->base_colour_lin[1] == 0.25f);
     const DipTextureDef *texture = &def->textures[material->colour_texture];
@@ -231,7 +232,7 @@ static void assert_square_material(const DipSceneDef *def) {
     assert_int_equal(texture->wrap_v, DIP_WRAP_REPEAT);
 }
 
-static void gltf_with_embedded_picture(void **state) {
+static void a_gltf_file_with_an_embedded_picture_loads(void **state) {
     (void)state;
     DipModel *model = load(fixture_data("square.gltf"), NULL, NULL);
     assert_square_material(dip_model_scene_def(model));
@@ -244,7 +245,8 @@ static void put_u32(uint8_t *to, size_t value) {
     }
 }
 
-// The same square as one binary file: a JSON chunk, and a binary one with the arrays and the PNG.
+// The same square as one binary file. It has a JSON chunk and a binary chunk with the arrays and
+// the PNG.
 static const char glb_json[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
     "\"nodes\":[{\"mesh\":0,\"name\":\"square\"}],"
@@ -262,7 +264,7 @@ static const char glb_json[] =
     "{\"buffer\":0,\"byteOffset\":120,\"byteLength\":76}],"
     "\"buffers\":[{\"byteLength\":196}]}";
 
-static void glb_with_embedded_picture(void **state) {
+static void a_glb_file_with_an_embedded_picture_loads(void **state) {
     (void)state;
     static const float positions[18] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0};
     static const float uv[12] = {0, 1, 1, 1, 1, 0, 0, 1, 1, 0, 0, 0};
@@ -289,8 +291,9 @@ static void glb_with_embedded_picture(void **state) {
     dip_model_destroy(&model);
 }
 
-// Two triangles with a chart each on the light map: the corners they share differ there alone.
-static void light_map_seams_stay(void **state) {
+// Two triangles have separate charts on the light map, so the corners they share differ only in
+// their second texture coordinates.
+static void seams_of_light_maps_are_kept(void **state) {
     (void)state;
     static const float uv1[6][2] = {{0.125f, 0.25f}, {0.25f, 0.25f},  {0.25f, 0.125f},
                                     {0.625f, 0.75f}, {0.75f, 0.625f}, {0.625f, 0.625f}};
@@ -304,7 +307,7 @@ static void light_map_seams_stay(void **state) {
     dip_model_destroy(&model);
 }
 
-static void nodes_become_objects(void **state) {
+static void every_node_with_a_mesh_becomes_an_object(void **state) {
     (void)state;
     DipModel *model = load(fixture_data("instances.gltf"), NULL, NULL);
     const DipSceneDef *def = dip_model_scene_def(model);
@@ -316,20 +319,20 @@ static void nodes_become_objects(void **state) {
     assert_int_equal(def->objects[plain].mesh, def->objects[moved].mesh);
     const float *m = def->objects[moved].transform;
     assert_true(m[3] == 2.0f && m[7] == 3.0f && m[11] == 4.0f);
-    // Mirrored: the same mesh. That its winding is turned round in the world is what glTF says of
-    // such nodes, and what the renderer turns back (docs/picture.md, Coverage).
+    // The mirrored node shares the mesh. glTF says that its winding is reversed in world space, and
+    // the renderer turns it back (docs/picture.md, Coverage).
     assert_int_equal(def->objects[mirrored].mesh, def->objects[plain].mesh);
     assert_true(winding_z(def, plain) > 0.0);
     assert_true(winding_z(def, mirrored) < 0.0);
     assert_true(faces_forward(def, plain) && faces_forward(def, mirrored));
-    // A child stands on its parent and takes its tag.
+    // A child inherits the transform and the tag of its parent.
     const float *c = def->objects[child].transform;
     assert_true(c[0] == 2.0f && c[3] == 10.0f && c[7] == 1.0f);
     assert_int_equal(material_of(def, child)->surface, DIP_SURFACE_SKY);
     dip_model_destroy(&model);
 }
 
-static void tags_choose_surfaces(void **state) {
+static void extras_choose_the_kind_of_surface(void **state) {
     (void)state;
     DipErrorList warnings = {0};
     DipModel *model = load(fixture_data("tags.gltf"), NULL, &warnings);
@@ -359,7 +362,28 @@ static void tags_choose_surfaces(void **state) {
     dip_model_destroy(&model);
 }
 
-static void obj_with_opacity_map(void **state) {
+static void a_required_extension_of_surfaces_is_a_warning(void **state) {
+    (void)state;
+    size_t size_bytes = 0;
+    uint8_t *bytes = fixture_read(fixture_data("square.gltf"), &size_bytes);
+    static const char required[] = "{\"extensionsRequired\":[\"KHR_materials_clearcoat\"],";
+    char *text = malloc(sizeof required + size_bytes);
+    memcpy(text, required, sizeof required - 1);
+    memcpy(text + sizeof required - 1, bytes + 1, size_bytes - 1); // without the first brace
+    fixture_write("clearcoat.gltf", text, sizeof required - 1 + size_bytes - 1);
+    free(text);
+    free(bytes);
+    DipErrorList warnings = {0};
+    DipModel *model = load(fixture_path("clearcoat.gltf"), NULL, &warnings);
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.items[0].key, "extensionsRequired");
+    assert_string_equal(warnings.items[0].message,
+                        "the effect of the glTF extension KHR_materials_clearcoat is not drawn");
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
+static void an_opacity_picture_becomes_alpha(void **state) {
     (void)state;
     fixture_copy("square.obj");
     fixture_copy("square.mtl");
@@ -368,18 +392,18 @@ static void obj_with_opacity_map(void **state) {
     DipErrorList warnings = {0};
     DipModel *model = load(fixture_path("square.obj"), NULL, &warnings);
     const DipSceneDef *def = dip_model_scene_def(model);
-    assert_square_is_upright(mesh_of(def, 0)); // OBJ counts v from the lower edge
+    assert_square_is_upright(mesh_of(def, 0)); // In OBJ, v starts at the lower edge.
     const DipMaterialDef *material = material_of(def, 0);
     assert_int_equal(material->surface, DIP_SURFACE_CLIPPED);
     assert_true(material->double_sided);
-    assert_true(material->base_colour_lin[0] == 1.0f); // black under a picture stands for none
+    assert_true(material->base_colour_lin[0] == 1.0f); // Black under a picture counts as white.
     const uint8_t texel[4] = {100, 100, 100, 0};
     assert_memory_equal(def->textures[material->colour_texture].rgba8, texel, 4);
     assert_int_equal(warnings.count, 0);
     dip_model_destroy(&model);
 }
 
-static void missing_picture_is_a_warning(void **state) {
+static void a_missing_picture_is_a_warning(void **state) {
     (void)state;
     DipErrorList warnings = {0};
     DipModel *model = load(fixture_data("square.obj"), NULL, &warnings);
@@ -393,7 +417,7 @@ static void missing_picture_is_a_warning(void **state) {
     dip_model_destroy(&model);
 }
 
-static void points_and_lines_are_counted(void **state) {
+static void points_and_lines_give_a_warning_with_their_number(void **state) {
     (void)state;
     DipErrorList warnings = {0};
     DipModel *model = load(fixture_data("lines.obj"), NULL, &warnings);
@@ -406,7 +430,7 @@ static void points_and_lines_are_counted(void **state) {
     dip_model_destroy(&model);
 }
 
-static void ply_colours_are_decoded(void **state) {
+static void ply_colours_become_linear(void **state) {
     (void)state;
     DipModel *model = load(fixture_data("square.ply"), NULL, NULL);
     const DipMeshDef *mesh = mesh_of(dip_model_scene_def(model), 0);
@@ -420,7 +444,7 @@ static void ply_colours_are_decoded(void **state) {
     dip_model_destroy(&model);
 }
 
-static void stl_and_x_load(void **state) {
+static void stl_and_x_files_load_together(void **state) {
     (void)state;
     const char *files[2] = {fixture_data("triangle.stl"), fixture_data("square.x")};
     DipModel *model = dip_model_load(files, 2, NULL, NULL, NULL);
@@ -429,7 +453,7 @@ static void stl_and_x_load(void **state) {
     assert_int_equal(def->object_count, 2);
     assert_int_equal(mesh_of(def, 0)->index_count, 3);
     assert_int_equal(mesh_of(def, 1)->index_count, 6);
-    // The frame's matrix moves the square to x = 5..6; left-handed z is turned round.
+    // The frame's matrix moves the square to x = 5..6.
     double corner[3];
     corner_world(def, 1, 0, corner);
     assert_true(corner[0] >= 5.0 && corner[0] <= 6.0);
@@ -442,15 +466,16 @@ static const char cube_ply[] =
     "-1 -1 -1\n-1 -1 1\n-1 1 -1\n-1 1 1\n1 -1 -1\n1 -1 1\n1 1 -1\n1 1 1\n"
     "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n";
 
-// A roof whose halves slope by 20 degrees: they meet at 40.
+// A roof whose halves slope by 20 degrees, so they meet at 40.
 static const char roof_ply[] =
     "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
     "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
     "0 1 0\n0 1 1\n1 0.63603 0\n1 0.63603 1\n-1 0.63603 0\n-1 0.63603 1\n"
     "4 0 1 3 2\n4 0 4 5 1\n";
 
-// Faces that share vertices, without normals: a cube keeps its edges, a flat roof is smooth.
-static void normals_are_made(void **state) {
+// Both files have faces that share vertices, and no normals. The cube keeps its edges; the flat
+// roof is smooth.
+static void missing_normals_are_made(void **state) {
     (void)state;
     fixture_write_text("cube.ply", cube_ply);
     DipModel *model = load(fixture_path("cube.ply"), NULL, NULL);
@@ -459,7 +484,7 @@ static void normals_are_made(void **state) {
     for (uint32_t i = 0; i < mesh->index_count; ++i) {
         const uint32_t *face = mesh->indices + i / 3 * 3;
         for (int axis = 0; axis < 3; ++axis) {
-            // A face's own axis is the one along which its corners agree, and they say the sign.
+            // The normal's axis is the one on which the corners agree, and their value is its sign.
             const float at = mesh->positions[3 * face[0] + axis];
             const bool own = at == mesh->positions[3 * face[1] + axis] &&
                              at == mesh->positions[3 * face[2] + axis];
@@ -479,9 +504,9 @@ static void normals_are_made(void **state) {
     dip_model_destroy(&model);
 }
 
-// Files whose scenes assimp's own processing stumbles over: an empty solid beside a full one, and a
-// RAW file, of whose root's two children assimp 5.2 fills one.
-static void gaps_are_closed(void **state) {
+// assimp's own processing fails on the scenes of these files: an STL with an empty solid, and a RAW
+// file for which assimp 5.2 makes a root with two children but fills only one.
+static void files_that_assimp_stumbles_over_load(void **state) {
     (void)state;
     fixture_write_text("gap.stl", "solid full\nfacet normal 0 0 1\nouter loop\nvertex 1 1 0\n"
                                   "vertex -1 1 0\nvertex 0 -1 0\nendloop\nendfacet\nendsolid\n"
@@ -500,21 +525,22 @@ static void gaps_are_closed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(courtyard_arrives_whole),
-        cmocka_unit_test(normal_maps_wait_until_they_are_wanted),
-        cmocka_unit_test(courtyard_repeats_its_parts),
-        cmocka_unit_test(gltf_with_embedded_picture),
-        cmocka_unit_test(glb_with_embedded_picture),
-        cmocka_unit_test(light_map_seams_stay),
-        cmocka_unit_test(nodes_become_objects),
-        cmocka_unit_test(tags_choose_surfaces),
-        cmocka_unit_test(obj_with_opacity_map),
-        cmocka_unit_test(missing_picture_is_a_warning),
-        cmocka_unit_test(points_and_lines_are_counted),
-        cmocka_unit_test(ply_colours_are_decoded),
-        cmocka_unit_test(stl_and_x_load),
-        cmocka_unit_test(gaps_are_closed),
-        cmocka_unit_test(normals_are_made),
+        cmocka_unit_test(the_courtyard_is_loaded_completely),
+        cmocka_unit_test(normal_maps_are_loaded_only_on_request),
+        cmocka_unit_test(repeated_parts_of_the_courtyard_share_meshes),
+        cmocka_unit_test(a_gltf_file_with_an_embedded_picture_loads),
+        cmocka_unit_test(a_glb_file_with_an_embedded_picture_loads),
+        cmocka_unit_test(seams_of_light_maps_are_kept),
+        cmocka_unit_test(every_node_with_a_mesh_becomes_an_object),
+        cmocka_unit_test(extras_choose_the_kind_of_surface),
+        cmocka_unit_test(a_required_extension_of_surfaces_is_a_warning),
+        cmocka_unit_test(an_opacity_picture_becomes_alpha),
+        cmocka_unit_test(a_missing_picture_is_a_warning),
+        cmocka_unit_test(points_and_lines_give_a_warning_with_their_number),
+        cmocka_unit_test(ply_colours_become_linear),
+        cmocka_unit_test(stl_and_x_files_load_together),
+        cmocka_unit_test(files_that_assimp_stumbles_over_load),
+        cmocka_unit_test(missing_normals_are_made),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

@@ -1,4 +1,4 @@
-// Pictures: exact texels of hand-made files, and broken ones refused.
+// Pictures: hand-made files have exactly their texels, and broken files are refused.
 #include "assets/picture.h"
 #include "tests/assets/fixture.h"
 
@@ -12,7 +12,7 @@
 static const uint8_t png_texels[16] = {255, 0, 0,   255, 0,   255, 0,   255,
                                        0,   0, 255, 255, 255, 255, 255, 0};
 
-static void png_has_its_texels(void **state) {
+static void a_png_has_its_texels(void **state) {
     (void)state;
     DipPicture picture;
     DipError err;
@@ -24,7 +24,7 @@ static void png_has_its_texels(void **state) {
     dip_picture_free(&picture);
 }
 
-// Every proper beginning of a file must be refused: none may come out as a picture.
+// Every cut of a file must be refused.
 static void every_cut_is_refused(const uint8_t *bytes, size_t size_bytes) {
     for (size_t cut = 0; cut < size_bytes; ++cut) {
         DipPicture picture;
@@ -38,12 +38,12 @@ static void every_cut_is_refused(const uint8_t *bytes, size_t size_bytes) {
     }
 }
 
-static void cut_png_is_refused(void **state) {
+static void a_cut_png_is_refused(void **state) {
     (void)state;
     every_cut_is_refused(fixture_png, sizeof fixture_png);
 }
 
-static void cut_tga_is_refused(void **state) {
+static void a_cut_tga_is_refused(void **state) {
     (void)state;
     fixture_write_tga("grey.tga", 16, 16, 99);
     size_t size_bytes = 0;
@@ -57,7 +57,7 @@ static void cut_tga_is_refused(void **state) {
     free(bytes);
 }
 
-static void cut_bmp_is_refused(void **state) {
+static void a_cut_bmp_is_refused(void **state) {
     (void)state;
     uint8_t bmp[54 + 3 * 4 * 4] = {'B', 'M', sizeof bmp, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40};
     bmp[18] = 4;
@@ -136,13 +136,13 @@ static void check_jpeg(const uint8_t *bytes, size_t size_bytes) {
     dip_picture_free(&picture);
 }
 
-static void jpeg_has_its_texels(void **state) {
+static void a_jpeg_has_its_texels(void **state) {
     (void)state;
     check_jpeg(baseline_jpeg, sizeof baseline_jpeg);
     check_jpeg(progressive_jpeg, sizeof progressive_jpeg);
 }
 
-static void cut_jpeg_is_refused(void **state) {
+static void a_cut_jpeg_is_refused(void **state) {
     (void)state;
     every_cut_is_refused(baseline_jpeg, sizeof baseline_jpeg);
     every_cut_is_refused(progressive_jpeg, sizeof progressive_jpeg);
@@ -173,7 +173,7 @@ static void bgra_texels_are_reordered(void **state) {
     dip_picture_free(&picture);
 }
 
-static void files_say_what_is_wrong(void **state) {
+static void errors_say_what_is_wrong_with_a_file(void **state) {
     (void)state;
     DipPicture picture;
     DipError err = {0};
@@ -190,7 +190,7 @@ static void files_say_what_is_wrong(void **state) {
     assert_int_equal(err.code, DIP_ERROR_IO);
 }
 
-static void opacity_becomes_alpha(void **state) {
+static void an_opacity_picture_becomes_the_alpha(void **state) {
     (void)state;
     uint8_t colours[16] = {10, 20, 30, 255, 40, 50, 60, 255, 70, 80, 90, 255, 1, 2, 3, 255};
     uint8_t greys[8] = {0, 0, 0, 255, 255, 255, 255, 255};
@@ -210,16 +210,16 @@ static void opacity_becomes_alpha(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(png_has_its_texels),
-        cmocka_unit_test(cut_png_is_refused),
-        cmocka_unit_test(cut_tga_is_refused),
-        cmocka_unit_test(cut_bmp_is_refused),
-        cmocka_unit_test(jpeg_has_its_texels),
-        cmocka_unit_test(cut_jpeg_is_refused),
+        cmocka_unit_test(a_png_has_its_texels),
+        cmocka_unit_test(a_cut_png_is_refused),
+        cmocka_unit_test(a_cut_tga_is_refused),
+        cmocka_unit_test(a_cut_bmp_is_refused),
+        cmocka_unit_test(a_jpeg_has_its_texels),
+        cmocka_unit_test(a_cut_jpeg_is_refused),
         cmocka_unit_test(sizes_out_of_range_are_refused),
         cmocka_unit_test(bgra_texels_are_reordered),
-        cmocka_unit_test(files_say_what_is_wrong),
-        cmocka_unit_test(opacity_becomes_alpha),
+        cmocka_unit_test(errors_say_what_is_wrong_with_a_file),
+        cmocka_unit_test(an_opacity_picture_becomes_the_alpha),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }
