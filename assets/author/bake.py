@@ -3,7 +3,7 @@
     blender -b --factory-startup -P bake.py -- PICTURES OUT.npz SIDE SUN_SAMPLES ALL_SAMPLES
 
 Writes float arrays of SIDE x SIDE texels, upper row first: `sun` (sunlight alone), `all` (sun, sky
-and what they throw back), `position`, `normal`, and the mask `covered`. All is irradiance / pi, to
+and reflected light), `position`, `normal`, and the mask `covered`. Light is irradiance / pi, to
 be multiplied by the albedo.
 """
 import math
@@ -27,7 +27,7 @@ UNCOVERED = -1e4
 
 
 def mean_albedo(pictures, material):
-    """Mean linear colour of a material; where it has a clip map, of what is there."""
+    """Mean linear colour of a material, without the texels that its clip map removes."""
     albedo = np.asarray(material.colour_lin)
     if material.picture:
         rgba = np.asarray(Image.open(pictures / material.picture).convert("RGBA"), float) / 255.0
@@ -39,7 +39,7 @@ def mean_albedo(pictures, material):
 
 
 def make_material(name, pictures, target):
-    """Matte, in the mean colour; clip maps let light through. target: the picture baked into."""
+    """A matte material; its clip map lets light through. target: picture to bake into."""
     source = MATERIALS[name]
     material = bpy.data.materials.new(name)
     material.use_nodes = True
@@ -112,7 +112,7 @@ def picture_uvs(material, surface):
 
 
 def assemble(meshes, made):
-    """What is baked, each mesh at one place; and all else, which only throws shadows."""
+    """The baked meshes, each at one position, and all other objects, which only throw shadows."""
     baked, others = Assembly(), Assembly()
     for mesh in meshes:
         for material, surface in mesh.part.surfaces.items():
@@ -166,7 +166,7 @@ def set_up_cycles():
 
 
 def bake(target, side, kind, samples, passes=None):
-    """One pass as floats, upper row first; UNCOVERED where nothing is."""
+    """Bakes one kind of light to floats, upper row first; UNCOVERED without a surface."""
     bpy.context.scene.cycles.samples = samples
     target.pixels.foreach_set(np.full(side * side * 4, UNCOVERED, np.float32))
     target.update()

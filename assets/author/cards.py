@@ -17,14 +17,14 @@ SUPERSAMPLING = 4
 
 
 def reduced(field):
-    """Means of SUPERSAMPLING x SUPERSAMPLING texels."""
+    """The mean of each block of SUPERSAMPLING x SUPERSAMPLING texels."""
     n = SUPERSAMPLING
     shape = (field.shape[0] // n, n, field.shape[1] // n, n) + field.shape[2:]
     return field.reshape(shape).mean((1, 3))
 
 
 class Ironwork:
-    """Round iron seen from the front: how bright and whether there at all."""
+    """Round iron bars seen from the front: their brightness, and where there is iron."""
 
     def __init__(self, width_m, height_m, texels_per_m):
         rows, columns = round(height_m * texels_per_m), round(width_m * texels_per_m)
@@ -35,11 +35,11 @@ class Ironwork:
         self.light = np.zeros((rows, columns), np.float32)
 
     def across(self, x):
-        """Distance in x, repeating with the picture."""
+        """Distance in x, which wraps around with the picture."""
         return (self.x - x + self.width / 2) % self.width - self.width / 2
 
     def lay(self, inside, lean):
-        """lean: -1..1, which way the iron's surface faces; the light comes from the left above."""
+        """lean: -1..1, which way the iron's surface faces. Light comes from the upper left."""
         self.there |= inside
         lean = np.clip(lean, -1, 1)
         light = 0.30 + 0.55 * np.clip(0.8 * np.sqrt(1 - lean * lean) - 0.6 * lean, 0, 1)
@@ -63,7 +63,7 @@ class Ironwork:
 
 
 def fence():
-    """Two metres square, one bar each 0.125 m."""
+    """The fence: two metres square, with a bar every 0.125 m."""
     iron = Ironwork(0.25, 2.0, 512 * SUPERSAMPLING)
     for x in (0.0625, 0.1875):
         iron.turned(x, [(0.02, 0.009), (1.76, 0.009), (1.77, 0.018), (1.79, 0.018), (1.80, 0.009),
@@ -98,7 +98,7 @@ def leaf_outline(base, angle, length, width, bend):
 
 
 class Spray:
-    """A card on which leaves and petals are painted, the ones in the shade first."""
+    """A card on which leaves and petals are painted. Those in the shade come first."""
 
     def __init__(self, size_px, seed):
         self.size = size_px * SUPERSAMPLING

@@ -1,6 +1,6 @@
 """Gives every chart its rectangle of the light map.
 
-A chart of w x h texels lies within a rim of one texel that is only there to be filtered into.
+A chart of w x h texels has a rim of one texel, which only filtering reads.
 """
 import numpy as np
 
@@ -10,7 +10,7 @@ RIM = 1
 
 
 class Mesh:
-    """A part under one light: what is baked once and shared by its placements."""
+    """A part under one light. It is baked once, and all its placements share the result."""
 
     def __init__(self, name, light, part, matrices):
         self.name = f"{name}_{light}" if light else name
@@ -34,7 +34,7 @@ def chart_boxes(part):
 
 
 def pack(sizes, side):
-    """Lower corners for rectangles in a square, or None when they do not fit: the largest first,
+    """Lower corners for rectangles in a square, or None if they do not fit. The largest go first,
     each into the free rectangle that it fills best, which is then cut in two."""
     free = np.array([[0, 0, side, side]])  # x, y, width, height
     places = np.zeros((len(sizes), 2), int)
@@ -84,7 +84,7 @@ def lay_out(scene, side):
             high = middle
         else:
             low = middle
-    # What fits is not quite monotonous: a little more may fit as well.
+    # Packing is not quite monotonic: a slightly greater density may fit although this one does not.
     low = max(low * (1 + k / 400) for k in range(30)
               if pack(sizes_at(low * (1 + k / 400)), side) is not None)
     sizes, places = sizes_at(low), pack(sizes_at(low), side)

@@ -5,7 +5,7 @@ COLUMN_HEIGHT_M = 2.60
 
 
 def column(seen):
-    """On a plinth, swelling shaft, two-piece capital; the foot at z = 0. seen: "near" or "far"."""
+    """Plinth, swelling shaft, capital of two pieces; z = 0 is the foot. seen: "near" or "far"."""
     part = Part(f"column_{seen}")
     part.box("carved", (-0.40, -0.40, -0.15), (0.40, 0.40, 0.14), "d")
     if seen == "near":

@@ -1,8 +1,8 @@
-"""The courtyard: what stands where. x east, y north, z up, metres; the fountain is the origin.
+"""The courtyard: the position of every part. x east, y north, z up, metres; origin: the fountain.
 
-The `light` of a placement names its likes under the sun, which share their part of the light map:
+Placements with the same `light` are in the same light and share their part of the light map:
 the west wing lies in its own shade, the first bay of the north wing too. Of each group the middle
-one in order is baked, so put a typical one there.
+one in order is baked, so the middle one should be typical.
 """
 import numpy as np
 
@@ -27,7 +27,7 @@ WINGS = {
     "west": frame(-COURT_M, -COURT_M, 0, 90),
 }
 
-POTS = [  # what, its light, the turn from one to the next in degrees, where they stand
+POTS = [  # part, light, turn from one to the next in degrees, positions
     (planting.tree, SUNNY, 0, [(6.3, 6.3), (6.3, -5.4)]),
     (planting.tree, SHADY, 0, [(-6.3, 6.3), (-6.9, -4.2)]),
     (planting.flower_pot, SUNNY, 47,
@@ -39,7 +39,7 @@ POTS = [  # what, its light, the turn from one to the next in degrees, where the
 
 
 def bay_light(side, x):
-    """The light of something on a wing's front: in the west wing's shadow or not."""
+    """The light of a part on a wing's front: in the west wing's shadow or not."""
     return "north_shade" if side == "north" and x < 5.0 else side
 
 
@@ -55,7 +55,7 @@ def add_wings(scene):
         scene.add(wholes[seen], light=side, within=place)
         for b, x in enumerate(wing.centres()):
             light = bay_light(side, x)
-            ajar = (2 * b + len(side)) % 3 == 1 and (side, b) != ("north", 2)  # by the balcony: not
+            ajar = (2 * b + len(side)) % 3 == 1 and (side, b) != ("north", 2)  # none by the balcony
             scene.add(windows[ajar], x, light=light, within=place)
             scene.add(glass, x, light=light, within=place)
             scene.add(doorway, x, light=side, within=place)

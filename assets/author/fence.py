@@ -18,7 +18,7 @@ def upright(part, x0, x1, z0):
 
 
 def panel():
-    """From pier to pier: x = 0..PITCH_M between their middles; its ends hide in them."""
+    """A panel between two piers, whose middles are at x = 0 and PITCH_M and which hide its ends."""
     part = Part("fence_panel")
     inset = PIER_HALF_M - 0.05
     with part.placed(x=inset):
@@ -27,7 +27,7 @@ def panel():
 
 
 def gate_leaf():
-    """Hinged at x = 0."""
+    """A wing of the gate, with its hinge at x = 0."""
     part = Part("gate_leaf")
     upright(part, 0.0, GATE_HALF_M, 0.10)
     with part.placed(z=0.10):

@@ -3,7 +3,7 @@ import math
 
 from geometry import Part
 
-WATER_M = (0.66, 2.30, 3.33)  # of the pools; the lowest is the ini's FOUNTAIN_WATER_LEVEL
+WATER_M = (0.66, 2.30, 3.33)  # levels of the pools; lowest: FOUNTAIN_WATER_LEVEL of the ini
 OCTAGON = dict(segments=8, start_deg=22.5, flat=True)
 
 
@@ -84,7 +84,7 @@ def fountain():
 
 
 def water():
-    """The three pools. Tagged as water; the lowest mirrors the court."""
+    """The three pools, which are tagged as water. The reflection is right for the lowest."""
     part = Part("water")
     part.disc("water", 2.745, WATER_M[0], 8, 22.5)
     part.disc("water", 1.39, WATER_M[1], 24)
@@ -93,7 +93,7 @@ def water():
 
 
 def post_ball():
-    """A stone ball for the basin's posts; its foot at z = 0."""
+    """A stone ball for the posts of the basin, with its foot at z = 0."""
     part = Part("post_ball")
     ball = [(0.15 * math.sin(a), 0.17 - 0.15 * math.cos(a))
             for a in (math.pi * (0.16 + 0.84 * k / 6) for k in range(7))]

@@ -37,7 +37,7 @@ def lamp_post():
 
 
 def lantern(part):
-    """Six panes between an iron foot and roof."""
+    """A lantern: six panes between an iron foot and an iron roof."""
     part.lathe("iron", [(0.03, 0.0), (0.13, 0.06)], 6, flat=True)
     part.lathe("lamp", [(0.115, 0.06), (0.165, 0.42)], 6, flat=True)
     for k in range(6):
@@ -51,7 +51,7 @@ def lantern(part):
 
 
 def wall_lantern():
-    """On an arm from a wall at y = 0 towards -y; the lantern's foot at z = 0."""
+    """A lantern on an arm from a wall at y = 0 towards -y; z = 0 at the lantern's foot."""
     part = Part("wall_lantern")
     part.box("iron", (-0.06, -0.03, -0.16), (0.06, 0.0, 0.22), "b")
     part.box("iron", (-0.018, -0.30, -0.06), (0.018, -0.03, -0.02), "b")

@@ -12,11 +12,11 @@ import numpy as np
 
 from materials import MATERIALS
 
-SMOOTH_DEG = 38.0  # profiles that bend by less are shaded round
+SMOOTH_DEG = 38.0  # a profile that bends by less is shaded as a curve
 
 
 def frame(x=0.0, y=0.0, z=0.0, turn_deg=0.0, scale=1.0):
-    """4x4 matrix: scaled, turned about z, moved."""
+    """A 4x4 matrix that scales, turns about z, then moves."""
     c, s = math.cos(math.radians(turn_deg)), math.sin(math.radians(turn_deg))
     c, s = (round(v) if abs(v - round(v)) < 1e-12 else v for v in (c, s))
     return np.array([[c * scale, -s * scale, 0, x], [s * scale, c * scale, 0, y], [0, 0, scale, z],
@@ -55,7 +55,7 @@ def profile_normals(profile, smooth_deg=SMOOTH_DEG):
 
 
 class Surface:
-    """All faces of a part that are of one material."""
+    """All faces of a part with one material."""
 
     def __init__(self):
         self.positions, self.normals, self.uvs, self.colours = [], [], [], []
@@ -73,11 +73,11 @@ class Part:
         self._sheet = None
         self._density = 1.0
 
-    # ---- where and how the next faces are made
+    # ---- state that applies to the next faces
 
     @contextlib.contextmanager
     def placed(self, x=0.0, y=0.0, z=0.0, turn_deg=0.0, matrix=None):
-        """Faces made within are moved so."""
+        """Moves the faces that are made within the block."""
         before = self._frame
         self._frame = before @ (frame(x, y, z, turn_deg) if matrix is None else matrix)
         yield
@@ -85,7 +85,7 @@ class Part:
 
     @contextlib.contextmanager
     def sheet(self, axes, density=1.0):
-        """Faces made within share one chart, laid out by two of their coordinates ('xz')."""
+        """Faces made within the block share a chart, laid out by two coordinates ('xz')."""
         self._sheet = (["xyz".index(a) for a in axes], self.chart(density))
         yield
         self._sheet = None
@@ -248,7 +248,7 @@ class Part:
         self.strip(material, rows, normal_rows, us, vs)
 
     def card(self, material, centre, facing, spin, size, normal, colour):
-        """A square picture; lit by `normal` whichever way it faces."""
+        """A square card with a picture. `normal` lights it, whichever way it faces."""
         facing = unit(facing)
         right = unit(np.cross((0.0, 0.0, 1.0) if abs(facing[2]) < 0.95 else (1.0, 0.0, 0.0),
                               facing))
@@ -265,7 +265,7 @@ class Part:
 
 
 def mirrored(part):
-    """The part with left and right exchanged; its pictures are not."""
+    """The part with left and right exchanged. Its pictures are not mirrored."""
     other = Part(part.name + "_mirrored")
     other.chart_density = list(part.chart_density)
     for material, surface in part.surfaces.items():
@@ -280,7 +280,7 @@ def mirrored(part):
 
 
 class Scene:
-    """Parts and where they stand.
+    """Parts and their positions.
 
     Placements of a part that receive the same light (`light`) share a mesh and its rectangles of
     the light map, which are baked at the middle one in order."""

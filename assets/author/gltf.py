@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the courtyard as glTF: court.gltf, court.bin. Pictures are named, not copied.
 
-Usage: gltf.py FOLDER SIDE   (of the light map: must be the one that was baked)
+Usage: gltf.py FOLDER SIDE   (size of the light map that was baked, in texels)
 
 glTF has y up: (x, y, z) becomes (x, z, -y). Numbers are rounded so that the file packs well.
 """
@@ -36,10 +36,10 @@ class Writer:
                          {"magFilter": 9729, "minFilter": 9987, "wrapS": REPEAT, "wrapT": CLAMP}]
         }
         self.bytes = bytearray()
-        self.known = {}  # of views, materials and textures: what was written already
+        self.known = {}  # views, materials and textures that are already written
 
     def once(self, kind, key, value):
-        """Index of an entry, which is written the first time only."""
+        """Returns the index of an entry, which is written only the first time."""
         if (kind, key) not in self.known:
             self.known[kind, key] = len(self.json[kind])
             self.json[kind].append(value)
@@ -80,7 +80,7 @@ class Writer:
             picture = source.picture.replace(".", "_n.")
             value["normalTexture"] = {"index": self.texture(picture)}
         if source.lightmapped:
-            # Coordinates count from 0: a surface without a picture has but the light map's.
+            # Sets count from 0. A surface without a picture has only the light map's set.
             value["occlusionTexture"] = {
                 "index": self.texture("light.jpg"), "texCoord": int(source.picture is not None)
             }

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Finishes the baked light: filters its noise, fills what charts leave free, encodes it.
+"""Finishes the baked light: filters its noise, fills the gaps between charts and encodes it.
 
 Usage: light_map.py BAKED.npz OUT.jpg
-The filter works in the map: a texel takes from others of the same place and direction only.
+The filter works in the map. It mixes a texel only with texels of similar position and normal.
 """
 import sys
 
@@ -19,7 +19,7 @@ def shifted(field, dy, dx):
 
 
 def filtered(light, position, normal, covered, reach_m, levels):
-    """Edge-avoiding a-trous wavelets: each level looks twice as far."""
+    """Edge-avoiding a-trous wavelets. Each level reaches twice as far as the one before."""
     weight_of = covered.astype(np.float32)
     for level in range(levels):
         stride = 1 << level
@@ -39,7 +39,7 @@ def filtered(light, position, normal, covered, reach_m, levels):
 
 
 def grown(light, covered, texels):
-    """Charts grown into their rims, then the mean of ever larger surroundings, so that neither
+    """Grows charts into their rims, then fills the rest with ever coarser means, so that neither
     filtering nor smaller levels bring in the dark."""
     light, covered = np.where(covered[..., None], light, 0.0), covered.copy()
     sides = [(dy, dx) for dy in (-1, 0, 1) for dx in (-1, 0, 1) if (dy, dx) != (0, 0)]

@@ -1,10 +1,10 @@
-"""What surfaces are made of: pictures, their size in metres, and how light reaches them.
+"""The materials: pictures, their size in metres, and how light reaches the surface.
 
 Light comes from the baked light map where `lightmapped` is true, else from the renderer's fixed
 light on vertex normals, which suits leaf cards: their normals point out of the crown.
 
-Normal maps cost a tenth of a fragment's time: only what shows them from where the paths lead has
-one: setts, the water, the piers of the fence.
+A normal map costs a tenth of a fragment's time, so only surfaces on which the camera paths show it
+have one: the setts and the piers of the fence. (The renderer does not use that of the water.)
 """
 from dataclasses import dataclass
 
@@ -19,7 +19,7 @@ class Material:
     surface: str = "solid"  # the node's tag: solid, mask, glass, water, sky
     lightmapped: bool = True
     double_sided: bool = False
-    density: float = 1.0  # light-map texels per metre, relative
+    density: float = 1.0  # texels of the light map per metre, relative to other materials
     clamp_v: bool = False
 
 

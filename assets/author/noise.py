@@ -1,4 +1,4 @@
-"""Periodic noise and small picture helpers that every texture is made from.
+"""Periodic noise and small helpers for pictures. Every texture is made with them.
 
 All fields are n x m float32 arrays that repeat without a seam. Row 0 is the picture's upper edge.
 """
@@ -45,7 +45,7 @@ def rgb(code):
 
 
 def mix(a, b, t):
-    """From colour a to colour b, each one colour or a picture, by the field t."""
+    """Blends from a to b, each a colour or a picture, by the field t."""
     a, b = np.asarray(a, np.float32), np.asarray(b, np.float32)
     return a + (b - a) * np.asarray(t, np.float32)[..., None]
 
@@ -67,7 +67,7 @@ def normal_map(height_m, texels_per_m):
 
 
 def halved(picture):
-    """Half the width and height, each texel the mean of four."""
+    """Halves the width and height. Each texel is the mean of four."""
     p = np.asarray(picture, np.float32)
     return (p[0::2, 0::2] + p[1::2, 0::2] + p[0::2, 1::2] + p[1::2, 1::2]) / 4.0
 
@@ -77,7 +77,7 @@ def to_bytes(picture):
 
 
 def save_jpeg(path, picture, quality=88):
-    # Whole chroma where colours carry numbers or edges matter: always here.
+    # No chroma subsampling, because some pictures store numbers and others have sharp edges.
     Image.fromarray(to_bytes(picture)).save(path, quality=quality, subsampling=0, optimize=True)
 
 

@@ -1,4 +1,4 @@
-"""Windows with shutters, gallery doors, the balcony. Each in the wing's frame, its middle at x = 0
+"""Windows with shutters, gallery doors, the balcony, in the wing's frame: their middle is at x = 0
 and the wall's face at y = 0."""
 from column import baluster
 from geometry import Part
@@ -8,7 +8,7 @@ REVEAL_M = 0.28
 
 
 def reveal(part, half, foot, head, front, head_front, depth):
-    """The inner faces of a hole in a wall but for its foot: the sides from y = front on, the head
+    """The inner faces of a hole in a wall, except the lower one: sides from y = front on, the head
     from head_front on."""
     part.polygon("carved", [(-half, depth, head), (half, depth, head), (half, head_front, head),
                             (-half, head_front, head)])
@@ -122,7 +122,7 @@ def balcony():
 
 
 def balcony_balusters():
-    """Where they stand on the balcony: (x, y, z)."""
+    """Positions of the balusters on the balcony: (x, y, z)."""
     half, depth = BALCONY_HALF_M - 0.1, BALCONY_DEPTH_M - 0.1
     z = BALCONY_FLOOR_M + 0.12
     front = [(-half + 2 * half * k / 10, -depth, z) for k in range(1, 10)]

@@ -5,7 +5,7 @@ Usage: paths.py FOLDER
 
 Each path is a closed loop through a few views (where the camera stands, what it looks at), slow
 enough that aliasing, shimmer and blur can be watched: a closed Catmull-Rom curve for
-both, sampled at a fixed period. Needs Python 3 alone. Units: metres and seconds; +Y is up.
+both, sampled at a fixed period. Needs only Python 3. Units: metres and seconds; +Y is up.
 """
 import math
 import pathlib

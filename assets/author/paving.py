@@ -6,7 +6,7 @@ from geometry import Part
 from sun import SHADOW_X_PER_Y
 
 COURT_M = 10.0
-FIELD_M, BORDER_M = 7.4, 9.0  # half widths: of the square around the ring, of the border's inside
+FIELD_M, BORDER_M = 7.4, 9.0  # half widths of the square and of the border's inside
 RING_IN_M, RING_OUT_M = 3.2, 4.75
 STRIP_M = 2.6  # from the fence to the field
 SECTORS = 24
@@ -35,7 +35,7 @@ def moved_out(point, side, to):
 
 
 def ring_and_field(part):
-    """The ring, and flags from it to the border of setts; in the south to the strips."""
+    """The ring, and the flags between it and the border of setts or, in the south, the strips."""
     for k in range(SECTORS):
         corners = [(k, RING_IN_M), (k, RING_OUT_M), (k + 1, RING_OUT_M), (k + 1, RING_IN_M)]
         part.polygon("setts", [on_circle(*c) for c in corners], [ring_uv(*c) for c in corners])
@@ -44,7 +44,7 @@ def ring_and_field(part):
         if side != 3:
             edge = [moved_out(p, side, BORDER_M) for p in edge]
         part.polygon("paving", [on_circle(k, RING_OUT_M), *edge, on_circle(k + 1, RING_OUT_M)])
-    for side in (-1, 1):  # what is left of the corners
+    for side in (-1, 1):  # the rest of the corners
         kite = [on_circle(SECTORS // 8, RING_OUT_M), (BORDER_M, FIELD_M, 0),
                 (BORDER_M, BORDER_M, 0), (FIELD_M, BORDER_M, 0)]
         if side < 0:
@@ -58,12 +58,12 @@ def ring_and_field(part):
 
 
 def side_of(k):
-    """Of the square that sector k meets: 0 east, 1 north, 2 west, 3 south."""
+    """The side of the square that sector k meets: 0 east, 1 north, 2 west, 3 south."""
     return (k + SECTORS // 8) // (SECTORS // 4) % 4
 
 
 def border(part):
-    """Setts around the flags but for the south side."""
+    """Setts around the flags on all sides except the south."""
     for k in range(SECTORS):
         side = side_of(k)
         if side != 3:
@@ -98,7 +98,7 @@ def slanted(x0, x1):
 
 
 def fence_strip():
-    """What one panel of the fence throws its shadow on: from the middle of one pier's shadow to
+    """The ground in the shadow of one panel of the fence: from the middle of one pier's shadow to
     the next one's, so that every panel's strip is alike and they share a fine chart. x = 0 and
     y = 0 in the first pier's middle."""
     part = Part("fence_strip")
@@ -110,7 +110,7 @@ def fence_strip():
 
 
 def gate_strip():
-    """The rest of the strip; x = 0 in the gate's middle."""
+    """The rest of the strip; x = 0 is the middle of the gate."""
     part = Part("gate_strip")
     shift = SHADOW_X_PER_Y * STRIP_M
     half, c = PITCH_M / 2, COURT_M
@@ -118,7 +118,7 @@ def gate_strip():
         part.polygon("setts", slanted(-half, half))
     with part.sheet("xy", 0.8):
         part.polygon("setts", [(-c, 0, 0), (-c + shift, STRIP_M, 0), (-c, STRIP_M, 0)])
-    # Under the seams to the street and the field, whose vertices are not the strips' own.
+    # Lies under the seams to the street and the field, which do not share vertices with the strips.
     part.polygon("soil", [(-c, -0.3, -0.02), (c, -0.3, -0.02), (c, STRIP_M + 0.3, -0.02),
                           (-c, STRIP_M + 0.3, -0.02)])
     with part.sheet("xy", 1.6):  # the last panel's shadow, as far as the east wing

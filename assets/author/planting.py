@@ -16,7 +16,7 @@ def shaded(depth, low, tint, rng):
     return tuple(min(1.0, light * t) for t in tint)
 
 
-CORE = 0.78  # how large the core is, of the crown
+CORE = 0.78  # size of the core relative to the crown
 SUNNY, SHADY = (1.0, 1.0, 1.0), (0.36, 0.42, 0.50)
 
 
@@ -86,7 +86,7 @@ def topiary(tint=SUNNY):
 
 
 def flower_box(tint=SUNNY):
-    """Hangs below a window; the wing's frame, the sill at z = 0."""
+    """A plant that hangs below a window, in the wing's frame, with the sill at z = 0."""
     part = Part(f"flower_box_{tint_name(tint)}")
     part.box("terracotta", (-0.5, -0.40, -0.02), (0.5, -0.17, 0.19), "")
     rng = random.Random(80)
@@ -126,7 +126,7 @@ def climber():
 
 
 def cypress(seed, height):
-    """Stands outside the walls; the lowest metres are never seen."""
+    """A tree outside the walls. Its lowest metres are never seen."""
     part = Part(f"cypress_{seed}")
     rng = random.Random(seed)
     dark = (0.62, 0.72, 0.66)

@@ -16,7 +16,7 @@ def roof_z(y):
 
 
 def tiles(part):
-    """Covers and gutters, and what the eave shows of them; the courses are in the picture."""
+    """Covers and gutters, and their ends at the eave. The picture shows the courses."""
     middle = (COVER_M + GUTTER_M) / 2
     xs = [0.0] + [WAVE * (r + t) for r in range(ROWS) for t in (0.25, 0.75)] + [PANEL_M]
     heights = [middle] + ROWS * [COVER_M, GUTTER_M] + [middle]
@@ -69,7 +69,7 @@ def underside(part):
 
 
 def panel():
-    """Local frame as the wing's: x along the eave, the wall's face at y = 0."""
+    """Uses the wing's frame: x along the eave, the face of the wall at y = 0."""
     part = Part("roof_panel")
     tiles(part)
     ridge(part)
@@ -93,7 +93,7 @@ def verge(length_y=RIDGE_M):
 
 
 def back_wall(length):
-    """Not drawn in view, but it throws the wing's shadow: the outer wall under the ridge."""
+    """The outer wall under the ridge. It is never seen, but it throws the wing's shadow."""
     part = Part(f"back_wall_{length:.0f}")
     z = roof_z(RIDGE_M)
     with part.density(0.15):

@@ -1,5 +1,5 @@
 """The sky: one level quad with one tiling picture, far wider than it is high, so that its edge lies
-a degree above the horizon, behind walls and trees; the ini's BACKGROUND has its mean colour."""
+a degree above the horizon, behind walls and trees. The ini's BACKGROUND is its mean colour."""
 from geometry import Part
 
 HEIGHT_M, HALF_M = 130.0, 6000.0

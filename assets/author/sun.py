@@ -1,4 +1,4 @@
-"""The light: where the sun stands and how strong sun and sky are.
+"""The light: the direction of the sun, and the strength of sun and sky.
 
 The direction is that of the renderer's fixed light on surfaces without a light map.
 """
@@ -8,7 +8,7 @@ DIRECTION = (-0.42, -0.61, 0.67)  # to the sun; x east, y north, z up
 _length = math.sqrt(sum(v * v for v in DIRECTION))
 DIRECTION = tuple(v / _length for v in DIRECTION)
 SHADOW_X_PER_Y = (DIRECTION[0] / DIRECTION[1]
-                  )  # a shadow on the ground goes east so much per metre north
+                  )  # metres that a shadow on the ground goes east per metre north
 
 SUN_COLOUR, SUN_STRENGTH = (1.0, 0.84, 0.62), 5.0
 SUN_ANGLE_DEG = 0.8

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the tiling colour pictures (*.jpg) and normal maps (*_n.jpg) of the courtyard.
 
-Each is made from one height field and one tone per stone, brick, tile or plank.
+Both come from one height field and one tone per stone, brick, tile or plank.
 Usage: textures.py FOLDER [NAME...]
 """
 import pathlib
@@ -274,7 +274,7 @@ def water():
 
 
 def sky():
-    """Red and green perturb, blue is cloud; also to be seen as it is, as blue sky with clouds.
+    """Red and green displace the clouds, blue is cloud. As it is, the picture looks like a sky.
 
     Blue is 0.77 in the clear and 1 in the densest cloud. Red and green hold a swirl of their own
     (deviation 0.012) on top of a part that follows the cloud (0.40 to 0.93 and 0.57 to 0.94).

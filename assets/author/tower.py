@@ -78,7 +78,7 @@ def spire(part):
 def tower():
     part = Part("tower")
     for k in range(4):
-        seen = 1.0 if k != 2 else 0.3  # the north side never is
+        seen = 1.0 if k != 2 else 0.3  # the north side is never seen
         with part.placed(turn_deg=90.0 * k), part.density(seen):
             shaft_face(part)
             belfry_face(part)
@@ -108,7 +108,7 @@ def tower():
 
 
 def belfry_baluster():
-    """Some 16 pixels high when seen."""
+    """Some 16 pixels high in the picture."""
     part = Part("belfry_baluster")
     part.lathe("carved", [(0.07, 0.0), (0.045, 0.12), (0.080, 0.30), (0.036, 0.68), (0.06, 0.87)],
                5)

@@ -11,13 +11,13 @@ from geometry import Part
 
 BAY_M, BAYS = 4.0, 5
 LENGTH_M = BAY_M * BAYS
-FLOOR_M = 0.15  # of the gallery
+FLOOR_M = 0.15  # height of the gallery's floor
 SPRING_M, ARCH_R, RING_M = 2.75, 1.50, 0.30  # foot of the arches, radius, depth of their rings
 STRING_M, EAVE_M, CEILING_M = 5.0, 8.35, 4.7
 WALL_M, GALLERY_M = 0.5, 3.6  # thickness of the front, depth of the gallery
 WINDOW = (0.55, 5.75, 7.45)  # half width, sill, head
 DOOR = (0.62, 2.45)  # half width, height
-ARCH_STEPS = {"near": 14, "far": 10}  # by how close the paths come
+ARCH_STEPS = {"near": 14, "far": 10}  # segments, by how near the paths come
 TILTED = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], float)  # z to -y
 
 
@@ -117,7 +117,7 @@ def gallery(part):
             x0, x1 = c - BAY_M / 2, c + BAY_M / 2
             part.polygon("paving", [(x0, -0.35, FLOOR_M), (x1, -0.35, FLOOR_M),
                                     (x1, GALLERY_M, FLOOR_M), (x0, GALLERY_M, FLOOR_M)])
-    # Seen through the joints of floor and walls, whose edges are cut at different places.
+    # Fills the joints of floor and walls, whose edges have vertices at different positions.
     y, z = GALLERY_M, FLOOR_M - 0.02
     for x0, x1, y0, y1 in ((-0.6, LENGTH_M + 0.6, y - 0.05, y + 0.6), (-0.6, 0.05, 0.1, y),
                            (LENGTH_M - 0.05, LENGTH_M + 0.6, 0.1, y)):
@@ -131,7 +131,7 @@ def gallery(part):
 
 
 def cornices(part):
-    """Seen from below only: without upper sides."""
+    """Has no upper sides, because it is only seen from below."""
     part.moulding("carved", 0, LENGTH_M, [(0, 4.84), (-0.14, 4.98), (-0.14, 5.10)])
     part.moulding("carved", 0, LENGTH_M, [(0, 7.90), (-0.05, 8.01), (-0.20, 8.20),
                                           (-0.20, 8.35)])
@@ -186,7 +186,7 @@ def corner():
 
 
 def corner_pier():
-    """Carries the last arches of both wings; with clasping pilasters towards the court."""
+    """The corner pier under the last arches of both wings, with pilasters to the court."""
     part = Part("corner_pier")
     part.box("ashlar_far", (-0.04, -0.04, 0), (0.5, 0.5, SPRING_M), "dt")
     part.box("carved", (-0.45, -0.10, 0), (0.55, 0.5, FLOOR_M + 0.16), "d")
