@@ -257,8 +257,8 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
     for (int other = 0; other < category; other++) {
         const DipConfigFile *file = &session->config.camera[other].file;
         if (file->path && dip_config_same_file(file, &camera->file) &&
-            session->track.slots[other].path) {
-            dip_camtrack_set(&session->track, category, session->track.slots[other].path,
+            session->track.categories[other].path) {
+            dip_camtrack_set(&session->track, category, session->track.categories[other].path,
                              camera->fov_y_deg);
             return true;
         }

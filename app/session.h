@@ -23,7 +23,7 @@ typedef struct DipSession {
     bool force_all_effects;
     DipModel *model;       // kept for commands that need the reference, else NULL
     DipSceneDef scene_def; // of it, with the ini's surroundings
-    DipCamTrack track;     // slots are the ini's categories
+    DipCamTrack track;     // one path per category of the ini
     DipCamPath **paths;    // loaded once each, by file
     int path_count;
     DipRenderer *renderers[DIP_PANE_COUNT]; // not for bench and cost, which make their own

@@ -1,4 +1,4 @@
-// Which camera path plays.
+// Decides which camera path plays.
 #include "campaths/camtrack.h"
 
 #include "renderer/base/assert.h"
@@ -7,20 +7,21 @@ DipCamTrack dip_camtrack_make(bool reset_on_switch) {
     return (DipCamTrack){.reset_on_switch = reset_on_switch};
 }
 
-void dip_camtrack_set(DipCamTrack *track, int slot, const DipCamPath *path, double fov_y_deg) {
-    DIP_ASSERT(slot >= 0 && slot < DIP_CAMTRACK_SLOTS);
-    track->slots[slot] = (DipCamSlot){path, fov_y_deg};
+void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path, double fov_y_deg) {
+    DIP_ASSERT(category >= 0 && category < DIP_CAMTRACK_CATEGORIES);
+    track->categories[category] = (DipCamCategory){path, fov_y_deg};
 }
 
-static const DipCamSlot *playing(const DipCamTrack *track, int slot) {
-    return &track->slots[track->slots[slot].path ? slot : 0];
+// Returns the category whose path plays while `category` is active.
+static const DipCamCategory *playing(const DipCamTrack *track, int category) {
+    return &track->categories[track->categories[category].path ? category : 0];
 }
 
-void dip_camtrack_switch(DipCamTrack *track, int slot, int64_t play_ns) {
-    DIP_ASSERT(slot >= 0 && slot < DIP_CAMTRACK_SLOTS);
+void dip_camtrack_switch(DipCamTrack *track, int category, int64_t play_ns) {
+    DIP_ASSERT(category >= 0 && category < DIP_CAMTRACK_CATEGORIES);
     const DipCamPath *before = playing(track, track->active)->path;
-    track->active = slot;
-    if (track->reset_on_switch && playing(track, slot)->path != before) {
+    track->active = category;
+    if (track->reset_on_switch && playing(track, category)->path != before) {
         dip_camtrack_restart(track, play_ns);
     }
 }
@@ -30,15 +31,17 @@ void dip_camtrack_restart(DipCamTrack *track, int64_t play_ns) {
 }
 
 int64_t dip_camtrack_time(const DipCamTrack *track, int64_t play_ns) {
-    return (int64_t)((uint64_t)play_ns - (uint64_t)track->start_ns); // wraps, never overflows
+    return (
+        int64_t)((uint64_t)play_ns -
+                 (uint64_t)track->start_ns); // Unsigned, so that it wraps instead of overflowing.
 }
 
 bool dip_camtrack_pose(const DipCamTrack *track, int64_t play_ns, DipPose *pose) {
-    const DipCamSlot *slot = playing(track, track->active);
-    if (!slot->path) {
+    const DipCamCategory *category = playing(track, track->active);
+    if (!category->path) {
         return false;
     }
-    dip_campath_sample(slot->path, dip_camtrack_time(track, play_ns), pose);
-    pose->fov_y_deg = slot->fov_y_deg;
+    dip_campath_sample(category->path, dip_camtrack_time(track, play_ns), pose);
+    pose->fov_y_deg = category->fov_y_deg;
     return true;
 }

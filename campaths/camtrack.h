@@ -1,5 +1,8 @@
-// Which camera path plays: one path and field of view per slot (a setting category), and the time
-// on the path across switches.
+// Decides which camera path plays. Each category of settings has a path and a field of view; the
+// track knows the active category and keeps the time on the path when the category changes.
+//
+// Threads: a track is plain data without locks. Functions that change it need exclusive access; any
+// number of threads may read it otherwise.
 #ifndef DIP_CAMPATHS_CAMTRACK_H
 #define DIP_CAMPATHS_CAMTRACK_H
 
@@ -9,40 +12,52 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { DIP_CAMTRACK_SLOTS = 16 };
+#ifdef __cplusplus
+extern "C" {
+#endif
 
-typedef struct DipCamSlot {
-    const DipCamPath *path; // borrowed; NULL: the slot plays slot 0's path
-    double fov_y_deg;
-} DipCamSlot;
+enum { DIP_CAMTRACK_CATEGORIES = 16 };
 
-// Plain data: may be copied and kept anywhere. Both panes read one track, hence one pose. The
-// fields are read freely and changed through the functions.
+typedef struct DipCamCategory {
+    const DipCamPath *path; // borrowed; NULL: the path of category 0 plays, with its field of view
+    double fov_y_deg;       // vertical field of view, 1..170
+} DipCamCategory;
+
+// Plain data that may be copied. The paths must live as long as the track. Both panes read one
+// track, so they have one pose. Read the fields freely, but change them only with the functions
+// below.
 typedef struct DipCamTrack {
-    DipCamSlot slots[DIP_CAMTRACK_SLOTS];
-    int active;
-    bool reset_on_switch; // CAMPATH_RESET_ON_SWITCH
+    DipCamCategory categories[DIP_CAMTRACK_CATEGORIES];
+    int active;           // index of the active category
+    bool reset_on_switch; // CAMPATH_RESET_ON_SWITCH of the ini
     int64_t start_ns;     // play time at which the active path is at its beginning
 } DipCamTrack;
 
-// All slots empty, slot 0 active, the path's time equal to the play time.
+// Returns a track without paths, with category 0 active, on which the path's time is the play time.
 DipCamTrack dip_camtrack_make(bool reset_on_switch);
 
-// Slots of one path share the pointer: to go from one to the other is then no switch of path.
-void dip_camtrack_set(DipCamTrack *track, int slot, const DipCamPath *path, double fov_y_deg);
+// Sets the path and field of view of a category. Categories with one path must share the pointer,
+// so that a change between them counts as no change of path.
+void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path, double fov_y_deg);
 
-// Makes a slot active at a play time. When that changes the path and reset_on_switch is set, the
-// new path begins at its beginning; else it goes on at the time the old one had reached, so that
-// going there and back leaves no trace. An empty slot counts as slot 0.
-void dip_camtrack_switch(DipCamTrack *track, int slot, int64_t play_ns);
+// Makes a category active at a play time. If this changes the path and reset_on_switch is set, the
+// new path starts at its beginning. Otherwise it continues at the time that the old path had
+// reached, so that a change there and back leaves no trace.
+void dip_camtrack_switch(DipCamTrack *track, int category, int64_t play_ns);
 
-// Back to the beginning of the active path.
+// Returns the active path to its beginning.
 void dip_camtrack_restart(DipCamTrack *track, int64_t play_ns);
 
-// Time on the active path at a play time: not reduced to its duration, any sign.
+// Returns the time on the active path at a play time. It may be negative or beyond the path's
+// duration.
 int64_t dip_camtrack_time(const DipCamTrack *track, int64_t play_ns);
 
-// The whole pose with its field of view. False (and nothing filled in) when no path is there.
+// Fills the whole pose, its field of view included. Returns false and leaves the pose unchanged if
+// neither the active category nor category 0 has a path.
 bool dip_camtrack_pose(const DipCamTrack *track, int64_t play_ns, DipPose *pose);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -34,7 +34,8 @@ static bool out_of_memory(DipError *err) {
 
 static View session_view(const DipSession *session) {
     const DipCamTrack *track = &session->track;
-    const DipCamSlot *slot = &track->slots[track->slots[track->active].path ? track->active : 0];
+    const DipCamCategory *slot =
+        &track->categories[track->categories[track->active].path ? track->active : 0];
     return (View){.scene = session->scene, .path = slot->path, .fov_y_deg = slot->fov_y_deg};
 }
 

@@ -32,15 +32,15 @@ static const SettingPlan plans[DIP_SETTING_COUNT] = {
 // --- paths -------------------------------------------------------------------------------------
 
 static int slot_of(const DipSession *session, int category) {
-    return session->track.slots[category].path ? category : 0;
+    return session->track.categories[category].path ? category : 0;
 }
 
 // Categories that share a path and a field of view share its entry, named after the first.
 static int add_path(DipCostReport *report, const DipSession *session, int category) {
-    const DipCamSlot *slot = &session->track.slots[slot_of(session, category)];
+    const DipCamCategory *slot = &session->track.categories[slot_of(session, category)];
     for (int p = 0; p < report->path_count; p++) {
         for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
-            const DipCamSlot *known = &session->track.slots[c];
+            const DipCamCategory *known = &session->track.categories[c];
             if (strcmp(dip_session_category(c), report->paths[p]) == 0 &&
                 known->path == slot->path && known->fov_y_deg == slot->fov_y_deg) {
                 return p;
@@ -52,14 +52,14 @@ static int add_path(DipCostReport *report, const DipSession *session, int catego
     return report->path_count++;
 }
 
-static const DipCamSlot *slot_of_path(const DipCostReport *report, const DipSession *session,
-                                      int path) {
+static const DipCamCategory *slot_of_path(const DipCostReport *report, const DipSession *session,
+                                          int path) {
     for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
         if (strcmp(dip_session_category(c), report->paths[path]) == 0) {
-            return &session->track.slots[c];
+            return &session->track.categories[c];
         }
     }
-    return &session->track.slots[0];
+    return &session->track.categories[0];
 }
 
 int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession *session,
@@ -69,7 +69,7 @@ int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession 
 
 DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, int path,
                       int64_t time_ns) {
-    const DipCamSlot *slot = slot_of_path(report, session, path);
+    const DipCamCategory *slot = slot_of_path(report, session, path);
     DipPose pose = {.fov_y_deg = slot->fov_y_deg};
     dip_campath_sample(slot->path, time_ns, &pose);
     return pose;

@@ -108,7 +108,7 @@ static void change_setting(DipPreviewState *state, DipSetting setting, bool reve
 }
 
 static bool has_path(const DipPreviewState *state, int slot) {
-    return state->track->slots[slot].path != NULL;
+    return state->track->categories[slot].path != NULL;
 }
 
 static void choose_path(DipPreviewState *state, int slot, int64_t now_ns) {
@@ -125,10 +125,10 @@ static void choose_path(DipPreviewState *state, int slot, int64_t now_ns) {
 // The nearest slot onwards that has a path of its own: several may share a file.
 static void next_path(DipPreviewState *state, int direction, int64_t now_ns) {
     const int from = state->track->active;
-    const DipCamPath *playing = state->track->slots[from].path;
+    const DipCamPath *playing = state->track->categories[from].path;
     for (int i = 1; i < DIP_CATEGORY_COUNT; ++i) {
         const int slot = (from + direction * i + DIP_CATEGORY_COUNT * i) % DIP_CATEGORY_COUNT;
-        if (has_path(state, slot) && state->track->slots[slot].path != playing) {
+        if (has_path(state, slot) && state->track->categories[slot].path != playing) {
             choose_path(state, slot, now_ns);
             return;
         }

@@ -547,18 +547,19 @@ static void a_new_path_starts_anew_or_at_the_old_time(void **context) {
         assert_false(dip_camtrack_pose(&track, 0, &pose));
         assert_true(pose.fov_y_deg == 1.0);
         dip_camtrack_set(&track, 0, a, 55.0);
-        dip_camtrack_set(&track, 2, a, 50.0); // the same path in another slot
+        dip_camtrack_set(&track, 2, a, 50.0); // The same path in another category.
         dip_camtrack_set(&track, 3, b, 45.0);
         assert_true(dip_camtrack_pose(&track, SECOND / 2, &pose));
         assert_true(pose.position_world[0] == 5.0 && pose.fov_y_deg == 55.0);
-        dip_camtrack_switch(&track, 2, SECOND / 2); // no switch of path: goes on
+        dip_camtrack_switch(&track, 2, SECOND / 2); // The path does not change, so it continues.
         assert_true(dip_camtrack_pose(&track, SECOND / 2, &pose));
         assert_true(pose.position_world[0] == 5.0 && pose.fov_y_deg == 50.0);
         dip_camtrack_switch(&track, 3, SECOND);
         assert_true(dip_camtrack_pose(&track, SECOND, &pose));
         assert_true(pose.position_world[0] == (reset ? 0.0 : 10.0));
         assert_true(pose.position_world[1] == 5.0 && pose.fov_y_deg == 45.0);
-        dip_camtrack_switch(&track, 7, 5 * SECOND / 2); // an empty slot: slot 0's path
+        dip_camtrack_switch(&track, 7,
+                            5 * SECOND / 2); // Category 7 has no path, so that of 0 plays.
         assert_true(dip_camtrack_pose(&track, 5 * SECOND / 2, &pose));
         assert_true(pose.position_world[0] == (reset ? 0.0 : 5.0) && pose.fov_y_deg == 55.0);
         dip_camtrack_restart(&track, 3 * SECOND);
