@@ -177,7 +177,7 @@ static bool judge_shots(Judging *j, DipError *err) {
 static bool take_shot(Judging *j, int row, Shot *shot, DipError *err) {
     const DipCostReport *report = j->rig->report;
     const size_t row_bytes = (size_t)report->width * 4;
-    DipHash hash = dip_hash_begin();
+    DipHash hash = dip_hash_begin(0);
     dip_hash_text(&hash, "diptych errors 1");
     dip_hash_number(&hash, report->options.pixels_per_degree);
     shot->row = row;

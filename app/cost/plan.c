@@ -294,7 +294,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipOp
 }
 
 void dip_cost_plan_hash(const DipCostReport *report, char hex[33]) {
-    DipHash hash = dip_hash_begin();
+    DipHash hash = dip_hash_begin(0);
     dip_hash_text(&hash, report->version);
     dip_hash_text(&hash, report->scene_hash);
     dip_hash_text(&hash, report->processor);

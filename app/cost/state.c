@@ -49,7 +49,7 @@ static bool keep(DipCostState *state, const Entry *entry) {
 }
 
 static void check_of(const char *text, size_t length, char check[33]) {
-    DipHash hash = dip_hash_begin();
+    DipHash hash = dip_hash_begin(0);
     dip_hash_bytes(&hash, text, length);
     dip_hash_hex(&hash, check);
 }

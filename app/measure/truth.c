@@ -23,7 +23,7 @@ static bool out_of_memory(DipError *err) {
 
 // Everything that the picture depends on, and the version of how it is made.
 static void find_key(const DipCostTruthDef *def, char key[33]) {
-    DipHash hash = dip_hash_begin();
+    DipHash hash = dip_hash_begin(0);
     dip_hash_text(&hash, "diptych truth 1");
     dip_hash_text(&hash, def->scene_hash);
     for (int i = 0; i < 3; i++) {
@@ -208,7 +208,7 @@ static void list_parts(DipCostTruth *truth, Part parts[PARTS]) {
 }
 
 static void hash_contents(const unsigned char *bytes, size_t size, char hex[33]) {
-    DipHash hash = dip_hash_begin();
+    DipHash hash = dip_hash_begin(0);
     dip_hash_bytes(&hash, bytes, size);
     dip_hash_hex(&hash, hex);
 }
