@@ -2,7 +2,7 @@
 #include "app/bench/plots.h"
 
 #include "app/machine.h"
-#include "app/measure/stats.h"
+#include "app/measure/statistics.h"
 #include "app/plot/plot.h"
 
 #include <limits.h>

@@ -62,6 +62,11 @@ const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
     return result->ms + place(result, combination, stage);
 }
 
+void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
+                                const DipBenchSample *sample) {
+    result->first[combination * result->plan->options.frames + frame] = *sample;
+}
+
 const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,
                                              int frame) {
     return &result->first[combination * result->plan->options.frames + frame];

@@ -34,6 +34,10 @@ typedef struct DipBenchResult {
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
 void dip_bench_result_free(DipBenchResult *result);
 
+// The sample of a frame's first drawing, which has the hash and the counters.
+void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
+                                const DipBenchSample *sample);
+
 void dip_bench_result_add(DipBenchResult *result, int combination, int round, int frame,
                           const DipBenchSample *sample);
 

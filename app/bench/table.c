@@ -3,7 +3,7 @@
 
 #include "app/files/whole_file.h"
 #include "app/machine.h"
-#include "app/measure/stats.h"
+#include "app/measure/statistics.h"
 
 #include <inttypes.h>
 #include <math.h>

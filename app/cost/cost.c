@@ -47,7 +47,7 @@ static bool write_report(DipCostRig *rig, const char *folder, DipError *err) {
 static bool find_cache(const DipOptions *options, char folder[PATH_MAX], DipError *err) {
     if (options->cost.cache) {
         snprintf(folder, PATH_MAX, "%s", options->cost.cache);
-    } else if (!dip_cost_cache_folder(folder, PATH_MAX)) {
+    } else if (!dip_truth_default_folder(folder, PATH_MAX)) {
         folder[0] = '\0';
     }
     return !folder[0] || dip_folder_make(folder, "--cache", err);
@@ -56,7 +56,7 @@ static bool find_cache(const DipOptions *options, char folder[PATH_MAX], DipErro
 static bool measure(DipCostRig *rig, DipError *err) {
     return dip_cost_make_truths(rig, err) && dip_cost_judge(rig, err) &&
            (rig->report->options.errors_only ||
-            (dip_cost_take_times(rig, err) && dip_cost_advise(rig, err)));
+            (dip_cost_time_rows(rig, err) && dip_cost_advise(rig, err)));
 }
 
 static bool run(DipSession *session, const DipOptions *options, DipCostReport *report,

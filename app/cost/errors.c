@@ -32,7 +32,7 @@ static bool make_path_truths(DipCostRig *rig, int path, TruthProgress *at, DipEr
     const DipCostOptions *options = &report->options;
     for (int place = options->first_place; place < options->end_place; place++) {
         for (int frame = 0; frame < options->burst; frame++) {
-            DipCostTruth truth;
+            DipTruth truth;
             const bool got =
                 dip_cost_rig_truth(rig, path, place, frame, show_truth, at, &truth, err);
             if (!got) {
@@ -40,9 +40,9 @@ static bool make_path_truths(DipCostRig *rig, int path, TruthProgress *at, DipEr
                 return false;
             }
             const int index = path * options->places + place;
-            dip_cost_sums_add(&report->floors[index], &truth.floor);
+            dip_metric_sums_add(&report->floors[index], &truth.floor);
             report->has_floor[index] = true;
-            dip_cost_truth_free(&truth);
+            dip_truth_free(&truth);
             at->before += PER_TRUTH;
         }
     }
@@ -69,7 +69,7 @@ typedef struct Shot {
     uint8_t *rgba8; // frame after frame, rows packed
     int row;
     char key[33];
-    DipCostSums sums;
+    DipMetricSums sums;
     bool failed;
 } Shot;
 
@@ -78,9 +78,9 @@ typedef struct Judging {
     int path;
     int place;
     DipFlip flip; // to take truths in
-    DipCostTruth truths[DIP_COST_MAX_BURST];
-    DipFlipSide sides[DIP_COST_MAX_BURST];
-    DipCostMeter *meters; // per thread
+    DipTruth truths[DIP_COST_MAX_BURST];
+    DipFlipAnalysis sides[DIP_COST_MAX_BURST];
+    DipMeter *meters; // per thread
     int meter_count;
     Shot *shots; // that are judged at a time, a few per thread
     int shot_room;
@@ -95,13 +95,13 @@ static size_t picture_bytes(const Judging *j) {
 
 static void close_judging(Judging *j) {
     for (int i = 0; j->meters && i < j->meter_count; i++) {
-        dip_cost_meter_free(&j->meters[i]);
+        dip_meter_free(&j->meters[i]);
     }
     for (int i = 0; j->shots && i < j->shot_room; i++) {
         free(j->shots[i].rgba8);
     }
     for (int i = 0; i < DIP_COST_MAX_BURST; i++) {
-        dip_flip_side_free(&j->sides[i]);
+        dip_flip_analysis_free(&j->sides[i]);
     }
     dip_flip_free(&j->flip);
     free(j->meters);
@@ -117,14 +117,14 @@ static bool open_judging(Judging *j, DipCostRig *rig, DipError *err) {
     bool made =
         j->meters && j->shots && dip_flip_init(&j->flip, report->width, report->height, ppd);
     for (int i = 0; made && i < j->meter_count; i++) {
-        made = dip_cost_meter_init(&j->meters[i], report->width, report->height, ppd);
+        made = dip_meter_init(&j->meters[i], report->width, report->height, ppd);
     }
     for (int i = 0; made && i < j->shot_room; i++) {
         j->shots[i].rgba8 = malloc(picture_bytes(j) * (size_t)report->options.burst);
         made = j->shots[i].rgba8 != NULL;
     }
     for (int i = 0; made && i < report->options.burst; i++) {
-        made = dip_flip_side_init(&j->flip, &j->sides[i]);
+        made = dip_flip_analysis_init(&j->flip, &j->sides[i]);
     }
     if (!made) {
         close_judging(j);
@@ -133,27 +133,27 @@ static bool open_judging(Judging *j, DipCostRig *rig, DipError *err) {
     return true;
 }
 
-static DipPicture picture_of(const Judging *j, const uint8_t *rgba8) {
+static DipSrgbPicture picture_of(const Judging *j, const uint8_t *rgba8) {
     const DipCostReport *report = j->rig->report;
-    return (DipPicture){rgba8, (size_t)report->width * 4, report->width, report->height};
+    return (DipSrgbPicture){rgba8, (size_t)report->width * 4, report->width, report->height};
 }
 
 static void judge_shot(void *context, int index, int worker) {
     Judging *j = context;
     Shot *shot = &j->shots[index];
-    DipCostMeter *meter = &j->meters[worker];
-    shot->sums = (DipCostSums){0};
+    DipMeter *meter = &j->meters[worker];
+    shot->sums = (DipMetricSums){0};
     shot->failed = false;
     dip_flicker_restart(&meter->flicker);
     for (int f = 0; f < j->rig->report->options.burst; f++) {
-        const DipPicture test = picture_of(j, shot->rgba8 + (size_t)f * picture_bytes(j));
-        const DipCostStandard standard = {picture_of(j, j->truths[f].rgba8), j->truths[f].rgb_lin,
-                                          &j->sides[f], j->truths[f].classes};
-        if (!dip_cost_meter_add(meter, &test, NULL, &standard, &shot->sums)) {
+        const DipSrgbPicture test = picture_of(j, shot->rgba8 + (size_t)f * picture_bytes(j));
+        const DipMeterStandard standard = {picture_of(j, j->truths[f].rgba8), j->truths[f].rgb_lin,
+                                           &j->sides[f], j->truths[f].classes};
+        if (!dip_meter_add(meter, &test, NULL, &standard, &shot->sums)) {
             shot->failed = true;
         }
     }
-    dip_cost_meter_end_burst(meter, &shot->sums);
+    dip_meter_end_burst(meter, &shot->sums);
 }
 
 static bool judge_shots(Judging *j, DipError *err) {
@@ -234,13 +234,13 @@ static bool judge_place(Judging *j, DipError *err) {
     int got = 0;
     while (got < burst && dip_cost_rig_truth(j->rig, j->path, j->place, got, no_progress, NULL,
                                              &j->truths[got], err)) {
-        const DipPicture picture = picture_of(j, j->truths[got].rgba8);
-        dip_flip_take(&j->flip, &picture, &j->sides[got]);
+        const DipSrgbPicture picture = picture_of(j, j->truths[got].rgba8);
+        dip_flip_analyse(&j->flip, &picture, &j->sides[got]);
         got++;
     }
     const bool judged = got == burst && judge_rows(j, err);
     while (got > 0) {
-        dip_cost_truth_free(&j->truths[--got]);
+        dip_truth_free(&j->truths[--got]);
     }
     return judged;
 }

@@ -65,12 +65,6 @@ static void solve(const Equations *equations, const bool used[TERMS], double sol
     }
 }
 
-static int compare(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double fitted(const double terms[TERMS], const double solution[TERMS]) {
     double sum = 0.0;
     for (int i = 0; i < TERMS; i++) {
@@ -110,8 +104,7 @@ static void judge_fit(const DipCostReport *report, const double *ms, const doubl
         misses[r] = fabs(miss);
     }
     if (misses) {
-        qsort(misses, (size_t)report->row_count, sizeof *misses, compare);
-        fit->median_miss = misses[report->row_count / 2];
+        fit->median_miss = dip_stats_median(misses, report->row_count);
         fit->r2 = all > 0.0 ? 1.0 - left / all : 0.0;
     }
     free(misses);

@@ -2,6 +2,7 @@
 #include "app/cost/gallery.h"
 
 #include "app/files/png.h"
+#include "app/measure/flip.h"
 #include "app/measure/magma.h"
 #include "app/progress.h"
 
@@ -11,8 +12,8 @@
 typedef struct Cutting {
     DipCostRig *rig;
     DipFlip flip;
-    DipFlipSide truth_side;
-    DipFlipSide side;
+    DipFlipAnalysis truth_side;
+    DipFlipAnalysis side;
     float *maps;       // [step][pixel]
     uint8_t *pictures; // likewise, rgba8
     uint8_t *colours;  // a map's crop
@@ -29,8 +30,8 @@ static size_t pixel_count(const Cutting *c) {
 }
 
 static void close_cutting(Cutting *c) {
-    dip_flip_side_free(&c->truth_side);
-    dip_flip_side_free(&c->side);
+    dip_flip_analysis_free(&c->truth_side);
+    dip_flip_analysis_free(&c->side);
     dip_flip_free(&c->flip);
     free(c->maps);
     free(c->pictures);
@@ -47,7 +48,8 @@ static bool open_cutting(Cutting *c, DipCostRig *rig, DipError *err) {
     const bool made =
         c->maps && c->pictures && c->colours &&
         dip_flip_init(&c->flip, report->width, report->height, report->options.pixels_per_degree) &&
-        dip_flip_side_init(&c->flip, &c->truth_side) && dip_flip_side_init(&c->flip, &c->side);
+        dip_flip_analysis_init(&c->flip, &c->truth_side) &&
+        dip_flip_analysis_init(&c->flip, &c->side);
     if (!made) {
         close_cutting(c);
         return out_of_memory(err);
@@ -153,8 +155,8 @@ static bool draw_step(Cutting *c, int row, int index, int64_t time_ns, DipError 
     for (int y = 0; y < report->height; y++) {
         memcpy(to + (size_t)y * row_bytes, frame.rgba8 + (size_t)y * frame.stride_bytes, row_bytes);
     }
-    const DipPicture picture = {to, row_bytes, report->width, report->height};
-    dip_flip_take(&c->flip, &picture, &c->side);
+    const DipSrgbPicture picture = {to, row_bytes, report->width, report->height};
+    dip_flip_analyse(&c->flip, &picture, &c->side);
     dip_flip_compare(&c->flip, &c->truth_side, &c->side, c->maps + (size_t)index * pixel_count(c));
     return true;
 }
@@ -171,13 +173,13 @@ static bool cut_sweep(Cutting *c, const DipCostSweep *sweep, DipCostCrops *crops
     crops->place = (report->options.first_place + report->options.end_place - 1) / 2;
     const int64_t time_ns =
         dip_cost_place_time_ns(report, c->rig->session, sweep->path, crops->place, 0);
-    DipCostTruth truth;
+    DipTruth truth;
     if (!dip_cost_rig_truth(c->rig, sweep->path, crops->place, 0, go_on, NULL, &truth, err)) {
         return false;
     }
-    const DipPicture picture = {truth.rgba8, (size_t)report->width * 4, report->width,
-                                report->height};
-    dip_flip_take(&c->flip, &picture, &c->truth_side);
+    const DipSrgbPicture picture = {truth.rgba8, (size_t)report->width * 4, report->width,
+                                    report->height};
+    dip_flip_analyse(&c->flip, &picture, &c->truth_side);
     bool drawn = true;
     for (int i = 0; drawn && i < sweep->row_count; i++) {
         drawn = draw_step(c, sweep->rows[i], i, time_ns, err);
@@ -191,7 +193,7 @@ static bool cut_sweep(Cutting *c, const DipCostSweep *sweep, DipCostCrops *crops
         crops->steps[i] = cut_picture(c, c->pictures + (size_t)i * pixel_count(c) * 4, crops);
         crops->maps[i] = cut_map(c, c->maps + (size_t)i * pixel_count(c), crops);
     }
-    dip_cost_truth_free(&truth);
+    dip_truth_free(&truth);
     return drawn;
 }
 

@@ -34,10 +34,10 @@ static void write_row_text(const DipCostReport *report, int row, FILE *out) {
     dip_markup_text(out, settings);
 }
 
-static DipCostFigures figures_of(const DipCostReport *report, int row, int region) {
+static DipMetrics figures_of(const DipCostReport *report, int row, int region) {
     int places;
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
-    return dip_cost_figures(&sums, region);
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    return dip_metrics_of(&sums, region);
 }
 
 // --- head --------------------------------------------------------------------------------------
@@ -57,11 +57,11 @@ static void write_facts(const DipCostReport *report, FILE *out) {
             report->options.timed_frames, report->rounds, report->options.places,
             report->options.burst, report->options.samples, baseline);
     if (dip_cost_is_timed(report, report->same_row)) {
-        const DipCostTime same = dip_cost_ratio(report, report->same_row, 0);
+        const DipStatsEstimate same = dip_cost_ratio(report, report->same_row, 0);
         fprintf(out,
                 " <b>A/A</b>, the baseline timed twice as if it were two settings: %.3f "
                 "(%.3f to %.3f); smaller differences than that are noise.",
-                same.ms, same.low, same.high);
+                same.value, same.low, same.high);
     }
     fprintf(out, "</p>\n");
 }
@@ -100,7 +100,7 @@ static void write_advice(const DipCostReport *report, FILE *out) {
             fprintf(out, "nothing measured is that fast</td><td colspan=\"7\"></td></tr>\n");
             continue;
         }
-        const DipCostFigures f = figures_of(report, advice->row, 0);
+        const DipMetrics f = figures_of(report, advice->row, 0);
         write_row_text(report, advice->row, out);
         fprintf(out, "</td><td>%.2f</td><td>%.2f to %.2f</td><td>%.4f</td><td>%.5f</td>",
                 advice->checked_ms, advice->checked_low, advice->checked_high, f.flip, f.rmse_lin);
@@ -143,7 +143,7 @@ static void write_front_table(const DipCostReport *report, const int *front, int
             "<th>FLIP</th><th>RMSE, linear</th><th>the step costs, ms</th>"
             "<th>and buys, FLIP</th></tr>\n");
     for (int i = 0; i < count; i++) {
-        const DipCostFigures f = figures_of(report, front[i], 0);
+        const DipMetrics f = figures_of(report, front[i], 0);
         const double ms = dip_cost_ms(report, front[i]);
         fprintf(out, "<tr><td>%d</td><td class=\"l\">", i + 1);
         write_row_text(report, front[i], out);
@@ -261,16 +261,16 @@ static void write_time_bar(const DipCostReport *report, const DipCostSweep *swee
         return;
     }
     const double room = BAR_ROOM - 60.0;
-    const DipCostTime ratio = dip_cost_ratio(report, row, sweep->base);
+    const DipStatsEstimate ratio = dip_cost_ratio(report, row, sweep->base);
     char number[32];
-    snprintf(number, sizeof number, "%.2f", ratio.ms);
+    snprintf(number, sizeof number, "%.2f", ratio.value);
     const double end = BAR_LEFT + room * ratio.high / most;
     fprintf(out,
             "<rect x=\"%d\" y=\"%.1f\" width=\"%.1f\" height=\"16\" fill=\"#0072b2\"/>"
             "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#202020\" "
             "stroke-width=\"2\"/><text x=\"%.1f\" y=\"%.1f\">%s</text>\n",
-            BAR_LEFT, y, room * ratio.ms / most, BAR_LEFT + room * ratio.low / most, y + 8.0, end,
-            y + 8.0, end + 6.0, y + 13.0, number);
+            BAR_LEFT, y, room * ratio.value / most, BAR_LEFT + room * ratio.low / most, y + 8.0,
+            end, y + 8.0, end + 6.0, y + 13.0, number);
 }
 
 static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, FILE *out) {
@@ -305,15 +305,15 @@ static void write_step_row(const DipCostReport *report, const DipCostSweep *swee
                            FILE *out) {
     int places;
     char step[DIP_COST_TEXT];
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
-    const DipCostFigures f = dip_cost_figures(&sums, 0);
-    const DipCostFlicker flicker = dip_cost_flicker(&sums);
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    const DipMetrics f = dip_metrics_of(&sums, 0);
+    const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
     dip_cost_step_text(report, sweep, row, step);
     fprintf(out, "<tr><td>%s%s</td>", step, row == sweep->base ? " (baseline)" : "");
     if (dip_cost_is_timed(report, row)) {
-        const DipCostTime ratio = dip_cost_ratio(report, row, sweep->base);
+        const DipStatsEstimate ratio = dip_cost_ratio(report, row, sweep->base);
         fprintf(out, "<td>%.2f</td><td>%.3f</td><td>%.3f to %.3f</td>", dip_cost_ms(report, row),
-                ratio.ms, ratio.low, ratio.high);
+                ratio.value, ratio.low, ratio.high);
     } else {
         fprintf(out, "<td></td><td></td><td></td>");
     }
@@ -385,8 +385,8 @@ static void write_regions(const DipCostReport *report, FILE *out) {
     fprintf(out, "<h2>Where the errors are</h2>\n<p class=\"note\">FLIP, mean over the pixels that "
                  "show each; in brackets their share of all pixels.</p>\n"
                  "<div class=\"scroll\"><table>\n<tr><th>setting</th><th class=\"l\">step</th>");
-    for (int r = 0; r < DIP_COST_REGIONS; r++) {
-        fprintf(out, "<th>%s</th>", dip_cost_region_names[r]);
+    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
+        fprintf(out, "<th>%s</th>", dip_metric_region_names[r]);
     }
     fprintf(out, "</tr>\n");
     for (int s = 0; s < report->sweep_count; s++) {
@@ -394,13 +394,13 @@ static void write_regions(const DipCostReport *report, FILE *out) {
         for (int i = 0; i < sweep->row_count; i++) {
             int places;
             char step[DIP_COST_TEXT];
-            const DipCostSums sums = dip_cost_row_sums(report, sweep->rows[i], &places);
+            const DipMetricSums sums = dip_cost_row_sums(report, sweep->rows[i], &places);
             dip_cost_step_text(report, sweep, sweep->rows[i], step);
             fprintf(out, "<tr><td>%s</td><td class=\"l\">%s</td>", sweep->title, step);
-            for (int r = 0; r < DIP_COST_REGIONS; r++) {
+            for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
                 const double share = sums.regions[r].pixels / fmax(sums.regions[0].pixels, 1.0);
                 if (share > 0.0) {
-                    fprintf(out, "<td>%.4f (%.1f %%)</td>", dip_cost_figures(&sums, r).flip,
+                    fprintf(out, "<td>%.4f (%.1f %%)</td>", dip_metrics_of(&sums, r).flip,
                             100.0 * share);
                 } else {
                     fprintf(out, "<td>&ndash;</td>");
@@ -462,9 +462,9 @@ static void write_foot(const DipCostReport *report, FILE *out) {
     fprintf(out, "<h2>The truth and its floor</h2>\n<div class=\"scroll\"><table>\n<tr><th>path"
                  "</th><th>RMSE of the truth, linear</th><th>FLIP between its halves</th></tr>\n");
     for (int p = 0; p < report->path_count; p++) {
-        const DipCostSums sums = dip_cost_floor(report, p);
+        const DipMetricSums sums = dip_cost_floor(report, p);
         fprintf(out, "<tr><td>%s</td><td>%.5f</td><td>%.4f</td></tr>\n", report->paths[p],
-                dip_cost_floor_rmse(report, p, 0), dip_cost_figures(&sums, 0).flip);
+                dip_cost_floor_rmse(report, p, 0), dip_metrics_of(&sums, 0).flip);
     }
     fprintf(out, "</table></div>\n");
     if (report->refused_count) {

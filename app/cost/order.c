@@ -53,10 +53,10 @@ static bool follows(Trend trend, double before, double after, bool strictly) {
 
 static double error_of(const DipCostReport *report, const Theory *theory, int row, bool *judged) {
     int places;
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
     *judged = *judged && places > 0;
-    return theory->of_two_frames ? dip_cost_flicker(&sums).two_mean
-                                 : dip_cost_figures(&sums, 0).flip;
+    return theory->of_two_frames ? dip_flicker_metrics_of(&sums).two_mean
+                                 : dip_metrics_of(&sums, 0).flip;
 }
 
 // The first step that does not follow; sweep->row_count when all do.

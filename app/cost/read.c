@@ -79,9 +79,9 @@ static bool numbers(const cJSON *array, int count, double *to) {
     return true;
 }
 
-static bool read_sums(const cJSON *object, const char *name, DipCostSums *sums) {
-    double values[DIP_COST_SUM_COUNT];
-    if (!numbers(cJSON_GetObjectItemCaseSensitive(object, name), DIP_COST_SUM_COUNT, values)) {
+static bool read_sums(const cJSON *object, const char *name, DipMetricSums *sums) {
+    double values[DIP_METRIC_SUM_COUNT];
+    if (!numbers(cJSON_GetObjectItemCaseSensitive(object, name), DIP_METRIC_SUM_COUNT, values)) {
         return false;
     }
     memcpy(sums, values, sizeof values);

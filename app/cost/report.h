@@ -3,7 +3,8 @@
 #define DIP_APP_COST_REPORT_H
 
 #include "app/cost/options.h"
-#include "app/measure/sums.h"
+#include "app/measure/metrics.h"
+#include "app/measure/statistics.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/quality.h"
 
@@ -33,7 +34,7 @@ enum {
 typedef struct DipCostRow {
     DipQuality quality;
     int path;
-    DipCostSums *places;                     // one per place
+    DipMetricSums *places;                   // one per place
     bool *judged;                            // likewise: the sums are there
     double *ms;                              // [round * timed_frames + frame]; NULL: not timed
     double counters[DIP_COST_COUNTER_COUNT]; // mean per timed frame
@@ -78,8 +79,8 @@ typedef struct DipCostReport {
     int sweep_count;
     char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // steps left out, with the reason
     int refused_count;
-    int rounds;          // timed so far
-    DipCostSums *floors; // [path * places + place]: half of the truth against the other
+    int rounds;            // timed so far
+    DipMetricSums *floors; // [path * places + place]: half of the truth against the other
     bool *has_floor;
     DipCostAdvice advice[DIP_COST_MAX_BUDGETS];
     int advice_count;
@@ -93,8 +94,8 @@ void dip_cost_report_free(DipCostReport *report);
 void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]);
 
 // Over all places that are there; *places is their number.
-DipCostSums dip_cost_row_sums(const DipCostReport *report, int row, int *places);
-DipCostSums dip_cost_floor(const DipCostReport *report, int path);
+DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *places);
+DipMetricSums dip_cost_floor(const DipCostReport *report, int path);
 
 // The floor's root mean square in linear light: of a truth whose halves differ by the sums.
 double dip_cost_floor_rmse(const DipCostReport *report, int path, int region);
@@ -102,22 +103,16 @@ double dip_cost_floor_rmse(const DipCostReport *report, int path, int region);
 // Errors below three times the floor say nothing.
 bool dip_cost_at_floor(const DipCostReport *report, int row);
 
-typedef struct DipCostTime {
-    double ms;  // the mean over the frames of their medians over the rounds
-    double low; // 95 % interval by bootstrap over the rounds
-    double high;
-} DipCostTime;
-
 bool dip_cost_is_timed(const DipCostReport *report, int row);
 
-// DipCostTime's ms alone, which is quick to find.
+// Milliseconds of a frame: the mean over the frames of their medians over the rounds. dip_cost_ms
+// gives the value without its interval, which takes the longest to find.
 double dip_cost_ms(const DipCostReport *report, int row);
-DipCostTime dip_cost_time(const DipCostReport *report, int row);
+DipStatsEstimate dip_cost_time(const DipCostReport *report, int row);
 
-// The median over rounds and frames of row / base, both of the same round.
-DipCostTime dip_cost_ratio(const DipCostReport *report, int row, int base);
-
-// Its ms alone, which is quick to find.
+// The median over rounds and frames of the row's time divided by the base's in the same round.
+// dip_cost_median_ratio gives the value without its interval.
+DipStatsEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
 double dip_cost_median_ratio(const DipCostReport *report, int row, int base);
 
 // Rows that no other one of the same list is at least as good as in time and in error; in order of

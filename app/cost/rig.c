@@ -63,12 +63,11 @@ bool dip_cost_draw_timed(DipCostRig *rig, int row, int index, DipFrame *frame, D
                          err);
 }
 
-bool dip_cost_rig_truth(DipCostRig *rig, int path, int place, int frame,
-                        DipCostTruthProgress *progress, void *context, DipCostTruth *truth,
-                        DipError *err) {
+bool dip_cost_rig_truth(DipCostRig *rig, int path, int place, int frame, DipTruthProgress *progress,
+                        void *context, DipTruth *truth, DipError *err) {
     const DipCostReport *report = rig->report;
     const int64_t time_ns = dip_cost_place_time_ns(report, rig->session, path, place, frame);
-    const DipCostTruthDef def = {
+    const DipTruthDef def = {
         .reference = rig->reference,
         .scene_hash = report->scene_hash,
         .pose = dip_cost_pose(report, rig->session, path, time_ns),
@@ -78,7 +77,7 @@ bool dip_cost_rig_truth(DipCostRig *rig, int path, int place, int frame,
         .samples = report->options.samples,
         .pixels_per_degree = report->options.pixels_per_degree,
     };
-    return dip_cost_truth_get(truth, &def, rig->cache, rig->session->pool, progress, context, err);
+    return dip_truth_get(truth, &def, rig->cache, rig->session->pool, progress, context, err);
 }
 
 bool dip_cost_interrupted(const DipCostRig *rig, DipError *err) {

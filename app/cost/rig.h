@@ -5,6 +5,7 @@
 #include "app/cost/plan.h"
 #include "app/cost/state.h"
 #include "app/measure/truth.h"
+#include "renderer/reference/reference.h"
 
 typedef struct DipCostRig {
     const DipSession *session;
@@ -29,9 +30,8 @@ bool dip_cost_draw(DipCostRig *rig, int row, int64_t time_ns, int frame_index, D
 bool dip_cost_draw_timed(DipCostRig *rig, int row, int index, DipFrame *frame, DipError *err);
 
 // The truth of a burst's frame at a place of a path.
-bool dip_cost_rig_truth(DipCostRig *rig, int path, int place, int frame,
-                        DipCostTruthProgress *progress, void *context, DipCostTruth *truth,
-                        DipError *err);
+bool dip_cost_rig_truth(DipCostRig *rig, int path, int place, int frame, DipTruthProgress *progress,
+                        void *context, DipTruth *truth, DipError *err);
 
 // Ctrl-C: what is measured is kept, and the report not written.
 bool dip_cost_interrupted(const DipCostRig *rig, DipError *err);
@@ -44,8 +44,11 @@ bool dip_cost_make_truths(DipCostRig *rig, DipError *err);
 // Draws every row at every place of this run's part and judges the pictures.
 bool dip_cost_judge(DipCostRig *rig, DipError *err);
 
-// Times every row in rounds, and counts work.
-bool dip_cost_take_times(DipCostRig *rig, DipError *err);
+// Times every row in rounds, and counts its work.
+bool dip_cost_time_rows(DipCostRig *rig, DipError *err);
+
+// Times one row alone, in as many rounds as the others had.
+bool dip_cost_time_row_again(DipCostRig *rig, int row, DipStatsEstimate *time, DipError *err);
 
 // Chooses rows for the budgets and times these again.
 bool dip_cost_advise(DipCostRig *rig, DipError *err);

@@ -188,10 +188,10 @@ static bool append(DipCostState *state, bool is_round, const char *key, const do
     return written || io_fault(state, err);
 }
 
-bool dip_cost_state_find(const DipCostState *state, const char *key, DipCostSums *sums) {
+bool dip_cost_state_find(const DipCostState *state, const char *key, DipMetricSums *sums) {
     for (int i = 0; i < state->count; i++) {
         const Entry *entry = &state->entries[i];
-        if (!entry->is_round && entry->count == DIP_COST_SUM_COUNT &&
+        if (!entry->is_round && entry->count == DIP_METRIC_SUM_COUNT &&
             strcmp(entry->key, key) == 0) {
             memcpy(sums, entry->values, sizeof *sums);
             return true;
@@ -200,11 +200,11 @@ bool dip_cost_state_find(const DipCostState *state, const char *key, DipCostSums
     return false;
 }
 
-bool dip_cost_state_add(DipCostState *state, const char *key, const DipCostSums *sums,
+bool dip_cost_state_add(DipCostState *state, const char *key, const DipMetricSums *sums,
                         DipError *err) {
-    double values[DIP_COST_SUM_COUNT];
+    double values[DIP_METRIC_SUM_COUNT];
     memcpy(values, sums, sizeof values);
-    return append(state, false, key, values, DIP_COST_SUM_COUNT, err);
+    return append(state, false, key, values, DIP_METRIC_SUM_COUNT, err);
 }
 
 const double *dip_cost_state_round(const DipCostState *state, int round, int count) {

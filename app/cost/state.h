@@ -4,7 +4,7 @@
 #ifndef DIP_APP_COST_STATE_H
 #define DIP_APP_COST_STATE_H
 
-#include "app/measure/sums.h"
+#include "app/measure/metrics.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
@@ -18,8 +18,8 @@ DipCostState *dip_cost_state_open(const char *folder, const char *plan, DipError
 void dip_cost_state_close(DipCostState **state, bool finished);
 
 // Errors by the content that they are of: pictures and truths.
-bool dip_cost_state_find(const DipCostState *state, const char *key, DipCostSums *sums);
-bool dip_cost_state_add(DipCostState *state, const char *key, const DipCostSums *sums,
+bool dip_cost_state_find(const DipCostState *state, const char *key, DipMetricSums *sums);
+bool dip_cost_state_add(DipCostState *state, const char *key, const DipMetricSums *sums,
                         DipError *err);
 
 // Rounds of `count` times each, in the order they were taken. Of a number that is not there NULL.

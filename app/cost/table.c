@@ -25,20 +25,20 @@ static void print_times(const DipCostReport *report, int row, int base, FILE *ou
         fprintf(out, " %8s %6s %-15s", "-", "-", "");
         return;
     }
-    const DipCostTime ratio = dip_cost_ratio(report, row, base);
+    const DipStatsEstimate ratio = dip_cost_ratio(report, row, base);
     char interval[32];
     snprintf(interval, sizeof interval, "%.3f..%.3f", ratio.low, ratio.high);
-    fprintf(out, " %8.2f %6.3f %-15s", dip_cost_ms(report, row), ratio.ms, interval);
+    fprintf(out, " %8.2f %6.3f %-15s", dip_cost_ms(report, row), ratio.value, interval);
 }
 
 static void print_row(const DipCostReport *report, const char *name, int row, int base, FILE *out) {
     int places;
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
     fprintf(out, "  %-17s", name);
     print_times(report, row, base, out);
     if (places > 0) {
-        const DipCostFigures f = dip_cost_figures(&sums, 0);
-        const DipCostFlicker flicker = dip_cost_flicker(&sums);
+        const DipMetrics f = dip_metrics_of(&sums, 0);
+        const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
         fprintf(out, " %7.5f %6.2f %7.5f %7.5f %7.5f %7.5f  %s", f.rmse_lin, f.psnr_db, f.ssim,
                 f.flip, flicker.flicker, flicker.two_mean, dip_cost_floor_mark(report, row));
     }
@@ -53,9 +53,9 @@ static void print_columns(FILE *out) {
 static void print_floors(const DipCostReport *report, FILE *out) {
     fprintf(out, "\nThe truth's own floor (errors below three times its RMSE are \"at floor\"):\n");
     for (int p = 0; p < report->path_count; p++) {
-        const DipCostSums sums = dip_cost_floor(report, p);
+        const DipMetricSums sums = dip_cost_floor(report, p);
         fprintf(out, "  %-9s RMSE %.5f; FLIP between its halves %.5f\n", report->paths[p],
-                dip_cost_floor_rmse(report, p, 0), dip_cost_figures(&sums, 0).flip);
+                dip_cost_floor_rmse(report, p, 0), dip_metrics_of(&sums, 0).flip);
     }
 }
 
@@ -79,10 +79,10 @@ static void print_front(const DipCostReport *report, FILE *out) {
     for (int i = 0; i < kept; i++) {
         int places;
         char text[DIP_COST_TEXT];
-        const DipCostSums sums = dip_cost_row_sums(report, front[i], &places);
+        const DipMetricSums sums = dip_cost_row_sums(report, front[i], &places);
         dip_cost_settings_text(&report->rows[front[i]].quality, text);
         fprintf(out, "  %8.2f ms  FLIP %.5f  %s\n", dip_cost_ms(report, front[i]),
-                dip_cost_figures(&sums, 0).flip, text);
+                dip_metrics_of(&sums, 0).flip, text);
     }
     free(rows);
 }
@@ -114,18 +114,18 @@ static void print_advice(const DipCostReport *report, FILE *out) {
         }
         int places;
         char text[DIP_COST_TEXT];
-        const DipCostSums sums = dip_cost_row_sums(report, advice->row, &places);
+        const DipMetricSums sums = dip_cost_row_sums(report, advice->row, &places);
         dip_cost_settings_text(&report->rows[advice->row].quality, text);
         fprintf(out, "  %6g ms: %s  (%.2f ms, %.2f..%.2f; FLIP %.5f)\n", advice->budget_ms, text,
                 advice->checked_ms, advice->checked_low, advice->checked_high,
-                dip_cost_figures(&sums, 0).flip);
+                dip_metrics_of(&sums, 0).flip);
         const int next = dip_cost_next(report, advice->row);
         if (next >= 0) {
-            const DipCostSums better = dip_cost_row_sums(report, next, &places);
+            const DipMetricSums better = dip_cost_row_sums(report, next, &places);
             dip_cost_settings_text(&report->rows[next].quality, text);
             fprintf(out, "  %9s  one step up: %s (%+.2f ms, FLIP %+.5f)\n", "", text,
                     dip_cost_ms(report, next) - dip_cost_ms(report, advice->row),
-                    dip_cost_figures(&better, 0).flip - dip_cost_figures(&sums, 0).flip);
+                    dip_metrics_of(&better, 0).flip - dip_metrics_of(&sums, 0).flip);
         }
     }
 }

@@ -4,23 +4,7 @@
 #define DIP_RENDERER_REFERENCE_CONVERGENCE_H
 
 #include "renderer/reference/reference.h"
-
-// What a pixel shows; the first that holds.
-// X(NAME, "name", "what it is")
-#define DIP_SEEN_LIST(X)                                                                           \
-    X(WATER, "reflection", "water is seen in it")                                                  \
-    X(CLIPPED, "clipped", "an alpha-clipped surface is in it with nothing before, there or not")   \
-    X(EDGE, "edges",                                                                               \
-      "surfaces of two materials, or whose planes do not meet there, are seen in it")              \
-    X(TEXTURED, "interior", "one surface with a colour texture, not sky")                          \
-    X(PLAIN, "plain", "one surface without, the sky, or nothing")
-
-typedef enum DipSeen {
-#define DIP_SEEN_ENUM(NAME, name, text) DIP_SEEN_##NAME,
-    DIP_SEEN_LIST(DIP_SEEN_ENUM)
-#undef DIP_SEEN_ENUM
-        DIP_SEEN_COUNT
-} DipSeen;
+#include "renderer/reference/seen.h"
 
 typedef struct DipConvergence DipConvergence;
 

@@ -6,12 +6,12 @@
 
 enum { ROWS = 4 };
 
-static void fill_sums(DipCostSums *sums, int seed) {
+static void fill_sums(DipMetricSums *sums, int seed) {
     double *values = (double *)sums;
-    for (int i = 0; i < DIP_COST_SUM_COUNT; i++) {
+    for (int i = 0; i < DIP_METRIC_SUM_COUNT; i++) {
         values[i] = 1.0 / (1.0 + i + 100.0 * seed); // no short decimal
     }
-    for (int r = 0; r < DIP_COST_REGIONS; r++) {
+    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
         sums->regions[r].pixels = 10.0;
         sums->regions[r].ssim_pixels = 9.0;
     }

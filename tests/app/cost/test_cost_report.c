@@ -36,21 +36,21 @@ static void expect_near(double found, double expected, double tolerance) {
 
 static void figures_are_means(void **state) {
     (void)state;
-    DipCostSums sums = {0};
-    sums.regions[0] = (DipCostRegionSums){100.0, 4.0, 2500.0, 40.0, 80.0, 25.0};
+    DipMetricSums sums = {0};
+    sums.regions[0] = (DipMetricRegionSums){100.0, 4.0, 2500.0, 40.0, 80.0, 25.0};
     sums.bursts = 2.0;
     sums.squared_flicker = 0.5;
-    DipCostSums twice = sums;
-    dip_cost_sums_add(&twice, &sums);
+    DipMetricSums twice = sums;
+    dip_metric_sums_add(&twice, &sums);
     for (int i = 0; i < 2; i++) { // twice the same has the same means
-        const DipCostFigures f = dip_cost_figures(i ? &twice : &sums, 0);
+        const DipMetrics f = dip_metrics_of(i ? &twice : &sums, 0);
         expect_near(f.rmse_lin, 0.2, 1e-15);
         expect_near(f.psnr_db, 20.0 * log10(255.0 / 5.0), 1e-12);
         expect_near(f.ssim, 0.5, 1e-15);
         expect_near(f.flip, 0.25, 1e-15);
-        expect_near(dip_cost_flicker(i ? &twice : &sums).flicker, 0.5, 1e-15);
+        expect_near(dip_flicker_metrics_of(i ? &twice : &sums).flicker, 0.5, 1e-15);
     }
-    const DipCostFigures none = dip_cost_figures(&sums, 1);
+    const DipMetrics none = dip_metrics_of(&sums, 1);
     assert_true(none.rmse_lin == 0.0 && isinf(none.psnr_db) && none.ssim == 1.0);
 }
 
@@ -118,11 +118,11 @@ static void ratios_see_past_drift_and_frames(void **state) {
         report.rows[2].ms[i] = 1.5 * base * (1.0 + 0.05 * random_share());
     }
     report.rows[2].ms[7] *= 20.0; // something else ran
-    const DipCostTime ratio = dip_cost_ratio(&report, 2, 0);
-    expect_near(ratio.ms, 1.5, 0.015);
+    const DipStatsEstimate ratio = dip_cost_ratio(&report, 2, 0);
+    expect_near(ratio.value, 1.5, 0.015);
     assert_true(ratio.low <= 1.5 + 0.01 && ratio.high >= 1.5 - 0.01);
     assert_true(ratio.high - ratio.low < 0.03);
-    const DipCostTime same = dip_cost_ratio(&report, 1, 0);
+    const DipStatsEstimate same = dip_cost_ratio(&report, 1, 0);
     assert_true(same.low <= 1.0 && same.high >= 1.0);
     dip_cost_report_free(&report);
 }
@@ -135,7 +135,7 @@ static void times_are_means_of_medians(void **state) {
         report.rows[0].ms[i] = i % 4 + 1.0 + (i / 4 == 2 ? 1000.0 : 0.0); // 1, 2, 3, 4; one spike
     }
     expect_near(dip_cost_ms(&report, 0), 2.5, 1e-12);
-    expect_near(dip_cost_time(&report, 0).ms, 2.5, 1e-12);
+    expect_near(dip_cost_time(&report, 0).value, 2.5, 1e-12);
     dip_cost_report_free(&report);
 }
 

@@ -18,10 +18,10 @@ static const char key[] = "0123456789abcdef0123456789abcdef";
 static const char other_key[] = "1123456789abcdef0123456789abcdef";
 static const double round_ms[] = {1.0 / 3.0, 2e-9, 12345.678};
 
-static DipCostSums make_sums(int seed) {
-    DipCostSums sums;
+static DipMetricSums make_sums(int seed) {
+    DipMetricSums sums;
     double *values = (double *)&sums;
-    for (int i = 0; i < DIP_COST_SUM_COUNT; i++) {
+    for (int i = 0; i < DIP_METRIC_SUM_COUNT; i++) {
         values[i] = (i + seed) / 7.0;
     }
     return sums;
@@ -36,7 +36,7 @@ static DipCostState *open_state(const char *name) {
 
 static void write_some(void) {
     DipCostState *state = open_state(plan);
-    const DipCostSums sums = make_sums(1);
+    const DipMetricSums sums = make_sums(1);
     assert_true(dip_cost_state_add(state, key, &sums, NULL));
     assert_true(dip_cost_state_add_round(state, round_ms, 3, NULL));
     dip_cost_state_close(&state, false);
@@ -52,8 +52,8 @@ static void what_is_measured_is_found_again(void **state) {
     (void)state;
     write_some();
     DipCostState *again = open_state(plan);
-    const DipCostSums expected = make_sums(1);
-    DipCostSums sums;
+    const DipMetricSums expected = make_sums(1);
+    DipMetricSums sums;
     assert_true(dip_cost_state_find(again, key, &sums));
     assert_memory_equal(&sums, &expected, sizeof sums);
     assert_false(dip_cost_state_find(again, other_key, &sums));
@@ -68,7 +68,7 @@ static void times_of_another_plan_are_passed_over(void **state) {
     (void)state;
     write_some();
     DipCostState *again = open_state(other_plan);
-    DipCostSums sums;
+    DipMetricSums sums;
     assert_true(dip_cost_state_find(again, key, &sums));
     assert_null(dip_cost_state_round(again, 0, 3));
     dip_cost_state_close(&again, false);
@@ -88,7 +88,7 @@ static void a_torn_line_is_dropped(void **state) {
     (void)state;
     write_some();
     const size_t size = file_size();
-    DipCostSums sums;
+    DipMetricSums sums;
     for (size_t cut = 0; cut < size; cut += 31) {
         remove("cost.state");
         write_some();
@@ -96,7 +96,7 @@ static void a_torn_line_is_dropped(void **state) {
         DipCostState *again = open_state(plan);
         assert_null(dip_cost_state_round(again, 0, 3));
         const bool had_errors = dip_cost_state_find(again, key, &sums);
-        const DipCostSums more = make_sums(9);
+        const DipMetricSums more = make_sums(9);
         assert_true(dip_cost_state_add(again, other_key, &more, NULL));
         dip_cost_state_close(&again, false);
         again = open_state(plan);
@@ -122,7 +122,7 @@ static void a_changed_byte_drops_its_line(void **state) {
         fputc(byte == '1' ? '2' : '1', change);
         fclose(change);
         DipCostState *again = open_state(plan);
-        DipCostSums sums;
+        DipMetricSums sums;
         const bool errors = dip_cost_state_find(again, key, &sums);
         const bool times = dip_cost_state_round(again, 0, 3) != NULL;
         assert_int_equal(errors + times, 1);
