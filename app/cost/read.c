@@ -2,9 +2,9 @@
 #include "app/cost/write.h"
 
 #include "app/cost/json_fields.h"
+#include "renderer/base/file.h"
 
 #include <cjson/cJSON.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,34 +15,6 @@ enum { MAX_FILE_BYTES = 1 << 29 };
 static bool missing(const char *file, const char *what, DipError *err) {
     return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, what,
                          "is missing or not as `diptych cost` writes it");
-}
-
-static char *read_text(const char *file, DipError *err) {
-    FILE *in = fopen(file, "rb");
-    if (!in) {
-        dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be read: %s", strerror(errno));
-        return NULL;
-    }
-    size_t size = 0, room = 1 << 16;
-    char *text = malloc(room);
-    for (size_t got = 1; text && got > 0 && size < MAX_FILE_BYTES;) {
-        got = fread(text + size, 1, room - size - 1, in);
-        size += got;
-        if (room - size < 2) {
-            char *grown = realloc(text, room *= 2);
-            if (!grown) {
-                free(text);
-            }
-            text = grown;
-        }
-    }
-    fclose(in);
-    if (text) {
-        text[size] = '\0';
-    } else {
-        dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    }
-    return text;
 }
 
 // --- fields ------------------------------------------------------------------------------------
@@ -268,12 +240,14 @@ static bool read_report(const cJSON *root, DipCostReport *report, const char *fi
 
 bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) {
     *report = (DipCostReport){0};
-    char *text = read_text(file, err);
-    cJSON *root = text ? cJSON_Parse(text) : NULL;
-    const bool parsed = root != NULL;
-    if (text && !parsed) {
-        dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is no JSON");
+    unsigned char *text;
+    size_t size_bytes;
+    if (!dip_file_read(file, "report", MAX_FILE_BYTES, &text, &size_bytes, err)) {
+        return false;
     }
+    cJSON *root = cJSON_ParseWithLength((const char *)text, size_bytes);
+    const bool parsed =
+        root || dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file");
     const bool read = parsed && read_report(root, report, file, err);
     cJSON_Delete(root);
     free(text);

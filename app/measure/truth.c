@@ -4,6 +4,7 @@
 #include "app/files/folder.h"
 #include "app/files/whole_file.h"
 #include "app/measure/meter.h"
+#include "renderer/base/file.h"
 #include "renderer/base/hash.h"
 #include "renderer/reference/convergence.h"
 
@@ -219,14 +220,13 @@ static void hash_contents(const unsigned char *bytes, size_t size, char hex[33])
 
 static bool load(DipTruth *truth, const char *cache) {
     char name[PATH_MAX];
-    FILE *in = file_name(truth, cache, name) ? fopen(name, "rb") : NULL;
-    if (!in) {
+    unsigned char *bytes;
+    size_t size;
+    if (!file_name(truth, cache, name) ||
+        !dip_file_read(name, "truth", file_size(truth), &bytes, &size, NULL)) {
         return false;
     }
-    const size_t size = file_size(truth);
-    unsigned char *bytes = malloc(size + 1);
-    bool loaded = bytes && fread(bytes, 1, size + 1, in) == size;
-    fclose(in);
+    bool loaded = size == file_size(truth);
     if (loaded) {
         char hex[33];
         hash_contents(bytes, size - 32, hex);

@@ -364,7 +364,7 @@ static void files_that_cannot_be_read_or_written_are_named(void **context) {
     DipError err = {0};
     assert_false(dip_campath_load("no/such.pth", &none, &err));
     assert_null(none);
-    assert_int_equal(err.code, DIP_ERROR_IO);
+    assert_int_equal(err.code, DIP_ERROR_MISSING);
     assert_string_equal(err.file, "no/such.pth");
     assert_false(dip_campath_load(".", &none, &err)); // a folder
     assert_int_equal(err.code, DIP_ERROR_IO);

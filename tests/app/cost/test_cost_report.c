@@ -302,7 +302,7 @@ static void broken_json_is_refused(void **state) {
     free(text);
     remove(file);
     assert_false(dip_cost_read_json(&read, "none.json", &err));
-    assert_int_equal(err.code, DIP_ERROR_IO);
+    assert_int_equal(err.code, DIP_ERROR_MISSING);
 }
 
 // Rows of CSV have as many fields as the head; the page has its parts and names no other file.
