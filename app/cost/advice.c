@@ -1,17 +1,17 @@
 // For each budget: the combination with the least error whose time, measured again, is within it.
-#include "app/cost/rig.h"
+#include "app/cost/steps.h"
 
 #include "app/progress.h"
 
 #include <stdlib.h>
 
-static bool advise(DipCostRig *rig, double budget_ms, double *latest_ms, DipError *err) {
-    DipCostReport *report = rig->report;
+static bool advise(DipCostContext *cost, double budget_ms, double *latest_ms, DipError *err) {
+    DipCostReport *report = cost->report;
     DipCostAdvice advice = {.budget_ms = budget_ms, .row = -1};
     // A row that turns out slower when timed again keeps its new time, and the next best is tried.
     for (int row; (row = dip_cost_choose(report, latest_ms, budget_ms)) >= 0;) {
         DipStatsEstimate time;
-        if (!dip_cost_time_row_again(rig, row, &time, err)) {
+        if (!dip_cost_time_row_again(cost, row, &time, err)) {
             return false;
         }
         latest_ms[row] = time.value;
@@ -24,8 +24,8 @@ static bool advise(DipCostRig *rig, double budget_ms, double *latest_ms, DipErro
     return true;
 }
 
-bool dip_cost_advise(DipCostRig *rig, DipError *err) {
-    DipCostReport *report = rig->report;
+bool dip_cost_advise(DipCostContext *cost, DipError *err) {
+    DipCostReport *report = cost->report;
     const int budgets = report->options.budget_count;
     double *latest_ms = malloc((size_t)report->row_count * sizeof *latest_ms);
     if (!latest_ms) {
@@ -37,7 +37,7 @@ bool dip_cost_advise(DipCostRig *rig, DipError *err) {
     DipProgress progress = dip_progress_begin("budgets", budgets);
     bool advised = true;
     for (int i = 0; advised && i < budgets; i++) {
-        advised = advise(rig, report->options.budgets_ms[i], latest_ms, err);
+        advised = advise(cost, report->options.budgets_ms[i], latest_ms, err);
         dip_progress_show(&progress, i + 1);
     }
     dip_progress_end(&progress, report->advice_count);

@@ -1,28 +1,11 @@
-// The report as comma-separated values.
-#include "app/cost/write.h"
+// A report as comma-separated values.
+#include "app/cost/formats.h"
 
 #include "app/files/whole_file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
-                        char text[DIP_COST_TEXT]) {
-    const DipQuality *q = &report->rows[row].quality;
-    const DipSettingInfo *info = dip_setting_info(sweep->setting);
-    const char *step = info->steps[q->step[sweep->setting]];
-    if (sweep->setting == DIP_SETTING_AAA && q->step[DIP_SETTING_AAA]) {
-        snprintf(text, DIP_COST_TEXT, "on, asd=%s",
-                 dip_setting_info(DIP_SETTING_ASD)->steps[q->step[DIP_SETTING_ASD]]);
-    } else {
-        snprintf(text, DIP_COST_TEXT, "%s", step);
-    }
-}
-
-const char *dip_cost_floor_mark(const DipCostReport *report, int row) {
-    return dip_cost_at_floor(report, row) ? "at floor" : "";
-}
 
 static void write_head(FILE *out) {
     fprintf(out, "kind,title,path,settings,ratio,ratio_low,ratio_high,ms,ms_low,ms_high");
@@ -40,8 +23,8 @@ static void write_head(FILE *out) {
 }
 
 static void write_errors(const DipCostReport *report, int row, FILE *out) {
-    int places;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
     for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
         const DipMetrics f = dip_metrics_of(&sums, r);
@@ -57,7 +40,7 @@ static void write_errors(const DipCostReport *report, int row, FILE *out) {
             dip_cost_floor_mark(report, row));
 }
 
-// Settings are in quotes, since they have commas.
+// Writes one line. The settings are quoted, since they contain commas.
 static void write_row(const DipCostReport *report, const char *kind, const char *title, int row,
                       int base, FILE *out) {
     char settings[256];

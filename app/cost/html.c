@@ -2,8 +2,8 @@
 #include "app/cost/html.h"
 
 #include "app/cost/fit.h"
+#include "app/cost/formats.h"
 #include "app/cost/order.h"
-#include "app/cost/write.h"
 #include "app/files/whole_file.h"
 #include "app/plot/markup.h"
 #include "app/plot/plot.h"
@@ -35,8 +35,8 @@ static void write_row_text(const DipCostReport *report, int row, FILE *out) {
 }
 
 static DipMetrics figures_of(const DipCostReport *report, int row, int region) {
-    int places;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     return dip_metrics_of(&sums, region);
 }
 
@@ -69,7 +69,7 @@ static void write_facts(const DipCostReport *report, FILE *out) {
 // --- advice ------------------------------------------------------------------------------------
 
 static void write_step_up(const DipCostReport *report, int row, double flip, FILE *out) {
-    const int next = dip_cost_next(report, row);
+    const int next = dip_cost_step_up(report, row);
     if (next < 0) {
         fprintf(out, "<td class=\"l\">none</td><td colspan=\"2\"></td></tr>\n");
         return;
@@ -114,9 +114,9 @@ static void write_advice(const DipCostReport *report, FILE *out) {
 static int list_combinations(const DipCostReport *report, int *rows) {
     int count = 0;
     for (int r = report->combined_first; r < report->row_count; r++) {
-        int places;
-        dip_cost_row_sums(report, r, &places);
-        if (places > 0 && dip_cost_is_timed(report, r)) {
+        int viewpoints;
+        dip_cost_row_sums(report, r, &viewpoints);
+        if (viewpoints > 0 && dip_cost_is_timed(report, r)) {
             rows[count++] = r;
         }
     }
@@ -202,8 +202,8 @@ static void write_front(const DipCostReport *report, FILE *out) {
     const int count = rows ? list_combinations(report, rows) : 0;
     if (rows && values && labels && label_texts && count > 1) {
         int *front = rows + room;
-        const int kept =
-            dip_cost_front_steps(report, front, dip_cost_front(report, rows, count, front));
+        const int kept = dip_cost_pareto_front_thin(
+            report, front, dip_cost_pareto_front(report, rows, count, front));
         Points all = {values, values + room, NULL, NULL};
         Points best = {values + 2 * room, values + 3 * room, labels, label_texts};
         fprintf(out, "<h2>Time against error</h2>\n<p>Both axes are logarithmic. Of the settings "
@@ -303,9 +303,9 @@ static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, F
 
 static void write_step_row(const DipCostReport *report, const DipCostSweep *sweep, int row,
                            FILE *out) {
-    int places;
+    int viewpoints;
     char step[DIP_COST_TEXT];
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     const DipMetrics f = dip_metrics_of(&sums, 0);
     const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
     dip_cost_step_text(report, sweep, row, step);
@@ -349,7 +349,7 @@ static void write_crops(const DipCostReport *report, const DipCostSweep *sweep,
     fprintf(out, "</div>\n");
 }
 
-static void write_sweeps(const DipCostReport *report, const DipCostGallery *gallery, FILE *out) {
+static void write_sweeps(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
     fprintf(out, "<h2>Each setting, on the path made for it</h2>\n"
                  "<p class=\"note\">Black lines: 95 %% intervals. Errors are against the truth; "
                  "less is better, of PSNR and SSIM more. Pictures: where the steps differ most, "
@@ -373,8 +373,8 @@ static void write_sweeps(const DipCostReport *report, const DipCostGallery *gall
             dip_markup_text(out, order);
             fprintf(out, "</p>\n");
         }
-        if (gallery) {
-            write_crops(report, sweep, &gallery->sweeps[s], out);
+        if (pictures) {
+            write_crops(report, sweep, &pictures->sweeps[s], out);
         }
     }
 }
@@ -392,9 +392,9 @@ static void write_regions(const DipCostReport *report, FILE *out) {
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
         for (int i = 0; i < sweep->row_count; i++) {
-            int places;
+            int viewpoints;
             char step[DIP_COST_TEXT];
-            const DipMetricSums sums = dip_cost_row_sums(report, sweep->rows[i], &places);
+            const DipMetricSums sums = dip_cost_row_sums(report, sweep->rows[i], &viewpoints);
             dip_cost_step_text(report, sweep, sweep->rows[i], step);
             fprintf(out, "<tr><td>%s</td><td class=\"l\">%s</td>", sweep->title, step);
             for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
@@ -493,7 +493,7 @@ static void write_foot(const DipCostReport *report, FILE *out) {
         report->options.pixels_per_degree);
 }
 
-bool dip_cost_write_html(const DipCostReport *report, const DipCostGallery *gallery,
+bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pictures,
                          const char *file, DipError *err) {
     char *page = NULL;
     size_t size = 0;
@@ -509,7 +509,7 @@ bool dip_cost_write_html(const DipCostReport *report, const DipCostGallery *gall
     write_facts(report, out);
     write_advice(report, out);
     write_front(report, out);
-    write_sweeps(report, gallery, out);
+    write_sweeps(report, pictures, out);
     write_regions(report, out);
     if (report->rounds > 0) {
         write_counters(report, out);

@@ -1,7 +1,7 @@
 // What theory says of each setting, and what the report says.
 #include "app/cost/order.h"
 
-#include "app/cost/write.h"
+#include "app/cost/formats.h"
 
 #include <stdio.h>
 
@@ -52,9 +52,9 @@ static bool follows(Trend trend, double before, double after, bool strictly) {
 }
 
 static double error_of(const DipCostReport *report, const Theory *theory, int row, bool *judged) {
-    int places;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
-    *judged = *judged && places > 0;
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    *judged = *judged && viewpoints > 0;
     return theory->of_two_frames ? dip_flicker_metrics_of(&sums).two_mean
                                  : dip_metrics_of(&sums, 0).flip;
 }

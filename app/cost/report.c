@@ -1,4 +1,4 @@
-// The report's memory, and figures from what was measured.
+// Memory of a report, and figures from what was measured.
 #include "app/cost/report.h"
 
 #include "app/measure/truth.h"
@@ -15,24 +15,24 @@ const char *const dip_cost_counter_names[DIP_COST_COUNTER_COUNT] = {
 };
 
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err) {
-    const size_t places = (size_t)report->options.places;
+    const size_t viewpoints = (size_t)report->options.places;
     const size_t times = (size_t)report->options.rounds * (size_t)report->options.timed_frames;
-    report->floors = calloc((size_t)report->path_count * places, sizeof *report->floors);
-    report->has_floor = calloc((size_t)report->path_count * places, sizeof *report->has_floor);
+    report->floors = calloc((size_t)report->path_count * viewpoints, sizeof *report->floors);
+    report->has_floor = calloc((size_t)report->path_count * viewpoints, sizeof *report->has_floor);
     bool made = report->floors && report->has_floor;
     for (int r = 0; r < report->row_count; r++) {
         DipCostRow *row = &report->rows[r];
-        row->places = calloc(places, sizeof *row->places);
-        row->judged = calloc(places, sizeof *row->judged);
+        row->viewpoints = calloc(viewpoints, sizeof *row->viewpoints);
+        row->judged = calloc(viewpoints, sizeof *row->judged);
         row->ms = calloc(times, sizeof *row->ms);
-        made = made && row->places && row->judged && row->ms;
+        made = made && row->viewpoints && row->judged && row->ms;
     }
     return made || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
 }
 
 void dip_cost_report_free(DipCostReport *report) {
     for (int r = 0; r < report->row_count; r++) {
-        free(report->rows[r].places);
+        free(report->rows[r].viewpoints);
         free(report->rows[r].judged);
         free(report->rows[r].ms);
     }
@@ -57,15 +57,32 @@ void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT])
     }
 }
 
+void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
+                        char text[DIP_COST_TEXT]) {
+    const DipQuality *q = &report->rows[row].quality;
+    const DipSettingInfo *info = dip_setting_info(sweep->setting);
+    const char *step = info->steps[q->step[sweep->setting]];
+    if (sweep->setting == DIP_SETTING_AAA && q->step[DIP_SETTING_AAA]) {
+        snprintf(text, DIP_COST_TEXT, "on, asd=%s",
+                 dip_setting_info(DIP_SETTING_ASD)->steps[q->step[DIP_SETTING_ASD]]);
+    } else {
+        snprintf(text, DIP_COST_TEXT, "%s", step);
+    }
+}
+
+const char *dip_cost_floor_mark(const DipCostReport *report, int row) {
+    return dip_cost_at_floor(report, row) ? "at floor" : "";
+}
+
 // --- errors ------------------------------------------------------------------------------------
 
-DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *places) {
+DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints) {
     DipMetricSums sums = {0};
-    *places = 0;
+    *viewpoints = 0;
     for (int p = 0; p < report->options.places; p++) {
         if (report->rows[row].judged[p]) {
-            dip_metric_sums_add(&sums, &report->rows[row].places[p]);
-            ++*places;
+            dip_metric_sums_add(&sums, &report->rows[row].viewpoints[p]);
+            ++*viewpoints;
         }
     }
     return sums;
@@ -87,8 +104,8 @@ double dip_cost_floor_rmse(const DipCostReport *report, int path, int region) {
 }
 
 bool dip_cost_at_floor(const DipCostReport *report, int row) {
-    int places;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     return dip_metrics_of(&sums, 0).rmse_lin <
            DIP_TRUTH_FLOOR_FACTOR * dip_cost_floor_rmse(report, report->rows[row].path, 0);
 }
@@ -118,7 +135,7 @@ double dip_cost_median_ratio(const DipCostReport *report, int row, int base) {
                                   report->options.timed_frames, report->rounds);
 }
 
-// --- the front ---------------------------------------------------------------------------------
+// --- choosing ----------------------------------------------------------------------------------
 
 typedef struct Candidate {
     int row;
@@ -133,13 +150,13 @@ static int compare_candidates(const void *a, const void *b) {
     return by_time ? by_time : (x->error > y->error) - (x->error < y->error);
 }
 
-int dip_cost_front(const DipCostReport *report, const int *rows, int count, int *front) {
+int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *front) {
     Candidate *candidates = malloc(((size_t)count + 1) * sizeof *candidates);
     int found = 0, kept = 0;
     for (int i = 0; candidates && i < count; i++) {
-        int places;
-        const DipMetricSums sums = dip_cost_row_sums(report, rows[i], &places);
-        if (places > 0 && dip_cost_is_timed(report, rows[i])) {
+        int viewpoints;
+        const DipMetricSums sums = dip_cost_row_sums(report, rows[i], &viewpoints);
+        if (viewpoints > 0 && dip_cost_is_timed(report, rows[i])) {
             candidates[found++] =
                 (Candidate){rows[i], dip_cost_ms(report, rows[i]), dip_metrics_of(&sums, 0).flip};
         }
@@ -159,12 +176,12 @@ int dip_cost_front(const DipCostReport *report, const int *rows, int count, int 
 }
 
 static double flip_of(const DipCostReport *report, int row) {
-    int places;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     return dip_metrics_of(&sums, 0).flip;
 }
 
-int dip_cost_front_steps(const DipCostReport *report, int *front, int count) {
+int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int count) {
     int kept = 0;
     for (int i = 0; i < count; i++) {
         if (i == 0 || flip_of(report, front[i]) <= 0.99 * flip_of(report, front[kept - 1])) {
@@ -174,14 +191,14 @@ int dip_cost_front_steps(const DipCostReport *report, int *front, int count) {
     return kept;
 }
 
-int dip_cost_next(const DipCostReport *report, int row) {
+int dip_cost_step_up(const DipCostReport *report, int row) {
     const double enough = 0.99 * flip_of(report, row);
     int next = -1;
     double least_ms = INFINITY;
     for (int r = report->combined_first; r < report->row_count; r++) {
-        int places;
-        const DipMetricSums sums = dip_cost_row_sums(report, r, &places);
-        const double ms = places > 0 ? dip_cost_ms(report, r) : INFINITY;
+        int viewpoints;
+        const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
+        const double ms = viewpoints > 0 ? dip_cost_ms(report, r) : INFINITY;
         if (ms < least_ms && dip_metrics_of(&sums, 0).flip <= enough) {
             least_ms = ms;
             next = r;
@@ -194,10 +211,10 @@ int dip_cost_choose(const DipCostReport *report, const double *latest_ms, double
     int best = -1;
     double least = INFINITY;
     for (int r = report->combined_first; r < report->row_count; r++) {
-        int places;
-        const DipMetricSums sums = dip_cost_row_sums(report, r, &places);
+        int viewpoints;
+        const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
         const double flip = dip_metrics_of(&sums, 0).flip;
-        if (places > 0 && latest_ms[r] <= budget_ms && flip < least) {
+        if (viewpoints > 0 && latest_ms[r] <= budget_ms && flip < least) {
             least = flip;
             best = r;
         }

@@ -1,4 +1,4 @@
-// All that decides how a scene looks, in a fixed order.
+// Hashing every part of a scene in a fixed order.
 #include "app/cost/scene_hash.h"
 
 #include "renderer/base/hash.h"

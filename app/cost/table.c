@@ -1,5 +1,5 @@
 // The report as text for a terminal.
-#include "app/cost/write.h"
+#include "app/cost/formats.h"
 
 #include "app/cost/fit.h"
 #include "app/cost/order.h"
@@ -32,11 +32,11 @@ static void print_times(const DipCostReport *report, int row, int base, FILE *ou
 }
 
 static void print_row(const DipCostReport *report, const char *name, int row, int base, FILE *out) {
-    int places;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     fprintf(out, "  %-17s", name);
     print_times(report, row, base, out);
-    if (places > 0) {
+    if (viewpoints > 0) {
         const DipMetrics f = dip_metrics_of(&sums, 0);
         const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
         fprintf(out, " %7.5f %6.2f %7.5f %7.5f %7.5f %7.5f  %s", f.rmse_lin, f.psnr_db, f.ssim,
@@ -70,16 +70,16 @@ static void print_front(const DipCostReport *report, FILE *out) {
     for (int i = 0; i < count; i++) {
         rows[i] = report->combined_first + i;
     }
-    const int kept =
-        dip_cost_front_steps(report, front, dip_cost_front(report, rows, count, front));
+    const int kept = dip_cost_pareto_front_thin(report, front,
+                                                dip_cost_pareto_front(report, rows, count, front));
     fprintf(out,
             "\nOf %d combinations on path %s, those that nothing beats in time and FLIP, by steps "
             "of 1 %% of FLIP:\n",
             count, report->paths[0]);
     for (int i = 0; i < kept; i++) {
-        int places;
+        int viewpoints;
         char text[DIP_COST_TEXT];
-        const DipMetricSums sums = dip_cost_row_sums(report, front[i], &places);
+        const DipMetricSums sums = dip_cost_row_sums(report, front[i], &viewpoints);
         dip_cost_settings_text(&report->rows[front[i]].quality, text);
         fprintf(out, "  %8.2f ms  FLIP %.5f  %s\n", dip_cost_ms(report, front[i]),
                 dip_metrics_of(&sums, 0).flip, text);
@@ -112,16 +112,16 @@ static void print_advice(const DipCostReport *report, FILE *out) {
             fprintf(out, "  %6g ms: nothing measured is that fast\n", advice->budget_ms);
             continue;
         }
-        int places;
+        int viewpoints;
         char text[DIP_COST_TEXT];
-        const DipMetricSums sums = dip_cost_row_sums(report, advice->row, &places);
+        const DipMetricSums sums = dip_cost_row_sums(report, advice->row, &viewpoints);
         dip_cost_settings_text(&report->rows[advice->row].quality, text);
         fprintf(out, "  %6g ms: %s  (%.2f ms, %.2f..%.2f; FLIP %.5f)\n", advice->budget_ms, text,
                 advice->checked_ms, advice->checked_low, advice->checked_high,
                 dip_metrics_of(&sums, 0).flip);
-        const int next = dip_cost_next(report, advice->row);
+        const int next = dip_cost_step_up(report, advice->row);
         if (next >= 0) {
-            const DipMetricSums better = dip_cost_row_sums(report, next, &places);
+            const DipMetricSums better = dip_cost_row_sums(report, next, &viewpoints);
             dip_cost_settings_text(&report->rows[next].quality, text);
             fprintf(out, "  %9s  one step up: %s (%+.2f ms, FLIP %+.5f)\n", "", text,
                     dip_cost_ms(report, next) - dip_cost_ms(report, advice->row),

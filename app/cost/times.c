@@ -1,12 +1,12 @@
 // Times of every row in interleaved rounds, and the work of every row from the warm-up.
-#include "app/cost/rig.h"
+#include "app/cost/steps.h"
 #include "app/measure/timing.h"
 #include "app/progress.h"
 
 #include <stdlib.h>
 
 typedef struct RowTiming {
-    DipCostRig *rig;
+    DipCostContext *cost;
     DipFrame frame; // of the latest run
     DipProgress progress;
     int64_t drawn;
@@ -14,7 +14,7 @@ typedef struct RowTiming {
 
 static bool draw(void *context, const DipTimingTurn *turn, DipError *err) {
     RowTiming *t = context;
-    return dip_cost_draw_timed(t->rig, turn->subject, turn->frame, &t->frame, err);
+    return dip_cost_draw_timed(t->cost, turn->subject, turn->frame, &t->frame, err);
 }
 
 static void add_counters(DipCostRow *row, const DipCounters *counters, double share) {
@@ -27,7 +27,7 @@ static void add_counters(DipCostRow *row, const DipCounters *counters, double sh
 static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
     (void)ms;
     RowTiming *t = context;
-    DipCostReport *report = t->rig->report;
+    DipCostReport *report = t->cost->report;
     if (turn->phase == DIP_TIMING_WARM_UP) {
         add_counters(&report->rows[turn->subject], &t->frame.counters,
                      1.0 / report->options.timed_frames);
@@ -35,7 +35,7 @@ static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipE
     // Nobody knows how often settling draws, so it is no part of the progress.
     t->drawn += turn->phase != DIP_TIMING_SETTLE;
     dip_progress_show(&t->progress, t->drawn);
-    return !dip_cost_interrupted(t->rig, err);
+    return !dip_cost_interrupted(t->cost, err);
 }
 
 static int round_value_count(const DipCostReport *report) {
@@ -44,12 +44,12 @@ static int round_value_count(const DipCostReport *report) {
 
 static const double *known_round(void *context, int round) {
     const RowTiming *t = context;
-    return dip_cost_state_round(t->rig->state, round, round_value_count(t->rig->report));
+    return dip_cost_journal_round(t->cost->journal, round, round_value_count(t->cost->report));
 }
 
 static bool keep_round(void *context, int round, const double *ms, bool known, DipError *err) {
     const RowTiming *t = context;
-    DipCostReport *report = t->rig->report;
+    DipCostReport *report = t->cost->report;
     const int frames = report->options.timed_frames;
     for (int row = 0; row < report->row_count; row++) {
         for (int f = 0; f < frames; f++) {
@@ -57,11 +57,12 @@ static bool keep_round(void *context, int round, const double *ms, bool known, D
         }
     }
     report->rounds = round + 1;
-    return known || dip_cost_state_add_round(t->rig->state, ms, round_value_count(report), err);
+    return known ||
+           dip_cost_journal_add_round(t->cost->journal, ms, round_value_count(report), err);
 }
 
-bool dip_cost_time_rows(DipCostRig *rig, DipError *err) {
-    const DipCostReport *report = rig->report;
+bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
+    const DipCostReport *report = cost->report;
     const DipTimingDef def = {
         .subject_count = report->row_count,
         .frame_count = report->options.timed_frames,
@@ -70,7 +71,7 @@ bool dip_cost_time_rows(DipCostRig *rig, DipError *err) {
         .seed = (uint64_t)report->options.seed,
         .settle = true,
     };
-    RowTiming t = {.rig = rig};
+    RowTiming t = {.cost = cost};
     const DipTimingCalls calls = {
         .run = draw,
         .after_run = after_draw,
@@ -91,32 +92,32 @@ bool dip_cost_time_rows(DipCostRig *rig, DipError *err) {
 // --- one row again -----------------------------------------------------------------------------
 
 typedef struct AgainTiming {
-    DipCostRig *rig;
+    DipCostContext *cost;
     int row;
 } AgainTiming;
 
 static bool draw_again(void *context, const DipTimingTurn *turn, DipError *err) {
     const AgainTiming *t = context;
     DipFrame frame;
-    return dip_cost_draw_timed(t->rig, t->row, turn->frame, &frame, err);
+    return dip_cost_draw_timed(t->cost, t->row, turn->frame, &frame, err);
 }
 
 static bool after_draw_again(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
     (void)turn;
     (void)ms;
     const AgainTiming *t = context;
-    return !dip_cost_interrupted(t->rig, err);
+    return !dip_cost_interrupted(t->cost, err);
 }
 
-bool dip_cost_time_row_again(DipCostRig *rig, int row, DipStatsEstimate *time, DipError *err) {
-    const DipCostOptions *options = &rig->report->options;
+bool dip_cost_time_row_again(DipCostContext *cost, int row, DipStatsEstimate *time, DipError *err) {
+    const DipCostOptions *options = &cost->report->options;
     const DipTimingDef def = {
         .subject_count = 1,
         .frame_count = options->timed_frames,
         .version_count = 1,
         .round_count = options->rounds,
     };
-    AgainTiming t = {rig, row};
+    AgainTiming t = {cost, row};
     const DipTimingCalls calls = {
         .run = draw_again,
         .after_run = after_draw_again,

@@ -1,7 +1,7 @@
 // A report's figures as text.
 #include "app/preview/costs.h"
 
-#include "app/cost/write.h"
+#include "app/cost/formats.h"
 
 #include <math.h>
 #include <stdio.h>

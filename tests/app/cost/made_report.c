@@ -25,15 +25,16 @@ static void fill_row(DipCostReport *report, int index) {
     row->quality.step[DIP_SETTING_AA] = steps[index];
     row->path = index == ROWS - 1;
     for (int p = 0; p < report->options.places; p++) {
-        row->judged[p] = p != 1; // one place is another machine's
+        row->judged[p] = p != 1; // another machine judged one of the viewpoints
         if (row->judged[p]) {
-            fill_sums(&row->places[p], index * 3 + p);
+            fill_sums(&row->viewpoints[p], index * 3 + p);
         }
     }
     for (int i = 0; i < report->rounds * report->options.timed_frames; i++) {
         row->ms[i] = index + 1.0;
     }
-    for (int c = 0; report->rounds > 0 && c < DIP_COST_COUNTER_COUNT; c++) { // timing counts them
+    for (int c = 0; report->rounds > 0 && c < DIP_COST_COUNTER_COUNT;
+         c++) { // counters come from timing
         row->counters[c] = 1000.0 * index + c;
     }
 }

@@ -2,7 +2,7 @@
 #include "app/cost/fit.h"
 #include "app/cost/html.h"
 #include "app/cost/order.h"
-#include "app/cost/write.h"
+#include "app/cost/formats.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>
@@ -64,9 +64,9 @@ static void errors_below_three_floors_say_nothing(void **state) {
     }
     report.floors[0].regions[0].squared_lin = 10.0 * 0.02 * 0.02; // halves differ by 0.02
     expect_near(dip_cost_floor_rmse(&report, 0, 0), 0.01, 1e-15);
-    report.rows[0].places[0].regions[0].squared_lin = 10.0 * 0.0299 * 0.0299;
+    report.rows[0].viewpoints[0].regions[0].squared_lin = 10.0 * 0.0299 * 0.0299;
     assert_true(dip_cost_at_floor(&report, 0));
-    report.rows[0].places[0].regions[0].squared_lin = 10.0 * 0.0301 * 0.0301;
+    report.rows[0].viewpoints[0].regions[0].squared_lin = 10.0 * 0.0301 * 0.0301;
     assert_false(dip_cost_at_floor(&report, 0));
     dip_cost_report_free(&report);
 }
@@ -91,7 +91,7 @@ static void steps_that_stray_are_named(void **state) {
     expect_order(&report, "In order"); // the same work is no stray
     counters[DIP_COST_COUNTER_samples_shown] -= 1.0;
     expect_order(&report, "samples_shown should rise, and at \"4\" does not");
-    report.rows[2].places[0].regions[0].flip = 100.0;
+    report.rows[2].viewpoints[0].regions[0].flip = 100.0;
     expect_order(&report, "FLIP should fall, and at \"2\" does not");
     report.sweeps[0].setting = DIP_SETTING_OPT; // whose errors rise
     expect_order(&report, "FLIP should rise, and at \"off\" does not");
@@ -144,8 +144,8 @@ static void set_place(DipCostReport *report, int row, double ms, double flip) {
         report->rows[row].ms[i] = ms;
     }
     for (int p = 0; p < report->options.places; p++) {
-        report->rows[row].places[p].regions[0].flip =
-            flip * report->rows[row].places[p].regions[0].pixels;
+        report->rows[row].viewpoints[p].regions[0].flip =
+            flip * report->rows[row].viewpoints[p].regions[0].pixels;
     }
 }
 
@@ -159,18 +159,18 @@ static void the_front_is_what_nothing_beats(void **state) {
     set_place(&report, 1, 2.0, 0.3);
     set_place(&report, 2, 3.0, 0.3); // slower and no better than row 1
     set_place(&report, 3, 1.0, 0.5);
-    assert_int_equal(dip_cost_front(&report, rows, 4, front), 3);
+    assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 3);
     assert_int_equal(front[0], 3);
     assert_int_equal(front[1], 1);
     assert_int_equal(front[2], 0);
     set_place(&report, 1, 2.0, 0.101); // row 0 buys less than 1 % over it
-    assert_int_equal(dip_cost_front_steps(&report, front, 3), 2);
+    assert_int_equal(dip_cost_pareto_front_thin(&report, front, 3), 2);
     assert_int_equal(front[1], 1);
     report.combined_first = 0;
-    assert_int_equal(dip_cost_next(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
-    assert_int_equal(dip_cost_next(&report, 1), -1);
+    assert_int_equal(dip_cost_step_up(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
+    assert_int_equal(dip_cost_step_up(&report, 1), -1);
     report.rounds = 0; // without times there is none
-    assert_int_equal(dip_cost_front(&report, rows, 4, front), 0);
+    assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 0);
     dip_cost_report_free(&report);
 }
 
@@ -230,7 +230,7 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
         assert_memory_equal(&x->quality, &y->quality, sizeof x->quality);
         assert_int_equal(x->path, y->path);
         assert_memory_equal(x->judged, y->judged, 3 * sizeof(bool));
-        check_values(x->places, y->places, 3 * sizeof *x->places);
+        check_values(x->viewpoints, y->viewpoints, 3 * sizeof *x->viewpoints);
         check_values(x->ms, y->ms, (size_t)a->rounds * 4 * sizeof(double));
         check_values(x->counters, y->counters, sizeof x->counters);
     }

@@ -1,5 +1,5 @@
 // What the preview tells of times, errors and costs, and when.
-#include "app/cost/write.h"
+#include "app/cost/formats.h"
 #include "app/preview/panel.h"
 #include "app/preview/state.h"
 #include "tests/app/cost/made_report.h"

@@ -1,5 +1,5 @@
-// The report as JSON.
-#include "app/cost/write.h"
+// Writing a report as JSON.
+#include "app/cost/formats.h"
 
 #include "app/cost/fit.h"
 #include "app/cost/json_fields.h"
@@ -8,8 +8,6 @@
 #include <cjson/cJSON.h>
 #include <stdlib.h>
 #include <string.h>
-
-// --- writing -----------------------------------------------------------------------------------
 
 static void add_sums(cJSON *to, const char *name, const DipMetricSums *sums) {
     double values[DIP_METRIC_SUM_COUNT];
@@ -40,18 +38,18 @@ static void add_flicker(cJSON *to, const DipMetricSums *sums) {
 }
 
 static void add_errors(cJSON *object, const DipCostReport *report, int row) {
-    int places;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     cJSON *array = cJSON_AddArrayToObject(object, "places");
     for (int p = 0; p < report->options.places; p++) {
         if (report->rows[row].judged[p]) {
-            cJSON *place = cJSON_CreateObject();
-            cJSON_AddNumberToObject(place, "place", p);
-            add_sums(place, "sums", &report->rows[row].places[p]);
-            cJSON_AddItemToArray(array, place);
+            cJSON *viewpoint = cJSON_CreateObject();
+            cJSON_AddNumberToObject(viewpoint, "place", p);
+            add_sums(viewpoint, "sums", &report->rows[row].viewpoints[p]);
+            cJSON_AddItemToArray(array, viewpoint);
         }
     }
-    if (places > 0) {
+    if (viewpoints > 0) {
         add_figures(cJSON_AddObjectToObject(object, "figures"), &sums);
         add_flicker(cJSON_AddObjectToObject(object, "over_time"), &sums);
         cJSON_AddBoolToObject(object, "at_floor", dip_cost_at_floor(report, row));

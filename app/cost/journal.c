@@ -1,5 +1,5 @@
-// A file of lines: kind, name, numbers in hexadecimal (exact), check.
-#include "app/cost/state.h"
+// A text file. Each line has a kind, a key, numbers in exact hexadecimal notation, and a check.
+#include "app/cost/journal.h"
 
 #include "renderer/base/hash.h"
 
@@ -19,7 +19,7 @@ typedef struct Entry {
     int count;
 } Entry;
 
-struct DipCostState {
+struct DipCostJournal {
     char file[PATH_MAX];
     char plan[KEY_LENGTH + 1];
     FILE *out;
@@ -28,23 +28,23 @@ struct DipCostState {
     int capacity;
 };
 
-static bool io_fault(const DipCostState *state, DipError *err) {
-    return dip_error_set(err, DIP_ERROR_IO, state->file, 0, NULL, "cannot be written: %s",
+static bool io_fault(const DipCostJournal *journal, DipError *err) {
+    return dip_error_set(err, DIP_ERROR_IO, journal->file, 0, NULL, "cannot be written: %s",
                          strerror(errno));
 }
 
-// Takes the values over.
-static bool keep(DipCostState *state, const Entry *entry) {
-    if (state->count == state->capacity) {
-        const int capacity = state->capacity ? 2 * state->capacity : 256;
-        Entry *entries = realloc(state->entries, (size_t)capacity * sizeof *entries);
+// Appends an entry and takes ownership of its values.
+static bool keep(DipCostJournal *journal, const Entry *entry) {
+    if (journal->count == journal->capacity) {
+        const int capacity = journal->capacity ? 2 * journal->capacity : 256;
+        Entry *entries = realloc(journal->entries, (size_t)capacity * sizeof *entries);
         if (!entries) {
             return false;
         }
-        state->entries = entries;
-        state->capacity = capacity;
+        journal->entries = entries;
+        journal->capacity = capacity;
     }
-    state->entries[state->count++] = *entry;
+    journal->entries[journal->count++] = *entry;
     return true;
 }
 
@@ -54,7 +54,7 @@ static void check_of(const char *text, size_t length, char check[33]) {
     dip_hash_hex(&hash, check);
 }
 
-// The numbers between two places of a line; NULL when one is none.
+// Reads the numbers in from..end, separated by spaces. Returns NULL if anything else is there.
 static double *read_values(const char *from, const char *end, int *count) {
     int room = 1;
     for (const char *c = from; c < end; c++) {
@@ -75,8 +75,9 @@ static double *read_values(const char *from, const char *end, int *count) {
     return values;
 }
 
-// "errors KEY v v ... CHECK" or "round PLAN v v ... CHECK", without the line's end.
-static void read_line(DipCostState *state, char *line, size_t length) {
+// Keeps one line, "errors KEY v v ... CHECK" or "round PLAN v v ... CHECK", without its line break.
+// Ignores a line that does not match its check.
+static void read_line(DipCostJournal *journal, char *line, size_t length) {
     Entry entry = {.is_round = strncmp(line, "round ", 6) == 0};
     const size_t head = entry.is_round ? 6 : 7;
     char check[33];
@@ -92,14 +93,14 @@ static void read_line(DipCostState *state, char *line, size_t length) {
     memcpy(entry.key, line + head, KEY_LENGTH);
     line[body] = '\0';
     entry.values = read_values(line + head + KEY_LENGTH + 1, line + body, &entry.count);
-    if (entry.values && !keep(state, &entry)) {
+    if (entry.values && !keep(journal, &entry)) {
         free(entry.values);
     }
 }
 
-// Reads the whole lines there are and cuts off what follows them.
-static bool read_file(DipCostState *state) {
-    FILE *in = fopen(state->file, "r");
+// Reads all complete lines and cuts off an incomplete one at the end of the file.
+static bool read_file(DipCostJournal *journal) {
+    FILE *in = fopen(journal->file, "r");
     if (!in) {
         return true;
     }
@@ -111,61 +112,61 @@ static bool read_file(DipCostState *state) {
             break;
         }
         whole = ftell(in);
-        read_line(state, line, (size_t)length - 1);
+        read_line(journal, line, (size_t)length - 1);
     }
     free(line);
     fclose(in);
-    return truncate(state->file, whole) == 0;
+    return truncate(journal->file, whole) == 0;
 }
 
-DipCostState *dip_cost_state_open(const char *folder, const char *plan, DipError *err) {
-    DipCostState *state = calloc(1, sizeof *state);
-    if (!state) {
+DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipError *err) {
+    DipCostJournal *journal = calloc(1, sizeof *journal);
+    if (!journal) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
         return NULL;
     }
-    const int length = snprintf(state->file, sizeof state->file, "%s/cost.state", folder);
-    snprintf(state->plan, sizeof state->plan, "%s", plan);
-    if (length < 0 || (size_t)length >= sizeof state->file) {
+    const int length = snprintf(journal->file, sizeof journal->file, "%s/cost.state", folder);
+    snprintf(journal->plan, sizeof journal->plan, "%s", plan);
+    if (length < 0 || (size_t)length >= sizeof journal->file) {
         dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
-        dip_cost_state_close(&state, false);
+        dip_cost_journal_close(&journal, false);
         return NULL;
     }
-    const bool read = read_file(state);
-    state->out = read ? fopen(state->file, "a") : NULL;
-    if (!state->out) {
-        io_fault(state, err);
-        dip_cost_state_close(&state, false);
+    const bool read = read_file(journal);
+    journal->out = read ? fopen(journal->file, "a") : NULL;
+    if (!journal->out) {
+        io_fault(journal, err);
+        dip_cost_journal_close(&journal, false);
     }
-    return state;
+    return journal;
 }
 
-void dip_cost_state_close(DipCostState **state_pointer, bool finished) {
-    DipCostState *state = *state_pointer;
-    if (!state) {
+void dip_cost_journal_close(DipCostJournal **state_pointer, bool finished) {
+    DipCostJournal *journal = *state_pointer;
+    if (!journal) {
         return;
     }
-    if (state->out) {
-        fclose(state->out);
+    if (journal->out) {
+        fclose(journal->out);
         if (finished) {
-            remove(state->file);
+            remove(journal->file);
         }
     }
-    for (int i = 0; i < state->count; i++) {
-        free(state->entries[i].values);
+    for (int i = 0; i < journal->count; i++) {
+        free(journal->entries[i].values);
     }
-    free(state->entries);
-    free(state);
+    free(journal->entries);
+    free(journal);
     *state_pointer = NULL;
 }
 
-static bool append(DipCostState *state, bool is_round, const char *key, const double *values,
+static bool append(DipCostJournal *journal, bool is_round, const char *key, const double *values,
                    int count, DipError *err) {
     char *text = NULL;
     size_t size = 0;
     FILE *line = open_memstream(&text, &size);
     if (!line) {
-        return io_fault(state, err);
+        return io_fault(journal, err);
     }
     fprintf(line, "%s %s", is_round ? "round" : "errors", key);
     for (int i = 0; i < count; i++) {
@@ -175,22 +176,22 @@ static bool append(DipCostState *state, bool is_round, const char *key, const do
     if (written) {
         char check[33];
         check_of(text, size, check);
-        written = fprintf(state->out, "%s %s\n", text, check) > 0 && fflush(state->out) == 0;
+        written = fprintf(journal->out, "%s %s\n", text, check) > 0 && fflush(journal->out) == 0;
     }
     free(text);
     Entry entry = {is_round, "", malloc((size_t)count * sizeof *values), count};
     snprintf(entry.key, sizeof entry.key, "%s", key);
-    if (!entry.values || !keep(state, &entry)) {
+    if (!entry.values || !keep(journal, &entry)) {
         free(entry.values);
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
     }
     memcpy(entry.values, values, (size_t)count * sizeof *values);
-    return written || io_fault(state, err);
+    return written || io_fault(journal, err);
 }
 
-bool dip_cost_state_find(const DipCostState *state, const char *key, DipMetricSums *sums) {
-    for (int i = 0; i < state->count; i++) {
-        const Entry *entry = &state->entries[i];
+bool dip_cost_journal_find(const DipCostJournal *journal, const char *key, DipMetricSums *sums) {
+    for (int i = 0; i < journal->count; i++) {
+        const Entry *entry = &journal->entries[i];
         if (!entry->is_round && entry->count == DIP_METRIC_SUM_COUNT &&
             strcmp(entry->key, key) == 0) {
             memcpy(sums, entry->values, sizeof *sums);
@@ -200,17 +201,17 @@ bool dip_cost_state_find(const DipCostState *state, const char *key, DipMetricSu
     return false;
 }
 
-bool dip_cost_state_add(DipCostState *state, const char *key, const DipMetricSums *sums,
-                        DipError *err) {
+bool dip_cost_journal_add(DipCostJournal *journal, const char *key, const DipMetricSums *sums,
+                          DipError *err) {
     double values[DIP_METRIC_SUM_COUNT];
     memcpy(values, sums, sizeof values);
-    return append(state, false, key, values, DIP_METRIC_SUM_COUNT, err);
+    return append(journal, false, key, values, DIP_METRIC_SUM_COUNT, err);
 }
 
-const double *dip_cost_state_round(const DipCostState *state, int round, int count) {
-    for (int i = 0; i < state->count; i++) {
-        const Entry *entry = &state->entries[i];
-        if (entry->is_round && entry->count == count && strcmp(entry->key, state->plan) == 0 &&
+const double *dip_cost_journal_round(const DipCostJournal *journal, int round, int count) {
+    for (int i = 0; i < journal->count; i++) {
+        const Entry *entry = &journal->entries[i];
+        if (entry->is_round && entry->count == count && strcmp(entry->key, journal->plan) == 0 &&
             round-- == 0) {
             return entry->values;
         }
@@ -218,6 +219,7 @@ const double *dip_cost_state_round(const DipCostState *state, int round, int cou
     return NULL;
 }
 
-bool dip_cost_state_add_round(DipCostState *state, const double *ms, int count, DipError *err) {
-    return append(state, true, state->plan, ms, count, err);
+bool dip_cost_journal_add_round(DipCostJournal *journal, const double *ms, int count,
+                                DipError *err) {
+    return append(journal, true, journal->plan, ms, count, err);
 }

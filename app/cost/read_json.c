@@ -1,5 +1,5 @@
-// A report back from its JSON.
-#include "app/cost/write.h"
+// Reading a report from JSON.
+#include "app/cost/formats.h"
 
 #include "app/cost/json_fields.h"
 #include "renderer/base/file.h"
@@ -14,12 +14,12 @@ enum { MAX_FILE_BYTES = 1 << 29 };
 
 static bool missing(const char *file, const char *what, DipError *err) {
     return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, what,
-                         "is missing or not as `diptych cost` writes it");
+                         "is missing, or is not what `diptych cost` writes");
 }
 
 // --- fields ------------------------------------------------------------------------------------
 
-// A whole number of an object in least..most; else -1 and *ok false.
+// Reads a whole number in least..most. Otherwise sets *ok to false and returns -1.
 static int integer(const cJSON *object, const char *name, int least, int most, bool *ok) {
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
     const bool good = cJSON_IsNumber(item) && item->valuedouble >= least &&
@@ -36,7 +36,7 @@ static void copy_text(const cJSON *item, char *to, size_t size, bool *ok) {
     }
 }
 
-// An array of `count` finite numbers.
+// Reads an array of exactly `count` finite numbers.
 static bool numbers(const cJSON *array, int count, double *to) {
     if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != count) {
         return false;
@@ -104,10 +104,10 @@ static bool read_row(const cJSON *object, DipCostReport *report, DipCostRow *row
     row->path = integer(object, "path", 0, report->path_count - 1, &ok);
     ok = ok && cJSON_IsString(settings) &&
          dip_quality_parse(settings->valuestring, &row->quality, NULL);
-    const cJSON *place;
-    cJSON_ArrayForEach(place, cJSON_GetObjectItemCaseSensitive(object, "places")) {
-        const int p = integer(place, "place", 0, report->options.places - 1, &ok);
-        if (!ok || !read_sums(place, "sums", &row->places[p])) {
+    const cJSON *viewpoint;
+    cJSON_ArrayForEach(viewpoint, cJSON_GetObjectItemCaseSensitive(object, "places")) {
+        const int p = integer(viewpoint, "place", 0, report->options.places - 1, &ok);
+        if (!ok || !read_sums(viewpoint, "sums", &row->viewpoints[p])) {
             return false;
         }
         row->judged[p] = true;
@@ -178,8 +178,8 @@ static bool read_floors(const cJSON *root, DipCostReport *report) {
     const cJSON *object;
     cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "floors")) {
         const int path = integer(object, "path", 0, report->path_count - 1, &ok);
-        const int place = integer(object, "place", 0, report->options.places - 1, &ok);
-        const int index = path * report->options.places + place;
+        const int viewpoint = integer(object, "place", 0, report->options.places - 1, &ok);
+        const int index = path * report->options.places + viewpoint;
         if (!ok || !read_sums(object, "half_against_half", &report->floors[index])) {
             return false;
         }
