@@ -80,21 +80,23 @@ static void expect_order(const DipCostReport *report, const char *part) {
 }
 
 // FLIP of the made rows falls as their numbers rise, and all counters rise.
-static void steps_that_stray_are_named(void **state) {
+static void steps_out_of_order_are_named(void **state) {
     (void)state;
     DipCostReport report;
     dip_made_report(&report, 1);
-    expect_order(&report, "In order: FLIP falls from step to step, samples_shown rises.");
+    expect_order(
+        &report,
+        "As theory says: FLIP falls from step to step, and the counter samples_shown rises.");
     double *counters = report.rows[3].counters;
     counters[DIP_COST_COUNTER_samples_shown] =
         report.rows[2].counters[DIP_COST_COUNTER_samples_shown];
-    expect_order(&report, "In order"); // the same work is no stray
+    expect_order(&report, "As theory says"); // equal work follows theory
     counters[DIP_COST_COUNTER_samples_shown] -= 1.0;
-    expect_order(&report, "samples_shown should rise, and at \"4\" does not");
+    expect_order(&report, "at step \"4\", the counter samples_shown should rise but does not.");
     report.rows[2].viewpoints[0].regions[0].flip = 100.0;
-    expect_order(&report, "FLIP should fall, and at \"2\" does not");
+    expect_order(&report, "at step \"2\", FLIP should fall but does not.");
     report.sweeps[0].setting = DIP_SETTING_OPT; // whose errors rise
-    expect_order(&report, "FLIP should rise, and at \"off\" does not");
+    expect_order(&report, "at step \"off\", FLIP should rise but does not.");
     report.sweeps[0].setting = DIP_SETTING_MIPDEBUG;
     char text[2 * DIP_COST_TEXT];
     assert_false(dip_cost_order_text(&report, &report.sweeps[0], text, sizeof text));
@@ -139,7 +141,7 @@ static void times_are_means_of_medians(void **state) {
     dip_cost_report_free(&report);
 }
 
-static void set_place(DipCostReport *report, int row, double ms, double flip) {
+static void set_viewpoint(DipCostReport *report, int row, double ms, double flip) {
     for (int i = 0; i < report->rounds * report->options.timed_frames; i++) {
         report->rows[row].ms[i] = ms;
     }
@@ -149,21 +151,21 @@ static void set_place(DipCostReport *report, int row, double ms, double flip) {
     }
 }
 
-static void the_front_is_what_nothing_beats(void **state) {
+static void no_other_row_beats_the_pareto_front(void **state) {
     (void)state;
     DipCostReport report;
     const int rows[4] = {0, 1, 2, 3};
     int front[4];
     dip_made_report(&report, 3);
-    set_place(&report, 0, 4.0, 0.1);
-    set_place(&report, 1, 2.0, 0.3);
-    set_place(&report, 2, 3.0, 0.3); // slower and no better than row 1
-    set_place(&report, 3, 1.0, 0.5);
+    set_viewpoint(&report, 0, 4.0, 0.1);
+    set_viewpoint(&report, 1, 2.0, 0.3);
+    set_viewpoint(&report, 2, 3.0, 0.3); // slower and no better than row 1
+    set_viewpoint(&report, 3, 1.0, 0.5);
     assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 3);
     assert_int_equal(front[0], 3);
     assert_int_equal(front[1], 1);
     assert_int_equal(front[2], 0);
-    set_place(&report, 1, 2.0, 0.101); // row 0 buys less than 1 % over it
+    set_viewpoint(&report, 1, 2.0, 0.101); // row 0 buys less than 1 % over it
     assert_int_equal(dip_cost_pareto_front_thin(&report, front, 3), 2);
     assert_int_equal(front[1], 1);
     report.combined_first = 0;
@@ -344,10 +346,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figures_are_means),
         cmocka_unit_test(errors_below_three_floors_say_nothing),
-        cmocka_unit_test(steps_that_stray_are_named),
+        cmocka_unit_test(steps_out_of_order_are_named),
         cmocka_unit_test(ratios_see_past_drift_and_frames),
         cmocka_unit_test(times_are_means_of_medians),
-        cmocka_unit_test(the_front_is_what_nothing_beats),
+        cmocka_unit_test(no_other_row_beats_the_pareto_front),
         cmocka_unit_test(the_fit_finds_what_work_costs),
         cmocka_unit_test(json_keeps_everything),
         cmocka_unit_test(broken_json_is_refused),
