@@ -1,4 +1,4 @@
-// Making pools, scenes and renderers for a plan.
+// Making the pools, scenes and renderers that a plan needs.
 #include "app/bench/context.h"
 
 #include "app/bench/synthetic.h"
@@ -6,24 +6,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A scene with the camera that flies through it.
+// A scene with the camera path through it.
 typedef struct View {
     const DipScene *scene;
-    DipScene *own; // the scene, where it is not the session's
+    DipScene *own; // the scene if it is not the session's, else NULL
     const DipCamPath *path;
     DipCamPath *own_path;
     double fov_y_deg;
-    int triangles; // of a grid, as asked for
+    int triangles; // of a grid, as the option names it
     double aspect;
 } View;
 
 struct DipBenchContext {
     const DipBenchPlan *plan;
-    DipPool **pools; // per thread count
+    DipPool **pools; // one per number of threads
     View *views;
     int view_count;
-    DipRenderer **renderers; // per combination
-    int *view_of;            // likewise
+    DipRenderer **renderers; // one per combination
+    int *view_of;            // index of each combination's view
 };
 
 static bool out_of_memory(DipError *err) {
@@ -55,7 +55,8 @@ static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSessio
     return view->own != NULL;
 }
 
-// Grids fill the picture: one for each count and shape of picture.
+// Finds the view of a grid. Grids fill the picture, so each number of triangles and each aspect
+// ratio has its own.
 static int find_view(const DipBenchContext *bench, int triangles, double aspect) {
     for (int i = 0; i < bench->view_count; i++) {
         if (bench->views[i].triangles == triangles && bench->views[i].aspect == aspect) {

@@ -1,4 +1,4 @@
-// What the bench draws with: pools, scenes, and a renderer for each combination.
+// What the bench draws with: thread pools, scenes, and a renderer for each combination.
 #ifndef DIP_APP_BENCH_RIG_H
 #define DIP_APP_BENCH_RIG_H
 
@@ -6,16 +6,17 @@
 
 typedef struct DipBenchContext DipBenchContext;
 
-// Borrows the plan and the session.
+// Borrows the plan and the session. Not thread-safe.
 DipBenchContext *dip_bench_context_create(const DipBenchPlan *plan, const DipSession *session,
                                           DipError *err);
 void dip_bench_context_destroy(DipBenchContext **bench);
 
-// Draws one of the frames that divide the camera path evenly.
+// Draws a combination's frame 0..frames - 1; frames divide the camera path evenly. *picture is
+// valid until the combination draws again.
 bool dip_bench_context_draw(DipBenchContext *bench, int combination, int frame, DipFrame *picture,
                             DipError *err);
 
-// Of what a combination draws.
+// The number of triangles in the scene that a combination draws.
 uint64_t dip_bench_context_triangles(const DipBenchContext *bench, int combination);
 
 #endif
