@@ -2,11 +2,11 @@
 // and truncated files.
 #include "assets/picture.h"
 
-#include <errno.h>
+#include "renderer/base/file.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 // stb_image's code is compiled into this file only, with the supported formats and without file
 // access.
@@ -119,42 +119,11 @@ bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *nam
     return true;
 }
 
-static uint8_t *read_bytes(const char *path, size_t *size_bytes, DipError *err) {
-    FILE *file = fopen(path, "rb");
-    if (!file) {
-        const bool missing = errno == ENOENT || errno == ENOTDIR;
-        dip_error_set(err, missing ? DIP_ERROR_MISSING : DIP_ERROR_IO, path, 0, NULL,
-                      "cannot open the picture: %s", strerror(errno));
-        return NULL;
-    }
-    struct stat info = {0};
-    uint8_t *bytes = NULL;
-    if (fstat(fileno(file), &info) != 0 || !S_ISREG(info.st_mode)) {
-        dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "the picture is not a regular file");
-    } else if (info.st_size < 0 || (size_t)info.st_size > max_file_bytes) {
-        dip_error_set(err, DIP_ERROR_OVERSIZED, path, 0, NULL,
-                      "the picture file has %lld bytes, accepted at most %zu",
-                      (long long)info.st_size, max_file_bytes);
-    } else if (!(bytes = malloc((size_t)info.st_size + 1))) {
-        dip_error_set(err, DIP_ERROR_MEMORY, path, 0, NULL, "out of memory");
-    } else {
-        *size_bytes = fread(bytes, 1, (size_t)info.st_size, file);
-        if (*size_bytes != (size_t)info.st_size) {
-            dip_error_set(err, DIP_ERROR_IO, path, 0, NULL,
-                          "the picture file cannot be read to its end");
-            free(bytes);
-            bytes = NULL;
-        }
-    }
-    fclose(file);
-    return bytes;
-}
-
 bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err) {
     *picture = (DipPicture){0};
     size_t size_bytes = 0;
-    uint8_t *bytes = read_bytes(path, &size_bytes, err);
-    if (!bytes) {
+    uint8_t *bytes;
+    if (!dip_file_read(path, "picture", max_file_bytes, &bytes, &size_bytes, err)) {
         return false;
     }
     const bool ok = dip_picture_decode(bytes, size_bytes, path, picture, err);

@@ -1,6 +1,8 @@
 // Loads and saves camera path files, and recognises their format.
 #include "campaths/campath_private.h"
 
+#include "renderer/base/file.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,44 +23,15 @@ bool dip_campath_parse(const void *bytes, size_t size_bytes, const char *name, D
     return dip_campath_parse_text(bytes, size_bytes, name, path, err);
 }
 
-// Finds the size of an open file. Fails for anything but a regular file within the size limit.
-static bool measure(FILE *stream, const char *file, size_t *size_bytes, DipError *err) {
-    struct stat status;
-    if (fstat(fileno(stream), &status) != 0 || !S_ISREG(status.st_mode)) {
-        return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL,
-                             "is not a regular file, accepted a .pth or .bth camera path");
-    }
-    if ((uint64_t)status.st_size > DIP_CAMPATH_MAX_FILE_BYTES) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, file, 0, NULL,
-                             "the file has %lld bytes, accepted up to %zu",
-                             (long long)status.st_size, DIP_CAMPATH_MAX_FILE_BYTES);
-    }
-    *size_bytes = (size_t)status.st_size;
-    return true;
-}
-
 bool dip_campath_load(const char *file, DipCamPath **path, DipError *err) {
     *path = NULL;
-    FILE *stream = fopen(file, "rb");
-    if (!stream) {
-        return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL,
-                             "cannot be opened (%s), accepted a .pth or .bth camera path",
-                             strerror(errno));
-    }
+    unsigned char *bytes;
     size_t size_bytes = 0;
-    bool loaded = measure(stream, file, &size_bytes, err);
-    if (loaded) {
-        unsigned char *bytes = malloc(size_bytes + 1);
-        if (!bytes) {
-            loaded = dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-        } else if (fread(bytes, 1, size_bytes, stream) != size_bytes) {
-            loaded = dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be read to its end");
-        } else {
-            loaded = dip_campath_parse(bytes, size_bytes, file, path, err);
-        }
-        free(bytes);
+    if (!dip_file_read(file, "camera path", DIP_CAMPATH_MAX_FILE_BYTES, &bytes, &size_bytes, err)) {
+        return false;
     }
-    fclose(stream);
+    const bool loaded = dip_campath_parse(bytes, size_bytes, file, path, err);
+    free(bytes);
     return loaded;
 }
 

@@ -2,9 +2,9 @@
 #include "app/commands.h"
 
 #include "app/bench/child.h"
+#include "app/bench/context.h"
 #include "app/bench/measure.h"
 #include "app/bench/plots.h"
-#include "app/bench/rig.h"
 #include "app/bench/table.h"
 #include "app/files/folder.h"
 
@@ -15,26 +15,26 @@
 static bool draw_here(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
                       DipError *err) {
     DipFrame picture;
-    if (!dip_bench_rig_draw(context, combination, frame, &picture, err)) {
+    if (!dip_bench_context_draw(context, combination, frame, &picture, err)) {
         return false;
     }
     dip_bench_sample_set(sample, &picture, hash);
     return true;
 }
 
-static bool open_here(DipBenchRig **rig, const DipBenchPlan *plan, const DipSession *session,
+static bool open_here(DipBenchContext **bench, const DipBenchPlan *plan, const DipSession *session,
                       DipBenchSource *source, DipError *err) {
-    *rig = dip_bench_rig_create(plan, session, err);
-    *source = (DipBenchSource){draw_here, *rig};
-    return *rig != NULL;
+    *bench = dip_bench_context_create(plan, session, err);
+    *source = (DipBenchSource){draw_here, *bench};
+    return *bench != NULL;
 }
 
 static bool measure_here(const DipBenchPlan *plan, const DipSession *session,
                          const DipOptions *options, DipError *err) {
-    DipBenchRig *rig;
+    DipBenchContext *bench;
     DipBenchResult result = {0};
     DipBenchSource source;
-    bool done = open_here(&rig, plan, session, &source, err) &&
+    bool done = open_here(&bench, plan, session, &source, err) &&
                 dip_bench_result_init(&result, plan, err) &&
                 dip_bench_measure(plan, &source, 1, &result, err);
     if (done) {
@@ -46,16 +46,16 @@ static bool measure_here(const DipBenchPlan *plan, const DipSession *session,
            (!options->bench.csv || dip_bench_write_csv(options->bench.csv, &result, 1, err)) &&
            (!options->bench.svg || dip_bench_write_plots(options->bench.svg, &result, err));
     dip_bench_result_free(&result);
-    dip_bench_rig_destroy(&rig);
+    dip_bench_context_destroy(&bench);
     return done;
 }
 
 static bool serve(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
-    DipBenchRig *rig;
+    DipBenchContext *bench;
     DipBenchSource source;
     const bool done =
-        open_here(&rig, plan, session, &source, err) && dip_bench_serve(plan, &source, err);
-    dip_bench_rig_destroy(&rig);
+        open_here(&bench, plan, session, &source, err) && dip_bench_serve(plan, &source, err);
+    dip_bench_context_destroy(&bench);
     return done;
 }
 

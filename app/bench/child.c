@@ -1,4 +1,4 @@
-// Talking with another program over pipes.
+// Starting another program and talking with it through pipes.
 #include "app/bench/child.h"
 
 #include "renderer/base/number.h"
@@ -20,14 +20,15 @@ extern char **environ;
 
 struct DipBenchChild {
     const char *program; // borrowed
-    pid_t pid;           // 0: none
+    pid_t pid;           // 0 if there is no process
     FILE *to;
     FILE *from;
 };
 
 // --- starting ----------------------------------------------------------------------------------
 
-// PROGRAM and the rest of the command line, with --serve. Borrows all texts.
+// This program's command line with PROGRAM as its name and --serve at the end. Texts are borrowed;
+// free the array.
 static char **child_arguments(const char *program, const DipBenchOptions *options) {
     char **arguments = calloc((size_t)options->argc + 2, sizeof *arguments);
     if (arguments) {
@@ -38,7 +39,8 @@ static char **child_arguments(const char *program, const DipBenchOptions *option
     return arguments;
 }
 
-// in, out: what the child reads and writes; none of the pipes' ends stays open in it.
+// Starts the child with `in` as its standard input and `out` as its standard output. No other end
+// of a pipe stays open in it. Returns 0 or an errno.
 static int spawn(DipBenchChild *child, const DipBenchOptions *options, int in, int out) {
     char **arguments = child_arguments(child->program, options);
     posix_spawn_file_actions_t actions;
@@ -84,7 +86,7 @@ static bool start(DipBenchChild *child, const DipBenchOptions *options, DipError
 static bool read_line(DipBenchChild *child, char line[LINE_SIZE], DipError *err) {
     return fgets(line, LINE_SIZE, child->from) ||
            dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "--vs",
-                         "%s has ended; its own message says why", child->program);
+                         "%s has ended; see its own message above", child->program);
 }
 
 static bool check_greeting(DipBenchChild *child, const DipBenchPlan *plan, DipError *err) {
@@ -100,7 +102,7 @@ static bool check_greeting(DipBenchChild *child, const DipBenchPlan *plan, DipEr
     }
     return (count == plan->count && frames == plan->options.frames) ||
            dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--vs",
-                         "%s has %d combinations of %d frames, this program %d of %d",
+                         "%s has %d combinations of %d frames, this program has %d of %d",
                          child->program, count, frames, plan->count, plan->options.frames);
 }
 
@@ -111,7 +113,7 @@ DipBenchChild *dip_bench_child_start(const char *program, const DipBenchPlan *pl
         return NULL;
     }
     child->program = program;
-    signal(SIGPIPE, SIG_IGN); // a child that ends shows as an end of file
+    signal(SIGPIPE, SIG_IGN); // a child that has ended then shows as an end of file
     if (!start(child, &plan->options, err) || !check_greeting(child, plan, err)) {
         dip_bench_child_stop(&child);
     }
@@ -138,7 +140,8 @@ void dip_bench_child_stop(DipBenchChild **child_pointer) {
 
 // --- asking ------------------------------------------------------------------------------------
 
-static void take_word(const char *word, DipBenchSample *sample) {
+// Stores one NAME=VALUE of an answer; ignores a name that is not known.
+static void store_word(const char *word, DipBenchSample *sample) {
     const char *equals = strchr(word, '=');
     const size_t length = equals ? (size_t)(equals - word) : 0;
     if (length == strlen("hash") && memcmp(word, "hash", length) == 0) {
@@ -152,12 +155,12 @@ static void take_word(const char *word, DipBenchSample *sample) {
             dip_number_parse(equals + 1, strlen(equals + 1), &sample->ms[stage]);
         }
     }
-#define TAKE_COUNTER(name, text)                                                                   \
+#define STORE_COUNTER(name, text)                                                                  \
     if (length == strlen(#name) && memcmp(word, #name, length) == 0) {                             \
         sample->counters.name = strtoull(equals + 1, NULL, 10);                                    \
     }
-    DIP_COUNTER_LIST(TAKE_COUNTER)
-#undef TAKE_COUNTER
+    DIP_COUNTER_LIST(STORE_COUNTER)
+#undef STORE_COUNTER
 }
 
 bool dip_bench_child_draw(void *context, int combination, int frame, bool hash,
@@ -172,10 +175,11 @@ bool dip_bench_child_draw(void *context, int combination, int frame, bool hash,
     }
     char *rest = NULL;
     for (char *word = strtok_r(line, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest)) {
-        take_word(word, sample);
+        store_word(word, sample);
     }
     return sample->ms[DIP_BENCH_STAGE_total] > 0.0 ||
-           dip_error_set(err, DIP_ERROR_FORMAT, NULL, 0, "--vs", "%s told no time", child->program);
+           dip_error_set(err, DIP_ERROR_FORMAT, NULL, 0, "--vs", "%s answered without a time",
+                         child->program);
 }
 
 // --- answering ---------------------------------------------------------------------------------
@@ -184,9 +188,9 @@ static void answer(const DipBenchSample *sample) {
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         printf("%s_ms=%.6f ", dip_bench_stage_names[stage], sample->ms[stage]);
     }
-#define SAY_COUNTER(name, text) printf("%s=%" PRIu64 " ", #name, sample->counters.name);
-    DIP_COUNTER_LIST(SAY_COUNTER)
-#undef SAY_COUNTER
+#define PRINT_COUNTER(name, text) printf("%s=%" PRIu64 " ", #name, sample->counters.name);
+    DIP_COUNTER_LIST(PRINT_COUNTER)
+#undef PRINT_COUNTER
     printf("hash=%s\n", sample->hash);
     fflush(stdout);
 }

@@ -1,9 +1,9 @@
-// Another program of this kind as a source: `PROGRAM bench ... --serve` at the end of two pipes.
+// Measuring another build of this program: `PROGRAM bench ... --serve`, driven through two pipes.
 //
-// The conversation, in lines: the child greets with "diptych-bench 1 COMBINATIONS FRAMES". It is
-// asked "draw COMBINATION FRAME HASH" (0 or 1) and answers "total_ms=1.5 geometry_ms=.. hash=.."
-// or, when it failed, says why on standard error and ends. Names that one side does not know are
-// passed over, so that builds with other stages can be compared.
+// The protocol is lines of text. The child begins with "diptych-bench 1 COMBINATIONS FRAMES". For
+// each request "draw COMBINATION FRAME HASH" (HASH is 0 or 1) it answers
+// "total_ms=1.5 geometry_ms=... hash=...", or writes an error to standard error and ends. Either
+// side ignores names that it does not know, so that builds with other stages can be compared.
 #ifndef DIP_APP_BENCH_CHILD_H
 #define DIP_APP_BENCH_CHILD_H
 
@@ -11,18 +11,18 @@
 
 typedef struct DipBenchChild DipBenchChild;
 
-// Starts a program with the plan's command line and --serve. Fails when it does not start, does
-// not greet, or has other combinations or frames.
+// Starts a program with the plan's command line and --serve. Fails if it cannot be started, does
+// not begin with the greeting, or has other numbers of combinations or frames.
 DipBenchChild *dip_bench_child_start(const char *program, const DipBenchPlan *plan, DipError *err);
 
-// Closes its standard input and waits until it has ended.
+// Closes the child's standard input and waits until it has ended.
 void dip_bench_child_stop(DipBenchChild **child);
 
-// Asks the child; the context is a DipBenchChild.
+// The `draw` of a DipBenchSource whose context is a DipBenchChild.
 bool dip_bench_child_draw(void *context, int combination, int frame, bool hash,
                           DipBenchSample *sample, DipError *err);
 
-// The other end: answers standard input until it is closed.
+// Runs in the child: answers requests on standard input until it is closed.
 bool dip_bench_serve(const DipBenchPlan *plan, const DipBenchSource *source, DipError *err);
 
 #endif

@@ -1,4 +1,4 @@
-// Combining the axes' values.
+// Combining the values of all axes.
 #include "app/bench/plan.h"
 
 #include "app/machine.h"

@@ -1,10 +1,10 @@
-// What is measured: the axes' values, and every combination of them with its label.
+// What is measured: the values on each axis, and every combination of them with its label.
 #ifndef DIP_APP_BENCH_PLAN_H
 #define DIP_APP_BENCH_PLAN_H
 
 #include "app/session.h"
 
-// X(NAME, name): in the order of the table, the last changes fastest.
+// X(NAME, name), in the order of the table's rows: the last axis changes fastest.
 #define DIP_BENCH_AXIS_LIST(X)                                                                     \
     X(GRID, grid)                                                                                  \
     X(SIZE, size)                                                                                  \
@@ -19,33 +19,34 @@ typedef enum DipBenchAxis {
         DIP_BENCH_AXIS_COUNT
 } DipBenchAxis;
 
-// A combination: for each axis the index of its value.
+// A combination: the index of a value on each axis.
 typedef struct DipBenchCombination {
     int at[DIP_BENCH_AXIS_COUNT];
 } DipBenchCombination;
 
 typedef struct DipBenchPlan {
-    DipBenchOptions options;          // with the defaults filled in; grids may be empty
-    int counts[DIP_BENCH_AXIS_COUNT]; // values per axis, at least 1
+    DipBenchOptions options;          // With defaults filled in; the list of grids may be empty.
+    int counts[DIP_BENCH_AXIS_COUNT]; // Values per axis, at least 1.
     DipBenchCombination combinations[DIP_BENCH_MAX_COMBINATIONS];
     int count;
 } DipBenchPlan;
 
-// Fills in from the session what the options leave open.
+// Makes the plan. The session gives what the options leave open.
 void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
                          const DipBenchOptions *options);
 
-// The value of an axis as text: "640x480", "2 threads", "aa=4", ...; empty for the ini's scene.
+// Writes a combination's value on an axis: "640x480", "2 threads", "aa=4". Empty for the axis of
+// grids if the ini's scene is drawn.
 void dip_bench_value_name(const DipBenchPlan *plan, const DipBenchCombination *combination,
                           DipBenchAxis axis, char *name, size_t size_bytes);
 
-// The values of those axes that vary (or of the settings, if none does) but `without` (or
-// DIP_BENCH_AXIS_COUNT), side by side.
+// Writes a combination's values on all axes that vary, except `without` (DIP_BENCH_AXIS_COUNT for
+// no exception). If no axis varies, writes the settings.
 enum { DIP_BENCH_LABEL_SIZE = 192 };
 void dip_bench_label(const DipBenchPlan *plan, const DipBenchCombination *combination,
                      DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]);
 
-// The values that do not vary, with commas between.
+// Writes the values that do not vary, separated by commas.
 void dip_bench_fixed_label(const DipBenchPlan *plan, char label[DIP_BENCH_LABEL_SIZE]);
 
 #endif

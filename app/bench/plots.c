@@ -1,8 +1,8 @@
-// Which plots there are, and the series of each.
+// The four plots, and the series that each one has.
 #include "app/bench/plots.h"
 
 #include "app/machine.h"
-#include "app/measure/stats.h"
+#include "app/measure/statistics.h"
 #include "app/plot/plot.h"
 
 #include <limits.h>
@@ -48,7 +48,7 @@ static const struct Kind {
      true},
 };
 
-// Points of a series, and what its combinations have in common.
+// The points of one line. All its combinations agree with `like` except on the plot's axis.
 typedef struct Series {
     char name[DIP_BENCH_LABEL_SIZE];
     const DipBenchCombination *like;
@@ -65,7 +65,8 @@ static bool same_but_samples(const DipQuality *a, const DipQuality *b) {
     return memcmp(a, &other, sizeof other) == 0;
 }
 
-// Whether two combinations differ in the plot's axis only; of settings, in their samples.
+// True if two combinations differ on the plot's axis alone. Settings may differ in their number of
+// samples alone.
 static bool belongs(const DipBenchPlan *plan, const struct Kind *kind, const DipBenchCombination *a,
                     const DipBenchCombination *b) {
     for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
@@ -79,7 +80,7 @@ static bool belongs(const DipBenchPlan *plan, const struct Kind *kind, const Dip
                             &sets[b->at[DIP_BENCH_AXIS_SET]].quality);
 }
 
-// The settings but aa that are not the default: "af=16", or "default settings".
+// Writes the settings other than aa that differ from the defaults: "af=16", or "default settings".
 static void name_without_samples(const DipQuality *quality, char *name, size_t size_bytes) {
     const DipQuality standard = dip_quality_default();
     *name = '\0';
@@ -113,7 +114,8 @@ static void name_series(const DipBenchPlan *plan, const struct Kind *kind, Serie
     }
 }
 
-// Keeps x ascending; a value that is there already (two sizes of equal area) is not added again.
+// Adds a point and keeps x ascending. An x that is already there (two sizes of equal area) is
+// ignored.
 static void add_point(Series *series, double x, const double *ms, int count, double *scratch) {
     int at = 0;
     while (at < series->count && series->x[at] < x) {

@@ -1,4 +1,4 @@
-// Keeping the bench's figures.
+// Storing and averaging the bench's samples.
 #include "app/bench/result.h"
 
 #include <stdlib.h>
@@ -44,7 +44,7 @@ void dip_bench_result_free(DipBenchResult *result) {
     *result = (DipBenchResult){.plan = NULL};
 }
 
-static size_t place(const DipBenchResult *result, int combination, DipBenchStage stage) {
+static size_t first_index(const DipBenchResult *result, int combination, DipBenchStage stage) {
     return ((size_t)combination * DIP_BENCH_STAGE_COUNT + stage) * values_per_stage(result->plan);
 }
 
@@ -52,14 +52,19 @@ void dip_bench_result_add(DipBenchResult *result, int combination, int round, in
                           const DipBenchSample *sample) {
     const int value = round * result->plan->options.frames + frame;
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
-        result->ms[place(result, combination, (DipBenchStage)stage) + (size_t)value] =
+        result->ms[first_index(result, combination, (DipBenchStage)stage) + (size_t)value] =
             sample->ms[stage];
     }
 }
 
 const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
                                   DipBenchStage stage) {
-    return result->ms + place(result, combination, stage);
+    return result->ms + first_index(result, combination, stage);
+}
+
+void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
+                                const DipBenchSample *sample) {
+    result->first[combination * result->plan->options.frames + frame] = *sample;
 }
 
 const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,

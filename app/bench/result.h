@@ -1,10 +1,10 @@
-// What the bench found: times of every frame of every round, work of every frame.
+// The bench's results: the times of every frame in every round, and the work of every frame.
 #ifndef DIP_APP_BENCH_RESULT_H
 #define DIP_APP_BENCH_RESULT_H
 
 #include "app/bench/plan.h"
 
-// The renderer's stages, and the whole frame last.
+// The renderer's stages, then the whole frame.
 typedef enum DipBenchStage {
 #define DIP_BENCH_STAGE_ENUM(name, text) DIP_BENCH_STAGE_##name,
     DIP_STAGE_LIST(DIP_BENCH_STAGE_ENUM)
@@ -15,35 +15,39 @@ typedef enum DipBenchStage {
 
 extern const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
 
-// One drawing of a frame.
+// The figures of one drawing of a frame.
 typedef struct DipBenchSample {
     double ms[DIP_BENCH_STAGE_COUNT];
     DipCounters counters;
-    char hash[33]; // empty unless asked for
+    char hash[33]; // Of the pixels; empty unless it was asked for.
 } DipBenchSample;
 
 void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash);
 
-// One program's figures.
+// The results of one program. Owns its arrays, borrows the plan.
 typedef struct DipBenchResult {
     const DipBenchPlan *plan;
     double *ms;            // [combination][stage][round][frame]
-    DipBenchSample *first; // [combination][frame]: of the warm-up
+    DipBenchSample *first; // [combination][frame], from the warm-up
 } DipBenchResult;
 
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
 void dip_bench_result_free(DipBenchResult *result);
 
+// The sample of a frame's first drawing, which has the hash and the counters.
+void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
+                                const DipBenchSample *sample);
+
 void dip_bench_result_add(DipBenchResult *result, int combination, int round, int frame,
                           const DipBenchSample *sample);
 
-// rounds * frames values, [round * frames + frame].
+// The times of a stage: rounds * frames values, [round * frames + frame].
 const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
                                   DipBenchStage stage);
 const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,
                                              int frame);
 
-// The mean of each counter over the frames, in the list's order.
+// Means of the counters over the frames, in the order of DIP_COUNTER_LIST.
 typedef struct DipBenchWork {
 #define DIP_BENCH_WORK_FIELD(name, text) double name;
     DIP_COUNTER_LIST(DIP_BENCH_WORK_FIELD)

@@ -1,4 +1,4 @@
-// Making the synthetic scenes: one mesh, one material, one texture each.
+// Making the synthetic scenes. Each has one mesh, one material and one texture.
 #include "app/bench/synthetic.h"
 
 #include "renderer/base/trig.h"
@@ -24,7 +24,7 @@ struct DipSynthetic {
     uint32_t *indices;
 };
 
-// A well-mixed number of two, the same on every machine.
+// A hash of two numbers, the same on every machine.
 static uint32_t hash(uint32_t x, uint32_t y) {
     uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u;
     h = (h ^ h >> 15) * 0x2c1b3c6du;
@@ -32,7 +32,7 @@ static uint32_t hash(uint32_t x, uint32_t y) {
     return h ^ h >> 15;
 }
 
-// Squares of 64, 16 and 4 texels in random shades: detail for every mip level.
+// Paints squares of 64, 16 and 4 texels in random shades, so that every mip level has detail.
 static void paint(uint8_t *rgba8) {
     for (uint32_t y = 0; y < TEXTURE_SIZE; y++) {
         for (uint32_t x = 0; x < TEXTURE_SIZE; x++) {
@@ -49,7 +49,8 @@ static void paint(uint8_t *rgba8) {
     }
 }
 
-// Room for the mesh and the texture; everything else of the description. NULL without memory.
+// Allocates the mesh and paints the texture, and fills in the rest of the description. Returns NULL
+// when memory runs out.
 static DipSynthetic *allocate(uint32_t vertex_count, uint32_t index_count, bool textured,
                               DipError *err) {
     DipSynthetic *s = calloc(1, sizeof *s);
@@ -124,8 +125,8 @@ DipCamPath *dip_synthetic_take_path(DipSynthetic *synthetic) {
 
 // --- the room ----------------------------------------------------------------------------------
 
-// A parallelogram by a corner and two edges, metres; seen from where edge 0 to 1 turns left. The
-// texture repeats every four metres.
+// A parallelogram, given by a corner and two edges in metres. It is seen from the side from which
+// edge 0 turns left to edge 1. The texture repeats every four metres.
 typedef struct Wall {
     float corner[3];
     float edge[2][3];
@@ -152,7 +153,7 @@ static void add_wall(DipSynthetic *s, const Wall *wall, uint32_t index) {
 }
 
 DipSynthetic *dip_synthetic_room(DipError *err) {
-    // 12 x 4 x 8 metres about the origin, and two screens; inner sides are the front ones.
+    // A box of 12 x 4 x 8 metres around the origin, facing inwards, and two screens.
     static const Wall walls[] = {
         {{-6, -2, 4}, {{12, 0, 0}, {0, 0, -8}}},   {{-6, 2, -4}, {{12, 0, 0}, {0, 0, 8}}},
         {{-6, -2, -4}, {{12, 0, 0}, {0, 4, 0}}},   {{6, -2, 4}, {{-12, 0, 0}, {0, 4, 0}}},
@@ -183,7 +184,8 @@ DipSynthetic *dip_synthetic_room(DipError *err) {
 
 enum { RELIEF_DISTANCE_M = 10 };
 
-// Waves of 2 % of the distance; position, normal, coordinates and colour of one corner.
+// Sets position, normal, texture coordinates and colour of one corner. The waves are 2 % of the
+// distance high.
 static void set_corner(DipSynthetic *s, uint32_t vertex, double x, double y) {
     const double height = 0.1 * dip_sin(3.0 * x) + 0.1 * dip_cos(4.0 * y);
     const double slope[2] = {0.3 * dip_cos(3.0 * x), -0.4 * dip_sin(4.0 * y)};
@@ -228,7 +230,8 @@ DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov
     if (!s) {
         return NULL;
     }
-    // 5 % smaller than the picture: the waves' crests are nearer, the camera sways by 1 %.
+    // The relief is 5 % smaller than the picture, since crests are nearer and the camera sways by 1
+    // %.
     const double half_height = 0.95 * RELIEF_DISTANCE_M * dip_tan(fov_y_deg * (DIP_PI / 360.0));
     set_relief(s, columns, rows, half_height * aspect, half_height);
     s->material.lit = true;

@@ -1,9 +1,9 @@
-// Printing tables, writing CSV.
+// Printing the bench's tables, writing CSV.
 #include "app/bench/table.h"
 
 #include "app/files/whole_file.h"
 #include "app/machine.h"
-#include "app/measure/stats.h"
+#include "app/measure/statistics.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -48,7 +48,8 @@ void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session
     fprintf(out, "machine  %s, %d processors\n", processor, dip_machine_processor_count());
     dip_bench_fixed_label(plan, fixed);
     fprintf(out, "fixed    %s", fixed);
-    fprintf(out, "\nsamples  %d frames along the path, %d rounds, order by seed %d\n\n",
+    fprintf(out,
+            "\nframes   %d along the path, drawn in %d rounds, in a random order by seed %d\n\n",
             plan->options.frames, plan->options.rounds, plan->options.seed);
 }
 
@@ -125,7 +126,7 @@ static void print_work_line(const char *name, const double *means, int count, FI
 static void print_work_block(const DipBenchResult *result, const int *shown, int count, FILE *out) {
     DipBenchWork work[WORK_COLUMNS];
     double means[WORK_COLUMNS];
-    fprintf(out, "\n%-22s", "mean per frame, of #");
+    fprintf(out, "\n%-22s", "mean per frame, row");
     for (int i = 0; i < count; i++) {
         fprintf(out, " %12d", shown[i] + 1);
         work[i] = dip_bench_result_work(result, shown[i]);
@@ -169,9 +170,8 @@ static int different_pictures(const DipBenchResult *here, const DipBenchResult *
     return different;
 }
 
-// The sum over the frames of the least time in any round: what is left when the machine's noise,
-// which only adds, was away once.
-static double least_ms(const DipBenchResult *result, int combination) {
+// Sum over the frames of each frame's fastest round. Noise only ever adds time.
+static double fastest_ms(const DipBenchResult *result, int combination) {
     const DipBenchOptions *options = &result->plan->options;
     const double *ms = dip_bench_result_ms(result, combination, DIP_BENCH_STAGE_total);
     double sum = 0.0;
@@ -203,9 +203,9 @@ static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *ot
                                  plan->options.frames, plan->options.rounds, scratch);
     const double other_ms = medians[1][DIP_BENCH_STAGE_total];
     const double here_ms = medians[0][DIP_BENCH_STAGE_total];
-    fprintf(out, " %8.3f %8.3f  %6.3f  %5.3f to %5.3f  %6.3f ", other_ms, here_ms,
+    fprintf(out, " %8.3f %8.3f  %6.3f  %5.3f to %5.3f  %7.3f ", other_ms, here_ms,
             other_ms / here_ms, interval.low, interval.high,
-            least_ms(other, combination) / least_ms(here, combination));
+            fastest_ms(other, combination) / fastest_ms(here, combination));
     for (int stage = 0; stage < DIP_BENCH_STAGE_total; stage++) {
         if (medians[0][stage] > 0.0) {
             fprintf(out, " %8.3f", medians[1][stage] / medians[0][stage]);
@@ -231,9 +231,10 @@ bool dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *ot
         return out_of_memory(err);
     }
     fprintf(out,
-            "medians, ms per frame; ratios are other / this: above 1 this program is faster\n");
-    fprintf(out, "%-*s %8s %8s  %6s  %14s  %6s ", width, "", "other", "this", "ratio",
-            "95 % interval", "least");
+            "Medians in ms per frame. A ratio is the other program's time divided by this one's:\n"
+            "above 1, this program is faster.\n");
+    fprintf(out, "%-*s %8s %8s  %6s  %14s  %7s ", width, "", "other", "this", "ratio",
+            "95 % interval", "fastest");
     for (int stage = 0; stage < DIP_BENCH_STAGE_total; stage++) {
         fprintf(out, " %8s", dip_bench_stage_names[stage]);
     }

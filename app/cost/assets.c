@@ -3,9 +3,10 @@
 
 #include "app/files/png.h"
 #include "app/files/zip.h"
-#include "app/measure/stats.h"
+#include "app/measure/statistics.h"
 #include "campaths/campath.h"
 #include "renderer/base/clock.h"
+#include "renderer/base/file.h"
 
 #include <assimp/cexport.h>
 #include <assimp/cimport.h>
@@ -17,14 +18,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #define STB_DXT_STATIC
 #define STB_DXT_IMPLEMENTATION
 #include <stb/stb_dxt.h>
 
-enum { LOADS = 5, BC1_BYTES = 8 };
+enum { LOADS = 5, BC1_BYTES = 8, MAX_FILE_BYTES = 1 << 30 };
 
 typedef struct Size {
     double bytes;
@@ -36,20 +36,13 @@ static void add_bytes(Size *size, const unsigned char *bytes, size_t count) {
     size->zipped += (double)dip_zip_size(bytes, count);
 }
 
-// Adds a whole file; nothing if it cannot be read.
+// Adds a file; nothing if it cannot be read.
 static void add_file(Size *size, const char *file) {
-    FILE *in = fopen(file, "rb");
-    struct stat status;
-    unsigned char *bytes = NULL;
-    if (in && fstat(fileno(in), &status) == 0 && status.st_size > 0) {
-        bytes = malloc((size_t)status.st_size);
-    }
-    if (bytes && fread(bytes, 1, (size_t)status.st_size, in) == (size_t)status.st_size) {
-        add_bytes(size, bytes, (size_t)status.st_size);
-    }
-    free(bytes);
-    if (in) {
-        fclose(in);
+    unsigned char *bytes;
+    size_t count;
+    if (dip_file_read(file, "file", MAX_FILE_BYTES, &bytes, &count, NULL)) {
+        add_bytes(size, bytes, count);
+        free(bytes);
     }
 }
 

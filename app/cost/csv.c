@@ -1,5 +1,5 @@
-// The report as comma-separated values.
-#include "app/cost/write.h"
+// A report as comma-separated values.
+#include "app/cost/formats.h"
 
 #include "app/files/whole_file.h"
 
@@ -7,27 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
-                        char text[DIP_COST_TEXT]) {
-    const DipQuality *q = &report->rows[row].quality;
-    const DipSettingInfo *info = dip_setting_info(sweep->setting);
-    const char *step = info->steps[q->step[sweep->setting]];
-    if (sweep->setting == DIP_SETTING_AAA && q->step[DIP_SETTING_AAA]) {
-        snprintf(text, DIP_COST_TEXT, "on, asd=%s",
-                 dip_setting_info(DIP_SETTING_ASD)->steps[q->step[DIP_SETTING_ASD]]);
-    } else {
-        snprintf(text, DIP_COST_TEXT, "%s", step);
-    }
-}
-
-const char *dip_cost_floor_mark(const DipCostReport *report, int row) {
-    return dip_cost_at_floor(report, row) ? "at floor" : "";
-}
-
 static void write_head(FILE *out) {
     fprintf(out, "kind,title,path,settings,ratio,ratio_low,ratio_high,ms,ms_low,ms_high");
-    for (int r = 0; r < DIP_COST_REGIONS; r++) {
-        const char *name = dip_cost_region_names[r];
+    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
+        const char *name = dip_metric_region_names[r];
         fprintf(out, ",%s_pixels,%s_rmse_lin,%s_psnr_db,%s_ssim,%s_flip", name, name, name, name,
                 name);
     }
@@ -40,11 +23,11 @@ static void write_head(FILE *out) {
 }
 
 static void write_errors(const DipCostReport *report, int row, FILE *out) {
-    int places;
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
-    const DipCostFlicker flicker = dip_cost_flicker(&sums);
-    for (int r = 0; r < DIP_COST_REGIONS; r++) {
-        const DipCostFigures f = dip_cost_figures(&sums, r);
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
+    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
+        const DipMetrics f = dip_metrics_of(&sums, r);
         if (sums.regions[r].pixels > 0.0) {
             fprintf(out, ",%.0f,%.8g,%.6g,%.8g,%.8g", sums.regions[r].pixels, f.rmse_lin, f.psnr_db,
                     f.ssim, f.flip);
@@ -57,7 +40,7 @@ static void write_errors(const DipCostReport *report, int row, FILE *out) {
             dip_cost_floor_mark(report, row));
 }
 
-// Settings are in quotes, since they have commas.
+// Writes one line. The settings are quoted, since they contain commas.
 static void write_row(const DipCostReport *report, const char *kind, const char *title, int row,
                       int base, FILE *out) {
     char settings[256];
@@ -65,10 +48,10 @@ static void write_row(const DipCostReport *report, const char *kind, const char 
     fprintf(out, "%s,\"%s\",%s,\"%s\"", kind, title, report->paths[report->rows[row].path],
             settings);
     if (dip_cost_is_timed(report, row)) {
-        const DipCostTime ratio = dip_cost_ratio(report, row, base);
-        const DipCostTime time = dip_cost_time(report, row);
-        fprintf(out, ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", ratio.ms, ratio.low, ratio.high, time.ms,
-                time.low, time.high);
+        const DipStatsEstimate ratio = dip_cost_ratio(report, row, base);
+        const DipStatsEstimate time = dip_cost_time(report, row);
+        fprintf(out, ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", ratio.value, ratio.low, ratio.high,
+                time.value, time.low, time.high);
     } else {
         fprintf(out, ",,,,,,");
     }

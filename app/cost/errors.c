@@ -1,5 +1,5 @@
-// Truths, and the pictures of every row held against them.
-#include "app/cost/rig.h"
+// Making truths, and judging every row's pictures by them.
+#include "app/cost/steps.h"
 #include "app/interrupt.h"
 #include "app/measure/meter.h"
 #include "app/progress.h"
@@ -14,49 +14,50 @@ static bool out_of_memory(DipError *err) {
 
 // --- truths ------------------------------------------------------------------------------------
 
-enum { PER_TRUTH = 1000 }; // progress
+enum { STEPS_PER_TRUTH = 1000 }; // of the progress display
 
 typedef struct TruthProgress {
     DipProgress progress;
-    int64_t before; // of the truths that are done
+    int64_t before; // steps of the truths that are done
 } TruthProgress;
 
 static bool show_truth(void *context, double done) {
     TruthProgress *at = context;
-    dip_progress_show(&at->progress, at->before + (int64_t)(done * PER_TRUTH));
+    dip_progress_show(&at->progress, at->before + (int64_t)(done * STEPS_PER_TRUTH));
     return !dip_interrupted();
 }
 
-static bool make_path_truths(DipCostRig *rig, int path, TruthProgress *at, DipError *err) {
-    DipCostReport *report = rig->report;
+static bool make_path_truths(DipCostContext *cost, int path, TruthProgress *at, DipError *err) {
+    DipCostReport *report = cost->report;
     const DipCostOptions *options = &report->options;
-    for (int place = options->first_place; place < options->end_place; place++) {
+    for (int viewpoint = options->first_place; viewpoint < options->end_place; viewpoint++) {
         for (int frame = 0; frame < options->burst; frame++) {
-            DipCostTruth truth;
+            DipTruth truth;
             const bool got =
-                dip_cost_rig_truth(rig, path, place, frame, show_truth, at, &truth, err);
+                dip_cost_context_truth(cost, path, viewpoint, frame, show_truth, at, &truth, err);
             if (!got) {
-                dip_cost_interrupted(rig, err);
+                dip_cost_interrupted(cost, err);
                 return false;
             }
-            const int index = path * options->places + place;
-            dip_cost_sums_add(&report->floors[index], &truth.floor);
+            const int index = path * options->places + viewpoint;
+            dip_metric_sums_add(&report->floors[index], &truth.floor);
             report->has_floor[index] = true;
-            dip_cost_truth_free(&truth);
-            at->before += PER_TRUTH;
+            dip_truth_free(&truth);
+            at->before += STEPS_PER_TRUTH;
         }
     }
     return true;
 }
 
-bool dip_cost_make_truths(DipCostRig *rig, DipError *err) {
-    const DipCostOptions *options = &rig->report->options;
+bool dip_cost_make_truths(DipCostContext *cost, DipError *err) {
+    const DipCostOptions *options = &cost->report->options;
     const int truths =
-        rig->report->path_count * (options->end_place - options->first_place) * options->burst;
-    TruthProgress at = {dip_progress_begin("steps to the truth", (int64_t)truths * PER_TRUTH), 0};
+        cost->report->path_count * (options->end_place - options->first_place) * options->burst;
+    TruthProgress at = {
+        dip_progress_begin("steps of the truths made", (int64_t)truths * STEPS_PER_TRUTH), 0};
     bool made = true;
-    for (int path = 0; made && path < rig->report->path_count; path++) {
-        made = make_path_truths(rig, path, &at, err);
+    for (int path = 0; made && path < cost->report->path_count; path++) {
+        made = make_path_truths(cost, path, &at, err);
     }
     dip_progress_end(&at.progress, at.before);
     return made;
@@ -64,130 +65,130 @@ bool dip_cost_make_truths(DipCostRig *rig, DipError *err) {
 
 // --- judging -----------------------------------------------------------------------------------
 
-// A row's pictures of a burst.
-typedef struct Shot {
-    uint8_t *rgba8; // frame after frame, rows packed
+// A row's pictures of one burst, and their errors.
+typedef struct Burst {
+    uint8_t *rgba8; // owned; frame after frame, rows packed
     int row;
-    char key[33];
-    DipCostSums sums;
+    char key[33]; // hash of the pictures and of their truths
+    DipMetricSums sums;
     bool failed;
-} Shot;
+} Burst;
 
-typedef struct Judging {
-    DipCostRig *rig;
+typedef struct Judge {
+    DipCostContext *cost;
     int path;
-    int place;
-    DipFlip flip; // to take truths in
-    DipCostTruth truths[DIP_COST_MAX_BURST];
-    DipFlipSide sides[DIP_COST_MAX_BURST];
-    DipCostMeter *meters; // per thread
+    int viewpoint;
+    DipFlip flip; // analyses the truths
+    DipTruth truths[DIP_COST_MAX_BURST];
+    DipFlipAnalysis analyses[DIP_COST_MAX_BURST];
+    DipMeter *meters; // one per thread
     int meter_count;
-    Shot *shots; // that are judged at a time, a few per thread
-    int shot_room;
-    int shot_count;
+    Burst *bursts; // that are judged at a time, a few per thread
+    int burst_room;
+    int burst_count;
     DipProgress progress;
     int64_t done;
-} Judging;
+} Judge;
 
-static size_t picture_bytes(const Judging *j) {
-    return (size_t)j->rig->report->width * (size_t)j->rig->report->height * 4;
+static size_t picture_bytes(const Judge *j) {
+    return (size_t)j->cost->report->width * (size_t)j->cost->report->height * 4;
 }
 
-static void close_judging(Judging *j) {
+static void close_judge(Judge *j) {
     for (int i = 0; j->meters && i < j->meter_count; i++) {
-        dip_cost_meter_free(&j->meters[i]);
+        dip_meter_free(&j->meters[i]);
     }
-    for (int i = 0; j->shots && i < j->shot_room; i++) {
-        free(j->shots[i].rgba8);
+    for (int i = 0; j->bursts && i < j->burst_room; i++) {
+        free(j->bursts[i].rgba8);
     }
     for (int i = 0; i < DIP_COST_MAX_BURST; i++) {
-        dip_flip_side_free(&j->sides[i]);
+        dip_flip_analysis_free(&j->analyses[i]);
     }
     dip_flip_free(&j->flip);
     free(j->meters);
-    free(j->shots);
+    free(j->bursts);
 }
 
-static bool open_judging(Judging *j, DipCostRig *rig, DipError *err) {
-    const DipCostReport *report = rig->report;
+static bool open_judge(Judge *j, DipCostContext *cost, DipError *err) {
+    const DipCostReport *report = cost->report;
     const double ppd = report->options.pixels_per_degree;
-    *j = (Judging){.rig = rig, .meter_count = report->threads, .shot_room = 2 * report->threads};
+    *j = (Judge){.cost = cost, .meter_count = report->threads, .burst_room = 2 * report->threads};
     j->meters = calloc((size_t)j->meter_count, sizeof *j->meters);
-    j->shots = calloc((size_t)j->shot_room, sizeof *j->shots);
+    j->bursts = calloc((size_t)j->burst_room, sizeof *j->bursts);
     bool made =
-        j->meters && j->shots && dip_flip_init(&j->flip, report->width, report->height, ppd);
+        j->meters && j->bursts && dip_flip_init(&j->flip, report->width, report->height, ppd);
     for (int i = 0; made && i < j->meter_count; i++) {
-        made = dip_cost_meter_init(&j->meters[i], report->width, report->height, ppd);
+        made = dip_meter_init(&j->meters[i], report->width, report->height, ppd);
     }
-    for (int i = 0; made && i < j->shot_room; i++) {
-        j->shots[i].rgba8 = malloc(picture_bytes(j) * (size_t)report->options.burst);
-        made = j->shots[i].rgba8 != NULL;
+    for (int i = 0; made && i < j->burst_room; i++) {
+        j->bursts[i].rgba8 = malloc(picture_bytes(j) * (size_t)report->options.burst);
+        made = j->bursts[i].rgba8 != NULL;
     }
     for (int i = 0; made && i < report->options.burst; i++) {
-        made = dip_flip_side_init(&j->flip, &j->sides[i]);
+        made = dip_flip_analysis_init(&j->flip, &j->analyses[i]);
     }
     if (!made) {
-        close_judging(j);
+        close_judge(j);
         return out_of_memory(err);
     }
     return true;
 }
 
-static DipPicture picture_of(const Judging *j, const uint8_t *rgba8) {
-    const DipCostReport *report = j->rig->report;
-    return (DipPicture){rgba8, (size_t)report->width * 4, report->width, report->height};
+static DipSrgbPicture picture_of(const Judge *j, const uint8_t *rgba8) {
+    const DipCostReport *report = j->cost->report;
+    return (DipSrgbPicture){rgba8, (size_t)report->width * 4, report->width, report->height};
 }
 
-static void judge_shot(void *context, int index, int worker) {
-    Judging *j = context;
-    Shot *shot = &j->shots[index];
-    DipCostMeter *meter = &j->meters[worker];
-    shot->sums = (DipCostSums){0};
-    shot->failed = false;
+static void judge_burst(void *context, int index, int worker) {
+    Judge *j = context;
+    Burst *drawn = &j->bursts[index];
+    DipMeter *meter = &j->meters[worker];
+    drawn->sums = (DipMetricSums){0};
+    drawn->failed = false;
     dip_flicker_restart(&meter->flicker);
-    for (int f = 0; f < j->rig->report->options.burst; f++) {
-        const DipPicture test = picture_of(j, shot->rgba8 + (size_t)f * picture_bytes(j));
-        const DipCostStandard standard = {picture_of(j, j->truths[f].rgba8), j->truths[f].rgb_lin,
-                                          &j->sides[f], j->truths[f].classes};
-        if (!dip_cost_meter_add(meter, &test, NULL, &standard, &shot->sums)) {
-            shot->failed = true;
+    for (int f = 0; f < j->cost->report->options.burst; f++) {
+        const DipSrgbPicture test = picture_of(j, drawn->rgba8 + (size_t)f * picture_bytes(j));
+        const DipMeterStandard standard = {picture_of(j, j->truths[f].rgba8), j->truths[f].rgb_lin,
+                                           &j->analyses[f], j->truths[f].classes};
+        if (!dip_meter_add(meter, &test, NULL, &standard, &drawn->sums)) {
+            drawn->failed = true;
         }
     }
-    dip_cost_meter_end_burst(meter, &shot->sums);
+    dip_meter_end_burst(meter, &drawn->sums);
 }
 
-static bool judge_shots(Judging *j, DipError *err) {
-    dip_pool_run(j->rig->session->pool, j->shot_count, judge_shot, j);
-    for (int i = 0; i < j->shot_count; i++) {
-        const Shot *shot = &j->shots[i];
-        if (shot->failed) {
+static bool judge_bursts(Judge *j, DipError *err) {
+    dip_pool_run(j->cost->session->pool, j->burst_count, judge_burst, j);
+    for (int i = 0; i < j->burst_count; i++) {
+        const Burst *drawn = &j->bursts[i];
+        if (drawn->failed) {
             return out_of_memory(err);
         }
-        j->rig->report->rows[shot->row].places[j->place] = shot->sums;
-        j->rig->report->rows[shot->row].judged[j->place] = true;
-        if (!dip_cost_state_add(j->rig->state, shot->key, &shot->sums, err)) {
+        j->cost->report->rows[drawn->row].viewpoints[j->viewpoint] = drawn->sums;
+        j->cost->report->rows[drawn->row].judged[j->viewpoint] = true;
+        if (!dip_cost_journal_add(j->cost->journal, drawn->key, &drawn->sums, err)) {
             return false;
         }
     }
-    j->shot_count = 0;
+    j->burst_count = 0;
     return true;
 }
 
-// Draws a row's burst; its key is that of the pictures and of what they are held against.
-static bool take_shot(Judging *j, int row, Shot *shot, DipError *err) {
-    const DipCostReport *report = j->rig->report;
+// Draws a row's burst and finds its key.
+static bool draw_burst(Judge *j, int row, Burst *drawn, DipError *err) {
+    const DipCostReport *report = j->cost->report;
     const size_t row_bytes = (size_t)report->width * 4;
-    DipHash hash = dip_hash_begin();
+    DipHash hash = dip_hash_begin(0);
     dip_hash_text(&hash, "diptych errors 1");
     dip_hash_number(&hash, report->options.pixels_per_degree);
-    shot->row = row;
+    drawn->row = row;
     for (int f = 0; f < report->options.burst; f++) {
         const int64_t time_ns =
-            dip_cost_place_time_ns(report, j->rig->session, j->path, j->place, f);
-        uint8_t *to = shot->rgba8 + (size_t)f * picture_bytes(j);
+            dip_cost_viewpoint_time_ns(report, j->cost->session, j->path, j->viewpoint, f);
+        uint8_t *to = drawn->rgba8 + (size_t)f * picture_bytes(j);
         DipFrame frame;
         char hex[33];
-        if (!dip_cost_draw(j->rig, row, time_ns, f, &frame, err)) {
+        if (!dip_cost_draw(j->cost, row, time_ns, f, &frame, err)) {
             return false;
         }
         for (int y = 0; y < report->height; y++) {
@@ -198,29 +199,29 @@ static bool take_shot(Judging *j, int row, Shot *shot, DipError *err) {
         dip_hash_text(&hash, hex);
         dip_hash_text(&hash, j->truths[f].key);
     }
-    dip_hash_hex(&hash, shot->key);
+    dip_hash_hex(&hash, drawn->key);
     return true;
 }
 
-static bool judge_rows(Judging *j, DipError *err) {
-    DipCostReport *report = j->rig->report;
+static bool judge_rows(Judge *j, DipError *err) {
+    DipCostReport *report = j->cost->report;
     bool judged = true;
     for (int row = 0; judged && row < report->row_count; row++) {
         if (report->rows[row].path != j->path) {
             continue;
         }
-        Shot *shot = &j->shots[j->shot_count];
-        judged = take_shot(j, row, shot, err);
-        if (judged && dip_cost_state_find(j->rig->state, shot->key, &shot->sums)) {
-            report->rows[row].places[j->place] = shot->sums;
-            report->rows[row].judged[j->place] = true;
-        } else if (judged && ++j->shot_count == j->shot_room) {
-            judged = judge_shots(j, err);
+        Burst *drawn = &j->bursts[j->burst_count];
+        judged = draw_burst(j, row, drawn, err);
+        if (judged && dip_cost_journal_find(j->cost->journal, drawn->key, &drawn->sums)) {
+            report->rows[row].viewpoints[j->viewpoint] = drawn->sums;
+            report->rows[row].judged[j->viewpoint] = true;
+        } else if (judged && ++j->burst_count == j->burst_room) {
+            judged = judge_bursts(j, err);
         }
         dip_progress_show(&j->progress, ++j->done);
-        judged = judged && !dip_cost_interrupted(j->rig, err);
+        judged = judged && !dip_cost_interrupted(j->cost, err);
     }
-    return judged && judge_shots(j, err);
+    return judged && judge_bursts(j, err);
 }
 
 static bool no_progress(void *context, double done) {
@@ -229,38 +230,39 @@ static bool no_progress(void *context, double done) {
     return true;
 }
 
-static bool judge_place(Judging *j, DipError *err) {
-    const int burst = j->rig->report->options.burst;
+static bool judge_viewpoint(Judge *j, DipError *err) {
+    const int burst = j->cost->report->options.burst;
     int got = 0;
-    while (got < burst && dip_cost_rig_truth(j->rig, j->path, j->place, got, no_progress, NULL,
-                                             &j->truths[got], err)) {
-        const DipPicture picture = picture_of(j, j->truths[got].rgba8);
-        dip_flip_take(&j->flip, &picture, &j->sides[got]);
+    while (got < burst && dip_cost_context_truth(j->cost, j->path, j->viewpoint, got, no_progress,
+                                                 NULL, &j->truths[got], err)) {
+        const DipSrgbPicture picture = picture_of(j, j->truths[got].rgba8);
+        dip_flip_analyse(&j->flip, &picture, &j->analyses[got]);
         got++;
     }
     const bool judged = got == burst && judge_rows(j, err);
     while (got > 0) {
-        dip_cost_truth_free(&j->truths[--got]);
+        dip_truth_free(&j->truths[--got]);
     }
     return judged;
 }
 
-bool dip_cost_judge(DipCostRig *rig, DipError *err) {
-    const DipCostReport *report = rig->report;
+bool dip_cost_judge(DipCostContext *cost, DipError *err) {
+    const DipCostReport *report = cost->report;
     const DipCostOptions *options = &report->options;
-    Judging j;
-    if (!open_judging(&j, rig, err)) {
+    Judge j;
+    if (!open_judge(&j, cost, err)) {
         return false;
     }
     const int64_t total = (int64_t)report->row_count * (options->end_place - options->first_place);
     j.progress = dip_progress_begin("bursts judged", total);
     bool judged = true;
     for (j.path = 0; judged && j.path < report->path_count; j.path++) {
-        for (j.place = options->first_place; judged && j.place < options->end_place; j.place++) {
-            judged = judge_place(&j, err);
+        for (j.viewpoint = options->first_place; judged && j.viewpoint < options->end_place;
+             j.viewpoint++) {
+            judged = judge_viewpoint(&j, err);
         }
     }
     dip_progress_end(&j.progress, j.done);
-    close_judging(&j);
+    close_judge(&j);
     return judged;
 }

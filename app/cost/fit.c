@@ -1,5 +1,5 @@
-// Normal equations, solved by elimination; the term that would be most negative is dropped until
-// none is.
+// Solves the normal equations by elimination. While a price is negative, the most negative one is
+// dropped and the rest is solved again.
 #include "app/cost/fit.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static const char *const names[TERMS] = {
     "texel fetched",   "clip test",
 };
 
-// Work of one frame.
+// The amounts of work in one frame of a row, in the order of `names`.
 static void terms_of(const DipCostRow *row, double terms[TERMS]) {
     const double *c = row->counters;
     const double samples = dip_quality_sample_count(&row->quality);
@@ -33,8 +33,8 @@ typedef struct Equations {
     double right[TERMS];
 } Equations;
 
-// Solves for the terms that are used, by Gauss' elimination with pivots; others become 0. A column
-// that depends on others is left out.
+// Solves for the terms in use by Gaussian elimination with pivots; the others become 0. A column
+// that depends linearly on others is left out.
 static void solve(const Equations *equations, const bool used[TERMS], double solution[TERMS]) {
     Equations e = *equations;
     int pivot_of[TERMS];
@@ -65,12 +65,6 @@ static void solve(const Equations *equations, const bool used[TERMS], double sol
     }
 }
 
-static int compare(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double fitted(const double terms[TERMS], const double solution[TERMS]) {
     double sum = 0.0;
     for (int i = 0; i < TERMS; i++) {
@@ -79,8 +73,8 @@ static double fitted(const double terms[TERMS], const double solution[TERMS]) {
     return sum;
 }
 
-// Scales each term to its greatest value, so that the equations are well conditioned; errors are
-// relative, as slow rows are no more important than fast ones.
+// Adds a row to the normal equations. Terms are divided by their greatest values, which keeps the
+// equations well conditioned. Errors are relative, so that slow rows count no more than fast ones.
 static void add_row(Equations *equations, const double terms[TERMS], const double scale[TERMS],
                     double ms) {
     for (int i = 0; i < TERMS; i++) {
@@ -93,7 +87,7 @@ static void add_row(Equations *equations, const double terms[TERMS], const doubl
 
 static void judge_fit(const DipCostReport *report, const double *ms, const double solution[TERMS],
                       DipCostFit *fit) {
-    // Relative, as the fit is: the share of what the best single time leaves unexplained.
+    // R2 compares with the best single time for all rows, by relative errors as in the fit.
     double sum = 0.0, weight = 0.0, all = 0.0, left = 0.0;
     double *misses = malloc((size_t)report->row_count * sizeof *misses);
     for (int r = 0; r < report->row_count; r++) {
@@ -110,8 +104,7 @@ static void judge_fit(const DipCostReport *report, const double *ms, const doubl
         misses[r] = fabs(miss);
     }
     if (misses) {
-        qsort(misses, (size_t)report->row_count, sizeof *misses, compare);
-        fit->median_miss = misses[report->row_count / 2];
+        fit->median_miss = dip_stats_median(misses, report->row_count);
         fit->r2 = all > 0.0 ? 1.0 - left / all : 0.0;
     }
     free(misses);

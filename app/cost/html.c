@@ -1,9 +1,9 @@
-// Writing the page: plots as SVG, pictures as data, no script.
+// Writing the page. Plots are SVG, pictures are data URIs; there is no script.
 #include "app/cost/html.h"
 
 #include "app/cost/fit.h"
+#include "app/cost/formats.h"
 #include "app/cost/order.h"
-#include "app/cost/write.h"
 #include "app/files/whole_file.h"
 #include "app/plot/markup.h"
 #include "app/plot/plot.h"
@@ -34,10 +34,10 @@ static void write_row_text(const DipCostReport *report, int row, FILE *out) {
     dip_markup_text(out, settings);
 }
 
-static DipCostFigures figures_of(const DipCostReport *report, int row, int region) {
-    int places;
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
-    return dip_cost_figures(&sums, region);
+static DipMetrics figures_of(const DipCostReport *report, int row, int region) {
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    return dip_metrics_of(&sums, region);
 }
 
 // --- head --------------------------------------------------------------------------------------
@@ -50,26 +50,27 @@ static void write_facts(const DipCostReport *report, FILE *out) {
     fprintf(out, "</h1>\n<p>%d&times;%d pixels, on ", report->width, report->height);
     dip_markup_text(out, report->processor);
     fprintf(out,
-            ", %d thread%s, %s. Times: %d frames of each path, %d rounds in random order. "
-            "Errors: %d places of each path, %d frames in a row at each, against a truth of "
-            "2&times;%d samples per pixel. Baseline: %s.",
+            ", %d thread%s, %s. Times were taken of %d frames of each path, in %d rounds of random "
+            "order. Errors were taken at %d viewpoints on each path, %d successive frames at each, "
+            "against a truth of 2&times;%d samples per pixel. The baseline is: %s.",
             report->threads, report->threads == 1 ? "" : "s", report->isa,
             report->options.timed_frames, report->rounds, report->options.places,
             report->options.burst, report->options.samples, baseline);
     if (dip_cost_is_timed(report, report->same_row)) {
-        const DipCostTime same = dip_cost_ratio(report, report->same_row, 0);
-        fprintf(out,
-                " <b>A/A</b>, the baseline timed twice as if it were two settings: %.3f "
-                "(%.3f to %.3f); smaller differences than that are noise.",
-                same.ms, same.low, same.high);
+        const DipStatsEstimate same = dip_cost_ratio(report, report->same_row, 0);
+        fprintf(
+            out,
+            " <b>A/A:</b> the baseline was timed twice, as if it were two settings. The ratio of "
+            "the two is %.3f (95 %% interval %.3f to %.3f); smaller differences are noise.",
+            same.value, same.low, same.high);
     }
     fprintf(out, "</p>\n");
 }
 
 // --- advice ------------------------------------------------------------------------------------
 
-static void write_step_up(const DipCostReport *report, int row, double flip, FILE *out) {
-    const int next = dip_cost_next(report, row);
+static void write_next_better(const DipCostReport *report, int row, double flip, FILE *out) {
+    const int next = dip_cost_step_up(report, row);
     if (next < 0) {
         fprintf(out, "<td class=\"l\">none</td><td colspan=\"2\"></td></tr>\n");
         return;
@@ -86,25 +87,27 @@ static void write_advice(const DipCostReport *report, FILE *out) {
         return;
     }
     fprintf(out,
-            "<h2>Advice</h2>\n<p>Of %d combinations on path %s, the one with the least FLIP "
-            "within each time, timed again.</p>\n<div class=\"scroll\"><table>\n"
-            "<tr><th>budget, ms</th><th class=\"l\">settings</th><th>ms again</th><th>95 %% "
+            "<h2>Best settings for a time budget</h2>\n<p>For each budget, the one of %d "
+            "combinations on path %s that has the least FLIP within it. Its time was measured "
+            "again. &ldquo;Next better&rdquo; is the fastest combination whose FLIP is at least "
+            "1 %% lower.</p>\n<div class=\"scroll\"><table>\n"
+            "<tr><th>budget, ms</th><th class=\"l\">settings</th><th>time again, ms</th><th>95 %% "
             "interval</th>"
-            "<th>FLIP</th><th>RMSE, linear</th><th class=\"l\">one step up</th><th>costs, ms</th>"
-            "<th>buys, FLIP</th></tr>\n",
+            "<th>FLIP</th><th>RMSE, linear</th><th class=\"l\">next better</th>"
+            "<th>change of ms</th><th>change of FLIP</th></tr>\n",
             report->row_count - report->combined_first, report->paths[0]);
     for (int i = 0; i < report->advice_count; i++) {
         const DipCostAdvice *advice = &report->advice[i];
         fprintf(out, "<tr><td>%g</td><td class=\"l\">", advice->budget_ms);
         if (advice->row < 0) {
-            fprintf(out, "nothing measured is that fast</td><td colspan=\"7\"></td></tr>\n");
+            fprintf(out, "no measured combination is that fast</td><td colspan=\"7\"></td></tr>\n");
             continue;
         }
-        const DipCostFigures f = figures_of(report, advice->row, 0);
+        const DipMetrics f = figures_of(report, advice->row, 0);
         write_row_text(report, advice->row, out);
         fprintf(out, "</td><td>%.2f</td><td>%.2f to %.2f</td><td>%.4f</td><td>%.5f</td>",
                 advice->checked_ms, advice->checked_low, advice->checked_high, f.flip, f.rmse_lin);
-        write_step_up(report, advice->row, f.flip, out);
+        write_next_better(report, advice->row, f.flip, out);
     }
     fprintf(out, "</table></div>\n");
 }
@@ -114,9 +117,9 @@ static void write_advice(const DipCostReport *report, FILE *out) {
 static int list_combinations(const DipCostReport *report, int *rows) {
     int count = 0;
     for (int r = report->combined_first; r < report->row_count; r++) {
-        int places;
-        dip_cost_row_sums(report, r, &places);
-        if (places > 0 && dip_cost_is_timed(report, r)) {
+        int viewpoints;
+        dip_cost_row_sums(report, r, &viewpoints);
+        if (viewpoints > 0 && dip_cost_is_timed(report, r)) {
             rows[count++] = r;
         }
     }
@@ -137,13 +140,14 @@ static void fill_points(const DipCostReport *report, const int *rows, int count,
     }
 }
 
-static void write_front_table(const DipCostReport *report, const int *front, int count, FILE *out) {
+static void write_pareto_table(const DipCostReport *report, const int *front, int count,
+                               FILE *out) {
     fprintf(out,
             "<div class=\"scroll\"><table>\n<tr><th>#</th><th class=\"l\">settings</th><th>ms</th>"
-            "<th>FLIP</th><th>RMSE, linear</th><th>the step costs, ms</th>"
-            "<th>and buys, FLIP</th></tr>\n");
+            "<th>FLIP</th><th>RMSE, linear</th><th>change of ms</th>"
+            "<th>change of FLIP</th></tr>\n");
     for (int i = 0; i < count; i++) {
-        const DipCostFigures f = figures_of(report, front[i], 0);
+        const DipMetrics f = figures_of(report, front[i], 0);
         const double ms = dip_cost_ms(report, front[i]);
         fprintf(out, "<tr><td>%d</td><td class=\"l\">", i + 1);
         write_row_text(report, front[i], out);
@@ -168,15 +172,12 @@ static void write_scatter(const DipCostReport *report, const int *rows, int coun
         snprintf(best->label_texts[i], sizeof best->label_texts[i], "%d", i + 1);
         best->labels[i] = best->label_texts[i];
     }
-    snprintf(subtitle, sizeof subtitle, "%d combinations, path %s, %dx%d; medians of %d rounds",
-             count, report->paths[0], report->width, report->height, report->rounds);
+    snprintf(subtitle, sizeof subtitle,
+             "%d combinations on path %s, %dx%d pixels; medians of %d rounds", count,
+             report->paths[0], report->width, report->height, report->rounds);
     const DipPlotSeries series[2] = {
         {.name = "all combinations", .x = all->x, .y = all->y, .count = count, .marks_only = true},
-        {.name = "those that nothing beats",
-         .x = best->x,
-         .y = best->y,
-         .count = kept,
-         .labels = best->labels},
+        {.name = "Pareto front", .x = best->x, .y = best->y, .count = kept, .labels = best->labels},
     };
     const DipPlot plot = {
         .title = "Time against error",
@@ -193,7 +194,7 @@ static void write_scatter(const DipCostReport *report, const int *rows, int coun
     fprintf(out, "</div>\n");
 }
 
-static void write_front(const DipCostReport *report, FILE *out) {
+static void write_pareto_front(const DipCostReport *report, FILE *out) {
     const size_t room = (size_t)report->row_count + 1;
     int *rows = malloc(2 * room * sizeof *rows);
     double *values = malloc(4 * room * sizeof *values);
@@ -202,15 +203,15 @@ static void write_front(const DipCostReport *report, FILE *out) {
     const int count = rows ? list_combinations(report, rows) : 0;
     if (rows && values && labels && label_texts && count > 1) {
         int *front = rows + room;
-        const int kept =
-            dip_cost_front_steps(report, front, dip_cost_front(report, rows, count, front));
+        const int kept = dip_cost_pareto_front_thin(
+            report, front, dip_cost_pareto_front(report, rows, count, front));
         Points all = {values, values + room, NULL, NULL};
         Points best = {values + 2 * room, values + 3 * room, labels, label_texts};
-        fprintf(out, "<h2>Time against error</h2>\n<p>Both axes are logarithmic. Of the settings "
-                     "that no others beat in both time and error, those are numbered that buy at "
-                     "least 1 %% of FLIP over the one before.</p>\n");
+        fprintf(out, "<h2>Time against error</h2>\n<p>Both axes are logarithmic. The Pareto front "
+                     "holds the combinations that no other beats in both time and error. Numbers "
+                     "mark those that lower FLIP by at least 1 %% below the one before.</p>\n");
         write_scatter(report, rows, count, front, kept, &all, &best, out);
-        write_front_table(report, front, kept, out);
+        write_pareto_table(report, front, kept, out);
     }
     free(rows);
     free(values);
@@ -224,7 +225,7 @@ static void write_front(const DipCostReport *report, FILE *out) {
 enum {
     BAR_WIDTH = 760,
     BAR_LEFT = 130,
-    BAR_ROOM = 230, // of a full bar; its number stands behind it
+    BAR_ROOM = 230, // width of a full bar and the number behind it
     BAR_SECOND = 500,
     BAR_LINE = 26,
     BAR_TOP = 34
@@ -261,16 +262,16 @@ static void write_time_bar(const DipCostReport *report, const DipCostSweep *swee
         return;
     }
     const double room = BAR_ROOM - 60.0;
-    const DipCostTime ratio = dip_cost_ratio(report, row, sweep->base);
+    const DipStatsEstimate ratio = dip_cost_ratio(report, row, sweep->base);
     char number[32];
-    snprintf(number, sizeof number, "%.2f", ratio.ms);
+    snprintf(number, sizeof number, "%.2f", ratio.value);
     const double end = BAR_LEFT + room * ratio.high / most;
     fprintf(out,
             "<rect x=\"%d\" y=\"%.1f\" width=\"%.1f\" height=\"16\" fill=\"#0072b2\"/>"
             "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#202020\" "
             "stroke-width=\"2\"/><text x=\"%.1f\" y=\"%.1f\">%s</text>\n",
-            BAR_LEFT, y, room * ratio.ms / most, BAR_LEFT + room * ratio.low / most, y + 8.0, end,
-            y + 8.0, end + 6.0, y + 13.0, number);
+            BAR_LEFT, y, room * ratio.value / most, BAR_LEFT + room * ratio.low / most, y + 8.0,
+            end, y + 8.0, end + 6.0, y + 13.0, number);
 }
 
 static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, FILE *out) {
@@ -281,9 +282,9 @@ static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, F
             "%d\" width=\"%d\" "
             "height=\"%d\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" "
             "font-size=\"13\" fill=\"#202020\">\n"
-            "<text x=\"%d\" y=\"20\" font-weight=\"bold\">time, ratio to %s</text>"
+            "<text x=\"%d\" y=\"20\" font-weight=\"bold\">time, ratio to the baseline</text>"
             "<text x=\"%d\" y=\"20\" font-weight=\"bold\">FLIP, mean</text>\n",
-            BAR_WIDTH, height, BAR_WIDTH, height, BAR_LEFT, "the baseline", BAR_SECOND);
+            BAR_WIDTH, height, BAR_WIDTH, height, BAR_LEFT, BAR_SECOND);
     for (int i = 0; i < sweep->row_count; i++) {
         const int row = sweep->rows[i];
         const double y = BAR_TOP + i * BAR_LINE;
@@ -303,17 +304,17 @@ static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, F
 
 static void write_step_row(const DipCostReport *report, const DipCostSweep *sweep, int row,
                            FILE *out) {
-    int places;
+    int viewpoints;
     char step[DIP_COST_TEXT];
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
-    const DipCostFigures f = dip_cost_figures(&sums, 0);
-    const DipCostFlicker flicker = dip_cost_flicker(&sums);
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    const DipMetrics f = dip_metrics_of(&sums, 0);
+    const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
     dip_cost_step_text(report, sweep, row, step);
     fprintf(out, "<tr><td>%s%s</td>", step, row == sweep->base ? " (baseline)" : "");
     if (dip_cost_is_timed(report, row)) {
-        const DipCostTime ratio = dip_cost_ratio(report, row, sweep->base);
+        const DipStatsEstimate ratio = dip_cost_ratio(report, row, sweep->base);
         fprintf(out, "<td>%.2f</td><td>%.3f</td><td>%.3f to %.3f</td>", dip_cost_ms(report, row),
-                ratio.ms, ratio.low, ratio.high);
+                ratio.value, ratio.low, ratio.high);
     } else {
         fprintf(out, "<td></td><td></td><td></td>");
     }
@@ -349,12 +350,13 @@ static void write_crops(const DipCostReport *report, const DipCostSweep *sweep,
     fprintf(out, "</div>\n");
 }
 
-static void write_sweeps(const DipCostReport *report, const DipCostGallery *gallery, FILE *out) {
+static void write_sweeps(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
     fprintf(out, "<h2>Each setting, on the path made for it</h2>\n"
-                 "<p class=\"note\">Black lines: 95 %% intervals. Errors are against the truth; "
-                 "less is better, of PSNR and SSIM more. Pictures: where the steps differ most, "
-                 "pixel for pixel, each above its FLIP map (black: no difference seen, yellow: the "
-                 "greatest there is).</p>\n");
+                 "<p class=\"note\">Black lines are 95 %% intervals. Errors compare with the "
+                 "converged picture. Lower is better; for PSNR and SSIM, higher is better. The "
+                 "pictures show the part in which the steps differ most, pixel for pixel. Below "
+                 "each is its FLIP map: black means no visible difference, yellow the greatest "
+                 "possible.</p>\n");
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
         fprintf(out, "<h3>%s <span class=\"note\">(path %s)</span></h3>\n", sweep->title,
@@ -362,7 +364,7 @@ static void write_sweeps(const DipCostReport *report, const DipCostGallery *gall
         write_bars(report, sweep, out);
         fprintf(out, "<div class=\"scroll\"><table>\n<tr><th>step</th><th>ms</th><th>ratio</th>"
                      "<th>95 %% interval</th><th>RMSE, linear</th><th>PSNR, dB</th><th>SSIM</th>"
-                     "<th>FLIP</th><th>flicker</th><th>2-frame mean</th><th></th></tr>\n");
+                     "<th>FLIP</th><th>flicker</th><th>two-frame mean</th><th></th></tr>\n");
         for (int i = 0; i < sweep->row_count; i++) {
             write_step_row(report, sweep, sweep->rows[i], out);
         }
@@ -373,8 +375,8 @@ static void write_sweeps(const DipCostReport *report, const DipCostGallery *gall
             dip_markup_text(out, order);
             fprintf(out, "</p>\n");
         }
-        if (gallery) {
-            write_crops(report, sweep, &gallery->sweeps[s], out);
+        if (pictures) {
+            write_crops(report, sweep, &pictures->sweeps[s], out);
         }
     }
 }
@@ -382,25 +384,26 @@ static void write_sweeps(const DipCostReport *report, const DipCostGallery *gall
 // --- regions, counters -------------------------------------------------------------------------
 
 static void write_regions(const DipCostReport *report, FILE *out) {
-    fprintf(out, "<h2>Where the errors are</h2>\n<p class=\"note\">FLIP, mean over the pixels that "
-                 "show each; in brackets their share of all pixels.</p>\n"
-                 "<div class=\"scroll\"><table>\n<tr><th>setting</th><th class=\"l\">step</th>");
-    for (int r = 0; r < DIP_COST_REGIONS; r++) {
-        fprintf(out, "<th>%s</th>", dip_cost_region_names[r]);
+    fprintf(out,
+            "<h2>Where the errors are</h2>\n<p class=\"note\">Mean FLIP over the pixels of each "
+            "class; in brackets, the share of all pixels that belong to it.</p>\n"
+            "<div class=\"scroll\"><table>\n<tr><th>setting</th><th class=\"l\">step</th>");
+    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
+        fprintf(out, "<th>%s</th>", dip_metric_region_names[r]);
     }
     fprintf(out, "</tr>\n");
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
         for (int i = 0; i < sweep->row_count; i++) {
-            int places;
+            int viewpoints;
             char step[DIP_COST_TEXT];
-            const DipCostSums sums = dip_cost_row_sums(report, sweep->rows[i], &places);
+            const DipMetricSums sums = dip_cost_row_sums(report, sweep->rows[i], &viewpoints);
             dip_cost_step_text(report, sweep, sweep->rows[i], step);
             fprintf(out, "<tr><td>%s</td><td class=\"l\">%s</td>", sweep->title, step);
-            for (int r = 0; r < DIP_COST_REGIONS; r++) {
+            for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
                 const double share = sums.regions[r].pixels / fmax(sums.regions[0].pixels, 1.0);
                 if (share > 0.0) {
-                    fprintf(out, "<td>%.4f (%.1f %%)</td>", dip_cost_figures(&sums, r).flip,
+                    fprintf(out, "<td>%.4f (%.1f %%)</td>", dip_metrics_of(&sums, r).flip,
                             100.0 * share);
                 } else {
                     fprintf(out, "<td>&ndash;</td>");
@@ -413,9 +416,11 @@ static void write_regions(const DipCostReport *report, FILE *out) {
 }
 
 static void write_counters(const DipCostReport *report, FILE *out) {
-    fprintf(out, "<h2>Work</h2>\n<p class=\"note\">Exact, the same on every machine and for any "
-                 "number of threads: mean per frame of the timed frames, in thousands.</p>\n"
-                 "<div class=\"scroll\"><table>\n<tr><th>setting</th><th class=\"l\">step</th>");
+    fprintf(out,
+            "<h2>Work</h2>\n<p class=\"note\">Work counters, in thousands per frame: means over "
+            "the timed frames. They are exact, and the same on every machine and for any "
+            "number of threads.</p>\n"
+            "<div class=\"scroll\"><table>\n<tr><th>setting</th><th class=\"l\">step</th>");
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         fprintf(out, "<th>");
         for (const char *name = dip_cost_counter_names[c]; *name; name++) {
@@ -445,8 +450,8 @@ static void write_fit(const DipCostReport *report, FILE *out) {
         return;
     }
     fprintf(out,
-            "<p>Time by work, least squares over %d rows: R&sup2; %.3f, median miss %.1f %%. "
-            "Nanoseconds: ",
+            "<p>Time explained by work, a linear fit to %d rows: R&sup2; is %.3f, the median error "
+            "is %.1f %%. Prices in nanoseconds: ",
             fit.rows, fit.r2, 100.0 * fit.median_miss);
     bool first = true;
     for (int i = 0; i < fit.count; i++) {
@@ -459,16 +464,18 @@ static void write_fit(const DipCostReport *report, FILE *out) {
 }
 
 static void write_foot(const DipCostReport *report, FILE *out) {
-    fprintf(out, "<h2>The truth and its floor</h2>\n<div class=\"scroll\"><table>\n<tr><th>path"
-                 "</th><th>RMSE of the truth, linear</th><th>FLIP between its halves</th></tr>\n");
+    fprintf(out,
+            "<h2>The truth and its noise floor</h2>\n<div class=\"scroll\"><table>\n<tr><th>path"
+            "</th><th>RMSE of the truth, linear</th><th>FLIP between the two halves</th></tr>"
+            "\n");
     for (int p = 0; p < report->path_count; p++) {
-        const DipCostSums sums = dip_cost_floor(report, p);
+        const DipMetricSums sums = dip_cost_floor(report, p);
         fprintf(out, "<tr><td>%s</td><td>%.5f</td><td>%.4f</td></tr>\n", report->paths[p],
-                dip_cost_floor_rmse(report, p, 0), dip_cost_figures(&sums, 0).flip);
+                dip_cost_floor_rmse(report, p, 0), dip_metrics_of(&sums, 0).flip);
     }
     fprintf(out, "</table></div>\n");
     if (report->refused_count) {
-        fprintf(out, "<h2>Left out</h2>\n<ul>\n");
+        fprintf(out, "<h2>Steps left out</h2>\n<ul>\n");
         for (int i = 0; i < report->refused_count; i++) {
             fprintf(out, "<li>");
             dip_markup_text(out, report->refused[i]);
@@ -479,21 +486,26 @@ static void write_foot(const DipCostReport *report, FILE *out) {
     fprintf(
         out,
         "<h2>What the words mean</h2>\n<dl>\n"
-        "<dt>ratio</dt><dd>median over rounds and frames of the step's time over the baseline's in "
-        "the same round; the interval is a bootstrap over rounds.</dd>\n"
-        "<dt>truth</dt><dd>jittered supersampling in linear light, every sample shaded at its own "
-        "place, textures read from their largest level. Its floor is half the difference of two "
-        "independent halves; errors below three times the floor are &ldquo;at floor&rdquo;.</dd>\n"
-        "<dt>RMSE</dt><dd>root mean square error in linear light, 0 to 1.</dd>\n"
-        "<dt>PSNR, SSIM, FLIP</dt><dd>on 8-bit sRGB codes; FLIP at %g pixels per degree.</dd>\n"
-        "<dt>flicker</dt><dd>the part of the error that changes from frame to frame: root mean "
-        "square of its deviation over time, linear light.</dd>\n"
-        "<dt>2-frame mean</dt><dd>root mean square error of the mean of two successive "
+        "<dt>ratio</dt><dd>The step's time divided by the baseline's in the same round: the median "
+        "over rounds and frames. The interval is a bootstrap over rounds.</dd>\n"
+        "<dt>truth</dt><dd>The converged picture: jittered supersampling in linear light. Every "
+        "sample is shaded at its own position, and textures are read from their largest level. "
+        "The truth is the mean of two independent halves. Half of their difference is its noise "
+        "floor; an error below three times the floor is &ldquo;at floor&rdquo;, since it cannot "
+        "be told from the truth's own noise.</dd>\n"
+        "<dt>RMSE</dt><dd>Root mean square error in linear light, 0 to 1.</dd>\n"
+        "<dt>PSNR</dt><dd>Peak signal-to-noise ratio on 8-bit sRGB codes, in decibels.</dd>\n"
+        "<dt>SSIM</dt><dd>Structural similarity of luma, at most 1, on 8-bit sRGB codes.</dd>\n"
+        "<dt>FLIP</dt><dd>How different two pictures look when one alternates between them, 0 to "
+        "1, on 8-bit sRGB codes at %g pixels per degree.</dd>\n"
+        "<dt>flicker</dt><dd>The part of the error that changes from frame to frame: root mean "
+        "square of its deviation over time, in linear light.</dd>\n"
+        "<dt>two-frame mean</dt><dd>Root mean square error of the mean of two successive "
         "frames.</dd>\n</dl>\n",
         report->options.pixels_per_degree);
 }
 
-bool dip_cost_write_html(const DipCostReport *report, const DipCostGallery *gallery,
+bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pictures,
                          const char *file, DipError *err) {
     char *page = NULL;
     size_t size = 0;
@@ -508,8 +520,8 @@ bool dip_cost_write_html(const DipCostReport *report, const DipCostGallery *gall
             style);
     write_facts(report, out);
     write_advice(report, out);
-    write_front(report, out);
-    write_sweeps(report, gallery, out);
+    write_pareto_front(report, out);
+    write_sweeps(report, pictures, out);
     write_regions(report, out);
     if (report->rounds > 0) {
         write_counters(report, out);

@@ -1,12 +1,12 @@
-// The report as one page that needs no other file.
+// The report as one HTML page that needs no other file and no script.
 #ifndef DIP_APP_COST_HTML_H
 #define DIP_APP_COST_HTML_H
 
-#include "app/cost/gallery.h"
 #include "app/cost/report.h"
+#include "app/cost/report_pictures.h"
 
-// gallery NULL: without pictures.
-bool dip_cost_write_html(const DipCostReport *report, const DipCostGallery *gallery,
+// Writes the file whole or not at all. `pictures` may be NULL: then the page has none.
+bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pictures,
                          const char *file, DipError *err);
 
 #endif

@@ -1,8 +1,8 @@
 // `diptych cost merge`: the places that several machines have judged, in one report.
 #include "app/commands.h"
 
+#include "app/cost/formats.h"
 #include "app/cost/html.h"
-#include "app/cost/write.h"
 #include "app/files/folder.h"
 
 #include <limits.h>
@@ -28,7 +28,7 @@ static void take_places(DipCostReport *to, const DipCostReport *from) {
     for (int r = 0; r < to->row_count; r++) {
         for (int p = 0; p < places; p++) {
             if (!to->rows[r].judged[p] && from->rows[r].judged[p]) {
-                to->rows[r].places[p] = from->rows[r].places[p];
+                to->rows[r].viewpoints[p] = from->rows[r].viewpoints[p];
                 to->rows[r].judged[p] = true;
             }
         }

@@ -1,42 +1,45 @@
-// What theory says of each setting, and what the report says.
+// What theory says about each setting, and whether the report agrees.
 #include "app/cost/order.h"
 
-#include "app/cost/write.h"
+#include "app/cost/formats.h"
 
 #include <stdio.h>
 
-// How a figure goes from one step to the next; steps are in the order of the settings' list, those
-// of adaptive AA from few passes to many.
+// How a figure changes from one step to the next. Steps are in the order of DIP_SETTING_LIST; those
+// of adaptive AA go from few groups of samples to many.
 typedef enum Trend { FREE, FALLS, RISES, STAYS } Trend;
 
 typedef struct Theory {
     DipSetting setting;
     Trend error;
-    bool of_two_frames; // the error of the mean of two frames, not FLIP
-    Trend work;         // never the other way; may stay
+    bool of_two_frames; // error is that of the mean of two frames instead of FLIP
+    Trend work;         // of `counter`; equal work counts as following the trend
     int counter;
-    const char *why; // where a step does not follow
+    const char *why; // the likely reason when a step does not follow
 } Theory;
 
-#define FEW_PLACES                                                                                 \
-    "differences this small may be of the few places looked at: ask for more --places"
+#define FEW_VIEWPOINTS                                                                             \
+    "Differences this small may come from the few viewpoints that were judged; --places takes "    \
+    "more"
 
 static const Theory theories[] = {
-    {DIP_SETTING_AA, FALLS, false, RISES, DIP_COST_COUNTER_samples_shown, FEW_PLACES},
-    {DIP_SETTING_AAA, FALLS, false, RISES, DIP_COST_COUNTER_clip_sample_groups, FEW_PLACES},
+    {DIP_SETTING_AA, FALLS, false, RISES, DIP_COST_COUNTER_samples_shown, FEW_VIEWPOINTS},
+    {DIP_SETTING_AAA, FALLS, false, RISES, DIP_COST_COUNTER_clip_sample_groups, FEW_VIEWPOINTS},
     {DIP_SETTING_TAA, FALLS, true, FREE, 0,
-     "on a path that moves far between two frames their mean is blurred"},
-    {DIP_SETTING_AF, FALLS, false, RISES, DIP_COST_COUNTER_texture_probes, FEW_PLACES},
+     "Where the camera moves far between two frames, their mean is blurred"},
+    {DIP_SETTING_AF, FALLS, false, RISES, DIP_COST_COUNTER_texture_probes, FEW_VIEWPOINTS},
     {DIP_SETTING_AAF, FALLS, false, FREE, 0,
-     "surfaces near multiples of 45 degrees have as many probes without it"},
-    {DIP_SETTING_OPT, RISES, false, FALLS, DIP_COST_COUNTER_texels_fetched, FEW_PLACES},
+     "Surfaces tilted by nearly a multiple of 45 degrees get as many probes without it"},
+    {DIP_SETTING_OPT, RISES, false, FALLS, DIP_COST_COUNTER_texels_fetched, FEW_VIEWPOINTS},
     {DIP_SETTING_MIPLOD, FALLS, false, RISES, DIP_COST_COUNTER_texels_fetched,
-     "a bias reads smaller levels, but as many texels; what was magnified, and read one level, now "
-     "lies between two"},
-    {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COST_COUNTER_geometry_bytes, FEW_PLACES},
+     "A bias reads smaller mip levels but just as many texels, and a magnified surface that read "
+     "one "
+     "level may now lie between two"},
+    {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COST_COUNTER_geometry_bytes, FEW_VIEWPOINTS},
 };
 
-static const char *const trend_words[] = {[FALLS] = "falls", [RISES] = "rises", [STAYS] = "stays"};
+static const char *const trend_words[] = {
+    [FALLS] = "falls", [RISES] = "rises", [STAYS] = "stays the same"};
 
 static bool follows(Trend trend, double before, double after, bool strictly) {
     switch (trend) {
@@ -52,16 +55,16 @@ static bool follows(Trend trend, double before, double after, bool strictly) {
 }
 
 static double error_of(const DipCostReport *report, const Theory *theory, int row, bool *judged) {
-    int places;
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
-    *judged = *judged && places > 0;
-    return theory->of_two_frames ? dip_cost_flicker(&sums).two_mean
-                                 : dip_cost_figures(&sums, 0).flip;
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    *judged = *judged && viewpoints > 0;
+    return theory->of_two_frames ? dip_flicker_metrics_of(&sums).two_mean
+                                 : dip_metrics_of(&sums, 0).flip;
 }
 
-// The first step that does not follow; sweep->row_count when all do.
-static int first_stray(const DipCostReport *report, const DipCostSweep *sweep, const Theory *theory,
-                       bool by_work, bool *judged) {
+// Finds the first step that does not follow theory; sweep->row_count if all do.
+static int first_departure(const DipCostReport *report, const DipCostSweep *sweep,
+                           const Theory *theory, bool by_work, bool *judged) {
     for (int i = 1; i < sweep->row_count; i++) {
         const int before = sweep->rows[i - 1];
         const int after = sweep->rows[i];
@@ -78,7 +81,7 @@ static int first_stray(const DipCostReport *report, const DipCostSweep *sweep, c
 }
 
 static bool is_counted(const DipCostReport *report, const DipCostSweep *sweep) {
-    bool timed = true; // counters are of timed frames
+    bool timed = true; // counters belong to the timed frames
     for (int i = 0; i < sweep->row_count; i++) {
         timed = timed && dip_cost_is_timed(report, sweep->rows[i]);
     }
@@ -92,29 +95,31 @@ bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep,
         theory = theories[i].setting == sweep->setting ? &theories[i] : theory;
     }
     bool judged = theory && sweep->row_count > 1;
-    const int by_error = judged ? first_stray(report, sweep, theory, false, &judged) : 0;
+    const int by_error = judged ? first_departure(report, sweep, theory, false, &judged) : 0;
     if (!judged) {
         return false;
     }
     const bool counted = theory->work != FREE && is_counted(report, sweep);
-    const int by_work = counted ? first_stray(report, sweep, theory, true, &judged) : 0;
+    const int by_work = counted ? first_departure(report, sweep, theory, true, &judged) : 0;
     const char *error = theory->of_two_frames ? "the error of the mean of two frames" : "FLIP";
     const char *work = counted ? dip_cost_counter_names[theory->counter] : "";
-    const bool error_strays = by_error < sweep->row_count;
-    const bool work_strays = counted && by_work < sweep->row_count;
-    if (!error_strays && !work_strays) {
-        snprintf(text, size_bytes, "In order: %s %s from step to step%s%s%s%s.", error,
-                 trend_words[theory->error], counted ? ", " : "", work, counted ? " " : "",
-                 counted ? trend_words[theory->work] : "");
+    const bool error_departs = by_error < sweep->row_count;
+    const bool work_departs = counted && by_work < sweep->row_count;
+    if (!error_departs && !work_departs) {
+        snprintf(text, size_bytes, "As theory says: %s %s from step to step%s%s%s%s.", error,
+                 trend_words[theory->error], counted ? ", and the counter " : "", work,
+                 counted ? " " : "", counted ? trend_words[theory->work] : "");
         return true;
     }
     char step[DIP_COST_TEXT];
-    dip_cost_step_text(report, sweep, sweep->rows[error_strays ? by_error : by_work], step);
-    snprintf(text, size_bytes, "Not in order: %s should %s, and at \"%s\" does not; %s.",
-             error_strays ? error : work,
-             (error_strays ? theory->error : theory->work) == FALLS   ? "fall"
-             : (error_strays ? theory->error : theory->work) == RISES ? "rise"
-                                                                      : "stay",
-             step, theory->why);
+    const Trend expected = error_departs ? theory->error : theory->work;
+    dip_cost_step_text(report, sweep, sweep->rows[error_departs ? by_error : by_work], step);
+    snprintf(text, size_bytes,
+             "Not as theory says: at step \"%s\", %s%s should %s but does not. %s.", step,
+             error_departs ? "" : "the counter ", error_departs ? error : work,
+             expected == FALLS   ? "fall"
+             : expected == RISES ? "rise"
+                                 : "stay the same",
+             theory->why);
     return true;
 }

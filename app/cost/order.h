@@ -1,5 +1,5 @@
-// Whether a sweep's steps order as theory says, in error and in work. Times are not asked: they are
-// the machine's.
+// Checks whether error and work follow theory from one step of a sweep to the next. Times are not
+// checked, since they depend on the machine.
 #ifndef DIP_APP_COST_ORDER_H
 #define DIP_APP_COST_ORDER_H
 
@@ -7,8 +7,8 @@
 
 #include <stddef.h>
 
-// One sentence or two: what falls or rises with the steps, or which step does not and why that may
-// be. False where the report cannot tell: steps are not judged, or theory says nothing of them.
+// Writes a sentence: what falls or rises with the steps, or which step departs from theory and what
+// the reason may be. Returns false if the steps are not judged or theory says nothing about them.
 bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep, char *text,
                          size_t size_bytes);
 

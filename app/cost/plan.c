@@ -1,4 +1,4 @@
-// Making the rows.
+// Making rows and sweeps.
 #include "app/cost/plan.h"
 
 #include "app/cost/scene_hash.h"
@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The path that shows a setting at its best, and what else must be on for its steps to differ.
+// The path made for a setting, and another setting that must be on for its steps to differ.
 typedef struct SettingPlan {
     DipCategory category;
-    DipSetting needs;
+    DipSetting needs; // the setting itself if it needs no other
     int needed_step;
 } SettingPlan;
 
@@ -35,7 +35,8 @@ static int slot_of(const DipSession *session, int category) {
     return session->track.categories[category].path ? category : 0;
 }
 
-// Categories that share a path and a field of view share its entry, named after the first.
+// Adds the path of a category. Categories with the same path and field of view share one entry,
+// which has the name of the first.
 static int add_path(DipCostReport *report, const DipSession *session, int category) {
     const DipCamCategory *slot = &session->track.categories[slot_of(session, category)];
     for (int p = 0; p < report->path_count; p++) {
@@ -75,17 +76,16 @@ DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, in
     return pose;
 }
 
-int64_t dip_cost_place_time_ns(const DipCostReport *report, const DipSession *session, int path,
-                               int place, int frame) {
-    // In the middles of as many equal parts of the path.
+int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession *session, int path,
+                                   int viewpoint, int frame) {
     const int64_t duration_ns = dip_cost_path_duration_ns(report, session, path);
-    return duration_ns / (2 * report->options.places) * (2 * place + 1) +
+    return duration_ns / (2 * report->options.places) * (2 * viewpoint + 1) +
            frame * INT64_C(1000000000) / 30;
 }
 
 // --- rows --------------------------------------------------------------------------------------
 
-// The row of these settings on this path, made if it is not there; -1 when there is no room.
+// Finds the row of these settings on this path, or adds it. Returns -1 when there is no room.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
     for (int r = 0; r < report->row_count; r++) {
         if (report->rows[r].path == path &&
@@ -122,7 +122,7 @@ static void add_to_sweep(DipCostSweep *sweep, int row) {
     }
 }
 
-// What a sweep's settings have on top of the defaults beside the swept one; "" for nothing.
+// Writes the settings other than the swept one that differ from the defaults; "" if none does.
 static void context_text(const DipQuality *quality, DipSetting setting, char text[DIP_COST_TEXT]) {
     DipQuality context = *quality;
     context.step[setting] = (uint8_t)dip_setting_info(setting)->default_step;
@@ -165,7 +165,8 @@ static void plan_setting(DipCostReport *report, const DipSession *session, DipSe
     }
 }
 
-// Adaptive AA's divisors belong to numbers of samples: a sweep for each, from few passes to many.
+// Adds a sweep of adaptive AA for each number of samples, since its divisors depend on that number.
+// Steps go from few groups of samples to many.
 static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     const DipSettingInfo *divisors = dip_setting_info(DIP_SETTING_ASD);
     for (int aa = 1; aa < dip_setting_info(DIP_SETTING_AA)->step_count; aa++) {
@@ -196,7 +197,7 @@ static void plan_adaptive(DipCostReport *report, const DipSession *session) {
 
 // --- combinations ------------------------------------------------------------------------------
 
-// Settings that say the same as others, with a step in use that changes nothing.
+// True if some enabled setting has no effect, so that another combination draws the same picture.
 static bool is_idle(const DipQuality *q) {
     const bool adaptive = q->step[DIP_SETTING_AAA] != 0;
     return (q->step[DIP_SETTING_AAF] && !q->step[DIP_SETTING_AF]) ||
@@ -253,8 +254,8 @@ static void describe(DipCostReport *report, const DipSession *session, const Dip
     report->height = options->has_size ? options->height : session->config.res.height;
 }
 
-// Two settings make a front worth a plot; advice looks at those that are chosen in scenes of all
-// kinds.
+// The settings that are combined by default: two are enough for a plot of the Pareto front, advice
+// needs those that are worth choosing in scenes of any kind.
 static unsigned default_combined(const DipCostOptions *options) {
     const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
     return options->budget_count
@@ -294,7 +295,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipOp
 }
 
 void dip_cost_plan_hash(const DipCostReport *report, char hex[33]) {
-    DipHash hash = dip_hash_begin();
+    DipHash hash = dip_hash_begin(0);
     dip_hash_text(&hash, report->version);
     dip_hash_text(&hash, report->scene_hash);
     dip_hash_text(&hash, report->processor);

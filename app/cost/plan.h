@@ -1,4 +1,5 @@
-// Which rows a report has: every step of every setting on the path made for it, and combinations.
+// The rows of a report: every step of every setting, on the camera path made for that setting, and
+// the combinations.
 #ifndef DIP_APP_COST_PLAN_H
 #define DIP_APP_COST_PLAN_H
 
@@ -6,25 +7,26 @@
 #include "app/options.h"
 #include "app/session.h"
 
-// Fills in what is measured and makes room for it. Steps that the renderer refuses are left out,
-// with the reason in the report.
+// Fills in the rows and sweeps of an empty report and allocates its memory. Steps that the renderer
+// refuses are left out and listed with the reason. Free the report even after a failure.
 bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipOptions *options,
                    DipError *err);
 
-// The first model's file, without folders.
+// Writes the file name of the first model, without its folder.
 void dip_cost_scene_name(const DipSession *session, const DipOptions *options,
                          char name[DIP_COST_TEXT]);
 
-// The pose at a time on one of the report's paths.
+// The length of one of the report's paths, and the pose at a time on it.
 int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession *session, int path);
 DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, int path,
                       int64_t time_ns);
 
-// When a burst's frame at a place is; 30 frames a second.
-int64_t dip_cost_place_time_ns(const DipCostReport *report, const DipSession *session, int path,
-                               int place, int frame);
+// The time of one frame of the burst at a viewpoint. Viewpoints lie in the middles of equal parts
+// of the path; frames of a burst are 1/30 s apart.
+int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession *session, int path,
+                                   int viewpoint, int frame);
 
-// A name for all that decides what times and errors mean: rows, size, scene, machine.
+// Writes the hash of everything that times depend on: rows, size, scene, machine, version.
 void dip_cost_plan_hash(const DipCostReport *report, char hex[33]);
 
 #endif

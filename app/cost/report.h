@@ -1,15 +1,16 @@
-// Everything that a cost report says: what was measured, and every figure.
+// A cost report: what was measured, and the figures that follow from it.
 #ifndef DIP_APP_COST_REPORT_H
 #define DIP_APP_COST_REPORT_H
 
 #include "app/cost/options.h"
-#include "app/measure/sums.h"
+#include "app/measure/metrics.h"
+#include "app/measure/statistics.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/quality.h"
 
 #include <stdbool.h>
 
-// Counters in the list's order.
+// Work counters, in the order of DIP_COUNTER_LIST.
 enum {
 #define DIP_COST_COUNTER(name, text) DIP_COST_COUNTER_##name,
     DIP_COUNTER_LIST(DIP_COST_COUNTER)
@@ -29,32 +30,32 @@ enum {
     DIP_COST_REASON = 512
 };
 
-// One measured thing: settings on a path.
+// One measured combination: quality settings on a camera path.
 typedef struct DipCostRow {
     DipQuality quality;
-    int path;
-    DipCostSums *places;                     // one per place
-    bool *judged;                            // likewise: the sums are there
-    double *ms;                              // [round * timed_frames + frame]; NULL: not timed
-    double counters[DIP_COST_COUNTER_COUNT]; // mean per timed frame
+    int path;                                // Index of the report's path.
+    DipMetricSums *viewpoints;               // Errors per viewpoint of the path. Owned.
+    bool *judged;                            // Per viewpoint: its errors are known. Owned.
+    double *ms;                              // [round * timed_frames + frame]. Owned.
+    double counters[DIP_COST_COUNTER_COUNT]; // Mean per timed frame.
 } DipCostRow;
 
-// The steps of one setting, with everything else alike.
+// All steps of one setting on one path, with every other setting held constant.
 typedef struct DipCostSweep {
     char title[DIP_COST_TEXT]; // "Adaptive AA with aa=4"
     DipSetting setting;
     int path;
-    int base; // row that times are compared with: the baseline's step
+    int base; // Row that times are compared with: the baseline's step.
     int rows[DIP_COST_MAX_SWEEP_ROWS];
     int row_count;
 } DipCostSweep;
 
-// What to choose within a time.
+// The row to choose for one time budget.
 typedef struct DipCostAdvice {
     double budget_ms;
-    int row;            // -1: nothing measured is that fast
-    double checked_ms;  // measured again: median
-    double checked_low; // its 95 % interval
+    int row;            // -1 if no combination holds the budget.
+    double checked_ms;  // Time of the row, measured again.
+    double checked_low; // 95 % interval of checked_ms.
     double checked_high;
 } DipCostAdvice;
 
@@ -65,73 +66,88 @@ typedef struct DipCostReport {
     char isa[16];
     char version[32];
     int threads;
-    int width;
-    int height;
+    int width;  // Pixels.
+    int height; // Pixels.
     DipCostOptions options;
-    char paths[DIP_COST_MAX_PATHS][16];
+    char paths[DIP_COST_MAX_PATHS][16]; // Names: "DEFAULT", "AA", ...
     int path_count;
-    DipCostRow *rows;
+    DipCostRow *rows; // Owned. Row 0 is the baseline on path 0.
     int row_count;
-    int same_row;       // the A/A row: the same as row 0
-    int combined_first; // rows from here on are the combinations, on path 0
+    int same_row;       // The A/A row: the same settings and path as row 0.
+    int combined_first; // Rows from this index on are the combinations, on path 0.
     DipCostSweep sweeps[DIP_COST_MAX_SWEEPS];
     int sweep_count;
-    char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // steps left out, with the reason
+    char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // Steps that were left out, with reasons.
     int refused_count;
-    int rounds;          // timed so far
-    DipCostSums *floors; // [path * places + place]: half of the truth against the other
-    bool *has_floor;
+    int rounds; // Timed so far.
+    DipMetricSums
+        *floors;     // Noise floors of the truths, [path * options.places + viewpoint]. Owned.
+    bool *has_floor; // Same indices: the floor is known. Owned.
     DipCostAdvice advice[DIP_COST_MAX_BUDGETS];
     int advice_count;
 } DipCostReport;
 
-// Room for the rows' places and times; rows, paths and options are filled in.
+// Allocates what the rows need; rows, paths and options are already filled in.
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err);
 void dip_cost_report_free(DipCostReport *report);
 
-// Settings that are not the defaults, "aa=4,af=16", or "defaults".
+// --- texts -------------------------------------------------------------------------------------
+
+// Writes the settings that differ from the defaults, "aa=4,af=16", or "defaults".
 void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]);
 
-// Over all places that are there; *places is their number.
-DipCostSums dip_cost_row_sums(const DipCostReport *report, int row, int *places);
-DipCostSums dip_cost_floor(const DipCostReport *report, int path);
+// Writes the name of a row's step in its sweep: "4", "high-quality"; for adaptive AA "off" or
+// "on, asd=2".
+void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
+                        char text[DIP_COST_TEXT]);
 
-// The floor's root mean square in linear light: of a truth whose halves differ by the sums.
+// "at floor" if dip_cost_at_floor, else "".
+const char *dip_cost_floor_mark(const DipCostReport *report, int row);
+
+// --- errors ------------------------------------------------------------------------------------
+
+// The sum over all judged viewpoints of a row. *viewpoints receives their number.
+DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints);
+
+// The sum of the floors of a path's truths.
+DipMetricSums dip_cost_floor(const DipCostReport *report, int path);
+
+// The error of a path's truths: root mean square in linear light. See dip_truth_floor_rmse.
 double dip_cost_floor_rmse(const DipCostReport *report, int path, int region);
 
-// Errors below three times the floor say nothing.
+// True if a row's error is too small to tell from the truth's own noise.
 bool dip_cost_at_floor(const DipCostReport *report, int row);
 
-typedef struct DipCostTime {
-    double ms;  // the mean over the frames of their medians over the rounds
-    double low; // 95 % interval by bootstrap over the rounds
-    double high;
-} DipCostTime;
+// --- times -------------------------------------------------------------------------------------
 
 bool dip_cost_is_timed(const DipCostReport *report, int row);
 
-// DipCostTime's ms alone, which is quick to find.
+// Milliseconds of a frame: the mean over the frames of their medians over the rounds. dip_cost_ms
+// finds the value alone, dip_cost_time its 95 % interval too, which takes far longer.
 double dip_cost_ms(const DipCostReport *report, int row);
-DipCostTime dip_cost_time(const DipCostReport *report, int row);
+DipStatsEstimate dip_cost_time(const DipCostReport *report, int row);
 
-// The median over rounds and frames of row / base, both of the same round.
-DipCostTime dip_cost_ratio(const DipCostReport *report, int row, int base);
-
-// Its ms alone, which is quick to find.
+// The median over rounds and frames of the row's time divided by the base's in the same round.
+// dip_cost_median_ratio finds the value alone.
 double dip_cost_median_ratio(const DipCostReport *report, int row, int base);
+DipStatsEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
 
-// Rows that no other one of the same list is at least as good as in time and in error; in order of
-// time. Rows without both are left out. Returns how many.
-int dip_cost_front(const DipCostReport *report, const int *rows, int count, int *front);
+// --- choosing ----------------------------------------------------------------------------------
 
-// The fastest combination that buys at least 1 % of FLIP over a row; -1: none.
-int dip_cost_next(const DipCostReport *report, int row);
+// Finds the Pareto front of some rows in time and FLIP: rows such that no other row is at least as
+// good in both. Writes them to `front` in order of time and returns their number. Rows without
+// times or errors are left out.
+int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *front);
 
-// Of the combinations whose latest time, by row, is within a budget the one of least FLIP; -1:
-// none.
+// Thins a Pareto front: keeps the first row and every row that lowers FLIP by at least 1 % below
+// the last kept one. Returns the number of rows kept.
+int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int count);
+
+// The fastest combination whose FLIP is at least 1 % lower than a row's; -1 if there is none.
+int dip_cost_step_up(const DipCostReport *report, int row);
+
+// The combination with the least FLIP among those whose latest_ms, indexed by row, is within the
+// budget; -1 if there is none.
 int dip_cost_choose(const DipCostReport *report, const double *latest_ms, double budget_ms);
-
-// Leaves of a front its first row and those that buy at least 1 % of FLIP over the last one left.
-int dip_cost_front_steps(const DipCostReport *report, int *front, int count);
 
 #endif

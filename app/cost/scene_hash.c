@@ -1,4 +1,4 @@
-// All that decides how a scene looks, in a fixed order.
+// Hashing every part of a scene in a fixed order.
 #include "app/cost/scene_hash.h"
 
 #include "renderer/base/hash.h"
@@ -87,7 +87,7 @@ static void hash_reflection(const DipReflectionDef *reflection, DipHash *hash) {
 }
 
 void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflection, char hex[33]) {
-    DipHash hash = dip_hash_begin();
+    DipHash hash = dip_hash_begin(0);
     hash_textures(def, &hash);
     hash_materials(def, &hash);
     hash_meshes(def, &hash);

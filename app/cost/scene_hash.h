@@ -1,10 +1,11 @@
-// A name for a scene's content, under which its truths are kept.
+// A hash of a scene's content, under which its truths are kept in the cache.
 #ifndef DIP_APP_COST_SCENE_HASH_H
 #define DIP_APP_COST_SCENE_HASH_H
 
 #include "renderer/scene/reflection.h"
 #include "renderer/scene/scene.h"
 
+// Writes 32 hexadecimal digits that depend on everything that decides how the scene looks.
 void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflection, char hex[33]);
 
 #endif

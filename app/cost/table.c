@@ -1,5 +1,5 @@
-// The report as text for a terminal.
-#include "app/cost/write.h"
+// A report as tables for a terminal.
+#include "app/cost/formats.h"
 
 #include "app/cost/fit.h"
 #include "app/cost/order.h"
@@ -13,32 +13,34 @@ static void print_heading(const DipCostReport *report, FILE *out) {
     fprintf(out, "scene    %s, %dx%d pixels\n", report->scene, report->width, report->height);
     fprintf(out, "machine  %s, %d thread%s, %s\n", report->processor, report->threads,
             report->threads == 1 ? "" : "s", report->isa);
-    fprintf(out, "times    %d frames of each path, %d rounds; ratios with 95 %% intervals\n",
+    fprintf(out, "times    %d frames of each path in %d rounds; ratios are to the baseline\n",
             report->options.timed_frames, report->rounds);
-    fprintf(out, "errors   %d places of each path, %d frames in a row; truth of 2 x %d samples\n",
+    fprintf(out,
+            "errors   %d viewpoints on each path, %d frames at each, against a truth of 2 x %d "
+            "samples per pixel\n",
             report->options.places, report->options.burst, report->options.samples);
     fprintf(out, "baseline %s\n", baseline);
 }
 
 static void print_times(const DipCostReport *report, int row, int base, FILE *out) {
     if (!dip_cost_is_timed(report, row)) {
-        fprintf(out, " %8s %6s %-15s", "-", "-", "");
+        fprintf(out, " %8s %6s %-14s", "-", "-", "");
         return;
     }
-    const DipCostTime ratio = dip_cost_ratio(report, row, base);
+    const DipStatsEstimate ratio = dip_cost_ratio(report, row, base);
     char interval[32];
-    snprintf(interval, sizeof interval, "%.3f..%.3f", ratio.low, ratio.high);
-    fprintf(out, " %8.2f %6.3f %-15s", dip_cost_ms(report, row), ratio.ms, interval);
+    snprintf(interval, sizeof interval, "%.3f to %.3f", ratio.low, ratio.high);
+    fprintf(out, " %8.2f %6.3f %-14s", dip_cost_ms(report, row), ratio.value, interval);
 }
 
 static void print_row(const DipCostReport *report, const char *name, int row, int base, FILE *out) {
-    int places;
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     fprintf(out, "  %-17s", name);
     print_times(report, row, base, out);
-    if (places > 0) {
-        const DipCostFigures f = dip_cost_figures(&sums, 0);
-        const DipCostFlicker flicker = dip_cost_flicker(&sums);
+    if (viewpoints > 0) {
+        const DipMetrics f = dip_metrics_of(&sums, 0);
+        const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
         fprintf(out, " %7.5f %6.2f %7.5f %7.5f %7.5f %7.5f  %s", f.rmse_lin, f.psnr_db, f.ssim,
                 f.flip, flicker.flicker, flicker.two_mean, dip_cost_floor_mark(report, row));
     }
@@ -46,16 +48,17 @@ static void print_row(const DipCostReport *report, const char *name, int row, in
 }
 
 static void print_columns(FILE *out) {
-    fprintf(out, "  %-17s %8s %6s %-15s %7s %6s %7s %7s %7s %7s\n", "", "ms", "ratio",
-            "95 % interval", "RMSE", "PSNR", "SSIM", "FLIP", "flicker", "2-mean");
+    fprintf(out, "  %-17s %8s %6s %-14s %7s %6s %7s %7s %7s %7s\n", "", "ms", "ratio",
+            "95 % interval", "RMSE", "PSNR", "SSIM", "FLIP", "flicker", "2-frame");
 }
 
 static void print_floors(const DipCostReport *report, FILE *out) {
-    fprintf(out, "\nThe truth's own floor (errors below three times its RMSE are \"at floor\"):\n");
+    fprintf(out,
+            "\nNoise floor of the truth (an RMSE below three times this value is \"at floor\"):\n");
     for (int p = 0; p < report->path_count; p++) {
-        const DipCostSums sums = dip_cost_floor(report, p);
-        fprintf(out, "  %-9s RMSE %.5f; FLIP between its halves %.5f\n", report->paths[p],
-                dip_cost_floor_rmse(report, p, 0), dip_cost_figures(&sums, 0).flip);
+        const DipMetricSums sums = dip_cost_floor(report, p);
+        fprintf(out, "  path %-9s RMSE %.5f; FLIP between the two halves %.5f\n", report->paths[p],
+                dip_cost_floor_rmse(report, p, 0), dip_metrics_of(&sums, 0).flip);
     }
 }
 
@@ -70,19 +73,19 @@ static void print_front(const DipCostReport *report, FILE *out) {
     for (int i = 0; i < count; i++) {
         rows[i] = report->combined_first + i;
     }
-    const int kept =
-        dip_cost_front_steps(report, front, dip_cost_front(report, rows, count, front));
+    const int kept = dip_cost_pareto_front_thin(report, front,
+                                                dip_cost_pareto_front(report, rows, count, front));
     fprintf(out,
-            "\nOf %d combinations on path %s, those that nothing beats in time and FLIP, by steps "
-            "of 1 %% of FLIP:\n",
+            "\nPareto front of %d combinations on path %s: no other combination has less time and "
+            "less FLIP.\nOnly rows that lower FLIP by at least 1 %% are listed.\n",
             count, report->paths[0]);
     for (int i = 0; i < kept; i++) {
-        int places;
+        int viewpoints;
         char text[DIP_COST_TEXT];
-        const DipCostSums sums = dip_cost_row_sums(report, front[i], &places);
+        const DipMetricSums sums = dip_cost_row_sums(report, front[i], &viewpoints);
         dip_cost_settings_text(&report->rows[front[i]].quality, text);
         fprintf(out, "  %8.2f ms  FLIP %.5f  %s\n", dip_cost_ms(report, front[i]),
-                dip_cost_figures(&sums, 0).flip, text);
+                dip_metrics_of(&sums, 0).flip, text);
     }
     free(rows);
 }
@@ -92,8 +95,10 @@ static void print_fit(const DipCostReport *report, FILE *out) {
     if (fit.rows == 0) {
         return;
     }
-    fprintf(out, "\nTime by work (least squares over %d rows, R2 %.3f, median miss %.1f %%), ns:\n",
-            fit.rows, fit.r2, 100.0 * fit.median_miss);
+    fprintf(
+        out,
+        "\nTime explained by work (linear fit to %d rows, R2 %.3f, median error %.1f %%), ns:\n",
+        fit.rows, fit.r2, 100.0 * fit.median_miss);
     for (int i = 0; i < fit.count; i++) {
         if (fit.ns[i] > 0.0) {
             fprintf(out, "  %10.3g per %s\n", fit.ns[i], fit.names[i]);
@@ -105,27 +110,28 @@ static void print_advice(const DipCostReport *report, FILE *out) {
     for (int i = 0; i < report->advice_count; i++) {
         const DipCostAdvice *advice = &report->advice[i];
         if (i == 0) {
-            fprintf(out, "\nAdvice, path %s: the least FLIP within a time, timed again:\n",
+            fprintf(out,
+                    "\nBest settings for a time budget on path %s (least FLIP; timed again):\n",
                     report->paths[0]);
         }
         if (advice->row < 0) {
-            fprintf(out, "  %6g ms: nothing measured is that fast\n", advice->budget_ms);
+            fprintf(out, "  %6g ms: no measured combination is that fast\n", advice->budget_ms);
             continue;
         }
-        int places;
+        int viewpoints;
         char text[DIP_COST_TEXT];
-        const DipCostSums sums = dip_cost_row_sums(report, advice->row, &places);
+        const DipMetricSums sums = dip_cost_row_sums(report, advice->row, &viewpoints);
         dip_cost_settings_text(&report->rows[advice->row].quality, text);
-        fprintf(out, "  %6g ms: %s  (%.2f ms, %.2f..%.2f; FLIP %.5f)\n", advice->budget_ms, text,
-                advice->checked_ms, advice->checked_low, advice->checked_high,
-                dip_cost_figures(&sums, 0).flip);
-        const int next = dip_cost_next(report, advice->row);
+        fprintf(out, "  %6g ms: %s  (%.2f ms, 95 %% interval %.2f to %.2f; FLIP %.5f)\n",
+                advice->budget_ms, text, advice->checked_ms, advice->checked_low,
+                advice->checked_high, dip_metrics_of(&sums, 0).flip);
+        const int next = dip_cost_step_up(report, advice->row);
         if (next >= 0) {
-            const DipCostSums better = dip_cost_row_sums(report, next, &places);
+            const DipMetricSums better = dip_cost_row_sums(report, next, &viewpoints);
             dip_cost_settings_text(&report->rows[next].quality, text);
-            fprintf(out, "  %9s  one step up: %s (%+.2f ms, FLIP %+.5f)\n", "", text,
+            fprintf(out, "  %9s  next better: %s (%+.2f ms, FLIP %+.5f)\n", "", text,
                     dip_cost_ms(report, next) - dip_cost_ms(report, advice->row),
-                    dip_cost_figures(&better, 0).flip - dip_cost_figures(&sums, 0).flip);
+                    dip_metrics_of(&better, 0).flip - dip_metrics_of(&sums, 0).flip);
         }
     }
 }
@@ -135,11 +141,11 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
     fputc('\n', out);
     print_columns(out);
     if (dip_cost_is_timed(report, report->same_row)) {
-        print_row(report, "A/A: the baseline", report->same_row, 0, out);
+        print_row(report, "baseline (A/A)", report->same_row, 0, out);
     }
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
-        fprintf(out, "%s (path %s)\n", sweep->title, report->paths[sweep->path]);
+        fprintf(out, "%s, on path %s\n", sweep->title, report->paths[sweep->path]);
         for (int i = 0; i < sweep->row_count; i++) {
             char text[DIP_COST_TEXT];
             dip_cost_step_text(report, sweep, sweep->rows[i], text);
@@ -152,7 +158,8 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
     }
     print_floors(report, out);
     for (int i = 0; i < report->refused_count; i++) {
-        fprintf(out, "%s  %s\n", i ? "" : "\nLeft out:\n", report->refused[i]);
+        fprintf(out, "%s  %s\n", i ? "" : "\nSteps left out, with the reason:\n",
+                report->refused[i]);
     }
     print_front(report, out);
     print_advice(report, out);

@@ -1,4 +1,4 @@
-// Sums of errors over frames.
+// Running means and deviations of errors over frames.
 #include "app/measure/flicker.h"
 
 #include <stdlib.h>
@@ -34,7 +34,7 @@ void dip_flicker_restart(DipFlicker *flicker) {
     flicker->pair_squares = 0.0;
 }
 
-// Welford's updates: mean and deviation without differences of large sums.
+// Uses Welford's update, which finds mean and deviation without subtracting large sums.
 void dip_flicker_add(DipFlicker *flicker, const float *error_lin) {
     flicker->frame_count++;
     for (size_t i = 0; i < flicker->value_count; i++) {

@@ -1,8 +1,8 @@
-// Error over time: what stands still, and what flickers.
+// Error over time, split into a part that stands still and a part that flickers.
 //
-// With e = test - truth at the same instant, per pixel and channel in linear light, the mean of e^2
-// over a burst of frames is the square of e's mean plus e's variance. Summed over the picture the
-// first is the static error, the second flicker; as roots of means
+// Let e = test - truth at one instant, per pixel and channel, in linear light. Over a burst of
+// successive frames the mean of e^2 equals the square of the mean of e plus the variance of e. Over
+// the whole picture the first term is the static error and the second is flicker:
 //     rms^2 = static^2 + flicker^2.
 #ifndef DIP_APP_MEASURE_FLICKER_H
 #define DIP_APP_MEASURE_FLICKER_H
@@ -10,36 +10,46 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Sums over a burst of frames that follow each other.
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Running sums over a burst of successive frames. Owns its arrays. Use one per thread.
 typedef struct DipFlicker {
-    double *mean;      // of e, per value
-    double *deviation; // the sum of squared differences from the mean
-    float *last;       // e of the frame before
+    double *mean;      // Mean of e so far, per value.
+    double *deviation; // Sum of squared deviations of e from its mean, per value.
+    float *last;       // e of the previous frame.
     size_t value_count;
     int frame_count;
-    double squares;      // of e, over all values and frames
-    double step_squares; // of e less the last e, over all values and steps
-    double pair_squares; // of the mean of e and the last e
+    double squares;      // Sum of e^2 over all values and frames.
+    double step_squares; // Sum of (e - previous e)^2 over all values and steps.
+    double pair_squares; // Sum of ((e + previous e) / 2)^2 over all values and steps.
 } DipFlicker;
 
-// value_count: pixels times channels. False when memory runs out.
+// value_count is pixels times channels. Returns false when memory runs out; then nothing is held.
 bool dip_flicker_init(DipFlicker *flicker, size_t value_count);
 void dip_flicker_free(DipFlicker *flicker);
 
-// Begins another burst.
+// Begins a new burst.
 void dip_flicker_restart(DipFlicker *flicker);
 
+// Adds the next frame: value_count differences as dip_difference_lin writes them.
 void dip_flicker_add(DipFlicker *flicker, const float *error_lin);
 
-// Mean squares over the burst's values.
+// Mean squares over all values of the burst. A single frame has no step and no pair: these are 0.
 typedef struct DipFlickerResult {
-    double squared;          // of e
-    double squared_static;   // of the mean of e over time
-    double squared_flicker;  // variance of e over time
-    double squared_step;     // of the change of e from frame to frame; 0 of a single frame
-    double squared_two_mean; // of the mean of two frames' e, what a fast display shows; likewise
+    double squared;         // Mean of e^2.
+    double squared_static;  // Square of the mean of e over time.
+    double squared_flicker; // Variance of e over time.
+    double squared_step;    // Squared change of e from one frame to the next.
+    double
+        squared_two_mean; // Squared mean of two successive frames' e, as a fast display shows it.
 } DipFlickerResult;
 
 DipFlickerResult dip_flicker_result(const DipFlicker *flicker);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

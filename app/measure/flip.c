@@ -2,98 +2,28 @@
 // effect, HyAB distance, edges and points, error.
 #include "app/measure/flip.h"
 
+#include "app/measure/internal/convolve.h"
+#include "app/measure/internal/flip_kernels.h"
 #include "renderer/base/srgb.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double pi = 3.14159265358979323846;
-
-// The white that XYZ is divided by, D65.
+// D65 in XYZ: the reference white of the opponent colours and of CIELab.
 static const float white[3] = {0.950428545f, 1.0f, 1.088900371f};
 
-enum { SIDE_L, SIDE_A, SIDE_B, SIDE_EDGE_X, SIDE_EDGE_Y, SIDE_POINT_X, SIDE_POINT_Y, SIDES };
-
-// --- filters -----------------------------------------------------------------------------------
-
-// The spatial Gaussian a * sqrt(pi / b) * exp(-pi^2 x^2 / b), x in degrees, times `factor`.
-static void fill_gaussian(DipKernel1D *kernel, int radius, double ppd, double factor, double b) {
-    kernel->radius = radius;
-    for (int i = -radius; i <= radius; i++) {
-        const double x = i / ppd;
-        kernel->weights[i + radius] = (float)(factor * exp(-pi * pi * x * x / b));
-    }
-}
-
-static double sum_gaussian(int radius, double ppd, double factor, double b) {
-    double sum = 0.0;
-    for (int i = -radius; i <= radius; i++) {
-        const double x = i / ppd;
-        sum += factor * exp(-pi * pi * x * x / b);
-    }
-    return sum;
-}
-
-static void make_sensitivity(DipFlipKernels *kernels, double ppd) {
-    static const double luma_b = 0.0047, red_green_b = 0.0053;
-    static const double blue_a[2] = {34.1, 13.5}, blue_b[2] = {0.04, 0.025};
-    const int radius = (int)ceil(3.0 * sqrt(blue_b[0] / (2.0 * pi * pi)) * ppd);
-    fill_gaussian(&kernels->luma, radius, ppd, 1.0 / sum_gaussian(radius, ppd, 1.0, luma_b),
-                  luma_b);
-    fill_gaussian(&kernels->red_green, radius, ppd,
-                  1.0 / sum_gaussian(radius, ppd, 1.0, red_green_b), red_green_b);
-    // Two Gaussians in two dimensions: each is the square of one in one dimension, and their
-    // squares' sums together are normalised to one.
-    double factors[2], squares = 0.0;
-    for (int i = 0; i < 2; i++) {
-        factors[i] = sqrt(blue_a[i] * sqrt(pi / blue_b[i]));
-        const double sum = sum_gaussian(radius, ppd, factors[i], blue_b[i]);
-        squares += sum * sum;
-    }
-    for (int i = 0; i < 2; i++) {
-        fill_gaussian(&kernels->blue[i], radius, ppd, factors[i] / sqrt(squares), blue_b[i]);
-    }
-}
-
-// Positive and negative weights are made to sum to one each.
-static void normalise_lobes(const double *weights, DipKernel1D *kernel) {
-    double positive = 0.0, negative = 0.0;
-    for (int i = 0; i <= 2 * kernel->radius; i++) {
-        positive += weights[i] > 0.0 ? weights[i] : 0.0;
-        negative -= weights[i] < 0.0 ? weights[i] : 0.0;
-    }
-    for (int i = 0; i <= 2 * kernel->radius; i++) {
-        kernel->weights[i] = (float)(weights[i] / (weights[i] > 0.0 ? positive : negative));
-    }
-}
-
-static void make_features(DipFlipKernels *kernels, double ppd) {
-    const double sigma = 0.5 * 0.082 * ppd; // half the width of an edge that the eye can make out
-    const int radius = (int)ceil(3.0 * sigma);
-    double gauss[2 * DIP_KERNEL_MAX_RADIUS + 1];
-    double edge[2 * DIP_KERNEL_MAX_RADIUS + 1];
-    double point[2 * DIP_KERNEL_MAX_RADIUS + 1];
-    for (int i = -radius; i <= radius; i++) {
-        const double g = exp(-i * i / (2.0 * sigma * sigma));
-        gauss[i + radius] = g;
-        edge[i + radius] = -i * g;
-        point[i + radius] = (i * i / (sigma * sigma) - 1.0) * g;
-    }
-    kernels->gauss.radius = kernels->edge.radius = kernels->point.radius = radius;
-    normalise_lobes(gauss, &kernels->gauss);
-    normalise_lobes(edge, &kernels->edge);
-    normalise_lobes(point, &kernels->point);
-    kernels->edge.weights[radius] = 0.0f; // the middle is of neither lobe
-}
-
-DipFlipKernels dip_flip_kernels(double pixels_per_degree) {
-    DipFlipKernels kernels;
-    memset(&kernels, 0, sizeof kernels);
-    make_sensitivity(&kernels, pixels_per_degree);
-    make_features(&kernels, pixels_per_degree);
-    return kernels;
-}
+// Planes of a DipFlipAnalysis.
+enum {
+    PLANE_L,
+    PLANE_A,
+    PLANE_B,
+    PLANE_EDGE_X,
+    PLANE_EDGE_Y,
+    PLANE_POINT_X,
+    PLANE_POINT_Y,
+    PLANE_COUNT
+};
 
 // --- memory ------------------------------------------------------------------------------------
 
@@ -106,7 +36,10 @@ static size_t plane_size(const DipFlip *flip) {
 bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree) {
     DipSrgbDecodeTable srgb;
     dip_srgb_decode_table(&srgb);
-    flip->kernels = dip_flip_kernels(pixels_per_degree);
+    flip->kernels = malloc(sizeof *flip->kernels);
+    if (flip->kernels) {
+        *flip->kernels = dip_flip_kernels(pixels_per_degree);
+    }
     flip->width = width;
     flip->height = height;
     for (int i = 0; i < 256; i++) {
@@ -114,30 +47,34 @@ bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degre
     }
     const size_t padded = (size_t)width + 2 * DIP_KERNEL_MAX_RADIUS;
     flip->scratch = malloc((SCRATCH_PLANES * plane_size(flip) + padded) * sizeof(float));
-    return flip->scratch != NULL;
+    return flip->kernels && flip->scratch;
 }
 
 void dip_flip_free(DipFlip *flip) {
+    free(flip->kernels);
     free(flip->scratch);
+    flip->kernels = NULL;
     flip->scratch = NULL;
 }
 
-bool dip_flip_side_init(const DipFlip *flip, DipFlipSide *side) {
-    side->memory = malloc(SIDES * plane_size(flip) * sizeof(float));
-    for (int i = 0; i < SIDES; i++) {
-        side->planes[i] = side->memory ? side->memory + (size_t)i * plane_size(flip) : NULL;
+bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis) {
+    analysis->memory = malloc(PLANE_COUNT * plane_size(flip) * sizeof(float));
+    for (int i = 0; i < PLANE_COUNT; i++) {
+        analysis->planes[i] =
+            analysis->memory ? analysis->memory + (size_t)i * plane_size(flip) : NULL;
     }
-    return side->memory != NULL;
+    return analysis->memory != NULL;
 }
 
-void dip_flip_side_free(DipFlipSide *side) {
-    free(side->memory);
-    *side = (DipFlipSide){0};
+void dip_flip_analysis_free(DipFlipAnalysis *analysis) {
+    free(analysis->memory);
+    *analysis = (DipFlipAnalysis){0};
 }
 
-// --- taking a picture in -----------------------------------------------------------------------
+// --- analysing a picture -----------------------------------------------------------------------
 
-// sRGB's primaries and D65 as fractions.
+// Linear sRGB to the opponent colours Y, Cx, Cz. The matrix is that of sRGB's primaries and D65, as
+// exact fractions.
 static void to_opponent(const float rgb[3], float *luma, float *red_green, float *blue) {
     static const float m[3][3] = {{(float)(10135552.0 / 24577794.0),
                                    (float)(8788810.0 / 24577794.0),
@@ -155,13 +92,14 @@ static void to_opponent(const float rgb[3], float *luma, float *red_green, float
     *blue = 200.0f * (xyz[1] - xyz[2]);
 }
 
+// CIELab's compressive function.
 static float lightness(float x) {
     const float limit = 6.0f / 29.0f;
     return x > limit * limit * limit ? cbrtf(x) : x / (3.0f * limit * limit) + 4.0f / 29.0f;
 }
 
-// Filtered opponent colours to linear light, clamped to what a screen shows, and on to CIELab whose
-// chroma is less in the dark (Hunt).
+// Filtered opponent colours to CIELab, by way of linear light that is clamped to what a screen
+// shows. Chroma is scaled by lightness, since dark colours look less colourful (Hunt's effect).
 static void to_lab(float luma, float red_green, float blue, float lab[3]) {
     static const float to_rgb[3][3] = {{3.241003275f, -1.537398934f, -0.498615861f},
                                        {-0.969224334f, 1.875930071f, 0.041554224f},
@@ -215,9 +153,9 @@ static void filter(const DipFlip *flip, const Scratch *s, const DipKernel1D *acr
     dip_convolve_columns(down, s->rows, flip->width, flip->height, out);
 }
 
-static void take_colours(const DipFlip *flip, const Scratch *s, DipFlipSide *side) {
-    const DipFlipKernels *k = &flip->kernels;
-    float *const *lab = side->planes;
+static void analyse_colours(const DipFlip *flip, const Scratch *s, DipFlipAnalysis *analysis) {
+    const DipFlipKernels *k = flip->kernels;
+    float *const *lab = analysis->planes;
     filter(flip, s, &k->luma, &k->luma, s->opponent[0], lab[0]);
     filter(flip, s, &k->red_green, &k->red_green, s->opponent[1], lab[1]);
     filter(flip, s, &k->blue[0], &k->blue[0], s->opponent[2], lab[2]);
@@ -231,21 +169,21 @@ static void take_colours(const DipFlip *flip, const Scratch *s, DipFlipSide *sid
     }
 }
 
-// Each filter is one of edge or point along an axis and a Gaussian along the other.
-static void take_features(const DipFlip *flip, const Scratch *s, DipFlipSide *side) {
-    const DipFlipKernels *k = &flip->kernels;
-    float *const *out = side->planes;
+// Each feature detector is a derivative along one axis and a Gaussian along the other.
+static void analyse_features(const DipFlip *flip, const Scratch *s, DipFlipAnalysis *analysis) {
+    const DipFlipKernels *k = flip->kernels;
+    float *const *out = analysis->planes;
     const int width = flip->width, height = flip->height;
     dip_convolve_rows(&k->edge, s->grey, width, height, s->padded, s->rows);
-    dip_convolve_columns(&k->gauss, s->rows, width, height, out[SIDE_EDGE_X]);
+    dip_convolve_columns(&k->gauss, s->rows, width, height, out[PLANE_EDGE_X]);
     dip_convolve_rows(&k->point, s->grey, width, height, s->padded, s->rows);
-    dip_convolve_columns(&k->gauss, s->rows, width, height, out[SIDE_POINT_X]);
+    dip_convolve_columns(&k->gauss, s->rows, width, height, out[PLANE_POINT_X]);
     dip_convolve_rows(&k->gauss, s->grey, width, height, s->padded, s->rows);
-    dip_convolve_columns(&k->edge, s->rows, width, height, out[SIDE_EDGE_Y]);
-    dip_convolve_columns(&k->point, s->rows, width, height, out[SIDE_POINT_Y]);
+    dip_convolve_columns(&k->edge, s->rows, width, height, out[PLANE_EDGE_Y]);
+    dip_convolve_columns(&k->point, s->rows, width, height, out[PLANE_POINT_Y]);
 }
 
-void dip_flip_take(DipFlip *flip, const DipPicture *picture, DipFlipSide *side) {
+void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnalysis *analysis) {
     const Scratch s = scratch_of(flip);
     size_t i = 0;
     for (int y = 0; y < flip->height; y++) {
@@ -257,8 +195,8 @@ void dip_flip_take(DipFlip *flip, const DipPicture *picture, DipFlipSide *side) 
             s.grey[i] = (s.opponent[0][i] + 16.0f) / 116.0f;
         }
     }
-    take_colours(flip, &s, side);
-    take_features(flip, &s, side);
+    analyse_colours(flip, &s, analysis);
+    analyse_features(flip, &s, analysis);
 }
 
 // --- comparing ---------------------------------------------------------------------------------
@@ -266,7 +204,7 @@ void dip_flip_take(DipFlip *flip, const DipPicture *picture, DipFlipSide *side) 
 static const float colour_exponent = 0.7f;
 static const float feature_exponent = 0.5f;
 
-// The greatest distance there is, green to blue, to the power of the exponent.
+// The greatest possible distance, from green to blue, raised to colour_exponent.
 static float greatest_distance(void) {
     const float primaries[2][3] = {{0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
     float lab[2][3];
@@ -283,30 +221,45 @@ static float length(float x, float y) {
     return sqrtf(x * x + y * y);
 }
 
-// Distances up to a share of the greatest use most of the range.
-static float colour_error(const DipFlipSide *a, const DipFlipSide *b, size_t i, float greatest) {
+// Maps distances to 0..1: those up to `share` of the greatest take up `used` of the range.
+static float colour_error(const DipFlipAnalysis *a, const DipFlipAnalysis *b, size_t i,
+                          float greatest) {
     const float share = 0.4f, used = 0.95f;
-    const float distance = fabsf(a->planes[SIDE_L][i] - b->planes[SIDE_L][i]) +
-                           length(a->planes[SIDE_A][i] - b->planes[SIDE_A][i],
-                                  a->planes[SIDE_B][i] - b->planes[SIDE_B][i]);
+    const float distance = fabsf(a->planes[PLANE_L][i] - b->planes[PLANE_L][i]) +
+                           length(a->planes[PLANE_A][i] - b->planes[PLANE_A][i],
+                                  a->planes[PLANE_B][i] - b->planes[PLANE_B][i]);
     const float powered = powf(distance, colour_exponent);
     const float limit = share * greatest;
     return powered < limit ? powered * used / limit
                            : used + (powered - limit) / (greatest - limit) * (1.0f - used);
 }
 
-static float feature_error(const DipFlipSide *a, const DipFlipSide *b, size_t i) {
-    const float edge = fabsf(length(a->planes[SIDE_EDGE_X][i], a->planes[SIDE_EDGE_Y][i]) -
-                             length(b->planes[SIDE_EDGE_X][i], b->planes[SIDE_EDGE_Y][i]));
-    const float point = fabsf(length(a->planes[SIDE_POINT_X][i], a->planes[SIDE_POINT_Y][i]) -
-                              length(b->planes[SIDE_POINT_X][i], b->planes[SIDE_POINT_Y][i]));
+static float feature_error(const DipFlipAnalysis *a, const DipFlipAnalysis *b, size_t i) {
+    const float edge = fabsf(length(a->planes[PLANE_EDGE_X][i], a->planes[PLANE_EDGE_Y][i]) -
+                             length(b->planes[PLANE_EDGE_X][i], b->planes[PLANE_EDGE_Y][i]));
+    const float point = fabsf(length(a->planes[PLANE_POINT_X][i], a->planes[PLANE_POINT_Y][i]) -
+                              length(b->planes[PLANE_POINT_X][i], b->planes[PLANE_POINT_Y][i]));
     return powf(fmaxf(edge, point) / sqrtf(2.0f), feature_exponent);
 }
 
-void dip_flip_compare(const DipFlip *flip, const DipFlipSide *a, const DipFlipSide *b, float *map) {
+void dip_flip_compare(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
+                      float *map) {
     const float greatest = greatest_distance();
     for (size_t i = 0; i < plane_size(flip); i++) {
         const float colour = colour_error(a, b, i, greatest);
         map[i] = colour > 0.0f ? powf(colour, 1.0f - feature_error(a, b, i)) : 0.0f;
     }
+}
+
+// --- reach -------------------------------------------------------------------------------------
+
+int dip_flip_reach_px(double pixels_per_degree) {
+    const DipFlipKernels k = dip_flip_kernels(pixels_per_degree);
+    const int radii[] = {k.luma.radius,  k.red_green.radius, k.blue[0].radius, k.blue[1].radius,
+                         k.gauss.radius, k.edge.radius,      k.point.radius};
+    int reach = 0;
+    for (size_t i = 0; i < sizeof radii / sizeof *radii; i++) {
+        reach = radii[i] > reach ? radii[i] : reach;
+    }
+    return reach;
 }

@@ -1,5 +1,5 @@
-// Matplotlib's palette "magma" (public domain) by a polynomial of sixth degree per channel, within
-// 4 codes of its table.
+// Matplotlib's palette "magma" (public domain), approximated by a polynomial of sixth degree per
+// channel that stays within 4 codes of its table.
 #include "app/measure/magma.h"
 
 void dip_magma(float error, uint8_t rgb[3]) {

@@ -1,10 +1,18 @@
-// The colours that FLIP's error maps are shown in: black over purple and orange to light yellow.
+// The palette in which FLIP maps are shown: black, purple, orange, light yellow.
 #ifndef DIP_APP_MEASURE_MAGMA_H
 #define DIP_APP_MEASURE_MAGMA_H
 
 #include <stdint.h>
 
-// error: 0..1, others are clamped.
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Writes the sRGB colour of an error in 0..1. Values outside are clamped. Thread-safe.
 void dip_magma(float error, uint8_t rgb[3]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

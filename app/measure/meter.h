@@ -1,36 +1,49 @@
-// Judging pictures: one meter per thread.
+// A meter judges pictures by every metric at once. Use one meter per thread.
 #ifndef DIP_APP_MEASURE_METER_H
 #define DIP_APP_MEASURE_METER_H
 
 #include "app/measure/flicker.h"
 #include "app/measure/flip.h"
-#include "app/measure/sums.h"
+#include "app/measure/metrics.h"
 
-typedef struct DipCostMeter {
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Scratch memory for pictures of one size. Owns everything it points to.
+typedef struct DipMeter {
     DipFlip flip;
-    DipFlipSide side;
+    DipFlipAnalysis analysis; // Of the picture being judged.
     DipFlicker flicker;
-    float *map;
-    float *error_lin;
-} DipCostMeter;
+    float *map;       // One value per pixel.
+    float *error_lin; // Three values per pixel.
+} DipMeter;
 
-bool dip_cost_meter_init(DipCostMeter *meter, int width, int height, double pixels_per_degree);
-void dip_cost_meter_free(DipCostMeter *meter);
+// Returns false when memory runs out; then nothing is held.
+bool dip_meter_init(DipMeter *meter, int width, int height, double pixels_per_degree);
+void dip_meter_free(DipMeter *meter);
 
-// What a picture is held against.
-typedef struct DipCostStandard {
-    DipPicture picture;
-    const float *rgb_lin;
-    const DipFlipSide *side; // the picture, taken in
-    const uint8_t *classes;
-} DipCostStandard;
+// The picture that others are compared with. Everything is borrowed and may be shared by threads.
+typedef struct DipMeterStandard {
+    DipSrgbPicture picture;
+    const float *rgb_lin;            // The same picture in linear light, 3 values per pixel.
+    const DipFlipAnalysis *analysis; // The same picture, analysed.
+    const uint8_t *classes;          // What each pixel shows (DipSeen).
+} DipMeterStandard;
 
-// Judges one picture of a burst (begun by restarting meter->flicker) and adds to *sums. test_lin:
-// its linear light if it is known better than by its codes, else NULL. False when memory runs out.
-bool dip_cost_meter_add(DipCostMeter *meter, const DipPicture *test, const float *test_lin,
-                        const DipCostStandard *standard, DipCostSums *sums);
+// Begins a burst of successive frames.
+void dip_meter_begin_burst(DipMeter *meter);
 
-// Ends the burst: adds its flicker.
-void dip_cost_meter_end_burst(DipCostMeter *meter, DipCostSums *sums);
+// Judges the next picture of the burst and adds to *sums. test_lin is the picture in linear light
+// if that is known more exactly than by its codes, else NULL. Returns false when memory runs out.
+bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
+                   const DipMeterStandard *standard, DipMetricSums *sums);
+
+// Ends the burst: adds its flicker to *sums. A single picture is a burst of one.
+void dip_meter_end_burst(DipMeter *meter, DipMetricSums *sums);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

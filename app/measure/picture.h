@@ -1,22 +1,32 @@
-// What the metrics compare: pictures in memory, and the part of them that counts.
+// The pictures that metrics compare, and the pixels that a figure is taken over.
 #ifndef DIP_APP_MEASURE_PICTURE_H
 #define DIP_APP_MEASURE_PICTURE_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-// sRGB codes with a fourth byte that is not looked at, the top row first: as a DipFrame has them.
-typedef struct DipPicture {
-    const uint8_t *rgba8;
-    size_t stride_bytes;
-    int width;
-    int height;
-} DipPicture;
+#ifdef __cplusplus
+extern "C" {
+#endif
 
-// Of which pixels a figure is: where classes[pixel] equals wanted. classes NULL: of all.
-typedef struct DipRegion {
+// A view of 8-bit sRGB codes, four bytes per pixel: red, green, blue, and a fourth byte that no
+// metric reads. The top row comes first, as in a DipFrame. The bytes are borrowed.
+typedef struct DipSrgbPicture {
+    const uint8_t *rgba8;
+    size_t stride_bytes; // Bytes from one row to the next, at least 4 * width.
+    int width;           // Pixels.
+    int height;          // Pixels.
+} DipSrgbPicture;
+
+// A selection of pixels: those whose class equals `wanted`. If `classes` is NULL, all pixels are
+// selected. `classes` holds one byte per pixel, rows packed, and is borrowed.
+typedef struct DipPixelMask {
     const uint8_t *classes;
     uint8_t wanted;
-} DipRegion;
+} DipPixelMask;
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

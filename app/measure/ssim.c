@@ -1,12 +1,12 @@
-// Means, variances and the covariance of every window by separable filters.
+// Means, variances and the covariance of every window, by separable filters.
 #include "app/measure/ssim.h"
 
-#include "app/measure/convolve.h"
+#include "app/measure/internal/convolve.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOMENTS = 5 }; // of a, b, aa, bb, ab
+enum { MOMENTS = 5 }; // planes of a, b, a^2, b^2 and ab
 
 static DipKernel1D window(void) {
     const double sigma = 1.5;
@@ -23,12 +23,13 @@ static DipKernel1D window(void) {
     return kernel;
 }
 
-// Luma less the middle of its range: variances, as differences of squares, lose fewer digits.
+// Luma minus the middle of its range. Variances are differences of squares and lose fewer digits
+// when the values are near zero.
 static float centred_luma(const uint8_t *rgb) {
     return (0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2]) - 127.5f;
 }
 
-static void fill_products(const DipPicture *test, const DipPicture *truth,
+static void fill_products(const DipSrgbPicture *test, const DipSrgbPicture *truth,
                           float *const planes[MOMENTS]) {
     size_t i = 0;
     for (int y = 0; y < test->height; y++) {
@@ -58,7 +59,7 @@ static float similarity(float *const planes[MOMENTS], size_t i) {
                    ((a * a + b * b + c1) * (variance_a + variance_b + c2)));
 }
 
-bool dip_ssim_map(const DipPicture *test, const DipPicture *truth, float *map) {
+bool dip_ssim_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map) {
     const int width = test->width, height = test->height;
     const size_t count = (size_t)width * (size_t)height;
     const DipKernel1D kernel = window();

@@ -1,8 +1,9 @@
-// Structural similarity (Wang, Bovik, Sheikh, Simoncelli 2004) on the luma of sRGB codes.
+// Structural similarity (Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From Error
+// Visibility to Structural Similarity", 2004) on the luma of sRGB codes.
 //
-// Windows are Gaussian, 11x11, of deviation 1.5; K1 = 0.01, K2 = 0.03, L = 255; luma is
-// 0.299 R + 0.587 G + 0.114 B, not rounded. As the authors have it only windows that lie within
-// the picture count.
+// Windows are Gaussian, 11x11, with a standard deviation of 1.5; K1 = 0.01, K2 = 0.03, L = 255;
+// luma is 0.299 R + 0.587 G + 0.114 B, not rounded. As in the authors' implementation, only windows
+// that lie within the picture count.
 #ifndef DIP_APP_MEASURE_SSIM_H
 #define DIP_APP_MEASURE_SSIM_H
 
@@ -10,10 +11,19 @@
 
 #include <stdbool.h>
 
-enum { DIP_SSIM_RADIUS = 5 };
+#ifdef __cplusplus
+extern "C" {
+#endif
 
-// map[pixel]: the similarity of the windows around it, at most 1; not-a-number within
-// DIP_SSIM_RADIUS of the border. False when memory runs out.
-bool dip_ssim_map(const DipPicture *test, const DipPicture *truth, float *map);
+enum { DIP_SSIM_RADIUS = 5 }; // Pixels.
+
+// Writes the similarity of the two windows around each pixel, at most 1, and not-a-number within
+// DIP_SSIM_RADIUS of the border. Both pictures must have one size. Returns false when memory runs
+// out. Thread-safe.
+bool dip_ssim_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,10 +1,12 @@
-// Two halves on the pool, their mean, their difference, and a file for the next time.
+// Drawing two halves on the pool, their mean and difference, and the file in the cache.
 #include "app/measure/truth.h"
 
 #include "app/files/folder.h"
 #include "app/files/whole_file.h"
 #include "app/measure/meter.h"
+#include "renderer/base/file.h"
 #include "renderer/base/hash.h"
+#include "renderer/reference/convergence.h"
 
 #include <limits.h>
 #include <math.h>
@@ -13,17 +15,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HALVES = 2, TILES_AT_ONCE = 128 };
+enum { HALVES = 2, TILES_AT_ONCE = 128 }; // progress is told after each batch of tiles
 
 static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "truth", "out of memory");
 }
 
-// --- its name ----------------------------------------------------------------------------------
+// --- the key -----------------------------------------------------------------------------------
 
-// Everything that the picture depends on, and the version of how it is made.
-static void find_key(const DipCostTruthDef *def, char key[33]) {
-    DipHash hash = dip_hash_begin();
+// Hashes everything that the truth depends on, and a version of how it is made.
+static void find_key(const DipTruthDef *def, char key[33]) {
+    DipHash hash = dip_hash_begin(0);
     dip_hash_text(&hash, "diptych truth 1");
     dip_hash_text(&hash, def->scene_hash);
     for (int i = 0; i < 3; i++) {
@@ -37,41 +39,42 @@ static void find_key(const DipCostTruthDef *def, char key[33]) {
     dip_hash_integer(&hash, def->width);
     dip_hash_integer(&hash, def->height);
     dip_hash_integer(&hash, def->samples);
-    dip_hash_number(&hash, def->pixels_per_degree); // of the floor
+    dip_hash_number(&hash, def->pixels_per_degree); // the floor depends on it
     dip_hash_hex(&hash, key);
 }
 
 // --- making ------------------------------------------------------------------------------------
 
-typedef struct Making {
-    const DipCostTruthDef *def;
+// One half while it is drawn.
+typedef struct Half {
+    const DipTruthDef *def;
     const DipConvergence *convergence;
     double *rgb_lin;
-    uint8_t *classes; // of the first half; NULL: of the second
+    uint8_t *classes; // what pixels show, told by the first half; NULL for the second
     uint32_t seed;
-    int first_tile;
+    int first_tile; // tiles of the current batch begin here
     atomic_bool failed;
-} Making;
+} Half;
 
 static void draw_tile(void *context, int index, int worker) {
     (void)worker;
-    Making *making = context;
-    if (!dip_convergence_add_tile(making->convergence, making->first_tile + index,
-                                  making->def->samples, making->seed, 1.0, making->rgb_lin,
-                                  making->classes, NULL)) {
-        making->failed = true;
+    Half *drawn = context;
+    if (!dip_convergence_add_tile(drawn->convergence, drawn->first_tile + index,
+                                  drawn->def->samples, drawn->seed, 1.0, drawn->rgb_lin,
+                                  drawn->classes, NULL)) {
+        drawn->failed = true;
     }
 }
 
-static bool draw_half(Making *making, int half, DipPool *pool, DipCostTruthProgress *progress,
+static bool draw_half(Half *drawn, int half, DipPool *pool, DipTruthProgress *progress,
                       void *context, DipError *err) {
-    const int tiles = dip_convergence_tile_count(making->convergence);
-    making->seed = (uint32_t)half + 1;
+    const int tiles = dip_convergence_tile_count(drawn->convergence);
+    drawn->seed = (uint32_t)half + 1;
     for (int tile = 0; tile < tiles; tile += TILES_AT_ONCE) {
         const int count = tiles - tile < TILES_AT_ONCE ? tiles - tile : TILES_AT_ONCE;
-        making->first_tile = tile;
-        dip_pool_run(pool, count, draw_tile, making);
-        if (making->failed) {
+        drawn->first_tile = tile;
+        dip_pool_run(pool, count, draw_tile, drawn);
+        if (drawn->failed) {
             return out_of_memory(err);
         }
         if (!progress(context, (half + (double)(tile + count) / tiles) / HALVES)) {
@@ -81,8 +84,8 @@ static bool draw_half(Making *making, int half, DipPool *pool, DipCostTruthProgr
     return true;
 }
 
-void dip_cost_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin,
-                           size_t pixel_count, uint8_t *rgba8) {
+void dip_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_lin, size_t pixel_count,
+                      uint8_t *rgba8) {
     for (size_t i = 0; i < pixel_count; i++) {
         for (size_t c = 0; c < 3; c++) {
             const double value = fmin(fmax(rgb_lin[3 * i + c], 0.0), 1.0);
@@ -93,9 +96,9 @@ void dip_cost_truth_encode(const DipSrgbEncodeTable *table, const double *rgb_li
 }
 
 static void encode(const double *rgb_lin, size_t pixel_count, uint8_t *rgba8) {
-    static DipSrgbEncodeTable table;
+    DipSrgbEncodeTable table;
     dip_srgb_encode_table(&table);
-    dip_cost_truth_encode(&table, rgb_lin, pixel_count, rgba8);
+    dip_truth_encode(&table, rgb_lin, pixel_count, rgba8);
 }
 
 static void round_to_floats(const double *rgb_lin, size_t count, float *out) {
@@ -104,41 +107,43 @@ static void round_to_floats(const double *rgb_lin, size_t count, float *out) {
     }
 }
 
-// How much one half differs from the other.
-static bool measure_floor(DipCostTruth *truth, const DipCostTruthDef *def,
-                          double *const halves[HALVES], DipError *err) {
+// Judges the first half against the second.
+static bool measure_floor(DipTruth *truth, const DipTruthDef *def, double *const halves[HALVES],
+                          DipError *err) {
     const size_t pixels = (size_t)truth->width * (size_t)truth->height;
-    DipCostMeter meter;
-    if (!dip_cost_meter_init(&meter, truth->width, truth->height, def->pixels_per_degree)) {
+    DipMeter meter;
+    if (!dip_meter_init(&meter, truth->width, truth->height, def->pixels_per_degree)) {
         return out_of_memory(err);
     }
-    DipFlipSide side = {0};
+    DipFlipAnalysis analysis = {0};
     uint8_t *codes = malloc(HALVES * pixels * 4);
     float *light = malloc(HALVES * pixels * 3 * sizeof *light);
-    bool measured = codes && light && dip_flip_side_init(&meter.flip, &side);
+    bool measured = codes && light && dip_flip_analysis_init(&meter.flip, &analysis);
     if (measured) {
-        DipPicture pictures[HALVES];
+        DipSrgbPicture pictures[HALVES];
         for (size_t h = 0; h < HALVES; h++) {
             encode(halves[h], pixels, codes + h * pixels * 4);
             round_to_floats(halves[h], pixels * 3, light + h * pixels * 3);
-            pictures[h] = (DipPicture){codes + h * pixels * 4, (size_t)truth->width * 4,
-                                       truth->width, truth->height};
+            pictures[h] = (DipSrgbPicture){codes + h * pixels * 4, (size_t)truth->width * 4,
+                                           truth->width, truth->height};
         }
-        dip_flip_take(&meter.flip, &pictures[1], &side);
-        const DipCostStandard standard = {pictures[1], light + pixels * 3, &side, truth->classes};
-        truth->floor = (DipCostSums){0};
-        measured = dip_cost_meter_add(&meter, &pictures[0], light, &standard, &truth->floor);
-        dip_cost_meter_end_burst(&meter, &truth->floor);
+        dip_flip_analyse(&meter.flip, &pictures[1], &analysis);
+        const DipMeterStandard standard = {pictures[1], light + pixels * 3, &analysis,
+                                           truth->classes};
+        truth->floor = (DipMetricSums){0};
+        dip_meter_begin_burst(&meter);
+        measured = dip_meter_add(&meter, &pictures[0], light, &standard, &truth->floor);
+        dip_meter_end_burst(&meter, &truth->floor);
     }
-    dip_flip_side_free(&side);
+    dip_flip_analysis_free(&analysis);
     free(codes);
     free(light);
-    dip_cost_meter_free(&meter);
+    dip_meter_free(&meter);
     return measured || out_of_memory(err);
 }
 
-static bool make_truth(DipCostTruth *truth, const DipCostTruthDef *def, DipPool *pool,
-                       DipCostTruthProgress *progress, void *context, DipError *err) {
+static bool make_truth(DipTruth *truth, const DipTruthDef *def, DipPool *pool,
+                       DipTruthProgress *progress, void *context, DipError *err) {
     const size_t values = (size_t)truth->width * (size_t)truth->height * 3;
     double *halves[HALVES] = {calloc(values, sizeof(double)), calloc(values, sizeof(double))};
     dip_reference_set_time(def->reference, def->time_ns);
@@ -146,11 +151,11 @@ static bool make_truth(DipCostTruth *truth, const DipCostTruthDef *def, DipPool 
         dip_convergence_create(def->reference, &def->pose, def->width, def->height, err);
     bool made = convergence && ((halves[0] && halves[1]) || out_of_memory(err));
     for (int h = 0; made && h < HALVES; h++) {
-        Making making = {.def = def,
-                         .convergence = convergence,
-                         .rgb_lin = halves[h],
-                         .classes = h == 0 ? truth->classes : NULL};
-        made = draw_half(&making, h, pool, progress, context, err);
+        Half drawn = {.def = def,
+                      .convergence = convergence,
+                      .rgb_lin = halves[h],
+                      .classes = h == 0 ? truth->classes : NULL};
+        made = draw_half(&drawn, h, pool, progress, context, err);
     }
     made = made && measure_floor(truth, def, halves, err);
     for (size_t i = 0; made && i < values; i++) {
@@ -168,7 +173,7 @@ static bool make_truth(DipCostTruth *truth, const DipCostTruthDef *def, DipPool 
 
 // --- the cache ---------------------------------------------------------------------------------
 
-bool dip_cost_cache_folder(char *folder, size_t size_bytes) {
+bool dip_truth_default_folder(char *folder, size_t size_bytes) {
     const char *cache = getenv("XDG_CACHE_HOME");
     const char *home = getenv("HOME");
     const bool has_cache = cache && *cache;
@@ -180,14 +185,14 @@ bool dip_cost_cache_folder(char *folder, size_t size_bytes) {
     return length > 0 && (size_t)length < size_bytes;
 }
 
-// In a file: the parts one after the other as they lie in memory, and the hash of all before. It is
-// read on the machine that wrote it.
-static size_t file_size(const DipCostTruth *truth) {
+// A file holds the truth's arrays one after the other, as they lie in memory, and then 32 digits of
+// their hash. Byte order and layout are those of the machine, so a cache belongs to one kind.
+static size_t file_size(const DipTruth *truth) {
     const size_t pixels = (size_t)truth->width * (size_t)truth->height;
-    return pixels * (3 * sizeof(float) + 4 + 1) + sizeof(DipCostSums) + 32;
+    return pixels * (3 * sizeof(float) + 4 + 1) + sizeof(DipMetricSums) + 32;
 }
 
-static bool file_name(const DipCostTruth *truth, const char *cache, char file[PATH_MAX]) {
+static bool file_name(const DipTruth *truth, const char *cache, char file[PATH_MAX]) {
     const int length = snprintf(file, PATH_MAX, "%s/truth-%s.bin", cache, truth->key);
     return length > 0 && length < PATH_MAX;
 }
@@ -199,7 +204,7 @@ typedef struct Part {
 
 enum { PARTS = 4 };
 
-static void list_parts(DipCostTruth *truth, Part parts[PARTS]) {
+static void list_parts(DipTruth *truth, Part parts[PARTS]) {
     const size_t pixels = (size_t)truth->width * (size_t)truth->height;
     parts[0] = (Part){truth->rgb_lin, pixels * 3 * sizeof(float)};
     parts[1] = (Part){truth->rgba8, pixels * 4};
@@ -208,21 +213,20 @@ static void list_parts(DipCostTruth *truth, Part parts[PARTS]) {
 }
 
 static void hash_contents(const unsigned char *bytes, size_t size, char hex[33]) {
-    DipHash hash = dip_hash_begin();
+    DipHash hash = dip_hash_begin(0);
     dip_hash_bytes(&hash, bytes, size);
     dip_hash_hex(&hash, hex);
 }
 
-static bool load(DipCostTruth *truth, const char *cache) {
+static bool load(DipTruth *truth, const char *cache) {
     char name[PATH_MAX];
-    FILE *in = file_name(truth, cache, name) ? fopen(name, "rb") : NULL;
-    if (!in) {
+    unsigned char *bytes;
+    size_t size;
+    if (!file_name(truth, cache, name) ||
+        !dip_file_read(name, "truth", file_size(truth), &bytes, &size, NULL)) {
         return false;
     }
-    const size_t size = file_size(truth);
-    unsigned char *bytes = malloc(size + 1);
-    bool loaded = bytes && fread(bytes, 1, size + 1, in) == size;
-    fclose(in);
+    bool loaded = size == file_size(truth);
     if (loaded) {
         char hex[33];
         hash_contents(bytes, size - 32, hex);
@@ -237,7 +241,7 @@ static bool load(DipCostTruth *truth, const char *cache) {
     return loaded;
 }
 
-static bool store(DipCostTruth *truth, const char *cache, DipError *err) {
+static bool store(DipTruth *truth, const char *cache, DipError *err) {
     char name[PATH_MAX];
     const size_t size = file_size(truth);
     unsigned char *bytes = malloc(size);
@@ -260,11 +264,10 @@ static bool store(DipCostTruth *truth, const char *cache, DipError *err) {
     return stored;
 }
 
-bool dip_cost_truth_get(DipCostTruth *truth, const DipCostTruthDef *def, const char *cache,
-                        DipPool *pool, DipCostTruthProgress *progress, void *context,
-                        DipError *err) {
+bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache, DipPool *pool,
+                   DipTruthProgress *progress, void *context, DipError *err) {
     const size_t pixels = (size_t)def->width * (size_t)def->height;
-    *truth = (DipCostTruth){
+    *truth = (DipTruth){
         .width = def->width,
         .height = def->height,
         .rgb_lin = malloc(pixels * 3 * sizeof(float)),
@@ -278,14 +281,19 @@ bool dip_cost_truth_get(DipCostTruth *truth, const DipCostTruthDef *def, const c
               (!cache || store(truth, cache, err));
     }
     if (!got) {
-        dip_cost_truth_free(truth);
+        dip_truth_free(truth);
     }
     return got;
 }
 
-void dip_cost_truth_free(DipCostTruth *truth) {
+double dip_truth_floor_rmse(const DipMetricSums *floor, int region) {
+    // The mean of two independent halves errs by half of their difference.
+    return dip_metrics_of(floor, region).rmse_lin / 2.0;
+}
+
+void dip_truth_free(DipTruth *truth) {
     free(truth->rgb_lin);
     free(truth->rgba8);
     free(truth->classes);
-    *truth = (DipCostTruth){0};
+    *truth = (DipTruth){0};
 }

@@ -1,7 +1,7 @@
 // A report's figures as text.
 #include "app/preview/costs.h"
 
-#include "app/cost/write.h"
+#include "app/cost/formats.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,8 +23,8 @@ static void format_flip(double flip, bool change, char text[24]) {
 
 static double flip_of(const DipCostReport *report, int row) {
     int places;
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
-    return places > 0 ? dip_cost_figures(&sums, 0).flip : NAN;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    return places > 0 ? dip_metrics_of(&sums, 0).flip : NAN;
 }
 
 static void make_step(DipCostsStep *step, const DipCostReport *report, const DipCostSweep *sweep,

@@ -1,7 +1,8 @@
 // Levels of the truth, tile by tile, and errors, block by block.
 #include "app/preview/judge.h"
 
-#include "app/measure/error.h"
+#include "app/measure/difference.h"
+#include "app/measure/flip.h"
 #include "app/measure/truth.h"
 #include "renderer/reference/convergence.h"
 
@@ -27,9 +28,9 @@ typedef struct Rect {
 } Rect;
 
 typedef struct PaneSums {
-    DipErrorSum squared_lin;
-    DipErrorSum squared_codes;
-    DipErrorSum flip;
+    DipMapSum squared_lin;
+    DipMapSum squared_codes;
+    DipMapSum flip;
 } PaneSums;
 
 struct DipJudge {
@@ -82,11 +83,8 @@ DipJudge *dip_judge_create(DipReference *reference, DipError *err) {
         out_of_memory(err);
         return NULL;
     }
-    const DipFlipKernels kernels = dip_flip_kernels(DIP_FLIP_PIXELS_PER_DEGREE);
     judge->reference = reference;
-    judge->flip_margin = larger(larger(kernels.luma.radius, kernels.red_green.radius),
-                                larger(larger(kernels.blue[0].radius, kernels.blue[1].radius),
-                                       larger(kernels.gauss.radius, kernels.edge.radius)));
+    judge->flip_margin = dip_flip_reach_px(DIP_FLIP_PIXELS_PER_DEGREE);
     dip_srgb_encode_table(&judge->encode);
     return judge;
 }
@@ -192,7 +190,7 @@ static void finish_pixels(DipJudge *judge) {
         a[i] = 0.5 * (a[i] + b[i]);
         rgb_lin[i] = (float)a[i];
     }
-    dip_cost_truth_encode(&judge->encode, a, count, judge->rgba8 + 4 * judge->finished);
+    dip_truth_encode(&judge->encode, a, count, judge->rgba8 + 4 * judge->finished);
     judge->finished += count;
 }
 
@@ -208,19 +206,19 @@ static void next_level(DipJudge *judge) {
 
 // --- the errors --------------------------------------------------------------------------------
 
-static void add_sum(DipErrorSum *to, DipErrorSum sum) {
+static void add_sum(DipMapSum *to, DipMapSum sum) {
     to->sum += sum.sum;
     to->pixel_count += sum.pixel_count;
 }
 
 // A rectangle of a pane's picture and of the truth.
-static void cut_out(const DipJudge *judge, int pane, const Rect *rect, DipPicture *test,
-                    DipPicture *truth) {
+static void cut_out(const DipJudge *judge, int pane, const Rect *rect, DipSrgbPicture *test,
+                    DipSrgbPicture *truth) {
     const size_t stride = judge->shot.stride_bytes, packed = 4 * (size_t)judge->shot.width;
     const size_t x = 4 * (size_t)rect->x, y = (size_t)rect->y;
-    *test =
-        (DipPicture){judge->shot.rgba8[pane] + y * stride + x, stride, rect->width, rect->height};
-    *truth = (DipPicture){judge->rgba8 + y * packed + x, packed, rect->width, rect->height};
+    *test = (DipSrgbPicture){judge->shot.rgba8[pane] + y * stride + x, stride, rect->width,
+                             rect->height};
+    *truth = (DipSrgbPicture){judge->rgba8 + y * packed + x, packed, rect->width, rect->height};
 }
 
 static void judge_band(DipJudge *judge, int pane, int band) {
@@ -228,14 +226,14 @@ static void judge_band(DipJudge *judge, int pane, int band) {
     const int rows = smaller(band_rows(judge), judge->shot.height - y);
     const size_t width = (size_t)judge->shot.width;
     const size_t pixels = width * (size_t)rows;
-    DipPicture test, truth;
+    DipSrgbPicture test, truth;
     cut_out(judge, pane, &(Rect){0, y, judge->shot.width, rows}, &test, &truth);
     PaneSums *sums = &judge->sums[pane];
-    dip_error_lin(&test, judge->rgb_lin + (size_t)y * width * 3, judge->map);
-    dip_error_squared_map(judge->map, pixels, judge->map);
-    add_sum(&sums->squared_lin, dip_error_sum(judge->map, pixels, (DipRegion){0}));
-    dip_error_codes_map(&test, &truth, judge->map);
-    add_sum(&sums->squared_codes, dip_error_sum(judge->map, pixels, (DipRegion){0}));
+    dip_difference_lin(&test, judge->rgb_lin + (size_t)y * width * 3, judge->map);
+    dip_difference_squared_map(judge->map, pixels, judge->map);
+    add_sum(&sums->squared_lin, dip_map_sum(judge->map, pixels, (DipPixelMask){0}));
+    dip_difference_codes_map(&test, &truth, judge->map);
+    add_sum(&sums->squared_codes, dip_map_sum(judge->map, pixels, (DipPixelMask){0}));
 }
 
 // A block with what FLIP looks at around it; there the picture's border is the only one that shows.
@@ -247,23 +245,25 @@ static bool judge_block(DipJudge *judge, int pane, int block) {
     const int left = larger(0, x - judge->flip_margin), top = larger(0, y - judge->flip_margin);
     const Rect rect = {left, top, smaller(judge->shot.width, x1 + judge->flip_margin) - left,
                        smaller(judge->shot.height, y1 + judge->flip_margin) - top};
-    DipPicture test, truth;
+    DipSrgbPicture test, truth;
     cut_out(judge, pane, &rect, &test, &truth);
     DipFlip flip = {0};
-    DipFlipSide sides[2] = {0};
+    DipFlipAnalysis sides[2] = {0};
     const bool made = dip_flip_init(&flip, rect.width, rect.height, DIP_FLIP_PIXELS_PER_DEGREE) &&
-                      dip_flip_side_init(&flip, &sides[0]) && dip_flip_side_init(&flip, &sides[1]);
+                      dip_flip_analysis_init(&flip, &sides[0]) &&
+                      dip_flip_analysis_init(&flip, &sides[1]);
     if (made) {
-        dip_flip_take(&flip, &test, &sides[0]);
-        dip_flip_take(&flip, &truth, &sides[1]);
+        dip_flip_analyse(&flip, &test, &sides[0]);
+        dip_flip_analyse(&flip, &truth, &sides[1]);
         dip_flip_compare(&flip, &sides[0], &sides[1], judge->map);
         for (int row = y - top; row < y1 - top; row++) {
             const float *from = judge->map + (size_t)row * (size_t)rect.width + (x - left);
-            add_sum(&judge->sums[pane].flip, dip_error_sum(from, (size_t)(x1 - x), (DipRegion){0}));
+            add_sum(&judge->sums[pane].flip,
+                    dip_map_sum(from, (size_t)(x1 - x), (DipPixelMask){0}));
         }
     }
-    dip_flip_side_free(&sides[0]);
-    dip_flip_side_free(&sides[1]);
+    dip_flip_analysis_free(&sides[0]);
+    dip_flip_analysis_free(&sides[1]);
     dip_flip_free(&flip);
     return made;
 }
@@ -274,11 +274,11 @@ static void publish(DipJudge *judge) {
     judge->result.last = judge->truth_level == DIP_JUDGE_LEVELS - 1;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         const PaneSums *sums = &judge->sums[judge->shot.rgba8[p] ? p : DIP_PANE_CURRENT];
-        const double rmse_lin = sqrt(dip_error_mean(sums->squared_lin));
+        const double rmse_lin = sqrt(dip_map_mean(sums->squared_lin));
         judge->result.panes[p] = (DipPaneError){
             .rmse_lin = rmse_lin,
-            .psnr_db = dip_error_psnr_db(dip_error_mean(sums->squared_codes)),
-            .flip = dip_error_mean(sums->flip),
+            .psnr_db = dip_psnr_db(dip_map_mean(sums->squared_codes)),
+            .flip = dip_map_mean(sums->flip),
             .at_floor = rmse_lin < 3.0 * judge->floor_rmse,
         };
     }

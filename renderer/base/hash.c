@@ -1,38 +1,34 @@
-// FNV-1a's scheme, eight bytes at a time, with a fold that takes high bits down.
+// Two lanes of FNV-1a.
 #include "renderer/base/hash.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-DipHash dip_hash_begin(void) {
-    return (DipHash){{UINT64_C(0xcbf29ce484222325), UINT64_C(0x84222325cbf29ce4)}};
-}
+static const uint64_t basis = UINT64_C(0xcbf29ce484222325);
+static const uint64_t prime = UINT64_C(0x100000001b3);
 
-static void add(DipHash *hash, uint64_t word) {
-    static const uint64_t primes[2] = {UINT64_C(0x100000001b3), UINT64_C(0x9e3779b97f4a7c15)};
-    for (int i = 0; i < 2; i++) {
-        hash->lanes[i] = (hash->lanes[i] ^ word) * primes[i];
-        hash->lanes[i] ^= hash->lanes[i] >> 29;
-    }
+DipHash dip_hash_begin(uint64_t variant) {
+    return (DipHash){{basis, basis ^ variant}};
 }
 
 void dip_hash_bytes(DipHash *hash, const void *bytes, size_t size_bytes) {
-    const unsigned char *at = bytes;
-    while (size_bytes > 0) {
-        const size_t taken = size_bytes < 8 ? size_bytes : 8;
-        uint64_t word = 0;
-        for (size_t i = 0; i < taken; i++) {
-            word |= (uint64_t)at[i] << (8 * i); // little-endian on every host
-        }
-        add(hash, word);
-        at += taken;
-        size_bytes -= taken;
+    const uint8_t *at = bytes;
+    uint64_t a = hash->lanes[0];
+    uint64_t b = hash->lanes[1];
+    for (size_t i = 0; i < size_bytes; i++) {
+        a = (a ^ at[i]) * prime;
+        b = (b ^ (uint8_t)~at[i]) * prime;
     }
+    *hash = (DipHash){{a, b}};
 }
 
 void dip_hash_integer(DipHash *hash, int64_t value) {
-    add(hash, (uint64_t)value);
+    uint8_t bytes[8];
+    for (int i = 0; i < 8; i++) {
+        bytes[i] = (uint8_t)((uint64_t)value >> (8 * i));
+    }
+    dip_hash_bytes(hash, bytes, sizeof bytes);
 }
 
 void dip_hash_text(DipHash *hash, const char *text) {
@@ -42,11 +38,11 @@ void dip_hash_text(DipHash *hash, const char *text) {
 }
 
 void dip_hash_number(DipHash *hash, double value) {
-    uint64_t bits;
+    int64_t bits;
     memcpy(&bits, &value, sizeof bits);
-    add(hash, bits);
+    dip_hash_integer(hash, bits);
 }
 
-void dip_hash_hex(const DipHash *hash, char hex[33]) {
-    snprintf(hex, 33, "%016" PRIx64 "%016" PRIx64, hash->lanes[0], hash->lanes[1]);
+void dip_hash_hex(const DipHash *hash, char hex[DIP_HASH_HEX_SIZE]) {
+    snprintf(hex, DIP_HASH_HEX_SIZE, "%016" PRIx64 "%016" PRIx64, hash->lanes[0], hash->lanes[1]);
 }

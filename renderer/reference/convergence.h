@@ -6,28 +6,11 @@
 
 #include "renderer/base/api.h"
 #include "renderer/reference/reference.h"
+#include "renderer/reference/seen.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-// What is visible in a pixel. The first class that applies is the pixel's.
-// X(NAME, "name", "what it is")
-#define DIP_SEEN_LIST(X)                                                                           \
-    X(WATER, "reflection", "water is visible in it")                                               \
-    X(CLIPPED, "clipped",                                                                          \
-      "an alpha-clipped surface covers a sample with nothing in front, kept by alpha or not")      \
-    X(EDGE, "edges",                                                                               \
-      "surfaces of two materials, or on planes that do not meet there, are visible in it")         \
-    X(TEXTURED, "interior", "one surface with a colour texture, not the sky, fills it")            \
-    X(PLAIN, "plain", "one surface without a colour texture, the sky, or nothing fills it")
-
-typedef enum DipSeen {
-#define DIP_SEEN_ENUM(NAME, name, text) DIP_SEEN_##NAME,
-    DIP_SEEN_LIST(DIP_SEEN_ENUM)
-#undef DIP_SEEN_ENUM
-        DIP_SEEN_COUNT
-} DipSeen;
 
 typedef struct DipConvergence DipConvergence;
 

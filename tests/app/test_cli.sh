@@ -257,7 +257,7 @@ expect 2 "\[--budget-ms\] advice needs times" "$diptych" cost --out x --budget-m
 expect 2 "\[--combine\] 'ab', accepted none, or settings" "$diptych" cost --out x --combine aa,ab
 expect 2 "\[--pixels-per-degree\] '2', accepted 5..500" "$diptych" cost --out x --pixels-per-degree 2
 expect 2 "\[cost merge\] no parts" "$diptych" cost merge --out x
-expect 2 'none.json: cannot be read' "$diptych" cost merge --out x none.json
+expect 2 'none.json: cannot open report' "$diptych" cost merge --out x none.json
 echo '{}' >empty.json
 expect 2 'empty.json: \[header\] is missing' "$diptych" cost merge --out x empty.json
 rm -rf x

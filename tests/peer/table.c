@@ -2,7 +2,7 @@
 #include "tests/peer/table.h"
 
 #include "app/machine.h"
-#include "app/measure/stats.h"
+#include "app/measure/statistics.h"
 
 #include <errno.h>
 #include <inttypes.h>

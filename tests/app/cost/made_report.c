@@ -6,12 +6,12 @@
 
 enum { ROWS = 4 };
 
-static void fill_sums(DipCostSums *sums, int seed) {
+static void fill_sums(DipMetricSums *sums, int seed) {
     double *values = (double *)sums;
-    for (int i = 0; i < DIP_COST_SUM_COUNT; i++) {
+    for (int i = 0; i < DIP_METRIC_SUM_COUNT; i++) {
         values[i] = 1.0 / (1.0 + i + 100.0 * seed); // no short decimal
     }
-    for (int r = 0; r < DIP_COST_REGIONS; r++) {
+    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
         sums->regions[r].pixels = 10.0;
         sums->regions[r].ssim_pixels = 9.0;
     }
@@ -25,15 +25,16 @@ static void fill_row(DipCostReport *report, int index) {
     row->quality.step[DIP_SETTING_AA] = steps[index];
     row->path = index == ROWS - 1;
     for (int p = 0; p < report->options.places; p++) {
-        row->judged[p] = p != 1; // one place is another machine's
+        row->judged[p] = p != 1; // another machine judged one of the viewpoints
         if (row->judged[p]) {
-            fill_sums(&row->places[p], index * 3 + p);
+            fill_sums(&row->viewpoints[p], index * 3 + p);
         }
     }
     for (int i = 0; i < report->rounds * report->options.timed_frames; i++) {
         row->ms[i] = index + 1.0;
     }
-    for (int c = 0; report->rounds > 0 && c < DIP_COST_COUNTER_COUNT; c++) { // timing counts them
+    for (int c = 0; report->rounds > 0 && c < DIP_COST_COUNTER_COUNT;
+         c++) { // counters come from timing
         row->counters[c] = 1000.0 * index + c;
     }
 }

@@ -2,7 +2,7 @@
 #include "app/cost/fit.h"
 #include "app/cost/html.h"
 #include "app/cost/order.h"
-#include "app/cost/write.h"
+#include "app/cost/formats.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>
@@ -36,21 +36,21 @@ static void expect_near(double found, double expected, double tolerance) {
 
 static void figures_are_means(void **state) {
     (void)state;
-    DipCostSums sums = {0};
-    sums.regions[0] = (DipCostRegionSums){100.0, 4.0, 2500.0, 40.0, 80.0, 25.0};
+    DipMetricSums sums = {0};
+    sums.regions[0] = (DipMetricRegionSums){100.0, 4.0, 2500.0, 40.0, 80.0, 25.0};
     sums.bursts = 2.0;
     sums.squared_flicker = 0.5;
-    DipCostSums twice = sums;
-    dip_cost_sums_add(&twice, &sums);
+    DipMetricSums twice = sums;
+    dip_metric_sums_add(&twice, &sums);
     for (int i = 0; i < 2; i++) { // twice the same has the same means
-        const DipCostFigures f = dip_cost_figures(i ? &twice : &sums, 0);
+        const DipMetrics f = dip_metrics_of(i ? &twice : &sums, 0);
         expect_near(f.rmse_lin, 0.2, 1e-15);
         expect_near(f.psnr_db, 20.0 * log10(255.0 / 5.0), 1e-12);
         expect_near(f.ssim, 0.5, 1e-15);
         expect_near(f.flip, 0.25, 1e-15);
-        expect_near(dip_cost_flicker(i ? &twice : &sums).flicker, 0.5, 1e-15);
+        expect_near(dip_flicker_metrics_of(i ? &twice : &sums).flicker, 0.5, 1e-15);
     }
-    const DipCostFigures none = dip_cost_figures(&sums, 1);
+    const DipMetrics none = dip_metrics_of(&sums, 1);
     assert_true(none.rmse_lin == 0.0 && isinf(none.psnr_db) && none.ssim == 1.0);
 }
 
@@ -64,9 +64,9 @@ static void errors_below_three_floors_say_nothing(void **state) {
     }
     report.floors[0].regions[0].squared_lin = 10.0 * 0.02 * 0.02; // halves differ by 0.02
     expect_near(dip_cost_floor_rmse(&report, 0, 0), 0.01, 1e-15);
-    report.rows[0].places[0].regions[0].squared_lin = 10.0 * 0.0299 * 0.0299;
+    report.rows[0].viewpoints[0].regions[0].squared_lin = 10.0 * 0.0299 * 0.0299;
     assert_true(dip_cost_at_floor(&report, 0));
-    report.rows[0].places[0].regions[0].squared_lin = 10.0 * 0.0301 * 0.0301;
+    report.rows[0].viewpoints[0].regions[0].squared_lin = 10.0 * 0.0301 * 0.0301;
     assert_false(dip_cost_at_floor(&report, 0));
     dip_cost_report_free(&report);
 }
@@ -80,21 +80,23 @@ static void expect_order(const DipCostReport *report, const char *part) {
 }
 
 // FLIP of the made rows falls as their numbers rise, and all counters rise.
-static void steps_that_stray_are_named(void **state) {
+static void steps_out_of_order_are_named(void **state) {
     (void)state;
     DipCostReport report;
     dip_made_report(&report, 1);
-    expect_order(&report, "In order: FLIP falls from step to step, samples_shown rises.");
+    expect_order(
+        &report,
+        "As theory says: FLIP falls from step to step, and the counter samples_shown rises.");
     double *counters = report.rows[3].counters;
     counters[DIP_COST_COUNTER_samples_shown] =
         report.rows[2].counters[DIP_COST_COUNTER_samples_shown];
-    expect_order(&report, "In order"); // the same work is no stray
+    expect_order(&report, "As theory says"); // equal work follows theory
     counters[DIP_COST_COUNTER_samples_shown] -= 1.0;
-    expect_order(&report, "samples_shown should rise, and at \"4\" does not");
-    report.rows[2].places[0].regions[0].flip = 100.0;
-    expect_order(&report, "FLIP should fall, and at \"2\" does not");
+    expect_order(&report, "at step \"4\", the counter samples_shown should rise but does not.");
+    report.rows[2].viewpoints[0].regions[0].flip = 100.0;
+    expect_order(&report, "at step \"2\", FLIP should fall but does not.");
     report.sweeps[0].setting = DIP_SETTING_OPT; // whose errors rise
-    expect_order(&report, "FLIP should rise, and at \"off\" does not");
+    expect_order(&report, "at step \"off\", FLIP should rise but does not.");
     report.sweeps[0].setting = DIP_SETTING_MIPDEBUG;
     char text[2 * DIP_COST_TEXT];
     assert_false(dip_cost_order_text(&report, &report.sweeps[0], text, sizeof text));
@@ -118,11 +120,11 @@ static void ratios_see_past_drift_and_frames(void **state) {
         report.rows[2].ms[i] = 1.5 * base * (1.0 + 0.05 * random_share());
     }
     report.rows[2].ms[7] *= 20.0; // something else ran
-    const DipCostTime ratio = dip_cost_ratio(&report, 2, 0);
-    expect_near(ratio.ms, 1.5, 0.015);
+    const DipStatsEstimate ratio = dip_cost_ratio(&report, 2, 0);
+    expect_near(ratio.value, 1.5, 0.015);
     assert_true(ratio.low <= 1.5 + 0.01 && ratio.high >= 1.5 - 0.01);
     assert_true(ratio.high - ratio.low < 0.03);
-    const DipCostTime same = dip_cost_ratio(&report, 1, 0);
+    const DipStatsEstimate same = dip_cost_ratio(&report, 1, 0);
     assert_true(same.low <= 1.0 && same.high >= 1.0);
     dip_cost_report_free(&report);
 }
@@ -135,42 +137,42 @@ static void times_are_means_of_medians(void **state) {
         report.rows[0].ms[i] = i % 4 + 1.0 + (i / 4 == 2 ? 1000.0 : 0.0); // 1, 2, 3, 4; one spike
     }
     expect_near(dip_cost_ms(&report, 0), 2.5, 1e-12);
-    expect_near(dip_cost_time(&report, 0).ms, 2.5, 1e-12);
+    expect_near(dip_cost_time(&report, 0).value, 2.5, 1e-12);
     dip_cost_report_free(&report);
 }
 
-static void set_place(DipCostReport *report, int row, double ms, double flip) {
+static void set_viewpoint(DipCostReport *report, int row, double ms, double flip) {
     for (int i = 0; i < report->rounds * report->options.timed_frames; i++) {
         report->rows[row].ms[i] = ms;
     }
     for (int p = 0; p < report->options.places; p++) {
-        report->rows[row].places[p].regions[0].flip =
-            flip * report->rows[row].places[p].regions[0].pixels;
+        report->rows[row].viewpoints[p].regions[0].flip =
+            flip * report->rows[row].viewpoints[p].regions[0].pixels;
     }
 }
 
-static void the_front_is_what_nothing_beats(void **state) {
+static void no_other_row_beats_the_pareto_front(void **state) {
     (void)state;
     DipCostReport report;
     const int rows[4] = {0, 1, 2, 3};
     int front[4];
     dip_made_report(&report, 3);
-    set_place(&report, 0, 4.0, 0.1);
-    set_place(&report, 1, 2.0, 0.3);
-    set_place(&report, 2, 3.0, 0.3); // slower and no better than row 1
-    set_place(&report, 3, 1.0, 0.5);
-    assert_int_equal(dip_cost_front(&report, rows, 4, front), 3);
+    set_viewpoint(&report, 0, 4.0, 0.1);
+    set_viewpoint(&report, 1, 2.0, 0.3);
+    set_viewpoint(&report, 2, 3.0, 0.3); // slower and no better than row 1
+    set_viewpoint(&report, 3, 1.0, 0.5);
+    assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 3);
     assert_int_equal(front[0], 3);
     assert_int_equal(front[1], 1);
     assert_int_equal(front[2], 0);
-    set_place(&report, 1, 2.0, 0.101); // row 0 buys less than 1 % over it
-    assert_int_equal(dip_cost_front_steps(&report, front, 3), 2);
+    set_viewpoint(&report, 1, 2.0, 0.101); // row 0 buys less than 1 % over it
+    assert_int_equal(dip_cost_pareto_front_thin(&report, front, 3), 2);
     assert_int_equal(front[1], 1);
     report.combined_first = 0;
-    assert_int_equal(dip_cost_next(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
-    assert_int_equal(dip_cost_next(&report, 1), -1);
+    assert_int_equal(dip_cost_step_up(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
+    assert_int_equal(dip_cost_step_up(&report, 1), -1);
     report.rounds = 0; // without times there is none
-    assert_int_equal(dip_cost_front(&report, rows, 4, front), 0);
+    assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 0);
     dip_cost_report_free(&report);
 }
 
@@ -230,7 +232,7 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
         assert_memory_equal(&x->quality, &y->quality, sizeof x->quality);
         assert_int_equal(x->path, y->path);
         assert_memory_equal(x->judged, y->judged, 3 * sizeof(bool));
-        check_values(x->places, y->places, 3 * sizeof *x->places);
+        check_values(x->viewpoints, y->viewpoints, 3 * sizeof *x->viewpoints);
         check_values(x->ms, y->ms, (size_t)a->rounds * 4 * sizeof(double));
         check_values(x->counters, y->counters, sizeof x->counters);
     }
@@ -302,7 +304,7 @@ static void broken_json_is_refused(void **state) {
     free(text);
     remove(file);
     assert_false(dip_cost_read_json(&read, "none.json", &err));
-    assert_int_equal(err.code, DIP_ERROR_IO);
+    assert_int_equal(err.code, DIP_ERROR_MISSING);
 }
 
 // Rows of CSV have as many fields as the head; the page has its parts and names no other file.
@@ -344,10 +346,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figures_are_means),
         cmocka_unit_test(errors_below_three_floors_say_nothing),
-        cmocka_unit_test(steps_that_stray_are_named),
+        cmocka_unit_test(steps_out_of_order_are_named),
         cmocka_unit_test(ratios_see_past_drift_and_frames),
         cmocka_unit_test(times_are_means_of_medians),
-        cmocka_unit_test(the_front_is_what_nothing_beats),
+        cmocka_unit_test(no_other_row_beats_the_pareto_front),
         cmocka_unit_test(the_fit_finds_what_work_costs),
         cmocka_unit_test(json_keeps_everything),
         cmocka_unit_test(broken_json_is_refused),

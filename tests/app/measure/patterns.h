@@ -8,7 +8,7 @@ enum { DIP_PATTERN_SIZE = 80 }; // width and height at most
 
 typedef struct DipPattern {
     uint8_t rgba8[DIP_PATTERN_SIZE * DIP_PATTERN_SIZE * 4];
-    DipPicture picture; // of the first width columns and height rows
+    DipSrgbPicture picture; // of the first width columns and height rows
 } DipPattern;
 
 // Code of channel c at (x, y).
@@ -16,7 +16,8 @@ typedef int DipPatternCode(int x, int y, int c);
 
 static inline void dip_pattern_fill(DipPattern *pattern, int width, int height,
                                     DipPatternCode *code) {
-    pattern->picture = (DipPicture){pattern->rgba8, (size_t)DIP_PATTERN_SIZE * 4, width, height};
+    pattern->picture =
+        (DipSrgbPicture){pattern->rgba8, (size_t)DIP_PATTERN_SIZE * 4, width, height};
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++) {
             for (int c = 0; c < 4; c++) {

@@ -1,5 +1,5 @@
 // RMSE, PSNR and SSIM on closed forms; flicker's identity.
-#include "app/measure/error.h"
+#include "app/measure/difference.h"
 #include "app/measure/flicker.h"
 #include "app/measure/ssim.h"
 #include "renderer/base/srgb.h"
@@ -30,7 +30,7 @@ static void expect_near(const char *what, double found, double expected, double 
 }
 
 static double mean(int pixel_count) {
-    return dip_error_mean(dip_error_sum(map, (size_t)pixel_count, (DipRegion){0}));
+    return dip_map_mean(dip_map_sum(map, (size_t)pixel_count, (DipPixelMask){0}));
 }
 
 static int base;
@@ -57,8 +57,8 @@ static int one_channel_more(int x, int y, int c) {
 static double psnr(DipPatternCode *a, DipPatternCode *b) {
     dip_pattern_fill(&truth, 64, 48, a);
     dip_pattern_fill(&test, 64, 48, b);
-    dip_error_codes_map(&test.picture, &truth.picture, map);
-    return dip_error_psnr_db(mean(64 * 48));
+    dip_difference_codes_map(&test.picture, &truth.picture, map);
+    return dip_psnr_db(mean(64 * 48));
 }
 
 static void psnr_of_known_errors(void **state) {
@@ -84,12 +84,12 @@ static void rms_in_linear_light(void **state) {
     base = 188; // light 0.50289
     dip_pattern_fill(&test, 20, 10, fifty);
     fill_truth_lin(0.25);
-    dip_error_lin(&test.picture, truth_lin, error_lin);
-    dip_error_squared_map(error_lin, 200, map);
+    dip_difference_lin(&test.picture, truth_lin, error_lin);
+    dip_difference_squared_map(error_lin, 200, map);
     expect_near("rms", sqrt(mean(200)), dip_srgb_decode(188 / 255.0) - 0.25, 1e-6);
     fill_truth_lin((double)(float)dip_srgb_decode(188 / 255.0));
-    dip_error_lin(&test.picture, truth_lin, error_lin);
-    dip_error_squared_map(error_lin, 200, map);
+    dip_difference_lin(&test.picture, truth_lin, error_lin);
+    dip_difference_squared_map(error_lin, 200, map);
     expect_near("rms of the same", sqrt(mean(200)), 0.0, 1e-7);
 }
 
@@ -97,13 +97,13 @@ static void rms_in_linear_light(void **state) {
 static void regions_part_the_picture(void **state) {
     (void)state;
     static uint8_t classes[64 * 48];
-    DipErrorSum parts = {0};
+    DipMapSum parts = {0};
     psnr(dip_pattern_hash, dip_pattern_other_hash);
     for (int i = 0; i < 64 * 48; i++) {
         classes[i] = (uint8_t)(i % 7 % 3);
     }
     for (uint8_t c = 0; c < 3; c++) {
-        const DipErrorSum part = dip_error_sum(map, 64 * 48, (DipRegion){classes, c});
+        const DipMapSum part = dip_map_sum(map, 64 * 48, (DipPixelMask){classes, c});
         parts.sum += part.sum;
         parts.pixel_count += part.pixel_count;
         double expected = 0.0;
@@ -112,10 +112,10 @@ static void regions_part_the_picture(void **state) {
         }
         expect_near("part", part.sum, expected, 1e-6);
     }
-    const DipErrorSum all = dip_error_sum(map, 64 * 48, (DipRegion){0});
+    const DipMapSum all = dip_map_sum(map, 64 * 48, (DipPixelMask){0});
     expect_near("sum", parts.sum, all.sum, 1e-3);
     assert_true(parts.pixel_count == 64 * 48);
-    assert_true(dip_error_mean((DipErrorSum){0.0, 0.0}) == 0.0);
+    assert_true(dip_map_mean((DipMapSum){0.0, 0.0}) == 0.0);
 }
 
 // --- structural similarity ---------------------------------------------------------------------

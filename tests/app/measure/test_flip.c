@@ -1,6 +1,7 @@
 // FLIP on the values that its authors' own implementation gives for the same pictures.
-#include "app/measure/error.h"
+#include "app/measure/difference.h"
 #include "app/measure/flip.h"
+#include "app/measure/internal/flip_kernels.h"
 #include "tests/app/measure/patterns.h"
 
 #include <setjmp.h>
@@ -27,18 +28,19 @@ static void expect(const char *what, double found, double expected) {
 static double compare(int width, int height, double pixels_per_degree, DipPatternCode *a,
                       DipPatternCode *b) {
     DipFlip flip;
-    DipFlipSide sides[2];
+    DipFlipAnalysis sides[2];
     dip_pattern_fill(&truth, width, height, a);
     dip_pattern_fill(&test, width, height, b);
     assert_true(dip_flip_init(&flip, width, height, pixels_per_degree));
-    assert_true(dip_flip_side_init(&flip, &sides[0]) && dip_flip_side_init(&flip, &sides[1]));
-    dip_flip_take(&flip, &truth.picture, &sides[0]);
-    dip_flip_take(&flip, &test.picture, &sides[1]);
+    assert_true(dip_flip_analysis_init(&flip, &sides[0]) &&
+                dip_flip_analysis_init(&flip, &sides[1]));
+    dip_flip_analyse(&flip, &truth.picture, &sides[0]);
+    dip_flip_analyse(&flip, &test.picture, &sides[1]);
     dip_flip_compare(&flip, &sides[0], &sides[1], map);
-    dip_flip_side_free(&sides[0]);
-    dip_flip_side_free(&sides[1]);
+    dip_flip_analysis_free(&sides[0]);
+    dip_flip_analysis_free(&sides[1]);
     dip_flip_free(&flip);
-    return dip_error_mean(dip_error_sum(map, (size_t)(width * height), (DipRegion){0}));
+    return dip_map_mean(dip_map_sum(map, (size_t)(width * height), (DipPixelMask){0}));
 }
 
 static float least(int count) {

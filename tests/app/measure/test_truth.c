@@ -1,6 +1,7 @@
 // Truths: their cache, their floor, and what the meter finds against them.
 #include "app/measure/meter.h"
 #include "app/measure/truth.h"
+#include "renderer/reference/reference.h"
 #include "tests/renderer/scene/scenes.h"
 
 #include <dirent.h>
@@ -31,18 +32,18 @@ static bool count_call(void *context, double done) {
     return ++calls < last_call;
 }
 
-static DipCostTruthDef make_def(int samples) {
-    return (DipCostTruthDef){reference, "scene", scene.pose, 0,
-                             WIDTH,     HEIGHT,  samples,    DIP_FLIP_PIXELS_PER_DEGREE};
+static DipTruthDef make_def(int samples) {
+    return (DipTruthDef){reference, "scene", scene.pose, 0,
+                         WIDTH,     HEIGHT,  samples,    DIP_FLIP_PIXELS_PER_DEGREE};
 }
 
-static bool get(DipCostTruth *truth, const DipCostTruthDef *def, const char *cache) {
+static bool get(DipTruth *truth, const DipTruthDef *def, const char *cache) {
     DipError err = {0};
     calls = 0;
-    return dip_cost_truth_get(truth, def, cache, pool, count_call, NULL, &err);
+    return dip_truth_get(truth, def, cache, pool, count_call, NULL, &err);
 }
 
-static void check_same(const DipCostTruth *a, const DipCostTruth *b) {
+static void check_same(const DipTruth *a, const DipTruth *b) {
     assert_memory_equal(a->rgb_lin, b->rgb_lin, PIXELS * 3 * sizeof(float));
     assert_memory_equal(a->rgba8, b->rgba8, PIXELS * 4);
     assert_memory_equal(a->classes, b->classes, PIXELS);
@@ -71,8 +72,8 @@ static void empty_folder(bool corrupt) {
 
 static void the_cache_gives_the_same(void **state) {
     (void)state;
-    const DipCostTruthDef def = make_def(4);
-    DipCostTruth made, found, without;
+    const DipTruthDef def = make_def(4);
+    DipTruth made, found, without;
     assert_true(get(&made, &def, "."));
     assert_true(calls > 0);
     assert_true(get(&found, &def, "."));
@@ -81,21 +82,21 @@ static void the_cache_gives_the_same(void **state) {
     assert_true(get(&without, &def, NULL));
     assert_true(calls > 0);
     check_same(&made, &without);
-    dip_cost_truth_free(&found);
+    dip_truth_free(&found);
     empty_folder(true); // what does not fit its own hash is made anew
     assert_true(get(&found, &def, "."));
     assert_true(calls > 0);
     check_same(&made, &found);
     empty_folder(false);
-    dip_cost_truth_free(&made);
-    dip_cost_truth_free(&found);
-    dip_cost_truth_free(&without);
+    dip_truth_free(&made);
+    dip_truth_free(&found);
+    dip_truth_free(&without);
 }
 
 // Each thing that the picture depends on has a name of its own.
 static void other_pictures_have_other_names(void **state) {
     (void)state;
-    DipCostTruthDef defs[6];
+    DipTruthDef defs[6];
     char keys[6][33];
     for (int i = 0; i < 6; i++) {
         defs[i] = make_def(1);
@@ -106,10 +107,10 @@ static void other_pictures_have_other_names(void **state) {
     defs[4].scene_hash = "other";
     defs[5].pose.fov_y_deg += 1e-9;
     for (int i = 0; i < 6; i++) {
-        DipCostTruth truth;
+        DipTruth truth;
         assert_true(get(&truth, &defs[i], NULL));
         memcpy(keys[i], truth.key, sizeof keys[i]);
-        dip_cost_truth_free(&truth);
+        dip_truth_free(&truth);
         for (int k = 0; k < i; k++) {
             assert_string_not_equal(keys[i], keys[k]);
         }
@@ -119,67 +120,67 @@ static void other_pictures_have_other_names(void **state) {
 // The halves' difference halved is how far the truth is from a much better one.
 static void the_floor_is_how_far_it_is_off(void **state) {
     (void)state;
-    const DipCostTruthDef def = make_def(16);
-    const DipCostTruthDef better_def = make_def(1024);
-    DipCostTruth truth, better;
+    const DipTruthDef def = make_def(16);
+    const DipTruthDef better_def = make_def(1024);
+    DipTruth truth, better;
     assert_true(get(&truth, &def, NULL) && get(&better, &better_def, NULL));
     double squares = 0.0;
     for (int i = 0; i < 3 * PIXELS; i++) {
         const double e = (double)truth.rgb_lin[i] - (double)better.rgb_lin[i];
         squares += e * e / (3 * PIXELS);
     }
-    const double floor = dip_cost_figures(&truth.floor, 0).rmse_lin / 2.0;
+    const double floor = dip_metrics_of(&truth.floor, 0).rmse_lin / 2.0;
     assert_true(floor > 0.001);
     assert_true(sqrt(squares) > 0.8 * floor && sqrt(squares) < 1.25 * floor);
-    assert_true(dip_cost_figures(&better.floor, 0).rmse_lin < 0.3 * floor);
-    dip_cost_truth_free(&truth);
-    dip_cost_truth_free(&better);
+    assert_true(dip_metrics_of(&better.floor, 0).rmse_lin < 0.3 * floor);
+    dip_truth_free(&truth);
+    dip_truth_free(&better);
 }
 
 static void an_interruption_leaves_nothing(void **state) {
     (void)state;
-    const DipCostTruthDef def = make_def(4);
-    DipCostTruth truth;
+    const DipTruthDef def = make_def(4);
+    DipTruth truth;
     last_call = 1;
     assert_false(get(&truth, &def, "."));
     last_call = 1000000;
     assert_null(truth.rgb_lin);
-    DipCostTruth again;
+    DipTruth again;
     assert_true(get(&again, &def, "."));
     assert_true(calls > 0);
-    dip_cost_truth_free(&again);
+    dip_truth_free(&again);
     empty_folder(false);
 }
 
 // A truth held against itself errs by its rounding to codes alone.
 static void the_truth_judges_itself_well(void **state) {
     (void)state;
-    const DipCostTruthDef def = make_def(16);
-    DipCostTruth truth;
-    DipCostMeter meter;
-    DipFlipSide side;
-    DipCostSums sums = {0};
+    const DipTruthDef def = make_def(16);
+    DipTruth truth;
+    DipMeter meter;
+    DipFlipAnalysis side;
+    DipMetricSums sums = {0};
     assert_true(get(&truth, &def, NULL));
-    assert_true(dip_cost_meter_init(&meter, WIDTH, HEIGHT, def.pixels_per_degree));
-    assert_true(dip_flip_side_init(&meter.flip, &side));
-    const DipPicture picture = {truth.rgba8, (size_t)WIDTH * 4, WIDTH, HEIGHT};
-    dip_flip_take(&meter.flip, &picture, &side);
-    const DipCostStandard standard = {picture, truth.rgb_lin, &side, truth.classes};
-    assert_true(dip_cost_meter_add(&meter, &picture, NULL, &standard, &sums));
-    dip_cost_meter_end_burst(&meter, &sums);
-    const DipCostFigures f = dip_cost_figures(&sums, 0);
+    assert_true(dip_meter_init(&meter, WIDTH, HEIGHT, def.pixels_per_degree));
+    assert_true(dip_flip_analysis_init(&meter.flip, &side));
+    const DipSrgbPicture picture = {truth.rgba8, (size_t)WIDTH * 4, WIDTH, HEIGHT};
+    dip_flip_analyse(&meter.flip, &picture, &side);
+    const DipMeterStandard standard = {picture, truth.rgb_lin, &side, truth.classes};
+    assert_true(dip_meter_add(&meter, &picture, NULL, &standard, &sums));
+    dip_meter_end_burst(&meter, &sums);
+    const DipMetrics f = dip_metrics_of(&sums, 0);
     assert_true(f.flip == 0.0 && f.ssim == 1.0 && isinf(f.psnr_db));
     assert_true(f.rmse_lin > 0.0 && f.rmse_lin < 1.0 / 255.0);
     assert_true(sums.regions[0].pixels == PIXELS);
     double parts = 0.0;
-    for (int r = 1; r < DIP_COST_REGIONS; r++) {
+    for (int r = 1; r < DIP_METRIC_REGION_COUNT; r++) {
         parts += sums.regions[r].pixels;
     }
     assert_true(parts == PIXELS);
-    assert_true(dip_cost_flicker(&sums).flicker == 0.0);
-    dip_flip_side_free(&side);
-    dip_cost_meter_free(&meter);
-    dip_cost_truth_free(&truth);
+    assert_true(dip_flicker_metrics_of(&sums).flicker == 0.0);
+    dip_flip_analysis_free(&side);
+    dip_meter_free(&meter);
+    dip_truth_free(&truth);
 }
 
 int main(void) {

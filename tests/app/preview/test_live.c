@@ -29,16 +29,16 @@ static bool go_on(void *context, double done) {
     return true;
 }
 
-static DipCostTruth truth_of(const DipPose *pose, int samples) {
-    const DipCostTruthDef def = {reference, "scene", *pose,   0,
-                                 WIDTH,     HEIGHT,  samples, DIP_FLIP_PIXELS_PER_DEGREE};
-    DipCostTruth truth;
-    assert_true(dip_cost_truth_get(&truth, &def, NULL, NULL, go_on, NULL, NULL));
+static DipTruth truth_of(const DipPose *pose, int samples) {
+    const DipTruthDef def = {reference, "scene", *pose,   0,
+                             WIDTH,     HEIGHT,  samples, DIP_FLIP_PIXELS_PER_DEGREE};
+    DipTruth truth;
+    assert_true(dip_truth_get(&truth, &def, NULL, NULL, go_on, NULL, NULL));
     return truth;
 }
 
 // The truth's codes with noise of so many codes, in rows that are not packed.
-static void fill_picture(const DipCostTruth *truth, int noise, uint8_t *picture) {
+static void fill_picture(const DipTruth *truth, int noise, uint8_t *picture) {
     uint32_t random = 1;
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < 4 * WIDTH; x++) {
@@ -61,20 +61,20 @@ static DipJudgeShot make_shot(bool copied) {
 }
 
 // What the cost report would say.
-static DipCostFigures judged_whole(const DipCostTruth *truth, const uint8_t *picture) {
-    DipCostMeter meter;
-    DipFlipSide side;
-    DipCostSums sums = {0};
-    assert_true(dip_cost_meter_init(&meter, WIDTH, HEIGHT, DIP_FLIP_PIXELS_PER_DEGREE));
-    assert_true(dip_flip_side_init(&meter.flip, &side));
-    const DipPicture standing = {truth->rgba8, 4 * WIDTH, WIDTH, HEIGHT};
-    const DipPicture test = {picture, STRIDE, WIDTH, HEIGHT};
-    dip_flip_take(&meter.flip, &standing, &side);
-    const DipCostStandard standard = {standing, truth->rgb_lin, &side, truth->classes};
-    assert_true(dip_cost_meter_add(&meter, &test, NULL, &standard, &sums));
-    dip_flip_side_free(&side);
-    dip_cost_meter_free(&meter);
-    return dip_cost_figures(&sums, 0);
+static DipMetrics judged_whole(const DipTruth *truth, const uint8_t *picture) {
+    DipMeter meter;
+    DipFlipAnalysis side;
+    DipMetricSums sums = {0};
+    assert_true(dip_meter_init(&meter, WIDTH, HEIGHT, DIP_FLIP_PIXELS_PER_DEGREE));
+    assert_true(dip_flip_analysis_init(&meter.flip, &side));
+    const DipSrgbPicture standing = {truth->rgba8, 4 * WIDTH, WIDTH, HEIGHT};
+    const DipSrgbPicture test = {picture, STRIDE, WIDTH, HEIGHT};
+    dip_flip_analyse(&meter.flip, &standing, &side);
+    const DipMeterStandard standard = {standing, truth->rgb_lin, &side, truth->classes};
+    assert_true(dip_meter_add(&meter, &test, NULL, &standard, &sums));
+    dip_flip_analysis_free(&side);
+    dip_meter_free(&meter);
+    return dip_metrics_of(&sums, 0);
 }
 
 static void check_close(double value, double expected) {
@@ -106,18 +106,18 @@ static void errors_are_the_cost_reports(void **state) {
     for (int level = 0; level < DIP_JUDGE_LEVELS; level++) {
         assert_true(step_to_news(judge, &steps) == DIP_JUDGE_NEWS);
         const DipJudgeResult *result = dip_judge_result(judge);
-        DipCostTruth truth = truth_of(&scene.pose, dip_judge_samples[level]);
+        DipTruth truth = truth_of(&scene.pose, dip_judge_samples[level]);
         assert_int_equal(result->samples, 2 * dip_judge_samples[level]);
         assert_true(result->last == (level == DIP_JUDGE_LEVELS - 1));
         for (int p = 0; p < DIP_PANE_COUNT; p++) {
-            const DipCostFigures figures = judged_whole(&truth, pictures[p]);
+            const DipMetrics figures = judged_whole(&truth, pictures[p]);
             check_close(result->panes[p].rmse_lin, figures.rmse_lin);
             check_close(result->panes[p].psnr_db, figures.psnr_db);
             check_close(result->panes[p].flip, figures.flip);
-            const double floor_rmse = dip_cost_figures(&truth.floor, 0).rmse_lin / 2.0;
+            const double floor_rmse = dip_metrics_of(&truth.floor, 0).rmse_lin / 2.0;
             assert_true(result->panes[p].at_floor == (figures.rmse_lin < 3.0 * floor_rmse));
         }
-        dip_cost_truth_free(&truth);
+        dip_truth_free(&truth);
     }
     assert_true(dip_judge_result(judge)->panes[0].at_floor);
     assert_false(dip_judge_result(judge)->panes[1].at_floor);
@@ -219,9 +219,9 @@ static void the_thread_drops_what_is_no_longer_asked(void **state) {
     shot = make_shot(false);
     dip_live_show(live, &shot, 41);
     reading = await(live, DIP_LIVE_DONE);
-    DipCostTruth truth = truth_of(&scene.pose, dip_judge_samples[DIP_JUDGE_LEVELS - 1]);
+    DipTruth truth = truth_of(&scene.pose, dip_judge_samples[DIP_JUDGE_LEVELS - 1]);
     check_close(reading.result.panes[1].flip, judged_whole(&truth, pictures[1]).flip);
-    dip_cost_truth_free(&truth);
+    dip_truth_free(&truth);
     dip_live_destroy(&live);
 }
 
@@ -253,10 +253,10 @@ int main(void) {
     if (!reference) {
         return 1;
     }
-    DipCostTruth truth = truth_of(&scene.pose, 64);
+    DipTruth truth = truth_of(&scene.pose, 64);
     fill_picture(&truth, 0, pictures[0]);
     fill_picture(&truth, 40, pictures[1]);
-    dip_cost_truth_free(&truth);
+    dip_truth_free(&truth);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     dip_reference_destroy(&reference);
     dip_test_scene_free(&scene);

@@ -1,5 +1,5 @@
 // What the preview tells of times, errors and costs, and when.
-#include "app/cost/write.h"
+#include "app/cost/formats.h"
 #include "app/preview/panel.h"
 #include "app/preview/state.h"
 #include "tests/app/cost/made_report.h"
@@ -103,8 +103,8 @@ static void rest_is_when_nothing_moves(void **state) {
 
 static double flip_of(const DipCostReport *report, int row) {
     int places;
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
-    return dip_cost_figures(&sums, 0).flip;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &places);
+    return dip_metrics_of(&sums, 0).flip;
 }
 
 // Row r of the made-up report takes r + 1 ms; the sweep is of rows 0, 2 and 3.

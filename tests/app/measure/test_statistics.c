@@ -1,5 +1,5 @@
 // Quantiles and intervals, on values whose statistics are known.
-#include "app/measure/stats.h"
+#include "app/measure/statistics.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -55,8 +55,58 @@ static void rounds_that_differ_are_spread(void **state) {
     assert_true(interval.high > 2.1 && interval.high <= 2.0 / 0.9);
 }
 
+static void the_median_of_any_order(void **state) {
+    (void)state;
+    double odd[] = {9, 1, 5};
+    double even[] = {4, 1, 2, 3};
+    double equal[] = {2, 2, 2, 2};
+    double one[] = {7};
+    assert_true(dip_stats_median(odd, 3) == 5.0);
+    assert_true(dip_stats_median(even, 4) == 2.5);
+    assert_true(dip_stats_median(equal, 4) == 2.0);
+    assert_true(dip_stats_median(one, 1) == 7.0);
+    for (int count = 2; count < 200; count++) {
+        double values[200], sorted[200];
+        for (int i = 0; i < count; i++) {
+            values[i] = i * 7919 % 101;
+        }
+        const double expected = dip_stats_quantile(values, count, 0.5, sorted);
+        assert_true(dip_stats_median(values, count) == expected);
+    }
+}
+
+// Frames of 10 and 20 ms, in one of five rounds 100 ms more: the medians do not see it.
+static void a_time_is_the_mean_of_medians(void **state) {
+    (void)state;
+    double ms[10];
+    for (int i = 0; i < 10; i++) {
+        ms[i] = 10.0 * (i % 2 + 1) + (i / 2 == 3 ? 100.0 : 0.0);
+    }
+    assert_true(dip_stats_time(ms, 2, 5) == 15.0);
+    const DipStatsEstimate estimate = dip_stats_time_estimate(ms, 2, 5);
+    assert_true(estimate.value == 15.0 && estimate.low == 15.0);
+    // Three or more of five drawings take round 3 with probability 0.058: above 2.5 %.
+    assert_true(estimate.high == 115.0);
+}
+
+// Both are slow in the same rounds, so the ratio is certain though the times are not.
+static void a_paired_ratio_takes_both_from_one_round(void **state) {
+    (void)state;
+    double a[12], b[12];
+    for (int i = 0; i < 12; i++) {
+        b[i] = (1.0 + i / 2) * (i % 2 + 1);
+        a[i] = 1.5 * b[i];
+    }
+    const DipStatsEstimate ratio = dip_stats_paired_ratio_estimate(a, b, 2, 6);
+    assert_true(ratio.value == 1.5 && ratio.low == 1.5 && ratio.high == 1.5);
+    assert_true(dip_stats_paired_ratio(a, b, 2, 6) == 1.5);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_median_of_any_order),
+        cmocka_unit_test(a_time_is_the_mean_of_medians),
+        cmocka_unit_test(a_paired_ratio_takes_both_from_one_round),
         cmocka_unit_test(quantiles_lie_between_neighbours),
         cmocka_unit_test(frames_that_differ_are_no_spread),
         cmocka_unit_test(rounds_that_differ_are_spread),

@@ -1,5 +1,5 @@
-// The report as JSON.
-#include "app/cost/write.h"
+// Writing a report as JSON.
+#include "app/cost/formats.h"
 
 #include "app/cost/fit.h"
 #include "app/cost/json_fields.h"
@@ -9,18 +9,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- writing -----------------------------------------------------------------------------------
-
-static void add_sums(cJSON *to, const char *name, const DipCostSums *sums) {
-    double values[DIP_COST_SUM_COUNT];
+static void add_sums(cJSON *to, const char *name, const DipMetricSums *sums) {
+    double values[DIP_METRIC_SUM_COUNT];
     memcpy(values, sums, sizeof values);
-    cJSON_AddItemToObject(to, name, cJSON_CreateDoubleArray(values, DIP_COST_SUM_COUNT));
+    cJSON_AddItemToObject(to, name, cJSON_CreateDoubleArray(values, DIP_METRIC_SUM_COUNT));
 }
 
-static void add_figures(cJSON *to, const DipCostSums *sums) {
-    for (int r = 0; r < DIP_COST_REGIONS; r++) {
-        const DipCostFigures figures = dip_cost_figures(sums, r);
-        cJSON *region = cJSON_AddObjectToObject(to, dip_cost_region_names[r]);
+static void add_figures(cJSON *to, const DipMetricSums *sums) {
+    for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
+        const DipMetrics figures = dip_metrics_of(sums, r);
+        cJSON *region = cJSON_AddObjectToObject(to, dip_metric_region_names[r]);
         cJSON_AddNumberToObject(region, "pixels", sums->regions[r].pixels);
         if (sums->regions[r].pixels > 0.0) {
             cJSON_AddNumberToObject(region, "rmse_lin", figures.rmse_lin);
@@ -31,8 +29,8 @@ static void add_figures(cJSON *to, const DipCostSums *sums) {
     }
 }
 
-static void add_flicker(cJSON *to, const DipCostSums *sums) {
-    const DipCostFlicker flicker = dip_cost_flicker(sums);
+static void add_flicker(cJSON *to, const DipMetricSums *sums) {
+    const DipFlickerMetrics flicker = dip_flicker_metrics_of(sums);
     cJSON_AddNumberToObject(to, "static_rms_lin", flicker.steady);
     cJSON_AddNumberToObject(to, "flicker_rms_lin", flicker.flicker);
     cJSON_AddNumberToObject(to, "step_rms_lin", flicker.step);
@@ -40,18 +38,18 @@ static void add_flicker(cJSON *to, const DipCostSums *sums) {
 }
 
 static void add_errors(cJSON *object, const DipCostReport *report, int row) {
-    int places;
-    const DipCostSums sums = dip_cost_row_sums(report, row, &places);
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     cJSON *array = cJSON_AddArrayToObject(object, "places");
     for (int p = 0; p < report->options.places; p++) {
         if (report->rows[row].judged[p]) {
-            cJSON *place = cJSON_CreateObject();
-            cJSON_AddNumberToObject(place, "place", p);
-            add_sums(place, "sums", &report->rows[row].places[p]);
-            cJSON_AddItemToArray(array, place);
+            cJSON *viewpoint = cJSON_CreateObject();
+            cJSON_AddNumberToObject(viewpoint, "place", p);
+            add_sums(viewpoint, "sums", &report->rows[row].viewpoints[p]);
+            cJSON_AddItemToArray(array, viewpoint);
         }
     }
-    if (places > 0) {
+    if (viewpoints > 0) {
         add_figures(cJSON_AddObjectToObject(object, "figures"), &sums);
         add_flicker(cJSON_AddObjectToObject(object, "over_time"), &sums);
         cJSON_AddBoolToObject(object, "at_floor", dip_cost_at_floor(report, row));
@@ -62,8 +60,8 @@ static void add_times(cJSON *object, const DipCostReport *report, int row) {
     if (!dip_cost_is_timed(report, row)) {
         return;
     }
-    const DipCostTime time = dip_cost_time(report, row);
-    cJSON_AddNumberToObject(object, "ms", time.ms);
+    const DipStatsEstimate time = dip_cost_time(report, row);
+    cJSON_AddNumberToObject(object, "ms", time.value);
     cJSON_AddNumberToObject(object, "ms_low", time.low);
     cJSON_AddNumberToObject(object, "ms_high", time.high);
     cJSON *counters = cJSON_AddObjectToObject(object, "counters");
@@ -106,8 +104,8 @@ static void add_sweeps(cJSON *root, const DipCostReport *report) {
             cJSON *step = cJSON_CreateObject();
             cJSON_AddNumberToObject(step, "row", sweep->rows[i]);
             if (dip_cost_is_timed(report, sweep->rows[i])) {
-                const DipCostTime ratio = dip_cost_ratio(report, sweep->rows[i], sweep->base);
-                cJSON_AddNumberToObject(step, "ratio", ratio.ms);
+                const DipStatsEstimate ratio = dip_cost_ratio(report, sweep->rows[i], sweep->base);
+                cJSON_AddNumberToObject(step, "ratio", ratio.value);
                 cJSON_AddNumberToObject(step, "ratio_low", ratio.low);
                 cJSON_AddNumberToObject(step, "ratio_high", ratio.high);
             }

@@ -1,12 +1,12 @@
 // Squared differences and their means.
-#include "app/measure/error.h"
+#include "app/measure/difference.h"
 
 #include "renderer/base/srgb.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-void dip_error_lin(const DipPicture *test, const float *truth_lin, float *error_lin) {
+void dip_difference_lin(const DipSrgbPicture *test, const float *truth_lin, float *error_lin) {
     DipSrgbDecodeTable srgb;
     dip_srgb_decode_table(&srgb);
     for (int y = 0; y < test->height; y++) {
@@ -19,7 +19,7 @@ void dip_error_lin(const DipPicture *test, const float *truth_lin, float *error_
     }
 }
 
-void dip_error_squared_map(const float *error_lin, size_t pixel_count, float *map) {
+void dip_difference_squared_map(const float *error_lin, size_t pixel_count, float *map) {
     for (size_t i = 0; i < pixel_count; i++, error_lin += 3) {
         map[i] = (error_lin[0] * error_lin[0] + error_lin[1] * error_lin[1] +
                   error_lin[2] * error_lin[2]) /
@@ -27,7 +27,7 @@ void dip_error_squared_map(const float *error_lin, size_t pixel_count, float *ma
     }
 }
 
-void dip_error_codes_map(const DipPicture *test, const DipPicture *truth, float *map) {
+void dip_difference_codes_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map) {
     for (int y = 0; y < test->height; y++) {
         const uint8_t *a = test->rgba8 + (size_t)y * test->stride_bytes;
         const uint8_t *b = truth->rgba8 + (size_t)y * truth->stride_bytes;
@@ -41,10 +41,10 @@ void dip_error_codes_map(const DipPicture *test, const DipPicture *truth, float 
     }
 }
 
-DipErrorSum dip_error_sum(const float *map, size_t pixel_count, DipRegion region) {
-    DipErrorSum sum = {0};
+DipMapSum dip_map_sum(const float *map, size_t pixel_count, DipPixelMask mask) {
+    DipMapSum sum = {0};
     for (size_t i = 0; i < pixel_count; i++) {
-        const bool counts = !region.classes || region.classes[i] == region.wanted;
+        const bool counts = !mask.classes || mask.classes[i] == mask.wanted;
         if (counts && !isnan(map[i])) {
             sum.sum += (double)map[i];
             sum.pixel_count += 1.0;
@@ -53,10 +53,10 @@ DipErrorSum dip_error_sum(const float *map, size_t pixel_count, DipRegion region
     return sum;
 }
 
-double dip_error_mean(DipErrorSum sum) {
+double dip_map_mean(DipMapSum sum) {
     return sum.pixel_count > 0.0 ? sum.sum / sum.pixel_count : 0.0;
 }
 
-double dip_error_psnr_db(double mean_squared_codes) {
+double dip_psnr_db(double mean_squared_codes) {
     return mean_squared_codes > 0.0 ? 10.0 * log10(255.0 * 255.0 / mean_squared_codes) : INFINITY;
 }

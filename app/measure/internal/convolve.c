@@ -1,9 +1,10 @@
-// Filters tap by tap over whole rows, which the compiler makes vectors of.
-#include "app/measure/convolve.h"
+// Adds tap by tap over whole rows, in loops that the compiler turns into vector code.
+#include "app/measure/internal/convolve.h"
 
 #include <string.h>
 
-// Several taps at a time keep the sums in registers; their order is that of the taps.
+// Adds weights[k] * rows[k] to out for every k, in order. Four taps at a time keep sums in
+// registers.
 static void add_taps(const float *const *rows, const float *weights, int count, int width,
                      float *restrict out) {
     int k = 0;

@@ -1,10 +1,10 @@
-// A report back from its JSON.
-#include "app/cost/write.h"
+// Reading a report from JSON.
+#include "app/cost/formats.h"
 
 #include "app/cost/json_fields.h"
+#include "renderer/base/file.h"
 
 #include <cjson/cJSON.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,40 +14,12 @@ enum { MAX_FILE_BYTES = 1 << 29 };
 
 static bool missing(const char *file, const char *what, DipError *err) {
     return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, what,
-                         "is missing or not as `diptych cost` writes it");
-}
-
-static char *read_text(const char *file, DipError *err) {
-    FILE *in = fopen(file, "rb");
-    if (!in) {
-        dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be read: %s", strerror(errno));
-        return NULL;
-    }
-    size_t size = 0, room = 1 << 16;
-    char *text = malloc(room);
-    for (size_t got = 1; text && got > 0 && size < MAX_FILE_BYTES;) {
-        got = fread(text + size, 1, room - size - 1, in);
-        size += got;
-        if (room - size < 2) {
-            char *grown = realloc(text, room *= 2);
-            if (!grown) {
-                free(text);
-            }
-            text = grown;
-        }
-    }
-    fclose(in);
-    if (text) {
-        text[size] = '\0';
-    } else {
-        dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
-    }
-    return text;
+                         "is missing, or is not what `diptych cost` writes");
 }
 
 // --- fields ------------------------------------------------------------------------------------
 
-// A whole number of an object in least..most; else -1 and *ok false.
+// Reads a whole number in least..most. Otherwise sets *ok to false and returns -1.
 static int integer(const cJSON *object, const char *name, int least, int most, bool *ok) {
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
     const bool good = cJSON_IsNumber(item) && item->valuedouble >= least &&
@@ -64,7 +36,7 @@ static void copy_text(const cJSON *item, char *to, size_t size, bool *ok) {
     }
 }
 
-// An array of `count` finite numbers.
+// Reads an array of exactly `count` finite numbers.
 static bool numbers(const cJSON *array, int count, double *to) {
     if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != count) {
         return false;
@@ -79,9 +51,9 @@ static bool numbers(const cJSON *array, int count, double *to) {
     return true;
 }
 
-static bool read_sums(const cJSON *object, const char *name, DipCostSums *sums) {
-    double values[DIP_COST_SUM_COUNT];
-    if (!numbers(cJSON_GetObjectItemCaseSensitive(object, name), DIP_COST_SUM_COUNT, values)) {
+static bool read_sums(const cJSON *object, const char *name, DipMetricSums *sums) {
+    double values[DIP_METRIC_SUM_COUNT];
+    if (!numbers(cJSON_GetObjectItemCaseSensitive(object, name), DIP_METRIC_SUM_COUNT, values)) {
         return false;
     }
     memcpy(sums, values, sizeof values);
@@ -132,10 +104,10 @@ static bool read_row(const cJSON *object, DipCostReport *report, DipCostRow *row
     row->path = integer(object, "path", 0, report->path_count - 1, &ok);
     ok = ok && cJSON_IsString(settings) &&
          dip_quality_parse(settings->valuestring, &row->quality, NULL);
-    const cJSON *place;
-    cJSON_ArrayForEach(place, cJSON_GetObjectItemCaseSensitive(object, "places")) {
-        const int p = integer(place, "place", 0, report->options.places - 1, &ok);
-        if (!ok || !read_sums(place, "sums", &row->places[p])) {
+    const cJSON *viewpoint;
+    cJSON_ArrayForEach(viewpoint, cJSON_GetObjectItemCaseSensitive(object, "places")) {
+        const int p = integer(viewpoint, "place", 0, report->options.places - 1, &ok);
+        if (!ok || !read_sums(viewpoint, "sums", &row->viewpoints[p])) {
             return false;
         }
         row->judged[p] = true;
@@ -206,8 +178,8 @@ static bool read_floors(const cJSON *root, DipCostReport *report) {
     const cJSON *object;
     cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "floors")) {
         const int path = integer(object, "path", 0, report->path_count - 1, &ok);
-        const int place = integer(object, "place", 0, report->options.places - 1, &ok);
-        const int index = path * report->options.places + place;
+        const int viewpoint = integer(object, "place", 0, report->options.places - 1, &ok);
+        const int index = path * report->options.places + viewpoint;
         if (!ok || !read_sums(object, "half_against_half", &report->floors[index])) {
             return false;
         }
@@ -268,12 +240,14 @@ static bool read_report(const cJSON *root, DipCostReport *report, const char *fi
 
 bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) {
     *report = (DipCostReport){0};
-    char *text = read_text(file, err);
-    cJSON *root = text ? cJSON_Parse(text) : NULL;
-    const bool parsed = root != NULL;
-    if (text && !parsed) {
-        dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is no JSON");
+    unsigned char *text;
+    size_t size_bytes;
+    if (!dip_file_read(file, "report", MAX_FILE_BYTES, &text, &size_bytes, err)) {
+        return false;
     }
+    cJSON *root = cJSON_ParseWithLength((const char *)text, size_bytes);
+    const bool parsed =
+        root || dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file");
     const bool read = parsed && read_report(root, report, file, err);
     cJSON_Delete(root);
     free(text);

@@ -1,5 +1,5 @@
 // What is kept of an unfinished report, whenever the program ends.
-#include "app/cost/state.h"
+#include "app/cost/journal.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,28 +18,28 @@ static const char key[] = "0123456789abcdef0123456789abcdef";
 static const char other_key[] = "1123456789abcdef0123456789abcdef";
 static const double round_ms[] = {1.0 / 3.0, 2e-9, 12345.678};
 
-static DipCostSums make_sums(int seed) {
-    DipCostSums sums;
+static DipMetricSums make_sums(int seed) {
+    DipMetricSums sums;
     double *values = (double *)&sums;
-    for (int i = 0; i < DIP_COST_SUM_COUNT; i++) {
+    for (int i = 0; i < DIP_METRIC_SUM_COUNT; i++) {
         values[i] = (i + seed) / 7.0;
     }
     return sums;
 }
 
-static DipCostState *open_state(const char *name) {
+static DipCostJournal *open_journal(const char *name) {
     DipError err = {0};
-    DipCostState *state = dip_cost_state_open(".", name, &err);
-    assert_non_null(state);
-    return state;
+    DipCostJournal *journal = dip_cost_journal_open(".", name, &err);
+    assert_non_null(journal);
+    return journal;
 }
 
 static void write_some(void) {
-    DipCostState *state = open_state(plan);
-    const DipCostSums sums = make_sums(1);
-    assert_true(dip_cost_state_add(state, key, &sums, NULL));
-    assert_true(dip_cost_state_add_round(state, round_ms, 3, NULL));
-    dip_cost_state_close(&state, false);
+    DipCostJournal *journal = open_journal(plan);
+    const DipMetricSums sums = make_sums(1);
+    assert_true(dip_cost_journal_add(journal, key, &sums, NULL));
+    assert_true(dip_cost_journal_add_round(journal, round_ms, 3, NULL));
+    dip_cost_journal_close(&journal, false);
 }
 
 static int remove_state(void **state) {
@@ -51,27 +51,27 @@ static int remove_state(void **state) {
 static void what_is_measured_is_found_again(void **state) {
     (void)state;
     write_some();
-    DipCostState *again = open_state(plan);
-    const DipCostSums expected = make_sums(1);
-    DipCostSums sums;
-    assert_true(dip_cost_state_find(again, key, &sums));
+    DipCostJournal *again = open_journal(plan);
+    const DipMetricSums expected = make_sums(1);
+    DipMetricSums sums;
+    assert_true(dip_cost_journal_find(again, key, &sums));
     assert_memory_equal(&sums, &expected, sizeof sums);
-    assert_false(dip_cost_state_find(again, other_key, &sums));
-    assert_memory_equal(dip_cost_state_round(again, 0, 3), round_ms, sizeof round_ms);
-    assert_null(dip_cost_state_round(again, 1, 3));
-    assert_null(dip_cost_state_round(again, 0, 4));
-    dip_cost_state_close(&again, false);
+    assert_false(dip_cost_journal_find(again, other_key, &sums));
+    assert_memory_equal(dip_cost_journal_round(again, 0, 3), round_ms, sizeof round_ms);
+    assert_null(dip_cost_journal_round(again, 1, 3));
+    assert_null(dip_cost_journal_round(again, 0, 4));
+    dip_cost_journal_close(&again, false);
 }
 
 // Errors are of pictures, times of a plan.
 static void times_of_another_plan_are_passed_over(void **state) {
     (void)state;
     write_some();
-    DipCostState *again = open_state(other_plan);
-    DipCostSums sums;
-    assert_true(dip_cost_state_find(again, key, &sums));
-    assert_null(dip_cost_state_round(again, 0, 3));
-    dip_cost_state_close(&again, false);
+    DipCostJournal *again = open_journal(other_plan);
+    DipMetricSums sums;
+    assert_true(dip_cost_journal_find(again, key, &sums));
+    assert_null(dip_cost_journal_round(again, 0, 3));
+    dip_cost_journal_close(&again, false);
 }
 
 static size_t file_size(void) {
@@ -88,22 +88,22 @@ static void a_torn_line_is_dropped(void **state) {
     (void)state;
     write_some();
     const size_t size = file_size();
-    DipCostSums sums;
+    DipMetricSums sums;
     for (size_t cut = 0; cut < size; cut += 31) {
         remove("cost.state");
         write_some();
         assert_int_equal(truncate("cost.state", (off_t)cut), 0);
-        DipCostState *again = open_state(plan);
-        assert_null(dip_cost_state_round(again, 0, 3));
-        const bool had_errors = dip_cost_state_find(again, key, &sums);
-        const DipCostSums more = make_sums(9);
-        assert_true(dip_cost_state_add(again, other_key, &more, NULL));
-        dip_cost_state_close(&again, false);
-        again = open_state(plan);
-        assert_true(dip_cost_state_find(again, other_key, &sums));
+        DipCostJournal *again = open_journal(plan);
+        assert_null(dip_cost_journal_round(again, 0, 3));
+        const bool had_errors = dip_cost_journal_find(again, key, &sums);
+        const DipMetricSums more = make_sums(9);
+        assert_true(dip_cost_journal_add(again, other_key, &more, NULL));
+        dip_cost_journal_close(&again, false);
+        again = open_journal(plan);
+        assert_true(dip_cost_journal_find(again, other_key, &sums));
         assert_memory_equal(&sums, &more, sizeof sums);
-        assert_int_equal(dip_cost_state_find(again, key, &sums), had_errors);
-        dip_cost_state_close(&again, false);
+        assert_int_equal(dip_cost_journal_find(again, key, &sums), had_errors);
+        dip_cost_journal_close(&again, false);
     }
 }
 
@@ -121,27 +121,27 @@ static void a_changed_byte_drops_its_line(void **state) {
         fseek(change, (long)at, SEEK_SET);
         fputc(byte == '1' ? '2' : '1', change);
         fclose(change);
-        DipCostState *again = open_state(plan);
-        DipCostSums sums;
-        const bool errors = dip_cost_state_find(again, key, &sums);
-        const bool times = dip_cost_state_round(again, 0, 3) != NULL;
+        DipCostJournal *again = open_journal(plan);
+        DipMetricSums sums;
+        const bool errors = dip_cost_journal_find(again, key, &sums);
+        const bool times = dip_cost_journal_round(again, 0, 3) != NULL;
         assert_int_equal(errors + times, 1);
-        dip_cost_state_close(&again, false);
+        dip_cost_journal_close(&again, false);
     }
 }
 
 static void a_finished_report_leaves_no_state(void **state) {
     (void)state;
     write_some();
-    DipCostState *again = open_state(plan);
-    dip_cost_state_close(&again, true);
+    DipCostJournal *again = open_journal(plan);
+    dip_cost_journal_close(&again, true);
     assert_int_not_equal(access("cost.state", F_OK), 0);
 }
 
 static void a_folder_that_is_not_there_is_an_error(void **state) {
     (void)state;
     DipError err = {0};
-    assert_null(dip_cost_state_open("./none", plan, &err));
+    assert_null(dip_cost_journal_open("./none", plan, &err));
     assert_int_equal(err.code, DIP_ERROR_IO);
 }
 

@@ -1,45 +1,46 @@
-// Drawing steps once more, finding where they differ, cutting out.
-#include "app/cost/gallery.h"
+// Drawing the steps once more, finding where they differ, cutting out the crops.
+#include "app/cost/report_pictures.h"
 
 #include "app/files/png.h"
+#include "app/measure/flip.h"
 #include "app/measure/magma.h"
 #include "app/progress.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct Cutting {
-    DipCostRig *rig;
+typedef struct Cropper {
+    DipCostContext *cost;
     DipFlip flip;
-    DipFlipSide truth_side;
-    DipFlipSide side;
+    DipFlipAnalysis truth_side;
+    DipFlipAnalysis side;
     float *maps;       // [step][pixel]
     uint8_t *pictures; // likewise, rgba8
     uint8_t *colours;  // a map's crop
     DipProgress progress;
     int64_t done;
-} Cutting;
+} Cropper;
 
 static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
 }
 
-static size_t pixel_count(const Cutting *c) {
-    return (size_t)c->rig->report->width * (size_t)c->rig->report->height;
+static size_t pixel_count(const Cropper *c) {
+    return (size_t)c->cost->report->width * (size_t)c->cost->report->height;
 }
 
-static void close_cutting(Cutting *c) {
-    dip_flip_side_free(&c->truth_side);
-    dip_flip_side_free(&c->side);
+static void close_cropper(Cropper *c) {
+    dip_flip_analysis_free(&c->truth_side);
+    dip_flip_analysis_free(&c->side);
     dip_flip_free(&c->flip);
     free(c->maps);
     free(c->pictures);
     free(c->colours);
 }
 
-static bool open_cutting(Cutting *c, DipCostRig *rig, DipError *err) {
-    const DipCostReport *report = rig->report;
-    *c = (Cutting){.rig = rig};
+static bool open_cropper(Cropper *c, DipCostContext *cost, DipError *err) {
+    const DipCostReport *report = cost->report;
+    *c = (Cropper){.cost = cost};
     const size_t pixels = pixel_count(c) * DIP_COST_MAX_SWEEP_ROWS;
     c->maps = malloc(pixels * sizeof *c->maps);
     c->pictures = malloc(pixels * 4);
@@ -47,9 +48,10 @@ static bool open_cutting(Cutting *c, DipCostRig *rig, DipError *err) {
     const bool made =
         c->maps && c->pictures && c->colours &&
         dip_flip_init(&c->flip, report->width, report->height, report->options.pixels_per_degree) &&
-        dip_flip_side_init(&c->flip, &c->truth_side) && dip_flip_side_init(&c->flip, &c->side);
+        dip_flip_analysis_init(&c->flip, &c->truth_side) &&
+        dip_flip_analysis_init(&c->flip, &c->side);
     if (!made) {
-        close_cutting(c);
+        close_cropper(c);
         return out_of_memory(err);
     }
     return true;
@@ -86,19 +88,20 @@ static char *png_text(const uint8_t *rgba8, size_t stride_bytes, int width, int 
     return text;
 }
 
-static int crop_width(const Cutting *c) {
-    const int width = c->rig->report->width;
+static int crop_width(const Cropper *c) {
+    const int width = c->cost->report->width;
     return width < DIP_COST_CROP_WIDTH ? width : DIP_COST_CROP_WIDTH;
 }
 
-static int crop_height(const Cutting *c) {
-    const int height = c->rig->report->height;
+static int crop_height(const Cropper *c) {
+    const int height = c->cost->report->height;
     return height < DIP_COST_CROP_HEIGHT ? height : DIP_COST_CROP_HEIGHT;
 }
 
-// Where the least and the greatest of the steps' errors are farthest apart, on a grid of places.
-static void find_crop(const Cutting *c, int steps, DipCostCrops *crops) {
-    const int width = c->rig->report->width, height = c->rig->report->height;
+// Finds the crop in which the steps' errors differ most: on a grid of positions, the one with the
+// greatest sum of the range of errors per pixel.
+static void find_crop(const Cropper *c, int steps, DipCostCrops *crops) {
+    const int width = c->cost->report->width, height = c->cost->report->height;
     double most = -1.0;
     for (int y0 = 0; y0 + crop_height(c) <= height; y0 += 16) {
         for (int x0 = 0; x0 + crop_width(c) <= width; x0 += 16) {
@@ -124,37 +127,37 @@ static void find_crop(const Cutting *c, int steps, DipCostCrops *crops) {
     }
 }
 
-static char *cut_picture(const Cutting *c, const uint8_t *rgba8, const DipCostCrops *crops) {
-    const size_t stride = (size_t)c->rig->report->width * 4;
+static char *cut_picture(const Cropper *c, const uint8_t *rgba8, const DipCostCrops *crops) {
+    const size_t stride = (size_t)c->cost->report->width * 4;
     return png_text(rgba8 + (size_t)crops->y * stride + (size_t)crops->x * 4, stride, crop_width(c),
                     crop_height(c));
 }
 
-static char *cut_map(const Cutting *c, const float *map, const DipCostCrops *crops) {
+static char *cut_map(const Cropper *c, const float *map, const DipCostCrops *crops) {
     const int width = crop_width(c), height = crop_height(c);
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++) {
             const size_t from =
-                (size_t)(crops->y + y) * (size_t)c->rig->report->width + (size_t)(crops->x + x);
+                (size_t)(crops->y + y) * (size_t)c->cost->report->width + (size_t)(crops->x + x);
             dip_magma(map[from], c->colours + 4 * (y * width + x));
         }
     }
     return png_text(c->colours, (size_t)width * 4, width, height);
 }
 
-static bool draw_step(Cutting *c, int row, int index, int64_t time_ns, DipError *err) {
-    const DipCostReport *report = c->rig->report;
+static bool draw_step(Cropper *c, int row, int index, int64_t time_ns, DipError *err) {
+    const DipCostReport *report = c->cost->report;
     uint8_t *to = c->pictures + (size_t)index * pixel_count(c) * 4;
     const size_t row_bytes = (size_t)report->width * 4;
     DipFrame frame;
-    if (!dip_cost_draw(c->rig, row, time_ns, 0, &frame, err)) {
+    if (!dip_cost_draw(c->cost, row, time_ns, 0, &frame, err)) {
         return false;
     }
     for (int y = 0; y < report->height; y++) {
         memcpy(to + (size_t)y * row_bytes, frame.rgba8 + (size_t)y * frame.stride_bytes, row_bytes);
     }
-    const DipPicture picture = {to, row_bytes, report->width, report->height};
-    dip_flip_take(&c->flip, &picture, &c->side);
+    const DipSrgbPicture picture = {to, row_bytes, report->width, report->height};
+    dip_flip_analyse(&c->flip, &picture, &c->side);
     dip_flip_compare(&c->flip, &c->truth_side, &c->side, c->maps + (size_t)index * pixel_count(c));
     return true;
 }
@@ -165,19 +168,20 @@ static bool go_on(void *context, double done) {
     return true;
 }
 
-static bool cut_sweep(Cutting *c, const DipCostSweep *sweep, DipCostCrops *crops, DipError *err) {
-    const DipCostReport *report = c->rig->report;
-    // The middle one of the places that were judged.
-    crops->place = (report->options.first_place + report->options.end_place - 1) / 2;
+static bool cut_sweep(Cropper *c, const DipCostSweep *sweep, DipCostCrops *crops, DipError *err) {
+    const DipCostReport *report = c->cost->report;
+    // The middle one of the viewpoints that were judged.
+    crops->viewpoint = (report->options.first_place + report->options.end_place - 1) / 2;
     const int64_t time_ns =
-        dip_cost_place_time_ns(report, c->rig->session, sweep->path, crops->place, 0);
-    DipCostTruth truth;
-    if (!dip_cost_rig_truth(c->rig, sweep->path, crops->place, 0, go_on, NULL, &truth, err)) {
+        dip_cost_viewpoint_time_ns(report, c->cost->session, sweep->path, crops->viewpoint, 0);
+    DipTruth truth;
+    if (!dip_cost_context_truth(c->cost, sweep->path, crops->viewpoint, 0, go_on, NULL, &truth,
+                                err)) {
         return false;
     }
-    const DipPicture picture = {truth.rgba8, (size_t)report->width * 4, report->width,
-                                report->height};
-    dip_flip_take(&c->flip, &picture, &c->truth_side);
+    const DipSrgbPicture picture = {truth.rgba8, (size_t)report->width * 4, report->width,
+                                    report->height};
+    dip_flip_analyse(&c->flip, &picture, &c->truth_side);
     bool drawn = true;
     for (int i = 0; drawn && i < sweep->row_count; i++) {
         drawn = draw_step(c, sweep->rows[i], i, time_ns, err);
@@ -191,15 +195,15 @@ static bool cut_sweep(Cutting *c, const DipCostSweep *sweep, DipCostCrops *crops
         crops->steps[i] = cut_picture(c, c->pictures + (size_t)i * pixel_count(c) * 4, crops);
         crops->maps[i] = cut_map(c, c->maps + (size_t)i * pixel_count(c), crops);
     }
-    dip_cost_truth_free(&truth);
+    dip_truth_free(&truth);
     return drawn;
 }
 
-bool dip_cost_gallery_make(DipCostGallery *gallery, DipCostRig *rig, DipError *err) {
-    const DipCostReport *report = rig->report;
-    Cutting c;
-    memset(gallery, 0, sizeof *gallery);
-    if (!open_cutting(&c, rig, err)) {
+bool dip_cost_pictures_make(DipCostPictures *pictures, DipCostContext *cost, DipError *err) {
+    const DipCostReport *report = cost->report;
+    Cropper c;
+    memset(pictures, 0, sizeof *pictures);
+    if (!open_cropper(&c, cost, err)) {
         return false;
     }
     int64_t total = 0;
@@ -209,25 +213,25 @@ bool dip_cost_gallery_make(DipCostGallery *gallery, DipCostRig *rig, DipError *e
     c.progress = dip_progress_begin("pictures cut out", total);
     bool made = true;
     for (int s = 0; made && s < report->sweep_count; s++) {
-        made = !dip_cost_interrupted(rig, err) &&
-               cut_sweep(&c, &report->sweeps[s], &gallery->sweeps[s], err);
+        made = !dip_cost_interrupted(cost, err) &&
+               cut_sweep(&c, &report->sweeps[s], &pictures->sweeps[s], err);
     }
     dip_progress_end(&c.progress, c.done);
-    close_cutting(&c);
+    close_cropper(&c);
     if (!made) {
-        dip_cost_gallery_free(gallery);
+        dip_cost_pictures_free(pictures);
     }
     return made;
 }
 
-void dip_cost_gallery_free(DipCostGallery *gallery) {
+void dip_cost_pictures_free(DipCostPictures *pictures) {
     for (int s = 0; s < DIP_COST_MAX_SWEEPS; s++) {
-        DipCostCrops *crops = &gallery->sweeps[s];
+        DipCostCrops *crops = &pictures->sweeps[s];
         free(crops->truth);
         for (int i = 0; i < DIP_COST_MAX_SWEEP_ROWS; i++) {
             free(crops->steps[i]);
             free(crops->maps[i]);
         }
     }
-    memset(gallery, 0, sizeof *gallery);
+    memset(pictures, 0, sizeof *pictures);
 }

@@ -1,0 +1,181 @@
+// Making the pools, scenes and renderers that a plan needs.
+#include "app/bench/context.h"
+
+#include "app/bench/synthetic.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// A scene with the camera path through it.
+typedef struct View {
+    const DipScene *scene;
+    DipScene *own; // the scene if it is not the session's, else NULL
+    const DipCamPath *path;
+    DipCamPath *own_path;
+    double fov_y_deg;
+    int triangles; // of a grid, as the option names it
+    double aspect;
+} View;
+
+struct DipBenchContext {
+    const DipBenchPlan *plan;
+    DipPool **pools; // one per number of threads
+    View *views;
+    int view_count;
+    DipRenderer **renderers; // one per combination
+    int *view_of;            // index of each combination's view
+};
+
+static bool out_of_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
+}
+
+// --- views -------------------------------------------------------------------------------------
+
+static View session_view(const DipSession *session) {
+    const DipCamTrack *track = &session->track;
+    const DipCamCategory *slot =
+        &track->categories[track->categories[track->active].path ? track->active : 0];
+    return (View){.scene = session->scene, .path = slot->path, .fov_y_deg = slot->fov_y_deg};
+}
+
+static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSession *session,
+                           DipError *err) {
+    view->fov_y_deg = session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg;
+    const double turn_deg = plan->options.grid_out_of_view ? 180.0 : 0.0;
+    DipSynthetic *relief =
+        dip_synthetic_relief(view->triangles, true, view->fov_y_deg, view->aspect, turn_deg, err);
+    if (!relief) {
+        return false;
+    }
+    view->own = dip_scene_create(dip_synthetic_scene_def(relief), session->pool, err);
+    view->own_path = dip_synthetic_take_path(relief);
+    dip_synthetic_destroy(&relief);
+    view->scene = view->own;
+    view->path = view->own_path;
+    return view->own != NULL;
+}
+
+// Finds the view of a grid. Grids fill the picture, so each number of triangles and each aspect
+// ratio has its own.
+static int find_view(const DipBenchContext *bench, int triangles, double aspect) {
+    for (int i = 0; i < bench->view_count; i++) {
+        if (bench->views[i].triangles == triangles && bench->views[i].aspect == aspect) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static bool choose_view(DipBenchContext *bench, int index, const DipSession *session,
+                        DipError *err) {
+    const DipBenchOptions *options = &bench->plan->options;
+    const int *at = bench->plan->combinations[index].at;
+    if (!options->grid_count) {
+        bench->views[0] = session_view(session);
+        bench->view_count = 1;
+        return true;
+    }
+    const DipBenchSize size = options->sizes[at[DIP_BENCH_AXIS_SIZE]];
+    const int triangles = options->grids[at[DIP_BENCH_AXIS_GRID]];
+    const double aspect = (double)size.width / size.height;
+    bench->view_of[index] = find_view(bench, triangles, aspect);
+    if (bench->view_of[index] >= 0) {
+        return true;
+    }
+    bench->view_of[index] = bench->view_count;
+    View *view = &bench->views[bench->view_count++];
+    *view = (View){.triangles = triangles, .aspect = aspect};
+    return make_grid_view(view, bench->plan, session, err);
+}
+
+// --- the bench -----------------------------------------------------------------------------------
+
+static DipPool *pool_of(DipBenchContext *bench, int threads_index, DipError *err) {
+    if (!bench->pools[threads_index]) {
+        bench->pools[threads_index] =
+            dip_pool_create(bench->plan->options.threads[threads_index], err);
+    }
+    return bench->pools[threads_index];
+}
+
+static bool make_renderer(DipBenchContext *bench, int index, const DipSession *session,
+                          DipError *err) {
+    const DipBenchOptions *options = &bench->plan->options;
+    const int *at = bench->plan->combinations[index].at;
+    const DipBenchSize size = options->sizes[at[DIP_BENCH_AXIS_SIZE]];
+    const DipRendererDef def = {
+        .pool = pool_of(bench, at[DIP_BENCH_AXIS_THREADS], err),
+        .isa = options->isas[at[DIP_BENCH_AXIS_ISA]],
+        .width = size.width,
+        .height = size.height,
+        .quality = options->sets[at[DIP_BENCH_AXIS_SET]].quality,
+        .reflection = session->reflection,
+        .force_all_effects = session->force_all_effects,
+    };
+    bench->renderers[index] = def.pool ? dip_renderer_create(&def, err) : NULL;
+    return bench->renderers[index] != NULL;
+}
+
+DipBenchContext *dip_bench_context_create(const DipBenchPlan *plan, const DipSession *session,
+                                          DipError *err) {
+    DipBenchContext *bench = calloc(1, sizeof *bench);
+    if (!bench) {
+        out_of_memory(err);
+        return NULL;
+    }
+    const size_t count = (size_t)plan->count;
+    bench->plan = plan;
+    bench->pools = calloc((size_t)plan->options.threads_count, sizeof(DipPool *));
+    bench->views = calloc(count, sizeof(View));
+    bench->renderers = calloc(count, sizeof(DipRenderer *));
+    bench->view_of = calloc(count, sizeof(int));
+    bool made =
+        (bench->pools && bench->views && bench->renderers && bench->view_of) || out_of_memory(err);
+    for (int i = 0; made && i < plan->count; i++) {
+        made = choose_view(bench, i, session, err) && make_renderer(bench, i, session, err);
+    }
+    if (!made) {
+        dip_bench_context_destroy(&bench);
+    }
+    return bench;
+}
+
+void dip_bench_context_destroy(DipBenchContext **context_pointer) {
+    DipBenchContext *bench = *context_pointer;
+    if (!bench) {
+        return;
+    }
+    for (int i = 0; bench->renderers && i < bench->plan->count; i++) {
+        dip_renderer_destroy(&bench->renderers[i]);
+    }
+    for (int i = 0; i < bench->view_count; i++) {
+        dip_scene_destroy(&bench->views[i].own);
+        dip_campath_destroy(&bench->views[i].own_path);
+    }
+    for (int i = 0; bench->pools && i < bench->plan->options.threads_count; i++) {
+        dip_pool_destroy(&bench->pools[i]);
+    }
+    free(bench->pools);
+    free(bench->views);
+    free(bench->renderers);
+    free(bench->view_of);
+    free(bench);
+    *context_pointer = NULL;
+}
+
+bool dip_bench_context_draw(DipBenchContext *bench, int combination, int frame, DipFrame *picture,
+                            DipError *err) {
+    const View *view = &bench->views[bench->view_of[combination]];
+    const int64_t time_ns =
+        dip_campath_info(view->path).duration_ns / bench->plan->options.frames * frame;
+    DipPose pose = {.fov_y_deg = view->fov_y_deg};
+    dip_campath_sample(view->path, time_ns, &pose);
+    dip_renderer_set_frame_index(bench->renderers[combination], (uint64_t)frame);
+    return dip_renderer_draw(bench->renderers[combination], view->scene, &pose, time_ns, picture,
+                             err);
+}
+
+uint64_t dip_bench_context_triangles(const DipBenchContext *bench, int combination) {
+    return dip_scene_triangle_count(bench->views[bench->view_of[combination]].scene);
+}

@@ -1,0 +1,22 @@
+// What the bench draws with: thread pools, scenes, and a renderer for each combination.
+#ifndef DIP_APP_BENCH_RIG_H
+#define DIP_APP_BENCH_RIG_H
+
+#include "app/bench/plan.h"
+
+typedef struct DipBenchContext DipBenchContext;
+
+// Borrows the plan and the session. Not thread-safe.
+DipBenchContext *dip_bench_context_create(const DipBenchPlan *plan, const DipSession *session,
+                                          DipError *err);
+void dip_bench_context_destroy(DipBenchContext **bench);
+
+// Draws a combination's frame 0..frames - 1; frames divide the camera path evenly. *picture is
+// valid until the combination draws again.
+bool dip_bench_context_draw(DipBenchContext *bench, int combination, int frame, DipFrame *picture,
+                            DipError *err);
+
+// The number of triangles in the scene that a combination draws.
+uint64_t dip_bench_context_triangles(const DipBenchContext *bench, int combination);
+
+#endif

@@ -1,0 +1,91 @@
+// Opening renderers and reference, drawing rows.
+#include "app/cost/context.h"
+
+#include "app/interrupt.h"
+
+// Makes compressed textures if a row shows them, before any frame is drawn or timed.
+static bool prepare_textures(const DipCostContext *cost, DipError *err) {
+    bool compresses = false;
+    for (int row = 0; row < cost->report->row_count; row++) {
+        compresses |= dip_quality_compresses(&cost->report->rows[row].quality);
+    }
+    return !compresses ||
+           dip_scene_compress_textures(cost->session->scene, cost->session->pool, err);
+}
+
+bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipCostReport *report,
+                           DipCostJournal *journal, const char *cache, DipError *err) {
+    *cost =
+        (DipCostContext){.session = session, .report = report, .journal = journal, .cache = cache};
+    const DipRendererDef def = {
+        .pool = session->pool,
+        .isa = session->isa,
+        .width = report->width,
+        .height = report->height,
+        .quality = report->options.baseline,
+        .reflection = session->reflection,
+    };
+    cost->reference = dip_reference_create(&session->scene_def, err);
+    bool opened = cost->reference != NULL;
+    if (opened) {
+        dip_reference_set_reflection(cost->reference, &session->reflection);
+    }
+    for (int gi = 0; opened && gi < 2; gi++) {
+        cost->renderers[gi] = dip_renderer_create(&def, err);
+        opened = cost->renderers[gi] != NULL;
+    }
+    opened = opened && prepare_textures(cost, err);
+    if (!opened) {
+        dip_cost_context_close(cost);
+    }
+    return opened;
+}
+
+void dip_cost_context_close(DipCostContext *cost) {
+    dip_reference_destroy(&cost->reference);
+    dip_renderer_destroy(&cost->renderers[0]);
+    dip_renderer_destroy(&cost->renderers[1]);
+}
+
+bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
+                   DipError *err) {
+    const DipCostRow *drawn = &cost->report->rows[row];
+    const DipPose pose = dip_cost_pose(cost->report, cost->session, drawn->path, time_ns);
+    DipRenderer *renderer = cost->renderers[drawn->quality.step[DIP_SETTING_GI] != 0];
+    dip_renderer_set_frame_index(renderer, (uint64_t)frame_index);
+    return dip_renderer_set_quality(renderer, &drawn->quality, err) &&
+           dip_renderer_draw(renderer, cost->session->scene, &pose, time_ns, frame, err);
+}
+
+bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *frame, DipError *err) {
+    const DipCostReport *report = cost->report;
+    const int64_t duration_ns =
+        dip_cost_path_duration_ns(report, cost->session, report->rows[row].path);
+    return dip_cost_draw(cost, row, duration_ns / report->options.timed_frames * index, index,
+                         frame, err);
+}
+
+bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int frame,
+                            DipTruthProgress *progress, void *context, DipTruth *truth,
+                            DipError *err) {
+    const DipCostReport *report = cost->report;
+    const int64_t time_ns =
+        dip_cost_viewpoint_time_ns(report, cost->session, path, viewpoint, frame);
+    const DipTruthDef def = {
+        .reference = cost->reference,
+        .scene_hash = report->scene_hash,
+        .pose = dip_cost_pose(report, cost->session, path, time_ns),
+        .time_ns = time_ns,
+        .width = report->width,
+        .height = report->height,
+        .samples = report->options.samples,
+        .pixels_per_degree = report->options.pixels_per_degree,
+    };
+    return dip_truth_get(truth, &def, cost->cache, cost->session->pool, progress, context, err);
+}
+
+bool dip_cost_interrupted(const DipCostContext *cost, DipError *err) {
+    (void)cost;
+    return dip_interrupted() && !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "cost",
+                                               "interrupted; the same command goes on from here");
+}

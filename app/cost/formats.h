@@ -1,0 +1,23 @@
+// A report as JSON, CSV and text. (html.h has the page.) Each file is written whole or not at all.
+#ifndef DIP_APP_COST_FORMATS_H
+#define DIP_APP_COST_FORMATS_H
+
+#include "app/cost/report.h"
+
+#include <stdio.h>
+
+// Writes everything, with every single time.
+bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError *err);
+
+// Reads what dip_cost_write_json wrote. Figures that follow from others are computed again. Fails
+// with the file and the part of it that is missing or wrong. On success the caller frees the
+// report.
+bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err);
+
+// Writes one line per step of a sweep and one per combination.
+bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError *err);
+
+// Prints the tables for a terminal.
+void dip_cost_print(const DipCostReport *report, FILE *out);
+
+#endif

@@ -1,0 +1,90 @@
+// The smallest client of app/measure/: compares two ways to fill a picture, in time and in error.
+// It links dip_measure alone and knows nothing of Diptych's commands.
+#include "app/measure/flip.h"
+#include "app/measure/metrics.h"
+#include "app/measure/statistics.h"
+#include "app/measure/timing.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { WIDTH = 128, HEIGHT = 96, FRAMES = 2, ROUNDS = 12 };
+
+// Subject 1 is subject 0 under another index (A/A): their ratio shows the machine's noise.
+enum { FULL, FULL_AGAIN, EVERY_OTHER, SUBJECTS };
+
+static uint8_t pictures[SUBJECTS][WIDTH * HEIGHT * 4];
+
+static uint8_t shade(int x, int y, int frame) {
+    return (uint8_t)(127.5 + 127.0 * sin(0.001 * x * y + 0.1 * frame));
+}
+
+// FULL computes every pixel; EVERY_OTHER computes one of two and repeats it.
+static bool fill(void *context, const DipTimingTurn *turn, DipError *err) {
+    (void)context;
+    (void)err;
+    const int step = turn->subject == EVERY_OTHER ? 2 : 1;
+    uint8_t *to = pictures[turn->subject];
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++, to += 4) {
+            if (x % step == 0) {
+                to[0] = to[1] = to[2] = shade(x, y, turn->frame);
+            } else {
+                to[0] = to[1] = to[2] = to[-4];
+            }
+        }
+    }
+    return true;
+}
+
+static double flip_between(int test, int truth) {
+    DipFlip flip = {0};
+    DipFlipAnalysis sides[2] = {{{0}, NULL}, {{0}, NULL}};
+    static float map[WIDTH * HEIGHT];
+    double mean = -1.0;
+    if (dip_flip_init(&flip, WIDTH, HEIGHT, DIP_FLIP_PIXELS_PER_DEGREE) &&
+        dip_flip_analysis_init(&flip, &sides[0]) && dip_flip_analysis_init(&flip, &sides[1])) {
+        const int shown[2] = {test, truth};
+        for (int i = 0; i < 2; i++) {
+            const DipSrgbPicture picture = {pictures[shown[i]], (size_t)WIDTH * 4, WIDTH, HEIGHT};
+            dip_flip_analyse(&flip, &picture, &sides[i]);
+        }
+        dip_flip_compare(&flip, &sides[0], &sides[1], map);
+        mean = 0.0;
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            mean += (double)map[i] / (WIDTH * HEIGHT);
+        }
+    }
+    dip_flip_analysis_free(&sides[0]);
+    dip_flip_analysis_free(&sides[1]);
+    dip_flip_free(&flip);
+    return mean;
+}
+
+int main(void) {
+    const DipTimingDef def = {.subject_count = SUBJECTS,
+                              .frame_count = FRAMES,
+                              .version_count = 1,
+                              .round_count = ROUNDS,
+                              .seed = 1,
+                              .settle = true};
+    const DipTimingCalls calls = {.run = fill};
+    double ms[SUBJECTS * ROUNDS * FRAMES];
+    DipError err = {0};
+    if (!dip_timing_run(&def, &calls, ms, &err)) {
+        fprintf(stderr, "%s\n", err.message);
+        return 1;
+    }
+    const char *const names[SUBJECTS] = {"every pixel", "every pixel again", "every other pixel"};
+    const double *base_ms = ms + dip_timing_index(&def, 0, FULL);
+    printf("%-18s %8s %24s %8s\n", "", "ms", "ratio (95 % interval)", "FLIP");
+    for (int s = 0; s < SUBJECTS; s++) {
+        const double *subject_ms = ms + dip_timing_index(&def, 0, s);
+        const DipStatsEstimate ratio =
+            dip_stats_paired_ratio_estimate(subject_ms, base_ms, FRAMES, ROUNDS);
+        printf("%-18s %8.3f    %.3f (%.3f to %.3f) %8.4f\n", names[s],
+               dip_stats_time(subject_ms, FRAMES, ROUNDS), ratio.value, ratio.low, ratio.high,
+               flip_between(s, FULL));
+    }
+    return 0;
+}

@@ -1,0 +1,20 @@
+// The filters of FLIP for one number of pixels per degree.
+#ifndef DIP_APP_MEASURE_INTERNAL_FLIP_KERNELS_H
+#define DIP_APP_MEASURE_INTERNAL_FLIP_KERNELS_H
+
+#include "app/measure/internal/convolve.h"
+
+// All filters are applied along x and along y. Sources: sections 4.1.1 (contrast sensitivity) and
+// 4.2 (features) of the paper that flip.h names.
+typedef struct DipFlipKernels {
+    DipKernel1D luma;      // Contrast sensitivity of Y.
+    DipKernel1D red_green; // Contrast sensitivity of Cx.
+    DipKernel1D blue[2];   // Contrast sensitivity of Cz: the sum of two Gaussians.
+    DipKernel1D gauss;     // Smooths across a feature.
+    DipKernel1D edge;      // First derivative, finds edges.
+    DipKernel1D point;     // Second derivative, finds points and lines.
+} DipFlipKernels;
+
+DipFlipKernels dip_flip_kernels(double pixels_per_degree);
+
+#endif

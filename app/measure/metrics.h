@@ -1,0 +1,70 @@
+// The figures by which a picture is judged, and the sums that they are computed from.
+//
+// Sums of several pictures, of several bursts or of several machines can be added; the figures of
+// the total are then means over all pixels of all pictures. All functions are thread-safe.
+#ifndef DIP_APP_MEASURE_METRICS_H
+#define DIP_APP_MEASURE_METRICS_H
+
+#include "renderer/reference/seen.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Region 0 is the whole picture. Region 1 + c holds the pixels that show class c (DipSeen).
+enum { DIP_METRIC_REGION_COUNT = 1 + DIP_SEEN_COUNT };
+
+extern const char *const dip_metric_region_names[DIP_METRIC_REGION_COUNT]; // "all", "edges", ...
+
+// Sums over the pixels of one region.
+typedef struct DipMetricRegionSums {
+    double pixels;        // Number of pixels.
+    double squared_lin;   // Squared difference in linear light, mean over the channels.
+    double squared_codes; // Squared difference of sRGB codes, mean over the channels.
+    double ssim;          // Structural similarity.
+    double ssim_pixels;   // Number of pixels that have an SSIM value.
+    double flip;          // FLIP.
+} DipMetricRegionSums;
+
+// Holds doubles only, so that it can be added, written and read as an array of
+// DIP_METRIC_SUM_COUNT numbers.
+typedef struct DipMetricSums {
+    DipMetricRegionSums regions[DIP_METRIC_REGION_COUNT];
+    // Number of bursts, and sums over them of the mean squares of DipFlickerResult.
+    double bursts;
+    double squared_static;
+    double squared_flicker;
+    double squared_step;
+    double squared_two_mean;
+} DipMetricSums;
+
+enum { DIP_METRIC_SUM_COUNT = sizeof(DipMetricSums) / sizeof(double) };
+
+void dip_metric_sums_add(DipMetricSums *to, const DipMetricSums *sums);
+
+// Figures of one region. A region without pixels has rmse_lin 0, flip 0, ssim 1 and an infinite
+// psnr_db.
+typedef struct DipMetrics {
+    double rmse_lin; // Root mean square error in linear light, 0..1.
+    double psnr_db;  // Peak signal-to-noise ratio on sRGB codes, decibels.
+    double ssim;     // Mean structural similarity, at most 1.
+    double flip;     // Mean FLIP, 0..1.
+} DipMetrics;
+
+DipMetrics dip_metrics_of(const DipMetricSums *sums, int region);
+
+// Root mean squares in linear light over all bursts; see flicker.h.
+typedef struct DipFlickerMetrics {
+    double steady;   // Error that does not change within a burst.
+    double flicker;  // Deviation of the error over time.
+    double step;     // Change of the error from one frame to the next.
+    double two_mean; // Error of the mean of two successive frames.
+} DipFlickerMetrics;
+
+DipFlickerMetrics dip_flicker_metrics_of(const DipMetricSums *sums);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,196 @@
+// Warming up, shuffling, visiting.
+#include "app/measure/timing.h"
+
+#include "app/measure/internal/random.h"
+#include "app/measure/statistics.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/clock.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { SETTLE_RUNS = 5, SETTLE_TRIES = 20 };
+static const double settle_tolerance = 0.02;
+
+typedef struct Timing {
+    const DipTimingDef *def;
+    const DipTimingCalls *calls;
+    uint64_t random;
+    int *order;       // subjects, in the round's order
+    double *round_ms; // times of one round, as after_round receives them
+} Timing;
+
+static int64_t now_ns(const Timing *t) {
+    return t->calls->clock_ns ? t->calls->clock_ns(t->calls->context) : dip_clock_ns();
+}
+
+static bool run(Timing *t, const DipTimingTurn *turn, double *ms, DipError *err) {
+    const DipTimingCalls *calls = t->calls;
+    const int64_t begin_ns = now_ns(t);
+    const bool done = calls->run(calls->context, turn, err);
+    *ms = 1e-6 * (double)(now_ns(t) - begin_ns);
+    return done && (!calls->after_run || calls->after_run(calls->context, turn, *ms, err));
+}
+
+// --- before the rounds -------------------------------------------------------------------------
+
+static bool warm_up(Timing *t, DipError *err) {
+    DipTimingTurn turn = {.phase = DIP_TIMING_WARM_UP, .round = -1};
+    double ms;
+    for (turn.subject = 0; turn.subject < t->def->subject_count; turn.subject++) {
+        for (turn.frame = 0; turn.frame < t->def->frame_count; turn.frame++) {
+            for (turn.version = 0; turn.version < t->def->version_count; turn.version++) {
+                if (!run(t, &turn, &ms, err)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+static bool settle(Timing *t, DipError *err) {
+    const DipTimingTurn turn = {.phase = DIP_TIMING_SETTLE, .round = -1};
+    double last = 0.0;
+    for (int tries = 0; tries < SETTLE_TRIES; tries++) {
+        double ms[SETTLE_RUNS];
+        for (int i = 0; i < SETTLE_RUNS; i++) {
+            if (!run(t, &turn, &ms[i], err)) {
+                return false;
+            }
+        }
+        const double median = dip_stats_median(ms, SETTLE_RUNS);
+        if (tries > 0 && fabs(median - last) <= settle_tolerance * last) {
+            break;
+        }
+        last = median;
+    }
+    return true;
+}
+
+// --- rounds ------------------------------------------------------------------------------------
+
+// Fisher and Yates' shuffle of the previous round's order.
+static void shuffle(Timing *t) {
+    for (int i = t->def->subject_count - 1; i > 0; i--) {
+        const int other = dip_random_below(&t->random, i + 1);
+        const int swap = t->order[i];
+        t->order[i] = t->order[other];
+        t->order[other] = swap;
+    }
+}
+
+static double *round_time(Timing *t, const DipTimingTurn *turn) {
+    const DipTimingDef *def = t->def;
+    return &t->round_ms[(turn->version * def->subject_count + turn->subject) * def->frame_count +
+                        turn->frame];
+}
+
+static bool visit_one_version(Timing *t, int round, int subject, DipError *err) {
+    DipTimingTurn turn = {.phase = DIP_TIMING_REWARM, .round = round, .subject = subject};
+    double untimed;
+    if (!run(t, &turn, &untimed, err)) {
+        return false;
+    }
+    turn.phase = DIP_TIMING_TIMED;
+    for (turn.frame = 0; turn.frame < t->def->frame_count; turn.frame++) {
+        if (!run(t, &turn, round_time(t, &turn), err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool visit_two_versions(Timing *t, int round, int subject, DipError *err) {
+    DipTimingTurn turn = {.phase = DIP_TIMING_TIMED, .round = round, .subject = subject};
+    const struct timespec rest = {.tv_sec = (time_t)(t->def->rest_ns / 1000000000),
+                                  .tv_nsec = (long)(t->def->rest_ns % 1000000000)};
+    for (turn.frame = 0; turn.frame < t->def->frame_count; turn.frame++) {
+        const int first = (int)(dip_random_next(&t->random) >> 7 & 1);
+        for (int i = 0; i < 2; i++) {
+            turn.version = first ^ i;
+            if (t->def->rest_ns > 0) {
+                nanosleep(&rest, NULL);
+            }
+            if (!run(t, &turn, round_time(t, &turn), err)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static void keep_round(const DipTimingDef *def, int round, const double *round_ms, double *ms) {
+    for (int v = 0; v < def->version_count; v++) {
+        for (int s = 0; s < def->subject_count; s++) {
+            double *to = ms + dip_timing_index(def, v, s) + (size_t)(round * def->frame_count);
+            for (int f = 0; f < def->frame_count; f++) {
+                to[f] = *round_ms++;
+            }
+        }
+    }
+}
+
+// Shuffles even if the round is known, so that the rounds after it have the order they would have
+// had.
+static bool run_round(Timing *t, int round, double *ms, DipError *err) {
+    const DipTimingCalls *calls = t->calls;
+    const double *known = calls->known_round ? calls->known_round(calls->context, round) : NULL;
+    shuffle(t);
+    for (int i = 0; !known && i < t->def->subject_count; i++) {
+        const bool visited = t->def->version_count == 1
+                                 ? visit_one_version(t, round, t->order[i], err)
+                                 : visit_two_versions(t, round, t->order[i], err);
+        if (!visited) {
+            return false;
+        }
+    }
+    const double *round_ms = known ? known : t->round_ms;
+    if (ms) {
+        keep_round(t->def, round, round_ms, ms);
+    }
+    return !calls->after_round ||
+           calls->after_round(calls->context, round, round_ms, known != NULL, err);
+}
+
+// --- the whole ---------------------------------------------------------------------------------
+
+bool dip_timing_run(const DipTimingDef *def, const DipTimingCalls *calls, double *ms,
+                    DipError *err) {
+    DIP_ASSERT(def->subject_count > 0 && def->frame_count > 0 && def->round_count >= 0);
+    DIP_ASSERT(def->version_count == 1 || def->version_count == DIP_TIMING_MAX_VERSIONS);
+    const size_t subjects = (size_t)def->subject_count;
+    const size_t values = (size_t)def->version_count * subjects * (size_t)def->frame_count;
+    Timing t = {
+        .def = def,
+        .calls = calls,
+        .random = def->seed,
+        .order = malloc(subjects * sizeof(int)),
+        .round_ms = malloc(values * sizeof(double)),
+    };
+    bool done = (t.order && t.round_ms) ||
+                dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "timing", "out of memory");
+    for (int i = 0; done && i < def->subject_count; i++) {
+        t.order[i] = i;
+    }
+    done = done && warm_up(&t, err) && (!def->settle || settle(&t, err));
+    for (int round = 0; done && round < def->round_count; round++) {
+        done = run_round(&t, round, ms, err);
+    }
+    free(t.order);
+    free(t.round_ms);
+    return done;
+}
+
+int64_t dip_timing_run_count(const DipTimingDef *def, int known_rounds) {
+    const int64_t rewarm = def->version_count == 1;
+    const int64_t warm_up = (int64_t)def->version_count * def->frame_count;
+    const int64_t visit = (int64_t)def->version_count * def->frame_count + rewarm;
+    return def->subject_count * (warm_up + (def->round_count - known_rounds) * visit);
+}
+
+size_t dip_timing_index(const DipTimingDef *def, int version, int subject) {
+    return (size_t)(version * def->subject_count + subject) * (size_t)def->round_count *
+           (size_t)def->frame_count;
+}

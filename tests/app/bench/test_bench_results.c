@@ -1,0 +1,285 @@
+// Results, tables, comparison and CSV, with figures computed by hand.
+#include "app/bench/measure.h"
+#include "app/bench/table.h"
+#include "tests/app/bench/made_result.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+static DipBenchPlan plan;
+
+static bool print_times(void *context, FILE *out) {
+    return dip_bench_print_times(context, out, NULL);
+}
+
+static bool print_work(void *context, FILE *out) {
+    dip_bench_print_work(context, out);
+    return true;
+}
+
+static bool print_ratios(void *context, FILE *out) {
+    const DipBenchResult *results = context;
+    return dip_bench_print_ratios(&results[0], &results[1], out, NULL);
+}
+
+// The numbers of the line of `text` that contains `name`; returns how many.
+static int numbers_after(const char *text, const char *name, double *numbers, int room) {
+    const char *at = strstr(text, name);
+    assert_non_null(at);
+    at += strlen(name);
+    int count = 0;
+    while (count < room) {
+        char *rest;
+        const char *line_end = strchr(at, '\n');
+        numbers[count] = strtod(at, &rest);
+        if (rest == at || (line_end && rest > line_end)) {
+            break;
+        }
+        at = rest;
+        count++;
+    }
+    return count;
+}
+
+static void expect_near(double found, double expected) {
+    if (!(found > expected - 0.00051 && found < expected + 0.00051)) {
+        fail_msg("%g, expected %g", found, expected);
+    }
+}
+
+// --- storage -----------------------------------------------------------------------------------
+
+static void samples_are_found_where_they_were_put(void **state) {
+    (void)state;
+    DipBenchResult result;
+    dip_made_plan(&plan, 3, 2);
+    assert_true(dip_bench_result_init(&result, &plan, NULL));
+    for (int c = 0; c < plan.count; c++) {
+        for (int i = 0; i < 6; i++) {
+            DipBenchSample sample = {.hash = ""};
+            for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+                sample.ms[stage] = 1000.0 * c + 100.0 * stage + i;
+            }
+            dip_bench_result_add(&result, c, i / 3, i % 3, &sample);
+        }
+    }
+    for (int c = 0; c < plan.count; c++) {
+        for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
+            const double *ms = dip_bench_result_ms(&result, c, (DipBenchStage)stage);
+            for (int i = 0; i < 6; i++) {
+                assert_true(ms[i] == 1000.0 * c + 100.0 * stage + i);
+            }
+        }
+    }
+    dip_bench_result_free(&result);
+}
+
+// Frames fetch 10, 20 and 30 texels.
+static void work_is_the_mean_over_frames(void **state) {
+    (void)state;
+    const double ms[3] = {1, 1, 1};
+    double means[2];
+    DipBenchResult result;
+    dip_made_single_plan(&plan, 3, 1);
+    dip_made_result(&result, &plan, ms);
+    const double texels = dip_bench_result_work(&result, 0).texels_fetched;
+    assert_true(texels > 19.999999 && texels < 20.000001);
+    char *text = dip_printed(print_work, &result);
+    assert_int_equal(numbers_after(text, "texels_fetched", means, 2), 1);
+    expect_near(means[0], 20.0);
+    free(text);
+    dip_bench_result_free(&result);
+}
+
+// --- tables ------------------------------------------------------------------------------------
+
+// 1, 2, 4, 5 and 10 ms: the median is 4, the 95th percentile lies 0.8 of the way from 5 to 10.
+static void quantiles_are_over_frames_and_rounds(void **state) {
+    (void)state;
+    const double ms[5] = {10, 1, 5, 2, 4};
+    const struct {
+        const char *name;
+        double total;
+    } lines[] = {{"median", 4.0}, {"p95", 9.0}, {"min", 1.0}};
+    DipBenchResult result;
+    dip_made_single_plan(&plan, 1, 5);
+    dip_made_result(&result, &plan, ms);
+    char *text = dip_printed(print_times, &result);
+    for (int line = 0; line < 3; line++) {
+        double numbers[DIP_BENCH_STAGE_COUNT + 1];
+        assert_int_equal(numbers_after(text, lines[line].name, numbers, DIP_BENCH_STAGE_COUNT + 1),
+                         DIP_BENCH_STAGE_COUNT);
+        expect_near(numbers[0], 0.25 * lines[line].total);
+        expect_near(numbers[DIP_BENCH_STAGE_total], lines[line].total);
+    }
+    free(text);
+    dip_bench_result_free(&result);
+}
+
+// Two frames in three rounds. This program: {2, 4}, {2, 4}, {3, 4}, median (3 + 4) / 2 = 3.5. The
+// other one takes twice as long in each; its fastest frames are 4 and 8, together 12 against 6.
+static void a_ratio_is_the_other_program_over_this_one(void **state) {
+    (void)state;
+    const double here_ms[6] = {2, 4, 2, 4, 3, 4};
+    double other_ms[6];
+    double numbers[10];
+    DipBenchResult results[2];
+    for (int i = 0; i < 6; i++) {
+        other_ms[i] = 2.0 * here_ms[i];
+    }
+    dip_made_single_plan(&plan, 2, 3);
+    dip_made_result(&results[0], &plan, here_ms);
+    dip_made_result(&results[1], &plan, other_ms);
+    char *text = dip_printed(print_ratios, results);
+    assert_int_equal(numbers_after(text, "aa=none", numbers, 4), 4);
+    expect_near(numbers[0], 7.0);
+    expect_near(numbers[1], 3.5);
+    expect_near(numbers[2], 2.0);
+    expect_near(numbers[3], 2.0);
+    // The interval, the ratio of the fastest frames, and those of the four stages.
+    assert_int_equal(numbers_after(text, " to ", numbers, 6), 6);
+    for (int i = 0; i < 6; i++) {
+        expect_near(numbers[i], 2.0);
+    }
+    assert_non_null(strstr(text, " same\n"));
+    free(text);
+    DipBenchSample changed = {.hash = "else"};
+    dip_bench_result_set_first(&results[1], 0, 1, &changed);
+    text = dip_printed(print_ratios, results);
+    assert_non_null(strstr(text, " 1 of 2 differ\n"));
+    free(text);
+    dip_bench_result_free(&results[0]);
+    dip_bench_result_free(&results[1]);
+}
+
+// One slow round in three moves the median's interval, not the fastest rounds.
+static void the_fastest_rounds_ignore_noise(void **state) {
+    (void)state;
+    const double here_ms[3] = {1, 1, 1};
+    const double other_ms[3] = {1, 50, 1};
+    double numbers[2];
+    DipBenchResult results[2];
+    dip_made_single_plan(&plan, 1, 3);
+    dip_made_result(&results[0], &plan, here_ms);
+    dip_made_result(&results[1], &plan, other_ms);
+    char *text = dip_printed(print_ratios, results);
+    assert_int_equal(numbers_after(text, " to ", numbers, 2), 2);
+    expect_near(numbers[0], 50.0); // two of three drawings take the slow round in 26 % of cases
+    expect_near(numbers[1], 1.0);
+    free(text);
+    dip_bench_result_free(&results[0]);
+    dip_bench_result_free(&results[1]);
+}
+
+// --- CSV ---------------------------------------------------------------------------------------
+
+static int count_lines(const char *text) {
+    int count = 0;
+    for (; (text = strchr(text, '\n')); text++) {
+        count++;
+    }
+    return count;
+}
+
+static void csv_has_a_line_per_program_round_and_frame(void **state) {
+    (void)state;
+    static char text[65536];
+    const double ms[4] = {1.5, 2.5, 3.5, 4.5};
+    static const char file[] = "test_bench_results.csv";
+    DipBenchResult results[2];
+    dip_made_single_plan(&plan, 2, 2);
+    dip_made_result(&results[0], &plan, ms);
+    dip_made_result(&results[1], &plan, ms);
+    for (int programs = 1; programs <= 2; programs++) {
+        DipError err = {0};
+        assert_true(dip_bench_write_csv(file, results, programs, &err));
+        FILE *in = fopen(file, "rb");
+        assert_non_null(in);
+        text[fread(text, 1, sizeof text - 1, in)] = '\0';
+        fclose(in);
+        remove(file);
+        assert_int_equal(count_lines(text), 1 + 4 * programs);
+        assert_int_equal(strncmp(text, programs == 2 ? "program,settings," : "settings,", 9), 0);
+        const char *line = "\"aa=none\",64,48,1,scalar,,1,0,0.8750,0.8750,0.8750,0.8750,3.5000,";
+        const char *at = strstr(text, line);
+        assert_non_null(at);
+        if (programs == 2) {
+            assert_int_equal(strncmp(at - 5, "this,", 5), 0);
+            assert_non_null(strstr(text, "\nother,\"aa=none\",64,48,1,scalar,,1,1,"));
+        }
+    }
+    dip_bench_result_free(&results[0]);
+    dip_bench_result_free(&results[1]);
+}
+
+// --- measuring ---------------------------------------------------------------------------------
+
+typedef struct FakeProgram {
+    double factor;
+    int hashed; // drawings that were asked for their hash
+    int drawn;
+} FakeProgram;
+
+static bool fake_draw(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
+                      DipError *err) {
+    (void)err;
+    FakeProgram *program = context;
+    *sample = (DipBenchSample){.hash = ""};
+    sample->ms[DIP_BENCH_STAGE_total] = program->factor * (10.0 * combination + frame + 1.0);
+    sample->counters.texels_fetched = (uint64_t)(100 * combination + frame);
+    if (hash) {
+        snprintf(sample->hash, sizeof sample->hash, "%d/%d", combination, frame);
+        program->hashed++;
+    }
+    program->drawn++;
+    return true;
+}
+
+static void each_source_fills_its_result(void **state) {
+    (void)state;
+    dip_made_plan(&plan, 3, 2);
+    for (int count = 1; count <= 2; count++) {
+        FakeProgram programs[2] = {{1.0, 0, 0}, {3.0, 0, 0}};
+        const DipBenchSource sources[2] = {{fake_draw, &programs[0]}, {fake_draw, &programs[1]}};
+        DipBenchResult results[2];
+        for (int p = 0; p < count; p++) {
+            assert_true(dip_bench_result_init(&results[p], &plan, NULL));
+        }
+        assert_true(dip_bench_measure(&plan, sources, count, results, NULL));
+        for (int p = 0; p < count; p++) {
+            assert_int_equal(programs[p].hashed, 8 * 3);
+            // Alone, each visit begins with an untimed frame.
+            assert_int_equal(programs[p].drawn, 8 * 3 + 2 * 8 * (count == 1 ? 4 : 3));
+            for (int c = 0; c < plan.count; c++) {
+                const double *ms = dip_bench_result_ms(&results[p], c, DIP_BENCH_STAGE_total);
+                for (int i = 0; i < 6; i++) {
+                    assert_true(ms[i] == programs[p].factor * (10.0 * c + i % 3 + 1.0));
+                }
+                const DipBenchSample *first = dip_bench_result_first(&results[p], c, 2);
+                assert_int_equal(first->counters.texels_fetched, 100 * c + 2);
+                assert_int_equal(first->hash[2], '2');
+            }
+            dip_bench_result_free(&results[p]);
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(samples_are_found_where_they_were_put),
+        cmocka_unit_test(work_is_the_mean_over_frames),
+        cmocka_unit_test(quantiles_are_over_frames_and_rounds),
+        cmocka_unit_test(a_ratio_is_the_other_program_over_this_one),
+        cmocka_unit_test(the_fastest_rounds_ignore_noise),
+        cmocka_unit_test(csv_has_a_line_per_program_round_and_frame),
+        cmocka_unit_test(each_source_fills_its_result),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

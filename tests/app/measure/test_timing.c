@@ -1,0 +1,304 @@
+// Interleaved timing on a fake clock: who runs when, what is timed, and what is kept.
+#include "app/measure/statistics.h"
+#include "app/measure/timing.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { MAX_TURNS = 4096, MAX_SUBJECTS = 8 };
+
+// A machine whose clock stands still unless a subject runs.
+typedef struct Fake {
+    int64_t now_ns;
+    DipTimingTurn turns[MAX_TURNS];
+    double ms[MAX_TURNS]; // as after_run received them
+    int count;
+    int fail_at; // this run fails; -1: none
+    double slow; // factor of the machine's speed in odd rounds
+    int settle_runs;
+    int rounds_seen;
+    bool known[64];
+    double last_round[64];
+} Fake;
+
+// Subject s takes (s + 1) * (frame + 1) milliseconds, version 1 twice as long.
+static double cost_ms(const DipTimingTurn *turn) {
+    return (turn->subject + 1.0) * (turn->frame + 1.0) * (turn->version + 1.0);
+}
+
+static int64_t fake_clock(void *context) {
+    return ((Fake *)context)->now_ns;
+}
+
+static bool fake_run(void *context, const DipTimingTurn *turn, DipError *err) {
+    Fake *fake = context;
+    if (fake->count == fake->fail_at) {
+        return dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "fake", "stopped");
+    }
+    double ms = cost_ms(turn);
+    if (turn->phase == DIP_TIMING_SETTLE) {
+        // The first fifteen runs get faster by more than 2 % in five runs, later ones do not.
+        ms = fake->settle_runs < 15 ? 100.0 - 5.0 * fake->settle_runs : 25.0;
+        fake->settle_runs++;
+    } else if (turn->round >= 0 && turn->round % 2 == 1) {
+        ms *= fake->slow;
+    }
+    fake->now_ns += (int64_t)(ms * 1e6);
+    return true;
+}
+
+static bool fake_after(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
+    (void)err;
+    Fake *fake = context;
+    fake->now_ns += 12345678; // what happens between runs is not timed
+    assert_true(fake->count < MAX_TURNS);
+    fake->turns[fake->count] = *turn;
+    fake->ms[fake->count++] = ms;
+    return true;
+}
+
+static DipTimingCalls calls_of(Fake *fake) {
+    return (DipTimingCalls){
+        .run = fake_run, .after_run = fake_after, .clock_ns = fake_clock, .context = fake};
+}
+
+static Fake make_fake(void) {
+    return (Fake){.fail_at = -1, .slow = 1.0};
+}
+
+// --- tests -------------------------------------------------------------------------------------
+
+static void times_are_those_of_the_runs_alone(void **state) {
+    (void)state;
+    static Fake fake;
+    double ms[3 * 2 * 4];
+    const DipTimingDef def = {
+        .subject_count = 3, .frame_count = 2, .version_count = 1, .round_count = 4, .seed = 7};
+    fake = make_fake();
+    const DipTimingCalls calls = calls_of(&fake);
+    assert_true(dip_timing_run(&def, &calls, ms, NULL));
+    for (int s = 0; s < 3; s++) {
+        assert_int_equal(dip_timing_index(&def, 0, s), 8 * s);
+        for (int i = 0; i < 8; i++) {
+            assert_true(fabs(ms[8 * s + i] - (s + 1.0) * (i % 2 + 1.0)) < 1e-9);
+        }
+    }
+    assert_int_equal(fake.count, dip_timing_run_count(&def, 0));
+    assert_int_equal(fake.count, 3 * 2 + 4 * 3 * (1 + 2));
+}
+
+static void everything_is_warmed_up_in_order(void **state) {
+    (void)state;
+    static Fake fake;
+    const DipTimingDef def = {
+        .subject_count = 2, .frame_count = 3, .version_count = 1, .round_count = 1};
+    fake = make_fake();
+    const DipTimingCalls calls = calls_of(&fake);
+    assert_true(dip_timing_run(&def, &calls, NULL, NULL));
+    for (int i = 0; i < 6; i++) {
+        const DipTimingTurn *turn = &fake.turns[i];
+        assert_int_equal(turn->phase, DIP_TIMING_WARM_UP);
+        assert_int_equal(turn->round, -1);
+        assert_int_equal(turn->subject, i / 3);
+        assert_int_equal(turn->frame, i % 3);
+    }
+    // A visit: its first frame untimed, then all of them.
+    assert_int_equal(fake.turns[6].phase, DIP_TIMING_REWARM);
+    assert_int_equal(fake.turns[6].frame, 0);
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(fake.turns[7 + i].phase, DIP_TIMING_TIMED);
+        assert_int_equal(fake.turns[7 + i].frame, i);
+        assert_int_equal(fake.turns[7 + i].subject, fake.turns[6].subject);
+    }
+}
+
+// Writes each round's order of subjects; returns the number of visits.
+static int list_visits(const Fake *fake, int *subjects) {
+    int count = 0;
+    for (int i = 0; i < fake->count; i++) {
+        if (fake->turns[i].phase == DIP_TIMING_REWARM) {
+            subjects[count++] = fake->turns[i].subject;
+        }
+    }
+    return count;
+}
+
+static void every_round_visits_each_subject_in_an_order_of_the_seed(void **state) {
+    (void)state;
+    static Fake fakes[3];
+    enum { ROUNDS = 40, SUBJECTS = 5 };
+    int orders[3][ROUNDS * SUBJECTS];
+    int first[SUBJECTS] = {0};
+    for (int i = 0; i < 3; i++) {
+        const DipTimingDef def = {.subject_count = SUBJECTS,
+                                  .frame_count = 1,
+                                  .version_count = 1,
+                                  .round_count = ROUNDS,
+                                  .seed = i < 2 ? 11 : 12};
+        fakes[i] = make_fake();
+        const DipTimingCalls calls = calls_of(&fakes[i]);
+        assert_true(dip_timing_run(&def, &calls, NULL, NULL));
+        assert_int_equal(list_visits(&fakes[i], orders[i]), ROUNDS * SUBJECTS);
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        unsigned seen = 0;
+        for (int i = 0; i < SUBJECTS; i++) {
+            seen |= 1u << orders[0][round * SUBJECTS + i];
+        }
+        assert_int_equal(seen, (1u << SUBJECTS) - 1);
+        first[orders[0][round * SUBJECTS]]++;
+    }
+    for (int s = 0; s < SUBJECTS; s++) {
+        assert_in_range(first[s], 2, 16); // 8 of 40 on the average
+    }
+    assert_memory_equal(orders[0], orders[1], sizeof orders[0]);
+    assert_memory_not_equal(orders[0], orders[2], sizeof orders[0]);
+}
+
+static void two_versions_alternate_at_every_frame(void **state) {
+    (void)state;
+    static Fake fake;
+    enum { ROUNDS = 20, FRAMES = 3, SUBJECTS = 2 };
+    double ms[2 * SUBJECTS * ROUNDS * FRAMES];
+    const DipTimingDef def = {.subject_count = SUBJECTS,
+                              .frame_count = FRAMES,
+                              .version_count = 2,
+                              .round_count = ROUNDS,
+                              .seed = 3};
+    fake = make_fake();
+    const DipTimingCalls calls = calls_of(&fake);
+    assert_true(dip_timing_run(&def, &calls, ms, NULL));
+    assert_int_equal(fake.count, dip_timing_run_count(&def, 0));
+    const int warm = 2 * SUBJECTS * FRAMES;
+    int first[2] = {0};
+    for (int i = warm; i < fake.count; i += 2) {
+        const DipTimingTurn *a = &fake.turns[i];
+        const DipTimingTurn *b = &fake.turns[i + 1];
+        assert_int_equal(a->phase, DIP_TIMING_TIMED);
+        assert_int_equal(a->version + b->version, 1);
+        assert_true(a->subject == b->subject && a->frame == b->frame && a->round == b->round);
+        first[a->version]++;
+    }
+    assert_in_range(first[0], 40, 80); // of 120
+    const double ratio = dip_stats_paired_ratio(ms + dip_timing_index(&def, 1, 1),
+                                                ms + dip_timing_index(&def, 0, 1), FRAMES, ROUNDS);
+    assert_true(fabs(ratio - 2.0) < 1e-9);
+}
+
+// Medians of 90, 65, 40 and 25 ms, then 25 again: it ends with the fifth.
+static void settling_ends_when_two_medians_agree(void **state) {
+    (void)state;
+    static Fake fake;
+    const DipTimingDef def = {
+        .subject_count = 2, .frame_count = 1, .version_count = 1, .round_count = 1, .settle = true};
+    fake = make_fake();
+    const DipTimingCalls calls = calls_of(&fake);
+    assert_true(dip_timing_run(&def, &calls, NULL, NULL));
+    assert_int_equal(fake.settle_runs, 25);
+    assert_int_equal(fake.count, dip_timing_run_count(&def, 0) + 25);
+    assert_int_equal(fake.turns[2].phase, DIP_TIMING_SETTLE);
+    assert_int_equal(fake.turns[2].subject, 0);
+}
+
+// --- rounds that are known ---------------------------------------------------------------------
+
+static const double *known_round(void *context, int round) {
+    static const double kept[] = {101.0, 102.0, 103.0};
+    (void)context;
+    return round == 0 ? kept : NULL;
+}
+
+static bool after_round(void *context, int round, const double *ms, bool known, DipError *err) {
+    (void)err;
+    Fake *fake = context;
+    assert_int_equal(round, fake->rounds_seen++);
+    fake->known[round] = known;
+    fake->last_round[round] = ms[2];
+    return true;
+}
+
+static void known_rounds_are_not_run_and_change_no_order(void **state) {
+    (void)state;
+    static Fake fresh, resumed;
+    int fresh_order[9];
+    int resumed_order[6];
+    double ms[9];
+    const DipTimingDef def = {
+        .subject_count = 3, .frame_count = 1, .version_count = 1, .round_count = 3, .seed = 5};
+    fresh = make_fake();
+    resumed = make_fake();
+    DipTimingCalls calls = calls_of(&fresh);
+    assert_true(dip_timing_run(&def, &calls, NULL, NULL));
+    calls = calls_of(&resumed);
+    calls.known_round = known_round;
+    calls.after_round = after_round;
+    assert_true(dip_timing_run(&def, &calls, ms, NULL));
+    assert_int_equal(resumed.count, dip_timing_run_count(&def, 1));
+    assert_int_equal(list_visits(&fresh, fresh_order), 9);
+    assert_int_equal(list_visits(&resumed, resumed_order), 6);
+    assert_memory_equal(fresh_order + 3, resumed_order, sizeof resumed_order);
+    assert_true(resumed.known[0] && !resumed.known[1] && !resumed.known[2]);
+    assert_true(resumed.last_round[0] == 103.0 && fabs(resumed.last_round[1] - 3.0) < 1e-9);
+    assert_true(ms[0] == 101.0 && ms[3] == 102.0 && ms[6] == 103.0);
+    assert_true(fabs(ms[1] - 1.0) < 1e-9 && fabs(ms[8] - 3.0) < 1e-9);
+}
+
+// --- failures ----------------------------------------------------------------------------------
+
+static void a_failure_ends_the_measurement(void **state) {
+    (void)state;
+    static Fake fake;
+    const DipTimingDef def = {
+        .subject_count = 2, .frame_count = 2, .version_count = 1, .round_count = 2};
+    for (int at = 0; at < 4 + 2 * 2 * 3; at++) {
+        DipError err = {0};
+        fake = make_fake();
+        fake.fail_at = at;
+        const DipTimingCalls calls = calls_of(&fake);
+        assert_false(dip_timing_run(&def, &calls, NULL, &err));
+        assert_int_equal(fake.count, at);
+        assert_string_equal(err.message, "stopped");
+    }
+}
+
+// --- the point of it ---------------------------------------------------------------------------
+
+// A machine that is three times slower in every other round: ratios and A/A do not see it.
+static void ratios_cancel_what_slows_everything(void **state) {
+    (void)state;
+    static Fake fake;
+    enum { ROUNDS = 16, FRAMES = 2 };
+    double ms[2 * ROUNDS * FRAMES];
+    const DipTimingDef def = {
+        .subject_count = 2, .frame_count = FRAMES, .version_count = 1, .round_count = ROUNDS};
+    fake = make_fake();
+    fake.slow = 3.0;
+    const DipTimingCalls calls = calls_of(&fake);
+    assert_true(dip_timing_run(&def, &calls, ms, NULL));
+    const DipStatsEstimate ratio = dip_stats_paired_ratio_estimate(
+        ms + dip_timing_index(&def, 0, 1), ms + dip_timing_index(&def, 0, 0), FRAMES, ROUNDS);
+    assert_true(fabs(ratio.low - 2.0) < 1e-9 && fabs(ratio.high - 2.0) < 1e-9);
+    const DipStatsEstimate time = dip_stats_time_estimate(ms, FRAMES, ROUNDS);
+    assert_true(time.low < 2.0 && time.high > 4.0); // 1.5 in even rounds, 4.5 in odd ones
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(times_are_those_of_the_runs_alone),
+        cmocka_unit_test(everything_is_warmed_up_in_order),
+        cmocka_unit_test(every_round_visits_each_subject_in_an_order_of_the_seed),
+        cmocka_unit_test(two_versions_alternate_at_every_frame),
+        cmocka_unit_test(settling_ends_when_two_medians_agree),
+        cmocka_unit_test(known_rounds_are_not_run_and_change_no_order),
+        cmocka_unit_test(a_failure_ends_the_measurement),
+        cmocka_unit_test(ratios_cancel_what_slows_everything),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
