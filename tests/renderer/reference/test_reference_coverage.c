@@ -289,7 +289,7 @@ static void depth_is_decided_per_sample(void **state) {
 
 // A surface at the near plane (1/16 m) is visible; a nearer one is not. In the third case, the
 // upper half leans from in front of the near plane to the near plane.
-static void surfaces_before_the_near_plane_are_cut_off(void **state) {
+static void surfaces_nearer_than_the_near_plane_are_cut_off(void **state) {
     (void)state;
     static const double distances[][2] = {{0.0625, 0.0625}, {0.03125, 0.03125}, {0.03125, 0.0625}};
     static const int seen[][2] = {{1, 1}, {0, 0}, {0, 1}}; // at y = 12 and y = 40
@@ -354,7 +354,7 @@ int main(void) {
         cmocka_unit_test(only_front_faces_and_double_sided_surfaces_are_visible),
         cmocka_unit_test(nearer_surfaces_win_and_the_first_of_coplanar_ones_stays),
         cmocka_unit_test(depth_is_decided_per_sample),
-        cmocka_unit_test(surfaces_before_the_near_plane_are_cut_off),
+        cmocka_unit_test(surfaces_nearer_than_the_near_plane_are_cut_off),
         cmocka_unit_test(a_floor_that_begins_behind_the_eye_is_cut_at_the_near_plane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-static void defaults_are_those_of_the_specification(void **state) {
+static void settings_have_their_documented_defaults(void **state) {
     (void)state;
     char text[256];
     const DipQuality quality = dip_quality_default();
@@ -129,7 +129,7 @@ static void formatting_returns_the_length_as_snprintf_does(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(defaults_are_those_of_the_specification),
+        cmocka_unit_test(settings_have_their_documented_defaults),
         cmocka_unit_test(formatting_gives_the_parsed_text_back),
         cmocka_unit_test(settings_that_are_left_out_keep_their_defaults),
         cmocka_unit_test(bad_settings_are_refused),
