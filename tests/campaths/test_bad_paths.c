@@ -101,7 +101,7 @@ static void check_error(const char *promise, const DipError *err, DipErrorCode c
 
 static void check_refused(const char *promise, const void *bytes, size_t size_bytes,
                           DipErrorCode code, int line, const char *key, const char *said) {
-    // In memory of exactly its size, so that a read past its end is seen by the sanitizer.
+    // A copy of exactly this size lets the sanitizer see a read past the end.
     void *exact = malloc(size_bytes ? size_bytes : 1);
     memcpy(exact, bytes, size_bytes);
     DipCamPath *path = (DipCamPath *)exact;
@@ -388,7 +388,7 @@ static size_t mutate(unsigned char *bytes, size_t size_bytes, size_t room) {
     return size_bytes;
 }
 
-// Whatever is accepted can be sampled and gives finite poses; the rest is refused with a message.
+// A path that is accepted must give finite poses; a path that is refused must give a message.
 static int parse_mutation(const unsigned char *bytes, size_t size_bytes) {
     unsigned char *exact = malloc(size_bytes);
     memcpy(exact, bytes, size_bytes);
@@ -429,7 +429,7 @@ static void mutations_never_crash(void **context) {
         }
         accepted += parse_mutation(bytes, mutate(bytes, size_bytes, ROOM));
     }
-    // Else the mutations test nothing but one of the two ways.
+    // Enough mutations must be accepted and enough refused, else they test only one of the two.
     assert_in_range(accepted, RUNS / 20, 2 * RUNS - RUNS / 20);
 }
 

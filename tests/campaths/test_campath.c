@@ -117,7 +117,7 @@ static void the_sign_of_a_quaternion_does_not_matter(void **context) {
                              "0 0 0 0 0 0 1\n"
                              "0 0 0 0 -0.38268343236508977 0 -0.92387953251128674\n");
     const DipPose pose = sample(path, SECOND / 2);
-    check_turn_about_y(&pose, 22.5, 1e-15); // not 202.5 the long way
+    check_turn_about_y(&pose, 22.5, 1e-15); // The long way would be at 202.5.
     const DipCamKey key = dip_campath_key(path, 1);
     assert_true(key.orientation[3] > 0.0);
     dip_campath_destroy(&path);
