@@ -1,4 +1,4 @@
-// mkdir, part by part.
+// Making a folder part by part.
 #include "app/files/folder.h"
 
 #include <errno.h>
@@ -18,13 +18,13 @@ bool dip_folder_make(const char *folder, const char *option, DipError *err) {
             part[i] = '\0';
             if (mkdir(part, 0777) != 0 && errno != EEXIST) {
                 return dip_error_set(err, DIP_ERROR_IO, part, 0, option,
-                                     "the folder cannot be made: %s", strerror(errno));
+                                     "cannot make this folder: %s", strerror(errno));
             }
         }
     }
     struct stat status;
     if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode)) {
-        return dip_error_set(err, DIP_ERROR_IO, folder, 0, option, "is no folder");
+        return dip_error_set(err, DIP_ERROR_IO, folder, 0, option, "is not a folder");
     }
     return true;
 }

@@ -1,10 +1,11 @@
-// Folders that commands write to.
+// Folders that files are written to.
 #ifndef DIP_APP_FILES_FOLDER_H
 #define DIP_APP_FILES_FOLDER_H
 
 #include "renderer/base/error.h"
 
-// Makes the folder and those above it, as far as they are missing. option: for messages.
+// Makes the folder and its missing parents. Fails with DIP_ERROR_OVERSIZED or DIP_ERROR_IO;
+// `option` names the option at fault in the message. Thread-safe.
 bool dip_folder_make(const char *folder, const char *option, DipError *err);
 
 #endif

@@ -1,4 +1,4 @@
-// PNG through stb_image_write, into a buffer, then to a file at once; its deflate on its own.
+// PNG and deflate through stb_image_write, in memory.
 #include "app/files/png.h"
 
 #include "app/files/whole_file.h"
@@ -12,7 +12,7 @@
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 
-// stb may hand over the picture in pieces; they are gathered here.
+// Gathers the pieces in which stb may hand over the file.
 typedef struct Buffer {
     unsigned char *bytes;
     size_t size;
@@ -31,7 +31,7 @@ static void append(void *context, void *data, int size) {
     buffer->size += (size_t)size;
 }
 
-// The pixels without alpha, rows packed: a third of the file would say 255.
+// The pixels without alpha, rows packed. Alpha would be 255 everywhere.
 static uint8_t *packed_rgb(const uint8_t *rgba8, size_t stride_bytes, int width, int height) {
     uint8_t *rgb = malloc((size_t)width * (size_t)height * 3);
     for (int y = 0; rgb && y < height; y++) {
@@ -76,7 +76,7 @@ size_t dip_zip_size(const unsigned char *bytes, size_t size_bytes) {
     int size = 0;
     unsigned char *zipped = NULL;
     if (size_bytes > 0 && size_bytes < INT_MAX) {
-        // The library takes what it only reads as not const.
+        // The library's parameter is not const, although it only reads.
         unsigned char *copy = malloc(size_bytes);
         if (copy) {
             memcpy(copy, bytes, size_bytes);

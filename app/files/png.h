@@ -1,15 +1,17 @@
-// Frames to PNG files.
+// Pictures as PNG files.
 #ifndef DIP_APP_FILES_PNG_H
 #define DIP_APP_FILES_PNG_H
 
 #include "renderer/base/error.h"
 #include "renderer/scene/frame.h"
 
-// A PNG in memory: free() it. Alpha is left out. False when memory runs out.
+// Encodes 8-bit RGBA pixels, the top row first, as an RGB PNG in memory; alpha is left out. The
+// caller frees *bytes. Returns false when memory runs out. Thread-safe.
 bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height,
                     unsigned char **bytes, size_t *size_bytes);
 
-// Writes the file whole or not at all: under another name first, then renamed.
+// Writes a frame to a file, whole or not at all (whole_file.h). Fails with DIP_ERROR_IO or
+// DIP_ERROR_MEMORY.
 bool dip_png_write(const char *file, const DipFrame *frame, DipError *err);
 
 #endif

@@ -1,4 +1,4 @@
-// Temporary file, then rename.
+// Writing under a temporary name, then renaming.
 #include "app/files/whole_file.h"
 
 #include <errno.h>

@@ -1,10 +1,11 @@
-// How small bytes become when they are compressed, as an archive would.
+// Deflated size of a block of bytes, as in a zip archive.
 #ifndef DIP_APP_FILES_ZIP_H
 #define DIP_APP_FILES_ZIP_H
 
 #include <stddef.h>
 
-// Bytes after deflate; 0 when memory runs out or there are 2^31 of them.
+// The number of bytes after deflate. Returns 0 when memory runs out, for an empty block, and for
+// 2^31 bytes or more. Thread-safe.
 size_t dip_zip_size(const unsigned char *bytes, size_t size_bytes);
 
 #endif

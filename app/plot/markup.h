@@ -1,10 +1,10 @@
-// Text for HTML and SVG.
+// Escaping text for HTML and SVG.
 #ifndef DIP_APP_PLOT_MARKUP_H
 #define DIP_APP_PLOT_MARKUP_H
 
 #include <stdio.h>
 
-// Writes text with the characters escaped that mean something between tags.
+// Writes text between tags; &, < and > are escaped.
 static inline void dip_markup_text(FILE *out, const char *text) {
     for (; *text; text++) {
         switch (*text) {

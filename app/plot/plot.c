@@ -17,33 +17,35 @@ enum {
     BOTTOM = 404,
     LEGEND_TOP = 476,
     LEGEND_LINE = 20,
-    LEGEND_WIDTH = 340, // of a column
-    MOST_BARRED = 4,    // series
+    LEGEND_WIDTH = 340, // width of a column
+    MOST_BARRED = 4,    // series that may have bars
     MAX_TICKS = 16,
-    TICK_ROOM = 46 // between two labels of the x axis
+    TICK_ROOM = 46 // least distance between two labels of the x axis
 };
 
-// Okabe and Ito's colours, told apart by the colour-blind, less the yellow; then again, dashed.
+// The palette of Okabe and Ito without its yellow, which colour-blind readers can tell apart. After
+// the last colour, lines begin again with the first and are dashed.
 static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73",
                                       "#cc79a7", "#56b4e9", "#000000"};
 enum { COLOUR_COUNT = sizeof colours / sizeof *colours };
 
 typedef struct Axis {
-    double least; // as it is placed: the logarithm on a logarithmic axis
+    double least; // range in axis units: the logarithm on a logarithmic axis
     double most;
-    double from; // pixels
+    double from; // range in pixels
     double to;
     bool logarithmic;
     double ticks[MAX_TICKS];
     int tick_count;
 } Axis;
 
-static double placed(const Axis *axis, double value) {
+// A value in axis units.
+static double scaled(const Axis *axis, double value) {
     return axis->logarithmic ? log10(value) : value;
 }
 
 static double pixel(const Axis *axis, double value) {
-    const double share = (placed(axis, value) - axis->least) / (axis->most - axis->least);
+    const double share = (scaled(axis, value) - axis->least) / (axis->most - axis->least);
     return axis->from + share * (axis->to - axis->from);
 }
 
@@ -54,11 +56,11 @@ static int shown_series(const DipPlot *plot) {
 // --- axes --------------------------------------------------------------------------------------
 
 static void widen(Axis *axis, double value) {
-    axis->least = fmin(axis->least, placed(axis, value));
-    axis->most = fmax(axis->most, placed(axis, value));
+    axis->least = fmin(axis->least, scaled(axis, value));
+    axis->most = fmax(axis->most, scaled(axis, value));
 }
 
-// Room around the values; a range of one value gets some.
+// Adds room around the values, and makes a range of one value wider than 0.
 static void add_margin(Axis *axis, bool from_zero) {
     double room = 0.06 * (axis->most - axis->least);
     if (!(room > 0.0)) {
@@ -69,14 +71,14 @@ static void add_margin(Axis *axis, bool from_zero) {
 }
 
 static void add_tick(Axis *axis, double value) {
-    const double at = placed(axis, value);
+    const double at = scaled(axis, value);
     if (axis->tick_count < MAX_TICKS && at >= axis->least && at <= axis->most) {
         axis->ticks[axis->tick_count++] = value;
     }
 }
 
-// 1, 2 and 5 times the powers of ten; the powers alone over a wide range, every digit over a
-// narrow one.
+// Ticks at 1, 2 and 5 times the powers of ten; at the powers alone over a wide range, and at every
+// digit over a narrow one.
 static void tick_logarithmic(Axis *axis) {
     const double decades = axis->most - axis->least;
     const int step = decades > 4.0 ? 9 : decades < 0.7 ? 1 : 0;
@@ -102,7 +104,8 @@ static void tick_linear(Axis *axis) {
     }
 }
 
-// A few values that were measured are better ticks than round numbers.
+// If there are at most eight different x values, puts a tick at each. Returns false if there are
+// more.
 static bool tick_values(Axis *axis, const DipPlot *plot) {
     for (int s = 0; s < shown_series(plot); s++) {
         for (int i = 0; i < plot->series[s].count; i++) {
@@ -165,7 +168,7 @@ static void write_line(FILE *out, double x0, double y0, double x1, double y1, co
             style);
 }
 
-// "307k", "1.23M", "0.5".
+// Writes a short number: "307k", "1.23M", "0.5".
 static void format_number(double value, char text[32]) {
     if (fabs(value) >= 1e6) {
         snprintf(text, 32, "%.3gM", value / 1e6);
@@ -234,7 +237,7 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, bool
     }
 }
 
-// In two columns, row by row.
+// Entries fill two columns, row by row.
 static void write_legend_entry(FILE *out, const DipPlotSeries *series, int index) {
     const char *colour = colours[index % COLOUR_COUNT];
     const double x = LEFT + LEGEND_WIDTH * (index % 2);
@@ -269,7 +272,7 @@ void dip_plot_print(FILE *out, const DipPlot *plot) {
     }
     if (left_out > 0) {
         char text[64];
-        snprintf(text, sizeof text, "and %d more that are not drawn", left_out);
+        snprintf(text, sizeof text, "and %d more, which are not drawn", left_out);
         write_text(out, LEFT + 44, LEGEND_TOP + LEGEND_LINE * ((shown + 1) / 2) + 4.5, "", text);
     }
     fprintf(out, "</svg>\n");

@@ -1,5 +1,5 @@
-// Line plots as SVG: one self-contained file, legible on light and dark pages alike, as it brings
-// its own white ground.
+// Line plots as self-contained SVG. They bring a white background, so they are legible on light and
+// dark pages.
 #ifndef DIP_APP_PLOT_PLOT_H
 #define DIP_APP_PLOT_PLOT_H
 
@@ -10,32 +10,34 @@
 
 enum { DIP_PLOT_MAX_SERIES = 12 };
 
-// One line with a mark at each point. x ascends. low and high, of a bar at each point, may be NULL;
-// bars are left out where more than four series would hide each other.
+// One line with a mark at each point. Everything is borrowed. With more than four series, bars are
+// left out, since they would hide each other.
 typedef struct DipPlotSeries {
-    const char *name; // for the legend
-    const double *x;
+    const char *name; // For the legend.
+    const double *x;  // Ascending.
     const double *y;
-    const double *low;
+    const double *low; // Lower ends of the bars; NULL for none.
     const double *high;
     int count;
-    bool marks_only;           // no line between the points
-    const char *const *labels; // below and left of each point; NULL: none
+    bool marks_only;           // Draw no line between the points.
+    const char *const *labels; // Below and left of each point; NULL for none.
 } DipPlotSeries;
 
-// All texts are borrowed. On a logarithmic axis every value is above 0; a linear y begins at 0.
+// All texts are borrowed. Values on a logarithmic axis must be above 0. A linear y axis begins at
+// 0.
 typedef struct DipPlot {
     const char *title;
-    const char *subtitle; // what is shown and how often it was measured
-    const char *x_title;  // with the unit
+    const char *subtitle; // What is shown, and how often it was measured.
+    const char *x_title;  // With the unit.
     const char *y_title;
     bool log_x;
     bool log_y;
-    const DipPlotSeries *series; // only the first DIP_PLOT_MAX_SERIES are drawn; the file says so
-    int series_count;            // at least 1, with at least one point each
+    const DipPlotSeries
+        *series;      // The first DIP_PLOT_MAX_SERIES are drawn; the plot says if not all.
+    int series_count; // At least 1. Each series has at least one point.
 } DipPlot;
 
-// The <svg> element alone, for a page that has more.
+// Prints the <svg> element alone, to be part of a page.
 void dip_plot_print(FILE *out, const DipPlot *plot);
 
 // Writes the file whole or not at all.

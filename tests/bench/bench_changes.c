@@ -1,12 +1,12 @@
-// What a change of each setting costs the frames around it: the longest of them over the median.
+// Measures how much a change of each setting delays the frames around it.
 //
 //   dip_bench_changes [ROUNDS]
 //
 // Two panes of the courtyard at 640x480 fly along the ambient path, as in the preview. The
-// requested pane changes from the default to a step and back; a frame is both panes' time together.
-// "longest" is the greatest of the last frame before a change and the five from the change on, as a
-// ratio to the median of the frames on both sides with the same settings; its median and least over
-// the rounds are told, as what disturbs the machine only adds.
+// requested pane changes from the default to a step and back. A frame's time is that of both panes
+// together. "longest" is the longest of six frames, the last before a change and the first five
+// after it, each as a ratio to the median of the frames with the same settings. The table has its
+// median and its minimum over the rounds; noise only ever adds time.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/base/clock.h"
@@ -62,7 +62,7 @@ static void close_court(Court *court) {
     dip_pool_destroy(&court->pool);
 }
 
-// Draws both panes; returns the milliseconds it took, below 0 when it failed.
+// Draws both panes and returns the milliseconds that this took, or -1 after a failure.
 static double draw(Court *court) {
     const int64_t time_ns = court->frame_index++ * INT64_C(1000000000) / FRAMES_PER_SECOND;
     DipPose pose = {.fov_y_deg = 45.0};
@@ -91,7 +91,7 @@ static double median(const double *values, int count) {
     return sorted[count / 2];
 }
 
-// Frames with one quality: the first AROUND, and all of them.
+// Times of successive frames with one quality, beginning with the change to it.
 typedef struct Stretch {
     double ms[WARM + AROUND];
 } Stretch;
@@ -103,7 +103,8 @@ static void play(Court *court, const DipQuality *quality, Stretch *stretch) {
     }
 }
 
-// The longest frame around the change from one stretch to the next: of each its own median counts.
+// The longest frame around the change from one stretch to the next, as a ratio to the median of its
+// own stretch.
 static double longest_ratio(const Stretch *before, const Stretch *after) {
     double longest = before->ms[WARM + AROUND - 1] / median(before->ms, WARM + AROUND);
     const double middle = median(after->ms, WARM + AROUND);
@@ -113,7 +114,7 @@ static double longest_ratio(const Stretch *before, const Stretch *after) {
     return longest;
 }
 
-static double least(const double *values, int count) {
+static double minimum(const double *values, int count) {
     double found = values[0];
     for (int i = 1; i < count; i++) {
         found = values[i] < found ? values[i] : found;
@@ -121,14 +122,14 @@ static double least(const double *values, int count) {
     return found;
 }
 
-// A step of a setting, there and back.
+// Measures the change to a step of a setting and back, and prints a line.
 static void measure(Court *court, DipSetting setting, int step, int rounds) {
     const DipSettingInfo *info = dip_setting_info(setting);
     const DipQuality base = dip_quality_default();
     DipQuality changed = base;
     changed.step[setting] = (uint8_t)step;
     if (setting == DIP_SETTING_AAA || setting == DIP_SETTING_TAA) {
-        changed.step[DIP_SETTING_AA] = 2; // without samples they have nothing to do
+        changed.step[DIP_SETTING_AA] = 2; // without samples these settings have no effect
     }
     if (!dip_quality_check(&changed, NULL)) {
         return;
@@ -146,7 +147,8 @@ static void measure(Court *court, DipSetting setting, int step, int rounds) {
     char name[64];
     snprintf(name, sizeof name, "%s=%s", info->key, info->steps[step]);
     printf("%-26s %8.2f %10.2f %6.2f %10.2f %6.2f\n", name, median(ms, rounds),
-           median(there, rounds), least(there, rounds), median(back, rounds), least(back, rounds));
+           median(there, rounds), minimum(there, rounds), median(back, rounds),
+           minimum(back, rounds));
     fflush(stdout);
 }
 
@@ -156,8 +158,8 @@ int main(int argc, char **argv) {
     static Court court;
     const bool opened = open_court(&court);
     if (opened) {
-        printf("%-26s %8s %17s %17s\n", "", "median", "longest, there", "longest, back");
-        printf("%-26s %8s %10s %6s %10s %6s\n", "", "ms", "median", "least", "median", "least");
+        printf("%-26s %8s %17s %17s\n", "", "median", "longest, change", "longest, back");
+        printf("%-26s %8s %10s %6s %10s %6s\n", "", "ms", "median", "min", "median", "min");
     }
     for (int s = 0; opened && s < DIP_SETTING_COUNT; s++) {
         const DipSettingInfo *info = dip_setting_info((DipSetting)s);

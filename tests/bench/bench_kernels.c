@@ -1,10 +1,10 @@
-// What the kernels cost per unit of work, for every instruction set of this machine: one table to
-// hold a change against, or a floor.
+// Measures what the kernels cost per unit of work on every instruction set of this machine. Compare
+// the table before and after a change to a kernel.
 //
-//   dip_bench_kernels [ROW [ISA]]      rows whose name contains ROW; all without it
+//   dip_bench_kernels [ROW [ISA]]      only rows whose name contains ROW, only one instruction set
 //
 // Cycles are core cycles, calibrated by a chain of dependent additions of one cycle each. Every
-// number is the least of many rounds.
+// number is the fastest of many rounds.
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
@@ -19,7 +19,7 @@
 
 enum { ROUNDS = 60, SEED = 4711, TRIANGLES = 512 };
 
-// A tile as the pipeline has it, and the triangles that are drawn into it.
+// A tile with its depth and visibility buffers, and the triangles to draw into it.
 typedef struct Raster {
     _Alignas(64) float depth[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
     _Alignas(64) uint32_t ids[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
@@ -30,8 +30,8 @@ typedef struct Raster {
 
 static Raster raster;
 
-// A kernel at one kind of input. prepare fills the input; run does the work once and returns its
-// units.
+// A kernel with one kind of input. `prepare` fills the input; `run` does the work once and returns
+// how many units it was.
 typedef struct Row {
     const char *name;
     const char *unit;
@@ -49,7 +49,7 @@ static void begin_raster(int sample_count) {
     raster.triangle_count = 0;
 }
 
-// Corners in pixels, depth that grows from submission to submission.
+// Adds a triangle with corners in pixels. Its depth is greater than that of the triangles before.
 static void add_triangle(const double x[3], const double y[3]) {
     static DipScreenBatch screen;
     static uint8_t corner[3][DIP_BATCH_ALIGN];
@@ -130,7 +130,7 @@ static double run_small(const DipKernels *kernels) {
 
 enum { TEXELS = 1024, BATCHES_X = 80, BATCHES = 10 * BATCHES_X };
 
-// A strip of 640x80 fragments that look at one texture; a batch is 8x8 of them.
+// A strip of 640x80 fragments that sample one texture, in batches of 8x8.
 typedef struct Reads {
     DipTexture *texture;
     DipSampler sampler;
@@ -224,13 +224,12 @@ static const Row rows[] = {
     {"texture, AF 16 at 2:1", "fragment", prepare_reads, run_reads, AF_2},
     {"texture, AF 16 at 4:1", "fragment", prepare_reads, run_reads, AF_4},
     {"texture, AF 16 at 16:1", "fragment", prepare_reads, run_reads, AF_16},
-    {"texture, exact_footprint AF 16 at 16:1", "fragment", prepare_reads, run_reads,
-     AF_16_ADVANCED},
+    {"texture, advanced AF 16 at 16:1", "fragment", prepare_reads, run_reads, AF_16_ADVANCED},
 };
 
-static double least_ns_per_unit(const Row *row, const DipKernels *kernels) {
+static double fastest_ns_per_unit(const Row *row, const DipKernels *kernels) {
     enum { REPEAT = 20 };
-    double least = 1e30;
+    double fastest = 1e30;
     for (int round = 0; round < ROUNDS; round++) {
         const int64_t begin = dip_clock_ns();
         double units = 0.0;
@@ -238,16 +237,17 @@ static double least_ns_per_unit(const Row *row, const DipKernels *kernels) {
             units += row->run(kernels);
         }
         const double ns = (double)(dip_clock_ns() - begin) / units;
-        least = ns < least ? ns : least;
+        fastest = ns < fastest ? ns : fastest;
     }
-    return least;
+    return fastest;
 }
 
-// Each addition needs the one before it. The empty statements hide the values from the compiler,
-// and the addend is a register since some processors fold chains of constants.
+// Times a chain of additions in which each needs the result before it. The empty assembler
+// statements hide the values from the compiler. The addend is in a register, since some processors
+// fold chains of constants.
 static double measure_ns_per_cycle(void) {
     enum { STEPS = 200000, PER_STEP = 8 };
-    double least = 1e30;
+    double fastest = 1e30;
     for (int round = 0; round < ROUNDS; round++) {
         uint64_t sum = 0;
         uint64_t addend = (uint64_t)round;
@@ -260,9 +260,9 @@ static double measure_ns_per_cycle(void) {
         }
         __asm__ volatile("" : "+r"(sum));
         const double ns = (double)(dip_clock_ns() - begin) / (STEPS * PER_STEP);
-        least = ns < least ? ns : least;
+        fastest = ns < fastest ? ns : fastest;
     }
-    return least;
+    return fastest;
 }
 
 static void measure_row(const Row *row, const char *only_isa, double ns_per_cycle) {
@@ -272,7 +272,7 @@ static void measure_row(const Row *row, const char *only_isa, double ns_per_cycl
             continue;
         }
         row->prepare(row->parameter);
-        const double ns = least_ns_per_unit(row, dip_kernels((DipIsa)isa));
+        const double ns = fastest_ns_per_unit(row, dip_kernels((DipIsa)isa));
         printf("%-32s %-8s %10.3f ns %10.2f cycles per %s\n", row->name, dip_isa_name((DipIsa)isa),
                ns, ns / ns_per_cycle, row->unit);
     }
