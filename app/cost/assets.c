@@ -1,4 +1,4 @@
-// `diptych cost assets`: size, zipped size and load time of the forms that assets can take.
+// `diptych cost assets`: size, deflated size and load time of the forms that assets can take.
 #include "app/commands.h"
 
 #include "app/files/png.h"
@@ -36,7 +36,7 @@ static void add_bytes(Size *size, const unsigned char *bytes, size_t count) {
     size->zipped += (double)dip_zip_size(bytes, count);
 }
 
-// Adds a file; nothing if it cannot be read.
+// Adds the size of a file; a file that cannot be read counts as empty.
 static void add_file(Size *size, const char *file) {
     unsigned char *bytes;
     size_t count;
@@ -86,7 +86,7 @@ static void print_head(const char *title) {
 
 // --- meshes ------------------------------------------------------------------------------------
 
-// The median time of loading; below 0 if it cannot be loaded.
+// The median time of loading in milliseconds; -1 if the model cannot be loaded.
 static double time_model(const char *file, DipPool *pool) {
     double ms[LOADS];
     double scratch[LOADS];
@@ -104,7 +104,7 @@ static double time_model(const char *file, DipPool *pool) {
     return dip_stats_quantile(ms, LOADS, 0.5, scratch);
 }
 
-// In a folder of its own, without its pictures, so that the time is the mesh's alone.
+// Writes the mesh to an empty folder, without its pictures, so that only the mesh is loaded.
 static void measure_mesh(const struct aiScene *scene, const char *format, const char *ending,
                          const char *name, const char *folder, DipPool *pool) {
     char file[PATH_MAX];
@@ -138,7 +138,7 @@ static void measure_meshes(const char *model, const char *folder, DipPool *pool)
 // --- pictures ----------------------------------------------------------------------------------
 
 static const uint8_t *texel_at(const DipTextureDef *texture, int level, int x, int y) {
-    // The nearest texel of level 0 stands for the mean: sizes are what is asked for.
+    // The nearest texel of level 0 replaces the mean, since only sizes are needed.
     const int sx = (x << level) < texture->width ? x << level : texture->width - 1;
     const int sy = (y << level) < texture->height ? y << level : texture->height - 1;
     return texture->rgba8 + 4 * ((size_t)sy * (size_t)texture->width + (size_t)sx);
@@ -149,7 +149,7 @@ static size_t blocks_of(int size, int level) {
     return (size_t)(levels + 3) / 4;
 }
 
-// Appends a level's blocks; returns the place after them.
+// Appends a level's blocks and returns the position after them.
 static uint8_t *compress_level(const DipTextureDef *texture, int level, uint8_t *to) {
     const size_t across = blocks_of(texture->width, level);
     const size_t down = blocks_of(texture->height, level);
@@ -174,13 +174,13 @@ static int level_count(const DipTextureDef *texture) {
     return count;
 }
 
-// Sizes of all colour pictures as BC1, with as many stored levels as asked for (0: all).
+// Sizes of all colour pictures as BC1 with `levels` stored mip levels; 0 means all of them.
 static Size measure_bc1(const DipSceneDef *def, int levels) {
     Size size = {0};
     for (int t = 0; t < def->texture_count; t++) {
         const DipTextureDef *texture = &def->textures[t];
         const int count = levels ? levels : level_count(texture);
-        // A chain is less than three halves of its first level and a block per level.
+        // A chain is smaller than 3/2 of its first level plus a block per level.
         const size_t room = blocks_of(texture->width, 0) * blocks_of(texture->height, 0);
         uint8_t *blocks = malloc((room + room / 2 + 64) * BC1_BYTES);
         uint8_t *end = blocks;
@@ -225,7 +225,8 @@ static void measure_pictures(const DipSession *session, const char *model_folder
     print_row("PNG, without alpha", measure_png(&session->scene_def), -1.0);
     print_row("BC1, largest level", measure_bc1(&session->scene_def, 1), -1.0);
     print_row("BC1, stored mip chain", measure_bc1(&session->scene_def, 0), -1.0);
-    printf("  (mip chains are made at load: %.1f ms; load times are of what the program reads)\n",
+    printf("  (mip chains are made at load: %.1f ms; load times are those of the files that the "
+           "program reads)\n",
            session->times.textures_ms);
 }
 
@@ -275,12 +276,12 @@ static void measure_release(const char *model_folder) {
     Size assets = {0};
     add_file(&program, "/proc/self/exe");
     for_files(model_folder, add_each, &assets);
-    print_head("What is handed on");
+    print_head("The release");
     print_row("program, as it was built", program, -1.0);
     print_row("model and pictures, as shipped", assets, -1.0);
 }
 
-// Load by part, from the command line on; shutdown by giving everything back.
+// Prints the load time of each part, from the command line on, and the time to free everything.
 static void measure_session(DipSession *session) {
     const DipStartTimes times = session->times;
     printf("Load and shutdown of the whole, ms\n  ");

@@ -1,4 +1,4 @@
-// `diptych cost merge`: the places that several machines have judged, in one report.
+// `diptych cost merge`: joins the viewpoints that several machines have judged into one report.
 #include "app/commands.h"
 
 #include "app/cost/formats.h"
@@ -9,7 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// Parts of one report: the same rows, pictures and truths. Machines and times may differ.
+// True if two reports are parts of one: rows, pictures and truths are the same. Machines and times
+// may differ.
 static bool belong(const DipCostReport *a, const DipCostReport *b) {
     bool same = strcmp(a->scene_hash, b->scene_hash) == 0 && a->width == b->width &&
                 a->height == b->height && a->row_count == b->row_count &&
@@ -23,7 +24,7 @@ static bool belong(const DipCostReport *a, const DipCostReport *b) {
     return same;
 }
 
-static void take_places(DipCostReport *to, const DipCostReport *from) {
+static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
     const int places = to->options.places;
     for (int r = 0; r < to->row_count; r++) {
         for (int p = 0; p < places; p++) {
@@ -56,7 +57,7 @@ static bool read_parts(const DipCostOptions *options, DipCostReport *report, Dip
             dip_cost_report_free(&part);
             return dip_error_set(err, DIP_ERROR_CONFLICT, options->parts[i], 0, NULL,
                                  "is no part of the same report as %s (scene, size, settings, "
-                                 "places or samples differ)",
+                                 "viewpoints or samples differ)",
                                  options->parts[0]);
         }
         if (report->rounds == 0 && part.rounds > 0) {
@@ -64,7 +65,7 @@ static bool read_parts(const DipCostOptions *options, DipCostReport *report, Dip
             *report = part;
             part = swap;
         }
-        take_places(report, &part);
+        copy_viewpoints(report, &part);
         dip_cost_report_free(&part);
     }
     return true;
@@ -84,7 +85,7 @@ bool dip_cost_merge_run(const DipOptions *options, DipError *err) {
     const char *const folder = options->out;
     bool done = dip_folder_make(folder, "--out", err) && read_parts(&options->cost, &report, err);
     if (done && count_missing(&report) > 0) {
-        printf("%d of %d places are in none of the parts\n", count_missing(&report),
+        printf("%d of %d viewpoints are in none of the parts\n", count_missing(&report),
                report.options.places);
     }
     if (done && strlen(folder) + 16 > sizeof file) {

@@ -88,6 +88,12 @@ DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewp
     return sums;
 }
 
+DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region) {
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    return dip_metrics_of(&sums, region);
+}
+
 DipMetricSums dip_cost_floor(const DipCostReport *report, int path) {
     DipMetricSums sums = {0};
     for (int p = 0; p < report->options.places; p++) {
@@ -175,16 +181,11 @@ int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int coun
     return kept;
 }
 
-static double flip_of(const DipCostReport *report, int row) {
-    int viewpoints;
-    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
-    return dip_metrics_of(&sums, 0).flip;
-}
-
 int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int count) {
     int kept = 0;
     for (int i = 0; i < count; i++) {
-        if (i == 0 || flip_of(report, front[i]) <= 0.99 * flip_of(report, front[kept - 1])) {
+        if (i == 0 || dip_cost_row_metrics(report, front[i], 0).flip <=
+                          0.99 * dip_cost_row_metrics(report, front[kept - 1], 0).flip) {
             front[kept++] = front[i];
         }
     }
@@ -192,7 +193,7 @@ int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int coun
 }
 
 int dip_cost_step_up(const DipCostReport *report, int row) {
-    const double enough = 0.99 * flip_of(report, row);
+    const double enough = 0.99 * dip_cost_row_metrics(report, row, 0).flip;
     int next = -1;
     double least_ms = INFINITY;
     for (int r = report->combined_first; r < report->row_count; r++) {

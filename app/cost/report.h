@@ -109,6 +109,9 @@ const char *dip_cost_floor_mark(const DipCostReport *report, int row);
 // The sum over all judged viewpoints of a row. *viewpoints receives their number.
 DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints);
 
+// The figures of a row over all judged viewpoints, in one region (0 is the whole picture).
+DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region);
+
 // The sum of the floors of a path's truths.
 DipMetricSums dip_cost_floor(const DipCostReport *report, int path);
 

@@ -4,8 +4,9 @@
 
 #include "app/cost/report.h"
 
-// Two paths, three places, rows for aa=none, 2, 4 (twice aa=none: the A/A row); one sweep of AA;
-// every number different. Times are of `rounds` rounds: row r takes r + 1 ms.
+// Makes a report with two paths, three viewpoints, rows for aa=none, 2 and 4 with a second aa=none
+// as the A/A row, and one sweep of AA. All errors differ. In each of `rounds` rounds, row r takes
+// r + 1 ms.
 void dip_made_report(DipCostReport *report, int rounds);
 
 #endif

@@ -1,4 +1,4 @@
-// What is kept of an unfinished report, whenever the program ends.
+// The journal keeps an unfinished report, whenever the program ends.
 #include "app/cost/journal.h"
 
 #include <setjmp.h>
@@ -63,7 +63,7 @@ static void what_is_measured_is_found_again(void **state) {
     dip_cost_journal_close(&again, false);
 }
 
-// Errors are of pictures, times of a plan.
+// Errors belong to pictures, times belong to a plan.
 static void times_of_another_plan_are_passed_over(void **state) {
     (void)state;
     write_some();
@@ -83,7 +83,8 @@ static size_t file_size(void) {
     return size;
 }
 
-// Ended after any byte: whole lines are found, what follows is cut off, and more can be added.
+// The file is cut after every byte in turn. Whole lines are found, the rest is cut off, and more
+// can be added.
 static void a_torn_line_is_dropped(void **state) {
     (void)state;
     write_some();

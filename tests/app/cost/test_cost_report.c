@@ -1,4 +1,4 @@
-// Figures from sums and times, the front, the fit, and the report through JSON and back.
+// Figures from sums and times, the Pareto front, the fit, and a report through JSON and back.
 #include "app/cost/fit.h"
 #include "app/cost/html.h"
 #include "app/cost/order.h"
@@ -79,7 +79,7 @@ static void expect_order(const DipCostReport *report, const char *part) {
     }
 }
 
-// FLIP of the made rows falls as their numbers rise, and all counters rise.
+// In the made report, FLIP falls and all counters rise from row to row.
 static void steps_out_of_order_are_named(void **state) {
     (void)state;
     DipCostReport report;
@@ -95,7 +95,7 @@ static void steps_out_of_order_are_named(void **state) {
     expect_order(&report, "at step \"4\", the counter samples_shown should rise but does not.");
     report.rows[2].viewpoints[0].regions[0].flip = 100.0;
     expect_order(&report, "at step \"2\", FLIP should fall but does not.");
-    report.sweeps[0].setting = DIP_SETTING_OPT; // whose errors rise
+    report.sweeps[0].setting = DIP_SETTING_OPT; // theory says that its errors rise
     expect_order(&report, "at step \"off\", FLIP should rise but does not.");
     report.sweeps[0].setting = DIP_SETTING_MIPDEBUG;
     char text[2 * DIP_COST_TEXT];
@@ -107,7 +107,8 @@ static void steps_out_of_order_are_named(void **state) {
 
 enum { ROUNDS = 40 };
 
-// Frames differ tenfold and drift slows both rows down alike; row 2 takes 1.5 times as long.
+// Frames differ tenfold, and drift slows all rows down alike. Row 2 takes 1.5 times as long as row
+// 0.
 static void ratios_see_past_drift_and_frames(void **state) {
     (void)state;
     DipCostReport report;
@@ -119,7 +120,7 @@ static void ratios_see_past_drift_and_frames(void **state) {
         report.rows[1].ms[i] = base * (1.0 + 0.05 * random_share());
         report.rows[2].ms[i] = 1.5 * base * (1.0 + 0.05 * random_share());
     }
-    report.rows[2].ms[7] *= 20.0; // something else ran
+    report.rows[2].ms[7] *= 20.0; // another program ran
     const DipStatsEstimate ratio = dip_cost_ratio(&report, 2, 0);
     expect_near(ratio.value, 1.5, 0.015);
     assert_true(ratio.low <= 1.5 + 0.01 && ratio.high >= 1.5 - 0.01);
@@ -165,18 +166,18 @@ static void no_other_row_beats_the_pareto_front(void **state) {
     assert_int_equal(front[0], 3);
     assert_int_equal(front[1], 1);
     assert_int_equal(front[2], 0);
-    set_viewpoint(&report, 1, 2.0, 0.101); // row 0 buys less than 1 % over it
+    set_viewpoint(&report, 1, 2.0, 0.101); // row 0 lowers FLIP by less than 1 % below this
     assert_int_equal(dip_cost_pareto_front_thin(&report, front, 3), 2);
     assert_int_equal(front[1], 1);
     report.combined_first = 0;
     assert_int_equal(dip_cost_step_up(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
     assert_int_equal(dip_cost_step_up(&report, 1), -1);
-    report.rounds = 0; // without times there is none
+    report.rounds = 0; // without times there is no front
     assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 0);
     dip_cost_report_free(&report);
 }
 
-// Times that are made of work, with 1 % of noise, tell what the work cost.
+// Times are computed from work with 1 % of noise; the fit finds the prices of the work again.
 static void the_fit_finds_what_work_costs(void **state) {
     (void)state;
     enum { ROWS = 60 };
@@ -275,7 +276,7 @@ static void write_whole(const char *text, size_t size) {
     fclose(out);
 }
 
-// Cut short anywhere, or with a field gone, it is refused with its name.
+// A file that is cut short anywhere, or lacks a field, is refused with the file's name.
 static void broken_json_is_refused(void **state) {
     (void)state;
     static const char *const fields[] = {"\"width\"",   "\"rows\"", "\"sums\"",    "\"all_ms\"",
@@ -307,7 +308,7 @@ static void broken_json_is_refused(void **state) {
     assert_int_equal(err.code, DIP_ERROR_MISSING);
 }
 
-// Rows of CSV have as many fields as the head; the page has its parts and names no other file.
+// Lines of CSV have as many fields as the header. The page has its parts and names no other file.
 static void csv_and_page_are_whole(void **state) {
     (void)state;
     DipCostReport report;

@@ -1,4 +1,4 @@
-// RMSE, PSNR and SSIM on closed forms; flicker's identity.
+// RMSE, PSNR and SSIM against closed forms, and the identity of static error and flicker.
 #include "app/measure/difference.h"
 #include "app/measure/flicker.h"
 #include "app/measure/ssim.h"
@@ -64,10 +64,10 @@ static double psnr(DipPatternCode *a, DipPatternCode *b) {
 static void psnr_of_known_errors(void **state) {
     (void)state;
     base = 50;
-    // 50 codes in every channel; 3 codes in one of three.
+    // First 50 codes in every channel, then 3 codes in one of three channels.
     expect_near("psnr", psnr(fifty, hundred), 20.0 * log10(255.0 / 50.0), 1e-6);
     expect_near("psnr", psnr(fifty, one_channel_more), 10.0 * log10(255.0 * 255.0 / 3.0), 1e-6);
-    // By another program.
+    // Values that another program found.
     expect_near("psnr", psnr(dip_pattern_gradient, dip_pattern_coarse_gradient), 38.1308036, 1e-4);
     expect_near("psnr", psnr(dip_pattern_hash, dip_pattern_other_hash), 7.6738610, 1e-4);
     assert_true(isinf(psnr(dip_pattern_hash, dip_pattern_hash)));
@@ -140,9 +140,9 @@ static void ssim_of_flat_pictures_is_that_of_their_means(void **state) {
     }
 }
 
-// Columns of one and the next: with codes m - d and m + d each window's variance is near 4 d^2
-// times a weight that a flat other picture leaves alone: (2 m^2 + C1) / (2 m^2 + C1) times
-// C2 / (variance + C2).
+// Columns alternate between 90 and 110; the other picture is flat 100. The covariance with a flat
+// picture is 0, so SSIM is (2 m 100 + C1) / (m^2 + 100^2 + C1) times C2 / (variance + C2), with the
+// window's mean m and variance.
 static int stripes(int x, int y, int c) {
     (void)y;
     (void)c;
@@ -157,7 +157,8 @@ static void ssim_of_stripes_and_their_mean(void **state) {
         all += weight;
         odd += i & 1 ? weight : 0.0;
     }
-    // A share s of 10 codes above and the rest below: variance 400 s (1 - s), mean 90 + 20 s.
+    // If a share s of the window's weight is 110 and the rest 90, its mean is 90 + 20 s and its
+    // variance 400 s (1 - s).
     const double c1 = 2.55 * 2.55, c2 = 7.65 * 7.65;
     const double s = odd / all;
     const double variance = 400.0 * s * (1.0 - s);
@@ -221,7 +222,8 @@ static void static_and_flicker_make_the_whole(void **state) {
     }
 }
 
-// Errors that alternate, m + d and m - d: static m, flicker d, steps 2d, two frames' mean m.
+// Errors alternate between m + d and m - d. The static error is m, flicker d, each step 2d, and the
+// mean of two frames m.
 static void alternating_errors(void **state) {
     (void)state;
     const double m = 0.25, d = 0.125;

@@ -1,4 +1,4 @@
-// Quantiles and intervals, on values whose statistics are known.
+// Quantiles, estimates and intervals of values whose statistics are known.
 #include "app/measure/statistics.h"
 
 #include <setjmp.h>
@@ -27,7 +27,8 @@ static void quantiles_lie_between_neighbours(void **state) {
     assert_true(fabs(dip_stats_quantile(hundred, 101, 0.95, scratch) - 95.0) < 1e-9);
 }
 
-// Frames differ a hundredfold, rounds do not: the ratio of the medians, 300 to 100, is certain.
+// Frames differ a hundredfold but rounds do not, so the ratio of the medians, 300 to 100, is
+// certain.
 static void frames_that_differ_are_no_spread(void **state) {
     (void)state;
     static const double by_frame[2][5] = {{600, 300, 200, 900, 30}, {1, 50, 100, 150, 200}};
@@ -41,7 +42,7 @@ static void frames_that_differ_are_no_spread(void **state) {
     assert_true(interval.low == 3.0 && interval.high == 3.0);
 }
 
-// One frame, 20 rounds, ratio of medians 2; b is noisy by +-10 %.
+// One frame in 20 rounds. The ratio of medians is 2, and b is noisy by +-10 %.
 static void rounds_that_differ_are_spread(void **state) {
     (void)state;
     double a[20];
@@ -75,7 +76,7 @@ static void the_median_of_any_order(void **state) {
     }
 }
 
-// Frames of 10 and 20 ms, in one of five rounds 100 ms more: the medians do not see it.
+// Frames take 10 and 20 ms, but 100 ms more in one of five rounds. The medians ignore that round.
 static void a_time_is_the_mean_of_medians(void **state) {
     (void)state;
     double ms[10];
@@ -85,11 +86,11 @@ static void a_time_is_the_mean_of_medians(void **state) {
     assert_true(dip_stats_time(ms, 2, 5) == 15.0);
     const DipStatsEstimate estimate = dip_stats_time_estimate(ms, 2, 5);
     assert_true(estimate.value == 15.0 && estimate.low == 15.0);
-    // Three or more of five drawings take round 3 with probability 0.058: above 2.5 %.
+    // Three or more of five draws take that round with a probability of 5.8 %, more than 2.5 %.
     assert_true(estimate.high == 115.0);
 }
 
-// Both are slow in the same rounds, so the ratio is certain though the times are not.
+// Both are slow in the same rounds, so the ratio is certain although the times are not.
 static void a_paired_ratio_takes_both_from_one_round(void **state) {
     (void)state;
     double a[12], b[12];

@@ -1,4 +1,4 @@
-// Interleaved timing on a fake clock: who runs when, what is timed, and what is kept.
+// Interleaved timing on a fake clock: which subject runs when, what is timed, and what is kept.
 #include "app/measure/statistics.h"
 #include "app/measure/timing.h"
 
@@ -20,8 +20,8 @@ typedef struct Fake {
     DipTimingTurn turns[MAX_TURNS];
     double ms[MAX_TURNS]; // as after_run received them
     int count;
-    int fail_at; // this run fails; -1: none
-    double slow; // factor of the machine's speed in odd rounds
+    int fail_at; // index of the run that fails; -1 for none
+    double slow; // factor by which odd rounds take longer
     int settle_runs;
     int rounds_seen;
     bool known[64];
@@ -44,7 +44,7 @@ static bool fake_run(void *context, const DipTimingTurn *turn, DipError *err) {
     }
     double ms = cost_ms(turn);
     if (turn->phase == DIP_TIMING_SETTLE) {
-        // The first fifteen runs get faster by more than 2 % in five runs, later ones do not.
+        // Each of the first fifteen runs is 5 ms faster than the one before; later ones are equal.
         ms = fake->settle_runs < 15 ? 100.0 - 5.0 * fake->settle_runs : 25.0;
         fake->settle_runs++;
     } else if (turn->round >= 0 && turn->round % 2 == 1) {
@@ -57,7 +57,7 @@ static bool fake_run(void *context, const DipTimingTurn *turn, DipError *err) {
 static bool fake_after(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
     (void)err;
     Fake *fake = context;
-    fake->now_ns += 12345678; // what happens between runs is not timed
+    fake->now_ns += 12345678; // time that passes between runs is not measured
     assert_true(fake->count < MAX_TURNS);
     fake->turns[fake->count] = *turn;
     fake->ms[fake->count++] = ms;
@@ -156,7 +156,7 @@ static void every_round_visits_each_subject_in_an_order_of_the_seed(void **state
         first[orders[0][round * SUBJECTS]]++;
     }
     for (int s = 0; s < SUBJECTS; s++) {
-        assert_in_range(first[s], 2, 16); // 8 of 40 on the average
+        assert_in_range(first[s], 2, 16); // about 8 of 40 are expected
     }
     assert_memory_equal(orders[0], orders[1], sizeof orders[0]);
     assert_memory_not_equal(orders[0], orders[2], sizeof orders[0]);
@@ -186,13 +186,13 @@ static void two_versions_alternate_at_every_frame(void **state) {
         assert_true(a->subject == b->subject && a->frame == b->frame && a->round == b->round);
         first[a->version]++;
     }
-    assert_in_range(first[0], 40, 80); // of 120
+    assert_in_range(first[0], 40, 80); // about 60 of 120 are expected
     const double ratio = dip_stats_paired_ratio(ms + dip_timing_index(&def, 1, 1),
                                                 ms + dip_timing_index(&def, 0, 1), FRAMES, ROUNDS);
     assert_true(fabs(ratio - 2.0) < 1e-9);
 }
 
-// Medians of 90, 65, 40 and 25 ms, then 25 again: it ends with the fifth.
+// The medians of five runs are 90, 65, 40, 25 and 25 ms, so settling ends with the fifth.
 static void settling_ends_when_two_medians_agree(void **state) {
     (void)state;
     static Fake fake;
@@ -268,9 +268,9 @@ static void a_failure_ends_the_measurement(void **state) {
     }
 }
 
-// --- the point of it ---------------------------------------------------------------------------
+// --- ratios ------------------------------------------------------------------------------------
 
-// A machine that is three times slower in every other round: ratios and A/A do not see it.
+// The machine is three times slower in every other round. The ratio is still certain.
 static void ratios_cancel_what_slows_everything(void **state) {
     (void)state;
     static Fake fake;
@@ -286,7 +286,7 @@ static void ratios_cancel_what_slows_everything(void **state) {
         ms + dip_timing_index(&def, 0, 1), ms + dip_timing_index(&def, 0, 0), FRAMES, ROUNDS);
     assert_true(fabs(ratio.low - 2.0) < 1e-9 && fabs(ratio.high - 2.0) < 1e-9);
     const DipStatsEstimate time = dip_stats_time_estimate(ms, FRAMES, ROUNDS);
-    assert_true(time.low < 2.0 && time.high > 4.0); // 1.5 in even rounds, 4.5 in odd ones
+    assert_true(time.low < 2.0 && time.high > 4.0); // 1.5 ms in even rounds, 4.5 ms in odd ones
 }
 
 int main(void) {

@@ -1,4 +1,4 @@
-// Truths: their cache, their floor, and what the meter finds against them.
+// Truths: their cache, their noise floor, and judging pictures by them.
 #include "app/measure/meter.h"
 #include "app/measure/truth.h"
 #include "renderer/reference/reference.h"
@@ -23,7 +23,7 @@ enum { WIDTH = 48, HEIGHT = 40, PIXELS = WIDTH * HEIGHT };
 static DipTestScene scene;
 static DipReference *reference;
 static DipPool *pool;
-static int calls; // of the progress function
+static int calls; // calls of the progress function
 static int last_call = 1000000;
 
 static bool count_call(void *context, double done) {
@@ -83,7 +83,7 @@ static void the_cache_gives_the_same(void **state) {
     assert_true(calls > 0);
     check_same(&made, &without);
     dip_truth_free(&found);
-    empty_folder(true); // what does not fit its own hash is made anew
+    empty_folder(true); // a file that does not match its hash is made anew
     assert_true(get(&found, &def, "."));
     assert_true(calls > 0);
     check_same(&made, &found);
@@ -93,7 +93,7 @@ static void the_cache_gives_the_same(void **state) {
     dip_truth_free(&without);
 }
 
-// Each thing that the picture depends on has a name of its own.
+// Changing anything that the picture depends on changes its key.
 static void other_pictures_have_other_names(void **state) {
     (void)state;
     DipTruthDef defs[6];
@@ -117,8 +117,8 @@ static void other_pictures_have_other_names(void **state) {
     }
 }
 
-// The halves' difference halved is how far the truth is from a much better one.
-static void the_floor_is_how_far_it_is_off(void **state) {
+// Half of the halves' difference is about the truth's distance from a much better truth.
+static void the_floor_estimates_the_truths_own_error(void **state) {
     (void)state;
     const DipTruthDef def = make_def(16);
     const DipTruthDef better_def = make_def(1024);
@@ -152,8 +152,8 @@ static void an_interruption_leaves_nothing(void **state) {
     empty_folder(false);
 }
 
-// A truth held against itself errs by its rounding to codes alone.
-static void the_truth_judges_itself_well(void **state) {
+// A truth that is judged by itself has only the error of its rounding to codes.
+static void the_truth_judged_by_itself_has_no_error(void **state) {
     (void)state;
     const DipTruthDef def = make_def(16);
     DipTruth truth;
@@ -187,11 +187,11 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_cache_gives_the_same),
         cmocka_unit_test(other_pictures_have_other_names),
-        cmocka_unit_test(the_floor_is_how_far_it_is_off),
+        cmocka_unit_test(the_floor_estimates_the_truths_own_error),
         cmocka_unit_test(an_interruption_leaves_nothing),
-        cmocka_unit_test(the_truth_judges_itself_well),
+        cmocka_unit_test(the_truth_judged_by_itself_has_no_error),
     };
-    char folder[] = "/tmp/test_cost_truth.XXXXXX";
+    char folder[] = "/tmp/test_truth.XXXXXX";
     DipError err = {0};
     dip_test_scene_make(&scene, DIP_TEST_SCENE_fence);
     reference = dip_reference_create(&scene.def, &err);

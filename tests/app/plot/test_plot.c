@@ -1,4 +1,4 @@
-// Plots: what must be in the file, wherever it is drawn.
+// Plots: what the file must contain, whatever its layout.
 #include "app/plot/plot.h"
 
 #include <setjmp.h>
@@ -51,13 +51,13 @@ static void names_and_marks_are_there(void **state) {
     assert_int_equal(count_of(">a &lt; b &amp; c<"), 1);
     assert_int_equal(count_of(">pixels<"), 1);
     assert_int_equal(count_of(">ms<"), 1);
-    assert_int_equal(count_of("<circle"), 5 + 2); // points, legend
+    assert_int_equal(count_of("<circle"), 5 + 2); // the points and the legend's marks
     assert_int_equal(count_of("stroke-opacity"), 2);
     assert_int_equal(count_of("</svg>"), 1);
     assert_int_equal(count_of("nan") + count_of("inf"), 0);
 }
 
-// Marks without a line, in the legend either; each with its label.
+// A series of marks alone has no line, not in the legend either; each mark has its label.
 static void marks_alone_have_labels(void **state) {
     (void)state;
     const double x[] = {1, 2, 4};
@@ -72,7 +72,7 @@ static void marks_alone_have_labels(void **state) {
     assert_int_equal(count_of(">p<") + count_of(">&lt;q&gt;<") + count_of(">r<"), 3);
 }
 
-// Equal factors are equal distances on logarithmic axes: three points on one line.
+// On logarithmic axes equal factors are equal distances, so these three points lie on one line.
 static void powers_lie_on_a_line(void **state) {
     (void)state;
     const double x[] = {10, 100, 1000};
@@ -85,10 +85,10 @@ static void powers_lie_on_a_line(void **state) {
     assert_int_equal(sscanf(points, "points=\"%lf,%lf %lf,%lf %lf,%lf\"", &at[0], &at[1], &at[2],
                             &at[3], &at[4], &at[5]),
                      6);
-    assert_true(at[0] < at[2] && at[1] > at[3]); // up is less
+    assert_true(at[0] < at[2] && at[1] > at[3]); // y grows downwards
     for (int axis = 0; axis < 2; axis++) {
         const double bend = at[axis] + at[4 + axis] - 2.0 * at[2 + axis];
-        assert_true(bend > -0.21 && bend < 0.21); // a tenth of a pixel each
+        assert_true(bend > -0.21 && bend < 0.21); // coordinates are rounded to a tenth of a pixel
     }
 }
 
