@@ -89,7 +89,7 @@ static bool choose_view(DipBenchContext *bench, int index, const DipSession *ses
     return make_grid_view(view, bench->plan, session, err);
 }
 
-// --- the bench -----------------------------------------------------------------------------------
+// --- the context -------------------------------------------------------------------------------
 
 static DipPool *pool_of(DipBenchContext *bench, int threads_index, DipError *err) {
     if (!bench->pools[threads_index]) {

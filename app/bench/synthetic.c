@@ -230,8 +230,7 @@ DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov
     if (!s) {
         return NULL;
     }
-    // The relief is 5 % smaller than the picture, since crests are nearer and the camera sways by 1
-    // %.
+    // 5 % smaller than the picture, since crests are nearer and the camera sways by 1 %.
     const double half_height = 0.95 * RELIEF_DISTANCE_M * dip_tan(fov_y_deg * (DIP_PI / 360.0));
     set_relief(s, columns, rows, half_height * aspect, half_height);
     s->material.lit = true;

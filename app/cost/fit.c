@@ -1,5 +1,5 @@
-// Solves the normal equations by elimination. While a price is negative, the most negative one is
-// dropped and the rest is solved again.
+// Solving the normal equations by elimination. While a price is negative, the most negative one is
+// dropped and the others are solved again.
 #include "app/cost/fit.h"
 
 #include <math.h>

@@ -15,8 +15,8 @@ typedef struct Cropper {
     DipFlipAnalysis truth_side;
     DipFlipAnalysis side;
     float *maps;       // [step][pixel]
-    uint8_t *pictures; // likewise, rgba8
-    uint8_t *colours;  // a map's crop
+    uint8_t *pictures; // [step][pixel], rgba8
+    uint8_t *colours;  // crop of a map in colours, rgba8
     DipProgress progress;
     int64_t done;
 } Cropper;

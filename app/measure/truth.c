@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HALVES = 2, TILES_AT_ONCE = 128 }; // progress is told after each batch of tiles
+enum { HALVES = 2, TILES_AT_ONCE = 128 }; // progress is reported after each batch of tiles
 
 static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "truth", "out of memory");
@@ -50,7 +50,7 @@ typedef struct Half {
     const DipTruthDef *def;
     const DipConvergence *convergence;
     double *rgb_lin;
-    uint8_t *classes; // what pixels show, told by the first half; NULL for the second
+    uint8_t *classes; // what pixels show, filled by the first half; NULL for the second
     uint32_t seed;
     int first_tile; // tiles of the current batch begin here
     atomic_bool failed;
@@ -186,7 +186,7 @@ bool dip_truth_default_folder(char *folder, size_t size_bytes) {
 }
 
 // A file holds the truth's arrays one after the other, as they lie in memory, and then 32 digits of
-// their hash. Byte order and layout are those of the machine, so a cache belongs to one kind.
+// their hash. Byte order and layout are those of the machine that wrote it.
 static size_t file_size(const DipTruth *truth) {
     const size_t pixels = (size_t)truth->width * (size_t)truth->height;
     return pixels * (3 * sizeof(float) + 4 + 1) + sizeof(DipMetricSums) + 32;
