@@ -267,7 +267,7 @@ cost="$diptych cost --size 48x32 --places 2 --samples 4 --timed 1 --cache truths
 expect 0 '' $cost --out whole --rounds 3 --combine aa --budget-ms 0.01,1000
 check "the report is there" test -s whole/cost.html -a -s whole/cost.csv -a -s whole/cost.json
 check "its state is not" test ! -e whole/cost.state
-check "nothing is as fast as the least budget" grep -q '0.01 ms: nothing measured' out.txt
+check "nothing is as fast as the least budget" grep -q '0.01 ms: no measured combination' out.txt
 check "everything is as fast as the greatest" grep -qE '1000 ms: .*aa=' out.txt
 check "the page's pictures are in it" grep -q 'data:image/png;base64' whole/cost.html
 # The rest on a scene that is quickly there.
