@@ -37,19 +37,21 @@ static void write_row_text(const DipCostReport *report, int row, FILE *out) {
 // --- head --------------------------------------------------------------------------------------
 
 static void write_facts(const DipCostReport *report, FILE *out) {
+    const DipCostOptions *o = &report->options;
     char baseline[DIP_COST_TEXT];
     dip_cost_settings_text(&report->options.baseline, baseline);
     fprintf(out, "<h1>What accuracy costs: ");
     dip_markup_text(out, report->scene);
     fprintf(out, "</h1>\n<p>%d&times;%d pixels, on ", report->width, report->height);
     dip_markup_text(out, report->processor);
-    fprintf(out,
-            ", %d thread%s, %s. Times were taken of %d frames of each path, in %d rounds of random "
-            "order. Errors were taken at %d viewpoints on each path, %d successive frames at each, "
-            "against a truth of 2&times;%d samples per pixel. The baseline is: %s.",
-            report->threads, report->threads == 1 ? "" : "s", report->isa,
-            report->options.timed_frames, report->rounds, report->options.places,
-            report->options.burst, report->options.samples, baseline);
+    fprintf(
+        out,
+        ", %d thread%s, %s. Times were taken of %d frame%s of each path, in %d rounds of random "
+        "order. Errors were taken at %d viewpoint%s on each path, %d successive frame%s at "
+        "each, against a truth of 2&times;%d samples per pixel. Settings of the baseline: %s.",
+        report->threads, dip_cost_plural(report->threads), report->isa, o->timed_frames,
+        dip_cost_plural(o->timed_frames), report->rounds, o->places, dip_cost_plural(o->places),
+        o->burst, dip_cost_plural(o->burst), o->samples, baseline);
     if (dip_cost_is_timed(report, report->same_row)) {
         const DipStatsEstimate same = dip_cost_ratio(report, report->same_row, 0);
         fprintf(

@@ -96,6 +96,11 @@ void dip_cost_report_free(DipCostReport *report);
 // Writes the settings that differ from the defaults, "aa=4,af=16", or "defaults".
 void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]);
 
+// The plural ending of a noun after a number: "" or "s".
+static inline const char *dip_cost_plural(int count) {
+    return count == 1 ? "" : "s";
+}
+
 // Writes the name of a row's step in its sweep: "4", "high-quality"; for adaptive AA "off" or
 // "on, asd=2".
 void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,

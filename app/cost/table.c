@@ -8,17 +8,18 @@
 #include <stdlib.h>
 
 static void print_heading(const DipCostReport *report, FILE *out) {
+    const DipCostOptions *o = &report->options;
     char baseline[DIP_COST_TEXT];
     dip_cost_settings_text(&report->options.baseline, baseline);
     fprintf(out, "scene    %s, %dx%d pixels\n", report->scene, report->width, report->height);
     fprintf(out, "machine  %s, %d thread%s, %s\n", report->processor, report->threads,
-            report->threads == 1 ? "" : "s", report->isa);
-    fprintf(out, "times    %d frames of each path in %d rounds; ratios are to the baseline\n",
-            report->options.timed_frames, report->rounds);
+            dip_cost_plural(report->threads), report->isa);
+    fprintf(out, "times    %d frame%s of each path in %d rounds; ratios are to the baseline\n",
+            o->timed_frames, dip_cost_plural(o->timed_frames), report->rounds);
     fprintf(out,
-            "errors   %d viewpoints on each path, %d frames at each, against a truth of 2 x %d "
+            "errors   %d viewpoint%s on each path, %d frame%s at each, against a truth of 2 x %d "
             "samples per pixel\n",
-            report->options.places, report->options.burst, report->options.samples);
+            o->places, dip_cost_plural(o->places), o->burst, dip_cost_plural(o->burst), o->samples);
     fprintf(out, "baseline %s\n", baseline);
 }
 
