@@ -8,13 +8,16 @@
 #include "renderer/base/clock.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_BAD_INPUT = 2 };
 
-static int fail(const DipError *err, int code) {
+static int exit_code_of(const DipError *err) {
+    return err->origin == DIP_ORIGIN_INPUT ? EXIT_BAD_INPUT : EXIT_FAILED;
+}
+
+static int fail(const DipError *err) {
     dip_log_error(err);
-    return code;
+    return exit_code_of(err);
 }
 
 static void say_times(const DipStartTimes *times, double shutdown_ms) {
@@ -43,33 +46,12 @@ static int run_with_session(const DipOptions *options,
     if (options->timing) {
         say_times(&times, dip_start_times_since_ms(ended_ns));
     }
-    const bool bad_report = options->cost_report && strcmp(err.file, options->cost_report) == 0;
-    return done ? EXIT_DONE : fail(&err, bad_report ? EXIT_BAD_INPUT : EXIT_FAILED);
+    return done ? EXIT_DONE : fail(&err);
 }
 
-// The path commands' own files are their input; only what they write can fail while running.
-static int run_on_path(const DipOptions *options, bool (*command)(const DipOptions *, DipError *)) {
+static int run_alone(const DipOptions *options, bool (*command)(const DipOptions *, DipError *)) {
     DipError err = {0};
-    if (command(options, &err)) {
-        return EXIT_DONE;
-    }
-    const bool output = options->operand_count > 1 && err.code == DIP_ERROR_IO &&
-                        strcmp(err.file, options->operands[1]) == 0;
-    return fail(&err, output ? EXIT_FAILED : EXIT_BAD_INPUT);
-}
-
-// The parts are input; only what is written to --out can fail while running.
-static int run_merge(const DipOptions *options) {
-    DipError err = {0};
-    if (dip_cost_merge_run(options, &err)) {
-        return EXIT_DONE;
-    }
-    for (int i = 0; i < options->cost.part_count; i++) {
-        if (strcmp(err.file, options->cost.parts[i]) == 0) {
-            return fail(&err, EXIT_BAD_INPUT);
-        }
-    }
-    return fail(&err, EXIT_FAILED);
+    return command(options, &err) ? EXIT_DONE : fail(&err);
 }
 
 static int run(const DipOptions *options) {
@@ -83,11 +65,11 @@ static int run(const DipOptions *options) {
     case DIP_COMMAND_COST_ASSETS:
         return run_with_session(options, dip_cost_assets_run);
     case DIP_COMMAND_COST_MERGE:
-        return run_merge(options);
+        return run_alone(options, dip_cost_merge_run);
     case DIP_COMMAND_PATH_INFO:
-        return run_on_path(options, dip_path_info_run);
+        return run_alone(options, dip_path_info_run);
     case DIP_COMMAND_PATH_CONVERT:
-        return run_on_path(options, dip_path_convert_run);
+        return run_alone(options, dip_path_convert_run);
     default:
         return run_with_session(options, dip_preview_run);
     }
@@ -97,7 +79,7 @@ int main(int argc, char **argv) {
     DipOptions options;
     DipError err = {0};
     if (!dip_options_parse(argc, argv, &options, &err)) {
-        return fail(&err, EXIT_BAD_INPUT);
+        return fail(&err);
     }
     if (options.help) {
         dip_options_print_help(&options, argc > 2, stdout);
@@ -108,7 +90,7 @@ int main(int argc, char **argv) {
         return EXIT_DONE;
     }
     if (options.log && !dip_log_open(options.log, &err)) {
-        return fail(&err, EXIT_BAD_INPUT);
+        return fail(&err);
     }
     const int code = run(&options);
     dip_log_close();

@@ -311,8 +311,8 @@ bool dip_cost_assets_run(DipSession *session, const DipOptions *options, DipErro
         snprintf(model_folder, sizeof model_folder, "%.*s", (int)(slash - model), model);
     }
     if (!mkdtemp(folder)) {
-        return dip_error_set(err, DIP_ERROR_IO, folder, 0, NULL, "cannot be made: %s",
-                             strerror(errno));
+        return dip_error_set_runtime(err, DIP_ERROR_IO, folder, 0, NULL, "cannot be made: %s",
+                                     strerror(errno));
     }
     measure_meshes(model, folder, session->pool);
     measure_pictures(session, model_folder);

@@ -18,7 +18,8 @@ static bool write_file(const DipCostReport *report, const char *folder, const ch
     char file[PATH_MAX];
     const int length = snprintf(file, sizeof file, "%s/%s", folder, name);
     if (length < 0 || (size_t)length >= sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
+                                     "the name is too long");
     }
     return write(report, file, err);
 }
@@ -27,7 +28,8 @@ static bool write_page(DipCostContext *cost, const char *folder, DipError *err) 
     char file[PATH_MAX];
     DipCostPictures pictures;
     if (snprintf(file, sizeof file, "%s/cost.html", folder) >= (int)sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
+                                     "the name is too long");
     }
     if (!dip_cost_pictures_make(&pictures, cost, err)) {
         return false;

@@ -89,7 +89,8 @@ bool dip_cost_merge_run(const DipOptions *options, DipError *err) {
                report.options.places);
     }
     if (done && strlen(folder) + 16 > sizeof file) {
-        done = dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+        done = dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
+                                     "the name is too long");
     }
     if (done) {
         snprintf(file, sizeof file, "%.*s/cost.json", PATH_MAX - 16, folder);

@@ -20,7 +20,8 @@ static bool write_picture(const char *folder, int index, int pane, const DipFram
     const int length =
         snprintf(file, sizeof file, "%s/%s_%04d.png", folder, dip_pane_names[pane], index);
     if (length < 0 || (size_t)length >= sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
+                                     "the name is too long");
     }
     return dip_png_write(file, frame, err);
 }
