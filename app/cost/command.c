@@ -91,7 +91,7 @@ const DipCommand dip_cost_merge_command = {
 
 const DipCommand dip_cost_assets_command = {
     .name = "cost assets",
-    .summary = "print how large the assets are in several formats, and their load times",
+    .summary = "print the size and load time of the assets in several formats",
     .usage = "[OPTION]...",
     .text = "Cost assets writes the scene's meshes, pictures and camera paths in several formats "
             "to a temporary folder and prints how large each one is, how large it is when zipped, "
