@@ -16,8 +16,8 @@ static int fail(const DipError *err) {
     return err->origin == DIP_ORIGIN_INPUT ? EXIT_BAD_INPUT : EXIT_FAILED;
 }
 
-// Prints every fault of opening a session. One fault in the input is enough for EXIT_BAD_INPUT.
-static int fail_to_open(const DipErrorList *faults) {
+// The exit code of a session that did not open. One fault in the input makes it EXIT_BAD_INPUT.
+static int exit_code_of(const DipErrorList *faults) {
     int code = EXIT_FAILED;
     for (size_t i = 0; i < faults->count; i++) {
         const DipError *fault = &faults->items[i];
@@ -42,7 +42,7 @@ static int run_with_session(const DipCommandLine *line, const DipSessionDef *def
     DipError err = {0};
     const bool opened = dip_session_open(&session, def, &faults);
     dip_log_errors(&faults);
-    const int open_code = opened ? EXIT_DONE : fail_to_open(&faults);
+    const int open_code = opened ? EXIT_DONE : exit_code_of(&faults);
     dip_error_list_free(&faults);
     if (!opened) {
         return open_code;

@@ -58,10 +58,7 @@ static bool use_log(const DipSession *session, const char *given, DipErrorList *
     if (given || !log->path || dip_log_open(log->path, &err)) {
         return true;
     }
-    DipError placed;
-    dip_config_file_fault(&session->config, log, err.code, &placed, "%s: %s", err.file,
-                          err.message);
-    return dip_session_add_fault(faults, &placed);
+    return dip_session_place_fault(session, log, faults, &err);
 }
 
 static bool check_isa(const DipSession *session, DipErrorList *faults) {

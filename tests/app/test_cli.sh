@@ -188,7 +188,8 @@ check "no file is called -" test ! -e ./-
 full() { "$@" >/dev/full; }
 if [ -c /dev/full ]; then
     for arguments in --help --version "dump --help" "dump $small --hash" "dump $small --json -" \
-        "path info $source/campaths/aa.pth" "bench --frames 1 --rounds 1 --size 8x8 --sets aa=none"; do
+        "path info $source/campaths/aa.pth" "bench --frames 1 --rounds 1 --size 8x8 --sets aa=none" \
+        "cost assets --model $source/tests/assets/data/square.gltf"; do
         expect 1 'standard output cannot be written' full "$diptych" $arguments
     done
 fi
