@@ -52,10 +52,9 @@ static bool unknown_setting(const char *name, DipError *err) {
         snprintf(known + length, sizeof known - length, "%s%s", s ? " " : "", keys[s]);
     }
     const char *likely = dip_nearest_likely(name, keys, DIP_SETTING_COUNT);
-    return likely ? dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, name,
-                                  "no setting of this name; did you mean %s?", likely)
-                  : dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, name,
-                                  "no setting of this name; the settings are %s", known);
+    return dip_error_set(
+        err, DIP_ERROR_UNKNOWN, NULL, 0, name, "no setting of this name%s%s%s, accepted %s",
+        likely ? " (did you mean " : "", likely ? likely : "", likely ? "?)" : "", known);
 }
 
 // Applies one "key=step".
