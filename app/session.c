@@ -233,6 +233,7 @@ void dip_session_close(DipSession *session) {
 
 // --- drawing -------------------------------------------------------------------------------------
 
+// A copy shares the pixels and has no work and no times of its own.
 static DipFrame copy_of(const DipFrame *frame) {
     DipFrame copy = *frame;
     copy.counters = (DipCounters){0};

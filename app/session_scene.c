@@ -32,6 +32,7 @@ static DipSkyDef sky_of(const DipConfig *config) {
     return sky;
 }
 
+// True if some object has the material of a sky.
 static bool has_sky(const DipSceneDef *def) {
     bool found = false;
     for (int i = 0; i < def->object_count; i++) {

@@ -59,7 +59,7 @@ static bool serve(const DipBenchPlan *plan, const DipSession *session, DipError 
     return done;
 }
 
-// Both programs run apart from this one, so that neither has an advantage.
+// Runs both programs as processes of their own, so that neither has an advantage.
 static bool measure_both(const DipBenchPlan *plan, const DipSession *session,
                          const DipBenchArguments *arguments, DipError *err) {
     const char *const programs[2] = {"/proc/self/exe", arguments->bench.vs};
@@ -105,8 +105,8 @@ static bool run(DipSession *session, const void *all_arguments, DipError *err) {
     return done;
 }
 
-// The bench makes renderers of its own. It loads the scene only if it draws the scene itself:
-// neither for a grid nor for --vs, where the programs that it starts load theirs.
+// Asks for no renderers, since the bench makes its own, and for the scene only if this process
+// draws it. A grid needs none, and with --vs the programs that the bench starts load theirs.
 static void describe_session(const void *all_arguments, DipSessionDef *def) {
     const DipBenchArguments *arguments = all_arguments;
     const DipBenchOptions *bench = &arguments->bench;

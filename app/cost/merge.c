@@ -42,8 +42,8 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
     }
 }
 
-// Reads the parts into one. Times, advice and the machine's name are those of the first part that
-// has times, since times of several machines do not mix.
+// Reads all parts and joins them in one report. It gets its times, its advice and the machine's
+// name from the first part that has times, since times of several machines cannot be mixed.
 static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *report,
                        DipError *err) {
     if (!dip_cost_read_json(report, arguments->parts[0], err)) {
