@@ -1,4 +1,4 @@
-// The signal's flag.
+// Catching the signals.
 #include "app/interrupt.h"
 
 #include <signal.h>

@@ -1,11 +1,14 @@
-// Ctrl-C that lets a command finish what it has in hand.
+// Ctrl-C: lets a command finish the frame or measurement that it has begun.
 #ifndef DIP_APP_INTERRUPT_H
 #define DIP_APP_INTERRUPT_H
 
 #include <stdbool.h>
 
-// From now on the first Ctrl-C (or request to end) only sets a flag; the second ends the program.
+// From now on, the first SIGINT (Ctrl-C) or SIGTERM only sets a flag. The second one ends the
+// program at once.
 void dip_interrupt_watch(void);
+
+// True once the first signal has come.
 bool dip_interrupted(void);
 
 #endif

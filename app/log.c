@@ -1,4 +1,4 @@
-// Printing errors.
+// Formatting errors and writing them to both places.
 #include "app/log.h"
 
 #include <errno.h>
@@ -21,7 +21,7 @@ void dip_log_close(void) {
     }
 }
 
-static void say(const char *text) {
+static void print_line(const char *text) {
     fprintf(stderr, "diptych: %s\n", text);
     if (log_file) {
         fprintf(log_file, "%s\n", text);
@@ -32,7 +32,7 @@ static void say(const char *text) {
 void dip_log_error(const DipError *err) {
     char text[1024];
     dip_error_format(err, text, sizeof text);
-    say(text);
+    print_line(text);
 }
 
 void dip_log_note(const char *format, ...) {
@@ -41,7 +41,7 @@ void dip_log_note(const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    say(text);
+    print_line(text);
 }
 
 void dip_log_errors(const DipErrorList *list) {

@@ -1,4 +1,4 @@
-// Where warnings and errors go: standard error, and a file on request.
+// Prints warnings and errors on standard error and, on request, to a log file.
 #ifndef DIP_APP_LOG_H
 #define DIP_APP_LOG_H
 
@@ -6,15 +6,15 @@
 
 #include <stdbool.h>
 
-// Also appends to a file from now on. Fails with IO.
+// Appends every further line to this file, too. Fails with IO.
 bool dip_log_open(const char *file, DipError *err);
 void dip_log_close(void);
 
-// One line "diptych: file:line: [key] message".
+// Prints one line "diptych: file:line: [key] message" for each error.
 void dip_log_error(const DipError *err);
 void dip_log_errors(const DipErrorList *list);
 
-// One line "diptych: ..." that is no fault.
+// Prints one line "diptych: ..." that is a note rather than an error.
 void dip_log_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 #endif

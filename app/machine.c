@@ -1,4 +1,4 @@
-// Reading /proc and the resource usage.
+// Reading /proc/cpuinfo and the resource usage of the process.
 #include "app/machine.h"
 
 #include <stdio.h>

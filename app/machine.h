@@ -1,16 +1,17 @@
-// What a measurement says of the machine.
+// Properties of the machine that a measurement reports.
 #ifndef DIP_APP_MACHINE_H
 #define DIP_APP_MACHINE_H
 
 #include <stddef.h>
 
-// The processor's name as Linux has it, or "unknown processor".
+// Copies the name of the processor, as Linux gives it, or "unknown processor".
 void dip_machine_processor(char *name, size_t size_bytes);
 
-// Processors that are online, at least 1.
+// Returns the number of processors that are online, at least 1.
 int dip_machine_processor_count(void);
 
-// The most memory of this process that was resident at a time so far.
+// Returns the greatest amount of memory that this process has had resident so far, or 0 if it is
+// not known.
 size_t dip_machine_peak_rss_bytes(void);
 
 #endif

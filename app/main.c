@@ -1,116 +1,101 @@
-// The program: reads the command line, runs a command, says what went wrong.
-#include "app/commands.h"
+// The program: reads the command line, runs the command, prints what went wrong.
+#include "app/command_line.h"
+#include "app/command_list.h"
+#include "app/help.h"
 #include "app/log.h"
 #include "app/machine.h"
-#include "app/options.h"
-#include "app/preview/preview.h"
-#include "app/session.h"
+#include "app/output.h"
 #include "renderer/base/clock.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_BAD_INPUT = 2 };
 
-static int fail(const DipError *err, int code) {
+static int fail(const DipError *err) {
     dip_log_error(err);
+    return err->origin == DIP_ORIGIN_INPUT ? EXIT_BAD_INPUT : EXIT_FAILED;
+}
+
+// The exit code of a session that did not open. One fault in the input makes it EXIT_BAD_INPUT.
+static int exit_code_of(const DipErrorList *faults) {
+    int code = EXIT_FAILED;
+    for (size_t i = 0; i < faults->count; i++) {
+        const DipError *fault = &faults->items[i];
+        if (fault->severity == DIP_SEVERITY_ERROR && fault->origin == DIP_ORIGIN_INPUT) {
+            code = EXIT_BAD_INPUT;
+        }
+    }
     return code;
 }
 
-static void say_times(const DipStartTimes *times, double shutdown_ms) {
+static void print_times(const DipStartTimes *times, double shutdown_ms) {
     char start[320];
     dip_start_times_format(times, start, sizeof start);
     dip_log_note("%s; shutdown %.1f ms; peak %.1f MiB resident", start, shutdown_ms,
                  (double)dip_machine_peak_rss_bytes() / (1 << 20));
 }
 
-// Opens what the command draws with, runs it and closes it.
-static int run_with_session(const DipOptions *options,
-                            bool (*command)(DipSession *, const DipOptions *, DipError *)) {
+// Opens the session that the command describes, runs the command and closes the session.
+static int run_with_session(const DipCommandLine *line, const DipSessionDef *def) {
     DipSession session;
     DipErrorList faults = {0};
     DipError err = {0};
-    const bool opened = dip_session_open(&session, options, &faults);
+    const bool opened = dip_session_open(&session, def, &faults);
     dip_log_errors(&faults);
+    const int open_code = opened ? EXIT_DONE : exit_code_of(&faults);
     dip_error_list_free(&faults);
     if (!opened) {
-        return EXIT_BAD_INPUT;
+        return open_code;
     }
-    const bool done = command(&session, options, &err);
+    const bool done = line->command->run(&session, line->options, &err);
     const DipStartTimes times = session.times;
     const int64_t ended_ns = times.ended_ns ? times.ended_ns : dip_clock_ns();
     dip_session_close(&session);
-    if (options->timing) {
-        say_times(&times, dip_start_times_since_ms(ended_ns));
+    if (def->options->timing) {
+        print_times(&times, dip_start_times_since_ms(ended_ns));
     }
-    const bool bad_report = options->cost_report && strcmp(err.file, options->cost_report) == 0;
-    return done ? EXIT_DONE : fail(&err, bad_report ? EXIT_BAD_INPUT : EXIT_FAILED);
+    return done ? EXIT_DONE : fail(&err);
 }
 
-// The path commands' own files are their input; only what they write can fail while running.
-static int run_on_path(const DipOptions *options, bool (*command)(const DipOptions *, DipError *)) {
+static int run_command(const DipCommandLine *line, int64_t begin_ns) {
+    const DipProgramOptions *program = line->options;
+    const DipCommand *command = line->command;
+    if (command->describe_session) {
+        DipSessionDef def = {.log = program->log, .begin_ns = begin_ns};
+        command->describe_session(line->options, &def);
+        return run_with_session(line, &def);
+    }
     DipError err = {0};
-    if (command(options, &err)) {
+    return command->run(NULL, line->options, &err) ? EXIT_DONE : fail(&err);
+}
+
+static int run(const DipCommandLine *line, int64_t begin_ns) {
+    const DipProgramOptions *program = line->options;
+    DipError err = {0};
+    if (program->help) {
+        dip_help_print(&dip_command_list, line, stdout);
         return EXIT_DONE;
     }
-    const bool output = options->operand_count > 1 && err.code == DIP_ERROR_IO &&
-                        strcmp(err.file, options->operands[1]) == 0;
-    return fail(&err, output ? EXIT_FAILED : EXIT_BAD_INPUT);
-}
-
-// The parts are input; only what is written to --out can fail while running.
-static int run_merge(const DipOptions *options) {
-    DipError err = {0};
-    if (dip_cost_merge_run(options, &err)) {
-        return EXIT_DONE;
-    }
-    for (int i = 0; i < options->cost.part_count; i++) {
-        if (strcmp(err.file, options->cost.parts[i]) == 0) {
-            return fail(&err, EXIT_BAD_INPUT);
-        }
-    }
-    return fail(&err, EXIT_FAILED);
-}
-
-static int run(const DipOptions *options) {
-    switch (options->command) {
-    case DIP_COMMAND_DUMP:
-        return run_with_session(options, dip_dump_run);
-    case DIP_COMMAND_BENCH:
-        return run_with_session(options, dip_bench_run);
-    case DIP_COMMAND_COST:
-        return run_with_session(options, dip_cost_run);
-    case DIP_COMMAND_COST_ASSETS:
-        return run_with_session(options, dip_cost_assets_run);
-    case DIP_COMMAND_COST_MERGE:
-        return run_merge(options);
-    case DIP_COMMAND_PATH_INFO:
-        return run_on_path(options, dip_path_info_run);
-    case DIP_COMMAND_PATH_CONVERT:
-        return run_on_path(options, dip_path_convert_run);
-    default:
-        return run_with_session(options, dip_preview_run);
-    }
-}
-
-int main(int argc, char **argv) {
-    DipOptions options;
-    DipError err = {0};
-    if (!dip_options_parse(argc, argv, &options, &err)) {
-        return fail(&err, EXIT_BAD_INPUT);
-    }
-    if (options.help) {
-        dip_options_print_help(&options, argc > 2, stdout);
-        return EXIT_DONE;
-    }
-    if (options.version) {
+    if (program->version) {
         printf("diptych %s\n", DIP_VERSION);
         return EXIT_DONE;
     }
-    if (options.log && !dip_log_open(options.log, &err)) {
-        return fail(&err, EXIT_BAD_INPUT);
+    if (program->log && !dip_log_open(program->log, &err)) {
+        return fail(&err);
     }
-    const int code = run(&options);
+    return run_command(line, begin_ns);
+}
+
+int main(int argc, char **argv) {
+    const int64_t begin_ns = dip_clock_ns();
+    DipCommandLine line;
+    DipError err = {0};
+    const bool parsed = dip_command_line_parse(&dip_command_list, argc, argv, &line, &err);
+    int code = parsed ? run(&line, begin_ns) : fail(&err);
+    dip_command_line_free(&line);
+    if (code == EXIT_DONE && !dip_output_finish(&err)) {
+        code = fail(&err);
+    }
     dip_log_close();
     return code;
 }

@@ -1,12 +1,13 @@
-// Loading the pictures that stand for mip levels.
+// Reading the pictures of mip levels.
 #include "app/mip_pictures.h"
 
+#include "app/session_private.h"
 #include "assets/picture.h"
 
 typedef struct MipPictures {
     DipPicture pictures[DIP_MIP_LEVEL_COUNT];
     DipTextureDef defs[DIP_MIP_LEVEL_COUNT];
-    const DipTextureDef *given[DIP_MIP_LEVEL_COUNT]; // NULL: keeps its colour
+    const DipTextureDef *given[DIP_MIP_LEVEL_COUNT]; // NULL: this level keeps its colour.
     bool any;
 } MipPictures;
 
@@ -19,11 +20,7 @@ static bool read_pictures(const DipSession *session, MipPictures *all, DipErrorL
             continue;
         }
         if (!dip_picture_read_file(file->path, &all->pictures[level], &err)) {
-            DipError placed;
-            dip_config_file_fault(&session->config, file, err.code, &placed, "%s: %s", err.file,
-                                  err.message);
-            dip_error_list_add(faults, &placed);
-            read = false;
+            read = dip_session_place_fault(session, file, faults, &err);
             continue;
         }
         all->defs[level] = (DipTextureDef){.name = file->path,
@@ -43,8 +40,7 @@ bool dip_mip_pictures_load(DipSession *session, DipErrorList *faults) {
     for (int p = 0; loaded && all.any && p < DIP_PANE_COUNT; p++) {
         DipError err;
         if (!dip_renderer_set_mip_pictures(session->renderers[p], all.given, &err)) {
-            dip_error_list_add(faults, &err);
-            loaded = false;
+            loaded = dip_session_add_fault(faults, &err);
         }
     }
     for (int level = 0; level < DIP_MIP_LEVEL_COUNT; level++) {

@@ -1,10 +1,11 @@
-// The ini's MIPDEBUG* pictures, given to both renderers.
+// The pictures that the ini's keys MIPDEBUGBASE1024, MIPDEBUG512, ... show as mip levels.
 #ifndef DIP_APP_MIP_PICTURES_H
 #define DIP_APP_MIP_PICTURES_H
 
 #include "app/session.h"
 
-// Does nothing when the ini names none. Faults are placed in the ini.
+// Reads the pictures that the ini names and gives them to the renderers of both panes. Does nothing
+// if it names none. Faults carry the line of the ini.
 bool dip_mip_pictures_load(DipSession *session, DipErrorList *faults);
 
 #endif

@@ -1,4 +1,4 @@
-// Progress by rate so far.
+// Counting, and estimating the time left from the rate so far.
 #include "app/progress.h"
 
 #include "renderer/base/clock.h"

@@ -1,4 +1,4 @@
-// How far a long command is, on standard error.
+// Shows on standard error how far a long command is.
 #ifndef DIP_APP_PROGRESS_H
 #define DIP_APP_PROGRESS_H
 
@@ -6,20 +6,20 @@
 #include <stdint.h>
 
 typedef struct DipProgress {
-    const char *things; // borrowed: "frames"
+    const char *things; // What is counted: "frames". Borrowed.
     int64_t total;
     int64_t begin_ns;
-    int64_t shown_ns; // when it was shown last
-    bool terminal;
+    int64_t shown_ns; // When the progress was last shown.
+    bool terminal;    // Standard error is a terminal.
 } DipProgress;
 
 DipProgress dip_progress_begin(const char *things, int64_t total);
 
-// "7 of 12 frames, 3 s left". On a terminal one line that is written over, ten times a second;
-// elsewhere a line every ten seconds, so that a short command prints none.
+// Shows "7 of 12 frames, 3 s left". On a terminal this is one line, which is overwritten up to ten
+// times a second. Elsewhere it is a line every ten seconds, so that a short command prints none.
 void dip_progress_show(DipProgress *progress, int64_t done);
 
-// Shows the last state and ends the terminal's line.
+// Shows the last state and ends the line. Prints nothing if standard error is not a terminal.
 void dip_progress_end(DipProgress *progress, int64_t done);
 
 #endif

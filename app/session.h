@@ -2,7 +2,7 @@
 #ifndef DIP_APP_SESSION_H
 #define DIP_APP_SESSION_H
 
-#include "app/options.h"
+#include "app/session_options.h"
 #include "app/start_times.h"
 #include "assets/model.h"
 #include "campaths/camtrack.h"
@@ -13,51 +13,66 @@ enum { DIP_PANE_CURRENT, DIP_PANE_REQUESTED, DIP_PANE_COUNT };
 
 extern const char *const dip_pane_names[DIP_PANE_COUNT]; // "current", "requested"
 
+// What a session loads. The ini and the pool of threads are always there.
+typedef struct DipSessionDef {
+    const DipSessionOptions *options; // Borrowed until the session is closed.
+    const char *log;  // File that --log has opened; it replaces the ini's. NULL: there is none.
+    bool scene;       // Load the models and the camera paths.
+    bool renderers;   // Make a renderer for each pane. This needs the scene.
+    bool keep_model;  // Keep what the models hold, which the reference renderer reads.
+    int64_t begin_ns; // When the program started, by dip_clock_ns.
+} DipSessionDef;
+
 typedef struct DipSession {
+    const DipSessionOptions *options; // Borrowed from the def.
     DipConfig config;
-    bool has_config;
     DipPool *pool;
     DipIsa isa;
+    DipConfigSize pane_size; // Pixels, by --size or by the ini.
     DipScene *scene;
-    DipReflectionDef reflection; // the ini's, at the level of the user's own model if there is one
+    DipReflectionDef
+        reflection; // The ini's. The water level is the model's, unless the ini gives it.
     bool force_all_effects;
-    DipModel *model;       // kept for commands that need the reference, else NULL
-    DipSceneDef scene_def; // of it, with the ini's surroundings
-    DipCamTrack track;     // one path per category of the ini
-    DipCamPath **paths;    // loaded once each, by file
+    DipModel *model;       // Kept for commands that use the reference renderer, else NULL.
+    DipSceneDef scene_def; // The model's scene with the ini's surroundings. Needs the model.
+    DipCamTrack track;     // One path per category of the ini.
+    DipCamPath **paths;    // The loaded paths; a file that two categories name is loaded once.
     int path_count;
-    DipRenderer *renderers[DIP_PANE_COUNT]; // not for bench and cost, which make their own
+    DipRenderer *renderers[DIP_PANE_COUNT]; // NULL unless the def asks for renderers.
     DipStartTimes times;
-    bool orbiting; // a model of the user's own, without a path
+    bool orbiting; // The camera orbits the model, since no path was given for it.
 } DipSession;
 
-// Loads everything the options and the ini name. Every fault goes to *faults with file and line;
-// warnings too. Returns false when one of them is an error; then the session is empty.
-bool dip_session_open(DipSession *session, const DipOptions *options, DipErrorList *faults);
+// Loads everything that the def asks for. Adds every fault, with its file and line, and every
+// warning to *faults. Returns false if one of them is an error; then the session is empty.
+bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorList *faults);
 void dip_session_close(DipSession *session);
 
-// Loads what the reference reads, `model` and `scene_def`, if it is not kept already: its pictures
-// take tens of megabytes, and the load a good part of what the start took.
-bool dip_session_keep_model(DipSession *session, const DipOptions *options, DipError *err);
+// Loads `model` and `scene_def`, which the reference renderer reads, unless they are kept already.
+// They are not kept from the start since their pictures take tens of megabytes.
+bool dip_session_keep_model(DipSession *session, DipError *err);
 
-// "DEFAULT", "AA", ...: the ini's category that a slot of the track plays.
-const char *dip_session_category(int slot);
+// File of the first model, from the command line or the ini; "" if there is none.
+const char *dip_session_scene_file(const DipSession *session);
+
+// Name of a category of the ini's camera paths: "DEFAULT", "AA", ...
+const char *dip_session_category(int category);
 
 // What the panes show of one frame.
 typedef struct DipSessionFrame {
     DipFrame panes[DIP_PANE_COUNT];
-    double ms; // both took, on the clock; less than their sum where they share work
-    // The requested pane is a copy of the current one, whose settings are the same: it took neither
-    // time nor work, and shares its pixels. Never when all effects are forced.
+    double ms; // Wall-clock time of both panes. It is less than their sum where they share work.
+    // The requested pane is a copy of the current one, since both have the same settings. The copy
+    // took no time and no work, and shares the pixels. Never set when all effects are forced.
     bool copied;
 } DipSessionFrame;
 
-// Draws both panes from a pose, at once. frame_index: see dip_renderer_set_frame_index. Both
-// renderers must have one size.
+// Draws both panes from a pose. frame_index: see dip_renderer_set_frame_index. Both renderers must
+// have the same size.
 bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err);
 
-// Likewise from the pose at a time on the active path.
+// Draws both panes from the pose that the active path has at a time, and returns that pose.
 bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index, DipPose *pose,
                       DipSessionFrame *frame, DipError *err);
 

@@ -1,4 +1,4 @@
-// The clock at start-up.
+// Reading the clock during the start and formatting the result.
 #include "app/start_times.h"
 
 #include "renderer/base/clock.h"

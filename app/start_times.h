@@ -1,4 +1,4 @@
-// How long the program takes to start, by part.
+// How long each part of the start takes.
 #ifndef DIP_APP_START_TIMES_H
 #define DIP_APP_START_TIMES_H
 
@@ -7,33 +7,33 @@
 
 // X(name, "what it covers"), in the order of a run.
 #define DIP_START_TIME_LIST(X)                                                                     \
-    X(ini, "reading the ini, starting the threads")                                                \
-    X(import, "model files to meshes and materials")                                               \
+    X(ini, "reading the ini and starting the threads")                                             \
+    X(import, "turning model files into meshes and materials")                                     \
     X(pictures, "reading and decoding pictures")                                                   \
-    X(textures, "mip chains, and compressed ones where a pane shows them")                         \
-    X(meshes, "meshes to chunks")                                                                  \
-    X(paths, "camera paths")                                                                       \
-    X(renderers, "both panes' renderers")                                                          \
-    X(first_frame, "from then until the first frame is there")                                     \
-    X(total, "from the command line to the first frame")
+    X(textures, "making mip chains, and compressed ones if a pane uses them")                      \
+    X(meshes, "splitting meshes into chunks")                                                      \
+    X(paths, "reading camera paths")                                                               \
+    X(renderers, "making the renderers of both panes")                                             \
+    X(first_frame, "from there to the first complete frame")                                       \
+    X(total, "from the start of the program to the first frame")
 
-// Milliseconds.
+// Durations are in milliseconds; a part that did not run is 0.
 typedef struct DipStartTimes {
 #define DIP_START_TIME_FIELD(name, text) double name##_ms;
     DIP_START_TIME_LIST(DIP_START_TIME_FIELD)
 #undef DIP_START_TIME_FIELD
-    int64_t begin_ns;  // of the program
-    int64_t opened_ns; // everything is loaded
-    int64_t ended_ns;  // the command has done its work and gives back what it holds
+    int64_t begin_ns;  // The program started.
+    int64_t opened_ns; // Everything was loaded.
+    int64_t ended_ns;  // The command had done its work and began to free what it holds.
 } DipStartTimes;
 
-// Milliseconds since a time of dip_clock_ns.
+// Returns the milliseconds since a time of dip_clock_ns.
 double dip_start_times_since_ms(int64_t begin_ns);
 
-// To be called after every frame: the first call fills in first_frame and total.
+// Call it after every frame. The first call fills in first_frame and total.
 void dip_start_times_frame(DipStartTimes *times);
 
-// "load: ini 0.4, import 21.3, ... ms", for --timing.
+// Formats the parts as "start, ms: ini 0.4 import 21.3 ...", for --timing.
 void dip_start_times_format(const DipStartTimes *times, char *text, size_t size_bytes);
 
 #endif

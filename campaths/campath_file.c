@@ -39,8 +39,8 @@ static bool save(const DipCamPath *path, const char *file,
                  void (*write)(const DipCamPath *, FILE *), DipError *err) {
     FILE *stream = fopen(file, "wb");
     if (!stream) {
-        return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written (%s)",
-                             strerror(errno));
+        return dip_error_set_runtime(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written (%s)",
+                                     strerror(errno));
     }
     write(path, stream);
     const bool failed = ferror(stream) != 0;
@@ -50,7 +50,8 @@ static bool save(const DipCamPath *path, const char *file,
         if (is_regular) { // A device must not be removed.
             remove(file);
         }
-        return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written to its end");
+        return dip_error_set_runtime(err, DIP_ERROR_IO, file, 0, NULL,
+                                     "cannot be written to its end");
     }
     return true;
 }

@@ -1,16 +1,16 @@
-// `diptych bench`: measuring one program, or two in turn.
-#include "app/commands.h"
+// `diptych bench`: measuring this program, or two programs in turn.
+#include "app/bench/bench.h"
 
 #include "app/bench/child.h"
 #include "app/bench/context.h"
 #include "app/bench/measure.h"
+#include "app/bench/options.h"
 #include "app/bench/plots.h"
 #include "app/bench/table.h"
 #include "app/files/folder.h"
+#include "renderer/base/assert.h"
 
-#include <errno.h>
 #include <stdlib.h>
-#include <string.h>
 
 static bool draw_here(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
                       DipError *err) {
@@ -30,7 +30,7 @@ static bool open_here(DipBenchContext **bench, const DipBenchPlan *plan, const D
 }
 
 static bool measure_here(const DipBenchPlan *plan, const DipSession *session,
-                         const DipOptions *options, DipError *err) {
+                         const DipBenchArguments *arguments, DipError *err) {
     DipBenchContext *bench;
     DipBenchResult result = {0};
     DipBenchSource source;
@@ -38,13 +38,13 @@ static bool measure_here(const DipBenchPlan *plan, const DipSession *session,
                 dip_bench_result_init(&result, plan, err) &&
                 dip_bench_measure(plan, &source, 1, &result, err);
     if (done) {
-        dip_bench_print_heading(plan, session, options, stdout);
+        dip_bench_print_heading(plan, session, stdout);
         done = dip_bench_print_times(&result, stdout, err);
         dip_bench_print_work(&result, stdout);
     }
     done = done &&
-           (!options->bench.csv || dip_bench_write_csv(options->bench.csv, &result, 1, err)) &&
-           (!options->bench.svg || dip_bench_write_plots(options->bench.svg, &result, err));
+           (!arguments->bench.csv || dip_bench_write_csv(arguments->bench.csv, &result, 1, err)) &&
+           (!arguments->bench.svg || dip_bench_write_plots(arguments->bench.svg, &result, err));
     dip_bench_result_free(&result);
     dip_bench_context_destroy(&bench);
     return done;
@@ -59,10 +59,10 @@ static bool serve(const DipBenchPlan *plan, const DipSession *session, DipError 
     return done;
 }
 
-// Both programs run apart from this one, so that neither has an advantage.
+// Runs both programs as processes of their own, so that neither has an advantage.
 static bool measure_both(const DipBenchPlan *plan, const DipSession *session,
-                         const DipOptions *options, DipError *err) {
-    const char *const programs[2] = {"/proc/self/exe", options->bench.vs};
+                         const DipBenchArguments *arguments, DipError *err) {
+    const char *const programs[2] = {"/proc/self/exe", arguments->bench.vs};
     DipBenchChild *children[2] = {NULL, NULL};
     DipBenchResult results[2] = {{0}, {0}};
     DipBenchSource sources[2];
@@ -74,11 +74,11 @@ static bool measure_both(const DipBenchPlan *plan, const DipSession *session,
     }
     done = done && dip_bench_measure(plan, sources, 2, results, err);
     if (done) {
-        dip_bench_print_heading(plan, session, options, stdout);
+        dip_bench_print_heading(plan, session, stdout);
         done = dip_bench_print_ratios(&results[0], &results[1], stdout, err);
     }
-    done =
-        done && (!options->bench.csv || dip_bench_write_csv(options->bench.csv, results, 2, err));
+    done = done &&
+           (!arguments->bench.csv || dip_bench_write_csv(arguments->bench.csv, results, 2, err));
     for (int p = 0; p < 2; p++) {
         dip_bench_child_stop(&children[p]);
         dip_bench_result_free(&results[p]);
@@ -86,8 +86,9 @@ static bool measure_both(const DipBenchPlan *plan, const DipSession *session,
     return done;
 }
 
-bool dip_bench_run(DipSession *session, const DipOptions *options, DipError *err) {
-    const DipBenchOptions *bench = &options->bench;
+static bool run(DipSession *session, const void *all_arguments, DipError *err) {
+    const DipBenchArguments *arguments = all_arguments;
+    const DipBenchOptions *bench = &arguments->bench;
     DipBenchPlan *plan = malloc(sizeof *plan);
     if (!plan) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
@@ -97,13 +98,49 @@ bool dip_bench_run(DipSession *session, const DipOptions *options, DipError *err
         return false;
     }
     dip_bench_plan_make(plan, session, bench);
-    bool done = bench->serve ? serve(plan, session, err)
-                : bench->vs  ? measure_both(plan, session, options, err)
-                             : measure_here(plan, session, options, err);
+    const bool done = bench->serve ? serve(plan, session, err)
+                      : bench->vs  ? measure_both(plan, session, arguments, err)
+                                   : measure_here(plan, session, arguments, err);
     free(plan);
-    if (done && fflush(stdout) != 0) {
-        done = dip_error_set(err, DIP_ERROR_IO, NULL, 0, "bench", "standard output: %s",
-                             strerror(errno));
-    }
     return done;
 }
+
+// Asks for no renderers, since the bench makes its own, and for the scene only if this process
+// draws it. A grid needs none, and with --vs the programs that the bench starts load theirs.
+static void describe_session(const void *all_arguments, DipSessionDef *def) {
+    const DipBenchArguments *arguments = all_arguments;
+    const DipBenchOptions *bench = &arguments->bench;
+    def->options = &arguments->session;
+    def->scene = !bench->grid_count && (!bench->vs || bench->serve);
+}
+
+static const DipExample examples[] = {
+    {"diptych bench", "measures six settings in the ini's scene"},
+    {"diptych bench --sets \"aa=none;aa=4;aa=4,af=16\" --threads 1,2 --isa avx2,avx512",
+     "measures twelve combinations"},
+    {"diptych bench --size 320x240,640x480,1280x960 --svg plots --csv frames.csv",
+     "plots the time against the number of pixels and keeps every single time"},
+    {"diptych bench --grid 1000,10000,100000 --sets aa=none --grid-out-of-view",
+     "measures what triangles outside the view cost"},
+    {"diptych bench --vs ../before/build/release/diptych --threads 1 --rounds 40",
+     "compares with the build of another branch"},
+};
+
+const DipCommand dip_bench_command = {
+    .name = "bench",
+    .summary = "measure how long frames take: settings, threads, sizes, ...",
+    .usage = "[OPTION]...",
+    .text = "Bench measures how long frames take and how much work they are. It measures every "
+            "combination of the values in the lists, in rounds, in an order that changes from "
+            "round to round, so that a slow moment of the machine hits all combinations alike.\n\n"
+            "Times are wall-clock milliseconds per frame. docs/bench.md explains how to read them.",
+    .examples = examples,
+    .example_count = DIP_ARRAY_COUNT(examples),
+    .lists_settings = true,
+    .parts = &dip_bench_option_parts,
+    .options_size = sizeof(DipBenchArguments),
+    .set_defaults = dip_bench_options_default,
+    .check = dip_bench_options_check,
+    .describe_session = describe_session,
+    .run = run,
+};

@@ -97,13 +97,13 @@ static bool check_greeting(DipBenchChild *child, const DipBenchPlan *plan, DipEr
         return false;
     }
     if (sscanf(line, "diptych-bench 1 %d %d", &count, &frames) != 2) {
-        return dip_error_set(err, DIP_ERROR_FORMAT, NULL, 0, "--vs",
-                             "%s is no diptych with this bench", child->program);
+        return dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--vs",
+                                     "%s is no diptych with this bench", child->program);
     }
     return (count == plan->count && frames == plan->options.frames) ||
-           dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--vs",
-                         "%s has %d combinations of %d frames, this program has %d of %d",
-                         child->program, count, frames, plan->count, plan->options.frames);
+           dip_error_set_runtime(err, DIP_ERROR_CONFLICT, NULL, 0, "--vs",
+                                 "%s has %d combinations of %d frames, this program has %d of %d",
+                                 child->program, count, frames, plan->count, plan->options.frames);
 }
 
 DipBenchChild *dip_bench_child_start(const char *program, const DipBenchPlan *plan, DipError *err) {
@@ -178,8 +178,8 @@ bool dip_bench_child_draw(void *context, int combination, int frame, bool hash,
         store_word(word, sample);
     }
     return sample->ms[DIP_BENCH_STAGE_total] > 0.0 ||
-           dip_error_set(err, DIP_ERROR_FORMAT, NULL, 0, "--vs", "%s answered without a time",
-                         child->program);
+           dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--vs",
+                                 "%s answered without a time", child->program);
 }
 
 // --- answering ---------------------------------------------------------------------------------
@@ -207,8 +207,8 @@ bool dip_bench_serve(const DipBenchPlan *plan, const DipBenchSource *source, Dip
         if (sscanf(line, "draw %d %d %d", &combination, &frame, &hash) != 3 || combination < 0 ||
             combination >= plan->count || frame < 0 || frame >= plan->options.frames) {
             line[strcspn(line, "\n")] = '\0';
-            return dip_error_set(err, DIP_ERROR_FORMAT, NULL, 0, "--serve",
-                                 "'%.60s', accepted draw COMBINATION FRAME 0|1", line);
+            return dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--serve",
+                                         "'%.60s', accepted draw COMBINATION FRAME 0|1", line);
         }
         if (!source->draw(source->context, combination, frame, hash != 0, &sample, err)) {
             return false;

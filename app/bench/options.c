@@ -1,8 +1,8 @@
-// The bench's options: lists of settings, threads, instruction sets, sizes and triangle counts.
-#include "app/options_private.h"
+// The options of `diptych bench`.
+#include "app/bench/options.h"
 
 #include "app/bench/synthetic.h"
-#include "renderer/base/number.h"
+#include "renderer/base/assert.h"
 #include "renderer/base/pool.h"
 
 #include <errno.h>
@@ -10,153 +10,183 @@
 #include <string.h>
 #include <unistd.h>
 
+#define FIELD(name) offsetof(DipBenchOptions, name)
+
 static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=4,af=16;aa=8,af=16";
 
-// Reads one element of a list into place `index` of an axis.
-typedef bool ReadItem(DipBenchOptions *bench, int index, const char *key, const char *item,
-                      DipError *err);
+// --- the values of lists -------------------------------------------------------------------------
 
-static bool read_list(DipBenchOptions *bench, int *count, char separator, ReadItem *read,
-                      const char *key, const char *value, DipError *err) {
-    *count = 0;
-    for (const char *from = value; from;) {
-        const char *end = strchr(from, separator);
-        const size_t length = end ? (size_t)(end - from) : strlen(from);
-        char item[80];
-        if (length == 0) {
-            return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, key,
-                                 "'%.200s' has an empty place, accepted values between '%c'", value,
-                                 separator);
-        }
-        if (*count == DIP_BENCH_MAX_VALUES || length >= sizeof item) {
-            return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, key,
-                                 "'%.200s' is too long, accepted %d values of up to %zu letters",
-                                 value, DIP_BENCH_MAX_VALUES, sizeof item - 1);
-        }
-        memcpy(item, from, length);
-        item[length] = '\0';
-        if (!read(bench, (*count)++, key, item, err)) {
-            return false;
-        }
-        from = end ? end + 1 : NULL;
-    }
-    return true;
+static bool read_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    (void)row;
+    DipBenchOptions *bench = fields;
+    DipBenchSet *set = &bench->sets[bench->set_count];
+    snprintf(set->text, sizeof set->text, "%s", value);
+    return dip_quality_parse(value, &set->quality, err);
 }
 
-static bool read_count(const char *key, const char *text, int least, int most, int *value,
+// A range of whole numbers for dip_option_integer; the row's own range is that of the list.
+static bool read_count(const DipOptionRow *row, const char *value, int least, int most, int *number,
                        DipError *err) {
-    return (dip_integer_parse(text, strlen(text), value) && *value >= least && *value <= most) ||
-           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, key, "'%s', accepted %d..%d", text, least,
-                         most);
+    const DipOptionRow range = {.name = row->name, .least = least, .most = most};
+    return dip_option_integer(&range, value, number, err);
 }
 
-static bool read_set(DipBenchOptions *bench, int index, const char *key, const char *item,
-                     DipError *err) {
-    (void)key;
-    DipBenchSet *set = &bench->sets[index];
-    snprintf(set->text, sizeof set->text, "%s", item);
-    return dip_quality_parse(item, &set->quality, err);
+static bool read_threads(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipBenchOptions *bench = fields;
+    return read_count(row, value, 0, DIP_MAX_THREADS, &bench->threads[bench->threads_count], err);
 }
 
-static bool read_threads(DipBenchOptions *bench, int index, const char *key, const char *item,
-                         DipError *err) {
-    return read_count(key, item, 0, DIP_MAX_THREADS, &bench->threads[index], err);
+static bool read_isa(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipBenchOptions *bench = fields;
+    return dip_option_isa(row, value, &bench->isas[bench->isa_count], err);
 }
 
-static bool read_isa(DipBenchOptions *bench, int index, const char *key, const char *item,
-                     DipError *err) {
-    return dip_option_isa(key, item, &bench->isas[index], err);
-}
-
-static bool read_size(DipBenchOptions *bench, int index, const char *key, const char *item,
-                      DipError *err) {
-    return dip_option_size(key, item, &bench->sizes[index].width, &bench->sizes[index].height, err);
-}
-
-static bool read_grid(DipBenchOptions *bench, int index, const char *key, const char *item,
-                      DipError *err) {
-    return read_count(key, item, 2, DIP_SYNTHETIC_MAX_TRIANGLES, &bench->grids[index], err);
-}
-
-bool dip_bench_set_sets(DipOptions *options, const char *key, const char *value, DipError *err) {
-    DipBenchOptions *bench = &options->bench;
-    return read_list(bench, &bench->set_count, ';', read_set, key, value, err);
-}
-
-bool dip_bench_set_threads(DipOptions *options, const char *key, const char *value, DipError *err) {
-    DipBenchOptions *bench = &options->bench;
-    return read_list(bench, &bench->threads_count, ',', read_threads, key, value, err);
-}
-
-bool dip_bench_set_isa(DipOptions *options, const char *key, const char *value, DipError *err) {
-    DipBenchOptions *bench = &options->bench;
-    return read_list(bench, &bench->isa_count, ',', read_isa, key, value, err);
-}
-
-bool dip_bench_set_size(DipOptions *options, const char *key, const char *value, DipError *err) {
-    DipBenchOptions *bench = &options->bench;
-    return read_list(bench, &bench->size_count, ',', read_size, key, value, err);
-}
-
-bool dip_bench_set_grid(DipOptions *options, const char *key, const char *value, DipError *err) {
-    DipBenchOptions *bench = &options->bench;
-    return read_list(bench, &bench->grid_count, ',', read_grid, key, value, err);
-}
-
-bool dip_bench_set_grid_out_of_view(DipOptions *options, const char *key, const char *value,
-                                    DipError *err) {
-    (void)key;
-    (void)value;
-    (void)err;
-    options->bench.grid_out_of_view = true;
+static bool read_size(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipBenchOptions *bench = fields;
+    DipOptionSize size;
+    if (!dip_option_size(row, value, &size, err)) {
+        return false;
+    }
+    bench->sizes[bench->size_count] = (DipBenchSize){size.width, size.height};
     return true;
 }
 
-bool dip_bench_set_frames(DipOptions *options, const char *key, const char *value, DipError *err) {
-    return read_count(key, value, 1, DIP_BENCH_MAX_FRAMES, &options->bench.frames, err);
+static bool read_grid(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipBenchOptions *bench = fields;
+    return read_count(row, value, 2, DIP_SYNTHETIC_MAX_TRIANGLES, &bench->grids[bench->grid_count],
+                      err);
 }
 
-bool dip_bench_set_rounds(DipOptions *options, const char *key, const char *value, DipError *err) {
-    return read_count(key, value, 1, DIP_BENCH_MAX_ROUNDS, &options->bench.rounds, err);
+// --- the tables ----------------------------------------------------------------------------------
+
+static const DipOptionRow axis_rows[] = {
+    {.name = "--sets",
+     .argument = "LIST",
+     .text = "Settings to measure, as SET;SET;... in quotes. The default is aa=none, aa=4 and "
+             "aa=8, each without and with af=16.",
+     .kind = DIP_OPTION_LIST,
+     .count = FIELD(set_count),
+     .most = DIP_BENCH_MAX_VALUES,
+     .separator = ';',
+     .read = read_set},
+    {.name = "--size",
+     .argument = "LIST",
+     .text = "Sizes of the picture in pixels, as WxH,WxH,... Without the option, the ini's RES "
+             "decides.",
+     .kind = DIP_OPTION_LIST,
+     .count = FIELD(size_count),
+     .most = DIP_BENCH_MAX_VALUES,
+     .separator = ',',
+     .read = read_size},
+    {.name = "--threads",
+     .argument = "LIST",
+     .text = "Numbers of threads, such as 1,2. 0 stands for all processors. Without the option, "
+             "the ini decides.",
+     .kind = DIP_OPTION_LIST,
+     .count = FIELD(threads_count),
+     .most = DIP_BENCH_MAX_VALUES,
+     .separator = ',',
+     .read = read_threads},
+    {.name = "--isa",
+     .argument = "LIST",
+     .text = "Instruction sets, of auto, scalar, sse2, avx2 and avx512. Without the option, the "
+             "bench uses the ini's, which is the best one of this machine by default.",
+     .kind = DIP_OPTION_LIST,
+     .count = FIELD(isa_count),
+     .most = DIP_BENCH_MAX_VALUES,
+     .separator = ',',
+     .read = read_isa},
+    {.name = "--grid",
+     .argument = "LIST",
+     .text = "Instead of a scene, draw reliefs of N,N,... triangles that fill the picture.",
+     .kind = DIP_OPTION_LIST,
+     .count = FIELD(grid_count),
+     .most = DIP_BENCH_MAX_VALUES,
+     .separator = ',',
+     .read = read_grid},
+    {.name = "--grid-out-of-view",
+     .text = "Turn the camera's back to the grid. This measures what triangles cost that nobody "
+             "sees.",
+     .kind = DIP_OPTION_FLAG,
+     .field = FIELD(grid_out_of_view)},
+};
+
+static const DipOptionRow measure_rows[] = {
+    {.name = "--frames",
+     .argument = "N",
+     .text = "Draw this many frames, which divide the camera path evenly. The default is 12.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(frames),
+     .least = 1,
+     .most = DIP_BENCH_MAX_FRAMES},
+    {.name = "--rounds",
+     .argument = "N",
+     .text = "Let each combination draw its frames this many times. The default is 10.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(rounds),
+     .least = 1,
+     .most = DIP_BENCH_MAX_ROUNDS},
+    {.name = "--seed",
+     .argument = "N",
+     .text = "Seed of the random order of the combinations in each round. By default the clock "
+             "gives it; the bench prints it.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(seed),
+     .given = FIELD(has_seed),
+     .most = INT32_MAX},
+    {.name = "--vs",
+     .argument = "PROGRAM",
+     .text = "Compare with another build of diptych: both draw in turn, and the bench prints the "
+             "ratio other / this of their times.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(vs)},
+    {.name = "--csv",
+     .argument = "FILE",
+     .text = "Write the times and counters of every frame of every round to this file.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(csv)},
+    {.name = "--svg",
+     .argument = "DIR",
+     .text = "Write plots of the time against pixels, samples, triangles and threads into this "
+             "folder, one for each of them that varies.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(svg)},
+    {.name = "--serve",
+     .text = "Draw what standard input asks for. --vs starts both programs with this option; it "
+             "is of no use otherwise.",
+     .kind = DIP_OPTION_FLAG,
+     .field = FIELD(serve)},
+};
+
+static const DipOptionTable axis_table = {"Lists of values", axis_rows, DIP_ARRAY_COUNT(axis_rows)};
+static const DipOptionTable measure_table = {"Measuring and output", measure_rows,
+                                             DIP_ARRAY_COUNT(measure_rows)};
+
+static const DipOptionPart parts[] = {
+    {&axis_table, offsetof(DipBenchArguments, bench)},
+    {&measure_table, offsetof(DipBenchArguments, bench)},
+    {&dip_scene_option_table, offsetof(DipBenchArguments, session)},
+    {&dip_path_option_table, offsetof(DipBenchArguments, session)},
+    {&dip_category_option_table, offsetof(DipBenchArguments, session)},
+    {&dip_program_option_table, offsetof(DipBenchArguments, program)},
+};
+const DipOptionParts dip_bench_option_parts = {parts, DIP_ARRAY_COUNT(parts)};
+
+// --- defaults and checks -------------------------------------------------------------------------
+
+// Stores one of the default settings and counts it.
+static bool add_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipBenchOptions *bench = fields;
+    return read_set(fields, row, value, err) && ++bench->set_count;
 }
 
-bool dip_bench_set_seed(DipOptions *options, const char *key, const char *value, DipError *err) {
-    options->bench.has_seed = true;
-    return read_count(key, value, 0, INT32_MAX, &options->bench.seed, err);
-}
-
-bool dip_bench_set_csv(DipOptions *options, const char *key, const char *value, DipError *err) {
-    (void)key;
-    (void)err;
-    options->bench.csv = value;
-    return true;
-}
-
-bool dip_bench_set_svg(DipOptions *options, const char *key, const char *value, DipError *err) {
-    (void)key;
-    (void)err;
-    options->bench.svg = value;
-    return true;
-}
-
-bool dip_bench_set_vs(DipOptions *options, const char *key, const char *value, DipError *err) {
-    (void)key;
-    (void)err;
-    options->bench.vs = value;
-    return true;
-}
-
-bool dip_bench_set_serve(DipOptions *options, const char *key, const char *value, DipError *err) {
-    (void)key;
-    (void)value;
-    (void)err;
-    options->bench.serve = true;
-    return true;
-}
-
-void dip_bench_options_default(DipBenchOptions *bench) {
-    *bench = (DipBenchOptions){.frames = 12, .rounds = 10};
-    read_list(bench, &bench->set_count, ';', read_set, "--sets", default_sets, NULL);
+void dip_bench_options_default(void *arguments, int argc, char *const *argv) {
+    DipBenchOptions *bench = &((DipBenchArguments *)arguments)->bench;
+    bench->frames = 12;
+    bench->rounds = 10;
+    bench->argc = argc;
+    bench->argv = argv;
+    dip_option_each(bench, &axis_rows[0], default_sets, ';', add_set, NULL);
 }
 
 static int at_least_one(int count) {
@@ -173,32 +203,48 @@ static bool varies_in_samples(const DipBenchOptions *bench) {
     return false;
 }
 
-bool dip_bench_options_check(const DipBenchOptions *bench, DipError *err) {
+static bool check_scene(const DipBenchArguments *arguments, DipError *err) {
+    const DipSessionOptions *session = &arguments->session;
+    if (arguments->bench.grid_count &&
+        (session->model_count || session->path || session->category)) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--grid",
+                             "a grid replaces the scene and its path; leave out --grid or %s",
+                             session->model_count ? "--model"
+                             : session->path      ? "--path"
+                                                  : "--category");
+    }
+    return dip_session_options_check(session, err);
+}
+
+static bool check_plots(const DipBenchOptions *bench, DipError *err) {
+    if (bench->svg && bench->size_count < 2 && bench->grid_count < 2 && bench->threads_count < 2 &&
+        !varies_in_samples(bench)) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--svg",
+                             "there is nothing to plot; give more than one value of --size, "
+                             "--grid, --threads, or of aa in --sets");
+    }
+    return !bench->svg || !bench->vs ||
+           dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--svg",
+                         "plots show one program; leave out --svg or --vs");
+}
+
+bool dip_bench_options_check(const void *arguments, DipError *err) {
+    const DipBenchOptions *bench = &((const DipBenchArguments *)arguments)->bench;
     const int count = bench->set_count * at_least_one(bench->threads_count) *
                       at_least_one(bench->isa_count) * at_least_one(bench->size_count) *
                       at_least_one(bench->grid_count);
     if (count > DIP_BENCH_MAX_COMBINATIONS) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "bench",
-                             "%d combinations of the lists' values, accepted up to %d", count,
+                             "the lists make %d combinations; give values for at most %d", count,
                              DIP_BENCH_MAX_COMBINATIONS);
     }
     if (bench->grid_out_of_view && !bench->grid_count) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--grid-out-of-view",
-                             "there is no grid, accepted with --grid N,N,...");
-    }
-    if (bench->svg && bench->size_count < 2 && bench->grid_count < 2 && bench->threads_count < 2 &&
-        !varies_in_samples(bench)) {
-        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--svg",
-                             "nothing to plot, accepted with more than one value of --size, "
-                             "--grid, --threads or of aa in --sets");
+                             "there is no grid; give one with --grid N,N,...");
     }
     if (bench->vs && !bench->serve && access(bench->vs, X_OK) != 0) {
         return dip_error_set(err, DIP_ERROR_IO, bench->vs, 0, "--vs", "cannot be run: %s",
                              strerror(errno));
     }
-    if (bench->svg && bench->vs) {
-        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--svg",
-                             "plots show one program, accepted without --vs");
-    }
-    return true;
+    return check_plots(bench, err) && check_scene(arguments, err);
 }

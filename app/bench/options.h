@@ -1,7 +1,9 @@
-// What `diptych bench` is asked to measure: a list per axis; every combination is measured.
+// Options of `diptych bench`: a list of values for each axis. The bench measures every combination.
 #ifndef DIP_APP_BENCH_OPTIONS_H
 #define DIP_APP_BENCH_OPTIONS_H
 
+#include "app/command.h"
+#include "app/session_options.h"
 #include "renderer/base/isa.h"
 #include "renderer/scene/quality.h"
 
@@ -9,34 +11,34 @@
 #include <stdint.h>
 
 enum {
-    DIP_BENCH_MAX_VALUES = 32, // of one axis
+    DIP_BENCH_MAX_VALUES = 32, // Values of one axis.
     DIP_BENCH_MAX_COMBINATIONS = 512,
     DIP_BENCH_MAX_FRAMES = 10000,
     DIP_BENCH_MAX_ROUNDS = 10000
 };
 
 typedef struct DipBenchSet {
-    char text[80]; // as it was typed
+    char text[80]; // The settings as they were typed.
     DipQuality quality;
 } DipBenchSet;
 
 typedef struct DipBenchSize {
-    int width; // pixels
+    int width; // Pixels.
     int height;
 } DipBenchSize;
 
-// Texts are borrowed from argv. An empty list stands for the one value that the ini or the machine
-// gives; of grids for the ini's scene.
+// What to measure. Texts are borrowed from argv. An empty list stands for one value, which the ini
+// or the machine gives. Without grids, the bench draws the scene.
 typedef struct DipBenchOptions {
     DipBenchSet sets[DIP_BENCH_MAX_VALUES];
     int set_count;
-    int threads[DIP_BENCH_MAX_VALUES]; // 0: all processors
+    int threads[DIP_BENCH_MAX_VALUES]; // 0: all processors.
     int threads_count;
     DipIsa isas[DIP_BENCH_MAX_VALUES];
     int isa_count;
     DipBenchSize sizes[DIP_BENCH_MAX_VALUES];
     int size_count;
-    int grids[DIP_BENCH_MAX_VALUES]; // triangles
+    int grids[DIP_BENCH_MAX_VALUES]; // Triangles.
     int grid_count;
     bool grid_out_of_view;
     int frames;
@@ -47,8 +49,20 @@ typedef struct DipBenchOptions {
     const char *svg;
     const char *vs;
     bool serve;
-    int argc; // the whole command line, for the programs that --vs starts
+    int argc; // The whole command line, which --vs hands on to the programs that it starts.
     char *const *argv;
 } DipBenchOptions;
+
+// The whole command line of `diptych bench`.
+typedef struct DipBenchArguments {
+    DipProgramOptions program;
+    DipSessionOptions session;
+    DipBenchOptions bench;
+} DipBenchArguments;
+
+extern const DipOptionParts dip_bench_option_parts;
+
+void dip_bench_options_default(void *arguments, int argc, char *const *argv);
+bool dip_bench_options_check(const void *arguments, DipError *err);
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef DIP_APP_BENCH_PLAN_H
 #define DIP_APP_BENCH_PLAN_H
 
+#include "app/bench/options.h"
 #include "app/session.h"
 
 // X(NAME, name), in the order of the table's rows: the last axis changes fastest.

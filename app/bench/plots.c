@@ -193,7 +193,8 @@ static bool write_kind(const char *folder, const struct Kind *kind, const DipBen
                           .series = lines,
                           .series_count = count};
     if (snprintf(file, sizeof file, "%s/%s", folder, kind->file) >= (int)sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--svg", "the name is too long");
+        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--svg",
+                                     "the name is too long");
     }
     if (!dip_plot_write(file, &plot, err)) {
         return false;

@@ -16,16 +16,14 @@ static bool out_of_memory(DipError *err) {
 
 // --- heading -----------------------------------------------------------------------------------
 
-static void print_scene(const DipBenchPlan *plan, const DipSession *session,
-                        const DipOptions *options, FILE *out) {
+static void print_scene(const DipBenchPlan *plan, const DipSession *session, FILE *out) {
+    const DipSessionOptions *options = session->options;
     const char *view = plan->options.grid_out_of_view ? ", out of view" : "";
     if (plan->options.grid_count) {
         fprintf(out, "scene    grid%s\n", view);
         return;
     }
-    const char *name = options->model_count          ? options->models[0]
-                       : session->config.xfile.count ? session->config.xfile.items[0].path
-                                                     : "none";
+    const char *name = dip_session_scene_file(session);
     const char *slash = strrchr(name, '/');
     fprintf(out, "scene    %s", slash ? slash + 1 : name);
     if (session->scene) {
@@ -39,12 +37,11 @@ static void print_scene(const DipBenchPlan *plan, const DipSession *session,
     fprintf(out, "\n");
 }
 
-void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session,
-                             const DipOptions *options, FILE *out) {
+void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session, FILE *out) {
     char processor[128];
     char fixed[DIP_BENCH_LABEL_SIZE];
     dip_machine_processor(processor, sizeof processor);
-    print_scene(plan, session, options, out);
+    print_scene(plan, session, out);
     fprintf(out, "machine  %s, %d processors\n", processor, dip_machine_processor_count());
     dip_bench_fixed_label(plan, fixed);
     fprintf(out, "fixed    %s", fixed);

@@ -7,8 +7,7 @@
 #include <stdio.h>
 
 // Prints what was measured: scene, machine, values that do not vary, frames, rounds, seed.
-void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session,
-                             const DipOptions *options, FILE *out);
+void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session, FILE *out);
 
 // Prints milliseconds by stage: median, 95th percentile and minimum of each combination.
 bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *err);

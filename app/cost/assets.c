@@ -1,5 +1,5 @@
 // `diptych cost assets`: size, deflated size and load time of the forms that assets can take.
-#include "app/commands.h"
+#include "app/cost/cost.h"
 
 #include "app/files/png.h"
 #include "app/files/zip.h"
@@ -297,10 +297,8 @@ static void measure_session(DipSession *session) {
     printf("; shutdown %.1f\n", 1e-6 * (double)(dip_clock_ns() - begin_ns));
 }
 
-bool dip_cost_assets_run(DipSession *session, const DipOptions *options, DipError *err) {
-    const char *model = options->model_count          ? options->models[0]
-                        : session->config.xfile.count ? session->config.xfile.items[0].path
-                                                      : "";
+bool dip_cost_assets_run(DipSession *session, DipError *err) {
+    const char *model = dip_session_scene_file(session);
     char model_folder[PATH_MAX] = ".";
     char folder[PATH_MAX];
     const char *scratch = getenv("TMPDIR");
@@ -311,8 +309,8 @@ bool dip_cost_assets_run(DipSession *session, const DipOptions *options, DipErro
         snprintf(model_folder, sizeof model_folder, "%.*s", (int)(slash - model), model);
     }
     if (!mkdtemp(folder)) {
-        return dip_error_set(err, DIP_ERROR_IO, folder, 0, NULL, "cannot be made: %s",
-                             strerror(errno));
+        return dip_error_set_runtime(err, DIP_ERROR_IO, folder, 0, NULL, "cannot be made: %s",
+                                     strerror(errno));
     }
     measure_meshes(model, folder, session->pool);
     measure_pictures(session, model_folder);

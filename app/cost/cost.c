@@ -1,5 +1,5 @@
-// `diptych cost`: truths, errors, times, report.
-#include "app/commands.h"
+// `diptych cost`: drawing the truths, measuring errors and times, writing the report.
+#include "app/cost/cost.h"
 
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
@@ -18,7 +18,8 @@ static bool write_file(const DipCostReport *report, const char *folder, const ch
     char file[PATH_MAX];
     const int length = snprintf(file, sizeof file, "%s/%s", folder, name);
     if (length < 0 || (size_t)length >= sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
+                                     "the name is too long");
     }
     return write(report, file, err);
 }
@@ -27,7 +28,8 @@ static bool write_page(DipCostContext *cost, const char *folder, DipError *err) 
     char file[PATH_MAX];
     DipCostPictures pictures;
     if (snprintf(file, sizeof file, "%s/cost.html", folder) >= (int)sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+        return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
+                                     "the name is too long");
     }
     if (!dip_cost_pictures_make(&pictures, cost, err)) {
         return false;
@@ -43,10 +45,10 @@ static bool write_report(DipCostContext *cost, const char *folder, DipError *err
            write_file(cost->report, folder, "cost.json", dip_cost_write_json, err);
 }
 
-// The folder of the truths: as given, else the user's; "" for none.
-static bool find_cache(const DipOptions *options, char folder[PATH_MAX], DipError *err) {
-    if (options->cost.cache) {
-        snprintf(folder, PATH_MAX, "%s", options->cost.cache);
+// Finds the folder of the truths: the one of --cache, or the user's cache folder, or "" for none.
+static bool find_cache(const DipCostArguments *arguments, char folder[PATH_MAX], DipError *err) {
+    if (arguments->cost.cache) {
+        snprintf(folder, PATH_MAX, "%s", arguments->cost.cache);
     } else if (!dip_truth_default_folder(folder, PATH_MAX)) {
         folder[0] = '\0';
     }
@@ -59,40 +61,40 @@ static bool measure(DipCostContext *cost, DipError *err) {
             (dip_cost_time_rows(cost, err) && dip_cost_advise(cost, err)));
 }
 
-static bool run(DipSession *session, const DipOptions *options, DipCostReport *report,
+static bool run(DipSession *session, const DipCostArguments *arguments, DipCostReport *report,
                 DipError *err) {
     char plan[33];
     char cache[PATH_MAX];
     DipCostContext cost;
-    if (!find_cache(options, cache, err) || !dip_folder_make(options->out, "--out", err)) {
+    if (!find_cache(arguments, cache, err) || !dip_folder_make(arguments->out, "--out", err)) {
         return false;
     }
     dip_cost_plan_hash(report, plan);
-    DipCostJournal *journal = dip_cost_journal_open(options->out, plan, err);
+    DipCostJournal *journal = dip_cost_journal_open(arguments->out, plan, err);
     if (!journal ||
         !dip_cost_context_open(&cost, session, report, journal, cache[0] ? cache : NULL, err)) {
         dip_cost_journal_close(&journal, false);
         return false;
     }
-    const bool done = measure(&cost, err) && write_report(&cost, options->out, err);
+    const bool done = measure(&cost, err) && write_report(&cost, arguments->out, err);
     dip_cost_context_close(&cost);
     dip_cost_journal_close(&journal, done);
     if (done) {
         dip_cost_print(report, stdout);
-        printf("\nWritten: %s/cost.html, cost.csv, cost.json\n", options->out);
+        printf("\nWritten: %s/cost.html, cost.csv, cost.json\n", arguments->out);
     }
     return done;
 }
 
-bool dip_cost_run(DipSession *session, const DipOptions *options, DipError *err) {
+bool dip_cost_run(DipSession *session, const DipCostArguments *arguments, DipError *err) {
     DipCostReport report;
     dip_interrupt_watch();
-    bool done = dip_cost_plan(&report, session, options, err);
+    bool done = dip_cost_plan(&report, session, &arguments->cost, err);
     if (done) {
         if (!report.options.has_seed) {
             report.options.seed = (int)(time(NULL) % 1000000);
         }
-        done = run(session, options, &report, err);
+        done = run(session, arguments, &report, err);
     }
     dip_cost_report_free(&report);
     return done;

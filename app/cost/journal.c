@@ -29,8 +29,8 @@ struct DipCostJournal {
 };
 
 static bool io_fault(const DipCostJournal *journal, DipError *err) {
-    return dip_error_set(err, DIP_ERROR_IO, journal->file, 0, NULL, "cannot be written: %s",
-                         strerror(errno));
+    return dip_error_set_runtime(err, DIP_ERROR_IO, journal->file, 0, NULL, "cannot be written: %s",
+                                 strerror(errno));
 }
 
 // Appends an entry and takes ownership of its values.
@@ -128,7 +128,7 @@ DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipE
     const int length = snprintf(journal->file, sizeof journal->file, "%s/cost.state", folder);
     snprintf(journal->plan, sizeof journal->plan, "%s", plan);
     if (length < 0 || (size_t)length >= sizeof journal->file) {
-        dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+        dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
         dip_cost_journal_close(&journal, false);
         return NULL;
     }

@@ -1,5 +1,5 @@
 // `diptych cost merge`: joins the viewpoints that several machines have judged into one report.
-#include "app/commands.h"
+#include "app/cost/cost.h"
 
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
@@ -42,23 +42,24 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
     }
 }
 
-// Reads the parts into one. Times, advice and the machine's name are those of the first part that
-// has times, since times of several machines do not mix.
-static bool read_parts(const DipCostOptions *options, DipCostReport *report, DipError *err) {
-    if (!dip_cost_read_json(report, options->parts[0], err)) {
+// Reads all parts and joins them in one report. It gets its times, its advice and the machine's
+// name from the first part that has times, since times of several machines cannot be mixed.
+static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *report,
+                       DipError *err) {
+    if (!dip_cost_read_json(report, arguments->parts[0], err)) {
         return false;
     }
-    for (int i = 1; i < options->part_count; i++) {
+    for (int i = 1; i < arguments->part_count; i++) {
         DipCostReport part;
-        if (!dip_cost_read_json(&part, options->parts[i], err)) {
+        if (!dip_cost_read_json(&part, arguments->parts[i], err)) {
             return false;
         }
         if (!belong(report, &part)) {
             dip_cost_report_free(&part);
-            return dip_error_set(err, DIP_ERROR_CONFLICT, options->parts[i], 0, NULL,
+            return dip_error_set(err, DIP_ERROR_CONFLICT, arguments->parts[i], 0, NULL,
                                  "is no part of the same report as %s (scene, size, settings, "
                                  "viewpoints or samples differ)",
-                                 options->parts[0]);
+                                 arguments->parts[0]);
         }
         if (report->rounds == 0 && part.rounds > 0) {
             const DipCostReport swap = *report;
@@ -79,17 +80,18 @@ static int count_missing(const DipCostReport *report) {
     return count;
 }
 
-bool dip_cost_merge_run(const DipOptions *options, DipError *err) {
+bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err) {
     DipCostReport report = {0};
     char file[PATH_MAX];
-    const char *const folder = options->out;
-    bool done = dip_folder_make(folder, "--out", err) && read_parts(&options->cost, &report, err);
+    const char *const folder = arguments->out;
+    bool done = dip_folder_make(folder, "--out", err) && read_parts(arguments, &report, err);
     if (done && count_missing(&report) > 0) {
         printf("%d of %d viewpoints are in none of the parts\n", count_missing(&report),
                report.options.places);
     }
     if (done && strlen(folder) + 16 > sizeof file) {
-        done = dip_error_set(err, DIP_ERROR_OVERSIZED, folder, 0, "--out", "the name is too long");
+        done = dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
+                                     "the name is too long");
     }
     if (done) {
         snprintf(file, sizeof file, "%.*s/cost.json", PATH_MAX - 16, folder);

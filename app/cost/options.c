@@ -1,153 +1,229 @@
-// The cost report's options.
-#include "app/options_private.h"
+// The options of `diptych cost`, `cost merge` and `cost assets`.
+#include "app/cost/options.h"
 
 #include "app/measure/flip.h"
+#include "renderer/base/assert.h"
 #include "renderer/base/number.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-static bool read_count(const char *key, const char *text, int least, int most, int *value,
-                       DipError *err) {
-    return (dip_integer_parse(text, strlen(text), value) && *value >= least && *value <= most) ||
-           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, key, "'%s', accepted %d..%d", text, least,
-                         most);
-}
+#define FIELD(name) offsetof(DipCostOptions, name)
 
-bool dip_cost_set_baseline(DipOptions *options, const char *key, const char *value, DipError *err) {
-    (void)key;
-    return dip_quality_parse(value, &options->cost.baseline, err);
-}
+// --- reading values ------------------------------------------------------------------------------
 
-bool dip_cost_set_places(DipOptions *options, const char *key, const char *value, DipError *err) {
-    return read_count(key, value, 1, DIP_COST_MAX_PLACES, &options->cost.places, err);
-}
-
-bool dip_cost_set_burst(DipOptions *options, const char *key, const char *value, DipError *err) {
-    return read_count(key, value, 1, DIP_COST_MAX_BURST, &options->cost.burst, err);
-}
-
-bool dip_cost_set_part(DipOptions *options, const char *key, const char *value, DipError *err) {
+static bool read_part(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipCostOptions *cost = fields;
     int range[2];
     if (dip_option_integers(value, ':', 2, range) != 2 || range[0] < 0 || range[1] <= range[0]) {
-        return dip_option_refuse(err, DIP_ERROR_RANGE, key, value,
+        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
                                  "A:B with 0 <= A < B <= the number of --places");
     }
-    options->cost.first_place = range[0];
-    options->cost.end_place = range[1];
+    cost->first_place = range[0];
+    cost->end_place = range[1];
     return true;
 }
 
-bool dip_cost_set_samples(DipOptions *options, const char *key, const char *value, DipError *err) {
+static bool read_samples(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipCostOptions *cost = fields;
     int count;
     if (!dip_integer_parse(value, strlen(value), &count) || count < 1 || count > 4096 ||
         lround(sqrt(count)) * lround(sqrt(count)) != count) {
-        return dip_option_refuse(err, DIP_ERROR_RANGE, key, value,
-                                 "squares of 1..64: 64, 100, ...");
+        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
+                                 "a square number from 1 to 4096, such as 64 or 100");
     }
-    options->cost.samples = count;
+    cost->samples = count;
     return true;
 }
 
-bool dip_cost_set_pixels_per_degree(DipOptions *options, const char *key, const char *value,
-                                    DipError *err) {
-    double *ppd = &options->cost.pixels_per_degree;
-    return (dip_number_parse(value, strlen(value), ppd) && *ppd >= DIP_FLIP_MIN_PIXELS_PER_DEGREE &&
-            *ppd <= DIP_FLIP_MAX_PIXELS_PER_DEGREE) ||
-           dip_option_refuse(err, DIP_ERROR_RANGE, key, value, "5..500");
-}
-
-bool dip_cost_set_rounds(DipOptions *options, const char *key, const char *value, DipError *err) {
-    return read_count(key, value, 2, 10000, &options->cost.rounds, err);
-}
-
-bool dip_cost_set_timed(DipOptions *options, const char *key, const char *value, DipError *err) {
-    return read_count(key, value, 1, 100, &options->cost.timed_frames, err);
-}
-
-bool dip_cost_set_errors_only(DipOptions *options, const char *key, const char *value,
-                              DipError *err) {
-    (void)key;
-    (void)value;
-    (void)err;
-    options->cost.errors_only = true;
-    return true;
-}
-
-bool dip_cost_set_seed(DipOptions *options, const char *key, const char *value, DipError *err) {
-    options->cost.has_seed = true;
-    return read_count(key, value, 0, 0x7fffffff, &options->cost.seed, err);
-}
-
-bool dip_cost_set_cache(DipOptions *options, const char *key, const char *value, DipError *err) {
-    (void)key;
-    (void)err;
-    options->cost.cache = value;
-    return true;
-}
-
-// Calls for each element between commas; none may be empty.
-static bool for_each(const char *key, const char *value, DipOptions *options,
-                     bool (*take)(DipOptions *, const char *key, const char *item, DipError *),
-                     DipError *err) {
-    for (const char *from = value; from;) {
-        const char *end = strchr(from, ',');
-        const size_t length = end ? (size_t)(end - from) : strlen(from);
-        char item[64];
-        if (length == 0 || length >= sizeof item) {
-            return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, key,
-                                 "'%.200s' has an empty or too long place, accepted values "
-                                 "between ','",
-                                 value);
-        }
-        memcpy(item, from, length);
-        item[length] = '\0';
-        if (!take(options, key, item, err)) {
-            return false;
-        }
-        from = end ? end + 1 : NULL;
-    }
-    return true;
-}
-
-static bool add_combined(DipOptions *options, const char *key, const char *item, DipError *err) {
+static bool add_combined(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipCostOptions *cost = fields;
+    char known[160] = "";
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
-        if (strcmp(dip_setting_info((DipSetting)s)->key, item) == 0) {
-            options->cost.combined |= 1u << s;
+        const char *key = dip_setting_info((DipSetting)s)->key;
+        if (strcmp(key, value) == 0) {
+            cost->combined |= 1u << s;
             return true;
         }
+        strcat(strcat(known, s ? ", " : ""), key);
     }
-    return dip_option_refuse(err, DIP_ERROR_UNKNOWN, key, item,
-                             "none, or settings: aa,aaa,asd,af,aaf,opt,miplod,...");
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
+                         "'%.40s' is not a setting; give none, or some of %s", value, known);
 }
 
-bool dip_cost_set_combine(DipOptions *options, const char *key, const char *value, DipError *err) {
-    options->cost.has_combined = true;
-    options->cost.combined = 0;
-    return strcmp(value, "none") == 0 || for_each(key, value, options, add_combined, err);
+static bool read_combined(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    ((DipCostOptions *)fields)->combined = 0;
+    return strcmp(value, "none") == 0 ||
+           dip_option_each(fields, row, value, ',', add_combined, err);
 }
 
-static bool add_budget(DipOptions *options, const char *key, const char *item, DipError *err) {
-    DipCostOptions *cost = &options->cost;
+static bool read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipCostOptions *cost = fields;
     double ms;
-    if (!dip_number_parse(item, strlen(item), &ms) || ms < 0.01 || ms > 100000.0) {
-        return dip_option_refuse(err, DIP_ERROR_RANGE, key, item, "milliseconds, 0.01..100000");
+    if (!dip_number_parse(value, strlen(value), &ms) || ms < 0.01 || ms > 100000.0) {
+        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
+                                 "a number of milliseconds from 0.01 to 100000");
     }
-    if (cost->budget_count == DIP_COST_MAX_BUDGETS) {
-        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, key, "more than %d, accepted %d",
-                             DIP_COST_MAX_BUDGETS, DIP_COST_MAX_BUDGETS);
-    }
-    cost->budgets_ms[cost->budget_count++] = ms;
+    cost->budgets_ms[cost->budget_count] = ms;
     return true;
 }
 
-bool dip_cost_set_budget(DipOptions *options, const char *key, const char *value, DipError *err) {
-    return for_each(key, value, options, add_budget, err);
-}
+// --- the tables ----------------------------------------------------------------------------------
 
-void dip_cost_options_default(DipCostOptions *cost) {
-    *cost = (DipCostOptions){
+static const DipOptionRow out_rows[] = {
+    {.name = "--out",
+     .argument = "DIR",
+     .text = "Write cost.json, cost.csv and cost.html into this folder. If a run there was "
+             "interrupted, the same command goes on with it.",
+     .kind = DIP_OPTION_TEXT,
+     .field = offsetof(DipCostArguments, out)},
+};
+
+static const DipOptionRow merge_rows[] = {
+    {.name = "--out",
+     .argument = "DIR",
+     .text = "Write the joined cost.json, cost.csv and cost.html into this folder.",
+     .kind = DIP_OPTION_TEXT,
+     .field = offsetof(DipCostMergeArguments, out)},
+};
+
+static const DipOptionRow choice_rows[] = {
+    {.name = "--baseline",
+     .argument = "SET",
+     .text = "Change one setting at a time from these settings, and compare with them. The default "
+             "is every setting's default.",
+     .kind = DIP_OPTION_SETTINGS,
+     .field = FIELD(baseline)},
+    {.name = "--combine",
+     .argument = "LIST",
+     .text = "Also measure every combination of the steps of these settings. The default is "
+             "aa,af; none measures no combination.",
+     .kind = DIP_OPTION_CUSTOM,
+     .given = FIELD(has_combined),
+     .read = read_combined},
+    {.name = "--budget-ms",
+     .argument = "LIST",
+     .text = "Advise the settings with the least error within so many milliseconds per frame, such "
+             "as 8,16.6. This combines aa,aaa,asd,af,aaf.",
+     .kind = DIP_OPTION_LIST,
+     .count = FIELD(budget_count),
+     .most = DIP_COST_MAX_BUDGETS,
+     .separator = ',',
+     .read = read_budget},
+};
+
+static const DipOptionRow error_rows[] = {
+    {.name = "--places",
+     .argument = "N",
+     .text = "Measure errors at this many positions on each path. The default is 3.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(places),
+     .least = 1,
+     .most = DIP_COST_MAX_PLACES},
+    {.name = "--burst",
+     .argument = "N",
+     .text = "Draw this many successive frames at each position, to measure flicker. The default "
+             "is 2.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(burst),
+     .least = 1,
+     .most = DIP_COST_MAX_BURST},
+    {.name = "--samples",
+     .argument = "N",
+     .text =
+         "Samples per pixel in each half of the converged picture: a square number. The default "
+         "is 64.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_samples},
+    {.name = "--pixels-per-degree",
+     .argument = "X",
+     .text = "Pixels per degree of the viewer's field of view, for FLIP. The default 67.02 is that "
+             "of 3840 pixels on 0.7 m seen from 0.7 m.",
+     .kind = DIP_OPTION_NUMBER,
+     .field = FIELD(pixels_per_degree),
+     .least = DIP_FLIP_MIN_PIXELS_PER_DEGREE,
+     .most = DIP_FLIP_MAX_PIXELS_PER_DEGREE},
+    {.name = "--part",
+     .argument = "A:B",
+     .text = "Measure errors only at the positions from A up to, but not including, B. This is one "
+             "machine's share; `diptych cost merge` joins the shares.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_part},
+    {.name = "--cache",
+     .argument = "DIR",
+     .text = "Keep the converged pictures in this folder. The default is $XDG_CACHE_HOME/diptych, "
+             "or else ~/.cache/diptych.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(cache)},
+};
+
+static const DipOptionRow time_rows[] = {
+    {.name = "--errors-only",
+     .text = "Measure no times.",
+     .kind = DIP_OPTION_FLAG,
+     .field = FIELD(errors_only)},
+    {.name = "--rounds",
+     .argument = "N",
+     .text = "Measure every time in this many rounds. The default is 16.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(rounds),
+     .least = 2,
+     .most = 10000},
+    {.name = "--timed",
+     .argument = "N",
+     .text = "Time this many frames along the path in each round. The default is 4.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(timed_frames),
+     .least = 1,
+     .most = 100},
+    {.name = "--seed",
+     .argument = "N",
+     .text = "Seed of the random order in the rounds. By default the clock gives it.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(seed),
+     .given = FIELD(has_seed),
+     .most = INT32_MAX},
+};
+
+static const DipOptionTable out_table = {"What to measure", out_rows, DIP_ARRAY_COUNT(out_rows)};
+static const DipOptionTable merge_table = {"Output", merge_rows, DIP_ARRAY_COUNT(merge_rows)};
+static const DipOptionTable choice_table = {"What to measure", choice_rows,
+                                            DIP_ARRAY_COUNT(choice_rows)};
+static const DipOptionTable error_table = {"Errors", error_rows, DIP_ARRAY_COUNT(error_rows)};
+static const DipOptionTable time_table = {"Times", time_rows, DIP_ARRAY_COUNT(time_rows)};
+
+static const DipOptionPart cost_parts[] = {
+    {&out_table, 0},
+    {&choice_table, offsetof(DipCostArguments, cost)},
+    {&error_table, offsetof(DipCostArguments, cost)},
+    {&time_table, offsetof(DipCostArguments, cost)},
+    {&dip_scene_option_table, offsetof(DipCostArguments, session)},
+    {&dip_path_option_table, offsetof(DipCostArguments, session)},
+    {&dip_size_option_table, offsetof(DipCostArguments, session)},
+    {&dip_threads_option_table, offsetof(DipCostArguments, session)},
+    {&dip_program_option_table, offsetof(DipCostArguments, program)},
+};
+static const DipOptionPart merge_parts[] = {
+    {&merge_table, 0},
+    {&dip_program_option_table, offsetof(DipCostMergeArguments, program)},
+};
+static const DipOptionPart assets_parts[] = {
+    {&dip_scene_option_table, offsetof(DipCostAssetsArguments, session)},
+    {&dip_threads_option_table, offsetof(DipCostAssetsArguments, session)},
+    {&dip_program_option_table, offsetof(DipCostAssetsArguments, program)},
+};
+const DipOptionParts dip_cost_option_parts = {cost_parts, DIP_ARRAY_COUNT(cost_parts)};
+const DipOptionParts dip_cost_merge_option_parts = {merge_parts, DIP_ARRAY_COUNT(merge_parts)};
+const DipOptionParts dip_cost_assets_option_parts = {assets_parts, DIP_ARRAY_COUNT(assets_parts)};
+
+// --- defaults and checks -------------------------------------------------------------------------
+
+void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
+    (void)argc;
+    (void)argv;
+    ((DipCostArguments *)arguments)->cost = (DipCostOptions){
         .baseline = dip_quality_default(),
         .places = 3,
         .burst = 2,
@@ -158,25 +234,38 @@ void dip_cost_options_default(DipCostOptions *cost) {
     };
 }
 
-bool dip_cost_options_check(const DipOptions *options, DipError *err) {
-    const DipCostOptions *cost = &options->cost;
-    if (!options->out) {
-        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--out",
-                             "no folder for the report, accepted --out DIR");
-    }
-    if (options->command == DIP_COMMAND_COST_MERGE) {
-        return cost->part_count > 0 ||
-               dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost merge",
-                             "no parts, accepted cost merge --out DIR PART/cost.json...");
+static bool check_out(const char *out, DipError *err) {
+    return out || dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--out",
+                                "there is no folder for the report; give one with --out DIR");
+}
+
+bool dip_cost_options_check(const void *arguments, DipError *err) {
+    const DipCostArguments *all = arguments;
+    const DipCostOptions *cost = &all->cost;
+    if (!check_out(all->out, err)) {
+        return false;
     }
     if (cost->end_place > cost->places) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--part",
-                             "ends at %d of %d places, accepted up to --places", cost->end_place,
-                             cost->places);
+                             "ends at %d of %d places; give an end up to %d, or a greater --places",
+                             cost->end_place, cost->places, cost->places);
     }
     if (cost->errors_only && cost->budget_count) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--budget-ms",
-                             "advice needs times, accepted without --errors-only");
+                             "advice needs times; leave out --budget-ms or --errors-only");
     }
-    return true;
+    return dip_session_options_check(&all->session, err);
+}
+
+bool dip_cost_merge_options_check(const void *arguments, DipError *err) {
+    const DipCostMergeArguments *all = arguments;
+    return check_out(all->out, err) &&
+           (all->part_count > 0 ||
+            dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost merge",
+                          "there are no parts to join; give the cost.json of each: cost merge "
+                          "--out DIR PART/cost.json..."));
+}
+
+bool dip_cost_assets_options_check(const void *arguments, DipError *err) {
+    return dip_session_options_check(&((const DipCostAssetsArguments *)arguments)->session, err);
 }

@@ -1,7 +1,9 @@
-// What `diptych cost` is asked to measure.
+// Options of `diptych cost` and `diptych cost merge`.
 #ifndef DIP_APP_COST_OPTIONS_H
 #define DIP_APP_COST_OPTIONS_H
 
+#include "app/command.h"
+#include "app/session_options.h"
 #include "renderer/scene/quality.h"
 
 #include <stdbool.h>
@@ -10,17 +12,17 @@ enum {
     DIP_COST_MAX_PLACES = 1000,
     DIP_COST_MAX_BURST = 16,
     DIP_COST_MAX_BUDGETS = 8,
-    DIP_COST_MAX_PARTS = 256 // files that are merged
+    DIP_COST_MAX_PARTS = 256 // Files that one merge joins.
 };
 
-// Texts are borrowed from argv.
+// What to measure. Texts are borrowed from argv.
 typedef struct DipCostOptions {
     DipQuality baseline;
-    int places; // of each path where errors are measured
-    int burst;  // frames in a row at each
+    int places; // Positions on each path where errors are measured.
+    int burst;  // Successive frames at each position.
     int first_place;
-    int end_place; // of this run; 0: all of them
-    int samples;   // of each half of the truth, per pixel: a square
+    int end_place; // End of the positions of this run; 0: all of them.
+    int samples;   // Samples per pixel in each half of the truth: a square number.
     double pixels_per_degree;
     int rounds;
     int timed_frames;
@@ -28,12 +30,41 @@ typedef struct DipCostOptions {
     bool has_seed;
     int seed;
     bool has_combined;
-    unsigned combined; // bit s: every step of setting s with every step of the other ones
+    unsigned combined; // Bit s: combine every step of setting s with those of the other set bits.
     double budgets_ms[DIP_COST_MAX_BUDGETS];
     int budget_count;
-    const char *cache; // folder; NULL: the user's
+    const char *cache; // Folder of the truths; NULL: the user's cache folder.
+} DipCostOptions;
+
+// The whole command line of `diptych cost`.
+typedef struct DipCostArguments {
+    DipProgramOptions program;
+    DipSessionOptions session;
+    const char *out; // Folder of the report.
+    DipCostOptions cost;
+} DipCostArguments;
+
+// The whole command line of `diptych cost merge`.
+typedef struct DipCostMergeArguments {
+    DipProgramOptions program;
+    const char *out;
     const char *parts[DIP_COST_MAX_PARTS];
     int part_count;
-} DipCostOptions;
+} DipCostMergeArguments;
+
+// The whole command line of `diptych cost assets`.
+typedef struct DipCostAssetsArguments {
+    DipProgramOptions program;
+    DipSessionOptions session;
+} DipCostAssetsArguments;
+
+extern const DipOptionParts dip_cost_option_parts;
+extern const DipOptionParts dip_cost_merge_option_parts;
+extern const DipOptionParts dip_cost_assets_option_parts;
+
+void dip_cost_options_default(void *arguments, int argc, char *const *argv);
+bool dip_cost_options_check(const void *arguments, DipError *err);
+bool dip_cost_merge_options_check(const void *arguments, DipError *err);
+bool dip_cost_assets_options_check(const void *arguments, DipError *err);
 
 #endif

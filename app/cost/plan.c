@@ -234,24 +234,21 @@ static bool add_combinations(DipCostReport *report, DipQuality quality, int sett
 
 // --- the whole ---------------------------------------------------------------------------------
 
-void dip_cost_scene_name(const DipSession *session, const DipOptions *options,
-                         char name[DIP_COST_TEXT]) {
-    const char *file = options->model_count          ? options->models[0]
-                       : session->config.xfile.count ? session->config.xfile.items[0].path
-                                                     : "";
+void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]) {
+    const char *file = dip_session_scene_file(session);
     const char *slash = strrchr(file, '/');
     snprintf(name, DIP_COST_TEXT, "%s", slash ? slash + 1 : file);
 }
 
-static void describe(DipCostReport *report, const DipSession *session, const DipOptions *options) {
-    dip_cost_scene_name(session, options, report->scene);
+static void describe(DipCostReport *report, const DipSession *session) {
+    dip_cost_scene_name(session, report->scene);
     dip_cost_scene_hash(&session->scene_def, &session->reflection, report->scene_hash);
     dip_machine_processor(report->processor, sizeof report->processor);
     snprintf(report->isa, sizeof report->isa, "%s", dip_isa_name(session->isa));
     snprintf(report->version, sizeof report->version, "%s", DIP_VERSION);
     report->threads = dip_pool_thread_count(session->pool);
-    report->width = options->has_size ? options->width : session->config.res.width;
-    report->height = options->has_size ? options->height : session->config.res.height;
+    report->width = session->pane_size.width;
+    report->height = session->pane_size.height;
 }
 
 // The settings that are combined by default: two are enough for a plot of the Pareto front, advice
@@ -263,9 +260,9 @@ static unsigned default_combined(const DipCostOptions *options) {
                : two;
 }
 
-bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipOptions *options,
+bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCostOptions *options,
                    DipError *err) {
-    *report = (DipCostReport){.options = options->cost};
+    *report = (DipCostReport){.options = *options};
     report->rows = calloc(DIP_COST_MAX_ROWS, sizeof *report->rows);
     if (!report->rows) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
@@ -276,7 +273,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipOp
     if (!report->options.end_place) {
         report->options.end_place = report->options.places;
     }
-    describe(report, session, options);
+    describe(report, session);
     add_row(report, &report->options.baseline, add_path(report, session, DIP_CATEGORY_DEFAULT));
     report->same_row = report->row_count;
     report->rows[report->row_count++] = report->rows[0];

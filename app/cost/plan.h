@@ -3,18 +3,17 @@
 #ifndef DIP_APP_COST_PLAN_H
 #define DIP_APP_COST_PLAN_H
 
+#include "app/cost/options.h"
 #include "app/cost/report.h"
-#include "app/options.h"
 #include "app/session.h"
 
 // Fills in the rows and sweeps of an empty report and allocates its memory. Steps that the renderer
 // refuses are left out and listed with the reason. Free the report even after a failure.
-bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipOptions *options,
+bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCostOptions *options,
                    DipError *err);
 
 // Writes the file name of the first model, without its folder.
-void dip_cost_scene_name(const DipSession *session, const DipOptions *options,
-                         char name[DIP_COST_TEXT]);
+void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]);
 
 // The length of one of the report's paths, and the pose at a time on it.
 int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession *session, int path);

@@ -129,3 +129,13 @@ bool dip_record_write(const DipRecord *record, const char *file, DipError *err) 
     cJSON_free(text);
     return written;
 }
+
+bool dip_record_print(const DipRecord *record, FILE *out, DipError *err) {
+    char *text = cJSON_Print(record->root);
+    if (!text) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "record", "out of memory");
+    }
+    fprintf(out, "%s\n", text);
+    cJSON_free(text);
+    return true;
+}

@@ -4,9 +4,10 @@
 // "fov_y_deg":45},"ms":2.9,"current":{"settings":"aa=..","hash":"..","copied":false,"ms":1.5,
 // "stages_ms":{..},"counters":{..},"effects":{"light_map":{"run":true,"why":".."},..}},"requested":{..}},..],
 // "load_ms":{"ini":0.3,..},"peak_rss_bytes":123456}
-// A pane that is copied from the one before took no time and did no work: 0 in all of these. The
-// frame's own ms is the time of both panes on the clock; the panes' sum may exceed it, since
-// geometry that is set up once for both counts in each.
+//
+// A pane that is copied from the one before it has 0 for all its times and counters, since it took
+// no time and no work. The frame's own "ms" is the wall-clock time of both panes. The sum of the
+// panes' times can exceed it, since geometry that both panes share counts in each of them.
 #ifndef DIP_APP_DUMP_RECORD_H
 #define DIP_APP_DUMP_RECORD_H
 
@@ -17,6 +18,7 @@
 #include "renderer/scene/quality.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 
 typedef struct DipRecord DipRecord;
 
@@ -25,21 +27,24 @@ typedef struct DipRecordPane {
     const DipQuality *quality;
     const DipFrame *frame;
     const char *hash;
-    bool copied; // from the pane before, with the same settings
+    bool copied; // The pane is a copy of the one before it, which has the same settings.
 } DipRecordPane;
 
 DipRecord *dip_record_create(DipError *err);
 void dip_record_destroy(DipRecord **record);
 
-// ms: of both panes. panes: current, requested.
+// Adds a frame. ms is the wall-clock time of both panes; panes are current and requested.
 bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *pose, double ms,
                     const DipRecordPane panes[2], DipError *err);
 
-// How the program started, and the memory it took.
+// Adds how long the start took by part, and the most memory that was in use.
 bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t peak_rss_bytes,
                           DipError *err);
 
-// Writes the file whole or not at all.
+// Writes the file as a whole or not at all.
 bool dip_record_write(const DipRecord *record, const char *file, DipError *err);
+
+// Prints the same text and a newline. The caller checks whether `out` took it.
+bool dip_record_print(const DipRecord *record, FILE *out, DipError *err);
 
 #endif

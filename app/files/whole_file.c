@@ -28,7 +28,8 @@ bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes
     if (!written) {
         const int reason = errno;
         remove(temporary);
-        dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written: %s", strerror(reason));
+        dip_error_set_runtime(err, DIP_ERROR_IO, file, 0, NULL, "cannot be written: %s",
+                              strerror(reason));
     }
     free(temporary);
     return written;

@@ -256,10 +256,10 @@ static bool store(DipTruth *truth, const char *cache, DipError *err) {
     char hex[33];
     hash_contents(bytes, size - 32, hex);
     memcpy(bytes + size - 32, hex, 32);
-    const bool stored =
-        (file_name(truth, cache, name) ||
-         dip_error_set(err, DIP_ERROR_OVERSIZED, cache, 0, "--cache", "the name is too long")) &&
-        dip_whole_file_write(name, bytes, size, err);
+    const bool stored = (file_name(truth, cache, name) ||
+                         dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, cache, 0, "--cache",
+                                               "the name is too long")) &&
+                        dip_whole_file_write(name, bytes, size, err);
     free(bytes);
     return stored;
 }

@@ -1,18 +1,22 @@
-// `diptych path info` and `diptych path convert`.
-#include "app/commands.h"
+// `diptych path info` and `diptych path convert`: reading and rewriting camera paths.
+#include "app/path/path.h"
 
+#include "app/path/options.h"
 #include "campaths/campath.h"
+#include "renderer/base/assert.h"
 
 #include <stdio.h>
 #include <string.h>
 
-bool dip_path_info_run(const DipOptions *options, DipError *err) {
+static bool run_info(DipSession *session, const void *options, DipError *err) {
+    (void)session;
+    const char *file = ((const DipPathOptions *)options)->files[0];
     DipCamPath *path;
-    if (!dip_campath_load(options->operands[0], &path, err)) {
+    if (!dip_campath_load(file, &path, err)) {
         return false;
     }
     const DipCamPathInfo info = dip_campath_info(path);
-    printf("file       %s\n", options->operands[0]);
+    printf("file       %s\n", file);
     printf("keys       %zu, %.9g s apart\n", info.key_count, 1e-9 * (double)info.period_ns);
     printf("duration   %.9g s, then again from the beginning\n", 1e-9 * (double)info.duration_ns);
     printf("length     %.6g m\n", info.length_m);
@@ -24,20 +28,13 @@ bool dip_path_info_run(const DipOptions *options, DipError *err) {
     return true;
 }
 
-static bool ends_with(const char *text, const char *end) {
-    const size_t length = strlen(text);
-    return length >= strlen(end) && strcmp(text + length - strlen(end), end) == 0;
-}
-
-bool dip_path_convert_run(const DipOptions *options, DipError *err) {
-    const char *to = options->operands[1];
-    const bool text = ends_with(to, ".pth");
-    if (!text && !ends_with(to, ".bth")) {
-        return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "path convert",
-                             "'%s' says no format, accepted a name that ends in .pth or .bth", to);
-    }
+static bool run_convert(DipSession *session, const void *options, DipError *err) {
+    (void)session;
+    const DipPathOptions *files = options;
+    const char *to = files->files[1];
+    const bool text = strcmp(to + strlen(to) - strlen(".pth"), ".pth") == 0;
     DipCamPath *path;
-    if (!dip_campath_load(options->operands[0], &path, err)) {
+    if (!dip_campath_load(files->files[0], &path, err)) {
         return false;
     }
     const bool saved =
@@ -45,3 +42,46 @@ bool dip_path_convert_run(const DipOptions *options, DipError *err) {
     dip_campath_destroy(&path);
     return saved;
 }
+
+static const DipExample info_examples[] = {
+    {"diptych path info campaths/ambient.pth", "prints what the courtyard's default path holds"},
+};
+
+static const DipExample convert_examples[] = {
+    {"diptych path convert campaths/ambient.pth ambient.bth", "makes a binary file of a text"},
+    {"diptych path convert ambient.bth ambient.pth", "makes it a text again, for an editor"},
+};
+
+#define PATH_OPERANDS(number)                                                                      \
+    { offsetof(DipPathOptions, files), offsetof(DipPathOptions, file_count), number }
+
+const DipCommand dip_path_info_command = {
+    .name = "path info",
+    .summary = "say what is in a camera path",
+    .usage = "FILE",
+    .text = "Path info reads a camera path and prints its keys, its duration and length, the box "
+            "that holds it and its greatest speeds.",
+    .examples = info_examples,
+    .example_count = DIP_ARRAY_COUNT(info_examples),
+    .parts = &dip_path_option_parts,
+    .operands = PATH_OPERANDS(1),
+    .options_size = sizeof(DipPathOptions),
+    .check = dip_path_info_options_check,
+    .run = run_info,
+};
+
+const DipCommand dip_path_convert_command = {
+    .name = "path convert",
+    .summary = "rewrite a camera path as .pth (text) or .bth (binary)",
+    .usage = "IN OUT.pth|OUT.bth",
+    .text = "Path convert reads a camera path of either format and writes it in the format that "
+            "the second name ends in. A text can be edited; a binary file is smaller. Both hold "
+            "the same path to the bit.",
+    .examples = convert_examples,
+    .example_count = DIP_ARRAY_COUNT(convert_examples),
+    .parts = &dip_path_option_parts,
+    .operands = PATH_OPERANDS(2),
+    .options_size = sizeof(DipPathOptions),
+    .check = dip_path_convert_options_check,
+    .run = run_convert,
+};

@@ -31,7 +31,6 @@ typedef struct Drawn {
 
 typedef struct Preview {
     DipSession *session;
-    const DipOptions *options;
     DipWindow *window;
     DipPreviewState state;
     DipQuality drawn_quality[DIP_PANE_COUNT]; // what the renderers are set to
@@ -55,8 +54,8 @@ typedef struct Preview {
 } Preview;
 
 // A model of the user's own is crossed in four seconds, whatever its unit.
-static double flying_speed(const DipSession *session, const DipOptions *options) {
-    if (options->model_count == 0) {
+static double flying_speed(const DipSession *session) {
+    if (session->options->model_count == 0) {
         return courtyard_speed_m_per_s;
     }
     float low[3];
@@ -241,7 +240,7 @@ static void take_screenshot(Preview *preview, int64_t now_ns) {
 // What judges pictures is made when it is first asked for.
 static bool make_live(Preview *preview, int64_t now_ns) {
     DipError err;
-    if (!preview->live && dip_session_keep_model(preview->session, preview->options, &err)) {
+    if (!preview->live && dip_session_keep_model(preview->session, &err)) {
         preview->live =
             dip_live_create(&preview->session->scene_def, &preview->session->reflection, &err);
     }
@@ -355,28 +354,26 @@ static bool run_loop(Preview *preview, DipError *err) {
     return true;
 }
 
-static bool load_costs(DipCosts *costs, const DipSession *session, const DipOptions *options,
+static bool load_costs(DipCosts *costs, const DipSession *session, const char *report,
                        DipError *err) {
     char scene[DIP_COST_TEXT];
-    dip_cost_scene_name(session, options, scene);
-    return dip_costs_load(costs, options->cost_report, scene, err);
+    dip_cost_scene_name(session, scene);
+    return dip_costs_load(costs, report, scene, err);
 }
 
-bool dip_preview_run(DipSession *session, const DipOptions *options, DipError *err) {
-    const DipConfigSize *res = &session->config.res;
-    Preview preview = {.session = session, .options = options, .redraw = true};
+bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err) {
+    Preview preview = {.session = session, .redraw = true};
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview.drawn_quality[p] = dip_renderer_quality(session->renderers[p]);
     }
     preview.state = dip_preview_state_make(preview.drawn_quality, &session->track);
-    preview.speed_m_per_s = flying_speed(session, options);
+    preview.speed_m_per_s = flying_speed(session);
     static DipCosts costs;
-    if (options->cost_report && !load_costs(&costs, session, options, err)) {
+    if (options->cost_report && !load_costs(&costs, session, options->cost_report, err)) {
         return false;
     }
     preview.state.costs = options->cost_report ? &costs : NULL;
-    preview.window = dip_window_create(options->has_size ? options->width : res->width,
-                                       options->has_size ? options->height : res->height, err);
+    preview.window = dip_window_create(session->pane_size.width, session->pane_size.height, err);
     const bool done = preview.window && run_loop(&preview, err);
     session->times.ended_ns = dip_clock_ns();
     dip_live_destroy(&preview.live);

@@ -72,9 +72,9 @@ DipText *dip_text_create(SDL_Renderer *renderer, DipError *err) {
     if (!text->library_open) {
         dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "font", "%s", TTF_GetError());
     } else if (!find_font(text) || !font_of(text, DIP_TEXT_MIN_SIZE)) {
-        dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "font",
-                      "no sans-serif font was found, install one, such as Debian's "
-                      "fonts-dejavu-core");
+        dip_error_set_runtime(err, DIP_ERROR_MISSING, NULL, 0, "font",
+                              "no sans-serif font was found, install one, such as Debian's "
+                              "fonts-dejavu-core");
     } else {
         return text;
     }

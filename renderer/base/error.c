@@ -1,4 +1,4 @@
-// Error values: filling, formatting, collecting.
+// Filling, formatting and collecting errors.
 #include "renderer/base/error.h"
 
 #include "renderer/base/assert.h"
@@ -8,25 +8,45 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Copies the end of an over-long text, which is the part that tells files apart.
+// Copies a text. Of an over-long one it copies the end, which tells files apart.
 static void copy_tail(char *to, size_t size_bytes, const char *from) {
     const size_t length = from ? strlen(from) : 0;
     const size_t skip = length >= size_bytes ? length - size_bytes + 1 : 0;
     memcpy(to, from ? from + skip : "", length - skip + 1);
 }
 
-bool dip_error_set(DipError *err, DipErrorCode code, const char *file, int line, const char *key,
-                   const char *format, ...) {
-    if (!err) {
-        return false;
-    }
-    *err = (DipError){.code = code, .severity = DIP_SEVERITY_ERROR, .line = line};
+static void set(DipError *err, DipErrorCode code, DipOrigin origin, const char *file, int line,
+                const char *key, const char *format, va_list arguments) {
+    *err = (DipError){.code = code, .origin = origin, .line = line};
     copy_tail(err->file, sizeof err->file, file);
     copy_tail(err->key, sizeof err->key, key);
-    va_list arguments;
-    va_start(arguments, format);
     vsnprintf(err->message, sizeof err->message, format, arguments);
-    va_end(arguments);
+}
+
+static DipOrigin usual_origin(DipErrorCode code) {
+    return code == DIP_ERROR_MEMORY || code == DIP_ERROR_RUNTIME ? DIP_ORIGIN_RUNTIME
+                                                                 : DIP_ORIGIN_INPUT;
+}
+
+bool dip_error_set(DipError *err, DipErrorCode code, const char *file, int line, const char *key,
+                   const char *format, ...) {
+    if (err) {
+        va_list arguments;
+        va_start(arguments, format);
+        set(err, code, usual_origin(code), file, line, key, format, arguments);
+        va_end(arguments);
+    }
+    return false;
+}
+
+bool dip_error_set_runtime(DipError *err, DipErrorCode code, const char *file, int line,
+                           const char *key, const char *format, ...) {
+    if (err) {
+        va_list arguments;
+        va_start(arguments, format);
+        set(err, code, DIP_ORIGIN_RUNTIME, file, line, key, format, arguments);
+        va_end(arguments);
+    }
     return false;
 }
 

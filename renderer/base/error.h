@@ -1,4 +1,5 @@
-// Errors of user data and of the world, as values. Our own mistakes are DIP_ASSERTs (assert.h).
+// Errors as values: faults in what the user gave, and failures of the machine. Mistakes of this
+// program's own code are no DipErrors; DIP_ASSERT (assert.h) catches those.
 //
 // A function that can fail returns false or NULL and fills its last parameter, a DipError, which
 // may be NULL. A reader of a whole file collects every fault in a DipErrorList instead.
@@ -14,7 +15,7 @@
 extern "C" {
 #endif
 
-// X(name, what went wrong in a few words). Tests assert the code, users read the message.
+// X(name, what went wrong in a few words). Tests check the code; users read the message.
 #define DIP_ERROR_LIST(X)                                                                          \
     X(NONE, "no error")                                                                            \
     X(IO, "a file cannot be opened, read or written")                                              \
@@ -36,40 +37,56 @@ typedef enum DipErrorCode {
 #undef DIP_ERROR_ENUM
 } DipErrorCode;
 
+// Who can mend the fault. The program's exit code follows from it: 2 for INPUT, 1 for RUNTIME.
+typedef enum DipOrigin {
+    DIP_ORIGIN_INPUT,  // The user, who gave a wrong command line or a file that cannot be used.
+    DIP_ORIGIN_RUNTIME // The machine: it is out of memory, a file cannot be written, ...
+} DipOrigin;
+
 typedef enum DipSeverity { DIP_SEVERITY_ERROR, DIP_SEVERITY_WARNING } DipSeverity;
 
-// One fault: where it is and what is accepted there. Empty file or key, line 0: not applicable.
+// One fault: where it is and what is accepted there. An empty file, an empty key or line 0 means
+// that the fault has none.
 typedef struct DipError {
     DipErrorCode code;
+    DipOrigin origin;
     DipSeverity severity;
-    char file[256];    // as the user wrote it; an over-long name keeps its end
-    int line;          // 1-based; 0 when the fault has no line
-    char key[64];      // key, setting or argument at fault
-    char message[320]; // "found, accepted" sentence without a full stop
+    char file[256];    // Name as the user wrote it; an over-long name keeps its end.
+    int line;          // Line in the file, from 1; 0 when the fault has no line.
+    char key[64];      // Key, setting or argument at fault.
+    char message[320]; // What was found and what is accepted, without a full stop.
 } DipError;
 
-// Fills *err (which may be NULL) and returns false, so that a caller can `return` it.
-// file and key may be NULL. The format's output is cut at the message's size.
+// Fills *err (which may be NULL) and returns false, so that a caller can `return` it. file and key
+// may be NULL. A message that does not fit is cut. The origin is INPUT, except for the codes MEMORY
+// and RUNTIME, which nobody can type wrongly.
 DIP_API bool dip_error_set(DipError *err, DipErrorCode code, const char *file, int line,
                            const char *key, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-// Writes "file:line: [key] message" (parts that do not apply left out) and returns the length the
-// whole text has, as snprintf does.
+// Does the same with the origin RUNTIME, whatever the code: a file cannot be written, another
+// program broke off, ...
+DIP_API bool dip_error_set_runtime(DipError *err, DipErrorCode code, const char *file, int line,
+                                   const char *key, const char *format, ...)
+    __attribute__((format(printf, 6, 7)));
+
+// Writes "file:line: [key] message", leaving out the parts the error does not have. Returns the
+// length of the whole text, as snprintf does.
 DIP_API size_t dip_error_format(const DipError *err, char *buffer, size_t size_bytes);
 
 // "IO", "RANGE", ...
 DIP_API const char *dip_error_code_name(DipErrorCode code);
 
-// Every fault of one file, in the order met. Zero-initialise; free with dip_error_list_free.
+// Every fault of one file, in the order of the file. Zero-initialise it; free it with
+// dip_error_list_free.
 typedef struct DipErrorList {
     DipError *items;
     size_t count;
     size_t capacity;
-    size_t error_count; // items of severity error; the rest are warnings
+    size_t error_count; // Number of items that are errors; the others are warnings.
 } DipErrorList;
 
-// Appends a copy. When memory runs out the fault is counted but its text is lost.
+// Appends a copy. When memory runs out, the list counts the fault but loses its text.
 DIP_API void dip_error_list_add(DipErrorList *list, const DipError *err);
 DIP_API void dip_error_list_free(DipErrorList *list);
 

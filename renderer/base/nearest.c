@@ -1,10 +1,10 @@
-// Levenshtein distance, one row at a time.
+// Levenshtein distance, computed row by row.
 #include "renderer/base/nearest.h"
 
 #include <ctype.h>
 #include <string.h>
 
-enum { MAX_LENGTH = 63 }; // of a known name that counts in full
+enum { MAX_LENGTH = 63 }; // Letters of a known name that are compared; further ones are ignored.
 
 static size_t distance(const char *a, const char *b) {
     size_t row[MAX_LENGTH + 1];
@@ -35,4 +35,10 @@ const char *dip_nearest_name(const char *name, const char *const *names, size_t 
         }
     }
     return names[nearest];
+}
+
+const char *dip_nearest_likely(const char *name, const char *const *names, size_t count) {
+    const char *nearest = count ? dip_nearest_name(name, names, count) : NULL;
+    const size_t allowed = nearest && strlen(nearest) > 3 ? strlen(nearest) / 3 : 1;
+    return nearest && distance(name, nearest) <= allowed ? nearest : NULL;
 }

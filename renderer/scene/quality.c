@@ -2,6 +2,7 @@
 #include "renderer/scene/quality.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/nearest.h"
 #include "renderer/pipeline/pattern.h"
 
 #include <stdio.h>
@@ -30,7 +31,7 @@ DipQuality dip_quality_default(void) {
     return quality;
 }
 
-// "none|2|4": the steps of a setting, or only those of this version.
+// Writes the steps whose bits are set in `mask`, such as "none|2|4".
 static void list_steps(const DipSettingInfo *info, unsigned mask, char *buffer, size_t size_bytes) {
     size_t length = 0;
     buffer[0] = '\0';
@@ -43,13 +44,17 @@ static void list_steps(const DipSettingInfo *info, unsigned mask, char *buffer, 
 }
 
 static bool unknown_setting(const char *name, DipError *err) {
+    const char *keys[DIP_SETTING_COUNT];
     char known[128] = "";
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         const size_t length = strlen(known);
-        snprintf(known + length, sizeof known - length, "%s%s", s ? " " : "", infos[s].key);
+        keys[s] = infos[s].key;
+        snprintf(known + length, sizeof known - length, "%s%s", s ? " " : "", keys[s]);
     }
-    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, name,
-                         "no setting of this name, accepted %s", known);
+    const char *likely = dip_nearest_likely(name, keys, DIP_SETTING_COUNT);
+    return dip_error_set(
+        err, DIP_ERROR_UNKNOWN, NULL, 0, name, "no setting of this name%s%s%s, accepted %s",
+        likely ? " (did you mean " : "", likely ? likely : "", likely ? "?)" : "", known);
 }
 
 // Applies one "key=step".
@@ -118,24 +123,33 @@ size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_b
     return length;
 }
 
-// The divisor must be one that the number of samples has passes for, in use or not.
-static bool check_passes(const DipQuality *quality, DipError *err) {
-    const DipSettingInfo *info = &infos[DIP_SETTING_ASD];
-    const int aa = quality->step[DIP_SETTING_AA];
-    const int sample_count = dip_quality_sample_count(quality);
-    unsigned fitting = 0;
-    for (int i = 0; i < info->step_count; i++) {
-        fitting |= (unsigned)dip_sample_groups_exist(sample_count, i + 1) << i;
+// Refuses an asd that the number of samples cannot be grouped by, even if adaptive AA is off.
+static bool check_groups(const DipQuality *quality, DipError *err) {
+    const DipSettingInfo *aa = &infos[DIP_SETTING_AA];
+    const DipSettingInfo *asd = &infos[DIP_SETTING_ASD];
+    const int asd_step = quality->step[DIP_SETTING_ASD];
+    unsigned fitting_asd = 0; // Steps of asd that fit this aa, as bits.
+    unsigned fitting_aa = 0;  // Steps of aa that fit this asd.
+    for (int i = 0; i < asd->step_count; i++) {
+        fitting_asd |= (unsigned)dip_sample_groups_exist(dip_quality_sample_count(quality), i + 1)
+                       << i;
     }
-    if (fitting >> quality->step[DIP_SETTING_ASD] & 1) {
+    for (int i = 0; i < aa->step_count; i++) {
+        DipQuality other = *quality;
+        other.step[DIP_SETTING_AA] = (uint8_t)i;
+        fitting_aa |=
+            (unsigned)dip_sample_groups_exist(dip_quality_sample_count(&other), asd_step + 1) << i;
+    }
+    if (fitting_asd >> asd_step & 1) {
         return true;
     }
+    char needed[96];
     char accepted[96];
-    list_steps(info, fitting, accepted, sizeof accepted);
-    return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, info->key,
-                         "'%s' samples per pass do not fit aa=%s, accepted %s",
-                         info->steps[quality->step[DIP_SETTING_ASD]],
-                         infos[DIP_SETTING_AA].steps[aa], accepted);
+    list_steps(aa, fitting_aa, needed, sizeof needed);
+    list_steps(asd, fitting_asd, accepted, sizeof accepted);
+    return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, asd->key,
+                         "asd=%s needs aa=%s; with aa=%s, give asd=%s", asd->steps[asd_step],
+                         needed, aa->steps[quality->step[DIP_SETTING_AA]], accepted);
 }
 
 bool dip_quality_check(const DipQuality *quality, DipError *err) {
@@ -147,7 +161,7 @@ bool dip_quality_check(const DipQuality *quality, DipError *err) {
                                  infos[s].step_count - 1);
         }
     }
-    return check_passes(quality, err);
+    return check_groups(quality, err);
 }
 
 int dip_quality_sample_count(const DipQuality *quality) {

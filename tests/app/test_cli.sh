@@ -48,6 +48,12 @@ check "help lists every command" grep -q 'path convert' out.txt
 check "help lists settings" grep -q 'miplod' out.txt
 expect 0 '' "$diptych" dump --help
 check "help on dump gives an example" grep -q 'dump --out out --frames 0:8' out.txt
+for word in preview dump bench cost "cost merge" "cost assets" "path info" "path convert"; do
+    expect 0 '' "$diptych" $word --help
+    check "help on $word gives its usage and an example" sh -c \
+        "grep -q '^Usage: diptych $word' out.txt && grep -q '^  diptych' out.txt"
+    check "help on $word fits 80 columns" sh -c '! grep -qE "^ {6}.{75}" out.txt'
+done
 expect 0 '' "$diptych" bench --help
 check "help on bench gives examples" grep -q 'bench --vs' out.txt
 check "and the lists' own texts" grep -q -- '--threads LIST' out.txt
@@ -57,50 +63,62 @@ expect 0 '' "$diptych" --version
 check "the version is one line" grep -qE '^diptych [0-9]+\.[0-9]+\.[0-9]+$' out.txt
 
 # --- bad command lines: one line, exit 2, nothing written
-expect 2 'diptych: \[dump\] nothing to make, accepted .*--out.*--json.*--hash' "$diptych" dump
-expect 2 '\[--frmes\] no such option, nearest --frames' "$diptych" dump --hash --frmes 0:1
-expect 2 "\[--frames\] '5:2', accepted FIRST:END" "$diptych" dump --hash --frames 5:2
+expect 2 'diptych: \[dump\] nothing to do; give one of --out DIR, --json FILE, --hash$' "$diptych" dump
+expect 2 '\[--frmes\] is not an option of .diptych dump.; did you mean --frames\?$' "$diptych" dump --hash --frmes 0:1
+expect 2 "\[--frames\] '5:2' is not FIRST:END" "$diptych" dump --hash --frames 5:2
 expect 2 "\[--frames\] 'a:b'" "$diptych" dump --hash --frames a:b
 expect 2 "\[--frames\] '0:9999999'" "$diptych" dump --hash --frames 0:9999999
 expect 2 "\[--fps\] '0'" "$diptych" dump --hash --fps 0
-expect 2 "\[--size\] '640', accepted WIDTHxHEIGHT" "$diptych" dump --hash --size 640
+expect 2 "\[--size\] '640' is not WIDTHxHEIGHT .* such as 640x480" "$diptych" dump --hash --size 640
 expect 2 "\[--size\] '0x5'" "$diptych" dump --hash --size 0x5
 expect 2 "\[--size\] '9000x5'" "$diptych" dump --hash --size 9000x5
 expect 2 "\[--threads\] '-1'" "$diptych" dump --hash --threads -1
 expect 2 "\[--threads\] 'many'" "$diptych" dump --hash --threads many
-expect 2 "\[--isa\] 'mmx', accepted auto\|scalar" "$diptych" dump --hash --isa mmx
+expect 2 "\[--isa\] 'mmx' is not an instruction set; give one of auto\|scalar" "$diptych" dump --hash --isa mmx
 expect 2 "\[aa\] '3' is no step, accepted none\|2\|4\|6\|8" "$diptych" dump --hash --current aa=3
 expect 2 "\[opt\] 'on' is no step" "$diptych" dump --hash --requested opt=on
-expect 2 "\[asd\] '3' samples per pass do not fit aa=4, accepted 1|2" \
+expect 2 "\[asd\] asd=3 needs aa=6; with aa=4, give asd=1\|2$" \
     "$diptych" dump --hash --requested aa=4,aaa=on,asd=3
-expect 2 "\[--requested\] no value" "$diptych" dump --hash --requested
+expect 2 "\[--requested\] needs a value: --requested SET" "$diptych" dump --hash --requested
 expect 2 "\[--hash\] takes no value" "$diptych" dump --hash=yes
-expect 2 "\[--out\] is no option of .diptych path info." "$diptych" path info --out x y
-expect 2 "\[path\] 'show', accepted path info FILE" "$diptych" path show x
-expect 2 "\[path convert\] 1 of 2 files" "$diptych" path convert x.pth
-expect 2 "\[dmp\] no such command, nearest dump" "$diptych" dmp --hash
-expect 2 "\[stray\] one argument too many" "$diptych" dump --hash stray
-expect 2 "\[--category\] 'SKY', accepted DEFAULT\|AA" "$diptych" dump --hash --category SKY
-expect 2 "\[--category\] 'AF' .* --path takes" "$diptych" dump --hash --category AF --path x.pth
-expect 2 "\[--category\] 'AF' .* orbit takes" "$diptych" dump --hash --category AF --model x.obj
-expect 2 "\[path\] nothing to do, accepted path info FILE" "$diptych" path
+expect 2 "\[--out\] is not an option of .diptych path info." "$diptych" path info --out x y
+expect 2 "\[path\] 'show' is not a command; give one of path info FILE, path convert IN OUT" "$diptych" path show x
+expect 2 "\[path convert\] needs two files but got 1: path convert IN OUT" "$diptych" path convert x.pth
+expect 2 "\[dmp\] is not a command; did you mean dump\?" "$diptych" dmp --hash
+expect 2 "\[stray\] is one argument too many for .diptych dump." "$diptych" dump --hash stray
+expect 2 "\[--category\] 'SKY' is not a camera path of the ini; give one of DEFAULT\|AA" "$diptych" dump --hash --category SKY
+expect 2 "\[--category\] 'AF' .* follows --path; leave out one" "$diptych" dump --hash --category AF --path x.pth
+expect 2 "\[--category\] 'AF' .* follows an orbit .* leave out one" "$diptych" dump --hash --category AF --model x.obj
+expect 2 "\[path\] nothing to do; give one of path info FILE, path convert IN OUT" "$diptych" path
+
+# A mistyped option is told only of the command at hand: dump has --requested, bench does not.
+expect 2 "\[--requsted\] is not an option of .diptych bench.; .diptych bench --help. lists" \
+    "$diptych" bench --requsted aa=2
+expect 2 "\[--requsted\] is not an option of .diptych preview.; did you mean --requested\?" \
+    "$diptych" --requsted aa=2
+expect 2 "\[show\] is not a command; .diptych --help. lists" "$diptych" show
+expect 2 "\[--hash\] prints to standard output, and so does --json -;" \
+    "$diptych" dump --hash --json -
+expect 2 "\[path convert\] needs two files but got 0" "$diptych" path convert
+expect 2 "\[--threads\] '257' is not a number of threads from 1 to 256" \
+    "$diptych" dump --hash --threads 257
 
 expect 2 "\[aa\] '3' is no step" "$diptych" bench --sets "aa=none;aa=3"
-expect 2 "\[--sets\] 'aa=2;' has an empty place" "$diptych" bench --sets "aa=2;"
-expect 2 "\[--threads\] 'two', accepted 0..256" "$diptych" bench --threads 1,two
-expect 2 "\[--isa\] 'mmx', accepted auto\|scalar" "$diptych" bench --isa scalar,mmx
-expect 2 "\[--size\] '64', accepted WIDTHxHEIGHT" "$diptych" bench --size 64x48,64
-expect 2 "\[--grid\] '1', accepted 2..20000000" "$diptych" bench --grid 1
-expect 2 "\[--frames\] '0:4', accepted 1..10000" "$diptych" bench --frames 0:4
-expect 2 "\[--rounds\] '0', accepted 1" "$diptych" bench --rounds 0
-expect 2 "\[--grid-out-of-view\] there is no grid" "$diptych" bench --grid-out-of-view
-expect 2 "\[--grid\] a grid takes the place of --path" "$diptych" bench --grid 9 --path x.pth
-expect 2 "\[--svg\] nothing to plot" "$diptych" bench --sets aa=none --svg plots
+expect 2 "\[--sets\] 'aa=2;' holds an empty value; write one ';' between two values" "$diptych" bench --sets "aa=2;"
+expect 2 "\[--threads\] 'two' is not a whole number from 0 to 256" "$diptych" bench --threads 1,two
+expect 2 "\[--isa\] 'mmx' is not an instruction set; give one of auto\|scalar" "$diptych" bench --isa scalar,mmx
+expect 2 "\[--size\] '64' is not WIDTHxHEIGHT" "$diptych" bench --size 64x48,64
+expect 2 "\[--grid\] '1' is not a whole number from 2 to 20000000" "$diptych" bench --grid 1
+expect 2 "\[--frames\] '0:4' is not a whole number from 1 to 10000" "$diptych" bench --frames 0:4
+expect 2 "\[--rounds\] '0' is not a whole number from 1" "$diptych" bench --rounds 0
+expect 2 "\[--grid-out-of-view\] there is no grid; give one with --grid" "$diptych" bench --grid-out-of-view
+expect 2 "\[--grid\] a grid replaces the scene and its path; leave out --grid or --path" "$diptych" bench --grid 9 --path x.pth
+expect 2 "\[--svg\] there is nothing to plot; give more than one value" "$diptych" bench --sets aa=none --svg plots
 expect 2 "none: \[--vs\] cannot be run" "$diptych" bench --vs ./none
-expect 2 "\[--svg\] plots show one program" "$diptych" bench --svg plots --vs "$diptych"
-expect 2 "\[bench\] 1024 combinations" "$diptych" bench --sets "aa=none;aa=2" \
+expect 2 "\[--svg\] plots show one program; leave out" "$diptych" bench --svg plots --vs "$diptych"
+expect 2 "\[bench\] the lists make 1024 combinations; give values for at most 512" "$diptych" bench --sets "aa=none;aa=2" \
     --threads "1$(printf ',%d' $(seq 2 32))" --size "1x1$(printf ',%dx1' $(seq 2 16))"
-expect 2 "\[--current\] is no option of .diptych bench." "$diptych" bench --current aa=2
+expect 2 "\[--current\] is not an option of .diptych bench.; .diptych bench --help. lists" "$diptych" bench --current aa=2
 
 # --- bad input files
 expect 2 'none.ini: ' "$diptych" dump --hash --config none.ini
@@ -132,7 +150,7 @@ check "nothing was written so far" test -z "$(find . -name '*.png' -o -name '*.j
 
 sed 's/^ISA:.*/ISA: neon/' good.ini >isa.ini
 if [ "$(uname -m)" = x86_64 ]; then
-    expect 2 "isa.ini:[0-9]+: \[ISA\] 'neon' is not available" "$diptych" dump --hash --config isa.ini
+    expect 2 "isa.ini:[0-9]+: \[ISA\] this machine cannot run 'neon'" "$diptych" dump --hash --config isa.ini
 fi
 sed 's/^RES:/LOG: faults.log\nRES:/; s/court.gltf/none.gltf/' good.ini >log.ini
 expect 2 'none.gltf' "$diptych" dump --hash --config log.ini
@@ -159,6 +177,22 @@ for word in '"index"' '"time_s"' '"pose"' '"settings":	"aa=4,' '"stages_ms"' '"c
 done
 check "the record's hashes are those printed" \
     grep -q "$(sed -n '1s/.* //p' hashes.txt)" c.json
+
+# --- the record on standard output
+expect 0 '' "$diptych" dump $small --json - --frames 0:5:2 --requested aa=4
+check "standard output is the record and nothing else" python3 -m json.tool out.txt
+check "it has the same hash" grep -q "$(sed -n '1s/.* //p' hashes.txt)" out.txt
+check "no file is called -" test ! -e ./-
+
+# --- standard output on a full disk: one line, exit 1
+full() { "$@" >/dev/full; }
+if [ -c /dev/full ]; then
+    for arguments in --help --version "dump --help" "dump $small --hash" "dump $small --json -" \
+        "path info $source/campaths/aa.pth" "bench --frames 1 --rounds 1 --size 8x8 --sets aa=none" \
+        "cost assets --model $source/tests/assets/data/square.gltf"; do
+        expect 1 'standard output cannot be written' full "$diptych" $arguments
+    done
+fi
 
 # --- the same picture, however it is made
 same_hashes() {
@@ -235,6 +269,10 @@ expect 0 '' "$diptych" dump $small --hash --model "$source/tests/assets/data/squ
 expect 1 'c.json/x' "$diptych" dump $small --json c.json/x
 expect 1 '\[--out\] ' "$diptych" dump $small --out c.json
 
+# --- faults of input and failures of the run are told apart where they are made
+expect 2 'none.json: ' "$diptych" --cost none.json
+expect 1 'none/x.png: |\[--out\] ' "$diptych" dump $small --out c.json/x
+
 # --- camera paths
 expect 0 '' "$diptych" path convert "$source/campaths/aa.pth" aa.bth
 expect 0 '' "$diptych" path convert aa.bth aa.pth
@@ -242,21 +280,21 @@ expect 0 '' "$diptych" path convert aa.pth again.bth
 check "conversion there and back changes no byte" cmp aa.bth again.bth
 expect 0 '' "$diptych" path info aa.bth
 check "info says how long it is" grep -q '^duration   24 s' out.txt
-expect 2 "'aa.txt' says no format" "$diptych" path convert aa.bth aa.txt
+expect 2 "'aa.txt' names no format; write to a file that ends in .pth" "$diptych" path convert aa.bth aa.txt
 head -c 100 aa.bth >cut.bth
 expect 2 'cut.bth: ' "$diptych" path info cut.bth
 expect 1 'none/x.bth: ' "$diptych" path convert aa.pth none/x.bth
 
 # --- what cost makes
-expect 2 "\[--out\] no folder for the report" "$diptych" cost
-expect 2 "\[--samples\] '50', accepted squares" "$diptych" cost --out x --samples 50
-expect 2 "\[--part\] '3:2', accepted A:B" "$diptych" cost --out x --part 3:2
+expect 2 "\[--out\] there is no folder for the report; give one with --out DIR" "$diptych" cost
+expect 2 "\[--samples\] '50' is not a square number from 1 to 4096" "$diptych" cost --out x --samples 50
+expect 2 "\[--part\] '3:2' is not A:B" "$diptych" cost --out x --part 3:2
 expect 2 "\[--part\] ends at 4 of 3 places" "$diptych" cost --out x --part 0:4
-expect 2 "\[--budget-ms\] 'x', accepted milliseconds" "$diptych" cost --out x --budget-ms 8,x
+expect 2 "\[--budget-ms\] 'x' is not a number of milliseconds" "$diptych" cost --out x --budget-ms 8,x
 expect 2 "\[--budget-ms\] advice needs times" "$diptych" cost --out x --budget-ms 8 --errors-only
-expect 2 "\[--combine\] 'ab', accepted none, or settings" "$diptych" cost --out x --combine aa,ab
-expect 2 "\[--pixels-per-degree\] '2', accepted 5..500" "$diptych" cost --out x --pixels-per-degree 2
-expect 2 "\[cost merge\] no parts" "$diptych" cost merge --out x
+expect 2 "\[--combine\] 'ab' is not a setting; give none, or some of aa, taa" "$diptych" cost --out x --combine aa,ab
+expect 2 "\[--pixels-per-degree\] '2' is not a number from 5 to 500" "$diptych" cost --out x --pixels-per-degree 2
+expect 2 "\[cost merge\] there are no parts to join; give the cost.json of each" "$diptych" cost merge --out x
 expect 2 'none.json: cannot open report' "$diptych" cost merge --out x none.json
 echo '{}' >empty.json
 expect 2 'empty.json: \[header\] is missing' "$diptych" cost merge --out x empty.json

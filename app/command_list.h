@@ -1,0 +1,9 @@
+// The commands of Diptych.
+#ifndef DIP_APP_COMMAND_LIST_H
+#define DIP_APP_COMMAND_LIST_H
+
+#include "app/command.h"
+
+extern const DipCommandList dip_command_list;
+
+#endif

@@ -1,0 +1,106 @@
+// The cost commands: their help and their sessions.
+#include "app/cost/command.h"
+
+#include "app/cost/cost.h"
+#include "app/cost/options.h"
+#include "renderer/base/assert.h"
+
+static bool run_cost(DipSession *session, const void *arguments, DipError *err) {
+    return dip_cost_run(session, arguments, err);
+}
+
+static bool run_merge(DipSession *session, const void *arguments, DipError *err) {
+    (void)session;
+    return dip_cost_merge_run(arguments, err);
+}
+
+static bool run_assets(DipSession *session, const void *arguments, DipError *err) {
+    (void)arguments;
+    return dip_cost_assets_run(session, err);
+}
+
+static void describe_cost(const void *arguments, DipSessionDef *def) {
+    def->options = &((const DipCostArguments *)arguments)->session;
+    def->scene = true;
+    def->keep_model = true; // The converged pictures are drawn from it.
+}
+
+static void describe_assets(const void *arguments, DipSessionDef *def) {
+    def->options = &((const DipCostAssetsArguments *)arguments)->session;
+    def->scene = true;
+    def->keep_model = true; // Its pictures are written in other formats.
+}
+
+static const DipExample cost_examples[] = {
+    {"diptych cost --out report", "measures the courtyard in about eight minutes"},
+    {"diptych cost --out report --budget-ms 8,16.6",
+     "also advises what to choose within 8 and 16.6 ms per frame"},
+    {"diptych cost --out report --model scene.glb --size 1280x720", "measures a model of yours"},
+    {"diptych cost --out part0 --places 8 --part 0:4", "measures half of the errors"},
+    {"diptych cost --out part1 --places 8 --part 4:8 --errors-only",
+     "measures the other half, on another machine"},
+    {"diptych cost merge --out report part0/cost.json part1/cost.json", "joins the two"},
+};
+
+static const DipExample merge_examples[] = {
+    {"diptych cost merge --out report part0/cost.json part1/cost.json",
+     "joins the parts that two machines measured"},
+};
+
+static const DipExample assets_examples[] = {
+    {"diptych cost assets", "weighs the courtyard"},
+    {"diptych cost assets --model scene.glb", "weighs a model of yours"},
+};
+
+const DipCommand dip_cost_command = {
+    .name = "cost",
+    .summary = "report what each setting costs in time and buys in accuracy",
+    .usage = "--out DIR [OPTION]...",
+    .text = "Cost changes one setting at a time and measures how much longer a frame takes and how "
+            "much nearer the picture comes to the converged one. It writes a report with tables, "
+            "plots and pictures.\n\n"
+            "A run takes minutes. If it is interrupted, the same command goes on where it ended. "
+            "docs/cost.md defines every figure.",
+    .examples = cost_examples,
+    .example_count = DIP_ARRAY_COUNT(cost_examples),
+    .lists_settings = true,
+    .parts = &dip_cost_option_parts,
+    .options_size = sizeof(DipCostArguments),
+    .set_defaults = dip_cost_options_default,
+    .check = dip_cost_options_check,
+    .describe_session = describe_cost,
+    .run = run_cost,
+};
+
+const DipCommand dip_cost_merge_command = {
+    .name = "cost merge",
+    .summary = "join the parts of a report that several machines measured",
+    .usage = "--out DIR PART/cost.json...",
+    .text = "Cost merge joins reports that were measured with the same scene, size, settings, "
+            "places and samples, each with a --part of the places. Times come from the first part "
+            "that has times, since times of different machines cannot be mixed.",
+    .examples = merge_examples,
+    .example_count = DIP_ARRAY_COUNT(merge_examples),
+    .parts = &dip_cost_merge_option_parts,
+    .operands = {offsetof(DipCostMergeArguments, parts),
+                 offsetof(DipCostMergeArguments, part_count), DIP_COST_MAX_PARTS},
+    .options_size = sizeof(DipCostMergeArguments),
+    .check = dip_cost_merge_options_check,
+    .run = run_merge,
+};
+
+const DipCommand dip_cost_assets_command = {
+    .name = "cost assets",
+    .summary = "print the size and load time of the assets in several formats",
+    .usage = "[OPTION]...",
+    .text = "Cost assets writes the scene's meshes, pictures and camera paths in several formats "
+            "to a temporary folder and prints how large each one is, how large it is when zipped, "
+            "and how long it takes to load.",
+    .examples = assets_examples,
+    .example_count = DIP_ARRAY_COUNT(assets_examples),
+    .parts = &dip_cost_assets_option_parts,
+    .options_size = sizeof(DipCostAssetsArguments),
+    .check = dip_cost_assets_options_check,
+    .describe_session = describe_assets,
+    .run = run_assets,
+};

@@ -1,0 +1,9 @@
+// A program for the build: prints the manual page.
+#include "app/command_list.h"
+#include "app/manual.h"
+#include "app/output.h"
+
+int main(void) {
+    dip_manual_print(&dip_command_list, stdout);
+    return dip_output_finish(NULL) ? 0 : 1;
+}

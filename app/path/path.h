@@ -1,0 +1,10 @@
+// `diptych path info` and `diptych path convert`.
+#ifndef DIP_APP_PATH_PATH_H
+#define DIP_APP_PATH_PATH_H
+
+#include "app/command.h"
+
+extern const DipCommand dip_path_info_command;
+extern const DipCommand dip_path_convert_command;
+
+#endif

@@ -1,0 +1,43 @@
+// `diptych preview` as a command: its help and its session.
+#include "app/preview/command.h"
+
+#include "app/preview/options.h"
+#include "app/preview/preview.h"
+#include "renderer/base/assert.h"
+
+static bool run(DipSession *session, const void *options, DipError *err) {
+    return dip_preview_run(session, options, err);
+}
+
+static void describe_session(const void *options, DipSessionDef *def) {
+    const DipPreviewOptions *preview = options;
+    def->options = &preview->session;
+    def->scene = true;
+    def->renderers = true;
+}
+
+static const DipExample examples[] = {
+    {"diptych", "opens the courtyard with the ini's settings"},
+    {"diptych --current aa=none --requested aa=8,af=16", "compares two settings side by side"},
+    {"diptych model.glb", "orbits a model of yours"},
+    {"diptych --cost report/cost.json", "also shows what `diptych cost` measured"},
+};
+
+const DipCommand dip_preview_command = {
+    .name = "preview",
+    .summary = "open the window: two panes, one camera path (the default)",
+    .usage = "[OPTION]... [MODEL]...",
+    .text = "Preview opens a window with two panes. Both show the same camera path, the left one "
+            "with the current settings and the right one with the requested settings. Keys change "
+            "the requested settings while the camera moves; F1 lists the keys.",
+    .examples = examples,
+    .example_count = DIP_ARRAY_COUNT(examples),
+    .lists_settings = true,
+    .parts = &dip_preview_option_parts,
+    .operands = {offsetof(DipPreviewOptions, session.models),
+                 offsetof(DipPreviewOptions, session.model_count), DIP_MAX_MODELS},
+    .options_size = sizeof(DipPreviewOptions),
+    .check = dip_preview_options_check,
+    .describe_session = describe_session,
+    .run = run,
+};

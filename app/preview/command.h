@@ -1,0 +1,9 @@
+// `diptych preview` as a command.
+#ifndef DIP_APP_PREVIEW_COMMAND_H
+#define DIP_APP_PREVIEW_COMMAND_H
+
+#include "app/command.h"
+
+extern const DipCommand dip_preview_command;
+
+#endif

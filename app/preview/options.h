@@ -1,0 +1,21 @@
+// Options of `diptych preview`.
+#ifndef DIP_APP_PREVIEW_OPTIONS_H
+#define DIP_APP_PREVIEW_OPTIONS_H
+
+#include "app/command.h"
+#include "app/session_options.h"
+
+#include <stdbool.h>
+
+// Models can be given as arguments, too; they join those of --model.
+typedef struct DipPreviewOptions {
+    DipProgramOptions program;
+    DipSessionOptions session;
+    const char *cost_report; // A cost.json of this scene, borrowed from argv, or NULL.
+} DipPreviewOptions;
+
+extern const DipOptionParts dip_preview_option_parts;
+
+bool dip_preview_options_check(const void *options, DipError *err);
+
+#endif

@@ -1,0 +1,149 @@
+// The tables of the options that a session reads.
+#include "app/session_options.h"
+
+#include "renderer/base/assert.h"
+#include "renderer/base/pool.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define FIELD(name) offsetof(DipSessionOptions, name)
+
+static const char scene_title[] = "Scene and camera";
+static const char drawing_title[] = "Drawing";
+
+bool dip_option_isa(const DipOptionRow *row, const char *value, DipIsa *isa, DipError *err) {
+    char available[96] = "auto";
+    for (int i = 0; i < DIP_ISA_COUNT; i++) {
+        if (dip_isa_available((DipIsa)i)) {
+            strcat(strcat(available, "|"), dip_isa_name((DipIsa)i));
+        }
+    }
+    if (strcmp(value, "auto") == 0) {
+        *isa = dip_isa_best();
+        return true;
+    }
+    if (!dip_isa_parse(value, isa)) {
+        return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
+                             "'%.40s' is not an instruction set; give one of %s", value, available);
+    }
+    return dip_isa_available(*isa) ||
+           dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, row->name,
+                         "this machine cannot run '%s'; give one of %s", value, available);
+}
+
+// "auto" leaves the choice to the ini, as if the option were not given.
+static bool read_isa(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    options->has_isa = strcmp(value, "auto") != 0;
+    return dip_option_isa(row, value, &options->isa, err);
+}
+
+static const DipOptionRow scene_rows[] = {
+    {.name = "--config",
+     .argument = "FILE",
+     .text = "Read this ini file. Without the option, Diptych reads the ini of the courtyard that "
+             "it comes with.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(config)},
+    {.name = "--model",
+     .argument = "FILE",
+     .text = "Draw this model instead of the ini's. Diptych reads every format that assimp reads. "
+             "Repeat the option to draw several files in one scene. The camera orbits the model "
+             "unless --path is given.",
+     .kind = DIP_OPTION_TEXTS,
+     .field = FIELD(models),
+     .count = FIELD(model_count),
+     .most = DIP_MAX_MODELS},
+    {.name = "--force-all-effects",
+     .text = "Run every effect even where it cannot be seen. The picture stays the same and takes "
+             "longer to draw.",
+     .kind = DIP_OPTION_FLAG,
+     .field = FIELD(force_all_effects)},
+};
+
+static const DipOptionRow path_rows[] = {
+    {.name = "--path",
+     .argument = "FILE",
+     .text = "Fly this camera path (.pth or .bth) instead of the ini's. The field of view is the "
+             "ini's CAMPATH_DEFAULT_FOV.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(path)},
+};
+
+static const DipOptionRow category_rows[] = {
+    {.name = "--category",
+     .argument = "NAME",
+     .text = "Fly this one of the ini's camera paths: DEFAULT, AA, AF, AAA, MIPLOD, WATER, ... "
+             "The ini names each of them in a key CAMPATH_NAME.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(category)},
+};
+
+static const DipOptionRow pane_rows[] = {
+    {.name = "--current",
+     .argument = "SET",
+     .text = "Settings of the left pane, such as aa=none. Without the option, the ini decides.",
+     .kind = DIP_OPTION_SETTINGS,
+     .field = FIELD(current),
+     .given = FIELD(has_current)},
+    {.name = "--requested",
+     .argument = "SET",
+     .text = "Settings of the right pane, such as aa=4,af=16. Without the option, the ini decides.",
+     .kind = DIP_OPTION_SETTINGS,
+     .field = FIELD(requested),
+     .given = FIELD(has_requested)},
+    {.name = "--timing",
+     .text = "At the end, print how long the start and the end took and how much memory was in use "
+             "at most.",
+     .kind = DIP_OPTION_FLAG,
+     .field = FIELD(timing)},
+};
+
+static const DipOptionRow size_rows[] = {
+    {.name = "--size",
+     .argument = "WxH",
+     .text = "Pixels of one pane, such as 640x480. Without the option, the ini's RES decides.",
+     .kind = DIP_OPTION_SIZE,
+     .field = FIELD(size),
+     .given = FIELD(has_size)},
+    {.name = "--isa",
+     .argument = "NAME",
+     .text = "Draw with this instruction set: auto, scalar, sse2, avx2 or avx512. All of them draw "
+             "the same picture.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_isa},
+};
+
+static const DipOptionRow threads_rows[] = {
+    {.name = "--threads",
+     .argument = "N",
+     .text = "Draw with this many threads. 0, which is also the ini's default, stands for all "
+             "processors. The picture is the same with any number.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(threads),
+     .given = FIELD(has_threads),
+     .most = DIP_MAX_THREADS,
+     .accepted = "a number of threads from 1 to 256, or 0 for all processors"},
+};
+
+const DipOptionTable dip_scene_option_table = {scene_title, scene_rows,
+                                               DIP_ARRAY_COUNT(scene_rows)};
+const DipOptionTable dip_path_option_table = {scene_title, path_rows, DIP_ARRAY_COUNT(path_rows)};
+const DipOptionTable dip_category_option_table = {scene_title, category_rows,
+                                                  DIP_ARRAY_COUNT(category_rows)};
+const DipOptionTable dip_pane_option_table = {drawing_title, pane_rows, DIP_ARRAY_COUNT(pane_rows)};
+const DipOptionTable dip_size_option_table = {drawing_title, size_rows, DIP_ARRAY_COUNT(size_rows)};
+const DipOptionTable dip_threads_option_table = {drawing_title, threads_rows,
+                                                 DIP_ARRAY_COUNT(threads_rows)};
+
+bool dip_session_options_check(const DipSessionOptions *options, DipError *err) {
+    if (options->category && (options->path || options->model_count)) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--category",
+                             "'%.40s' names one of the ini's paths, but the camera follows %s; "
+                             "leave out one of the two options",
+                             options->category,
+                             options->path ? "--path" : "an orbit around --model");
+    }
+    return true;
+}

@@ -1,0 +1,49 @@
+// The options that commands share because a session reads them: the scene, the camera, the panes.
+#ifndef DIP_APP_SESSION_OPTIONS_H
+#define DIP_APP_SESSION_OPTIONS_H
+
+#include "app/options.h"
+#include "renderer/base/isa.h"
+#include "renderer/scene/quality.h"
+
+#include <stdbool.h>
+
+enum { DIP_MAX_MODELS = 64 };
+
+// Texts are borrowed from argv. A NULL text or a false has_... means that the option is not given;
+// then the ini decides.
+typedef struct DipSessionOptions {
+    const char *config;
+    const char *models[DIP_MAX_MODELS];
+    int model_count;
+    bool force_all_effects;
+    const char *path;     // File of a camera path that replaces the ini's.
+    const char *category; // Which of the ini's paths to fly: "AA", ...
+    bool has_current;
+    DipQuality current;
+    bool has_requested;
+    DipQuality requested;
+    bool has_size;
+    DipOptionSize size; // Of one pane.
+    bool has_threads;
+    int threads; // 0: all processors.
+    bool has_isa;
+    DipIsa isa;
+    bool timing; // Say at the end how long start and end took.
+} DipSessionOptions;
+
+// Tables of this struct. A command takes those that make sense for it.
+extern const DipOptionTable dip_scene_option_table;    // --config --model --force-all-effects
+extern const DipOptionTable dip_path_option_table;     // --path
+extern const DipOptionTable dip_category_option_table; // --category
+extern const DipOptionTable dip_pane_option_table;     // --current --requested --timing
+extern const DipOptionTable dip_size_option_table;     // --size --isa
+extern const DipOptionTable dip_threads_option_table;  // --threads
+
+// Refuses options that exclude each other.
+bool dip_session_options_check(const DipSessionOptions *options, DipError *err);
+
+// Reads the name of an instruction set that this machine has, or "auto" for the best one.
+bool dip_option_isa(const DipOptionRow *row, const char *value, DipIsa *isa, DipError *err);
+
+#endif

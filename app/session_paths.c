@@ -1,0 +1,153 @@
+// The camera paths of a session: the ini's, one of the user's, or an orbit around the user's model.
+#include "app/session_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+// Takes ownership of a path and plays it for a category.
+static void keep_path(DipSession *session, DipCamPath *path, int category, double fov_y_deg) {
+    session->paths[session->path_count++] = path;
+    dip_camtrack_set(&session->track, category, path, fov_y_deg);
+}
+
+// Loads the path of one of the ini's categories. A file that an earlier category names is not
+// loaded again.
+static bool load_category(DipSession *session, int category, DipErrorList *faults) {
+    const DipConfigCamera *camera = &session->config.camera[category];
+    if (!camera->file.path) {
+        return true;
+    }
+    for (int other = 0; other < category; other++) {
+        const DipConfigFile *file = &session->config.camera[other].file;
+        if (file->path && dip_config_same_file(file, &camera->file) &&
+            session->track.categories[other].path) {
+            dip_camtrack_set(&session->track, category, session->track.categories[other].path,
+                             camera->fov_y_deg);
+            return true;
+        }
+    }
+    DipCamPath *path;
+    DipError err;
+    if (!dip_campath_load(camera->file.path, &path, &err)) {
+        if (err.line) {
+            return dip_session_add_fault(faults, &err); // The line in the path file says more.
+        }
+        return dip_session_place_fault(session, &camera->file, faults, &err);
+    }
+    keep_path(session, path, category, camera->fov_y_deg);
+    return true;
+}
+
+static bool load_own_path(DipSession *session, DipErrorList *faults) {
+    DipCamPath *path;
+    DipError err;
+    if (!dip_campath_load(session->options->path, &path, &err)) {
+        return dip_session_add_fault(faults, &err);
+    }
+    keep_path(session, path, 0, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
+    return true;
+}
+
+// Refuses a model that is so small that the camera, which frames it, would stand nearer than
+// DIP_MIN_W (renderer/pipeline/geometry/project.h), where nothing is drawn. A single point passes,
+// since the orbit frames it as if it had a size.
+static bool check_extent(const float low[3], const float high[3], const char *file,
+                         DipErrorList *faults) {
+    const double least = 5e-6;
+    double extent = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        extent = fmax(extent, (double)high[axis] - low[axis]);
+    }
+    if (extent == 0.0 || extent >= least) {
+        return true;
+    }
+    DipError err;
+    dip_error_set(&err, DIP_ERROR_RANGE, file, 0, "box",
+                  "the model is %.3g large, but Diptych draws models from %g on; scale it up",
+                  extent, least);
+    return dip_session_add_fault(faults, &err);
+}
+
+static bool make_orbit(DipSession *session, DipErrorList *faults) {
+    float low[3];
+    float high[3];
+    dip_scene_bounds(session->scene, low, high);
+    DipCamOrbitDef def = dip_campath_default_orbit();
+    const DipConfigSize size = session->pane_size;
+    def.aspect = fmin(fmax((double)size.width / size.height, 0.01), 100.0);
+    for (int axis = 0; axis < 3; axis++) {
+        def.min_world[axis] = low[axis];
+        def.max_world[axis] = high[axis];
+    }
+    const char *file = session->config.file;
+    if (session->options->model_count) {
+        file = session->options->models[0];
+    } else {
+        def.fov_y_deg = session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg;
+    }
+    DipCamPath *path;
+    DipError err;
+    if (!check_extent(low, high, file, faults)) {
+        return false;
+    }
+    if (!dip_campath_orbit(&def, &path, &err)) {
+        DipError named;
+        dip_error_set(&named, err.code, file, 0, err.key, "%s", err.message);
+        return dip_session_add_fault(faults, &named);
+    }
+    keep_path(session, path, 0, def.fov_y_deg);
+    session->orbiting = true;
+    return true;
+}
+
+// The key of a category is "CAMPATH_" and its name.
+const char *dip_session_category(int category) {
+    return dip_config_key_name((DipConfigKey)(DIP_KEY_CAMPATH_DEFAULT + 2 * category)) +
+           strlen("CAMPATH_");
+}
+
+static bool choose_category(DipSession *session, DipErrorList *faults) {
+    if (!session->options->category) {
+        return true;
+    }
+    char known[160] = "";
+    for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
+        const char *name = dip_session_category(c);
+        if (strcasecmp(name, session->options->category) == 0) {
+            session->track.active = c;
+            return true;
+        }
+        strcat(strcat(known, c ? "|" : ""), name);
+    }
+    DipError err;
+    dip_error_set(&err, DIP_ERROR_UNKNOWN, NULL, 0, "--category",
+                  "'%.40s' is not a camera path of the ini; give one of %s",
+                  session->options->category, known);
+    return dip_session_add_fault(faults, &err);
+}
+
+bool dip_session_load_paths(DipSession *session, DipErrorList *faults) {
+    session->track = dip_camtrack_make(session->config.campath_reset_on_switch);
+    session->paths = calloc(DIP_CATEGORY_COUNT, sizeof(DipCamPath *));
+    if (!session->paths) {
+        DipError err;
+        dip_error_set(&err, DIP_ERROR_MEMORY, NULL, 0, "paths", "out of memory");
+        return dip_session_add_fault(faults, &err);
+    }
+    if (session->options->path) {
+        return load_own_path(session, faults);
+    }
+    if (session->options->model_count) {
+        return !session->scene || make_orbit(session, faults);
+    }
+    bool loaded = true;
+    for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
+        loaded = load_category(session, c, faults) && loaded;
+    }
+    if (!session->config.camera[DIP_CATEGORY_DEFAULT].file.path && session->scene) {
+        loaded = make_orbit(session, faults) && loaded;
+    }
+    return choose_category(session, faults) && loaded;
+}

@@ -1,0 +1,20 @@
+// The parts of opening a session. Private to session*.c.
+#ifndef DIP_APP_SESSION_PRIVATE_H
+#define DIP_APP_SESSION_PRIVATE_H
+
+#include "app/session.h"
+
+// Adds a copy of the error to the list; returns false.
+bool dip_session_add_fault(DipErrorList *faults, const DipError *err);
+
+// Adds the error with the line of the ini that names the file at fault; returns false.
+bool dip_session_place_fault(const DipSession *session, const DipConfigFile *file,
+                             DipErrorList *faults, const DipError *err);
+
+// session_scene.c: loads the models and makes the scene.
+bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *faults);
+
+// session_paths.c: loads the camera paths, or makes an orbit around the user's model.
+bool dip_session_load_paths(DipSession *session, DipErrorList *faults);
+
+#endif

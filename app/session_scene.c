@@ -1,0 +1,120 @@
+// Loading the models of a session and making its scene.
+#include "app/session_private.h"
+
+#include "assets/model.h"
+#include "renderer/base/srgb.h"
+
+#include <string.h>
+
+static void set_colour(const DipConfigColor *colour, double scale, float lin[3]) {
+    for (int c = 0; c < 3; c++) {
+        lin[c] = (float)(scale * dip_srgb_decode(colour->rgb[c] / 255.0));
+    }
+}
+
+static DipSkyDef sky_of(const DipConfig *config) {
+    DipSkyDef sky = {
+        .layers = {{(float)config->sky_layer1_scale, config->sky_layer1_speed,
+                    (float)config->sky_layer1_perturbation},
+                   {(float)config->sky_layer2_scale, config->sky_layer2_speed,
+                    (float)config->sky_layer2_perturbation}},
+        .perturbation_scale = (float)config->sky_perturbation_scale,
+        .blend = (float)config->sky_blend,
+        .clear = (float)config->sky_clear,
+        .dense = (float)config->sky_dense,
+        .overcast = (float)config->sky_overcast,
+    };
+    set_colour(&config->sky_color, 1.0, sky.zenith_lin);
+    set_colour(&config->sky_horizon_color, 1.0, sky.horizon_lin);
+    set_colour(&config->sky_cloud_color, 1.0, sky.cloud_lin);
+    set_colour(&config->sky_glare_color, config->sky_glare, sky.glare_lin);
+    set_colour(&config->sky_tint, config->sky_brightness, sky.tint_lin);
+    return sky;
+}
+
+// True if some object has the material of a sky.
+static bool has_sky(const DipSceneDef *def) {
+    bool found = false;
+    for (int i = 0; i < def->object_count; i++) {
+        const int material = def->meshes[def->objects[i].mesh].material;
+        found |= def->materials[material].surface == DIP_SURFACE_SKY;
+    }
+    return found;
+}
+
+// Sets what lies around the model: background and sky. A model of the user's brings its own. If
+// that has a sky, the horizon's colour fills the gaps beside it.
+static void set_surroundings(const DipSession *session, DipSceneDef *def) {
+    if (session->options->model_count) {
+        if (has_sky(def)) {
+            memcpy(def->background_lin, def->sky.horizon_lin, sizeof def->background_lin);
+        }
+        return;
+    }
+    set_colour(&session->config.background, 1.0, def->background_lin);
+    def->near_m = (float)session->config.near_m;
+    def->sky = sky_of(&session->config);
+}
+
+static DipModel *load_model(const DipSession *session, DipErrorList *faults, DipSceneDef *def,
+                            DipError *err) {
+    const char *files[DIP_MAX_MODELS];
+    int count = session->options->model_count;
+    for (int i = 0; i < count; i++) {
+        files[i] = session->options->models[i];
+    }
+    const DipConfigFiles *named = &session->config.xfile;
+    for (size_t i = 0; !session->options->model_count && i < named->count; i++) {
+        files[count++] = named->items[i].path;
+    }
+    DipModel *model = dip_model_load_with_normals(files, count, session->pool, faults, err);
+    if (model) {
+        *def = *dip_model_scene_def(model);
+        set_surroundings(session, def);
+    }
+    return model;
+}
+
+const char *dip_session_scene_file(const DipSession *session) {
+    return session->options->model_count ? session->options->models[0]
+           : session->config.xfile.count ? session->config.xfile.items[0].path
+                                         : "";
+}
+
+bool dip_session_keep_model(DipSession *session, DipError *err) {
+    if (!session->model) {
+        DipErrorList warnings = {0}; // The first load has told them already.
+        session->model = load_model(session, &warnings, &session->scene_def, err);
+        dip_error_list_free(&warnings);
+    }
+    return session->model != NULL;
+}
+
+bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *faults) {
+    DipError err = {0};
+    DipSceneDef def;
+    DipModel *model = load_model(session, faults, &def, &err);
+    if (model) {
+        session->scene = dip_scene_create(&def, session->pool, &err);
+        session->times.import_ms = dip_model_times(model).import_ms;
+        session->times.pictures_ms = dip_model_times(model).pictures_ms;
+        if (session->scene && keep_model) {
+            session->model = model;
+            session->scene_def = def;
+        } else {
+            dip_model_destroy(&model);
+        }
+    }
+    if (session->scene) {
+        session->times.textures_ms = dip_scene_times(session->scene).textures_ms;
+        session->times.meshes_ms = dip_scene_times(session->scene).meshes_ms;
+        return true;
+    }
+    const DipConfigFiles *named = &session->config.xfile;
+    for (size_t i = 0; !session->options->model_count && i < named->count; i++) {
+        if (strcmp(err.file, named->items[i].path) == 0) {
+            return dip_session_place_fault(session, &named->items[i], faults, &err);
+        }
+    }
+    return dip_session_add_fault(faults, &err);
+}

@@ -1,0 +1,158 @@
+// Tests of the options of `diptych dump`, and of the record that it writes.
+#include "app/command_line.h"
+#include "app/dump/dump.h"
+#include "app/dump/options.h"
+#include "app/dump/record.h"
+#include "renderer/base/assert.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MAX_WORDS = 12 };
+
+static const DipCommand *const only_dump[] = {&dip_dump_command};
+static const DipCommandList list = {only_dump, 1};
+
+// Parses "dump" and what is given, up to a NULL.
+static bool parse(DipCommandLine *line, DipError *err, const char *const words[]) {
+    char *argv[MAX_WORDS] = {(char *)"diptych", (char *)"dump"};
+    int argc = 2;
+    for (; words[argc - 2]; argc++) {
+        argv[argc] = (char *)words[argc - 2];
+    }
+    return dip_command_line_parse(&list, argc, argv, line, err);
+}
+
+#define WORDS(...) ((const char *const[]){__VA_ARGS__, NULL})
+
+static void assert_refused(DipErrorCode code, const char *key, const char *const words[]) {
+    DipCommandLine line;
+    DipError err = {0};
+    assert_false(parse(&line, &err, words));
+    dip_command_line_free(&line);
+    assert_int_equal(err.code, code);
+    assert_string_equal(err.key, key);
+}
+
+static void defaults_are_the_first_frame_at_30_per_second(void **state) {
+    (void)state;
+    DipCommandLine line;
+    DipError err = {0};
+    assert_true(parse(&line, &err, WORDS("--hash")));
+    const DipDumpOptions *dump = line.options;
+    assert_true(dump->hash);
+    assert_int_equal(dump->frames.first, 0);
+    assert_int_equal(dump->frames.end, 1);
+    assert_int_equal(dump->frames.step, 1);
+    assert_true(dump->fps == 30.0);
+    assert_false(dump->session.has_size || dump->session.has_current || dump->session.has_isa);
+    dip_command_line_free(&line);
+}
+
+static void options_reach_their_fields(void **state) {
+    (void)state;
+    DipCommandLine line;
+    DipError err = {0};
+    assert_true(parse(&line, &err,
+                      WORDS("--frames=5:90:7", "--fps", "59.94", "--out", "o", "--json", "j",
+                            "--requested", "aa=8", "--isa=scalar")));
+    const DipDumpOptions *dump = line.options;
+    assert_int_equal(dump->frames.first, 5);
+    assert_int_equal(dump->frames.end, 90);
+    assert_int_equal(dump->frames.step, 7);
+    assert_true(dump->fps == 59.94);
+    assert_string_equal(dump->out, "o");
+    assert_string_equal(dump->json, "j");
+    assert_true(dump->session.has_requested && !dump->session.has_current);
+    assert_int_equal(dip_quality_sample_count(&dump->session.requested), 8);
+    assert_true(dump->session.has_isa);
+    assert_int_equal(dump->session.isa, DIP_ISA_SCALAR);
+    dip_command_line_free(&line);
+}
+
+static void bad_frames_are_refused(void **state) {
+    (void)state;
+    static const char *const bad[] = {"5",     "5:5",   "5:2",     "-1:2",  "0:1000001",
+                                      "0:5:0", "a:b",   "0:1:1:1", "0:",    ":1",
+                                      "0:1:",  "0:1.5", "0x0:1",   "1:2:-1"};
+    for (size_t i = 0; i < DIP_ARRAY_COUNT(bad); i++) {
+        assert_refused(DIP_ERROR_RANGE, "--frames", WORDS("--hash", "--frames", bad[i]));
+    }
+}
+
+static void dump_needs_something_to_do(void **state) {
+    (void)state;
+    DipCommandLine line;
+    DipError err = {0};
+    assert_false(parse(&line, &err, WORDS("--frames", "0:2")));
+    dip_command_line_free(&line);
+    assert_int_equal(err.code, DIP_ERROR_MISSING);
+    assert_string_equal(err.message, "nothing to do; give one of --out DIR, --json FILE, --hash");
+}
+
+static void standard_output_takes_one_of_record_and_hashes(void **state) {
+    (void)state;
+    DipCommandLine line;
+    DipError err = {0};
+    assert_refused(DIP_ERROR_CONFLICT, "--hash", WORDS("--hash", "--json", "-"));
+    assert_true(parse(&line, &err, WORDS("--json", "-")));
+    dip_command_line_free(&line);
+    assert_true(parse(&line, &err, WORDS("--json", "j", "--hash")));
+    dip_command_line_free(&line);
+}
+
+static void category_excludes_another_path(void **state) {
+    (void)state;
+    assert_refused(DIP_ERROR_CONFLICT, "--category",
+                   WORDS("--hash", "--category", "AF", "--path", "p"));
+    assert_refused(DIP_ERROR_CONFLICT, "--category",
+                   WORDS("--hash", "--category", "AF", "--model", "m"));
+}
+
+static void printed_record_is_the_written_one(void **state) {
+    (void)state;
+    DipError err = {0};
+    char file[] = "/tmp/test_dump_record.XXXXXX";
+    char written[512] = "";
+    char printed[512] = "";
+    const DipStartTimes times = {.total_ms = 1.5};
+    DipRecord *record = dip_record_create(&err);
+    FILE *out = tmpfile();
+    assert_non_null(record);
+    assert_non_null(out);
+    assert_true(mkstemp(file) >= 0);
+    assert_true(dip_record_set_start(record, &times, 123, &err));
+    assert_true(dip_record_write(record, file, &err));
+    assert_true(dip_record_print(record, out, &err));
+    rewind(out);
+    assert_true(fread(printed, 1, sizeof printed - 1, out) > 100);
+    fclose(out);
+    FILE *in = fopen(file, "r");
+    assert_non_null(in);
+    assert_true(fread(written, 1, sizeof written - 1, in) > 100);
+    fclose(in);
+    remove(file);
+    strcat(written, "\n"); // A terminal needs the end of the line.
+    assert_string_equal(printed, written);
+    dip_record_destroy(&record);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(defaults_are_the_first_frame_at_30_per_second),
+        cmocka_unit_test(options_reach_their_fields),
+        cmocka_unit_test(bad_frames_are_refused),
+        cmocka_unit_test(dump_needs_something_to_do),
+        cmocka_unit_test(standard_output_takes_one_of_record_and_hashes),
+        cmocka_unit_test(category_excludes_another_path),
+        cmocka_unit_test(printed_record_is_the_written_one),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,330 @@
+// Tests of session.h: what a session loads, that it reports every fault, and that neither a failed
+// nor a closed session keeps memory. The linker sends the libraries' allocations here (--wrap).
+// Usage: test_session SOURCE_FOLDER
+#include "app/session.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+// --- counting allocations ------------------------------------------------------------------------
+
+static atomic_int live_blocks; // Threads of the pool allocate, too.
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *memory, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+void __real_free(void *memory);
+char *__real_strdup(const char *text);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *memory, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
+void __wrap_free(void *memory);
+char *__wrap_strdup(const char *text);
+
+static void *count_block(void *memory) {
+    atomic_fetch_add(&live_blocks, memory != NULL);
+    return memory;
+}
+
+void *__wrap_malloc(size_t size) {
+    return count_block(__real_malloc(size));
+}
+
+void *__wrap_calloc(size_t count, size_t size) {
+    return count_block(__real_calloc(count, size));
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size) {
+    return count_block(__real_aligned_alloc(alignment, size));
+}
+
+void *__wrap_realloc(void *memory, size_t size) {
+    void *moved = __real_realloc(memory, size);
+    return memory ? moved : count_block(moved);
+}
+
+char *__wrap_strdup(const char *text) {
+    return count_block(__real_strdup(text));
+}
+
+void __wrap_free(void *memory) {
+    atomic_fetch_sub(&live_blocks, memory != NULL);
+    __real_free(memory);
+}
+
+// --- sessions for tests --------------------------------------------------------------------------
+
+static const char *source; // The folder of the sources.
+static char model[512];    // A square with a texture.
+static char path[512];
+static char shipped[512]; // The ini of the courtyard.
+
+// Writes the shipped ini with absolute names to a temporary file, with the lines of `key` replaced.
+static void write_ini(char file[64], const char *key, const char *line) {
+    char text[512];
+    snprintf(file, 64, "/tmp/test_session.%d.ini", (int)getpid());
+    FILE *in = fopen(shipped, "r");
+    FILE *out = fopen(file, "w");
+    assert_non_null(in);
+    assert_non_null(out);
+    while (fgets(text, sizeof text, in)) {
+        char *relative = strstr(text, "../");
+        if (key && strncmp(text, key, strlen(key)) == 0 && text[strlen(key)] == ':') {
+            fprintf(out, "%s\n", line);
+        } else if (relative && text[0] != '#' && text[0] != ';') {
+            fprintf(out, "%.*s%s/%s", (int)(relative - text), text, source, relative + 3);
+        } else {
+            fputs(text, out);
+        }
+    }
+    fclose(in);
+    fclose(out);
+}
+
+static DipSessionOptions small_options(void) {
+    return (DipSessionOptions){.config = shipped,
+                               .models = {model},
+                               .model_count = 1,
+                               .has_size = true,
+                               .size = {32, 24},
+                               .has_threads = true,
+                               .threads = 2};
+}
+
+// Opens a session that must fail. Checks that it is empty and that it keeps no memory. Returns the
+// faults; the caller frees them.
+static DipErrorList open_badly(const DipSessionOptions *options) {
+    const DipSessionDef def = {.options = options, .scene = true, .renderers = true};
+    DipErrorList faults = {0};
+    DipSession session;
+    const int before = atomic_load(&live_blocks);
+    assert_false(dip_session_open(&session, &def, &faults));
+    assert_null(session.pool);
+    assert_null(session.scene);
+    assert_null(session.model);
+    assert_null(session.paths);
+    assert_null(session.renderers[0]);
+    assert_null(session.renderers[1]);
+    assert_true(faults.error_count > 0);
+    assert_int_equal(atomic_load(&live_blocks), before + 1); // The list of faults.
+    return faults;
+}
+
+// True if one of the faults has this code and key, and names this file.
+static bool has_fault(const DipErrorList *faults, DipErrorCode code, const char *key,
+                      const char *file) {
+    for (size_t i = 0; i < faults->count; i++) {
+        const DipError *fault = &faults->items[i];
+        if (fault->code == code && strcmp(fault->key, key) == 0 &&
+            (strstr(fault->file, file) || strstr(fault->message, file))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// --- tests ---------------------------------------------------------------------------------------
+
+static void session_loads_what_its_def_asks_for(void **state) {
+    (void)state;
+    const DipSessionOptions options = small_options();
+    const int before = atomic_load(&live_blocks);
+    for (int what = 0; what < 4; what++) {
+        const DipSessionDef def = {
+            .options = &options, .scene = what > 0, .renderers = what > 1, .keep_model = what > 2};
+        DipErrorList faults = {0};
+        DipSession session;
+        assert_true(dip_session_open(&session, &def, &faults));
+        dip_error_list_free(&faults);
+        assert_non_null(session.pool);
+        assert_int_equal(session.pane_size.width, 32);
+        assert_int_equal(session.scene != NULL, what > 0);
+        assert_int_equal(session.orbiting, what > 0);
+        assert_int_equal(session.renderers[1] != NULL, what > 1);
+        assert_int_equal(session.model != NULL, what > 2);
+        assert_string_equal(dip_session_scene_file(&session), model);
+        dip_session_close(&session);
+        assert_null(session.pool);
+        assert_int_equal(atomic_load(&live_blocks), before);
+    }
+}
+
+static void model_can_be_loaded_later(void **state) {
+    (void)state;
+    const DipSessionOptions options = small_options();
+    const DipSessionDef def = {.options = &options, .scene = true};
+    const int before = atomic_load(&live_blocks);
+    DipErrorList faults = {0};
+    DipSession session;
+    DipError err;
+    assert_true(dip_session_open(&session, &def, &faults));
+    dip_error_list_free(&faults);
+    assert_null(session.model);
+    assert_true(dip_session_keep_model(&session, &err));
+    assert_non_null(session.model);
+    assert_true(session.scene_def.object_count > 0);
+    const DipModel *kept = session.model;
+    assert_true(dip_session_keep_model(&session, &err));
+    assert_ptr_equal(session.model, kept);
+    dip_session_close(&session);
+    assert_int_equal(atomic_load(&live_blocks), before);
+}
+
+static void session_draws_both_panes(void **state) {
+    (void)state;
+    DipSessionOptions options = small_options();
+    options.has_current = options.has_requested = true;
+    options.current = options.requested = dip_quality_default();
+    for (int same = 0; same < 2; same++) {
+        const DipSessionDef def = {.options = &options, .scene = true, .renderers = true};
+        DipErrorList faults = {0};
+        DipSession session;
+        DipSessionFrame frame;
+        DipPose pose;
+        DipError err;
+        options.requested.step[DIP_SETTING_AA] = same ? 0 : 2;
+        assert_true(dip_session_open(&session, &def, &faults));
+        dip_error_list_free(&faults);
+        assert_true(dip_session_draw(&session, 0, 0, &pose, &frame, &err));
+        assert_int_equal(frame.copied, same);
+        assert_int_equal(frame.panes[0].width, 32);
+        assert_int_equal(frame.panes[1].height, 24);
+        assert_int_equal(frame.panes[0].rgba8 == frame.panes[1].rgba8, same);
+        assert_true(session.times.total_ms > 0.0 || def.begin_ns == 0);
+        dip_session_close(&session);
+    }
+}
+
+static void missing_ini_is_a_fault(void **state) {
+    (void)state;
+    DipSessionOptions options = small_options();
+    options.config = "none.ini";
+    DipErrorList faults = open_badly(&options);
+    assert_int_equal(faults.count, 1);
+    assert_string_equal(faults.items[0].file, "none.ini");
+    assert_int_equal(faults.items[0].origin, DIP_ORIGIN_INPUT);
+    dip_error_list_free(&faults);
+}
+
+static void faults_of_scene_and_path_are_both_told(void **state) {
+    (void)state;
+    DipSessionOptions options = small_options();
+    options.models[0] = "none.glb";
+    options.path = "none.pth";
+    DipErrorList faults = open_badly(&options);
+    assert_int_equal(faults.error_count, 2);
+    assert_true(has_fault(&faults, DIP_ERROR_MISSING, "", "none.glb"));
+    assert_true(has_fault(&faults, DIP_ERROR_MISSING, "", "none.pth"));
+    dip_error_list_free(&faults);
+}
+
+static void good_scene_is_given_back_when_the_path_is_bad(void **state) {
+    (void)state;
+    DipSessionOptions options = small_options();
+    options.path = model;
+    DipErrorList faults = open_badly(&options);
+    assert_int_equal(faults.error_count, 1);
+    dip_error_list_free(&faults);
+}
+
+static void good_path_is_given_back_when_the_scene_is_bad(void **state) {
+    (void)state;
+    DipSessionOptions options = small_options();
+    options.models[0] = path;
+    options.path = path;
+    DipErrorList faults = open_badly(&options);
+    assert_int_equal(faults.error_count, 1);
+    dip_error_list_free(&faults);
+}
+
+static void faults_of_files_that_the_ini_names_have_its_line(void **state) {
+    (void)state;
+    static const struct {
+        const char *key;
+        const char *line;
+        DipErrorCode code;
+    } cases[] = {
+        {"XFILE", "XFILE: none.glb", DIP_ERROR_MISSING},
+        {"CAMPATH_AA", "CAMPATH_AA: none.pth", DIP_ERROR_MISSING},
+        {"LOG", "LOG: none/x.log", DIP_ERROR_IO},
+        {"RES", "RES: 640", DIP_ERROR_TYPE},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char ini[64];
+        const bool adds = strcmp(cases[i].key, "LOG") == 0;
+        DipSessionOptions options = small_options();
+        options.config = ini;
+        options.model_count = 0;
+        write_ini(ini, cases[i].key, cases[i].line);
+        if (adds) {
+            FILE *out = fopen(ini, "a");
+            assert_non_null(out);
+            fprintf(out, "%s\n", cases[i].line);
+            fclose(out);
+        }
+        DipErrorList faults = open_badly(&options);
+        bool placed = false;
+        for (size_t f = 0; f < faults.count; f++) {
+            const DipError *fault = &faults.items[f];
+            placed |= fault->code == cases[i].code && strcmp(fault->key, cases[i].key) == 0 &&
+                      strcmp(fault->file, ini) == 0 && fault->line > 0;
+        }
+        assert_true(placed);
+        dip_error_list_free(&faults);
+        remove(ini);
+    }
+}
+
+static void unknown_category_is_a_fault(void **state) {
+    (void)state;
+    DipSessionOptions options = small_options();
+    options.model_count = 0;
+    options.category = "SKY";
+    DipErrorList faults = open_badly(&options);
+    assert_int_equal(faults.error_count, 1);
+    assert_true(has_fault(&faults, DIP_ERROR_UNKNOWN, "--category", "DEFAULT|AA"));
+    dip_error_list_free(&faults);
+}
+
+static void closing_twice_is_harmless(void **state) {
+    (void)state;
+    const DipSessionOptions options = small_options();
+    const DipSessionDef def = {.options = &options, .scene = true, .renderers = true};
+    DipErrorList faults = {0};
+    DipSession session;
+    assert_true(dip_session_open(&session, &def, &faults));
+    dip_error_list_free(&faults);
+    dip_session_close(&session);
+    dip_session_close(&session);
+}
+
+int main(int argc, char **argv) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(session_loads_what_its_def_asks_for),
+        cmocka_unit_test(model_can_be_loaded_later),
+        cmocka_unit_test(session_draws_both_panes),
+        cmocka_unit_test(missing_ini_is_a_fault),
+        cmocka_unit_test(faults_of_scene_and_path_are_both_told),
+        cmocka_unit_test(good_scene_is_given_back_when_the_path_is_bad),
+        cmocka_unit_test(good_path_is_given_back_when_the_scene_is_bad),
+        cmocka_unit_test(faults_of_files_that_the_ini_names_have_its_line),
+        cmocka_unit_test(unknown_category_is_a_fault),
+        cmocka_unit_test(closing_twice_is_harmless),
+    };
+    source = argc > 1 ? argv[1] : ".";
+    snprintf(model, sizeof model, "%s/tests/assets/data/square.gltf", source);
+    snprintf(path, sizeof path, "%s/campaths/aa.pth", source);
+    snprintf(shipped, sizeof shipped, "%s/config/courtyard.ini", source);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
