@@ -5,8 +5,8 @@
 #include "app/options.h"
 #include "app/session.h"
 
-// Shows the session until the user quits. Fails with RUNTIME when there is no display, MISSING when
-// there is no font, or when drawing fails.
+// Shows the session until the user quits. Fails with RUNTIME if there is no display, with MISSING
+// if there is no font, or if drawing fails.
 bool dip_preview_run(DipSession *session, const DipOptions *options, DipError *err);
 
 #endif
