@@ -87,9 +87,9 @@ DipFont *dip_font_create(DipError *err) {
         return NULL;
     }
     if (!open_face(font)) {
-        dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "font",
-                      "no sans-serif font was found, install one, such as Debian's "
-                      "fonts-dejavu-core");
+        dip_error_set_runtime(err, DIP_ERROR_MISSING, NULL, 0, "font",
+                              "no sans-serif font was found, install one, such as Debian's "
+                              "fonts-dejavu-core");
         dip_font_destroy(&font);
     }
     return font;
