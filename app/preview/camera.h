@@ -6,17 +6,17 @@
 
 #include <stdbool.h>
 
-// Which way the held keys point, -1..1 each.
+// Directions that the user steers in, -1..1 each.
 typedef struct DipCameraKeys {
-    double right;   // D, A
-    double up;      // Q, E
-    double forward; // W, S
-    bool turn;      // Shift: turn instead of move
+    double right;   // Keys D and A.
+    double up;      // Keys Q and E.
+    double forward; // Keys W and S.
+    bool turn;      // Shift: the camera turns instead of moving.
 } DipCameraKeys;
 
-// Moves along the camera's own axes by speed * seconds, or turns: left and right about the world's
-// vertical, up and down about the camera's own right, Q and E about its line of sight.
-// Returns whether the pose changed.
+// Moves the camera along its own axes by speed * seconds, or turns it. Left and right turn about
+// the world's vertical axis, forward and back about the camera's right axis, up and down about its
+// line of sight. Returns whether the pose changed.
 bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_per_s,
                      double seconds);
 

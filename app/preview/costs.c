@@ -1,4 +1,4 @@
-// A report's figures as text.
+// Turns a report's figures into text.
 #include "app/preview/costs.h"
 
 #include "app/cost/formats.h"
@@ -10,7 +10,7 @@
 
 static const double default_budget_ms = 16.6;
 
-// Without the zero before the point.
+// Writes a FLIP without the zero before the point, or a change with its sign.
 static void format_flip(double flip, bool change, char text[24]) {
     char digits[16];
     snprintf(digits, sizeof digits, "%.4f", fabs(flip));
@@ -56,7 +56,8 @@ static void make_row(DipCostsRow *row, const DipCostReport *report, const DipCos
     }
 }
 
-// Figures of a measured combination; ms: measured again, or 0 for those of the rounds.
+// Returns the figures of a measured combination. ms: its time if it was measured again, else 0;
+// then the report's time of the combination counts.
 static DipCostsAdvice advice_of(const DipCostReport *report, double budget_ms, int row, double ms) {
     if (row < 0) {
         return (DipCostsAdvice){.budget_ms = budget_ms};
@@ -136,7 +137,7 @@ void dip_costs_describe(const DipCosts *costs, int index, char *text, size_t siz
              flip, base);
 }
 
-// Steps of adaptive AA are for a number of samples.
+// Adaptive AA's steps are measured for one number of samples, so that number has to be the same.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality) {
     const DipQuality *at = &row->steps[step].quality;
     const bool adaptive = row->setting == DIP_SETTING_AAA || row->setting == DIP_SETTING_ASD;

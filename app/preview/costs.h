@@ -1,4 +1,4 @@
-// What a cost report says of settings, ready to be shown, and its advice.
+// The figures and the advice of a cost report, as text for the window.
 #ifndef DIP_APP_PREVIEW_COSTS_H
 #define DIP_APP_PREVIEW_COSTS_H
 
@@ -8,13 +8,13 @@
 
 typedef struct DipCostsStep {
     DipQuality quality;
-    char name[24];    // "4"
-    char figures[32]; // time as a ratio to the baseline's, change of FLIP: "1.56x -.0107"
+    char name[24];    // "4".
+    char figures[32]; // Ratio of its time to the baseline's, and change of FLIP: "1.56x -.0107".
 } DipCostsStep;
 
-// A setting's steps. The baseline's own is "1x" with its FLIP.
+// One setting's steps. The baseline's step reads "1x" with its own FLIP.
 typedef struct DipCostsRow {
-    char title[48]; // "Antialiasing"
+    char title[48]; // "Antialiasing".
     DipSetting setting;
     DipCostsStep steps[DIP_COST_MAX_SWEEP_ROWS];
     int step_count;
@@ -22,30 +22,31 @@ typedef struct DipCostsRow {
 
 typedef struct DipCostsAdvice {
     double budget_ms;
-    bool found; // something measured is that fast
+    bool found; // Some measured combination is that fast.
     DipQuality quality;
     double ms;
     double flip;
 } DipCostsAdvice;
 
 typedef struct DipCosts {
-    char heading[256]; // of what, on what
+    char heading[256]; // Scene, size, threads and instruction set.
     DipCostsRow rows[DIP_COST_MAX_SWEEPS];
     int row_count;
-    DipCostsAdvice advice[DIP_COST_MAX_BUDGETS]; // the report's budgets, else 16.6 ms
+    DipCostsAdvice
+        advice[DIP_COST_MAX_BUDGETS]; // For the report's budgets, or for 16.6 ms if it has none.
     int advice_count;
-    DipCostsAdvice baseline; // where it was measured among the combinations
+    DipCostsAdvice baseline; // Found only if the report measured it as a combination.
 } DipCosts;
 
 void dip_costs_make(DipCosts *costs, const DipCostReport *report);
 
-// From a cost.json. Fails when it is of another scene than the one named.
+// Reads a cost.json. Fails with CONFLICT if the report is of another scene than the one named.
 bool dip_costs_load(DipCosts *costs, const char *file, const char *scene, DipError *err);
 
-// "Within 16.6 ms: 11.2 ms, FLIP .0451; baseline 6.5 ms, .0773".
+// Says one advice in a line: "Within 16.6 ms: 11.2 ms, FLIP .0451; baseline 6.5 ms, .0773".
 void dip_costs_describe(const DipCosts *costs, int advice, char *text, size_t size_bytes);
 
-// Whether a pane's settings are at a step of a row.
+// Returns whether a pane's settings are at a step of a row.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality);
 
 #endif

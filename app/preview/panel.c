@@ -1,4 +1,4 @@
-// Times, errors, work.
+// Lines of times, errors and work.
 #include "app/preview/panel.h"
 
 #include "renderer/base/assert.h"
@@ -37,24 +37,29 @@ static void add_times(Lines *lines, const DipPaneFigures *figures) {
     }
 }
 
-static void add_error(Lines *lines, const DipLiveReading *live, int pane) {
-    const DipJudgeResult *result = &live->result;
+static void add_error(Lines *lines, const DipErrorReading *errors, int pane) {
+    const DipErrorJobResult *result = &errors->result;
     const DipPaneError *error = &result->panes[pane];
-    if (live->status == DIP_LIVE_RESTING) {
+    if (errors->status == DIP_ERROR_STATUS_PAUSED) {
         add(lines, true, "Error", "pause to measure");
         return;
     }
-    if (live->status == DIP_LIVE_FAILED) {
-        add(lines, true, "Error", "no memory to measure");
+    if (errors->status == DIP_ERROR_STATUS_FAILED) {
+        add(lines, true, "Error", "not enough memory");
         return;
     }
     if (result->samples == 0) {
         add(lines, true, "Error", "measuring");
         return;
     }
-    add(lines, true, "Error", "%d samples%s", result->samples, result->last ? "" : ", rising");
+    const int all_samples = 2 * dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1]; // Both halves.
+    if (result->last) {
+        add(lines, true, "Error", "%d samples", result->samples);
+    } else {
+        add(lines, true, "Error", "refining: %d of %d samples", result->samples, all_samples);
+    }
     add(lines, false, "RMSE, linear", "%.4f%s", error->rmse_lin,
-        error->at_floor ? " at floor" : "");
+        error->at_floor ? " at noise floor" : "");
     if (isinf(error->psnr_db)) {
         add(lines, false, "PSNR", "no difference");
     } else {
@@ -75,11 +80,11 @@ static void add_count(Lines *lines, bool head, const char *name, uint64_t count)
 
 static void add_work(Lines *lines, const DipCounters *counters) {
     add_count(lines, true, "Fragments shaded", counters->fragments_shaded);
-    add_count(lines, false, "Samples shown", counters->samples_shown);
+    add_count(lines, false, "Visible samples", counters->samples_shown);
     add_count(lines, false, "Texels read", counters->texels_fetched);
     add_count(lines, false, "Texture probes", counters->texture_probes);
     add_count(lines, false, "Triangles drawn", counters->triangles_drawn);
-    add_count(lines, false, "Triangles in", counters->triangles_in);
+    add_count(lines, false, "Triangles submitted", counters->triangles_in);
     add_count(lines, false, "Pixels resolved", counters->pixels_resolved);
     add_count(lines, false, "Tiles drawn", counters->tiles_drawn);
 }
@@ -88,11 +93,11 @@ int dip_panel_lines(const DipPaneFigures *figures, int pane,
                     DipPanelLine lines[DIP_PANEL_MAX_LINES]) {
     Lines all = {.items = lines};
     if (figures->copied) {
-        add(&all, true, "Frame", "copied, same settings");
+        add(&all, true, "Frame", "copied: same settings");
     } else {
         add_times(&all, figures);
     }
-    add_error(&all, &figures->live, pane);
+    add_error(&all, &figures->errors, pane);
     if (!figures->copied) {
         add_work(&all, &figures->counters);
     }

@@ -1,8 +1,8 @@
-// A pane's figures and the lines that tell them; knows no window.
+// A pane's figures, and the lines of text that say them.
 #ifndef DIP_APP_PREVIEW_PANEL_H
 #define DIP_APP_PREVIEW_PANEL_H
 
-#include "app/preview/live.h"
+#include "app/preview/error_thread.h"
 #include "renderer/scene/frame.h"
 
 #include <stdbool.h>
@@ -14,26 +14,27 @@ enum {
         DIP_STAGE_COUNT
 };
 
-// A pane's figures, as they are shown.
+// The figures of a pane as the window shows them.
 typedef struct DipPaneFigures {
-    double ms; // median frame time
+    double ms; // Median frame time.
     double stage_ms[DIP_STAGE_COUNT];
-    int fps; // frames shown in the last second; 0: not shown
+    int fps; // Pictures shown in the last second; 0: no rate is shown.
     DipEffects effects;
     DipCounters counters;
-    bool copied; // from the pane before, with the same settings
-    DipLiveReading live;
+    bool copied; // The pane shows the other pane's picture, since the settings are the same.
+    DipErrorReading errors;
 } DipPaneFigures;
 
 typedef struct DipPanelLine {
-    bool head; // begins a part
+    bool head; // The line begins a group of lines.
     char name[32];
     char value[40];
 } DipPanelLine;
 
 enum { DIP_PANEL_MAX_LINES = 20 };
 
-// The most important first, so that the last ones can be left out. Returns how many.
+// Fills in the lines, the most important first, so that the last can be left out where there is
+// little room. Returns their number.
 int dip_panel_lines(const DipPaneFigures *figures, int pane,
                     DipPanelLine lines[DIP_PANEL_MAX_LINES]);
 

@@ -5,8 +5,8 @@
 #include "app/preview/options.h"
 #include "app/session.h"
 
-// Shows the session until the user quits. Fails with RUNTIME when there is no display, with MISSING
-// when there is no font, or with the error of drawing.
+// Shows the session until the user quits. Fails with RUNTIME if there is no display, with MISSING
+// if there is no font, or if drawing fails.
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err);
 
 #endif

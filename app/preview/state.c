@@ -9,9 +9,7 @@
 #include <string.h>
 
 static const int64_t notice_ns = 2500000000;
-static const int64_t default_step_ns = 33333333; // a frame of 30 a second
-
-static const char *const pane_titles[DIP_PANE_COUNT] = {"Current", "Requested"};
+static const int64_t default_step_ns = 33333333; // A thirtieth of a second.
 
 DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
                                        DipCamTrack *track) {
@@ -30,16 +28,27 @@ void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *form
     state->notice_end_ns = now_ns + notice_ns;
 }
 
-const char *dip_preview_path_name(int slot) {
+const char *dip_preview_category_name(int category) {
     static const char *const names[] = {
 #define PATH_NAME(NAME, fallback, text) #NAME,
         DIP_CONFIG_LIST(DIP_CONFIG_NONE, PATH_NAME, DIP_CONFIG_NONE)
 #undef PATH_NAME
     };
-    return slot >= 0 && slot < DIP_CATEGORY_COUNT ? names[slot] : "?";
+    return category >= 0 && category < DIP_CATEGORY_COUNT ? names[category] : "?";
 }
 
-int dip_preview_path_of(DipSetting setting) {
+const char *dip_preview_category_title(int category) {
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        if (category == dip_preview_category_of((DipSetting)s)) {
+            return dip_setting_info((DipSetting)s)->title;
+        }
+    }
+    return category == DIP_CATEGORY_DEFAULT ? "Default"
+           : category == DIP_CATEGORY_WATER ? "Water"
+                                            : dip_preview_category_name(category);
+}
+
+int dip_preview_category_of(DipSetting setting) {
     switch (setting) {
     case DIP_SETTING_AA:
         return DIP_CATEGORY_AA;
@@ -59,12 +68,13 @@ int dip_preview_path_of(DipSetting setting) {
     case DIP_SETTING_GI:
         return DIP_CATEGORY_GI;
     default:
-        return -1; // mip colours show on any path
+        return -1; // Mip colours show on any path.
     }
 }
 
-// The next step that fits the other settings. A number of samples takes
-// the divisor back to its default where it has no such passes.
+// Goes on to the next step that fits the other settings. If a number of samples does not fit the
+// divisor of adaptive AA, the divisor goes back to its default. Returns false if no other step
+// fits.
 static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     const DipSettingInfo *info = dip_setting_info(setting);
     DipQuality candidate;
@@ -96,10 +106,10 @@ static void change_setting(DipPreviewState *state, DipSetting setting, bool reve
         }
     }
     if (!changed) {
-        dip_preview_notice(state, now_ns, "%s: no other step fits", info->title);
+        dip_preview_notice(state, now_ns, "%s: no other step fits the other settings", info->title);
         return;
     }
-    const int path = dip_preview_path_of(setting);
+    const int path = dip_preview_category_of(setting);
     if (path >= 0 && !state->manual) {
         dip_camtrack_switch(state->track, path, state->play_ns);
     }
@@ -107,33 +117,35 @@ static void change_setting(DipPreviewState *state, DipSetting setting, bool reve
     ++state->scene_changes;
 }
 
-static bool has_path(const DipPreviewState *state, int slot) {
-    return state->track->categories[slot].path != NULL;
+static bool has_path(const DipPreviewState *state, int category) {
+    return state->track->categories[category].path != NULL;
 }
 
-static void choose_path(DipPreviewState *state, int slot, int64_t now_ns) {
-    if (slot < 0 || slot >= DIP_CATEGORY_COUNT || !has_path(state, slot)) {
-        dip_preview_notice(state, now_ns, "No path %s here", dip_preview_path_name(slot));
+static void choose_path(DipPreviewState *state, int category, int64_t now_ns) {
+    if (category < 0 || category >= DIP_CATEGORY_COUNT || !has_path(state, category)) {
+        dip_preview_notice(state, now_ns, "%s has no path: the ini names no CAMPATH_%s",
+                           dip_preview_category_title(category),
+                           dip_preview_category_name(category));
         return;
     }
-    dip_camtrack_switch(state->track, slot, state->play_ns);
+    dip_camtrack_switch(state->track, category, state->play_ns);
     state->manual = false;
-    dip_preview_notice(state, now_ns, "Path %s", dip_preview_path_name(slot));
+    dip_preview_notice(state, now_ns, "Path: %s", dip_preview_category_title(category));
     ++state->scene_changes;
 }
 
-// The nearest slot onwards that has a path of its own: several may share a file.
+// Chooses the nearest category onwards that has another path: several categories may share a file.
 static void next_path(DipPreviewState *state, int direction, int64_t now_ns) {
     const int from = state->track->active;
     const DipCamPath *playing = state->track->categories[from].path;
     for (int i = 1; i < DIP_CATEGORY_COUNT; ++i) {
-        const int slot = (from + direction * i + DIP_CATEGORY_COUNT * i) % DIP_CATEGORY_COUNT;
-        if (has_path(state, slot) && state->track->categories[slot].path != playing) {
-            choose_path(state, slot, now_ns);
+        const int category = (from + direction * i + DIP_CATEGORY_COUNT * i) % DIP_CATEGORY_COUNT;
+        if (has_path(state, category) && state->track->categories[category].path != playing) {
+            choose_path(state, category, now_ns);
             return;
         }
     }
-    dip_preview_notice(state, now_ns, "There is one path only");
+    dip_preview_notice(state, now_ns, "There is only one path");
 }
 
 static void step_time(DipPreviewState *state, int direction, int64_t now_ns) {
@@ -144,7 +156,7 @@ static void step_time(DipPreviewState *state, int direction, int64_t now_ns) {
     ++state->scene_changes;
 }
 
-// Requested, current, both, requested, ...
+// Keys change the requested pane, then the current pane, then both, and so on.
 static void choose_pane(DipPreviewState *state, int64_t now_ns) {
     bool *edited = state->edited;
     const bool both = edited[DIP_PANE_CURRENT] && edited[DIP_PANE_REQUESTED];
@@ -152,23 +164,23 @@ static void choose_pane(DipPreviewState *state, int64_t now_ns) {
     edited[DIP_PANE_REQUESTED] = both || current_only;
     edited[DIP_PANE_CURRENT] = !both;
     const char *which = edited[0] && edited[1] ? "both panes"
-                        : edited[0]            ? pane_titles[0]
-                                               : pane_titles[1];
-    dip_preview_notice(state, now_ns, "Keys act on: %s", which);
+                        : edited[0]            ? "the current pane"
+                                               : "the requested pane";
+    dip_preview_notice(state, now_ns, "Keys change %s", which);
 }
 
 static void apply(DipPreviewState *state, int64_t now_ns) {
     state->quality[DIP_PANE_CURRENT] = state->quality[DIP_PANE_REQUESTED];
-    dip_preview_notice(state, now_ns, "Applied");
+    dip_preview_notice(state, now_ns, "Copied requested to current");
     ++state->scene_changes;
 }
 
-// The requested pane gets the settings of least error within a time; each press goes on to the
-// report's next time.
+// Gives the requested pane the settings of least error within a time budget. Each press goes on to
+// the report's next budget.
 static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
     const DipCosts *costs = state->costs;
     if (!costs) {
-        dip_preview_notice(state, now_ns, "No cost report: U tells how to make one");
+        dip_preview_notice(state, now_ns, "No cost report is loaded; U says how to make one");
         return;
     }
     const int count = costs->advice_count;
@@ -177,7 +189,7 @@ static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
     char text[DIP_NOTICE_SIZE];
     dip_costs_describe(costs, index, text, sizeof text);
     dip_preview_notice(state, now_ns, "%s", text);
-    state->notice_end_ns = now_ns + 2 * notice_ns; // it is longer than others
+    state->notice_end_ns = now_ns + 2 * notice_ns; // It is longer than other notices.
     state->next_advice = (index + 1) % count;
     if (advice->found) {
         state->quality[DIP_PANE_REQUESTED] = advice->quality;
@@ -219,8 +231,8 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
     case DIP_ACTION_CAMERA:
         state->manual = !state->manual;
         dip_preview_notice(state, now_ns,
-                           state->manual ? "Camera: yours, W A S D Q E to move"
-                                         : "Camera: on its path");
+                           state->manual ? "Free camera: W A S D Q E move it"
+                                         : "The camera follows its path");
         ++state->scene_changes;
         break;
     case DIP_ACTION_HELP:
@@ -261,27 +273,66 @@ void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now
     }
 }
 
-void dip_preview_describe(const DipQuality *quality, char *text, size_t size_bytes) {
+// How a setting reads where there is little room; %s stands for the step. A setting that is on or
+// off reads as its name alone, with "no" before it if it is off.
+static const char *brief_form(DipSetting setting) {
+    switch (setting) {
+    case DIP_SETTING_AA:
+        return "AA %sx";
+    case DIP_SETTING_TAA:
+        return "temporal AA";
+    case DIP_SETTING_AAA:
+        return "adaptive AA";
+    case DIP_SETTING_ASD:
+        return "divisor %s";
+    case DIP_SETTING_AF:
+        return "AF %sx";
+    case DIP_SETTING_AAF:
+        return "advanced AF";
+    case DIP_SETTING_OPT:
+        return "%s textures";
+    case DIP_SETTING_MIPLOD:
+        return "mip detail %s";
+    case DIP_SETTING_GI:
+        return "instancing";
+    default:
+        return "mip colours";
+    }
+}
+
+// "AA 4x", "no instancing".
+static void describe_briefly(DipSetting setting, const char *step, char *text, size_t size_bytes) {
+    const char *form = brief_form(setting);
+    const char *mark = strstr(form, "%s");
+    if (mark) {
+        snprintf(text, size_bytes, "%.*s%s%s", (int)(mark - form), form, step, mark + 2);
+    } else {
+        snprintf(text, size_bytes, "%s%s", strcmp(step, "off") == 0 ? "no " : "", form);
+    }
+}
+
+// "Antialiasing 4x", "Geometry instancing off", "Adaptive AA".
+static void describe_fully(DipSetting setting, const char *step, char *text, size_t size_bytes) {
+    const bool on = strcmp(step, "on") == 0;
+    const bool times = setting == DIP_SETTING_AA || setting == DIP_SETTING_AF;
+    const bool number = isdigit((unsigned char)step[0]) != 0;
+    snprintf(text, size_bytes, "%s%s%s%s", dip_setting_info(setting)->title, on ? "" : " ",
+             on ? "" : step, times && number ? "x" : "");
+}
+
+void dip_preview_describe(const DipQuality *quality, bool brief, char *text, size_t size_bytes) {
     size_t length = 0;
     text[0] = '\0';
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
         const DipSettingInfo *info = dip_setting_info((DipSetting)s);
-        const int step = quality->step[s];
-        if (step == info->default_step || length + 1 >= size_bytes) {
+        if (quality->step[s] == info->default_step || length + 1 >= size_bytes) {
             continue;
         }
-        char name[32];
-        size_t n = 0;
-        for (; info->key[n] && n + 1 < sizeof name; ++n) {
-            name[n] = (char)toupper((unsigned char)info->key[n]);
-        }
-        name[n] = '\0';
-        const char *value = info->steps[step];
-        const bool number = isdigit((unsigned char)value[0]);
-        const bool only_on = strcmp(value, "on") == 0;
+        char one[64];
+        (brief ? describe_briefly : describe_fully)((DipSetting)s, info->steps[quality->step[s]],
+                                                    one, sizeof one);
         const int written =
-            snprintf(text + length, size_bytes - length, "%s%s%s%s%s", length ? "  " : "", name,
-                     only_on ? "" : " ", only_on ? "" : value, number ? "x" : "");
+            snprintf(text + length, size_bytes - length, "%s%s", length ? ", " : "", one);
         length += written > 0 ? (size_t)written : 0;
     }
     if (!text[0]) {

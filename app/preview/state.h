@@ -1,4 +1,5 @@
-// What the preview shows and what keys do to it; knows no window.
+// What the preview shows, and what the user's actions change in it. Knows neither pixels nor
+// displays.
 #ifndef DIP_APP_PREVIEW_STATE_H
 #define DIP_APP_PREVIEW_STATE_H
 
@@ -10,7 +11,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// What a key can ask for. Arguments: a setting, a path's slot.
+// What a key can ask for. SETTING takes a setting as its argument, PATH a category of paths.
 typedef enum DipAction {
     DIP_ACTION_SETTING,
     DIP_ACTION_NEXT_PANE,
@@ -35,49 +36,55 @@ enum { DIP_NOTICE_SIZE = 160 };
 
 typedef struct DipPreviewState {
     DipQuality quality[DIP_PANE_COUNT];
-    bool edited[DIP_PANE_COUNT]; // keys act on these panes
-    DipCamTrack *track;          // borrowed
-    int64_t play_ns;             // never below 0
-    int64_t step_ns;             // of one step
+    bool edited[DIP_PANE_COUNT]; // The panes whose settings the keys change.
+    DipCamTrack *track;          // Borrowed.
+    int64_t play_ns;             // Time on the path, never below 0.
+    int64_t step_ns;             // Length of a single step in time.
     bool paused;
-    bool manual; // the user flies; the path's time stands still
-    bool help;
-    bool panel;            // times, errors and work of each pane
-    const DipCosts *costs; // borrowed; NULL: there is no report
-    bool show_costs;
-    int next_advice; // of the costs'
+    bool manual;           // The user flies the camera; time stands still.
+    bool help;             // The help shows.
+    bool panel;            // Each pane shows its times, errors and work.
+    const DipCosts *costs; // Borrowed; NULL: there is no cost report.
+    bool show_costs;       // The table of costs shows.
+    int next_advice;       // Index in costs->advice of the next advice to give.
     bool quit;
     bool full_screen;
-    bool screenshot; // asked for; the window takes it and clears this
-    char notice[DIP_NOTICE_SIZE];
-    int64_t notice_end_ns;  // of the clock that `now_ns` comes from
-    unsigned scene_changes; // counts what makes the panes' pictures change
+    bool screenshot;              // The user asked for a screenshot. Who takes it clears this.
+    char notice[DIP_NOTICE_SIZE]; // What just happened, for the status line; may be empty.
+    int64_t notice_end_ns;        // When the notice goes away, on the clock of `now_ns`.
+    unsigned scene_changes;       // Grows whenever the panes' pictures have to change.
 } DipPreviewState;
 
-// The requested pane is edited. track must outlive the state.
+// The keys change the requested pane at first. The track must outlive the state.
 DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
                                        DipCamTrack *track);
 
-// reverse: Shift is held.
+// Carries out an action. reverse: Shift is held, so that steps and paths go backwards.
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns);
 
-// Whether nothing moves the camera or the scene. flying: the user does.
+// Returns whether nothing moves the camera or the scene. flying: the user moves the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);
 
-// Lets time go by: moves the path on unless paused, and drops an old notice.
+// Lets time go by: moves on along the path unless it is paused, and drops an old notice.
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);
 
+// Shows a notice for a few seconds.
 void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// The ini's name of a path slot: "DEFAULT", "AA", ...
-const char *dip_preview_path_name(int slot);
+// The ini's name of a category of paths: "DEFAULT", "AA", ...
+const char *dip_preview_category_name(int category);
 
-// The path slot that shows a setting best, or -1 when none does.
-int dip_preview_path_of(DipSetting setting);
+// The plain name of a category of paths: "Default", or the title of the setting that the path shows
+// best.
+const char *dip_preview_category_title(int category);
 
-// Settings in a few words, those at their default left out: "AA 4x  AF 16x". Cut at the size.
-void dip_preview_describe(const DipQuality *quality, char *text, size_t size_bytes);
+// The category whose path shows a setting best, or -1 if no path is made for it.
+int dip_preview_category_of(DipSetting setting);
+
+// Names the settings that differ from their defaults, in full ("Antialiasing 4x, Adaptive AA") or
+// briefly ("AA 4x, adaptive AA"). The text is cut at the size.
+void dip_preview_describe(const DipQuality *quality, bool brief, char *text, size_t size_bytes);
 
 #endif

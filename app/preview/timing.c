@@ -1,4 +1,4 @@
-// Frame times of the last second.
+// A ring of frame times.
 #include "app/preview/timing.h"
 
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-// Newest first, until one is older than the window.
+// Collects the times of the last second, newest first. Returns their number.
 static int young(const DipTiming *timing, int64_t now_ns, double *ms) {
     const unsigned kept = timing->count < DIP_TIMING_SAMPLES ? timing->count : DIP_TIMING_SAMPLES;
     int found = 0;

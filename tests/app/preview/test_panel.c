@@ -1,4 +1,4 @@
-// What the preview tells of times, errors and costs, and when.
+// The panel's lines of times, errors and work, and the costs and advice of a report.
 #include "app/cost/formats.h"
 #include "app/preview/panel.h"
 #include "app/preview/state.h"
@@ -47,43 +47,43 @@ static void times_and_work(void **state) {
     assert_string_equal(value_of(0, "Geometry"), "1.00 ms  10 %");
     assert_string_equal(value_of(0, "Shading"), "5.00 ms  50 %");
     assert_string_equal(value_of(0, "Fragments shaded"), "99999");
-    assert_string_equal(value_of(0, "Triangles in"), "123.5 k");
+    assert_string_equal(value_of(0, "Triangles submitted"), "123.5 k");
     assert_string_equal(value_of(0, "Texels read"), "1.23 M");
 }
 
 static void errors_show_at_rest(void **state) {
     (void)state;
-    DipLiveReading *live = &figures.live;
-    live->result.panes[1] = (DipPaneError){.0123, 31.26, .0475, false};
+    DipErrorReading *errors = &figures.errors;
+    errors->result.panes[1] = (DipPaneError){.0123, 31.26, .0475, false};
     assert_string_equal(value_of(1, "Error"), "pause to measure");
     assert_string_equal(value_of(1, "FLIP"), "");
-    live->status = DIP_LIVE_WORKING;
+    errors->status = DIP_ERROR_STATUS_WORKING;
     assert_string_equal(value_of(1, "Error"), "measuring");
     assert_string_equal(value_of(1, "FLIP"), "");
-    live->result.samples = 8;
-    assert_string_equal(value_of(1, "Error"), "8 samples, rising");
+    errors->result.samples = 8;
+    assert_string_equal(value_of(1, "Error"), "refining: 8 of 128 samples");
     assert_string_equal(value_of(1, "RMSE, linear"), "0.0123");
     assert_string_equal(value_of(1, "PSNR"), "31.3 dB");
     assert_string_equal(value_of(1, "FLIP"), "0.0475");
-    live->result.samples = 128;
-    live->result.last = true;
-    live->result.panes[1].at_floor = true;
-    live->result.panes[1].psnr_db = INFINITY;
+    errors->result.samples = 128;
+    errors->result.last = true;
+    errors->result.panes[1].at_floor = true;
+    errors->result.panes[1].psnr_db = INFINITY;
     assert_string_equal(value_of(1, "Error"), "128 samples");
-    assert_string_equal(value_of(1, "RMSE, linear"), "0.0123 at floor");
+    assert_string_equal(value_of(1, "RMSE, linear"), "0.0123 at noise floor");
     assert_string_equal(value_of(1, "PSNR"), "no difference");
     assert_string_equal(value_of(0, "RMSE, linear"), "0.0000");
-    live->status = DIP_LIVE_FAILED;
-    assert_string_equal(value_of(1, "Error"), "no memory to measure");
+    errors->status = DIP_ERROR_STATUS_FAILED;
+    assert_string_equal(value_of(1, "Error"), "not enough memory");
 }
 
 // A copied pane has errors, but neither times nor work of its own.
 static void a_copy_has_errors_only(void **state) {
     (void)state;
     figures.copied = true;
-    figures.live.status = DIP_LIVE_DONE;
-    figures.live.result.samples = 32;
-    assert_string_equal(value_of(1, "Frame"), "copied, same settings");
+    figures.errors.status = DIP_ERROR_STATUS_DONE;
+    figures.errors.result.samples = 32;
+    assert_string_equal(value_of(1, "Frame"), "copied: same settings");
     assert_string_equal(value_of(1, "Geometry"), "");
     assert_string_equal(value_of(1, "Texels read"), "");
     assert_string_equal(value_of(1, "FLIP"), "0.0000");
@@ -107,7 +107,7 @@ static double flip_of(const DipCostReport *report, int row) {
     return dip_metrics_of(&sums, 0).flip;
 }
 
-// Row r of the made-up report takes r + 1 ms; the sweep is of rows 0, 2 and 3.
+// Row r of the made-up report takes r + 1 ms; its sweep has rows 0, 2 and 3.
 static void steps_tell_cost_and_gain(void **state) {
     (void)state;
     DipCostReport report;
@@ -178,7 +178,7 @@ static void advice_sets_the_requested_pane(void **state) {
     dip_cost_report_free(&report);
 }
 
-// Without budgets of its own a report's combinations are looked through for 16.6 ms.
+// A report without budgets gives advice for 16.6 ms.
 static void there_is_a_budget_by_default(void **state) {
     (void)state;
     DipCostReport report;
@@ -190,7 +190,7 @@ static void there_is_a_budget_by_default(void **state) {
     dip_costs_make(&costs, &report);
     assert_int_equal(costs.advice_count, 1);
     assert_true(costs.advice[0].budget_ms == 16.6 && costs.advice[0].found);
-    assert_true(costs.advice[0].ms == 4.0); // of the two the one with less error
+    assert_true(costs.advice[0].ms == 4.0); // Of the two combinations, the one with less error.
     char text[160];
     dip_costs_describe(&costs, 0, text, sizeof text);
     assert_non_null(strstr(text, "; baseline 3.0 ms, "));

@@ -1,4 +1,4 @@
-// What keys do to the preview, the free camera, and the median of frame times; no window.
+// What actions change in the preview's state, the free camera, and the median of frame times.
 #include "app/preview/camera.h"
 #include "app/preview/state.h"
 #include "app/preview/timing.h"
@@ -24,7 +24,7 @@ static DipQuality parse(const char *text) {
     return quality;
 }
 
-// Two paths of 10 s: DEFAULT and AF, which AA, without one, does not have.
+// Two paths of 10 s, DEFAULT and AF. The category AA has none.
 static int set_up(void **state) {
     static Fixture fixture;
     fixture = (Fixture){.track = dip_camtrack_make(true)};
@@ -55,7 +55,7 @@ static int step_of(const Fixture *fixture, int pane, DipSetting setting) {
     return fixture->state.quality[pane].step[setting];
 }
 
-// none 2 4 6 8 none, on the requested pane alone; Shift goes back.
+// Antialiasing goes through none 2 4 6 8 none, on the requested pane alone; Shift goes back.
 static void settings_cycle(void **state) {
     Fixture *f = *state;
     for (int i = 1; i <= 5; ++i) {
@@ -68,7 +68,7 @@ static void settings_cycle(void **state) {
     assert_int_equal(f->state.scene_changes, 6);
 }
 
-// 8 samples may share passes of 4, no other number may: the divisor goes back to its default.
+// A divisor of 4 fits 8 samples alone: with another number it goes back to its default.
 static void samples_take_the_divisor_along(void **state) {
     Fixture *f = *state;
     f->state.quality[DIP_PANE_REQUESTED] = parse("aa=8,aaa=on,asd=2");
@@ -82,7 +82,7 @@ static void samples_take_the_divisor_along(void **state) {
     assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD), 1); // 2 fits 8 too
 }
 
-// Every setting comes round to where it began, through valid settings only.
+// Every setting comes round to its first step, and all settings on the way are valid.
 static void every_setting_comes_round(void **state) {
     Fixture *f = *state;
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
@@ -165,13 +165,20 @@ static void settings_in_words(void **state) {
     (void)state;
     char text[64];
     DipQuality quality = dip_quality_default();
-    dip_preview_describe(&quality, text, sizeof text);
+    dip_preview_describe(&quality, false, text, sizeof text);
     assert_string_equal(text, "Default settings");
     quality = parse("aa=4,af=16,aaf=on,miplod=quality");
-    dip_preview_describe(&quality, text, sizeof text);
-    assert_string_equal(text, "AA 4x  AF 16x  AAF  MIPLOD quality");
+    dip_preview_describe(&quality, true, text, sizeof text);
+    assert_string_equal(text, "AA 4x, AF 16x, advanced AF, mip detail quality");
+    quality = parse("aaa=on,asd=2,aa=4,gi=off");
+    dip_preview_describe(&quality, true, text, sizeof text);
+    assert_string_equal(text, "AA 4x, adaptive AA, divisor 2, no instancing");
+    char longer[128];
+    dip_preview_describe(&quality, false, longer, sizeof longer);
+    assert_string_equal(longer, "Antialiasing 4x, Adaptive AA, Adaptive AA divisor 2, "
+                                "Geometry instancing off");
     char small[10];
-    dip_preview_describe(&quality, small, sizeof small);
+    dip_preview_describe(&quality, false, small, sizeof small);
     assert_int_equal(strlen(small), 9);
 }
 

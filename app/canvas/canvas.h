@@ -1,0 +1,43 @@
+// A picture in memory that can be drawn into: fills, blends, pictures, masks.
+//
+// The canvas has a folder of its own beside app/display/, because neither side needs the other: a
+// display shows finished pixels and draws nothing, and the preview draws the same pixels for every
+// display, for a screenshot and for a test.
+#ifndef DIP_APP_CANVAS_CANVAS_H
+#define DIP_APP_CANVAS_CANVAS_H
+
+#include "app/canvas/pixels.h"
+#include "renderer/base/error.h"
+
+// Rows are packed. Every pixel is opaque. Zero-initialise; dip_canvas_resize allocates.
+typedef struct DipCanvas {
+    uint8_t *rgba8; // Owned.
+    int width;
+    int height;
+    DipRect clip; // Drawing leaves pixels outside this rectangle as they are.
+} DipCanvas;
+
+// Changes the size and sets the clip rectangle to the whole canvas. The pixels are undefined
+// afterwards unless the size stays the same. On failure (MEMORY) the canvas is empty.
+bool dip_canvas_resize(DipCanvas *canvas, int width, int height, DipError *err);
+void dip_canvas_free(DipCanvas *canvas);
+
+// Limits drawing to a rectangle; parts of it outside the canvas count for nothing.
+void dip_canvas_set_clip(DipCanvas *canvas, DipRect clip);
+
+// The canvas as a picture. It is valid until the canvas is resized or freed.
+DipPixels dip_canvas_pixels(const DipCanvas *canvas);
+
+// Blends a colour over a rectangle by the colour's alpha.
+void dip_canvas_fill(DipCanvas *canvas, DipRect rect, DipColour colour);
+
+// Copies a picture into a rectangle; its alpha is ignored. If the sizes differ, the picture is
+// scaled to the rectangle: each pixel shows the nearest pixel of the picture.
+void dip_canvas_copy(DipCanvas *canvas, DipRect rect, const DipPixels *picture);
+
+// Blends a colour through a mask whose top left pixel lies at x, y. Each byte of the mask is a
+// coverage from 0 to 255, which multiplies the colour's alpha.
+void dip_canvas_mask(DipCanvas *canvas, int x, int y, int width, int height, const uint8_t *mask,
+                     DipColour colour);
+
+#endif

@@ -1,0 +1,47 @@
+// Rectangles, colours and read-only pictures: what drawing and displays have in common.
+#ifndef DIP_APP_CANVAS_PIXELS_H
+#define DIP_APP_CANVAS_PIXELS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// A rectangle in pixels. x grows to the right and y downwards. A width or height below 1 makes the
+// rectangle empty.
+typedef struct DipRect {
+    int x;
+    int y;
+    int width;
+    int height;
+} DipRect;
+
+// A colour in sRGB codes. Alpha 255 is opaque; the colour is not multiplied by alpha.
+typedef struct DipColour {
+    uint8_t red;
+    uint8_t green;
+    uint8_t blue;
+    uint8_t alpha;
+} DipColour;
+
+// A picture that somebody else owns: sRGB, four bytes per pixel (red, green, blue, alpha), the top
+// row first.
+typedef struct DipPixels {
+    const uint8_t *rgba8;
+    size_t stride_bytes; // From one row to the next.
+    int width;
+    int height;
+} DipPixels;
+
+// Returns the pixels that both rectangles hold; the result may be empty.
+DipRect dip_rect_intersect(DipRect a, DipRect b);
+
+// Returns the smallest rectangle that holds both. An empty rectangle adds nothing.
+DipRect dip_rect_unite(DipRect a, DipRect b);
+
+bool dip_rect_is_empty(DipRect rect);
+bool dip_rect_equals(DipRect a, DipRect b);
+
+// Returns whether a pixel lies in the rectangle.
+bool dip_rect_holds(DipRect rect, int x, int y);
+
+#endif

@@ -1,0 +1,136 @@
+// The seam between the preview and whatever shows it: pixels go out, events come in.
+//
+// A display is a struct of functions and a context. A back end (a folder beside this file) fills it
+// in; the preview knows no other part of a back end. All functions of one display must be called
+// on one thread. They take the context as their first argument:
+//
+//     display.present(display.context, &picture, rects, 1, err);
+#ifndef DIP_APP_DISPLAY_DISPLAY_H
+#define DIP_APP_DISPLAY_DISPLAY_H
+
+#include "app/canvas/pixels.h"
+#include "renderer/base/error.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// Keys. A key that types a character has that character's Unicode code point, in lower case and
+// without modifiers: 'a', '1', '.'. The other keys have the values below, beyond all code points.
+// The keypad's digits, signs and Enter count as the keys of the same meaning.
+typedef enum DipKeycode {
+    DIP_KEYCODE_NONE = 0,
+    DIP_KEYCODE_SPACE = ' ',
+    DIP_KEYCODE_ENTER = 0x110000,
+    DIP_KEYCODE_ESCAPE,
+    DIP_KEYCODE_TAB,
+    DIP_KEYCODE_BACKSPACE,
+    DIP_KEYCODE_INSERT,
+    DIP_KEYCODE_DELETE,
+    DIP_KEYCODE_HOME,
+    DIP_KEYCODE_END,
+    DIP_KEYCODE_PAGE_UP,
+    DIP_KEYCODE_PAGE_DOWN,
+    DIP_KEYCODE_LEFT,
+    DIP_KEYCODE_RIGHT,
+    DIP_KEYCODE_UP,
+    DIP_KEYCODE_DOWN,
+    DIP_KEYCODE_F1, // F2 to F12 follow in order.
+    DIP_KEYCODE_F2,
+    DIP_KEYCODE_F3,
+    DIP_KEYCODE_F4,
+    DIP_KEYCODE_F5,
+    DIP_KEYCODE_F6,
+    DIP_KEYCODE_F7,
+    DIP_KEYCODE_F8,
+    DIP_KEYCODE_F9,
+    DIP_KEYCODE_F10,
+    DIP_KEYCODE_F11,
+    DIP_KEYCODE_F12
+} DipKeycode;
+
+// Modifier keys that are held, as bits.
+enum {
+    DIP_MODIFIER_SHIFT = 1,
+    DIP_MODIFIER_CTRL = 2,
+    DIP_MODIFIER_ALT = 4,
+    DIP_MODIFIER_SUPER = 8
+};
+
+typedef enum DipMouseButton {
+    DIP_MOUSE_LEFT,
+    DIP_MOUSE_MIDDLE,
+    DIP_MOUSE_RIGHT,
+    DIP_MOUSE_OTHER
+} DipMouseButton;
+
+typedef enum DipEventKind {
+    DIP_EVENT_NONE, // Something happened that no other kind stands for. The preview ignores it.
+    DIP_EVENT_KEY_DOWN,
+    DIP_EVENT_KEY_UP, // A display that loses the keyboard sends it for every key that is held.
+    DIP_EVENT_TEXT,
+    DIP_EVENT_MOUSE_MOVE,
+    DIP_EVENT_MOUSE_DOWN,
+    DIP_EVENT_MOUSE_UP,
+    DIP_EVENT_MOUSE_WHEEL,
+    DIP_EVENT_RESIZE, // The size or the scale changed.
+    DIP_EVENT_EXPOSE, // The display lost what it showed.
+    DIP_EVENT_DROP,   // The user dropped a file.
+    DIP_EVENT_QUIT    // The user or the system closes the display.
+} DipEventKind;
+
+// One event. Fields that a kind does not name are zero.
+typedef struct DipEvent {
+    DipEventKind kind;
+    unsigned modifiers; // DIP_MODIFIER_... bits. Of key and mouse events.
+
+    // KEY_DOWN and KEY_UP.
+    DipKeycode key;      // By the user's keyboard layout.
+    DipKeycode position; // The key that a US keyboard has at this place.
+    bool repeat;         // KEY_DOWN: the key is held and repeats itself.
+
+    // Mouse events: where the pointer is, in pixels of the picture.
+    int x;
+    int y;
+    DipMouseButton button; // MOUSE_DOWN and MOUSE_UP.
+    int clicks;            // MOUSE_DOWN: 2 for the second press of a double click.
+    double wheel_x;        // MOUSE_WHEEL: steps to the right.
+    double wheel_y;        // MOUSE_WHEEL: steps away from the user.
+
+    char text[32];    // TEXT: UTF-8.
+    const char *file; // DROP: the file's name. Borrowed until next_event is called again.
+} DipEvent;
+
+typedef struct DipDisplay {
+    void *context;
+
+    // Shows a picture. Only the pixels inside the damage rectangles differ from the picture shown
+    // before; after a RESIZE or EXPOSE event the damage must cover the whole picture. The picture
+    // should have the display's size; of any other only the common part shows. Keeps no pointer.
+    // Fails with RUNTIME.
+    bool (*present)(void *context, const DipPixels *picture, const DipRect *damage, int count,
+                    DipError *err);
+
+    // Fills in the next event, for which it waits at most timeout_ms milliseconds; 0 does not wait.
+    // Returns false if there is none.
+    bool (*next_event)(void *context, int timeout_ms, DipEvent *event);
+
+    // Size of the picture to present, in pixels, at least 1x1.
+    void (*size)(void *context, int *width, int *height);
+
+    // Pixels per unit of text and controls: 1 on a plain screen, 2 on one with small pixels.
+    double (*scale)(void *context);
+
+    // Pictures per second that the display can show.
+    double (*refresh_hz)(void *context);
+
+    // The display's clock, nanoseconds from some point on. It goes on while next_event waits.
+    int64_t (*now_ns)(void *context);
+
+    // Covers the whole screen, or ends that. NULL: the display cannot.
+    void (*set_full_screen)(void *context, bool on);
+
+    // Closes the display and frees the context.
+    void (*close)(void *context);
+} DipDisplay;
+
+#endif

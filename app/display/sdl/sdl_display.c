@@ -1,0 +1,234 @@
+// The window: opening it, its size, and pixels on their way to the screen.
+#include "app/display/sdl/sdl_display.h"
+
+#include "app/display/sdl/sdl_event.h"
+#include "renderer/base/clock.h"
+
+#include <SDL2/SDL.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MIN_WINDOW_WIDTH = 320,
+    MIN_WINDOW_HEIGHT = 160,
+    MAX_RECTS = 16,
+    MIN_BITS_PER_PIXEL = 15 // Below, a screen has a palette, which SDL draws no pictures into.
+};
+
+typedef struct SdlDisplay {
+    SDL_Window *window;
+    char *dropped_file; // Lent to the last event; NULL if that was no DROP.
+    bool sdl_open;
+} SdlDisplay;
+
+static bool sdl_failed(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "preview",
+                         "there is no display to open a window on (%s); `diptych dump` draws "
+                         "without one",
+                         SDL_GetError());
+}
+
+// --- opening and closing -----------------------------------------------------------------------
+
+// SDL falls back to drivers that show nothing; they count only if the user asked for one.
+static bool has_display(void) {
+    const char *driver = SDL_GetCurrentVideoDriver();
+    const bool shows_nothing =
+        !driver || strcmp(driver, "offscreen") == 0 || strcmp(driver, "dummy") == 0;
+    return !shows_nothing || SDL_getenv("SDL_VIDEODRIVER");
+}
+
+static bool open_sdl(SdlDisplay *sdl, DipError *err) {
+    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    if (SDL_Init(SDL_INIT_VIDEO) != 0) {
+        return sdl_failed(err);
+    }
+    sdl->sdl_open = true;
+    if (!has_display()) {
+        SDL_SetError("neither DISPLAY nor WAYLAND_DISPLAY leads to one");
+        return sdl_failed(err);
+    }
+    // X takes pixels from shared memory as they are. SDL's other way, through OpenGL, costs memory
+    // and, without a graphics card, a third of the frames. Other systems have only that way.
+    if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0) {
+        SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    }
+    return true;
+}
+
+static bool has_enough_colours(DipError *err) {
+    SDL_DisplayMode mode;
+    if (SDL_GetCurrentDisplayMode(0, &mode) != 0) {
+        return true; // Opening the window says what is wrong.
+    }
+    return SDL_BITSPERPIXEL(mode.format) >= MIN_BITS_PER_PIXEL ||
+           dip_error_set(
+               err, DIP_ERROR_RUNTIME, NULL, 0, "preview",
+               "the display has too few colours: the window needs %d bits per pixel or more; "
+               "`diptych dump` draws without a display",
+               MIN_BITS_PER_PIXEL);
+}
+
+static bool open_window(SdlDisplay *sdl, int width, int height, DipError *err) {
+    SDL_Rect usable;
+    if (SDL_GetDisplayUsableBounds(0, &usable) == 0) {
+        width = width > usable.w ? usable.w : width;
+        height = height > usable.h ? usable.h : height;
+    }
+    sdl->window = SDL_CreateWindow("Diptych", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width,
+                                   height, SDL_WINDOW_RESIZABLE);
+    if (!sdl->window) {
+        return sdl_failed(err);
+    }
+    SDL_SetWindowMinimumSize(sdl->window, MIN_WINDOW_WIDTH, MIN_WINDOW_HEIGHT);
+    return SDL_GetWindowSurface(sdl->window) || sdl_failed(err);
+}
+
+static void close_display(void *context) {
+    SdlDisplay *sdl = context;
+    SDL_free(sdl->dropped_file);
+    if (sdl->window) {
+        SDL_DestroyWindow(sdl->window);
+    }
+    if (sdl->sdl_open) {
+        SDL_Quit();
+    }
+    free(sdl);
+}
+
+// --- pixels ------------------------------------------------------------------------------------
+
+// Copies pixels while it swaps red and blue, which is all that most screens need.
+static void copy_swapped(uint8_t *restrict to, const uint8_t *restrict from, int count) {
+    for (int i = 0; i < count; ++i) {
+        uint32_t pixel;
+        memcpy(&pixel, from + 4 * i, sizeof pixel);
+        pixel = (pixel & 0xff00ff00u) | (pixel << 16 & 0xff0000u) | (pixel >> 16 & 0xffu);
+        memcpy(to + 4 * i, &pixel, sizeof pixel);
+    }
+}
+
+static bool has_swapped_bytes(Uint32 format) {
+    return SDL_BYTEORDER == SDL_LIL_ENDIAN &&
+           (format == SDL_PIXELFORMAT_RGB888 || format == SDL_PIXELFORMAT_ARGB8888);
+}
+
+// Copies a rectangle of the picture to the same place of the window's surface.
+static bool copy_rect(SDL_Surface *surface, const DipPixels *picture, DipRect rect) {
+    const Uint32 format = surface->format->format;
+    uint8_t *to = (uint8_t *)surface->pixels + (ptrdiff_t)rect.y * surface->pitch +
+                  (ptrdiff_t)rect.x * surface->format->BytesPerPixel;
+    const uint8_t *from =
+        picture->rgba8 + (size_t)rect.y * picture->stride_bytes + 4 * (size_t)rect.x;
+    if (!has_swapped_bytes(format)) {
+        return SDL_ConvertPixels(rect.width, rect.height, SDL_PIXELFORMAT_RGBA32, from,
+                                 (int)picture->stride_bytes, format, to, surface->pitch) == 0;
+    }
+    for (int y = 0; y < rect.height; ++y) {
+        copy_swapped(to + (ptrdiff_t)y * surface->pitch, from + (size_t)y * picture->stride_bytes,
+                     rect.width);
+    }
+    return true;
+}
+
+// Copies the damage, and has SDL send up to MAX_RECTS rectangles to the screen at once.
+static bool show_rects(SDL_Window *window, SDL_Surface *surface, const DipPixels *picture,
+                       const DipRect *damage, int count) {
+    const DipRect both = dip_rect_intersect((DipRect){0, 0, surface->w, surface->h},
+                                            (DipRect){0, 0, picture->width, picture->height});
+    SDL_Rect rects[MAX_RECTS];
+    int rect_count = 0;
+    for (int i = 0; i < count; ++i) {
+        const DipRect rect = dip_rect_intersect(damage[i], both);
+        if (dip_rect_is_empty(rect)) {
+            continue;
+        }
+        if (!copy_rect(surface, picture, rect)) {
+            return false;
+        }
+        rects[rect_count++] = (SDL_Rect){rect.x, rect.y, rect.width, rect.height};
+    }
+    return rect_count == 0 || SDL_UpdateWindowSurfaceRects(window, rects, rect_count) == 0;
+}
+
+// The surface changes with the window's size, hence it is asked for each time.
+static bool present(void *context, const DipPixels *picture, const DipRect *damage, int count,
+                    DipError *err) {
+    SdlDisplay *sdl = context;
+    SDL_Surface *surface = SDL_GetWindowSurface(sdl->window);
+    bool shown = surface != NULL;
+    for (int i = 0; shown && i < count; i += MAX_RECTS) {
+        const int left = count - i;
+        shown = show_rects(sdl->window, surface, picture, damage + i,
+                           left < MAX_RECTS ? left : MAX_RECTS);
+    }
+    return shown || dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "preview", "%s", SDL_GetError());
+}
+
+// --- the rest of the seam ----------------------------------------------------------------------
+
+static bool next_event(void *context, int timeout_ms, DipEvent *event) {
+    SdlDisplay *sdl = context;
+    SDL_Event sdl_event;
+    SDL_free(sdl->dropped_file);
+    sdl->dropped_file = NULL;
+    const int found =
+        timeout_ms > 0 ? SDL_WaitEventTimeout(&sdl_event, timeout_ms) : SDL_PollEvent(&sdl_event);
+    if (!found) {
+        return false;
+    }
+    *event = dip_sdl_event_translate(&sdl_event);
+    if (event->kind == DIP_EVENT_DROP) {
+        sdl->dropped_file = sdl_event.drop.file;
+    }
+    return true;
+}
+
+static void size(void *context, int *width, int *height) {
+    const SdlDisplay *sdl = context;
+    SDL_GetWindowSizeInPixels(sdl->window, width, height);
+    *width = *width > 1 ? *width : 1;
+    *height = *height > 1 ? *height : 1;
+}
+
+// More than 1 only where the system itself scales windows: pixels per unit of the window's size.
+static double scale(void *context) {
+    const SdlDisplay *sdl = context;
+    int width = 0, height = 0, units = 0;
+    SDL_GetWindowSizeInPixels(sdl->window, &width, &height);
+    SDL_GetWindowSize(sdl->window, &units, NULL);
+    return width > 0 && units > 0 ? (double)width / units : 1.0;
+}
+
+static double refresh_hz(void *context) {
+    const SdlDisplay *sdl = context;
+    SDL_DisplayMode mode;
+    const int index = SDL_GetWindowDisplayIndex(sdl->window);
+    const bool known = index >= 0 && SDL_GetCurrentDisplayMode(index, &mode) == 0;
+    return known && mode.refresh_rate > 0 ? mode.refresh_rate : 60.0;
+}
+
+static int64_t now_ns(void *context) {
+    (void)context;
+    return dip_clock_ns();
+}
+
+static void set_full_screen(void *context, bool on) {
+    const SdlDisplay *sdl = context;
+    SDL_SetWindowFullscreen(sdl->window, on ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+}
+
+bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *err) {
+    SdlDisplay *sdl = calloc(1, sizeof *sdl);
+    if (!sdl) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
+    }
+    if (!open_sdl(sdl, err) || !has_enough_colours(err) || !open_window(sdl, width, height, err)) {
+        close_display(sdl);
+        return false;
+    }
+    *display = (DipDisplay){sdl,        present, next_event,      size,         scale,
+                            refresh_hz, now_ns,  set_full_screen, close_display};
+    return true;
+}

@@ -1,0 +1,337 @@
+// Draws the truth level by level, tile by tile, and measures errors block by block.
+#include "app/preview/error_job.h"
+
+#include "app/measure/difference.h"
+#include "app/measure/flip.h"
+#include "app/measure/truth.h"
+#include "renderer/reference/convergence.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    HALVES = 2,              // A level of the truth is the mean of two halves.
+    FINISH_PIXELS = 1 << 14, // Pixels whose mean one step takes.
+    BAND_PIXELS = 1 << 15,   // Pixels whose RMSE and PSNR one step sums up.
+    BLOCK = 96,              // Side of the block whose FLIP one step measures, pixels.
+};
+
+const int dip_error_job_samples[DIP_ERROR_JOB_LEVELS] = {4, 16, 64};
+
+typedef struct Rect {
+    int x;
+    int y;
+    int width;
+    int height;
+} Rect;
+
+typedef struct PaneSums {
+    DipMapSum squared_lin;
+    DipMapSum squared_codes;
+    DipMapSum flip;
+} PaneSums;
+
+struct DipErrorJob {
+    DipReference *reference;
+    DipSrgbEncodeTable encode;
+    int flip_margin; // FLIP of a block depends on this many pixels around it.
+    DipStill still;
+    bool has_still;
+    size_t pixels; // Size of the buffers below.
+    double *halves[HALVES];
+    float *rgb_lin; // Mean of the halves of the last finished level.
+    uint8_t *rgba8; // The same as sRGB codes.
+    float *map;     // Errors: 3 values per pixel of a band, or of a block with its margin.
+    DipConvergence *convergence; // NULL before the first tile.
+    int level;                   // The level that is being drawn.
+    int drawn;                   // Tiles drawn of that level, both halves counted.
+    size_t finished;             // Pixels whose mean is taken, once all tiles are drawn.
+    double half_squares;         // Sum of squared differences of the halves over these pixels.
+    double floor_rmse;           // Noise of the last finished level.
+    int truth_level;             // The last finished level; -1: none.
+    int measured;                // Bands and blocks measured so far; -1: all of them.
+    PaneSums sums[DIP_PANE_COUNT];
+    DipErrorJobResult result;
+};
+
+static bool out_of_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "truth", "out of memory");
+}
+
+static int larger(int a, int b) {
+    return a > b ? a : b;
+}
+
+static int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
+static size_t pixel_count(const DipErrorJob *job) {
+    return (size_t)job->still.width * (size_t)job->still.height;
+}
+
+bool dip_still_has_same_truth(const DipStill *a, const DipStill *b) {
+    return memcmp(&a->pose, &b->pose, sizeof a->pose) == 0 && a->time_ns == b->time_ns &&
+           a->width == b->width && a->height == b->height;
+}
+
+DipErrorJob *dip_error_job_create(DipReference *reference, DipError *err) {
+    DipErrorJob *job = calloc(1, sizeof *job);
+    if (!job) {
+        out_of_memory(err);
+        return NULL;
+    }
+    job->reference = reference;
+    job->flip_margin = dip_flip_reach_px(DIP_FLIP_PIXELS_PER_DEGREE);
+    dip_srgb_encode_table(&job->encode);
+    return job;
+}
+
+static void free_pictures(DipErrorJob *job) {
+    free(job->halves[0]);
+    free(job->halves[1]);
+    free(job->rgb_lin);
+    free(job->rgba8);
+    free(job->map);
+    job->halves[0] = job->halves[1] = NULL;
+    job->rgb_lin = job->map = NULL;
+    job->rgba8 = NULL;
+    job->pixels = 0;
+}
+
+void dip_error_job_destroy(DipErrorJob **job) {
+    if (!*job) {
+        return;
+    }
+    dip_convergence_destroy(&(*job)->convergence);
+    free_pictures(*job);
+    free(*job);
+    *job = NULL;
+}
+
+// Rows of a band, at least one.
+static int band_rows(const DipErrorJob *job) {
+    return larger(1, BAND_PIXELS / job->still.width);
+}
+
+static bool make_room(DipErrorJob *job, DipError *err) {
+    const size_t pixels = pixel_count(job);
+    const size_t side = (size_t)(BLOCK + 2 * job->flip_margin);
+    const size_t band = (size_t)job->still.width * (size_t)band_rows(job);
+    if (job->pixels == pixels) {
+        return true;
+    }
+    free_pictures(job);
+    for (int h = 0; h < HALVES; h++) {
+        job->halves[h] = malloc(pixels * 3 * sizeof(double));
+    }
+    job->rgb_lin = malloc(pixels * 3 * sizeof(float));
+    job->rgba8 = malloc(pixels * 4);
+    job->map = malloc((band > side * side ? band : side * side) * 3 * sizeof(float));
+    job->pixels = pixels;
+    return (job->halves[0] && job->halves[1] && job->rgb_lin && job->rgba8 && job->map) ||
+           out_of_memory(err);
+}
+
+bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err) {
+    const bool same = job->has_still && dip_still_has_same_truth(&job->still, still);
+    job->still = *still;
+    job->measured = 0;
+    memset(job->sums, 0, sizeof job->sums);
+    job->result = (DipErrorJobResult){0};
+    if (same) {
+        return true;
+    }
+    dip_convergence_destroy(&job->convergence);
+    job->level = job->drawn = 0;
+    job->finished = 0;
+    job->half_squares = 0.0;
+    job->truth_level = -1;
+    job->has_still = make_room(job, err);
+    if (!job->has_still) {
+        free_pictures(job);
+    }
+    return job->has_still;
+}
+
+// --- the truth ---------------------------------------------------------------------------------
+
+// Draws a tile of one half. The halves have the seeds that the cost report gives them, so that the
+// last level is the cost report's truth.
+static bool draw_next_tile(DipErrorJob *job, DipError *err) {
+    const int tiles = dip_convergence_tile_count(job->convergence);
+    const int half = job->drawn / tiles;
+    if (job->drawn % tiles == 0) {
+        memset(job->halves[half], 0, pixel_count(job) * 3 * sizeof(double));
+    }
+    const bool added = dip_convergence_add_tile(
+        job->convergence, job->drawn % tiles, dip_error_job_samples[job->level], (uint32_t)half + 1,
+        1.0, job->halves[half], NULL, err);
+    job->drawn += added;
+    return added;
+}
+
+static bool is_drawn(const DipErrorJob *job) {
+    return job->convergence && job->drawn == HALVES * dip_convergence_tile_count(job->convergence);
+}
+
+// Takes the mean of the halves of some pixels, and sums up their squared differences.
+static void finish_pixels(DipErrorJob *job) {
+    const size_t left = pixel_count(job) - job->finished;
+    const size_t count = left < FINISH_PIXELS ? left : FINISH_PIXELS;
+    double *a = job->halves[0] + 3 * job->finished;
+    const double *b = job->halves[1] + 3 * job->finished;
+    float *rgb_lin = job->rgb_lin + 3 * job->finished;
+    for (size_t i = 0; i < 3 * count; i++) {
+        const double difference = a[i] - b[i];
+        job->half_squares += difference * difference;
+        a[i] = 0.5 * (a[i] + b[i]);
+        rgb_lin[i] = (float)a[i];
+    }
+    dip_truth_encode(&job->encode, a, count, job->rgba8 + 4 * job->finished);
+    job->finished += count;
+}
+
+static void next_level(DipErrorJob *job) {
+    job->floor_rmse = sqrt(job->half_squares / (3.0 * (double)pixel_count(job))) / 2.0;
+    job->truth_level = job->level++;
+    job->drawn = 0;
+    job->finished = 0;
+    job->half_squares = 0.0;
+    job->measured = 0;
+    memset(job->sums, 0, sizeof job->sums);
+}
+
+// --- the errors --------------------------------------------------------------------------------
+
+static void add_sum(DipMapSum *to, DipMapSum sum) {
+    to->sum += sum.sum;
+    to->pixel_count += sum.pixel_count;
+}
+
+// Cuts the same rectangle out of a pane's picture and out of the truth.
+static void cut_out(const DipErrorJob *job, int pane, const Rect *rect, DipSrgbPicture *test,
+                    DipSrgbPicture *truth) {
+    const size_t stride = job->still.stride_bytes, packed = 4 * (size_t)job->still.width;
+    const size_t x = 4 * (size_t)rect->x, y = (size_t)rect->y;
+    *test = (DipSrgbPicture){job->still.rgba8[pane] + y * stride + x, stride, rect->width,
+                             rect->height};
+    *truth = (DipSrgbPicture){job->rgba8 + y * packed + x, packed, rect->width, rect->height};
+}
+
+static void measure_band(DipErrorJob *job, int pane, int band) {
+    const int y = band * band_rows(job);
+    const int rows = smaller(band_rows(job), job->still.height - y);
+    const size_t width = (size_t)job->still.width;
+    const size_t pixels = width * (size_t)rows;
+    DipSrgbPicture test, truth;
+    cut_out(job, pane, &(Rect){0, y, job->still.width, rows}, &test, &truth);
+    PaneSums *sums = &job->sums[pane];
+    dip_difference_lin(&test, job->rgb_lin + (size_t)y * width * 3, job->map);
+    dip_difference_squared_map(job->map, pixels, job->map);
+    add_sum(&sums->squared_lin, dip_map_sum(job->map, pixels, (DipPixelMask){0}));
+    dip_difference_codes_map(&test, &truth, job->map);
+    add_sum(&sums->squared_codes, dip_map_sum(job->map, pixels, (DipPixelMask){0}));
+}
+
+// Measures FLIP of a block. The cut-out has a margin as wide as FLIP's filters, so that the block's
+// own pixels come out as in the whole picture.
+static bool measure_block(DipErrorJob *job, int pane, int block) {
+    const int across = (job->still.width + BLOCK - 1) / BLOCK;
+    const int x = block % across * BLOCK, y = block / across * BLOCK;
+    const int x1 = smaller(x + BLOCK, job->still.width);
+    const int y1 = smaller(y + BLOCK, job->still.height);
+    const int left = larger(0, x - job->flip_margin), top = larger(0, y - job->flip_margin);
+    const Rect rect = {left, top, smaller(job->still.width, x1 + job->flip_margin) - left,
+                       smaller(job->still.height, y1 + job->flip_margin) - top};
+    DipSrgbPicture test, truth;
+    cut_out(job, pane, &rect, &test, &truth);
+    DipFlip flip = {0};
+    DipFlipAnalysis sides[2] = {0};
+    const bool made = dip_flip_init(&flip, rect.width, rect.height, DIP_FLIP_PIXELS_PER_DEGREE) &&
+                      dip_flip_analysis_init(&flip, &sides[0]) &&
+                      dip_flip_analysis_init(&flip, &sides[1]);
+    if (made) {
+        dip_flip_analyse(&flip, &test, &sides[0]);
+        dip_flip_analyse(&flip, &truth, &sides[1]);
+        dip_flip_compare(&flip, &sides[0], &sides[1], job->map);
+        for (int row = y - top; row < y1 - top; row++) {
+            const float *from = job->map + (size_t)row * (size_t)rect.width + (x - left);
+            add_sum(&job->sums[pane].flip, dip_map_sum(from, (size_t)(x1 - x), (DipPixelMask){0}));
+        }
+    }
+    dip_flip_analysis_free(&sides[0]);
+    dip_flip_analysis_free(&sides[1]);
+    dip_flip_free(&flip);
+    return made;
+}
+
+static void publish(DipErrorJob *job) {
+    job->measured = -1;
+    job->result.samples = HALVES * dip_error_job_samples[job->truth_level];
+    job->result.last = job->truth_level == DIP_ERROR_JOB_LEVELS - 1;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const PaneSums *sums = &job->sums[job->still.rgba8[p] ? p : DIP_PANE_CURRENT];
+        const double rmse_lin = sqrt(dip_map_mean(sums->squared_lin));
+        job->result.panes[p] = (DipPaneError){
+            .rmse_lin = rmse_lin,
+            .psnr_db = dip_psnr_db(dip_map_mean(sums->squared_codes)),
+            .flip = dip_map_mean(sums->flip),
+            .at_floor = rmse_lin < 3.0 * job->floor_rmse,
+        };
+    }
+}
+
+// Measures the next part: all bands of a pane, all its blocks, then the same for the other pane.
+static bool measure_next_part(DipErrorJob *job) {
+    const int bands = (job->still.height + band_rows(job) - 1) / band_rows(job);
+    const int blocks =
+        ((job->still.width + BLOCK - 1) / BLOCK) * ((job->still.height + BLOCK - 1) / BLOCK);
+    const int panes = job->still.rgba8[DIP_PANE_REQUESTED] ? DIP_PANE_COUNT : 1;
+    const int pane = job->measured / (bands + blocks);
+    const int part = job->measured % (bands + blocks);
+    if (part < bands) {
+        measure_band(job, pane, part);
+    } else if (!measure_block(job, pane, part - bands)) {
+        return false;
+    }
+    if (++job->measured == panes * (bands + blocks)) {
+        publish(job);
+    }
+    return true;
+}
+
+DipErrorJobStep dip_error_job_step(DipErrorJob *job, DipError *err) {
+    if (!job->has_still) {
+        return DIP_ERROR_JOB_DONE;
+    }
+    if (is_drawn(job)) {
+        finish_pixels(job);
+        if (job->finished == pixel_count(job)) {
+            next_level(job);
+        }
+        return DIP_ERROR_JOB_WORKING;
+    }
+    if (job->truth_level >= 0 && job->measured >= 0) {
+        if (!measure_next_part(job)) {
+            out_of_memory(err);
+            return DIP_ERROR_JOB_FAILED;
+        }
+        return job->measured < 0 ? DIP_ERROR_JOB_NEW_RESULT : DIP_ERROR_JOB_WORKING;
+    }
+    if (job->level == DIP_ERROR_JOB_LEVELS) {
+        return DIP_ERROR_JOB_DONE;
+    }
+    if (!job->convergence) {
+        dip_reference_set_time(job->reference, job->still.time_ns);
+        job->convergence = dip_convergence_create(job->reference, &job->still.pose,
+                                                  job->still.width, job->still.height, err);
+        return job->convergence ? DIP_ERROR_JOB_WORKING : DIP_ERROR_JOB_FAILED;
+    }
+    return draw_next_tile(job, err) ? DIP_ERROR_JOB_WORKING : DIP_ERROR_JOB_FAILED;
+}
+
+const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job) {
+    return &job->result;
+}

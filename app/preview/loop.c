@@ -1,0 +1,432 @@
+// Turns of the preview.
+#include "app/preview/loop.h"
+
+#include "app/preview/camera.h"
+#include "app/preview/error_thread.h"
+#include "app/preview/figures.h"
+#include "app/preview/keys.h"
+#include "app/preview/prefetch.h"
+#include "app/preview/view.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const int64_t longest_step_ns = 250000000; // A stall does not make the camera jump.
+static const int64_t ns_per_ms = 1000000;
+enum { IDLE_WAIT_MS = 30 };
+
+// Everything that decides what the pictures show, but for the turns of temporal antialiasing.
+typedef struct Drawn {
+    DipPose pose;
+    int64_t play_ns;
+    DipQuality quality[DIP_PANE_COUNT];
+    int width;
+    int height;
+} Drawn;
+
+struct DipPreview {
+    DipPreviewDef def;
+    DipPreviewState state;
+    DipView *view;
+    DipFigures figures;
+    DipPrefetch prefetch;
+    DipErrorThread *errors; // NULL until errors are first asked for.
+    DipHeldKeys held;
+    int64_t turn_ns; // When the last turn began.
+    int64_t refresh_ns;
+    bool full_screen;
+    bool resized;          // The panes may have another size.
+    bool redraw;           // Something may show that is not in the panes' pictures.
+    bool exposed;          // The display lost its picture.
+    bool flying;           // The user moved the camera in this turn.
+    DipPose pose;          // Of the frame.
+    DipSessionFrame frame; // The last one drawn.
+    uint64_t frame_index;
+    unsigned drawn_changes;                   // state.scene_changes at the last frame.
+    DipQuality drawn_quality[DIP_PANE_COUNT]; // What the renderers are set to.
+    Drawn drawn;
+    unsigned picture_number; // Changes with `drawn`.
+};
+
+static int64_t clock_ns(const DipPreview *preview) {
+    return preview->def.display.now_ns(preview->def.display.context);
+}
+
+static void follow_refresh(DipPreview *preview) {
+    const double hz = preview->def.display.refresh_hz(preview->def.display.context);
+    preview->refresh_ns = (int64_t)(1e9 / hz);
+}
+
+DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
+    DipPreview *preview = calloc(1, sizeof *preview);
+    if (!preview) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
+        return NULL;
+    }
+    preview->def = *def;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        preview->drawn_quality[p] = dip_renderer_quality(def->session->renderers[p]);
+    }
+    preview->state = dip_preview_state_make(preview->drawn_quality, &def->session->track);
+    preview->state.costs = def->costs;
+    preview->resized = true;
+    preview->figures.outdated = true;
+    preview->turn_ns = clock_ns(preview);
+    follow_refresh(preview);
+    preview->view = dip_view_create(err);
+    if (!preview->view) {
+        dip_preview_destroy(&preview);
+    }
+    return preview;
+}
+
+void dip_preview_destroy(DipPreview **preview_pointer) {
+    DipPreview *preview = *preview_pointer;
+    if (!preview) {
+        return;
+    }
+    *preview_pointer = NULL;
+    dip_error_thread_destroy(&preview->errors);
+    dip_prefetch_end(&preview->prefetch);
+    dip_view_destroy(&preview->view);
+    free(preview);
+}
+
+// --- events ------------------------------------------------------------------------------------
+
+static int pane_at(const DipPreview *preview, int x) {
+    const DipPixels picture = dip_view_picture(preview->view);
+    DipRect panes[DIP_PANE_COUNT];
+    dip_view_panes(picture.width, picture.height, panes);
+    return x < panes[DIP_PANE_REQUESTED].x ? DIP_PANE_CURRENT : DIP_PANE_REQUESTED;
+}
+
+static void press_mouse(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    DipPreviewState *state = &preview->state;
+    if (event->button != DIP_MOUSE_LEFT) {
+        return;
+    }
+    if (event->clicks == 2) {
+        dip_preview_act(state, DIP_ACTION_FULL_SCREEN, 0, false, now_ns);
+    } else {
+        const int pane = pane_at(preview, event->x);
+        state->edited[pane] = true;
+        state->edited[1 - pane] = false;
+    }
+    preview->redraw = true;
+}
+
+static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    switch (event->kind) {
+    case DIP_EVENT_QUIT:
+        preview->state.quit = true;
+        break;
+    case DIP_EVENT_KEY_DOWN:
+        dip_keys_hold(&preview->held, event);
+        preview->redraw = dip_keys_press(&preview->state, event, now_ns) || preview->redraw;
+        break;
+    case DIP_EVENT_KEY_UP:
+        dip_keys_hold(&preview->held, event);
+        break;
+    case DIP_EVENT_MOUSE_DOWN:
+        press_mouse(preview, event, now_ns);
+        break;
+    case DIP_EVENT_RESIZE:
+        preview->resized = true;
+        break;
+    case DIP_EVENT_EXPOSE:
+        preview->exposed = true;
+        break;
+    default:
+        break;
+    }
+}
+
+// Returns whether there was an event.
+static bool take_event(DipPreview *preview, int timeout_ms) {
+    DipEvent event;
+    if (!preview->def.display.next_event(preview->def.display.context, timeout_ms, &event)) {
+        return false;
+    }
+    handle_event(preview, &event, clock_ns(preview));
+    return true;
+}
+
+static void fly(DipPreview *preview, int64_t elapsed_ns) {
+    preview->flying = false;
+    if (!preview->state.manual) {
+        return;
+    }
+    const DipCameraKeys directions = dip_keys_camera(&preview->held);
+    preview->flying = dip_camera_move(&preview->pose, &directions,
+                                      preview->def.flying_speed_m_per_s, 1e-9 * (double)elapsed_ns);
+    preview->state.scene_changes += preview->flying;
+}
+
+// --- pictures ----------------------------------------------------------------------------------
+
+// Sets the renderers to the settings, and forgets times of other settings.
+static bool follow_settings(DipPreview *preview, DipError *err) {
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipQuality *wanted = &preview->state.quality[p];
+        if (memcmp(wanted, &preview->drawn_quality[p], sizeof *wanted) == 0) {
+            continue;
+        }
+        if (!dip_renderer_set_quality(preview->def.session->renderers[p], wanted, err)) {
+            return false;
+        }
+        preview->drawn_quality[p] = *wanted;
+        dip_figures_forget(&preview->figures, p);
+    }
+    return true;
+}
+
+// Sets the renderers to the panes' size. A display may be larger than a frame may be; the view
+// then scales the frame up.
+static bool follow_size(DipPreview *preview, DipError *err) {
+    const DipDisplay *display = &preview->def.display;
+    DipRect panes[DIP_PANE_COUNT];
+    int width, height;
+    display->size(display->context, &width, &height);
+    dip_view_panes(width, height, panes);
+    width = panes[0].width < DIP_MAX_FRAME_SIZE ? panes[0].width : DIP_MAX_FRAME_SIZE;
+    height = panes[0].height < DIP_MAX_FRAME_SIZE ? panes[0].height : DIP_MAX_FRAME_SIZE;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        if (!dip_renderer_resize(preview->def.session->renderers[p], width, height, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void number_picture(DipPreview *preview) {
+    Drawn drawn;
+    memset(&drawn, 0, sizeof drawn); // Compared with its padding.
+    drawn.pose = preview->pose;
+    drawn.play_ns = preview->state.play_ns;
+    drawn.width = preview->frame.panes[0].width;
+    drawn.height = preview->frame.panes[0].height;
+    memcpy(drawn.quality, preview->drawn_quality, sizeof drawn.quality);
+    if (memcmp(&drawn, &preview->drawn, sizeof drawn) != 0) {
+        preview->drawn = drawn;
+        ++preview->picture_number;
+    }
+}
+
+static bool draw_panes(DipPreview *preview, DipError *err) {
+    DipSession *session = preview->def.session;
+    const int64_t play_ns = preview->state.play_ns;
+    if (!follow_settings(preview, err) || !follow_size(preview, err)) {
+        return false;
+    }
+    if (!preview->state.manual && !dip_camtrack_pose(&session->track, play_ns, &preview->pose)) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
+    }
+    if (!dip_session_draw_pose(session, &preview->pose, play_ns, preview->frame_index,
+                               &preview->frame, err)) {
+        return false;
+    }
+    number_picture(preview);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        dip_view_set_frame(preview->view, p, &preview->frame.panes[p]);
+    }
+    dip_figures_add(&preview->figures, &preview->frame, clock_ns(preview));
+    preview->drawn_changes = preview->state.scene_changes;
+    preview->resized = false;
+    ++preview->frame_index;
+    return true;
+}
+
+// Returns whether a pane's picture changes from frame to frame although nothing moves.
+static bool alternates(const DipPreview *preview) {
+    bool found = false;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipQuality *quality = &preview->state.quality[p];
+        found |= quality->step[DIP_SETTING_TAA] != 0 && dip_quality_sample_count(quality) > 1;
+    }
+    return found;
+}
+
+// --- errors of the pictures --------------------------------------------------------------------
+
+static void report(DipPreview *preview, const DipError *err, int64_t now_ns) {
+    char line[512];
+    dip_error_format(err, line, sizeof line);
+    dip_preview_notice(&preview->state, now_ns, "%.120s", line);
+}
+
+static bool create_errors(DipPreview *preview, int64_t now_ns) {
+    const DipSession *session = preview->def.session;
+    DipError err;
+    if (!preview->errors && preview->def.load_scene_def(preview->def.context, &err)) {
+        preview->errors = dip_error_thread_create(&session->scene_def, &session->reflection, &err);
+    }
+    if (!preview->errors) {
+        report(preview, &err, now_ns);
+        preview->state.panel = false;
+    }
+    return preview->errors != NULL;
+}
+
+static DipStill still_of(const DipPreview *preview) {
+    const DipFrame *current = &preview->frame.panes[DIP_PANE_CURRENT];
+    const DipFrame *requested = &preview->frame.panes[DIP_PANE_REQUESTED];
+    return (DipStill){
+        .pose = preview->drawn.pose,
+        .time_ns = preview->drawn.play_ns,
+        .width = current->width,
+        .height = current->height,
+        .stride_bytes = current->stride_bytes,
+        .rgba8 = {current->rgba8, preview->frame.copied ? NULL : requested->rgba8},
+    };
+}
+
+// Measures errors while the panel shows and the camera rests. Returns whether there is something
+// new to show.
+static bool measure_errors(DipPreview *preview, int64_t now_ns) {
+    const bool measures =
+        preview->state.panel && dip_preview_rests(&preview->state, preview->flying);
+    if (!preview->errors && !(measures && create_errors(preview, now_ns))) {
+        return false;
+    }
+    if (measures) {
+        const DipStill still = still_of(preview);
+        dip_error_thread_measure(preview->errors, &still, preview->picture_number);
+    } else {
+        dip_error_thread_pause(preview->errors);
+    }
+    DipErrorReading reading;
+    const bool news = dip_error_thread_read(preview->errors, &reading);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        preview->figures.shown[p].errors = reading;
+    }
+    return news;
+}
+
+// --- showing -----------------------------------------------------------------------------------
+
+static bool draw_view(DipPreview *preview, DipError *err) {
+    const DipDisplay *display = &preview->def.display;
+    int width, height;
+    display->size(display->context, &width, &height);
+    return dip_view_draw(preview->view, width, height, display->scale(display->context),
+                         &preview->state, preview->figures.shown, err);
+}
+
+static void save_picture(DipPreview *preview, int64_t now_ns) {
+    char file[64];
+    DipError err;
+    preview->state.screenshot = false;
+    if (dip_view_save(preview->view, file, sizeof file, &err)) {
+        dip_preview_notice(&preview->state, now_ns, "Saved %s", file);
+    } else {
+        report(preview, &err, now_ns);
+    }
+}
+
+static bool present(DipPreview *preview, DipError *err) {
+    const DipDisplay *display = &preview->def.display;
+    if (preview->exposed) {
+        dip_view_damage_all(preview->view);
+        preview->exposed = false;
+    }
+    const DipPixels picture = dip_view_picture(preview->view);
+    const DipDamage damage = dip_view_take_damage(preview->view);
+    return display->present(display->context, &picture, damage.rects, damage.count, err);
+}
+
+static bool show(DipPreview *preview, int64_t now_ns, DipError *err) {
+    const bool moving = !dip_preview_rests(&preview->state, preview->flying);
+    dip_figures_update(&preview->figures, moving, now_ns);
+    if (!draw_view(preview, err)) {
+        return false;
+    }
+    if (preview->state.screenshot) {
+        save_picture(preview, now_ns);
+        if (!draw_view(preview, err)) { // With the notice.
+            return false;
+        }
+    }
+    preview->redraw = false;
+    if (!present(preview, err)) {
+        return false;
+    }
+    dip_start_times_frame(&preview->def.session->times);
+    dip_prefetch_begin(&preview->prefetch, preview->def.session->scene);
+    dip_figures_count_presented(&preview->figures, clock_ns(preview));
+    return true;
+}
+
+static void follow_full_screen(DipPreview *preview) {
+    const DipDisplay *display = &preview->def.display;
+    if (preview->state.full_screen == preview->full_screen) {
+        return;
+    }
+    preview->full_screen = preview->state.full_screen;
+    if (display->set_full_screen) {
+        display->set_full_screen(display->context, preview->full_screen);
+    }
+}
+
+// Draws and presents what has changed. *shown: whether something has.
+static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
+    DipPreviewState *state = &preview->state;
+    const bool had_notice = state->notice[0] != '\0';
+    const int64_t since_ns = now_ns - preview->turn_ns;
+    const int64_t elapsed_ns = since_ns < longest_step_ns ? since_ns : longest_step_ns;
+    preview->turn_ns = now_ns;
+    fly(preview, elapsed_ns);
+    dip_preview_advance(state, elapsed_ns, now_ns);
+    follow_full_screen(preview);
+    if (preview->resized) {
+        follow_refresh(preview);
+    }
+    const bool new_frame =
+        state->scene_changes != preview->drawn_changes || preview->resized || alternates(preview);
+    if (new_frame && !draw_panes(preview, err)) {
+        return false;
+    }
+    const bool news = measure_errors(preview, now_ns);
+    *shown = new_frame || news || preview->redraw || preview->exposed || state->screenshot ||
+             (had_notice && !state->notice[0]);
+    return !*shown || show(preview, now_ns, err);
+}
+
+// Waits until the display can show the next picture, or, if nothing moves, until something happens.
+static void wait_for_turn(DipPreview *preview, bool shown) {
+    if (!shown) {
+        take_event(preview, IDLE_WAIT_MS);
+        return;
+    }
+    int64_t left_ns = preview->refresh_ns - (clock_ns(preview) - preview->turn_ns);
+    while (left_ns >= ns_per_ms && !preview->state.quit) {
+        take_event(preview, (int)(left_ns / ns_per_ms));
+        left_ns = preview->refresh_ns - (clock_ns(preview) - preview->turn_ns);
+    }
+}
+
+bool dip_preview_turn(DipPreview *preview, DipError *err) {
+    bool shown = false;
+    while (!preview->state.quit && take_event(preview, 0)) {
+    }
+    if (preview->state.quit) {
+        return true; // Without another frame.
+    }
+    if (!draw_turn(preview, clock_ns(preview), &shown, err)) {
+        return false;
+    }
+    wait_for_turn(preview, shown);
+    return true;
+}
+
+bool dip_preview_has_quit(const DipPreview *preview) {
+    return preview->state.quit;
+}
+
+const DipPreviewState *dip_preview_state(const DipPreview *preview) {
+    return &preview->state;
+}
+
+DipPixels dip_preview_picture(const DipPreview *preview) {
+    return dip_view_picture(preview->view);
+}

@@ -1,0 +1,43 @@
+// The preview on any display: events, time, drawing, presenting.
+//
+// The owner calls dip_preview_turn until dip_preview_has_quit. A turn handles the events that are
+// there, draws and presents at most one frame, and then waits: for the display's next refresh, or,
+// when nothing moves, a short while for an event.
+#ifndef DIP_APP_PREVIEW_LOOP_H
+#define DIP_APP_PREVIEW_LOOP_H
+
+#include "app/display/display.h"
+#include "app/preview/panel.h"
+#include "app/preview/state.h"
+#include "app/session.h"
+
+typedef struct DipPreview DipPreview;
+
+typedef struct DipPreviewDef {
+    DipSession *session;         // Borrowed.
+    DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
+    const DipCosts *costs;       // Borrowed; NULL: there is no cost report.
+    double flying_speed_m_per_s; // Of the free camera.
+
+    // Loads session->scene_def, which measuring errors needs. Called when errors are first asked
+    // for, since the load takes time and memory.
+    bool (*load_scene_def)(void *context, DipError *err);
+    void *context;
+} DipPreviewDef;
+
+// Fails with MISSING if there is no font.
+DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err);
+void dip_preview_destroy(DipPreview **preview);
+
+// Fails if drawing or presenting fails.
+bool dip_preview_turn(DipPreview *preview, DipError *err);
+
+// Returns whether the user has left the preview.
+bool dip_preview_has_quit(const DipPreview *preview);
+
+const DipPreviewState *dip_preview_state(const DipPreview *preview);
+
+// The picture that was drawn last, the size of the display.
+DipPixels dip_preview_picture(const DipPreview *preview);
+
+#endif

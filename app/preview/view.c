@@ -1,0 +1,121 @@
+// Panes and overlay become one picture.
+#include "app/preview/view.h"
+
+#include "app/files/png.h"
+#include "app/preview/overlay.h"
+#include "app/preview/style.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+enum { MAX_SCREENSHOTS = 9999 };
+
+struct DipView {
+    DipFont *font;
+    DipDrawList *list;
+    DipCanvas canvas;
+    DipDamage damage; // Since it was taken last.
+    DipPixels frames[DIP_PANE_COUNT];
+    uint64_t frame_count; // Frames set so far; numbers the pictures.
+    uint64_t versions[DIP_PANE_COUNT];
+};
+
+DipView *dip_view_create(DipError *err) {
+    DipView *view = calloc(1, sizeof *view);
+    if (!view) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
+        return NULL;
+    }
+    view->font = dip_font_create(err);
+    view->list = view->font ? dip_draw_list_create(view->font, err) : NULL;
+    if (!view->list) {
+        dip_view_destroy(&view);
+    }
+    return view;
+}
+
+void dip_view_destroy(DipView **view_pointer) {
+    DipView *view = *view_pointer;
+    if (!view) {
+        return;
+    }
+    *view_pointer = NULL;
+    dip_draw_list_destroy(&view->list);
+    dip_font_destroy(&view->font);
+    dip_canvas_free(&view->canvas);
+    free(view);
+}
+
+void dip_view_panes(int width, int height, DipRect panes[DIP_PANE_COUNT]) {
+    const int pane_width = width > DIP_PANE_GAP_PX + 2 ? (width - DIP_PANE_GAP_PX) / 2 : 1;
+    panes[DIP_PANE_CURRENT] = (DipRect){0, 0, pane_width, height};
+    panes[DIP_PANE_REQUESTED] = (DipRect){width - pane_width, 0, pane_width, height};
+}
+
+void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame) {
+    view->frames[pane] =
+        (DipPixels){frame->rgba8, frame->stride_bytes, frame->width, frame->height};
+    view->versions[pane] = ++view->frame_count;
+}
+
+bool dip_view_draw(DipView *view, int width, int height, double scale, const DipPreviewState *state,
+                   const DipPaneFigures figures[DIP_PANE_COUNT], DipError *err) {
+    DipRect panes[DIP_PANE_COUNT];
+    DipDamage changed;
+    dip_view_panes(width, height, panes);
+    dip_draw_list_begin(view->list, width, height);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        dip_draw_list_picture(view->list, panes[p], &view->frames[p], view->versions[p]);
+    }
+    const int divider_x = panes[DIP_PANE_CURRENT].width;
+    dip_draw_list_fill(view->list,
+                       (DipRect){divider_x, 0, panes[DIP_PANE_REQUESTED].x - divider_x, height},
+                       dip_style_background);
+    dip_overlay_draw(view->list, state, panes, figures, scale);
+    if (!dip_draw_list_paint(view->list, &view->canvas, &changed, err)) {
+        return false;
+    }
+    for (int i = 0; i < changed.count; ++i) {
+        dip_damage_add(&view->damage, changed.rects[i]);
+    }
+    return true;
+}
+
+DipPixels dip_view_picture(const DipView *view) {
+    return dip_canvas_pixels(&view->canvas);
+}
+
+DipDamage dip_view_take_damage(DipView *view) {
+    const DipDamage damage = view->damage;
+    view->damage.count = 0;
+    return damage;
+}
+
+void dip_view_damage_all(DipView *view) {
+    dip_damage_add(&view->damage, (DipRect){0, 0, view->canvas.width, view->canvas.height});
+}
+
+static bool free_name(char *file, size_t size_bytes) {
+    for (int i = 1; i <= MAX_SCREENSHOTS; ++i) {
+        snprintf(file, size_bytes, "diptych-%04d.png", i);
+        if (access(file, F_OK) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool dip_view_save(const DipView *view, char *file, size_t size_bytes, DipError *err) {
+    const DipPixels picture = dip_view_picture(view);
+    if (!free_name(file, size_bytes)) {
+        return dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "screenshot",
+                             "no name from diptych-0001.png to diptych-%04d.png is free",
+                             MAX_SCREENSHOTS);
+    }
+    const DipFrame frame = {.rgba8 = picture.rgba8,
+                            .stride_bytes = picture.stride_bytes,
+                            .width = picture.width,
+                            .height = picture.height};
+    return dip_png_write(file, &frame, err);
+}

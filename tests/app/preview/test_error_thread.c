@@ -1,0 +1,265 @@
+// Errors measured while the camera rests: the job's results are compared with the cost report's
+// truth and meter, and the thread with the job.
+#include "app/measure/meter.h"
+#include "app/measure/truth.h"
+#include "app/preview/error_thread.h"
+#include "tests/renderer/scene/scenes.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+// The picture has several blocks and bands each way, and its last ones are cut off.
+enum { WIDTH = 211, HEIGHT = 163, PIXELS = WIDTH * HEIGHT, STRIDE = 4 * WIDTH + 12 };
+
+static DipTestScene scene;
+static DipReference *reference;
+static uint8_t pictures[DIP_PANE_COUNT][STRIDE * HEIGHT];
+
+static bool go_on(void *context, double done) {
+    (void)context;
+    (void)done;
+    return true;
+}
+
+static DipTruth truth_of(const DipPose *pose, int samples) {
+    const DipTruthDef def = {reference, "scene", *pose,   0,
+                             WIDTH,     HEIGHT,  samples, DIP_FLIP_PIXELS_PER_DEGREE};
+    DipTruth truth;
+    assert_true(dip_truth_get(&truth, &def, NULL, NULL, go_on, NULL, NULL));
+    return truth;
+}
+
+// Fills in the truth's codes with noise of up to so many codes, in rows that are not packed.
+static void fill_picture(const DipTruth *truth, int noise, uint8_t *picture) {
+    uint32_t random = 1;
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < 4 * WIDTH; x++) {
+            random = random * 1664525u + 1013904223u;
+            const int code =
+                truth->rgba8[4 * WIDTH * y + x] + (int)(random >> 16) % (2 * noise + 1) - noise;
+            picture[STRIDE * y + x] = (uint8_t)(code < 0 ? 0 : code > 255 ? 255 : code);
+        }
+    }
+}
+
+static DipStill make_still(bool copied) {
+    return (DipStill){
+        .pose = scene.pose,
+        .width = WIDTH,
+        .height = HEIGHT,
+        .stride_bytes = STRIDE,
+        .rgba8 = {pictures[0], copied ? NULL : pictures[1]},
+    };
+}
+
+// The figures that the cost report would give.
+static DipMetrics measured_whole(const DipTruth *truth, const uint8_t *picture) {
+    DipMeter meter;
+    DipFlipAnalysis side;
+    DipMetricSums sums = {0};
+    assert_true(dip_meter_init(&meter, WIDTH, HEIGHT, DIP_FLIP_PIXELS_PER_DEGREE));
+    assert_true(dip_flip_analysis_init(&meter.flip, &side));
+    const DipSrgbPicture standing = {truth->rgba8, 4 * WIDTH, WIDTH, HEIGHT};
+    const DipSrgbPicture test = {picture, STRIDE, WIDTH, HEIGHT};
+    dip_flip_analyse(&meter.flip, &standing, &side);
+    const DipMeterStandard standard = {standing, truth->rgb_lin, &side, truth->classes};
+    assert_true(dip_meter_add(&meter, &test, NULL, &standard, &sums));
+    dip_flip_analysis_free(&side);
+    dip_meter_free(&meter);
+    return dip_metrics_of(&sums, 0);
+}
+
+static void check_close(double value, double expected) {
+    assert_true(value == expected ||
+                fabs(value - expected) <= 1e-9 * expected); // PSNR may be infinite
+}
+
+static DipErrorJobStep step_to_news(DipErrorJob *job, int *steps) {
+    DipError err;
+    DipErrorJobStep step;
+    *steps = 0;
+    do {
+        step = dip_error_job_step(job, &err);
+        ++*steps;
+    } while (step == DIP_ERROR_JOB_WORKING);
+    return step;
+}
+
+// At every level the figures equal the cost report's with as many samples.
+static void errors_are_the_cost_reports(void **state) {
+    (void)state;
+    DipErrorJob *job = dip_error_job_create(reference, NULL);
+    const DipStill still = make_still(false);
+    int steps;
+    assert_non_null(job);
+    assert_true(dip_error_job_step(job, NULL) == DIP_ERROR_JOB_DONE);
+    assert_true(dip_error_job_begin(job, &still, NULL));
+    assert_int_equal(dip_error_job_result(job)->samples, 0);
+    for (int level = 0; level < DIP_ERROR_JOB_LEVELS; level++) {
+        assert_true(step_to_news(job, &steps) == DIP_ERROR_JOB_NEW_RESULT);
+        const DipErrorJobResult *result = dip_error_job_result(job);
+        DipTruth truth = truth_of(&scene.pose, dip_error_job_samples[level]);
+        assert_int_equal(result->samples, 2 * dip_error_job_samples[level]);
+        assert_true(result->last == (level == DIP_ERROR_JOB_LEVELS - 1));
+        for (int p = 0; p < DIP_PANE_COUNT; p++) {
+            const DipMetrics figures = measured_whole(&truth, pictures[p]);
+            check_close(result->panes[p].rmse_lin, figures.rmse_lin);
+            check_close(result->panes[p].psnr_db, figures.psnr_db);
+            check_close(result->panes[p].flip, figures.flip);
+            const double floor_rmse = dip_metrics_of(&truth.floor, 0).rmse_lin / 2.0;
+            assert_true(result->panes[p].at_floor == (figures.rmse_lin < 3.0 * floor_rmse));
+        }
+        dip_truth_free(&truth);
+    }
+    assert_true(dip_error_job_result(job)->panes[0].at_floor);
+    assert_false(dip_error_job_result(job)->panes[1].at_floor);
+    assert_true(step_to_news(job, &steps) == DIP_ERROR_JOB_DONE && steps == 1);
+    dip_error_job_destroy(&job);
+}
+
+// Other pictures of the same pose are compared with the truth that is there; another pose needs a
+// new truth.
+static void a_truth_is_kept_while_its_pose_is(void **state) {
+    (void)state;
+    DipErrorJob *job = dip_error_job_create(reference, NULL);
+    DipStill still = make_still(true);
+    int first, again;
+    assert_true(dip_error_job_begin(job, &still, NULL));
+    assert_true(step_to_news(job, &first) == DIP_ERROR_JOB_NEW_RESULT);
+    const DipPaneError of_first = dip_error_job_result(job)->panes[0];
+    assert_memory_equal(&of_first, &dip_error_job_result(job)->panes[1], sizeof of_first);
+    still.rgba8[0] = pictures[1];
+    assert_true(dip_error_job_begin(job, &still, NULL));
+    assert_true(step_to_news(job, &again) == DIP_ERROR_JOB_NEW_RESULT);
+    assert_true(again < first / 10);
+    assert_int_equal(dip_error_job_result(job)->samples, 2 * dip_error_job_samples[0]);
+    assert_true(dip_error_job_result(job)->panes[0].flip > of_first.flip);
+    still.pose.position_world[0] += 0.01;
+    assert_true(dip_error_job_begin(job, &still, NULL));
+    assert_true(step_to_news(job, &again) == DIP_ERROR_JOB_NEW_RESULT);
+    assert_int_equal(again, first);
+    dip_error_job_destroy(&job);
+}
+
+static void wait_ms(int ms) {
+    const struct timespec time = {0, ms * 1000000L};
+    nanosleep(&time, NULL);
+}
+
+static DipErrorReading await(DipErrorThread *thread, DipErrorStatus status) {
+    DipErrorReading reading;
+    for (int i = 0; i < 6000; i++) {
+        dip_error_thread_read(thread, &reading);
+        if (reading.status == status) {
+            return reading;
+        }
+        wait_ms(10);
+    }
+    fail_msg("never in status %d", (int)status);
+    return reading;
+}
+
+static DipErrorThread *make_thread(void) {
+    const DipReflectionDef none = {0};
+    DipErrorThread *thread = dip_error_thread_create(&scene.def, &none, NULL);
+    assert_non_null(thread);
+    return thread;
+}
+
+static void the_thread_answers_once_per_still(void **state) {
+    (void)state;
+    DipErrorThread *thread = make_thread();
+    DipErrorReading reading;
+    const DipStill still = make_still(false);
+    assert_false(dip_error_thread_read(thread, &reading));
+    assert_true(reading.status == DIP_ERROR_STATUS_PAUSED);
+    dip_error_thread_measure(thread, &still, 1);
+    const DipErrorReading first = await(thread, DIP_ERROR_STATUS_DONE);
+    assert_true(first.result.last);
+    assert_true(first.result.panes[0].flip < first.result.panes[1].flip);
+    dip_error_thread_measure(thread, &still, 1);
+    assert_false(dip_error_thread_read(thread, &reading));
+    dip_error_thread_pause(thread);
+    assert_true(dip_error_thread_read(thread, &reading));
+    assert_true(reading.status == DIP_ERROR_STATUS_PAUSED && reading.result.samples == 0);
+    dip_error_thread_measure(thread, &still, 1);
+    reading = await(thread, DIP_ERROR_STATUS_DONE);
+    assert_true(reading.result.panes[0].flip == first.result.panes[0].flip);
+    assert_true(reading.result.panes[1].flip == first.result.panes[1].flip);
+    dip_error_thread_destroy(&thread);
+    assert_null(thread);
+}
+
+// New stills arrive at every stage of the work; the result for the last one is right.
+static void the_thread_drops_stills_that_are_replaced(void **state) {
+    (void)state;
+    DipErrorThread *thread = make_thread();
+    DipStill still = make_still(false);
+    DipErrorReading reading;
+    for (unsigned i = 1; i <= 40; i++) {
+        still.pose.position_world[0] = scene.pose.position_world[0] + 0.01 * (i % 3);
+        still.width = WIDTH - (int)(i % 2);
+        dip_error_thread_measure(thread, &still, i);
+        wait_ms((int)(i % 7) * 3);
+        if (i % 5 == 0) {
+            dip_error_thread_pause(thread);
+            dip_error_thread_read(thread, &reading);
+            assert_true(reading.status == DIP_ERROR_STATUS_PAUSED);
+            wait_ms(3);
+            assert_false(dip_error_thread_read(thread, &reading));
+        }
+    }
+    still = make_still(false);
+    dip_error_thread_measure(thread, &still, 41);
+    reading = await(thread, DIP_ERROR_STATUS_DONE);
+    DipTruth truth = truth_of(&scene.pose, dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1]);
+    check_close(reading.result.panes[1].flip, measured_whole(&truth, pictures[1]).flip);
+    dip_truth_free(&truth);
+    dip_error_thread_destroy(&thread);
+}
+
+// The thread is told to end before it starts, and while it prepares, draws or measures.
+static void the_thread_ends_when_told(void **state) {
+    (void)state;
+    const DipStill still = make_still(false);
+    for (int i = 0; i < 24; i++) {
+        DipErrorThread *thread = make_thread();
+        if (i > 0) {
+            dip_error_thread_measure(thread, &still, 1);
+            wait_ms(i / 2);
+        }
+        dip_error_thread_destroy(&thread);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(errors_are_the_cost_reports),
+        cmocka_unit_test(a_truth_is_kept_while_its_pose_is),
+        cmocka_unit_test(the_thread_answers_once_per_still),
+        cmocka_unit_test(the_thread_drops_stills_that_are_replaced),
+        cmocka_unit_test(the_thread_ends_when_told),
+    };
+    atomic_bool never = false;
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_fence);
+    reference = dip_reference_create_for_truth(&scene.def, &never, NULL);
+    if (!reference) {
+        return 1;
+    }
+    DipTruth truth = truth_of(&scene.pose, 64);
+    fill_picture(&truth, 0, pictures[0]);
+    fill_picture(&truth, 40, pictures[1]);
+    dip_truth_free(&truth);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    dip_reference_destroy(&reference);
+    dip_test_scene_free(&scene);
+    return failed;
+}
