@@ -1,0 +1,446 @@
+// The preview on a fake display: keys and mouse go in, pixels come out, and no SDL is linked.
+#include "app/display/fake/fake_display.h"
+#include "app/files/png.h"
+#include "app/preview/loop.h"
+#include "app/preview/view.h"
+#include "config/config.h"
+#include "tests/renderer/scene/scenes.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+// Rows without labels and status line, at every size that is used here.
+enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 80, LAST_ROW = 270 };
+
+static DipTestScene scene;
+static DipSession session;
+static DipCamPath *path;
+static DipDisplay display;
+static DipFakeDisplay *fake;
+static DipPreview *preview;
+
+// --- the fixture -------------------------------------------------------------------------------
+
+static bool load_scene_def(void *context, DipError *err) {
+    (void)context;
+    (void)err;
+    session.scene_def = scene.def;
+    return true;
+}
+
+// Ten seconds past the checker of the scene and back.
+static void make_path(void) {
+    DipCamKey keys[2];
+    for (int i = 0; i < 2; ++i) {
+        memcpy(keys[i].position_world, scene.pose.position_world, sizeof keys[i].position_world);
+        memcpy(keys[i].orientation, scene.pose.orientation, sizeof keys[i].orientation);
+        keys[i].position_world[0] += i;
+    }
+    assert_true(dip_campath_create(keys, 2, INT64_C(5000000000), &path, NULL));
+    session.track = dip_camtrack_make(true);
+    dip_camtrack_set(&session.track, DIP_CATEGORY_DEFAULT, path, 60.0);
+}
+
+static int set_up(void **state) {
+    (void)state;
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_grazing_checker);
+    session = (DipSession){.pool = dip_pool_create(1, NULL)};
+    session.scene = dip_scene_create(&scene.def, NULL, NULL);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        DipRendererDef def = dip_renderer_default_def();
+        def.pool = session.pool;
+        session.renderers[p] = dip_renderer_create(&def, NULL);
+        assert_non_null(session.renderers[p]);
+    }
+    make_path();
+    fake = dip_fake_display_open(&display, WIDTH, HEIGHT);
+    const DipPreviewDef def = {.session = &session,
+                               .display = display,
+                               .flying_speed_m_per_s = 1.0,
+                               .load_scene_def = load_scene_def};
+    preview = dip_preview_create(&def, NULL);
+    assert_true(session.scene && fake && preview);
+    return 0;
+}
+
+static int tear_down(void **state) {
+    (void)state;
+    dip_preview_destroy(&preview);
+    display.close(display.context);
+    dip_campath_destroy(&path);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        dip_renderer_destroy(&session.renderers[p]);
+    }
+    dip_scene_destroy(&session.scene);
+    dip_pool_destroy(&session.pool);
+    dip_test_scene_free(&scene);
+    return 0;
+}
+
+// --- driving and looking -----------------------------------------------------------------------
+
+// The display shows what the preview drew: no damage was forgotten.
+static void assert_shown(void) {
+    const DipPixels shown = dip_fake_display_picture(fake);
+    const DipPixels drawn = dip_preview_picture(preview);
+    assert_int_equal(shown.width, drawn.width);
+    assert_int_equal(shown.height, drawn.height);
+    assert_memory_equal(shown.rgba8, drawn.rgba8, 4 * (size_t)shown.width * (size_t)shown.height);
+}
+
+static void turn(void) {
+    DipError err = {0};
+    if (!dip_preview_turn(preview, &err)) {
+        fail_msg("%s", err.message);
+    }
+    if (!dip_preview_has_quit(preview)) {
+        assert_shown();
+    }
+}
+
+static void press(DipKeycode key) {
+    dip_fake_display_press(fake, key, 0);
+    turn();
+}
+
+static void hold(DipKeycode key, bool down) {
+    const DipEvent event = {
+        .kind = down ? DIP_EVENT_KEY_DOWN : DIP_EVENT_KEY_UP, .key = key, .position = key};
+    dip_fake_display_push(fake, &event);
+    turn();
+}
+
+// A copy of a pane's rows that no label covers.
+typedef struct Pane {
+    size_t bytes;
+    uint8_t *rgba8;
+} Pane;
+
+static Pane look(int pane) {
+    const DipPixels shown = dip_fake_display_picture(fake);
+    DipRect panes[DIP_PANE_COUNT];
+    dip_view_panes(shown.width, shown.height, panes);
+    const size_t row_bytes = 4 * (size_t)panes[pane].width;
+    Pane copy = {row_bytes * (LAST_ROW - FIRST_ROW), malloc(row_bytes * (LAST_ROW - FIRST_ROW))};
+    assert_non_null(copy.rgba8);
+    for (int y = FIRST_ROW; y < LAST_ROW; ++y) {
+        memcpy(copy.rgba8 + (size_t)(y - FIRST_ROW) * row_bytes,
+               shown.rgba8 + (size_t)y * shown.stride_bytes + 4 * (size_t)panes[pane].x, row_bytes);
+    }
+    return copy;
+}
+
+static bool is_same(const Pane *a, const Pane *b) {
+    return a->bytes == b->bytes && memcmp(a->rgba8, b->rgba8, a->bytes) == 0;
+}
+
+// Compares a pane with a copy, which it frees.
+static bool pane_is(int pane, Pane before) {
+    const Pane now = look(pane);
+    const bool same = is_same(&now, &before);
+    free(now.rgba8);
+    free(before.rgba8);
+    return same;
+}
+
+static bool panes_are_same(void) {
+    return pane_is(DIP_PANE_CURRENT, look(DIP_PANE_REQUESTED));
+}
+
+// Pauses, and lets the notice go away and the figures settle.
+static void rest(void) {
+    press(DIP_KEYCODE_SPACE);
+    for (int i = 0; i < 200; ++i) {
+        turn();
+    }
+}
+
+// --- the tests ---------------------------------------------------------------------------------
+
+static void both_panes_show_the_scene(void **state) {
+    (void)state;
+    turn();
+    assert_int_equal(dip_fake_display_present_count(fake), 1);
+    const Pane current = look(DIP_PANE_CURRENT);
+    int different = 0;
+    for (size_t i = 4; i < current.bytes; i += 4) {
+        different += memcmp(current.rgba8 + i, current.rgba8 + i - 4, 4) != 0;
+    }
+    free(current.rgba8);
+    assert_true(different > 1000);
+    assert_true(panes_are_same());
+}
+
+static void it_moves_until_it_is_paused(void **state) {
+    (void)state;
+    turn();
+    Pane before = look(DIP_PANE_CURRENT);
+    for (int i = 0; i < 10; ++i) {
+        turn();
+    }
+    assert_false(pane_is(DIP_PANE_CURRENT, before));
+    rest();
+    before = look(DIP_PANE_CURRENT);
+    const int presented = dip_fake_display_present_count(fake);
+    for (int i = 0; i < 10; ++i) {
+        turn();
+    }
+    assert_true(pane_is(DIP_PANE_CURRENT, before));
+    assert_int_equal(dip_fake_display_present_count(fake), presented);
+    before = look(DIP_PANE_CURRENT);
+    press('.');
+    assert_false(pane_is(DIP_PANE_CURRENT, before));
+}
+
+static void a_setting_changes_the_requested_pane(void **state) {
+    (void)state;
+    rest();
+    const Pane before = look(DIP_PANE_CURRENT);
+    press('x');
+    assert_false(panes_are_same());
+    assert_true(pane_is(DIP_PANE_CURRENT, before));
+    press(DIP_KEYCODE_F2); // The other key of the same setting.
+    assert_int_equal(dip_preview_state(preview)->quality[DIP_PANE_REQUESTED].step[DIP_SETTING_AA],
+                     2);
+}
+
+static void enter_copies_requested_to_current(void **state) {
+    (void)state;
+    rest();
+    press('f');
+    assert_false(panes_are_same());
+    const Pane requested = look(DIP_PANE_REQUESTED);
+    press(DIP_KEYCODE_ENTER);
+    assert_true(panes_are_same());
+    assert_true(pane_is(DIP_PANE_CURRENT, requested));
+}
+
+static void click(int x, int clicks) {
+    dip_fake_display_click(fake, DIP_MOUSE_LEFT, x, 150, clicks);
+    turn();
+}
+
+// A setting follows the pane that Tab or a click chose.
+static void tab_and_clicks_choose_the_pane(void **state) {
+    (void)state;
+    rest();
+    press(DIP_KEYCODE_TAB);
+    Pane requested = look(DIP_PANE_REQUESTED);
+    press('x');
+    assert_true(pane_is(DIP_PANE_REQUESTED, requested));
+    assert_false(panes_are_same());
+    click(WIDTH - 20, 1);
+    press('x');
+    assert_true(panes_are_same());
+    click(20, 1);
+    requested = look(DIP_PANE_REQUESTED);
+    press('x');
+    assert_true(pane_is(DIP_PANE_REQUESTED, requested));
+    dip_fake_display_click(fake, DIP_MOUSE_RIGHT, WIDTH - 20, 150, 1);
+    turn();
+    assert_true(dip_preview_state(preview)->edited[DIP_PANE_CURRENT]);
+    click(20, 2);
+    assert_true(dip_fake_display_is_full_screen(fake));
+    press(DIP_KEYCODE_F11);
+    assert_false(dip_fake_display_is_full_screen(fake));
+}
+
+static void sheets_cover_and_leave(void **state) {
+    (void)state;
+    static const struct {
+        DipKeycode open;
+        DipKeycode close;
+    } ways[] = {{DIP_KEYCODE_F1, DIP_KEYCODE_F1},
+                {(DipKeycode)'h', DIP_KEYCODE_ESCAPE},
+                {(DipKeycode)'u', (DipKeycode)'u'},
+                {(DipKeycode)'u', DIP_KEYCODE_ESCAPE}};
+    rest();
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; ++i) {
+        const Pane before = look(DIP_PANE_CURRENT);
+        press(ways[i].open);
+        const Pane covered = look(DIP_PANE_CURRENT);
+        assert_false(is_same(&covered, &before));
+        free(covered.rgba8);
+        press(ways[i].close);
+        assert_true(pane_is(DIP_PANE_CURRENT, before));
+        assert_false(dip_preview_has_quit(preview));
+    }
+}
+
+// Widths that are even, odd and tiny; and one beyond the size that a frame may have.
+static void the_panes_follow_the_display(void **state) {
+    (void)state;
+    static const int sizes[][2] = {{640, 300}, {321, 290}, {402, 480}, {3, 1}, {1, 1}};
+    turn();
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
+        const int width = sizes[i][0], height = sizes[i][1];
+        assert_true(dip_fake_display_resize(fake, width, height));
+        turn();
+        assert_int_equal(dip_preview_picture(preview).width, width);
+        if (height > LAST_ROW) {
+            assert_true(panes_are_same());
+        }
+    }
+    assert_true(dip_fake_display_resize(fake, 2 * DIP_MAX_FRAME_SIZE + 100, 40));
+    turn();
+}
+
+// Text grows with the display's scale: the label strip reaches further down.
+static void text_follows_the_scale(void **state) {
+    (void)state;
+    rest();
+    const Pane before = look(DIP_PANE_CURRENT);
+    dip_fake_display_rescale(fake, 2.5);
+    turn();
+    assert_false(pane_is(DIP_PANE_CURRENT, before));
+}
+
+static void the_free_camera_follows_held_keys(void **state) {
+    (void)state;
+    rest();
+    press('c');
+    Pane before = look(DIP_PANE_CURRENT);
+    turn();
+    assert_true(pane_is(DIP_PANE_CURRENT, before));
+    before = look(DIP_PANE_CURRENT);
+    hold('w', true);
+    turn();
+    assert_false(pane_is(DIP_PANE_CURRENT, before));
+    hold('w', false);
+    before = look(DIP_PANE_CURRENT);
+    for (int i = 0; i < 5; ++i) {
+        turn();
+    }
+    assert_true(pane_is(DIP_PANE_CURRENT, before));
+}
+
+static void only_changes_are_presented(void **state) {
+    (void)state;
+    rest();
+    press(DIP_KEYCODE_TAB);
+    assert_in_range(dip_fake_display_damaged_pixels(fake), 1, WIDTH * HEIGHT / 4);
+    const int presented = dip_fake_display_present_count(fake);
+    dip_fake_display_push(fake, &(DipEvent){.kind = DIP_EVENT_EXPOSE});
+    turn();
+    assert_int_equal(dip_fake_display_present_count(fake), presented + 1);
+    assert_int_equal(dip_fake_display_damaged_pixels(fake), WIDTH * HEIGHT);
+}
+
+// The panel measures errors while the picture rests: new figures show without an event.
+static void errors_appear_while_it_rests(void **state) {
+    (void)state;
+    rest();
+    press('r');
+    turn();
+    const int presented = dip_fake_display_present_count(fake);
+    for (int i = 0; i < 20000 && dip_fake_display_present_count(fake) == presented; ++i) {
+        const struct timespec millisecond = {0, 1000000};
+        nanosleep(&millisecond, NULL);
+        turn();
+    }
+    assert_true(dip_fake_display_present_count(fake) > presented);
+    assert_in_range(dip_fake_display_damaged_pixels(fake), 1, WIDTH * HEIGHT / 2);
+}
+
+static void quitting_ends_without_another_frame(void **state) {
+    (void)state;
+    static const DipEvent ways[] = {
+        {.kind = DIP_EVENT_QUIT},
+        {.kind = DIP_EVENT_KEY_DOWN, .key = DIP_KEYCODE_ESCAPE},
+        {.kind = DIP_EVENT_KEY_DOWN, .key = (DipKeycode)'q', .modifiers = DIP_MODIFIER_CTRL}};
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0]; ++i) {
+        turn();
+        assert_false(dip_preview_has_quit(preview));
+        const int presented = dip_fake_display_present_count(fake);
+        dip_fake_display_push(fake, &ways[i]);
+        turn();
+        assert_true(dip_preview_has_quit(preview));
+        assert_int_equal(dip_fake_display_present_count(fake), presented);
+        tear_down(NULL);
+        set_up(NULL);
+    }
+}
+
+// The file holds the picture that the display showed before the notice of the file.
+static void a_screenshot_is_the_picture(void **state) {
+    (void)state;
+    char folder[] = "/tmp/test_preview_loop.XXXXXX";
+    char before[1024];
+    assert_true(getcwd(before, sizeof before) && mkdtemp(folder) && chdir(folder) == 0);
+    rest();
+    const DipPixels shown = dip_fake_display_picture(fake);
+    unsigned char *expected = NULL;
+    size_t expected_bytes = 0;
+    assert_true(dip_png_encode(shown.rgba8, shown.stride_bytes, shown.width, shown.height,
+                               &expected, &expected_bytes));
+    press(DIP_KEYCODE_F12);
+    assert_string_equal(dip_preview_state(preview)->notice, "Saved diptych-0001.png");
+    FILE *file = fopen("diptych-0001.png", "rb");
+    assert_non_null(file);
+    unsigned char *found = malloc(expected_bytes + 1);
+    assert_int_equal(fread(found, 1, expected_bytes + 1, file), expected_bytes);
+    assert_memory_equal(found, expected, expected_bytes);
+    fclose(file);
+    free(found);
+    free(expected);
+    assert_true(remove("diptych-0001.png") == 0 && chdir(before) == 0 && rmdir(folder) == 0);
+}
+
+// Whatever the events, the display shows what was drawn (turn checks it) and nothing breaks.
+static void random_events_do_no_harm(void **state) {
+    (void)state;
+    uint32_t random = 1;
+    for (int i = 0; i < 600; ++i) {
+        random = random * 1664525u + 1013904223u;
+        const unsigned value = random >> 8;
+        DipEvent event = {.kind = (DipEventKind)(value % DIP_EVENT_QUIT),
+                          .modifiers = value >> 4 & (value >> 12) & 15,
+                          .x = (int)(value % WIDTH),
+                          .y = (int)(value % HEIGHT),
+                          .clicks = (int)(value % 3)};
+        event.key = (DipKeycode)(value % 3 ? 'a' + value / 5 % 26 : DIP_KEYCODE_ENTER + value % 29);
+        const bool leaves = event.key == DIP_KEYCODE_ESCAPE || event.key == DIP_KEYCODE_F12 ||
+                            event.key == (DipKeycode)'q';
+        event.key = leaves ? DIP_KEYCODE_SPACE : event.key;
+        event.position = event.key;
+        dip_fake_display_push(fake, &event);
+        if (value % 50 == 0) {
+            assert_true(dip_fake_display_resize(fake, 1 + (int)(value / 50 % 500),
+                                                1 + (int)(value / 7 % 300)));
+        }
+        if (value % 3 == 0) {
+            turn();
+        }
+    }
+    turn();
+}
+
+int main(void) {
+#define PREVIEW_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+    const struct CMUnitTest tests[] = {
+        PREVIEW_TEST(both_panes_show_the_scene),
+        PREVIEW_TEST(it_moves_until_it_is_paused),
+        PREVIEW_TEST(a_setting_changes_the_requested_pane),
+        PREVIEW_TEST(enter_copies_requested_to_current),
+        PREVIEW_TEST(tab_and_clicks_choose_the_pane),
+        PREVIEW_TEST(sheets_cover_and_leave),
+        PREVIEW_TEST(the_panes_follow_the_display),
+        PREVIEW_TEST(text_follows_the_scale),
+        PREVIEW_TEST(the_free_camera_follows_held_keys),
+        PREVIEW_TEST(only_changes_are_presented),
+        PREVIEW_TEST(errors_appear_while_it_rests),
+        PREVIEW_TEST(quitting_ends_without_another_frame),
+        PREVIEW_TEST(a_screenshot_is_the_picture),
+        PREVIEW_TEST(random_events_do_no_harm),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
