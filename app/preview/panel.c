@@ -59,7 +59,7 @@ static void add_error(Lines *lines, const DipErrorReading *errors, int pane) {
         add(lines, true, "Error", "refining: %d of %d samples", result->samples, all_samples);
     }
     add(lines, false, "RMSE, linear", "%.4f%s", error->rmse_lin,
-        error->at_floor ? " at noise floor" : "");
+        error->at_floor ? " at floor" : "");
     if (isinf(error->psnr_db)) {
         add(lines, false, "PSNR", "no difference");
     } else {

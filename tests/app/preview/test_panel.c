@@ -70,7 +70,7 @@ static void errors_show_at_rest(void **state) {
     errors->result.panes[1].at_floor = true;
     errors->result.panes[1].psnr_db = INFINITY;
     assert_string_equal(value_of(1, "Error"), "128 samples");
-    assert_string_equal(value_of(1, "RMSE, linear"), "0.0123 at noise floor");
+    assert_string_equal(value_of(1, "RMSE, linear"), "0.0123 at floor");
     assert_string_equal(value_of(1, "PSNR"), "no difference");
     assert_string_equal(value_of(0, "RMSE, linear"), "0.0000");
     errors->status = DIP_ERROR_STATUS_FAILED;
