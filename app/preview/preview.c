@@ -1,4 +1,4 @@
-// The command: reads the options, opens the display, runs the loop.
+// Opens the display and runs the loop.
 #include "app/preview/preview.h"
 
 #include "app/cost/plan.h"
@@ -67,11 +67,11 @@ static bool run_loop(DipSession *session, const DipDisplay *display, const DipCo
 }
 
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err) {
-    const DipConfigSize pane = session->pane_size;
     DipCosts *costs = NULL;
     DipDisplay display;
     bool done = load_costs(session, options->cost_report, &costs, err) &&
-                dip_sdl_display_open(&display, 2 * pane.width + DIP_PANE_GAP_PX, pane.height, err);
+                dip_sdl_display_open(&display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
+                                     session->pane_size.height, err);
     if (done) {
         done = run_loop(session, &display, costs, err);
         display.close(display.context);

@@ -1,4 +1,4 @@
-// `diptych preview`: the window with both panes.
+// The window with both panes.
 #ifndef DIP_APP_PREVIEW_PREVIEW_H
 #define DIP_APP_PREVIEW_PREVIEW_H
 
