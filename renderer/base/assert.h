@@ -1,11 +1,12 @@
-// DIP_ASSERT: our own mistakes stop the program in debug and CI builds and cost nothing otherwise.
+// DIP_ASSERT checks for mistakes in Diptych's own code. A failed check stops the program in debug
+// and CI builds; in other builds the check costs nothing.
 #ifndef DIP_RENDERER_BASE_ASSERT_H
 #define DIP_RENDERER_BASE_ASSERT_H
 
 #include "renderer/base/api.h"
 
 #if defined(DIP_ASSERTS) && DIP_ASSERTS
-// Prints the condition and its place, then aborts. Does not return.
+// Prints the condition, the file and the line, then aborts.
 _Noreturn DIP_API void dip_assert_failed(const char *condition, const char *file, int line);
 #define DIP_ASSERT(condition)                                                                      \
     ((condition) ? (void)0 : dip_assert_failed(#condition, __FILE__, __LINE__))
@@ -13,6 +14,7 @@ _Noreturn DIP_API void dip_assert_failed(const char *condition, const char *file
 #define DIP_ASSERT(condition) ((void)sizeof(condition))
 #endif
 
+// Number of elements of an array. It must not be a pointer.
 #define DIP_ARRAY_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 #endif

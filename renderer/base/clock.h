@@ -1,4 +1,4 @@
-// Time for measuring: monotonic nanoseconds.
+// A monotonic clock for measuring times.
 #ifndef DIP_RENDERER_BASE_CLOCK_H
 #define DIP_RENDERER_BASE_CLOCK_H
 
@@ -9,6 +9,7 @@
 extern "C" {
 #endif
 
+// Returns nanoseconds since an unspecified moment. Thread-safe.
 static inline int64_t dip_clock_ns(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);

@@ -1,7 +1,8 @@
 // The floating-point mode of every thread that draws: round to nearest, subnormals kept.
 //
-// A host program may have set flush-to-zero (linking fast-math start-up code does it); pictures
-// must not depend on that, so the pool sets the mode for its own work and restores it after.
+// A host program may have set flush-to-zero, which linking with fast-math start-up code does.
+// Pictures must not depend on that, so the pool sets the mode for its own work and restores the
+// caller's mode afterwards.
 #ifndef DIP_RENDERER_BASE_FP_MODE_H
 #define DIP_RENDERER_BASE_FP_MODE_H
 
@@ -13,11 +14,11 @@
 
 typedef uint64_t DipFpMode;
 
-// Returns the mode that was set before.
+// Sets the mode of the calling thread. Returns the mode that it had before.
 static inline DipFpMode dip_fp_mode_set(void) {
 #if defined(__x86_64__)
     const unsigned before = _mm_getcsr();
-    _mm_setcsr(0x1f80); // exceptions masked, nearest, no FTZ, no DAZ
+    _mm_setcsr(0x1f80); // exceptions masked, round to nearest, neither FTZ nor DAZ
     return before;
 #elif defined(__aarch64__)
     uint64_t before;
@@ -29,6 +30,7 @@ static inline DipFpMode dip_fp_mode_set(void) {
 #endif
 }
 
+// Restores a mode that dip_fp_mode_set returned.
 static inline void dip_fp_mode_restore(DipFpMode mode) {
 #if defined(__x86_64__)
     _mm_setcsr((unsigned)mode);

@@ -1,4 +1,4 @@
-// Two lanes of FNV-1a.
+// 128-bit hashes from two lanes of 64-bit FNV-1a.
 #include "renderer/base/hash.h"
 
 #include <inttypes.h>

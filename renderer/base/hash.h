@@ -1,9 +1,9 @@
-// Names for content: 128-bit hashes of bytes. They guard against mistakes, not against forgery.
+// 128-bit hashes that identify content. They guard against mistakes, not against forgery.
 //
-// Both lanes are FNV-1a with 64 bits (Fowler, Noll, Vo; draft-eastlake-fnv), byte by byte. Lane 0
-// is the standard hash. Lane 1 starts from another basis and takes every byte inverted, so that the
-// lanes are independent enough to stand side by side. The same bytes give the same hash on every
-// machine. Functions are thread-safe on separate hashes.
+// A hash has two lanes, each a 64-bit FNV-1a of the bytes (Fowler, Noll, Vo; draft-eastlake-fnv).
+// Lane 0 is the standard hash. Lane 1 hashes every byte inverted and may start from another basis,
+// so that the lanes are independent enough to be used together. The same bytes give the same hash
+// on every machine. Threads may use the functions at once on different hashes.
 #ifndef DIP_RENDERER_BASE_HASH_H
 #define DIP_RENDERER_BASE_HASH_H
 
@@ -20,18 +20,21 @@ typedef struct DipHash {
     uint64_t lanes[2];
 } DipHash;
 
-enum { DIP_HASH_HEX_SIZE = 33 }; // bytes of the text of a hash, with its terminating zero
+enum { DIP_HASH_HEX_SIZE = 33 }; // bytes of a hash's text, including the final zero
 
-// Starts a hash. `variant` changes the start of lane 1 only; 0 unless hashes of different kinds of
-// content must differ.
+// Starts a hash. `variant` changes the basis of lane 1 and leaves lane 0 alone. Pass 0, or a
+// different number for each kind of content if equal bytes of different kinds must get different
+// hashes.
 DIP_API DipHash dip_hash_begin(uint64_t variant);
 
+// Adds size_bytes bytes.
 DIP_API void dip_hash_bytes(DipHash *hash, const void *bytes, size_t size_bytes);
 
-// Adds a text and its length, so that "ab", "c" differs from "a", "bc". NULL counts as "".
+// Adds a text and its length, so that "ab" followed by "c" differs from "a" followed by "bc". NULL
+// counts as "".
 DIP_API void dip_hash_text(DipHash *hash, const char *text);
 
-// Adds the eight bytes of a number, the lowest byte first on every machine.
+// Adds the eight bytes of a number. The lowest byte comes first on every machine.
 DIP_API void dip_hash_integer(DipHash *hash, int64_t value);
 DIP_API void dip_hash_number(DipHash *hash, double value);
 

@@ -1,4 +1,4 @@
-// Which instruction sets are built in, and which the processor has.
+// Finds the instruction sets that are built in and that the processor has.
 #include "renderer/base/isa.h"
 
 #include "renderer/base/assert.h"
@@ -26,7 +26,7 @@ bool dip_isa_parse(const char *name, DipIsa *isa) {
 }
 
 #if defined(__x86_64__)
-// What kernels of avx2 and above count, search and move bits with.
+// Kernels for avx2 and avx512 count, search and move bits with these instructions.
 static bool has_bit_counts(void) {
     return __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("bmi") &&
            __builtin_cpu_supports("bmi2");

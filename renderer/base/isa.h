@@ -1,4 +1,5 @@
-// Instruction sets the kernels are built for, and the choice among them at run time.
+// The instruction sets that kernels are built for, and the choice among them at run time. All
+// functions are thread-safe.
 #ifndef DIP_RENDERER_BASE_ISA_H
 #define DIP_RENDERER_BASE_ISA_H
 
@@ -10,7 +11,8 @@
 extern "C" {
 #endif
 
-// X(name, NAME, lanes): in ascending order of preference. A picture is the same with each.
+// X(name, NAME, lanes), in ascending order of preference. lanes: 32-bit lanes of a vector. A
+// picture has the same bits with each instruction set.
 #define DIP_ISA_LIST(X)                                                                            \
     X(scalar, SCALAR, 1)                                                                           \
     X(sse2, SSE2, 4)                                                                               \
@@ -25,9 +27,13 @@ typedef enum DipIsa {
         DIP_ISA_COUNT
 } DipIsa;
 
+// Returns the name in the list. Static storage.
 DIP_API const char *dip_isa_name(DipIsa isa);
-DIP_API bool dip_isa_parse(const char *name, DipIsa *isa); // exact names of the list
-DIP_API bool dip_isa_available(DipIsa isa);                // built in, and this processor has it
+// Sets *isa to the instruction set with exactly this name. Returns false if the list has none.
+DIP_API bool dip_isa_parse(const char *name, DipIsa *isa);
+// Returns whether the kernels for an instruction set are built in and this processor can run them.
+DIP_API bool dip_isa_available(DipIsa isa);
+// Returns the most preferred instruction set that is available.
 DIP_API DipIsa dip_isa_best(void);
 
 #ifdef __cplusplus

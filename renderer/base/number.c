@@ -1,4 +1,4 @@
-// Numbers from text and to text.
+// Conversion of numbers from and to text.
 #include "renderer/base/number.h"
 
 #include <limits.h>
@@ -12,7 +12,7 @@
 // static, so this allocates nothing there.
 static locale_t enter_c_locale(locale_t *made) {
     *made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    return uselocale(*made); // (locale_t)0 changes nothing
+    return uselocale(*made); // if there is no new locale, (locale_t)0 changes nothing
 }
 
 static void leave_c_locale(locale_t previous, locale_t made) {

@@ -1,4 +1,4 @@
-// Numbers from text and to text: strict, exact and the same in every locale.
+// Conversion of numbers from and to text: strict, exact and the same in every locale.
 #ifndef DIP_RENDERER_BASE_NUMBER_H
 #define DIP_RENDERER_BASE_NUMBER_H
 
@@ -12,21 +12,24 @@ extern "C" {
 #endif
 
 enum {
-    DIP_MAX_NUMBER_LENGTH = 63, // characters of a number's text
-    DIP_NUMBER_TEXT_SIZE = 32   // bytes that dip_number_format needs at most
+    DIP_MAX_NUMBER_LENGTH = 63, // characters of the longest text that is read as a number
+    DIP_NUMBER_TEXT_SIZE = 32   // bytes that dip_number_format writes at most
 };
 
-// Reads the whole of text[0..length-1] as a decimal number: sign, digits, '.', exponent, with at
-// least one digit. No white space, hexadecimal, "inf" or "nan"; a number too great for a double is
-// refused, one too small becomes 0 or the nearest subnormal. *value is unchanged on failure.
-// Correctly rounded. Thread-safe.
+// Reads the whole of text[0..length-1] as a decimal number: an optional sign, digits with an
+// optional '.', and an optional exponent. White space, hexadecimal numbers, "inf", "nan", texts
+// longer than DIP_MAX_NUMBER_LENGTH and numbers too great for a double are refused. A number that
+// is too small becomes 0 or the nearest subnormal. The result is correctly rounded. On failure,
+// returns false and leaves *value unchanged. Thread-safe.
 DIP_API bool dip_number_parse(const char *text, size_t length, double *value);
 
-// As above for an optional sign and digits, within int.
+// Reads the whole of text[0..length-1] as an integer: an optional sign and digits. Numbers outside
+// -INT_MAX..INT_MAX are refused. On failure, returns false and leaves *value unchanged.
+// Thread-safe.
 DIP_API bool dip_integer_parse(const char *text, size_t length, int *value);
 
-// Writes the shortest of 15, 16 or 17 significant digits that reads back as the same double (a
-// finite one). Returns the length. Thread-safe.
+// Writes a finite number with 15, 16 or 17 significant digits: the fewest of these that read back
+// as the same double. Returns the length of the text. Thread-safe.
 DIP_API size_t dip_number_format(double value, char buffer[DIP_NUMBER_TEXT_SIZE]);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// Large memory: huge pages by advice.
+// Allocation of large arrays, with the advice to put them on huge pages.
 #define _DEFAULT_SOURCE // madvise
 #include "renderer/base/pages.h"
 
@@ -19,7 +19,7 @@ void *dip_pages_alloc(size_t size_bytes) {
     void *memory = aligned_alloc(HUGE_PAGE, room_bytes);
 #ifdef MADV_HUGEPAGE
     if (memory) {
-        (void)madvise(memory, room_bytes, MADV_HUGEPAGE); // a wish: small pages do as well
+        (void)madvise(memory, room_bytes, MADV_HUGEPAGE); // only advice: small pages work as well
     }
 #endif
     return memory;

@@ -10,9 +10,9 @@
 extern "C" {
 #endif
 
-// At least size_bytes, aligned to a cache line, to be given to free(); NULL when there is none.
-// What is large is put on huge pages where the system has them to give, for fewer misses of the
-// translation buffer.
+// Allocates at least size_bytes, aligned to a cache line. The caller frees them with free().
+// Returns NULL if memory runs out. Blocks of 1 MiB and more are put on huge pages if the system has
+// any to give, which saves misses of the TLB. Thread-safe.
 DIP_API void *dip_pages_alloc(size_t size_bytes);
 
 #ifdef __cplusplus

@@ -10,14 +10,15 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// How long an idle worker looks for work before it sleeps: about the pause between two panes or
-// the phases of a frame. Waking a sleeping thread costs a good part of a geometry phase.
+// How long an idle worker looks for work before it sleeps. This is about the pause between two
+// panes or between the stages of a frame. Waking a sleeping thread would cost a good part of a
+// geometry stage.
 #define SPIN_NS 300000
 
-enum { LOOKS_PER_CLOCK = 64 }; // looks for work between two looks at the clock
+enum { LOOKS_PER_CLOCK = 64 }; // checks for work between two reads of the clock
 
-// A run's state in one word: its number, whether workers may still enter, how many are inside. Who
-// wakes too late for a run is not waited for.
+// One word holds the state of a run: its number, whether workers may still enter it, and how many
+// are inside. A run does not wait for workers that wake too late to enter it.
 #define STATE_RUN_SHIFT 32
 #define STATE_OPEN      0x80000000u
 #define STATE_INSIDE    0x7fffffffu
@@ -30,21 +31,21 @@ typedef struct Worker {
 
 struct DipPool {
     int thread_count;
-    Worker *workers; // thread_count - 1 of them; the caller is worker 0
-    int started;
-    bool spins; // every thread may have a processor of its own
+    Worker *workers; // thread_count - 1 workers; the caller of dip_pool_run is worker 0
+    int started;     // workers whose threads have been started
+    bool spins;      // waiting threads spin: each of them may have a processor of its own
 
-    // One run. Written by the caller while none is open and no worker is inside.
+    // The current run. The caller writes these while no run is open and no worker is inside.
     DipTask task;
     void *context;
     int count;
-    atomic_int next; // index to hand out
+    atomic_int next; // the next index to hand out
     atomic_bool stop;
     _Atomic uint64_t state;
 
-    pthread_mutex_t mutex; // guards sleeping only
+    pthread_mutex_t mutex; // for sleeping and waking only
     pthread_cond_t wake;
-    int sleeping;
+    int sleeping; // workers that sleep
 };
 
 static void pause_briefly(void) {
@@ -87,7 +88,7 @@ static void await_run(DipPool *pool, uint32_t seen) {
     pthread_mutex_unlock(&pool->mutex);
 }
 
-// Enters the current run, whose number goes to *run; false when it is over.
+// Enters the current run and sets *run to its number. Returns false if the run is over.
 static bool enter(DipPool *pool, uint32_t *run) {
     uint64_t state = atomic_load_explicit(&pool->state, memory_order_acquire);
     while (state & STATE_OPEN &&
@@ -109,12 +110,14 @@ static void *worker_main(void *argument) {
             work(pool, self->index);
             atomic_fetch_sub_explicit(&pool->state, 1, memory_order_release);
         } else if (atomic_load_explicit(&pool->stop, memory_order_acquire)) {
-            return NULL; // asked after entering: this may be the very run that stops
+            return NULL; // checked after trying to enter: the run just missed may be the one that
+                         // stops
         }
     }
 }
 
-// Starts a new run; the mutex closes the gap between a worker's check and its sleep.
+// Starts a new run. The mutex makes sure that no worker misses it between its last check and its
+// sleep.
 static void begin_run(DipPool *pool, uint32_t flags) {
     pthread_mutex_lock(&pool->mutex);
     const uint64_t run = (uint64_t)(uint32_t)(current_run(pool) + 1) << STATE_RUN_SHIFT;
@@ -125,7 +128,7 @@ static void begin_run(DipPool *pool, uint32_t flags) {
     pthread_mutex_unlock(&pool->mutex);
 }
 
-// Lets no more workers enter and waits for those inside.
+// Lets no more workers enter and waits until those inside have left.
 static void end_run(DipPool *pool) {
     uint64_t state =
         atomic_fetch_and_explicit(&pool->state, ~(uint64_t)STATE_OPEN, memory_order_acquire);

@@ -1,6 +1,7 @@
-// sRGB and linear light: exact functions for set-up, tables for pixels.
+// Conversion between sRGB and linear light: an exact function for set-up and tables for pixels.
 //
-// IEC 61966-2-1. Computed with + - * / alone, so every machine has the same tables.
+// The formulas are those of IEC 61966-2-1. They are computed with + - * / alone, so the tables are
+// the same on every machine. All functions are thread-safe.
 #ifndef DIP_RENDERER_BASE_SRGB_H
 #define DIP_RENDERER_BASE_SRGB_H
 
@@ -12,17 +13,18 @@
 extern "C" {
 #endif
 
-// encoded 0..1 -> linear 0..1; relative error below 1e-14.
+// Decodes an sRGB value 0..1 to linear light 0..1. The relative error is below 1e-14.
 DIP_API double dip_srgb_decode(double encoded);
 
-// Linear light of the 256 codes.
+// Linear light, 0..1, of the 256 sRGB codes.
 typedef struct DipSrgbDecodeTable {
     double linear[256];
 } DipSrgbDecodeTable;
 
 DIP_API void dip_srgb_decode_table(DipSrgbDecodeTable *table);
 
-// code[i] = floor(255 * encode(i / 65535) + 0.5); padded so that four bytes may be read at any i.
+// sRGB codes of 16-bit linear light: code[i] = floor(255 * encode(i / 65535) + 0.5), where encode
+// is the inverse of dip_srgb_decode. The padding lets a kernel read four bytes from any i on.
 enum { DIP_LINEAR16_MAX = 65535 };
 typedef struct DipSrgbEncodeTable {
     uint8_t code[DIP_LINEAR16_MAX + 1 + 3];

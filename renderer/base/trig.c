@@ -4,21 +4,21 @@
 #include <math.h>
 #include <stdint.h>
 
-// pi/2 in three parts. The first two have 32 significant bits, so that n times them is exact for
-// |n| < 2^21; together they hold pi/2 to 2^-122.
+// pi/2 as the sum of three parts. The first two have 32 significant bits, so that n times each of
+// them is exact for |n| < 2^21. Together the parts hold pi/2 to 2^-122.
 static const double HALF_PI_1 = 0x1.921fb54400000p+0;
 static const double HALF_PI_2 = 0x1.0b4611a600000p-34;
 static const double HALF_PI_3 = 0x1.3198a2e037073p-69;
 static const double TWO_OVER_PI = 0x1.45f306dc9c883p-1;
 static const double MAX_ANGLE_RAD = 1e6;
 
-// angle = quadrant * pi/2 + rest, |rest| <= pi/4 (and a hair).
+// Splits an angle into quadrant * pi/2 + rest. |rest| exceeds pi/4 by no more than rounding.
 static double reduce(double angle_rad, unsigned *quadrant) {
     const double turns = angle_rad * TWO_OVER_PI;
-    // Half away from zero, so that angles of either sign fold alike.
+    // Halves are rounded away from zero, so that a and -a are reduced alike.
     const int32_t count = (int32_t)(turns < 0.0 ? turns - 0.5 : turns + 0.5);
     const double n = (double)count;
-    // The first difference is exact. The second rounds; `lost` is what it dropped.
+    // The first difference is exact. The second one rounds; `lost` is its rounding error.
     const double coarse = angle_rad - n * HALF_PI_1;
     const double step = n * HALF_PI_2;
     const double rest = coarse - step;
@@ -27,7 +27,7 @@ static double reduce(double angle_rad, unsigned *quadrant) {
     return rest + (lost - n * HALF_PI_3);
 }
 
-// Taylor series on |x| <= pi/4; the first term left out is below 2e-19.
+// Taylor series for |x| <= pi/4. The first term that is left out is below 2e-19.
 static double sin_series(double x) {
     const double s = x * x;
     double sum = 1.0 / 355687428096000.0; // 1 / 17!
@@ -50,7 +50,7 @@ static double cos_series(double x) {
     sum = sum * s + 1.0 / 40320.0;
     sum = sum * s - 1.0 / 720.0;
     sum = sum * s + 1.0 / 24.0;
-    // 1 - s/2 + s^2 sum, with the rounding of 1 - s/2 given back.
+    // 1 - s/2 + s^2 sum, corrected by the rounding error of 1 - s/2.
     const double half = 0.5 * s;
     const double head = 1.0 - half;
     return head + (((1.0 - head) - half) + s * s * sum);
@@ -91,10 +91,12 @@ double dip_tan(double angle_rad) {
     return quadrant & 1u ? -cosine / sine : sine / cosine;
 }
 
-// Arc tangent on 0..1: atan(x) = atan(k/8) + atan((x - k/8) / (1 + x k/8)) with the k that leaves
-// an argument within 1/16, where the series' first term left out is below 1e-19 of the result.
+// Arc tangent for 0..1: atan(x) = atan(k/8) + atan((x - k/8) / (1 + x k/8)). k is chosen so that
+// the second argument lies within 1/16. There the first term that the series leaves out is below
+// 1e-19 of the result.
 static double atan_unit(double x) {
     static const double eighths[] = {
+        // eighths[k] = atan(k/8)
         0.0,
         0x1.fd5ba9aac2f6ep-4,
         0x1.f5b75f92c80ddp-3,

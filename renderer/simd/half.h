@@ -1,4 +1,4 @@
-// Half vectors: doubles and 64-bit numbers beside vec.h, for triangle set-up.
+// Half vectors: vectors of doubles and 64-bit integers for triangle set-up, beside those of vec.h.
 #ifndef DIP_RENDERER_SIMD_HALF_H
 #define DIP_RENDERER_SIMD_HALF_H
 
@@ -6,9 +6,10 @@
 
 // --- half vectors ------------------------------------------------------------------------------
 
-// As many doubles as a vector's bytes hold, and 64-bit and 32-bit numbers of as many lanes; of two
-// lanes of 32 bits a vector has two more, which are 0 when loaded and of no use. A condition is a
-// vector of 0 / -1, as comparisons give it.
+// A half vector has as many lanes as doubles fit into a vector of vec.h. Vd and Vl have lanes of 64
+// bits; Hf, Hi and Hu have the same number of lanes of 32 bits. Where there are two lanes, the
+// 32-bit types have two more, which loads set to 0 and no code uses. A condition is a vector with 0
+// or -1 per lane, as comparisons return it.
 enum { DIP_HALF_LANES = DIP_LANES > 1 ? DIP_LANES / 2 : 1 };
 
 #define VEC_HALF_BYTES (DIP_LANES == 4 ? 16 : 4 * (DIP_LANES > 1 ? DIP_LANES / 2 : 1))
@@ -99,7 +100,8 @@ VEC_INLINE Vd vd_abs(Vd v) {
     return (Vd)((Vl)v & INT64_MAX);
 }
 
-// Whole numbers below 2^51 in magnitude: adding 1.5 * 2^52 leaves them in the low bits.
+// Converts whole numbers below 2^51 in magnitude to integers. Adding 1.5 * 2^52 moves a whole
+// number into the low bits of the double.
 VEC_INLINE Vl vl_from_whole(Vd v) {
     const Vd shift = vd_splat(6755399441055744.0);
     return (Vl)(v + shift) - (Vl)shift;
@@ -113,7 +115,7 @@ VEC_INLINE Vd vd_select(Vl m, Vd a, Vd b) {
 #endif
 }
 
-// a * b - c * d modulo 2^32.
+// Returns a * b - c * d modulo 2^32.
 VEC_INLINE Hi hi_cross(Hi a, Hi b, Hi c, Hi d) {
     return (Hi)((Hu)a * (Hu)b - (Hu)c * (Hu)d);
 }
@@ -134,7 +136,7 @@ VEC_INLINE Hf hf_select(Hi m, Hf a, Hf b) {
     return (Hf)hi_select(m, (Hi)a, (Hi)b);
 }
 
-// A condition on doubles as one on their lanes' 32-bit numbers.
+// Narrows a condition from 64-bit to 32-bit lanes.
 VEC_INLINE Hi hi_condition(Vl m) {
 #if VEC_AVX512
     return (Hi)_mm512_cvtepi64_epi32((__m512i)m);
@@ -149,7 +151,7 @@ VEC_INLINE Hi hi_condition(Vl m) {
 #endif
 }
 
-// The other way round.
+// Widens a condition from 32-bit to 64-bit lanes.
 VEC_INLINE Vl vl_condition(Hi m) {
 #if VEC_AVX512
     return (Vl)_mm512_cvtepi32_epi64((__m256i)m);
@@ -166,6 +168,7 @@ VEC_INLINE Vl vl_condition(Hi m) {
 #endif
 }
 
+// Returns a condition as bits: bit i is set where lane i holds.
 VEC_INLINE unsigned hi_mask_bits(Hi m) {
 #if VEC_AVX512
     return (unsigned)_mm256_movemask_ps((__m256)m);
@@ -182,7 +185,7 @@ VEC_INLINE unsigned hi_mask_bits(Hi m) {
 #endif
 }
 
-// base[index[i]] per lane.
+// Returns base[index[i]] in lane i.
 VEC_INLINE Hi hi_gather(const int32_t *base, Hi index) {
 #if VEC_AVX512
     return (Hi)_mm256_i32gather_epi32(base, (__m256i)index, 4);
@@ -201,7 +204,7 @@ VEC_INLINE Hf hf_gather(const float *base, Hi index) {
     return (Hf)hi_gather((const int32_t *)(const void *)base, index);
 }
 
-// Stores the lanes whose bits are set one after another; may write a whole vector.
+// Stores the lanes whose bits are set, without gaps. It may overwrite the space of a whole vector.
 VEC_INLINE void hi_store_packed(int32_t *out, Hi v, unsigned bits) {
 #if VEC_AVX512
     v = (Hi)_mm256_maskz_compress_epi32((__mmask8)bits, (__m256i)v);
@@ -217,7 +220,7 @@ VEC_INLINE void hi_store_packed(int32_t *out, Hi v, unsigned bits) {
 #endif
 }
 
-// Lane by lane, low in the lower half of 64 bits.
+// Joins two 32-bit lanes to one of 64 bits, with `low` in its lower half.
 VEC_INLINE Vl vl_pair(Hi low, Hi high) {
 #if VEC_AVX512
     const __m512i order = _mm512_set_epi32(23, 7, 22, 6, 21, 5, 20, 4, 19, 3, 18, 2, 17, 1, 16, 0);
@@ -237,7 +240,7 @@ VEC_INLINE Vl vl_pair(Hi low, Hi high) {
 #endif
 }
 
-// Four words of every lane to memory: those of lane i at out + i * stride_bytes.
+// Stores four words per lane: row[0..3] of lane i go to out + i * stride_bytes.
 VEC_INLINE void vl_store_rows(void *out, size_t stride_bytes, const Vl row[4]) {
     char *at = out;
 #if VEC_AVX512
@@ -247,7 +250,7 @@ VEC_INLINE void vl_store_rows(void *out, size_t stride_bytes, const Vl row[4]) {
                              _mm512_unpacklo_epi64((__m512i)row[2], (__m512i)row[3])};
     const __m512i odd[2] = {_mm512_unpackhi_epi64((__m512i)row[0], (__m512i)row[1]),
                             _mm512_unpackhi_epi64((__m512i)row[2], (__m512i)row[3])};
-    // Lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7.
+    // lanes[i] holds the words of lane i and, in its upper half, those of lane i + 4.
     const __m512i lanes[4] = {_mm512_permutex2var_epi64(even[0], first, even[1]),
                               _mm512_permutex2var_epi64(odd[0], first, odd[1]),
                               _mm512_permutex2var_epi64(even[0], second, even[1]),

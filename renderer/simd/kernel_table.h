@@ -23,7 +23,7 @@
     LIST(DIP_KERNEL_DECLARE_AVX2)                                                                  \
     LIST(DIP_KERNEL_DECLARE_AVX512)
 
-// The fields of a struct of function pointers.
+// The fields of a kernel table: one function pointer per kernel.
 #define DIP_KERNEL_FIELD(result, name, parameters) result(*name) parameters;
 
 #define DIP_KERNEL_ENTRY_SCALAR(result, name, parameters) name##_scalar,
@@ -32,7 +32,7 @@
 #define DIP_KERNEL_ENTRY_AVX2(result, name, parameters)   name##_avx2,
 #define DIP_KERNEL_ENTRY_AVX512(result, name, parameters) name##_avx512,
 
-// The initialiser of an array of such structs, indexed by DipIsa. It has an entry for every
+// Initialises an array of kernel tables that is indexed by DipIsa. It has an entry for every
 // instruction set of this processor family.
 #if defined(__x86_64__)
 #define DIP_KERNEL_TABLES(LIST)                                                                    \

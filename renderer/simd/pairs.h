@@ -1,18 +1,20 @@
-// Pairs of values beside each other in memory, such as texels, as vectors; and 16-bit arithmetic.
+// Vectors of pairs of values that are neighbours in memory, such as texels, and 16-bit arithmetic.
 #ifndef DIP_RENDERER_SIMD_PAIRS_H
 #define DIP_RENDERER_SIMD_PAIRS_H
 
 #include "renderer/simd/vec.h"
 
-// Two values per lane of a vector, left and right, in pair order: where a 64-bit load brings both,
-// they stay side by side, the first half of each 128-bit part in a, the second in b; elsewhere a
-// holds the left ones and b the right ones. Only the operations here know which.
+// A left and a right value for each lane of a vector, in pair order. Where the instruction set
+// loads both values at once (SSE2, AVX2, AVX-512), they stay side by side: `a` holds the pairs of
+// the lanes in the first half of each 128-bit part, `b` those of the lanes in the second half.
+// Elsewhere `a` holds the left values and `b` the right ones. Only the functions of this file
+// depend on the difference.
 typedef struct VuPair {
     Vu a;
     Vu b;
 } VuPair;
 
-// 16-bit halves: the upper half of each product.
+// Multiplies the unsigned 16-bit halves of a and b and returns the upper 16 bits of each product.
 VEC_INLINE Vu vu_mulhi16(Vu a, Vu b) {
 #if VEC_AVX512
     return (Vu)_mm512_mulhi_epu16((__m512i)a, (__m512i)b);
@@ -25,7 +27,8 @@ VEC_INLINE Vu vu_mulhi16(Vu a, Vu b) {
 #endif
 }
 
-// The sum of the products of the 16-bit halves, which are below 2^15.
+// Multiplies the 16-bit halves of each lane of a by those of b and returns the sum of both
+// products. All halves must be below 2^15.
 VEC_INLINE Vu vu_dot16(Vu a, uint32_t b) {
 #if VEC_AVX512
     return (Vu)_mm512_madd_epi16((__m512i)a, (__m512i)vu_splat(b));
@@ -38,7 +41,7 @@ VEC_INLINE Vu vu_dot16(Vu a, uint32_t b) {
 #endif
 }
 
-// The lanes in the order in which vu_gather_pairs takes them.
+// Brings lanes into pair order, in which vu_gather_pairs takes its indices.
 VEC_INLINE Vi vi_pair_order(Vi v) {
 #if VEC_AVX512
     const __m512i order = _mm512_set_epi32(15, 14, 11, 10, 7, 6, 3, 2, 13, 12, 9, 8, 5, 4, 1, 0);
@@ -50,7 +53,8 @@ VEC_INLINE Vi vi_pair_order(Vi v) {
 #endif
 }
 
-// base[index] and base[index + 1] of each lane: both are fetched at once. index: in pair order.
+// Returns base[index] and base[index + 1] for each lane; both are fetched at once. index: in pair
+// order.
 VEC_INLINE VuPair vu_gather_pairs(const uint32_t *base, Vi index) {
 #if VEC_AVX512
     const __m512i i = (__m512i)index;
@@ -78,7 +82,7 @@ VEC_INLINE VuPair vu_gather_pairs(const uint32_t *base, Vi index) {
 #endif
 }
 
-// Each lane's value as both its left and its right one.
+// Returns pairs whose left and right values are both that of the lane.
 VEC_INLINE VuPair vu_pair_same(Vu v) {
 #if VEC_AVX512
     return (VuPair){(Vu)_mm512_unpacklo_epi32((__m512i)v, (__m512i)v),
@@ -94,7 +98,8 @@ VEC_INLINE VuPair vu_pair_same(Vu v) {
 #endif
 }
 
-// The lowest byte of each lane, times 256, in all 16-bit halves of its two values.
+// Returns pairs whose left and right values both have 256 times the lane's lowest byte in each of
+// their 16-bit halves.
 VEC_INLINE VuPair vu_pair_both(Vi v) {
 #if VEC_AVX512 || VEC_AVX2
     const __m128i spread_a = _mm_set_epi8(4, -1, 4, -1, 4, -1, 4, -1, 0, -1, 0, -1, 0, -1, 0, -1);
@@ -113,7 +118,9 @@ VEC_INLINE VuPair vu_pair_both(Vi v) {
 #endif
 }
 
-// The same, with the left values' bits inverted: weights from left to right that sum to 65535.
+// Returns the weights of a blend from left to right, in 16 bits: those of vu_pair_both for the
+// right values, and the same with all bits inverted for the left ones. A left and a right weight
+// sum to 65535.
 VEC_INLINE VuPair vu_pair_ramp(Vi v) {
     const VuPair both = vu_pair_both(v);
 #if VEC_AVX512
@@ -130,7 +137,7 @@ VEC_INLINE VuPair vu_pair_ramp(Vi v) {
 #endif
 }
 
-// The left and the right values, back in the order of lanes.
+// Returns the left values, in the order of lanes.
 VEC_INLINE Vu vu_pair_left(VuPair pair) {
 #if VEC_AVX512
     return (Vu)_mm512_shuffle_ps((__m512)pair.a, (__m512)pair.b, 0x88);
@@ -143,6 +150,7 @@ VEC_INLINE Vu vu_pair_left(VuPair pair) {
 #endif
 }
 
+// Returns the right values, in the order of lanes.
 VEC_INLINE Vu vu_pair_right(VuPair pair) {
 #if VEC_AVX512
     return (Vu)_mm512_shuffle_ps((__m512)pair.a, (__m512)pair.b, 0xdd);
@@ -155,7 +163,7 @@ VEC_INLINE Vu vu_pair_right(VuPair pair) {
 #endif
 }
 
-// Left plus right of each lane.
+// Returns the sum of each lane's left and right value, in the order of lanes.
 VEC_INLINE Vu vu_pair_sum(VuPair pair) {
     return vu_pair_left(pair) + vu_pair_right(pair);
 }

@@ -1,9 +1,9 @@
-// One vector of DIP_LANES 32-bit lanes and its operations, for the kernels (*_simd.c) only.
+// A vector of DIP_LANES 32-bit lanes and its operations. Only kernels (*_simd.c) include it.
 //
-// Built on the compilers' vector extensions, so + - * / & | ^ << >> and comparisons of the element
-// types work as written; intrinsics stand where an extension has no operator. Every operation is
-// exact IEEE or integer arithmetic, so all widths give the same bits. A condition is a Mask: a
-// bit per lane with AVX-512, a vector of 0 / -1 elsewhere.
+// The types are the compilers' vector extensions, so + - * / & | ^ << >> and comparisons work as
+// written; intrinsics are used where the extensions have no operator. Every operation is exact
+// integer arithmetic or correctly rounded IEEE arithmetic, so all widths give the same bits. A
+// condition is a Mask: one bit per lane with AVX-512, otherwise a vector with 0 or -1 per lane.
 #ifndef DIP_RENDERER_SIMD_VEC_H
 #define DIP_RENDERER_SIMD_VEC_H
 
@@ -31,7 +31,8 @@
 #include <emmintrin.h>
 #endif
 
-// dip_kernel_name -> dip_kernel_name_avx2: the exported name of this instruction set's version.
+// DIP_KERNEL(dip_kernel_name) is the exported name of this instruction set's version, for example
+// dip_kernel_name_avx2.
 #define VEC_JOIN_(a, b)  a##_##b
 #define VEC_JOIN(a, b)   VEC_JOIN_(a, b)
 #define DIP_KERNEL(name) VEC_JOIN(name, DIP_ISA_SUFFIX)
@@ -82,11 +83,12 @@ VEC_INLINE Vf vf_from_int(Vi v) {
     return __builtin_convertvector(v, Vf);
 }
 
-// Towards zero; every lane must be within the range of int32.
+// Rounds towards zero. Every lane must be within the range of int32.
 VEC_INLINE Vi vi_from_float(Vf v) {
     return __builtin_convertvector(v, Vi);
 }
 
+// These two reinterpret the bits of the lanes.
 VEC_INLINE Vi vi_bits(Vf v) {
     return (Vi)v;
 }
@@ -112,7 +114,7 @@ VEC_INLINE Mask vi_eq(Vi a, Vi b) {
     return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b);
 }
 
-// Lanes whose sign bit is clear.
+// Returns the lanes whose sign bit is clear.
 VEC_INLINE Mask vi_not_negative(Vi a) {
     return (Mask)~_mm512_movepi32_mask((__m512i)a);
 }
@@ -198,7 +200,7 @@ VEC_INLINE bool mask_any(Mask m) {
 
 // --- min, max, sqrt, floor ---------------------------------------------------------------------
 
-// a < b ? a : b, so b where either is NaN.
+// Returns a < b ? a : b, which is b where either is NaN.
 VEC_INLINE Vf vf_min(Vf a, Vf b) {
 #if VEC_AVX512
     return (Vf)_mm512_min_ps((__m512)a, (__m512)b);
@@ -211,7 +213,7 @@ VEC_INLINE Vf vf_min(Vf a, Vf b) {
 #endif
 }
 
-// a > b ? a : b, so b where either is NaN.
+// Returns a > b ? a : b, which is b where either is NaN.
 VEC_INLINE Vf vf_max(Vf a, Vf b) {
 #if VEC_AVX512
     return (Vf)_mm512_max_ps((__m512)a, (__m512)b);
@@ -264,7 +266,7 @@ VEC_INLINE Vf vf_abs(Vf a) {
     return vf_bits(vi_bits(a) & 0x7fffffff);
 }
 
-// Values of 2^23 and more, infinities and NaN come back as they are.
+// Rounds down. Values of 2^23 and more in magnitude, infinities and NaN are returned as they are.
 VEC_INLINE Vf vf_floor(Vf a) {
 #if VEC_AVX512
     return (Vf)_mm512_roundscale_ps((__m512)a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
@@ -279,7 +281,7 @@ VEC_INLINE Vf vf_floor(Vf a) {
 #endif
 }
 
-// The products of the lanes' low and high 16-bit halves, signed, added.
+// Multiplies the signed 16-bit halves of each lane and returns the sum of both products.
 VEC_INLINE Vi vi_dot16(Vi a, Vi b) {
 #if VEC_AVX512
     return (Vi)_mm512_madd_epi16((__m512i)a, (__m512i)b);
@@ -296,7 +298,7 @@ VEC_INLINE Vi vi_dot16(Vi a, Vi b) {
 
 // --- memory ------------------------------------------------------------------------------------
 
-// base[index[i]] per lane.
+// Returns base[index[i]] in lane i.
 VEC_INLINE Vf vf_gather(const float *base, Vi index) {
 #if VEC_AVX512
     return (Vf)_mm512_i32gather_ps((__m512i)index, base, 4);
@@ -325,7 +327,7 @@ VEC_INLINE Vi vi_gather(const int32_t *base, Vi index) {
 #endif
 }
 
-// DIP_LANES bytes, each to a lane.
+// Loads DIP_LANES bytes, one into each lane.
 VEC_INLINE Vi vi_load_bytes(const uint8_t *p) {
 #if VEC_AVX512
     return (Vi)_mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)(const void *)p));
@@ -340,7 +342,8 @@ VEC_INLINE Vi vi_load_bytes(const uint8_t *p) {
 #endif
 }
 
-// p[i] = m ? v : old per lane, where old is what p holds.
+// Stores the lanes of v that are in m to p. old: what p holds, which may be stored to the other
+// lanes.
 VEC_INLINE void vf_store_lanes(float *p, Mask m, Vf v, Vf old) {
 #if VEC_AVX512
     (void)old;
@@ -350,7 +353,7 @@ VEC_INLINE void vf_store_lanes(float *p, Mask m, Vf v, Vf old) {
 #endif
 }
 
-// p[i] = v where m.
+// Stores the lanes of v that are in m to p.
 VEC_INLINE void vi_store_lanes(int32_t *p, Mask m, Vi v) {
 #if VEC_AVX512
     _mm512_mask_storeu_epi32(p, m, (__m512i)v);
@@ -359,7 +362,8 @@ VEC_INLINE void vi_store_lanes(int32_t *p, Mask m, Vi v) {
 #endif
 }
 
-// table[index[i]] per lane, 0 <= index < 16: a permutation instead of loads where there is one.
+// Returns table[index[i]] in lane i, 0 <= index < 16. AVX2 and AVX-512 permute vectors instead of
+// loading lane by lane.
 VEC_INLINE Vi vi_lookup16(const int32_t table[16], Vi index) {
 #if VEC_AVX512
     return (Vi)_mm512_permutexvar_epi32((__m512i)index, _mm512_loadu_si512(table));
@@ -386,7 +390,7 @@ VEC_INLINE Vf vf_lookup16(const float table[16], Vi index) {
 #endif
 }
 
-// The four bytes from base[index[i]] on, little-endian, at any address.
+// Returns the four bytes from base[index[i]] on, little-endian, in lane i. They need no alignment.
 VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
 #if VEC_AVX512
     return (Vu)_mm512_i32gather_epi32((__m512i)index, base, 1);
@@ -402,15 +406,15 @@ VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
 #endif
 }
 
-// Stores the lanes whose bit is set one after another and returns their number; may write over a
-// whole vector's room.
+// Stores the lanes whose bits are set, without gaps, and returns their number. It may overwrite the
+// space of a whole vector.
 VEC_INLINE int vu_compress(uint32_t *out, unsigned bits, Vu v) {
 #if VEC_AVX512
     const __m512i packed = _mm512_maskz_compress_epi32((__mmask16)bits, (__m512i)v);
     _mm512_storeu_si512(out, packed);
     return __builtin_popcount(bits);
 #elif VEC_AVX2
-    // A byte per lane: the numbers of the lanes that stay, moved together.
+    // One byte per lane: the numbers of the lanes that stay are moved together.
     const uint64_t stay = _pdep_u64(bits, 0x0101010101010101u) * 255;
     const uint64_t order = _pext_u64(0x0706050403020100u, stay);
     const __m256i lane = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order));
@@ -427,7 +431,7 @@ VEC_INLINE int vu_compress(uint32_t *out, unsigned bits, Vu v) {
 #endif
 }
 
-// The greatest lane.
+// Returns the greatest lane.
 VEC_INLINE int32_t vi_greatest(Vi v) {
 #if VEC_AVX512
     return _mm512_reduce_max_epi32((__m512i)v);
@@ -448,7 +452,7 @@ VEC_INLINE int32_t vi_greatest(Vi v) {
 #endif
 }
 
-// The sum of the lanes, which must fit.
+// Returns the sum of the lanes, which must fit into 32 bits.
 VEC_INLINE int32_t vi_sum(Vi v) {
     int32_t lanes[DIP_LANES];
     vi_store(lanes, v);
@@ -459,6 +463,7 @@ VEC_INLINE int32_t vi_sum(Vi v) {
     return sum;
 }
 
+// Returns 0, 1, 2, ... in the lanes.
 VEC_INLINE Vi vi_iota(void) {
     Vi v;
     for (int i = 0; i < DIP_LANES; i++) {
