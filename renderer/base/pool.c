@@ -110,8 +110,7 @@ static void *worker_main(void *argument) {
             work(pool, self->index);
             atomic_fetch_sub_explicit(&pool->state, 1, memory_order_release);
         } else if (atomic_load_explicit(&pool->stop, memory_order_acquire)) {
-            return NULL; // checked after trying to enter: the run just missed may be the one that
-                         // stops
+            return NULL; // the run that was missed may be the one that stops the pool
         }
     }
 }

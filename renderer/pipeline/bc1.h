@@ -1,7 +1,9 @@
-// BC1: 4x4 colours in 8 bytes, what opt=standard and opt=advanced show. docs/picture.md, Textures.
+// BC1 (S3TC): 4x4 colours in 8 bytes. docs/picture.md defines the blocks (Textures, Texture
+// optimisation).
 //
-// A block is two colours of 5, 6 and 5 bits, least byte first, and two bits per texel, which choose
-// one of them or one that lies between.
+// A block stores two colours with 5 bits of red, 6 of green and 5 of blue, low byte first, and two
+// bits per texel. These bits choose one of the two colours or one of two more, which follow from
+// them. All functions are thread-safe.
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_BC1_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_BC1_H
 
@@ -13,31 +15,35 @@
 extern "C" {
 #endif
 
+// Texels per side of a block, and bytes of a block.
 enum { DIP_BC1_SIDE = 4, DIP_BC1_BYTES = 8 };
 
-// rgba8: 4x4 sRGB codes, row-major, alpha ignored. The same bytes on every machine.
+// Encodes 4x4 sRGB codes, row-major; alpha is ignored. The block has the same bytes on every
+// machine.
 DIP_API void dip_bc1_encode(const uint8_t rgba8[64], uint8_t block[DIP_BC1_BYTES]);
 
-// Packs linear light, 0..1, as textures store it: 32 bits of square roots, rounded (the layout is
-// in texture/texture_layout.h).
+// Packs a colour in linear light, clamped to 0..1, as textures store it: 32 bits of rounded square
+// roots. texture/texture_layout.h describes the layout.
 DIP_API uint32_t dip_texel_pack(const double rgb_lin[3]);
 
-// The sRGB codes nearest to what a packed texel (texture.h) holds: what the encoder is given.
+// Tables from the parts of a packed texel to the nearest sRGB codes, which the encoder takes.
 typedef struct DipRootCodes {
-    uint8_t of16[65536]; // red and green
-    uint8_t of10[1024];  // blue
+    uint8_t of16[65536]; // by the 16-bit square root of red or green
+    uint8_t of10[1024];  // by the 10-bit square root of blue
 } DipRootCodes;
 
 DIP_API void dip_root_codes_fill(DipRootCodes *codes);
 
+// Returns the sRGB codes nearest to a packed texel's colour.
 static inline void dip_root_codes_read(const DipRootCodes *codes, uint32_t texel, uint8_t rgb8[3]) {
     rgb8[0] = codes->of16[texel >> 16];
     rgb8[1] = codes->of16[texel & 0xffff];
     rgb8[2] = codes->of10[(texel >> 16 & 31) << 5 | (texel & 31)];
 }
 
-// Linear light of a block's colours. All of them are sums of sixths of the two it names: of 6 * 31
-// steps for red and blue, of 6 * 63 for green.
+// Linear light of a block's colours, by channel. Each colour is a sum of sixths of the two colours
+// that the block stores. A 5-bit channel (red, blue) is therefore a multiple of 1/(6 * 31) and a
+// 6-bit channel (green) one of 1/(6 * 63); that multiple is the index.
 typedef struct DipBc1Light {
     double of5[6 * 31 + 1];
     double of6[6 * 63 + 1];
@@ -45,11 +51,11 @@ typedef struct DipBc1Light {
 
 DIP_API void dip_bc1_light_fill(DipBc1Light *light);
 
-// The four packed texels that a block chooses from.
+// Returns the four packed texels that a block's texels choose from.
 DIP_API void dip_bc1_palette(const DipBc1Light *light, const uint8_t block[DIP_BC1_BYTES],
                              uint32_t texels[4]);
 
-// Which of them texel i = 4 y + x shows.
+// Returns which of the four, 0..3, texel i = 4 y + x shows.
 static inline int dip_bc1_choice(const uint8_t block[DIP_BC1_BYTES], int i) {
     return block[4 + (i >> 2)] >> 2 * (i & 3) & 3;
 }

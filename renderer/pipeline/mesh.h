@@ -33,8 +33,9 @@ typedef struct DipBox {
     float extent[3]; // half the box's size
 } DipBox;
 
-// Fails with RANGE if an index or a number is out of range or a position is not finite, and with
-// MEMORY.
+// Fails with RANGE if an index or a number is out of range or a position is not finite, FORMAT if
+// index_count is not a multiple of 3, OVERSIZED if it is above 2^30, and MEMORY. The data are
+// copied. A mesh is immutable, so any thread may use it.
 DIP_API DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err);
 
 // Returns a mesh with arrays of its own, or NULL when memory runs out.

@@ -1,5 +1,5 @@
-// Patches: a mesh's triangles in small groups that join smoothly. Of a patch, a pixel is shaded
-// once (docs/picture.md), so that the edges within a surface cost no shading.
+// Patches: small groups of a mesh's triangles that join smoothly. A pixel is shaded once per patch
+// (docs/picture.md, Shading), so edges inside a patch cost no shading.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_PATCH_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_PATCH_H
 
@@ -14,16 +14,17 @@ extern "C" {
 #endif
 
 enum {
-    DIP_PATCH_TRIANGLES = 16, // at most
-    DIP_PATCH_FAN = 64,       // edges between vertices of more triangles are not crossed
+    DIP_PATCH_TRIANGLES = 16, // most triangles of a patch
+    DIP_PATCH_FAN = 64,       // an edge is not crossed if both its vertices have more triangles
 };
 
-// Puts triangle t = indices[3 t .. 3 t + 2] into patch patches[t], 0 <= patches[t] < *count. A
-// patch grows from the first free triangle to its neighbours, nearest first, over shared edges (two
-// common vertices, by index), while their normals stay within 20 degrees of the first one's.
-// positions: x, y, z of vertex v from positions[v * stride] on. Triangles without an area, or with
-// corners that are not finite, are patches of their own. The same patches on every machine; any
-// thread. False when memory runs out.
+// Divides a mesh into patches. Triangle t has the vertices indices[3 t .. 3 t + 2] and belongs to
+// patch patches[t], 0 <= patches[t] < *count. A patch starts with the first triangle that has none.
+// It grows across shared edges (two common vertex indices), nearest triangles first, while the
+// triangles' normals stay within 20 degrees of the first one's. positions: x, y, z of vertex v from
+// positions[v * stride] on. A triangle without area, or with a corner that is not finite, is a
+// patch of its own. The patches are the same on every machine. Thread-safe. Returns false if memory
+// runs out.
 DIP_API bool dip_patches_find(const float *positions, size_t stride, uint32_t vertex_count,
                               const uint32_t *indices, uint32_t index_count, uint32_t *patches,
                               uint32_t *count);

@@ -1,9 +1,11 @@
-// Sample positions of every antialiasing step, in 1/256 pixel from the pixel's top left corner, and
-// the groups that adaptive antialiasing shares them out to.
+// Sample patterns: where a pixel's samples are, and the groups into which adaptive antialiasing
+// divides them. Positions are in 1/256 pixel from the pixel's top left corner.
 //
-// Standard, 1, 2, 4, 8: the standard patterns of Direct3D and Vulkan. 6: a six-rooks lattice chosen
-// for the least error over all edge orientations, sorted by distance from the centre. The temporal
-// patterns of n samples are n-rooks about the centre whose union is a pattern of 2n-rooks.
+// The standard patterns of 1, 2, 4 and 8 samples are those of Direct3D and Vulkan. The one of 6
+// samples is a six-rooks lattice, chosen for the least error over all edge orientations and sorted
+// by distance from the centre. (In an n-rooks pattern, each of n columns and n rows has one
+// sample.) The two temporal patterns of n samples are n-rooks patterns about the pixel's centre
+// that together form a pattern of 2n-rooks. All functions are thread-safe.
 #ifndef DIP_RENDERER_PIPELINE_PATTERN_H
 #define DIP_RENDERER_PIPELINE_PATTERN_H
 
@@ -18,51 +20,57 @@ extern "C" {
 
 enum {
     DIP_MAX_SAMPLES = 8,
-    DIP_SAMPLE_ROOM = 16, // so that the widest vector may be read
-    DIP_MAX_SHARING = 4,  // samples of a group, where there are several groups
+    DIP_SAMPLE_ROOM = 16, // entries of an array per sample; the widest vector can be read
+    DIP_MAX_SHARING = 4,  // most samples in a group, if there are several groups
 };
 
 typedef struct DipSamplePattern {
     int count;
-    uint8_t least; // of all coordinates
-    uint8_t greatest;
+    uint8_t least;    // smallest of all coordinates in x and y
+    uint8_t greatest; // greatest of all coordinates in x and y
     uint8_t x[DIP_SAMPLE_ROOM];
     uint8_t y[DIP_SAMPLE_ROOM];
-    // sharing[n]: the groups of n samples each, one bit per sample, where such groups are: chosen
-    // so that their centroids, taken as a pattern, have the least error over all orientations.
+    // sharing[n][g]: the samples of group g, one bit per sample, if the pattern divides into
+    // several groups of n >= 2 samples; otherwise 0. The groups are chosen so that their centroids,
+    // taken as a pattern, have the least error over all edge orientations.
     uint8_t sharing[DIP_MAX_SHARING + 1][DIP_MAX_SAMPLES];
 } DipSamplePattern;
 
 typedef enum DipPatternKind {
     DIP_PATTERN_STANDARD,
-    DIP_PATTERN_EVEN, // of temporal antialiasing: frames 0, 2, ...
-    DIP_PATTERN_ODD,
+    DIP_PATTERN_EVEN, // temporal antialiasing, frames 0, 2, ...
+    DIP_PATTERN_ODD,  // temporal antialiasing, frames 1, 3, ...
     DIP_PATTERN_KINDS
 } DipPatternKind;
 
-// sample_count: 1, 2, 4, 6 or 8. Static storage.
+// Returns the standard pattern of 1, 2, 4, 6 or 8 samples. Static storage.
 DIP_API const DipSamplePattern *dip_sample_pattern(int sample_count);
 
-// The same; a single sample stays in the centre whatever the kind.
+// Returns a kind's pattern of 1, 2, 4, 6 or 8 samples. A single sample is at the pixel's centre in
+// every kind. Static storage.
 DIP_API const DipSamplePattern *dip_sample_pattern_of(int sample_count, DipPatternKind kind);
 
+// Returns the kind of pattern that a frame uses with or without temporal antialiasing.
 static inline DipPatternKind dip_pattern_kind(bool temporal, uint64_t frame_index) {
     return !temporal ? DIP_PATTERN_STANDARD : frame_index % 2 ? DIP_PATTERN_ODD : DIP_PATTERN_EVEN;
 }
 
-// Adaptive antialiasing of one pattern.
+// The groups of one pattern's samples, for adaptive antialiasing.
 typedef struct DipSampleGroups {
-    int count;                        // 1: a single group, no adaptive antialiasing
-    uint8_t samples[DIP_MAX_SAMPLES]; // of each group, one bit each
-    uint8_t sharing[DIP_MAX_SAMPLES]; // per sample: the samples of its group
-    // The mean position of any set of samples (its bits the index), rounded down: x | y << 8.
+    int count;                        // number of groups; 1: no adaptive antialiasing
+    uint8_t samples[DIP_MAX_SAMPLES]; // of each group, one bit per sample
+    uint8_t sharing[DIP_MAX_SAMPLES]; // per sample: all samples of its group, one bit each
+    // Mean position of every set of samples, rounded down, as x | y << 8. The index is the set, one
+    // bit per sample; the entry of the empty set is 0.
     int32_t centroid[1 << DIP_MAX_SAMPLES];
 } DipSampleGroups;
 
-// Whether the count's samples can be shared out to groups of so many.
+// Returns whether adaptive antialiasing can divide sample_count samples into groups of
+// samples_per_group.
 DIP_API bool dip_sample_groups_exist(int sample_count, int samples_per_group);
 
-// samples_per_group: one that dip_sample_groups_exist says is there.
+// Fills in the groups of a pattern. samples_per_group: a number for which dip_sample_groups_exist
+// returns true.
 DIP_API void dip_sample_groups_make(DipSampleGroups *groups, const DipSamplePattern *pattern,
                                     int samples_per_group);
 

@@ -77,6 +77,7 @@ typedef struct DipPipeline DipPipeline;
 // Fails with RANGE, UNSUPPORTED (an instruction set that this machine lacks) or MEMORY.
 DIP_API DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height,
                                          DipError *err);
+// Frees a pipeline that draws nothing. *pipeline may be NULL and becomes NULL.
 DIP_API void dip_pipeline_destroy(DipPipeline **pipeline);
 
 // Draws a pass and adds to *counters and *times. It fails with
@@ -111,7 +112,7 @@ DIP_API bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool 
                                       DipError *err);
 
 // Allocates what drawing the pass needs, so that drawing it later allocates nothing (except what
-// clipping may add). The pass's target and uniforms are not read.
+// clipping may add). The pass's target and uniforms are not read. Fails with OVERSIZED or MEMORY.
 DIP_API bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err);
 
 #ifdef __cplusplus

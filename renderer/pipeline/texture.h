@@ -45,23 +45,25 @@ typedef struct DipTexture DipTexture;
 DIP_API DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err);
 
 // Makes textures[0..count-1] with their mip chains on the pool (NULL: on the caller's thread), all
-// or none. The texels are the same for every number of threads.
+// or none. The texels are the same for every number of threads. Fails with RANGE (size) or MEMORY.
 // used: textures[i] becomes NULL where used[i] is false; NULL means all are used.
-// keep_alpha: the alpha plane is kept where keep_alpha[i] is true; NULL means wherever some texel
-// is not opaque.
+// keep_alpha: the alpha plane may be left out where keep_alpha[i] is false; NULL means all may have
+// one. A texture has one only if some texel is not opaque.
 DIP_API bool dip_textures_create(const DipTextureDef *defs, const bool *used,
                                  const bool *keep_alpha, int count, DipPool *pool,
                                  DipTexture **textures, DipError *err);
 
-// Makes a texture whose mip levels are the given pictures, of any sizes, instead of a chain of
-// halves. level_count: 1..DIP_MAX_LEVELS.
+// Makes a texture whose mip levels are the given pictures, of any sizes, instead of a filtered
+// chain. level_count: 1..DIP_MAX_LEVELS. The texture has no alpha, and its address modes are those
+// of levels[0]. Fails with RANGE (size) or MEMORY.
 DIP_API DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
                                                    DipError *err);
 
 // Makes compressed[i] from textures[i] as BC1 shows it: the colours of every level are encoded and
 // decoded, at the same size in memory. compressed[i] is NULL where wanted[i] is false; all or none
 // are made. It shares the alpha plane of textures[i], which must outlive it. Runs on the pool
-// (NULL: on the caller's thread); the texels are the same for every number of threads.
+// (NULL: on the caller's thread); the texels are the same for every number of threads. Fails with
+// MEMORY.
 DIP_API bool dip_textures_compress(DipTexture *const *textures, const bool *wanted, int count,
                                    DipPool *pool, DipTexture **compressed, DipError *err);
 
@@ -77,7 +79,7 @@ DIP_API void dip_texture_level_size(const DipTexture *texture, int level, int *w
 DIP_API uint64_t dip_texture_colour_bytes(const DipTexture *texture);
 DIP_API uint64_t dip_texture_alpha_bytes(const DipTexture *texture);
 
-// How a shader reads a texture. Numbers of levels of detail are in 1/256 level.
+// How a shader reads a texture. Levels of detail are in units of 1/256 level.
 typedef struct DipSampler {
     const DipTexture *texture;
     int max_anisotropy; // 1 (trilinear) .. 16 (probes along the long axis of a footprint)
@@ -86,7 +88,7 @@ typedef struct DipSampler {
     bool exact_footprint;
     int32_t bias_lod8; // added to the level of detail
     int32_t min_lod8;  // smallest level of detail
-    bool cheap;        // blends levels over a quarter of the way only and halves the probes
+    bool cheap;        // blends levels over a quarter of the way only, and takes half the probes
     // Mip debugging: level l of `texture` shows level shown_level[l] of `shown`. NULL shows
     // `texture` itself.
     const DipTexture *shown;

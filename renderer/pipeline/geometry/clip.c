@@ -4,7 +4,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-// Signed distance to a clip code's plane, scaled: inside where >= 0.
+// Returns the signed, scaled distance of p from the plane of a clip code. p is inside if it is >=
+// 0.
 static double distance_to(int32_t code, const DipScreenMapping *map, const float p[4]) {
     const double x = p[0];
     const double y = p[1];
@@ -38,7 +39,8 @@ static double distance_to(int32_t code, const DipScreenMapping *map, const float
 
 static void intersect(const DipClipVertex *inside, const DipClipVertex *outside, double from,
                       double to, int varying_count, DipClipVertex *out) {
-    // Where rounding put both on one side (see keep_one_run) the outside vertex itself is taken.
+    // If rounding put both vertices on the same side (see keep_one_run), the result is the outside
+    // vertex itself.
     const double at = from / (from - to);
     const double t = at >= 0.0 && at <= 1.0 ? at : 1.0;
     for (int i = 0; i < 4; i++) {
@@ -51,9 +53,9 @@ static void intersect(const DipClipVertex *inside, const DipClipVertex *outside,
     }
 }
 
-// A plane cuts a convex polygon in one run of vertices. Where it nearly coincides with a plane that
-// cut before, rounding scatters the vertices on it to both sides; then only the run around the
-// vertex that is farthest inside stays, so that each plane adds at most one vertex.
+// A plane keeps one run of a convex polygon's vertices. If the plane nearly coincides with one that
+// has cut before, rounding scatters the vertices that lie on it to both sides. Then only the run
+// around the vertex that is farthest inside is kept, so that each plane adds at most one vertex.
 static void keep_one_run(int count, const double *side, bool *inside) {
     int changes = 0;
     int farthest = 0;

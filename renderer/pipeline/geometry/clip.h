@@ -4,6 +4,7 @@
 
 #include "renderer/pipeline/geometry/project.h"
 
+// Each plane adds at most one vertex: near, far, smallest w, four of the guard band, the user's.
 enum { DIP_MAX_CLIP_VERTICES = 3 + 7 + DIP_MAX_CLIP_PLANES };
 
 typedef struct DipClipVertex {
@@ -16,9 +17,9 @@ typedef struct DipClipPolygon {
     DipClipVertex vertex[DIP_MAX_CLIP_VERTICES];
 } DipClipPolygon;
 
-// Clips the polygon in position by the planes whose codes are set. A new vertex is always
-// interpolated from the inside to the outside one, so that two triangles that share an edge get
-// the same vertex.
+// Clips a convex polygon in place by the planes whose codes are set. Every new vertex is
+// interpolated from the inside vertex towards the outside one, so that two triangles that share an
+// edge get the same vertex.
 void dip_clip_polygon(DipClipPolygon *polygon, int32_t codes, const DipScreenMapping *map,
                       int varying_count);
 

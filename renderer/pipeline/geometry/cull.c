@@ -1,5 +1,5 @@
-// Culling by bounding boxes: of a mesh, of its groups of chunks, of its chunks. A box that lies
-// wholly inside all planes spares what it holds the test.
+// Culling by the bounding boxes of meshes, of groups of chunks and of chunks. If a box lies wholly
+// inside all planes, the boxes within it need no test.
 #include "renderer/pipeline/cull.h"
 
 #include "renderer/pipeline/geometry/chunk_cull.h"
@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-// Adds a plane. Row r of the matrix gives clip coordinate r, so a plane in clip space is a sum of
-// rows.
+// Adds a clip-space plane, transformed to the space that the matrix starts from. Row r of the
+// matrix gives clip coordinate r, so the new plane is a weighted sum of rows.
 static void transform_plane(const float *m, const float clip[4], DipCullPlanes *planes) {
     const int p = planes->count++;
     for (int c = 0; c < 4; c++) {
@@ -40,7 +40,7 @@ DipTargetRegion dip_drawn_region(const DipPass *pass) {
                              blocks_end(region->x1), blocks_end(region->y1)};
 }
 
-// The picture's region in x / w and y / w.
+// A rectangle of the picture in normalised device coordinates, x / w and y / w.
 typedef struct NdcRegion {
     float left, right, bottom, top;
 } NdcRegion;
@@ -80,7 +80,7 @@ static DipCullPlanes pass_planes(const DipPass *pass, const NdcRegion *region, c
     return planes;
 }
 
-// Rounds a matrix as the shaders have it.
+// Rounds a matrix to floats, as the shaders hold it.
 static void round_matrix(const double matrix[16], float rounded[16]) {
     for (int i = 0; i < 16; i++) {
         rounded[i] = (float)matrix[i];
@@ -104,11 +104,10 @@ static double magnitude(double v) {
     return v < 0.0 ? -v : v;
 }
 
-// Of what is summed up: covers the rounding of a matrix, of the planes and of the shader's own
-// arithmetic.
+// Relative tolerance. It covers float rounding in the matrix, the planes and the vertex shader.
 #define ROUNDING 1e-5f
 
-// Four planes at once.
+// One value for each of four planes.
 typedef float Floats __attribute__((vector_size(16)));
 typedef int32_t Ints __attribute__((vector_size(16)));
 
@@ -128,10 +127,10 @@ static bool any(Ints mask) {
     return halves[0] | halves[1];
 }
 
-// How a box lies to planes v * 4 and on.
+// How a box lies relative to planes 4 v .. 4 v + 3.
 typedef struct Sides {
-    Ints outside; // wholly
-    Ints crossed; // not wholly inside
+    Ints outside; // the box is wholly outside the plane
+    Ints crossed; // the box is not wholly inside the plane
 } Sides;
 
 static Sides sides_of(const DipCullPlanes *planes, const DipBox *box, int v) {
@@ -149,8 +148,8 @@ static Sides sides_of(const DipCullPlanes *planes, const DipBox *box, int v) {
     return (Sides){distance + radius < -margin, distance - radius <= margin};
 }
 
-// Whether a box lies outside one of the planes; else *crosses tells whether it crosses some, so
-// that what it holds needs to be asked.
+// Returns whether a box lies wholly outside one of the planes. *crosses tells whether it is not
+// wholly inside all of them, so that the boxes within it have to be tested.
 static bool outside(const DipCullPlanes *planes, const DipBox *box, bool *crosses) {
     Sides all = sides_of(planes, box, 0);
     for (int v = 1; 4 * v < planes->count; v++) {

@@ -1,4 +1,5 @@
-// The geometry phase: transforming chunks in view, clipping, set-up and binning, by jobs.
+// The geometry stage. Its jobs transform the chunks in view, then clip, set up and bin their
+// triangles.
 #include "renderer/pipeline/geometry/geometry.h"
 
 #include "renderer/pipeline/geometry/chunk_cull.h"
@@ -10,15 +11,15 @@
 #include <string.h>
 
 enum {
-    TRIANGLE_RUN = 1024, // triangles that a job takes room for at a time
-    BLOCK_RUN = 32,      // bin blocks, likewise
-    // What the end of a run may leave unused.
+    TRIANGLE_RUN = 1024, // triangles that a job takes space for at a time
+    BLOCK_RUN = 32,      // bin blocks that a job takes at a time
+    // Most triangles that stay unused at the end of a run.
     TRIANGLE_RUN_WASTE = DIP_SETUP_BATCH + DIP_SETUP_EXCESS,
-    LEAST_SLACK = 4096,
-    MEAN_BIN_TILES = 2, // per triangle, of a pass of very many
+    LEAST_SLACK = 4096, // triangles
+    MEAN_BIN_TILES = 2, // tiles per triangle that a pass with very many triangles has space for
 };
 
-// From the region on, what rounding in the clipper may add.
+// Margin around the region, so that rounding in the clipper never rejects a visible triangle.
 enum { REJECT_MARGIN_PX = 16 };
 
 static float bounded(float ndc) {
@@ -52,7 +53,7 @@ DipScreenMapping dip_screen_mapping(const DipPass *pass) {
 
 // --- room --------------------------------------------------------------------------------------
 
-// What a pass needs room for, whatever is in view.
+// The lengths of the arrays that a pass needs, whatever is in view.
 typedef struct Needs {
     uint32_t draws;
     uint64_t chunks;
@@ -82,7 +83,7 @@ static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
     const uint64_t total = needs.triangles + geometry->slack;
     needs.triangles = total * TRIANGLE_RUN / (TRIANGLE_RUN - TRIANGLE_RUN_WASTE) +
                       jobs * TRIANGLE_RUN + DIP_SETUP_EXCESS;
-    // Every bin may end in a block that is not full.
+    // Every bin may end with a block that is not full.
     const uint64_t entries =
         least(total * DIP_MAX_BIN_TILES, total * MEAN_BIN_TILES + (uint64_t)16 * geometry->slack);
     needs.blocks = entries / DIP_BIN_BLOCK +
@@ -91,8 +92,8 @@ static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
     return needs;
 }
 
-// Refuses a pass whose triangles cannot be counted, before any array is made for it: kernels gather
-// surfaces with signed indices.
+// Refuses a pass that has too many triangles before any array is made for it: kernels gather planes
+// with signed 32-bit indices.
 static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
     return needs->triangles <= INT32_MAX / (uint64_t)needs->plane_stride ||
            dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, "pass",
@@ -101,7 +102,7 @@ static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
                          INT32_MAX / needs->plane_stride);
 }
 
-// Reallocates without keeping the content.
+// Makes an array anew, without keeping its content.
 static bool replace(void *pointer_to_array, size_t count, size_t size) {
     void **array = pointer_to_array;
     free(*array);
@@ -185,7 +186,7 @@ bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *
     return true;
 }
 
-// Numbers from 1 for the patches of all draws.
+// Numbers the patches of all draws, from 1.
 static void number_patches(DipGeometry *geometry) {
     uint32_t next = 1;
     for (int d = 0; d < geometry->pass->draw_count; d++) {
@@ -205,8 +206,9 @@ static bool is_wanted(const DipGeometry *geometry, size_t tile) {
     return !parts || parts[tile].x1;
 }
 
-// Threads take tiles in turn: in groups of 2x2 they are at neighbours for longer, which read much
-// the same texels and triangles, than along rows.
+// Threads take tiles in the order of this list. It goes by groups of 2x2 tiles: threads then work
+// on neighbouring tiles, which read much the same texels and triangles, for longer than if it went
+// along rows.
 enum { TILE_GROUP = 2 };
 
 static void list_group(DipGeometry *geometry, int x0, int y0) {
@@ -272,7 +274,7 @@ bool dip_geometry_grow_after_overflow(DipGeometry *geometry) {
     for (int j = 0; j < geometry->job_count; j++) {
         overflowed |= geometry->jobs[j].overflowed;
     }
-    // By half of what there is room for, at least.
+    // The slack grows by at least half of the present space for triangles.
     if (overflowed) {
         geometry->slack = geometry->slack * 2 + geometry->triangle_room / 2;
     }
@@ -292,6 +294,7 @@ void dip_geometry_free(DipGeometry *geometry) {
 
 // --- binning -----------------------------------------------------------------------------------
 
+// A job while it runs.
 typedef struct JobRun {
     DipGeometry *geometry;
     const DipKernels *kernels;
@@ -299,14 +302,15 @@ typedef struct JobRun {
     DipTileBin *bins;
     const DipDraw *draw;
     DipSetupTarget target;
-    uint32_t next_triangle; // of the run in hand
+    uint32_t next_triangle; // index of the next free triangle of the run that the job has taken
     uint32_t triangle_end;
-    uint32_t next_block; // likewise
+    uint32_t next_block; // index of the next free block of the run that the job has taken
     uint32_t block_end;
-    DipGeometryJob job; // to be stored at the end, so that jobs share no cache line while they run
+    // Stored to the geometry at the end, so that running jobs do not share cache lines.
+    DipGeometryJob job;
 } JobRun;
 
-// The next block of the job's room; false when the room ends.
+// Takes a bin block for the job. Returns false if the space for blocks is used up.
 static bool take_block(JobRun *run, uint32_t *block) {
     if (run->next_block == run->block_end) {
         DipGeometry *geometry = run->geometry;
@@ -371,7 +375,8 @@ static void bin_triangle(JobRun *run, uint32_t index) {
 
 // --- set-up ------------------------------------------------------------------------------------
 
-// Room for `count` triangles in a row at next_triangle; false when the room ends.
+// Makes sure that there is space for `count` triangles from next_triangle on. Returns false if the
+// space for triangles is used up.
 static bool take_triangles(JobRun *run, uint32_t count) {
     if (run->triangle_end - run->next_triangle < count) {
         DipGeometry *geometry = run->geometry;
@@ -403,7 +408,7 @@ static void add_batch(JobRun *run, const DipSetupBatch *batch) {
     run->job.triangles_drawn += (uint64_t)count;
 }
 
-// Clips a triangle and sets up the fan of what remains.
+// Clips a triangle and sets up the polygon that remains as a fan of triangles.
 static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, int32_t codes) {
     const DipGeometryScratch *scratch = run->scratch;
     const int varying_count = run->draw->varying_count;
@@ -451,12 +456,13 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
 
 // --- one job -----------------------------------------------------------------------------------
 
-// All vertices of a triangle beyond the same one of these: it is not seen.
+// A triangle is invisible if all its vertices lie outside the same one of these planes.
 enum {
     REJECT = DIP_CLIP_PICTURE | DIP_CLIP_NEAR | DIP_CLIP_FAR | DIP_CLIP_W | DIP_CLIP_ALL_USER,
 };
 
-// A chunk with vertices to clip at: its triangles in order, those between two clipped ones at once.
+// Adds the triangles of a chunk in which some have to be clipped. Their order is kept; the
+// triangles between two clipped ones are set up as one batch.
 static void add_clipped_chunk(JobRun *run, const DipSetupBatch *chunk) {
     uint8_t corner[3][DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {{0}};
     uint32_t patch[DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {0};
@@ -514,7 +520,8 @@ static void add_chunk_triangles(JobRun *run, const DipChunk *chunk) {
     if (any & (DIP_CLIP_NEEDED | DIP_CLIP_INVALID)) {
         add_clipped_chunk(run, &batch);
     } else {
-        // Triangles beyond one side of the picture have no pixel in it: set-up drops them.
+        // Set-up drops the triangles beyond one side of the picture, since they have no pixel in
+        // it.
         add_batch(run, &batch);
     }
 }

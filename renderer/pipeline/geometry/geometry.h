@@ -1,9 +1,9 @@
-// The geometry phase: meshes to set-up triangles, binned to tiles.
+// The geometry stage: turns meshes into set-up triangles and bins them to tiles.
 //
-// The chunks of a pass that may be in view are cut into a fixed number of jobs, whatever the number
-// of threads. Jobs take room for their triangles from shared arrays by runs, without locks; within
-// a job, a triangle's index rises with submission order. Tiles read the jobs in order, which is
-// submission order too.
+// The chunks of a pass that may be in view are cut into jobs, whose number does not depend on the
+// number of threads. A job takes space for its triangles from shared arrays, a run at a time and
+// without locks. Within a job, a triangle's index rises with submission order. Tiles read the jobs
+// in order, so they see all triangles in submission order.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_GEOMETRY_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_GEOMETRY_H
 
@@ -20,73 +20,80 @@
 
 enum {
     DIP_MAX_JOBS = 64,
-    DIP_MAX_BIN_TILES = 16, // a triangle in more tiles goes to its job's list of wide ones
-    DIP_BIN_BLOCK = 15,     // entries
+    // A triangle that meets more tiles goes to its job's bin of wide triangles.
+    DIP_MAX_BIN_TILES = 16,
+    DIP_BIN_BLOCK = 15, // triangles of a block
+    // A bin for each tile of the largest target, and one for wide triangles.
     DIP_MAX_BINS = DIP_MAX_TARGET_SIZE / DIP_TILE * (DIP_MAX_TARGET_SIZE / DIP_TILE) + 1,
-    DIP_BIN_WORDS = (DIP_MAX_BINS + 63) / 64,
+    DIP_BIN_WORDS = (DIP_MAX_BINS + 63) / 64, // words of 64 bits, with one bit per bin
 };
 
-#define DIP_NO_TRIANGLE 0xffffffffu // beyond every index
+#define DIP_NO_TRIANGLE 0xffffffffu // greater than every index
 
-// A cache line of a bin's list.
+// A block of a bin's list. It fills one cache line.
 typedef struct DipBinBlock {
-    uint32_t triangle[DIP_BIN_BLOCK]; // in rising order
+    uint32_t triangle[DIP_BIN_BLOCK]; // indices of triangles, in rising order
     uint32_t next;                    // index of the next block, unless this is the last
 } DipBinBlock;
 
-// One job's triangles in one tile.
+// The triangles of one job in one tile, as a list of blocks.
 typedef struct DipTileBin {
-    uint32_t first; // block
-    uint32_t last;
-    uint32_t last_count; // entries of the last block; the others are full
+    uint32_t first;      // index of the first block
+    uint32_t last;       // index of the last block
+    uint32_t last_count; // triangles in the last block; the other blocks are full
 } DipTileBin;
 
+// A chunk that may be in view.
 typedef struct DipVisibleChunk {
-    uint32_t draw;
-    uint32_t chunk; // of the draw's mesh
+    uint32_t draw;  // index into the pass's draws
+    uint32_t chunk; // index into the chunks of the draw's mesh
 } DipVisibleChunk;
 
-// Written once, at the end of a job.
+// A job: some of the visible chunks, and what it did with them. The job writes this once, at its
+// end.
 typedef struct DipGeometryJob {
-    uint32_t first_chunk; // of the visible ones
+    uint32_t first_chunk; // index into the visible chunks
     uint32_t chunk_count;
-    bool overflowed; // there was not enough room
+    bool overflowed; // a shared array did not have enough space
     uint64_t triangles_in;
     uint64_t triangles_drawn;
     uint64_t tile_triangles;
 } DipGeometryJob;
 
-// All arrays grow when a pass needs more than any before it, never within a frame otherwise. They
-// have room for all triangles of the pass, but what is not in view is not written, so its pages
-// cost no memory.
+// What the geometry stage of a pass produces. The arrays grow if a pass needs more than any pass
+// before it; otherwise drawing allocates nothing. They have space for all triangles of the pass,
+// but only those in view are written, so the other pages cost no memory.
 typedef struct DipGeometry {
     const DipPass *pass;
     DipScreenMapping mapping;
-    DipSamplePositions samples; // those of all passes that are drawn from this geometry
+    DipSamplePositions samples; // of all passes that are drawn from this geometry
     int tiles_x;
     int tiles_y;
     DipTargetRegion region;       // pixels that are drawn, see dip_drawn_region
-    DipTargetRegion tile_region;  // tiles that these lie in
-    int tile_count;               // to be drawn
-    uint16_t tiles[DIP_MAX_BINS]; // which, in the order of drawing: y * tiles_x + x
-    int plane_stride;             // floats per triangle: that of the pass' largest varying count
+    DipTargetRegion tile_region;  // the tiles that hold these pixels, counted in tiles
+    int tile_count;               // number of tiles to draw
+    uint16_t tiles[DIP_MAX_BINS]; // tiles to draw, in drawing order: y * tiles_x + x
+    int plane_stride;             // floats per triangle, for the pass's largest varying_count
     int job_count;
     DipGeometryJob jobs[DIP_MAX_JOBS];
+    // Number of visible chunks, and the lengths of the arrays below.
     uint32_t visible_count;
     uint32_t visible_room;
     uint32_t triangle_room;
     uint32_t block_room;
     size_t plane_room; // floats
     uint32_t draw_room;
-    uint32_t slack;        // triangles beyond those of the meshes, and blocks; grows with overflows
-    uint32_t *first_patch; // of each draw: the number of its mesh's patch 0
+    // Triangles that the arrays have space for beyond those of the meshes, because clipping adds
+    // triangles. The space for bin blocks grows with it. It becomes larger after an overflow.
+    uint32_t slack;
+    uint32_t *first_patch; // per draw: the number of its mesh's patch 0
     DipVisibleChunk *visible;
     DipTriangle *triangles;
     float *planes;
     DipBinBlock *blocks;
-    DipTileBin *bins;   // [job][tile], the job's wide triangles last
-    uint64_t *occupied; // [tile / 64][job]: bit tile % 64 is set where the bin is not empty
-    atomic_uint triangles_taken;
+    DipTileBin *bins;   // [job][tile]; each job's bin of wide triangles is its last
+    uint64_t *occupied; // [bin / 64][job]: bit bin % 64 is set if the job's bin is not empty
+    atomic_uint triangles_taken; // that jobs have taken space for
     atomic_uint blocks_taken;
 } DipGeometry;
 
@@ -100,11 +107,13 @@ typedef struct DipGeometryScratch {
     uint64_t occupied[DIP_BIN_WORDS];
 } DipGeometryScratch;
 
+// Returns the number of tiles of the target.
 static inline size_t dip_geometry_tiles(const DipGeometry *geometry) {
     return (size_t)geometry->tiles_x * (size_t)geometry->tiles_y;
 }
 
-// The job's triangles of a bin, NULL where there is none. Bin dip_geometry_tiles: the wide ones.
+// Returns one of a job's bins, or NULL if it is empty. Bins 0..dip_geometry_tiles - 1 are those of
+// the tiles, bin dip_geometry_tiles that of the wide triangles.
 static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, int job, size_t bin) {
     const uint64_t word = geometry->occupied[bin / 64 * DIP_MAX_JOBS + (size_t)job];
     return word >> bin % 64 & 1
@@ -112,23 +121,24 @@ static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, in
                : NULL;
 }
 
-// Makes room for the pass.
+// Makes the arrays large enough for a pass. Fails with OVERSIZED or MEMORY.
 bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *err);
 
-// Finds the chunks in view of the first pass, cuts them into jobs and makes room for its triangles.
-// The other passes are drawn from the same geometry: they differ in samples and shading alone.
-// pass_count: 1..DIP_MAX_PASSES_AT_ONCE.
+// Finds the chunks in view of the first pass, cuts them into jobs, and makes the arrays large
+// enough. The other passes are drawn from the same geometry: they differ from the first only in
+// samples and shading. pass_count: 1..DIP_MAX_PASSES_AT_ONCE. Fails with OVERSIZED or MEMORY.
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *const *passes, int pass_count,
                         DipError *err);
 
-// Runs one job; any thread.
+// Runs one job. Threads may run different jobs at the same time.
 void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int job,
                           DipGeometryScratch *scratch);
 
-// After all jobs: true when some overflowed; then the slack has grown and the pass must begin
-// again.
+// Call this after all jobs. Returns true if a job overflowed; then the slack has grown, and the
+// stage must start again with dip_geometry_begin.
 bool dip_geometry_grow_after_overflow(DipGeometry *geometry);
 
+// Frees all arrays and sets *geometry to zero.
 void dip_geometry_free(DipGeometry *geometry);
 
 #endif

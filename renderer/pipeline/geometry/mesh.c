@@ -1,4 +1,4 @@
-// Splitting a mesh into chunks.
+// Makes a mesh: splits its triangles into chunks, bounds them and finds their patches.
 #include "renderer/pipeline/geometry/mesh_layout.h"
 
 #include "renderer/base/assert.h"
@@ -10,19 +10,20 @@
 
 enum { MAX_INDICES = 1 << 30 }; // so that 32 bits count the chunks' vertices and corners
 
-// Which vertex of the chunk being built a source vertex is, if it is one.
+// Which vertex of the current chunk a source vertex is.
 typedef struct LocalIndex {
-    uint32_t chunk; // index + 1 of the chunk that saw it last
+    uint32_t chunk; // index + 1 of the last chunk that has this source vertex
     uint8_t index;
 } LocalIndex;
 
+// A mesh while it is split.
 typedef struct Splitter {
     const DipMeshData *data;
     DipMesh *mesh;
-    LocalIndex *local; // per source vertex
-    uint32_t *source;  // per chunk vertex, the source vertex; vertex_total of them
-    uint32_t index_total;
-    uint8_t corner[3][DIP_CHUNK_TRIANGLES]; // of the chunk being built
+    LocalIndex *local;    // per source vertex
+    uint32_t *source;     // per chunk vertex: its source vertex; vertex_total of them
+    uint32_t index_total; // indices of the chunks that are complete
+    uint8_t corner[3][DIP_CHUNK_TRIANGLES]; // of the current chunk
 } Splitter;
 
 static bool check_data(const DipMeshData *data, DipError *err) {
@@ -56,7 +57,7 @@ static bool check_data(const DipMeshData *data, DipError *err) {
     return true;
 }
 
-// Starts a chunk at the next free index and aligned vertex.
+// Starts a chunk at the next free index and the next free, aligned vertex.
 static DipChunk *begin_chunk(Splitter *splitter, uint32_t triangle) {
     DipMesh *mesh = splitter->mesh;
     DipChunk *chunk = &mesh->chunks[mesh->chunk_count++];
@@ -66,6 +67,7 @@ static DipChunk *begin_chunk(Splitter *splitter, uint32_t triangle) {
     return chunk;
 }
 
+// Returns how many of a triangle's vertices the current chunk does not have yet.
 static uint32_t missing_vertices(const Splitter *splitter, const uint32_t *corner) {
     uint32_t missing = 0;
     for (int i = 0; i < 3; i++) {
@@ -105,7 +107,7 @@ static void end_chunk(Splitter *splitter, const DipChunk *chunk) {
     splitter->mesh->vertex_total = end;
 }
 
-// Cuts the triangles, in their order, into chunks.
+// Splits the triangles into chunks, in their order.
 static void split(Splitter *splitter) {
     const DipMeshData *data = splitter->data;
     DipChunk *chunk = NULL;
@@ -143,6 +145,7 @@ typedef struct Range {
     float high[3];
 } Range;
 
+// The empty range.
 static const Range nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
 static void add_range(Range *range, const Range *other) {
@@ -158,7 +161,7 @@ static DipBox box_of(const Range *range) {
         const float low = range->low[axis];
         const float high = range->high[axis];
         box.centre[axis] = low * 0.5f + high * 0.5f;
-        // Rounded outwards, so that the box holds its vertices.
+        // The extent is rounded up, so that the box holds its vertices.
         box.extent[axis] = fmaxf(high - box.centre[axis], box.centre[axis] - low) * 1.000001f;
     }
     return box;
@@ -203,7 +206,7 @@ static bool find_patches(DipMesh *mesh, const DipMeshData *data) {
                             data->indices, data->index_count, mesh->patches, &mesh->patch_count);
 }
 
-// Room for the worst split: every chunk is full of triangles or of vertices.
+// Allocates arrays for the worst split, in which no two triangles share a vertex.
 static bool allocate_split(Splitter *splitter) {
     const size_t triangles = splitter->data->index_count / 3;
     const size_t chunks = triangles / (DIP_VERTEX_BATCH / 3) + 1;

@@ -1,4 +1,5 @@
-// Inside of a mesh: chunks of up to 128 triangles that are culled and transformed as one.
+// The inside of a mesh: chunks of up to 128 triangles, each of which is culled and transformed as a
+// whole.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_MESH_LAYOUT_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_MESH_LAYOUT_H
 
@@ -7,20 +8,20 @@
 
 enum {
     DIP_CHUNK_TRIANGLES = 128,
-    DIP_GROUP_CHUNKS = 32, // a box holds so many chunks
+    DIP_GROUP_CHUNKS = 32, // chunks of a group, which has a bounding box of its own
 };
 
 typedef struct DipChunk {
     DipBox box;
-    uint32_t first_vertex;   // into each attribute's array; a multiple of DIP_BATCH_ALIGN
+    uint32_t first_vertex;   // index into each attribute's array; a multiple of DIP_BATCH_ALIGN
     uint32_t vertex_count;   // 1..DIP_VERTEX_BATCH
-    uint32_t first_index;    // into the indices
-    uint32_t first_triangle; // into the patches
+    uint32_t first_index;    // index into `indices` of the mesh
+    uint32_t first_triangle; // index into `patches` of the mesh
     uint32_t triangle_count; // 1..DIP_CHUNK_TRIANGLES
 } DipChunk;
 
-// Corner k of a chunk's triangle t is indices[first_index + k * dip_corner_stride(chunk) + t]; each
-// row is padded with valid indices.
+// Returns the distance between the three rows of a chunk's corners: corner k of triangle t is
+// indices[first_index + k * dip_corner_stride(chunk) + t]. Each row is padded with valid indices.
 static inline uint32_t dip_corner_stride(const DipChunk *chunk) {
     return (chunk->triangle_count + DIP_BATCH_ALIGN - 1) / DIP_BATCH_ALIGN * DIP_BATCH_ALIGN;
 }
@@ -29,13 +30,15 @@ struct DipMesh {
     int attribute_count;
     uint32_t chunk_count;
     uint32_t triangle_count;
-    uint32_t vertex_total; // of all chunks, padded; the length of each attribute's array
+    uint32_t vertex_total; // vertices of all chunks, padded; the length of each attribute's array
     DipChunk *chunks;
-    DipBox *groups; // of chunks DIP_GROUP_CHUNKS * i and on
+    DipBox *groups; // box i bounds the group that starts with chunk DIP_GROUP_CHUNKS * i
     DipBox box;
     float *attributes; // attribute a of vertex i: attributes[a * vertex_total + i]
-    uint8_t *indices;  // within the chunk's vertices
-    uint32_t *patches; // of triangle t of the mesh, see patch.h; DIP_BATCH_ALIGN more may be read
+    uint8_t *indices;  // per corner: which vertex of the chunk
+    // patches[t] is the patch of triangle t of the mesh (patch.h). Reads may go DIP_BATCH_ALIGN
+    // elements past the last triangle.
+    uint32_t *patches;
     uint32_t patch_count;
     float min[3];
     float max[3];

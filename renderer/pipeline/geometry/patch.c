@@ -1,13 +1,13 @@
-// Growing patches of triangles that join smoothly.
+// Grows patches of triangles that join smoothly.
 #include "renderer/pipeline/patch.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// The square of the cosine of the greatest angle to the first triangle's normal, 20 degrees.
+// The squared cosine of 20 degrees, the greatest angle to the first triangle's normal.
 static const double least_cosine2 = 0.883;
 
-#define FREE UINT32_MAX // of any patch
+#define FREE UINT32_MAX // the triangle has no patch yet
 
 typedef struct Grower {
     const float *positions;
@@ -16,12 +16,12 @@ typedef struct Grower {
     uint32_t *patches;
     uint32_t *first; // vertex v has the triangles at[first[v]] .. at[first[v + 1] - 1]
     uint32_t *at;
-    uint32_t queue[DIP_PATCH_TRIANGLES]; // of the patch in hand
+    uint32_t queue[DIP_PATCH_TRIANGLES]; // triangles of the patch that is growing
     uint32_t queued;
-    double normal[3]; // of its first triangle
+    double normal[3]; // of the patch's first triangle, twice its area long
 } Grower;
 
-// Twice the area's vector.
+// Finds a triangle's normal; its length is twice the area.
 static void find_normal(const Grower *grower, uint32_t triangle, double normal[3]) {
     const float *corner[3];
     for (int k = 0; k < 3; k++) {
@@ -64,8 +64,9 @@ static uint32_t fan_size(const Grower *grower, uint32_t vertex) {
     return grower->first[vertex + 1] - grower->first[vertex];
 }
 
-// Takes the free triangles at an edge of the patch, as far as there is room. They are looked for at
-// the end that fewer share, and only at a few, so that no mesh takes long.
+// Adds the free triangles across one edge of the patch, as long as it has space. It looks for them
+// among the triangles of the end that has fewer, and not at all if these are many, so that no mesh
+// takes long.
 static void take_neighbours(Grower *grower, uint32_t a, uint32_t b, uint32_t patch) {
     const uint32_t end = fan_size(grower, b) < fan_size(grower, a) ? b : a;
     if (fan_size(grower, end) > DIP_PATCH_FAN) {

@@ -2,10 +2,10 @@
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/vec.h"
 
-// Adding and taking away 1.5 * 2^23 rounds |v| <= 2^22 to the nearest integer, ties to even.
+// Adding and subtracting 1.5 * 2^23 rounds |v| <= 2^22 to the nearest integer, ties to even.
 #define ROUNDER 12582912.0f
 
-// (ndc + 1) * half in 1/256 pixel, rounded and bounded to what an int32 of 24.8 may hold.
+// Returns (ndc + 1) * half in 1/256 pixel, clamped to +-2^22 and rounded.
 VEC_INLINE Vi to_subpixels(Vf ndc, float half_subpixels) {
     const Vf at = ndc * half_subpixels + half_subpixels;
     const Vf bounded = vf_min(vf_max(at, vf_splat(-4194304.0f)), vf_splat(4194304.0f));
@@ -17,7 +17,7 @@ VEC_INLINE Vi code_if(Mask outside, int32_t code) {
 }
 
 VEC_INLINE Vi too_large(Vf v) {
-    // Written so that NaN is too large.
+    // The comparison is written so that NaN counts as too large.
     return vi_select(vf_lt(vf_abs(v), vf_splat(DIP_MAX_CLIP_COORDINATE)), vi_splat(0),
                      vi_splat(DIP_CLIP_INVALID));
 }

@@ -1,4 +1,4 @@
-// Triangle set-up: projected vertices to DipTriangles with their shading planes.
+// Triangle set-up: turns projected vertices into DipTriangles with their shading planes.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_SETUP_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_SETUP_H
 
@@ -10,8 +10,8 @@
 #include <stdint.h>
 
 enum {
-    DIP_SETUP_BATCH = 128, // triangles
-    // Beyond the triangles that stay, up to this many may be overwritten with nothing of use.
+    DIP_SETUP_BATCH = 128, // most triangles of a batch
+    // Set-up may overwrite up to this many triangles behind those that it keeps.
     DIP_SETUP_EXCESS = 8,
 };
 
@@ -22,7 +22,7 @@ typedef struct DipSamplePositions {
     uint8_t y[DIP_MAX_PASSES_AT_ONCE * DIP_MAX_SAMPLES];
 } DipSamplePositions;
 
-// Adds the positions of a pattern; there is room for those of DIP_MAX_PASSES_AT_ONCE patterns.
+// Adds the positions of a pattern. There is space for DIP_MAX_PASSES_AT_ONCE patterns.
 static inline void dip_sample_positions_add(DipSamplePositions *positions,
                                             const DipSamplePattern *pattern) {
     for (int s = 0; s < pattern->count; s++) {
@@ -31,34 +31,36 @@ static inline void dip_sample_positions_add(DipSamplePositions *positions,
     }
 }
 
+// The target of set-up, and the draw that the triangles belong to.
 typedef struct DipSetupTarget {
     int width; // pixels
     int height;
-    int region_first[2]; // pixels x, y: triangles without a pixel in this part of the target go
-    int region_last[2];  // inclusive
+    int region_first[2]; // first pixel, x and y, of the region; a triangle outside it is dropped
+    int region_last[2];  // last pixel of the region
     int varying_count;
     int plane_stride; // floats per triangle, see dip_plane_stride
     uint32_t draw;
-    uint32_t first_patch; // the number of the draw's patch 0
+    uint32_t first_patch; // number of patch 0 of the draw's mesh
     DipCull cull;
     const DipSamplePositions *samples;
-    uint8_t sample_min[2]; // least and greatest of their positions, 1/256 pixel
-    uint8_t sample_max[2];
+    uint8_t sample_min[2]; // smallest x and y of the sample positions, 1/256 pixel
+    uint8_t sample_max[2]; // greatest x and y of them
 } DipSetupTarget;
 
-// Triangles of one draw. Arrays of corners and patches may be read to the next multiple of
-// DIP_BATCH_ALIGN and hold valid vertices there.
+// Triangles of one draw. The arrays of corners and patches can be read up to the next multiple of
+// DIP_BATCH_ALIGN, and their corners are valid vertices up to there.
 typedef struct DipSetupBatch {
     int count;                // 1..DIP_SETUP_BATCH
-    const uint8_t *corner[3]; // of triangle t: vertices corner[0..2][t] of `screen`
-    const uint32_t *patch;    // of triangle t, of the draw's
+    const uint8_t *corner[3]; // triangle t has the vertices corner[0..2][t] of `screen`
+    const uint32_t *patch;    // patch of triangle t, as the draw's mesh numbers it
     const DipScreenBatch *screen;
-    const float *varyings; // varying s of vertex v: varyings[s * varying_stride + v]
+    const float *varyings; // varying s of vertex v is varyings[s * varying_stride + v]
     int varying_stride;
 } DipSetupBatch;
 
-// dip_kernel_setup (see kernels.h) keeps, in order, the triangles that are not culled, have an area
-// and, as far as that is quickly seen, do not lie between the samples; it returns their number.
-// Triangle i of these goes to triangles[i], its planes to planes + i * plane_stride.
+// dip_kernel_setup (kernels.h) drops triangles that are culled, have no area, lie outside the
+// region, or lie between the samples as far as a quick test can tell. It keeps the others in order
+// and returns their number. It writes the i-th of them to triangles[i], and its planes to planes +
+// i * plane_stride.
 
 #endif

@@ -1,9 +1,9 @@
-// Triangle set-up, compiled once per instruction set: rejection of a batch's triangles, then the
-// edges, depth and shading planes of those that stay.
+// Triangle set-up, compiled once per instruction set. It rejects triangles of a batch, then
+// computes the edges, the depth and the shading planes of the others.
 //
-// Planes are solved in double, so that slivers keep their precision, and stored as float about a
-// chosen anchor. Rounded positions are below 2^22 and edges below 2^23, so areas and edge constants
-// are whole numbers that doubles hold exactly.
+// Planes are solved in double, so that slivers keep their precision, and stored as floats about a
+// chosen anchor. Rounded positions are below 2^22 and edges below 2^23, in 1/256 pixel, so areas
+// and edge constants are whole numbers that doubles hold exactly.
 #include "renderer/pipeline/geometry/setup.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/half.h"
@@ -12,14 +12,14 @@
 
 enum { ROOM = DIP_SETUP_BATCH + DIP_BATCH_ALIGN };
 
-// The triangles that stay, wound so that their area is positive.
+// The triangles that are kept, wound so that their area is positive.
 typedef struct Candidates {
     int32_t corner[3][ROOM];
     int32_t x[3][ROOM];
     int32_t y[3][ROOM];
     int32_t patch[ROOM];
-    int32_t first_pixel[ROOM]; // of the pixel box, x | y << 16
-    int32_t last_pixel[ROOM];
+    int32_t first_pixel[ROOM]; // first pixel of the pixel box, x | y << 16
+    int32_t last_pixel[ROOM];  // last pixel of the pixel box, which includes it
 } Candidates;
 
 // --- rejection ---------------------------------------------------------------------------------
@@ -32,16 +32,16 @@ VEC_INLINE Hi greatest3(const Hi v[3]) {
     return hi_max(hi_max(v[0], v[1]), v[2]);
 }
 
-// The first and last pixel of 0..limit-1 with a sample offset in [sample_min, sample_max] that
-// falls within the corners' range.
+// Finds the range of pixels along one axis, within 0..limit-1, in which a sample may fall between
+// the least and the greatest corner. Sample offsets lie in sample_min..sample_max.
 VEC_INLINE void pixel_range(const Hi at[3], int sample_min, int sample_max, int limit, Hi *first,
                             Hi *last) {
     *first = hi_max((least3(at) + (DIP_SUBPIXELS - 1 - sample_max)) >> 8, hi_splat(0));
     *last = hi_min((greatest3(at) - sample_min) >> 8, hi_splat(limit - 1));
 }
 
-// Twice the area in 1/256 pixel squared; counter-clockwise as seen, a front face, is negative,
-// because y points down.
+// Returns twice the area, in squares of 1/256 pixel. It is negative for front faces, which are
+// counter-clockwise as seen, because y points down.
 VEC_INLINE Vd signed_area(const Hi x[3], const Hi y[3]) {
     return vd_from_int(x[1] - x[0]) * vd_from_int(y[2] - y[0]) -
            vd_from_int(x[2] - x[0]) * vd_from_int(y[1] - y[0]);
@@ -53,14 +53,15 @@ VEC_INLINE void swap_if(Hi m, Hi *a, Hi *b) {
     *b = hi_select(m, old, *b);
 }
 
-enum { SMALL = 1 << 14 }; // 1/256 pixel; products of such distances and their differences fit
+// 1/256 pixel. Products of such distances, and the products' differences, fit into 32 bits.
+enum { SMALL = 1 << 14 };
 
 VEC_INLINE Hi is_small(const Hi at[3]) {
     return greatest3(at) - least3(at) < SMALL;
 }
 
-// Whether each triangle, small and wound so that its area is positive, covers a sample of a pixel
-// that its box meets.
+// Returns whether each triangle covers a sample of the one pixel that its box consists of. The
+// triangles must be small and wound so that their area is positive.
 VEC_INLINE Hi covers_pixel(const DipSamplePositions *samples, const Hi x[3], const Hi y[3],
                            const Hi pixel[2]) {
     Hi covers = hi_splat(0);
@@ -80,7 +81,8 @@ VEC_INLINE Hi covers_pixel(const DipSamplePositions *samples, const Hi x[3], con
     return covers;
 }
 
-// Appends the triangles of a vector that stay to the `count` ones before; returns the new count.
+// Appends those triangles of a vector that are kept to the `count` candidates before them. Returns
+// the new count.
 VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch *batch, int at,
                                int count, Candidates *out) {
     Hi corner[3];
@@ -150,8 +152,8 @@ static void pad(Candidates *candidates, int count) {
 
 // --- planes ------------------------------------------------------------------------------------
 
-// One vector of triangles: positions, and the two edges from vertex 0, in pixels, over twice their
-// area.
+// One vector of triangles, with their vertices in 1/256 pixel, and vertex 0 and the two edges from
+// it in pixels.
 typedef struct Frame {
     Hi corner[3];
     Hi x[3];
@@ -159,12 +161,13 @@ typedef struct Frame {
     Hi patch;
     Hi first_pixel;
     Hi last_pixel;
-    Vd x0, y0; // of vertex 0, pixels
-    Vd x10, y10, x20, y20;
-    Vd inverse_area; // 1 / (x10 y20 - x20 y10)
+    Vd x0, y0;             // vertex 0, pixels
+    Vd x10, y10, x20, y20; // from vertex 0 to vertices 1 and 2, pixels
+    Vd inverse_area;       // 1 / (x10 y20 - x20 y10)
 } Frame;
 
-// A value that is affine over the screen: at(x, y) = value at vertex 0 + dx (x - x0) + dy (y - y0).
+// The gradient of a value that is affine over the screen: at (x, y) it is the value at vertex 0
+// plus dx (x - x0) + dy (y - y0).
 typedef struct Gradient {
     Vd dx; // per pixel
     Vd dy;
@@ -207,9 +210,9 @@ VEC_INLINE void gather3(const float *values, const Hi corner[3], Hf out[3]) {
     }
 }
 
-// Edge i, from vertex i to the next, dx and dy in pixels: E(p) = dx (py - y) - dy (px - x) for any
-// (x, y) on it, with the top-left rule: on the edge counts only where the edge is the top
-// (horizontal, going right) or a left one (going up).
+// Computes edge i, from vertex i to the next: E(p) = dx (py - y) - dy (px - x) for any point (x, y)
+// on it, with dx and dy in pixels. By the top-left rule, a sample exactly on the edge is inside
+// only if this is a top edge (horizontal, going right) or a left edge (going up).
 VEC_INLINE void set_edge(const Frame *frame, int i, Vd dx, Vd dy, Vd x, Vd y, Hi *a, Hi *b, Vl *c) {
     const int next = (i + 1) % 3;
     const Hi subpixels_x = frame->x[next] - frame->x[i];
@@ -221,7 +224,7 @@ VEC_INLINE void set_edge(const Frame *frame, int i, Vd dx, Vd dy, Vd x, Vd y, Hi
     *c = vl_from_whole((dy * x - dx * y) * unit) + ~vl_condition(top_left);
 }
 
-// The triangles' words, in the order of DipTriangle's fields.
+// Stores a vector of DipTriangles as 64-bit words, in the order of its fields.
 VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen, uint32_t draw,
                                 DipTriangle *out) {
     Hi a[3];
@@ -258,8 +261,9 @@ VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen
     }
 }
 
-// The corner of the box of the target's pixels that the triangle touches where 1/w is smallest in
-// magnitude. Samples do not matter, so that all passes from the same geometry have the same planes.
+// Finds the corner of the box of target pixels that the triangle touches where 1/w is smallest in
+// magnitude. The box does not depend on sample positions, so that all passes from the same geometry
+// have the same planes.
 VEC_INLINE void find_anchor(const Frame *frame, const DipSetupTarget *target, Vd rw0,
                             const Gradient *q, Vd anchor[2]) {
     Hi first[2];
@@ -279,7 +283,7 @@ VEC_INLINE void find_anchor(const Frame *frame, const DipSetupTarget *target, Vd
     }
 }
 
-// Value at the anchor, d/dx, d/dy.
+// Fills in a plane: the value at the anchor, d/dx and d/dy.
 VEC_INLINE void set_plane(Hf plane[3], Vd value, const Gradient *g, const Vd to_anchor[2]) {
     plane[0] = hf_from_double(value + g->dx * to_anchor[0] + g->dy * to_anchor[1]);
     plane[1] = hf_from_double(g->dx);

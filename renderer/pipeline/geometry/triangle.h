@@ -1,4 +1,5 @@
-// A triangle after set-up: what coverage reads, and where its shading planes are.
+// A triangle after set-up: the data that coverage reads, and the layout of the triangle's shading
+// planes.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_TRIANGLE_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_TRIANGLE_H
 
@@ -9,39 +10,42 @@ enum {
     DIP_GUARD_BAND_PX = 16000 // |x|, |y| of every set-up vertex are below this
 };
 
-// Edge i: E(x, y) = a x + b y + c with x, y in 1/256 pixel from the target's corner; a sample is
-// inside where all three are >= 0 (the top-left rule is folded into c). |a|, |b| < 2^23.
+// Edge i is E(x, y) = a x + b y + c, with x and y in 1/256 pixel from the target's top left corner.
+// A sample is inside the triangle if all three edges are >= 0 there; the top-left rule is folded
+// into c. |a|, |b| < 2^23.
 typedef struct DipTriangle {
     int64_t c[3];
     int32_t a[3];
     int32_t b[3];
     int16_t x0, y0, x1, y1; // pixels that may hold covered samples, inclusive, within the target
-    uint32_t draw;          // index into the pass' draws
-    uint32_t patch;         // of all draws' patches, from 1
+    uint32_t draw;          // index into the pass's draws
+    uint32_t patch;         // number of its patch among those of all draws, from 1
     double z_origin;        // depth at the target's corner
     double z_dx;            // per pixel
     double z_dy;
-    float z_min; // of the vertices; depth is clamped to these
+    float z_min; // smallest depth of the vertices; depth is clamped to z_min..z_max
     float z_max;
 } DipTriangle;
 
-// Shading planes, in an array of their own, triangle by triangle: anchor x, y (pixels); then 1/w
-// and each varying/w as value at the anchor, d/dx, d/dy per pixel. The anchor is the corner of the
-// box of pixels that the triangle touches where 1/w is smallest, because float planes are most
-// exact near their anchor and the far end of a receding surface needs that most.
+// The shading planes of triangles have an array of their own. For each triangle it holds the
+// anchor's x and y in pixels, then a plane for 1/w and one for each varying/w. A plane is the value
+// at the anchor and the derivatives per pixel along x and y. The anchor is the corner of the box of
+// pixels that the triangle touches where 1/w is smallest in magnitude, because float planes are
+// most exact near their anchor and the far end of a receding triangle needs that most.
 enum {
     DIP_PLANES_ANCHOR = 0,
     DIP_PLANES_RW = 2,
     DIP_PLANES_VARYINGS = 5,
 };
 
+// Returns the number of floats that a triangle's planes take.
 static inline int dip_plane_floats(int varying_count) {
     return DIP_PLANES_VARYINGS + 3 * varying_count;
 }
 
-enum { DIP_PLANES_ALIGN = 8 }; // floats; set-up writes so many at once
+enum { DIP_PLANES_ALIGN = 8 }; // floats that set-up writes at once
 
-// From one triangle's planes to the next.
+// Returns the distance from one triangle's planes to the next one's, in floats.
 static inline int dip_plane_stride(int varying_count) {
     return (dip_plane_floats(varying_count) + DIP_PLANES_ALIGN - 1) / DIP_PLANES_ALIGN *
            DIP_PLANES_ALIGN;

@@ -1,14 +1,15 @@
-// Walking a tile's bins.
+// Walks the bins of a tile.
 #include "renderer/pipeline/geometry/visit.h"
 
-enum { PREFETCH_AHEAD = 3 }; // triangles; about the time of a read from another core's cache
+// Triangles. Drawing so many takes about as long as a read from another core's cache.
+enum { PREFETCH_AHEAD = 3 };
 
-// A walk along the triangles of a bin.
+// The state of a walk along a bin's triangles.
 typedef struct BinWalk {
     const DipBinBlock *block;
     const DipBinBlock *last;
     uint32_t entry;
-    uint32_t count; // of the block's entries
+    uint32_t count; // triangles in the current block
     uint32_t last_count;
 } BinWalk;
 
@@ -28,7 +29,7 @@ static void prefetch(const DipTriangle *triangle) {
     __builtin_prefetch((const char *)(triangle + 1) - 1);
 }
 
-// The next triangle's index, DIP_NO_TRIANGLE at the end.
+// Returns the next triangle's index and advances. Returns DIP_NO_TRIANGLE at the end.
 static uint32_t next_of(const DipGeometry *geometry, BinWalk *walk) {
     if (walk->entry == walk->count) {
         if (walk->block == walk->last) {
@@ -50,8 +51,9 @@ typedef struct JobWalks {
     BinWalk wide;
 } JobWalks;
 
-// The jobs that have any, in order. Reads of other cores' caches overlap: all bins first, then the
-// first blocks of all.
+// Finds the jobs that have triangles in the tile or wide ones, in order, and returns their number.
+// It prefetches the bins of all jobs and then their first blocks, so that reads from other cores'
+// caches overlap.
 static int find_jobs(const DipGeometry *geometry, size_t tile, JobWalks *found) {
     const DipTileBin *bins[DIP_MAX_JOBS][2];
     int count = 0;
@@ -76,7 +78,7 @@ static void prefetch_first(const DipGeometry *geometry, const BinWalk *walk) {
     }
 }
 
-// A tile and what is to be done with its triangles.
+// A tile, and the function that is called for its triangles.
 typedef struct Visit {
     const DipGeometry *geometry;
     int x0, y0; // the tile's first pixel
@@ -89,7 +91,8 @@ static bool in_tile(const Visit *visit, const DipTriangle *triangle) {
            triangle->y0 < visit->y0 + DIP_TILE && triangle->y1 >= visit->y0;
 }
 
-// One job's triangles of the tile, merged by index, which is submission order.
+// Visits one job's triangles in the tile. It merges the bin and the wide triangles by index, which
+// is submission order.
 static void visit_job(const Visit *visit, JobWalks *job) {
     const DipGeometry *geometry = visit->geometry;
     uint32_t next = next_of(geometry, &job->bin);

@@ -1,4 +1,4 @@
-// A tile's triangles in submission order, from the bins of all jobs.
+// Visits a tile's triangles in submission order, from the bins of all jobs.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_VISIT_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_VISIT_H
 
@@ -6,8 +6,8 @@
 
 typedef void DipVisitTriangle(void *context, uint32_t triangle);
 
-// Calls triangle() for each that may cover samples of tile 0..dip_geometry_tiles - 1, after all
-// jobs have run. Any number of threads at once.
+// Calls triangle(context, index) for each triangle that may cover samples of a tile. tile:
+// 0..dip_geometry_tiles - 1. All jobs must have run. Any number of threads may visit at once.
 void dip_geometry_visit(const DipGeometry *geometry, int tile, DipVisitTriangle *triangle,
                         void *context);
 

@@ -12,25 +12,26 @@
 
 // X(result, name, parameters): each kernel is declared and filled in from this one list.
 #define DIP_KERNEL_LIST(X)                                                                         \
-    /* Clip positions to rounded screen positions, depth, 1/w and clip codes. */                   \
+    /* Turns clip positions into rounded screen positions, depth, 1/w and clip codes. */           \
     X(void, dip_kernel_project,                                                                    \
       (const DipScreenMapping *map, int count, float *const *clip, DipScreenBatch *out))           \
-    /* Projected triangles to those that may cover samples, with their planes; see setup.h. */     \
+    /* Sets up the projected triangles that may cover samples (setup.h). */                        \
     X(int, dip_kernel_setup,                                                                       \
       (const DipSetupTarget *target, const DipSetupBatch *batch, DipTriangle *triangles,           \
        float *planes))                                                                             \
-    /* Coverage and depth of a triangle in a tile that its box reaches. clip NULL: opaque. */      \
+    /* Draws a triangle's coverage and depth in a tile that its box meets. clip NULL: opaque. */   \
     X(void, dip_kernel_draw_triangle,                                                              \
       (DipTile * tile, const DipTriangle *triangle, uint32_t id, const DipClipTest *clip))         \
-    /* The surfaces of every pixel of a tile, pushed to the lists of their draws. */               \
+    /* Adds the fragments of a tile's pixels to the lists of their draws. */                       \
     X(void, dip_kernel_collect, (DipTileShading * shading))                                        \
-    /* Varyings of a list's fragments, and derivatives but for those of the last plain_count. */   \
+    /* Interpolates varyings at a list's fragments. The last plain_count get no derivatives. */    \
     X(void, dip_kernel_interpolate,                                                                \
       (const DipShadingInput *input, const DipFragmentList *list, int varying_count,               \
        int plain_count, DipFragmentBatch *batch))                                                  \
-    /* Shaded colours to 16-bit linear light and to sRGB pixels. */                                \
+    /* Converts shaded colours to 16-bit linear light and to sRGB pixels. */                       \
     X(void, dip_kernel_encode,                                                                     \
       (const DipFragmentBatch *batch, const uint8_t *srgb_code, DipEncodedBatch *out))             \
+    /* Texture and target reads: DipSampleColour and its companions in shader.h. */                \
     X(void, dip_kernel_sample_colour,                                                              \
       (DipFragmentBatch * batch, const DipSampler *sampler, int u_varying,                         \
        float(*out)[DIP_FRAGMENT_BATCH]))                                                           \

@@ -1,4 +1,4 @@
-// Storing and averaging fragments. All sums are integers, so their order cannot matter.
+// Stores and averages fragments. All sums are integers, so the order of fragments does not matter.
 #include "renderer/pipeline/resolve/resolve.h"
 
 #include <string.h>

@@ -1,20 +1,21 @@
-// From shaded fragments to pixels: whole fragments at once, the others as sums over samples.
+// Resolve: turns shaded fragments into pixels. A fragment that holds all samples of its pixel is
+// stored at once; other fragments are added to a sum over the pixel's samples.
 #ifndef DIP_RENDERER_PIPELINE_RESOLVE_RESOLVE_H
 #define DIP_RENDERER_PIPELINE_RESOLVE_RESOLVE_H
 
 #include "renderer/pipeline/shading/tile_shading.h"
 
-// Stores the fragments of a whole list, sub-block by sub-block.
+// Stores the fragments of a list of whole sub-blocks (DipTileShading.whole_lists).
 void dip_store_whole(DipTileShading *shading, const DipFragmentList *list,
                      const DipEncodedBatch *encoded);
 
-// The list's first `count`: stores fragments that hold all their pixel's samples, adds the others
-// to their pixel's sum.
+// Handles the first `count` fragments of a list: stores those that hold all samples of their pixel,
+// and adds the others to the sum of their pixel, weighted by their number of samples.
 void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list, int count,
                          const DipEncodedBatch *encoded);
 
-// Pixels of several surfaces: the mean over the samples in linear light, then encoded.
-// srgb_code: see DipSrgbEncodeTable.
+// Stores the pixels that several fragments share: the mean over their samples in linear light,
+// encoded to sRGB. srgb_code: see DipSrgbEncodeTable.
 void dip_resolve_multi_fragment(DipTileShading *shading, const uint8_t *srgb_code);
 
 #endif

@@ -4,8 +4,8 @@
 
 #include "renderer/pipeline/pipeline.h"
 
-// Whether a pass can be drawn into a target of this size. On failure the error's key is the field
-// at fault, and the message says what was found and what is accepted.
+// Returns whether a pass can be drawn into a target of this size. On failure the error's key is the
+// field at fault, and the message says what was found and what is accepted.
 bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err);
 
 #endif

@@ -1,4 +1,4 @@
-// Drawing one tile: coverage, shading, resolve.
+// Draws one tile: coverage, then shading, then resolve.
 #include "renderer/pipeline/run/tile_worker.h"
 
 #include "renderer/base/clock.h"
@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Fills a list's tail with its last fragment, so that vectors read valid triangles.
+// Fills a list up to a multiple of DIP_BATCH_ALIGN with its last fragment, so that vectors read
+// valid triangles.
 static void pad_list(DipFragmentList *list) {
     const int last = list->count - 1;
     for (int i = list->count; i % DIP_BATCH_ALIGN; i++) {
@@ -27,7 +28,8 @@ static void bind_batch(const DipTileWorker *worker, const DipDraw *draw, DipFrag
     batch->srgb_light = worker->pass->srgb_light;
 }
 
-// Shades the first fragments of a list, at most a batch, into the worker's encoded batch.
+// Shades the first fragments of a list, at most a batch, into the worker's encoded batch. Returns
+// their number.
 static int shade_batch(DipTileWorker *worker, uint32_t draw_index, DipFragmentList *list) {
     const DipTilePass *pass = worker->pass;
     const DipDraw *draw = &pass->pass->draws[draw_index];
@@ -62,7 +64,8 @@ static void flush_whole_list(DipTileShading *shading, uint32_t draw) {
     list->count = 0;
 }
 
-// The clip shader's verdict on the fragments in the worker's clip list.
+// Runs the clip shader on the fragments in the worker's clip list. Returns a byte per fragment: 0
+// where the surface is cut away.
 static const uint8_t *clip_test(void *context, const DipTriangle *triangle) {
     DipTileWorker *worker = context;
     const DipTilePass *pass = worker->pass;

@@ -1,5 +1,5 @@
-// What a worker thread keeps to draw tiles, and what drawing a tile does: coverage, shading and
-// resolve of one 64x64-pixel tile of a pass.
+// The working memory of a worker thread, and what it does with a tile: coverage, shading and
+// resolve of 64x64 pixels of a pass.
 #ifndef DIP_RENDERER_PIPELINE_RUN_TILE_WORKER_H
 #define DIP_RENDERER_PIPELINE_RUN_TILE_WORKER_H
 
@@ -57,13 +57,13 @@ typedef struct DipTileWorker {
     DipTileWork *work; // of the tile being drawn
 } DipTileWorker;
 
-// Returns NULL when memory runs out. Each worker's memory is apart from the others', so that
-// threads share no cache line.
+// Returns NULL if memory runs out. Each worker has memory of its own, so that threads share no
+// cache line.
 DipTileWorker *dip_tile_worker_create(const DipTilePass *pass);
 void dip_tile_worker_destroy(DipTileWorker **worker);
 
-// Makes room for the fragment lists of draw_count draws. The lists of all workers of a pipeline
-// are made anew together when a pass has more draws than any before it.
+// Makes new fragment lists for draw_count draws. The pipeline calls this for all its workers when a
+// pass has more draws than any pass before it. Returns false if memory runs out.
 bool dip_tile_worker_make_lists(DipTileWorker *worker, int draw_count);
 
 // Draws the tile with this index (y * tiles_x + x) and fills *work.
