@@ -1,55 +1,57 @@
 // Coverage and depth of one triangle in one tile, compiled once per instruction set.
 //
-// Edge values E = a x + b y + c (x, y in 1/256 pixel) need 64 bits. Within a tile they are split
-// as x = 256 px + sx: E >= 0 if and only if a px + b py + floor((c' + a sx + b sy) / 256) >= 0,
-// where c' is E at the tile's corner, because the first two terms are whole multiples of 256. These
-// are less than 2^30 in sum, and so is the rest for an edge that crosses the tile; where c' is
-// larger its sign decides alone, so it is clamped to 2^30. So the inner loops are exact in 32 bits.
+// Edge values E = a x + b y + c (x, y in 1/256 pixel) need 64 bits. Within a tile, a position is
+// split into its pixel and the sample in it: x = 256 px + sx, y = 256 py + sy. Let c' be E at the
+// tile's corner. Then E >= 0 if and only if a px + b py + floor((c' + a sx + b sy) / 256) >= 0,
+// because 256 (a px + b py) is a whole multiple of 256. The first two terms are below 2^30 in sum,
+// and so is the third one for an edge that crosses the tile. If c' / 256 is larger than 2^30 its
+// sign alone decides, so it is clamped to that. The inner loops are therefore exact in 32 bits.
 //
-// A triangle is set up once per tile (InTile). Its pixel box is then walked in regions of 4x4
-// sub-blocks, each of 4x4 pixels: one vector operation per edge tells which of the sixteen
-// sub-blocks may hold covered samples and which lie wholly inside (Region). Only these are drawn.
+// A triangle is set up once per tile (InTile). Its pixel box is then walked in regions (Region) of
+// 4x4 sub-blocks, each of 4x4 pixels. One vector operation per edge tells which of the sixteen
+// sub-blocks may hold covered samples and which lie wholly inside the triangle. Only the sub-blocks
+// that may hold covered samples are drawn.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/vec.h"
 
 enum {
-    VECTORS = DIP_SUB_BLOCK_PIXELS / DIP_LANES, // per sub-block, or per region
+    VECTORS = DIP_SUB_BLOCK_PIXELS / DIP_LANES, // vectors per sub-block, and per region
     REGION = 4,                                 // sub-blocks per side
     REGION_SUB_BLOCKS = REGION * REGION,
 };
 
-// The positions of a 4x4 grid in lane order: pixels in a sub-block, sub-blocks in a region.
+// Columns and rows of a 4x4 grid in lane order: pixels of a sub-block, or sub-blocks of a region.
 static const int32_t lane_x[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 static const int32_t lane_y[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
-// One edge within the tile, in units of 256.
+// One edge within the tile. Its values are edge values divided by 256.
 typedef struct Edge {
     int32_t a;
     int32_t b;
     int32_t corner;   // at sample 0 of the tile's first pixel
-    int32_t greatest; // over a sub-block's samples, less sample 0 of its first pixel; a bound
-    int32_t least;    // likewise
+    int32_t greatest; // upper bound over a sub-block, less sample 0 of its first pixel
+    int32_t least;    // lower bound over a sub-block, less sample 0 of its first pixel
     Vi lane[VECTORS]; // a px + b py of a sub-block's pixels
-    int32_t sample[DIP_SAMPLE_ROOM]; // per sample, less sample 0
+    int32_t sample[DIP_SAMPLE_ROOM]; // per sample: its value less that of sample 0
 } Edge;
 
 // One triangle within the tile.
 typedef struct InTile {
     Edge edge[3];
-    Vf depth_lane[VECTORS]; // a sub-block's pixels, less its corner
+    Vf depth_lane[VECTORS]; // depth at a sub-block's pixels, less that at its corner
     Vf depth_min;
     Vf depth_max;
-    float depth_sample[DIP_SAMPLE_ROOM];
+    float depth_sample[DIP_SAMPLE_ROOM]; // per sample: its depth less that at the pixel's corner
 } InTile;
 
-// Sixteen sub-blocks, at (x, y) of the tile's. Arrays and bits in lane order.
+// Sixteen sub-blocks of the tile. Arrays and bits are in lane order.
 typedef struct Region {
-    int x;
+    int x; // column and row of the first one, counted in sub-blocks of the tile
     int y;
-    unsigned reached;                   // may hold covered samples
-    unsigned inside;                    // wholly inside the triangle
-    int32_t edge[3][REGION_SUB_BLOCKS]; // at sample 0 of the first pixel
-    float depth[REGION_SUB_BLOCKS];     // at the corner
+    unsigned reached;                   // sub-blocks that may hold covered samples
+    unsigned inside;                    // sub-blocks that lie wholly inside the triangle
+    int32_t edge[3][REGION_SUB_BLOCKS]; // at sample 0 of each sub-block's first pixel
+    float depth[REGION_SUB_BLOCKS];     // at each sub-block's corner
 } Region;
 
 VEC_INLINE int min_int(int a, int b) {
@@ -70,8 +72,8 @@ VEC_INLINE int64_t max_i64(int64_t a, int64_t b) {
 
 // --- set-up ------------------------------------------------------------------------------------
 
-// floor((c + a sx + b sy) / 256) of every sample, less that of sample 0. Each factor is split at
-// bit 8, so that products of 16 bits do and nothing overflows.
+// Sets floor((c + a sx + b sy) / 256) of every sample, less that of sample 0. Each factor is split
+// at bit 8, so that 16-bit products are enough and nothing overflows.
 VEC_INLINE void place_samples(Edge *edge, int64_t c, const DipSamplePattern *pattern) {
     const int32_t high =
         (int32_t)((uint32_t)(edge->a >> 8) & 0xffff) | (int32_t)((uint32_t)(edge->b >> 8) << 16);
@@ -134,7 +136,8 @@ VEC_INLINE void place_depth(InTile *in, const DipTriangle *triangle,
 
 // --- regions -----------------------------------------------------------------------------------
 
-// The first and last sub-blocks of the tile that the triangle's pixel box reaches.
+// The first and last sub-block that the triangle's pixel box reaches in the drawn part of the tile,
+// as columns x0, x1 and rows y0, y1.
 typedef struct Box {
     int x0, y0, x1, y1;
 } Box;
@@ -146,14 +149,15 @@ VEC_INLINE Box box_of(const DipTriangle *triangle, const DipTile *tile) {
                  min_int(triangle->y1 - tile->y0, DIP_TILE - 1 - tile->bottom) / DIP_SUB_BLOCK};
 }
 
-// Bits of the region's sub-blocks x0..x1, y0..y1 of the tile.
+// Returns the bits of the region's sub-blocks in columns x0..x1 and rows y0..y1 of the tile.
 VEC_INLINE unsigned box_bits(const Region *region, int x0, int y0, int x1, int y1) {
     const unsigned column = (2u << (x1 - region->x)) - (1u << (x0 - region->x));
     const unsigned rows = (16u << 4 * (y1 - region->y)) - (1u << 4 * (y0 - region->y));
     return column * 0x1111u & rows;
 }
 
-// Sets edge, reached and inside; the latter as far as the edges know.
+// Sets edge, reached and inside of a region. The latter two follow from the edges alone; the caller
+// restricts them to the triangle's box.
 VEC_INLINE void classify(const InTile *in, Region *region) {
     int32_t corner[3];
     for (int i = 0; i < 3; i++) {
@@ -176,8 +180,8 @@ VEC_INLINE void classify(const InTile *in, Region *region) {
     }
 }
 
-// Depth at the corners of the sub-blocks, in double from absolute coordinates, so that tiles do
-// not matter.
+// Sets the depth at the corners of a region's sub-blocks. It is computed in double from positions
+// in the target, so that it does not depend on the tile.
 VEC_INLINE void place_corners(Region *region, const DipTriangle *triangle, const DipTile *tile) {
     typedef double Row __attribute__((vector_size(REGION * sizeof(double))));
     typedef float RowDepth __attribute__((vector_size(REGION * sizeof(float))));
@@ -205,7 +209,8 @@ VEC_INLINE void clear_block(DipTile *tile, int block, int sample_count) {
     tile->touched |= (uint64_t)1 << block;
 }
 
-// Sub-block n of the region: the index of its first value in the tile's arrays, cleared if need be.
+// Returns the index of sub-block n's first value in the tile's arrays. Clears its block first if
+// this tile has not touched it yet.
 VEC_INLINE int touch_sub_block(DipTile *tile, const Region *region, int n, int sample_count) {
     const int x = region->x + n % REGION;
     const int y = region->y + n / REGION;
@@ -217,7 +222,7 @@ VEC_INLINE int touch_sub_block(DipTile *tile, const Region *region, int n, int s
     return block * sample_count * DIP_BLOCK_PIXELS + quarter * DIP_SUB_BLOCK_PIXELS;
 }
 
-// Edge values of sub-block n's pixels in vector v, at sample 0.
+// Edge values at sample 0 of some pixels of a sub-block, one vector of them.
 typedef struct PixelEdges {
     Vi at[3];
 } PixelEdges;
@@ -230,6 +235,7 @@ VEC_INLINE PixelEdges pixel_edges(const InTile *in, const Region *region, int n,
     return edges;
 }
 
+// Returns the lanes whose sample s the triangle covers.
 VEC_INLINE Mask covered_lanes(const InTile *in, const PixelEdges *edges, int s, int sample_count) {
     if (sample_count == 1) {
         return vi_not_negative(edges->at[0] | edges->at[1] | edges->at[2]);
@@ -239,12 +245,14 @@ VEC_INLINE Mask covered_lanes(const InTile *in, const PixelEdges *edges, int s, 
                            (edges->at[2] + vi_splat(in->edge[2].sample[s])));
 }
 
+// Returns the depth at sample s in each lane of vector v.
 VEC_INLINE Vf depth_lanes(const InTile *in, float corner, int v, int s) {
     const Vf depth = (vf_splat(corner) + in->depth_lane[v]) + vf_splat(in->depth_sample[s]);
     return vf_min(vf_max(depth, in->depth_min), in->depth_max);
 }
 
-// Stores the covered samples of an opaque triangle that are nearer than what is there.
+// Stores those covered samples of an opaque triangle in sub-block n that are nearer than what is
+// stored there. inside: the triangle covers all of them.
 VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bool inside,
                                int sample_count, DipTile *tile, uint32_t id) {
     const int first = touch_sub_block(tile, region, n, sample_count);
@@ -266,8 +274,8 @@ VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bo
     }
 }
 
-// Only a region without partly covered sub-blocks goes without edges: in a multi_fragment one the
-// branch costs more than the edges.
+// Draws an opaque triangle in a region. Edges are left out only if no sub-block of the region is
+// partly covered: where both kinds are mixed, a branch per sub-block costs more than the edges.
 VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_count, DipTile *tile,
                             uint32_t id) {
     if (region->inside == region->reached) {
@@ -285,27 +293,28 @@ VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_c
 
 // A sub-block whose fragments wait for the clip test.
 typedef struct Waiting {
-    int first;                         // index of its first value in the tile's arrays
-    float depth;                       // at its corner
-    uint16_t pixels;                   // its fragments in the list, in order
-    uint8_t samples;                   // that they may hold, one bit each
-    uint16_t visible[DIP_MAX_SAMPLES]; // pixels by sample
+    int first;       // index of its first value in the tile's arrays
+    float depth;     // at its corner
+    uint16_t pixels; // pixels that have a fragment in the list, in the list's order
+    uint8_t samples; // samples that these fragments may hold, one bit each
+    uint16_t visible[DIP_MAX_SAMPLES]; // per sample: the pixels in which it is visible
 } Waiting;
 
-// The fragments of the triangle in hand that wait for the clip test, in the test's list.
+// The sub-blocks of the current triangle that wait for the clip test. Their fragments are in the
+// test's list.
 typedef struct ClipQueue {
     const DipClipTest *clip;
-    int count; // of sub-blocks
+    int count; // number of sub-blocks
     Waiting waiting[DIP_FRAGMENT_BATCH];
 } ClipQueue;
 
-// A position in a pixel, as in a fragment's position.
+// Returns a point within a pixel, encoded as in a fragment's position (tile_shading.h).
 VEC_INLINE Vi sub_position(int sub_x, int sub_y) {
     return vi_splat(sub_x << DIP_POSITION_SUB_X | sub_y << DIP_POSITION_SUB_Y);
 }
 
-// Fills a waiting sub-block's masks. Finds where in their pixels its fragments are shaded: at the
-// centre where all samples are covered, else at the first covered sample.
+// Fills in the masks of a waiting sub-block, and finds where each fragment is shaded: at the centre
+// of its pixel if the triangle covers all samples, otherwise at the first covered sample.
 VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, const DipTile *tile,
                                int sample_count, Waiting *waiting, Vi positions[VECTORS]) {
     const DipSamplePattern *pattern = tile->pattern;
@@ -337,7 +346,8 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
     waiting->samples = (uint8_t)((1u << sample_count) - 1);
 }
 
-// The same for the samples of one group, shaded at the centroid of those that are covered.
+// Fills in the masks of a waiting sub-block for the samples of one group. Each fragment is shaded
+// at the centroid of those that the triangle covers.
 VEC_INLINE void test_group(const InTile *in, const Region *region, int n, const DipTile *tile,
                            const DipSampleGroups *groups, int group, Waiting *waiting,
                            Vi positions[VECTORS]) {
@@ -366,7 +376,7 @@ VEC_INLINE void test_group(const InTile *in, const Region *region, int n, const 
     waiting->samples = (uint8_t)samples;
 }
 
-// Stores the visible samples of the pixels that are kept.
+// Stores the visible samples of the pixels in `keep`.
 VEC_INLINE void keep_sub_block(const InTile *in, DipTile *tile, const Waiting *waiting,
                                unsigned keep, uint32_t id) {
     for (unsigned left = waiting->samples; left; left &= left - 1) {
@@ -386,7 +396,7 @@ static uint64_t block_bit(const DipTile *tile, const Waiting *waiting) {
     return (uint64_t)1 << (waiting->first / (tile->pattern->count * DIP_BLOCK_PIXELS));
 }
 
-// Asks about the waiting fragments and draws those that are there.
+// Runs the clip test on the waiting fragments and stores those that it keeps.
 static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriangle *triangle,
                              DipTile *tile, uint32_t id) {
     DipFragmentList *list = queue->clip->list;
@@ -413,7 +423,8 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
     queue->count = 0;
 }
 
-// Adds the visible pixels of sub-block n to the queue: those of a group, where there are groups.
+// Adds the visible pixels of sub-block n to the queue. If there are sample groups, these are the
+// pixels in which a sample of `group` is visible.
 VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region *region, int n,
                                 int group, int sample_count, DipTile *tile) {
     const DipSampleGroups *groups = queue->clip->groups;
@@ -458,7 +469,8 @@ VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *re
 
 // --- a triangle --------------------------------------------------------------------------------
 
-// Walks the regions of the triangle's box. sample_count is a constant where that pays.
+// Draws a triangle, region by region of its box. sample_count is a constant in the callers that
+// gain from it.
 VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_t id,
                              const DipClipTest *clip, int sample_count) {
     const Box box = box_of(triangle, tile);
@@ -472,7 +484,7 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
     queue.count = 0;
     for (int y = box.y0; y <= box.y1; y += REGION) {
         for (int x = box.x0; x <= box.x1; x += REGION) {
-            Region region; // within the tile; all of its fields are set
+            Region region; // lies within the tile; all its fields are set below
             region.x = min_int(x, DIP_TILE_SUB_BLOCKS - REGION);
             region.y = min_int(y, DIP_TILE_SUB_BLOCKS - REGION);
             classify(&in, &region);

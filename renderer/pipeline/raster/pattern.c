@@ -1,4 +1,4 @@
-// The sample pattern tables, and groups from them.
+// The tables of sample patterns, and the sample groups that follow from them.
 #include "renderer/pipeline/pattern.h"
 
 #include "renderer/base/assert.h"

@@ -1,8 +1,8 @@
-// A tile's visibility buffer: per sample the nearest depth and the triangle it belongs to.
+// The visibility buffer of a tile: for each sample the nearest depth and the triangle that has it.
 //
-// Tiles are 64x64 pixels, of 8x8 blocks in row order, of four 4x4 sub-blocks in row order, of 16
-// pixels in row order. Sample s of a block is a run of 64 values, so that a vector of 1, 4, 8 or
-// 16 lanes always lies within a sub-block and no result depends on the vector's width.
+// A tile has 64x64 pixels. It consists of 8x8 blocks, a block of four sub-blocks, and a sub-block
+// of 4x4 pixels, each in row order. Sample s of a block is a run of 64 values, so that a vector of
+// 1, 4, 8 or 16 lanes always lies within a sub-block and no result depends on the vector's width.
 #ifndef DIP_RENDERER_PIPELINE_RASTER_TILE_H
 #define DIP_RENDERER_PIPELINE_RASTER_TILE_H
 
@@ -23,32 +23,35 @@ enum {
     DIP_TILE_SUB_BLOCKS = DIP_TILE / DIP_SUB_BLOCK, // per row
 };
 
-// Pixel i (0..63) of a block: its position within the block.
+// Column of pixel i (0..63) of a block.
 static inline int dip_block_x(int i) {
     return (i >> 4 & 1) * 4 + (i & 3);
 }
 
+// Row of pixel i (0..63) of a block.
 static inline int dip_block_y(int i) {
     return (i >> 5) * 4 + (i >> 2 & 3);
 }
 
 typedef struct DipTile {
-    int x0; // of the first pixel, in the target
+    int x0; // column and row of the first pixel in the target
     int y0;
-    int left; // pixels at each side that are not drawn: multiples of DIP_BLOCK, 0: all are
+    // Pixels at each side that are not drawn, multiples of DIP_BLOCK.
+    int left;
     int top;
     int right;
     int bottom;
     const DipSamplePattern *pattern;
-    uint64_t touched; // bit b: block b has been cleared and holds something since
-    uint64_t
-        grouped;  // bit b: block b has held samples of an alpha-clipped triangle's sample groups
+    uint64_t touched; // bit b: block b has been cleared and may hold something since
+    // Bit b: block b has held samples that an alpha-clipped triangle drew in sample groups.
+    uint64_t grouped;
     float *depth; // [block][sample][64]; 0 is infinitely far
-    uint32_t *id; // likewise; triangle index + 1, or 0 for none
+    uint32_t *id; // [block][sample][64]; triangle index + 1, or 0 for none
     uint64_t sub_blocks_tested;
     uint64_t sub_blocks_accepted;
 } DipTile;
 
+// Returns the index of a block's first value of a sample in depth and id.
 static inline int dip_tile_index(const DipTile *tile, int block, int sample) {
     return (block * tile->pattern->count + sample) * DIP_BLOCK_PIXELS;
 }

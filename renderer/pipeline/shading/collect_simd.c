@@ -1,6 +1,6 @@
-// The fragments of a tile: every pixel's distinct patches (geometry/patch.h), pushed to the lists
-// of their draws. A sub-block's pixels of one draw, or of one patch where samples differ, are
-// pushed together, as a mask of 16 bits.
+// Collects the fragments of a tile: adds every distinct patch of a pixel (pipeline/patch.h) to the
+// list of its draw. Pixels of a sub-block are added together, as a mask of 16 bits, if they have
+// the same draw or, where the samples of a pixel differ, the same patch.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/vec.h"
 
@@ -8,24 +8,24 @@
 
 enum { VECTORS = 16 / DIP_LANES, ALL_PIXELS = 0xffff };
 
-// Where a sub-block's pixels lie from its first one, as positions (tile_shading.h).
+// Positions of a sub-block's pixels relative to its first one (tile_shading.h).
 static const int32_t pixel_position[16] = {
     0,   1,   2,   3,   64,  65,  66,  67, // DIP_TILE to the next row
     128, 129, 130, 131, 192, 193, 194, 195,
 };
 
-// A sub-block in hand.
+// The sub-block whose fragments are being collected.
 typedef struct SubBlock {
     DipTileShading *shading;
     const uint32_t *ids; // of sample 0; DIP_BLOCK_PIXELS to the next sample's
     int sample_count;
     int x0, y0; // pixels in the tile
-    // The patches that the samples show, 0 where none: [sample][pixel]. Only found where samples of
-    // a pixel hold several triangles, or have groups.
+    // The patches that the samples show, [sample][pixel]; 0 for none. They are found only if
+    // samples of a pixel hold several triangles, or if there may be sample groups.
     uint32_t patches[DIP_MAX_SAMPLES * DIP_SUB_BLOCK_PIXELS];
 } SubBlock;
 
-// Pixels, one bit each, whose number is the one given.
+// Returns the pixels, one bit each, whose number equals `number`.
 VEC_INLINE unsigned pixels_with(const uint32_t *numbers, uint32_t number) {
     unsigned bits = 0;
     for (int v = 0; v < VECTORS; v++) {
@@ -35,7 +35,8 @@ VEC_INLINE unsigned pixels_with(const uint32_t *numbers, uint32_t number) {
     return bits;
 }
 
-// Words of the triangles of ids, which are 0 where there is none: then some triangle's.
+// Gathers one 32-bit field of DipTriangle for each id. An id of 0 means no triangle; its lane gets
+// the field of triangle 0.
 VEC_INLINE Vi gather_words(const SubBlock *sub, Vi ids, size_t offset_bytes) {
     enum { WORDS = sizeof(DipTriangle) / sizeof(int32_t) };
     const char *triangles = (const char *)sub->shading->input.triangles;
@@ -55,7 +56,8 @@ static void find_patches(SubBlock *sub) {
     }
 }
 
-// Pixels whose samples' numbers differ; stride: to the next sample's.
+// Returns the pixels whose samples have different numbers. numbers: ids or patches. stride:
+// distance from one sample's numbers to the next sample's.
 VEC_INLINE unsigned multi_fragment_pixels(const uint32_t *numbers, int sample_count, int stride) {
     unsigned same = 0;
     for (int v = 0; v < VECTORS; v++) {
@@ -74,7 +76,7 @@ static inline uint32_t draw_of(const DipTileShading *shading, uint32_t triangle)
     return shading->input.triangles[triangle].draw;
 }
 
-// Puts a draw's lists among the active ones.
+// Adds a draw to those whose lists this tile uses.
 static inline void activate(DipTileShading *shading, uint32_t draw) {
     if (!shading->is_active[draw]) {
         shading->is_active[draw] = 1;
@@ -87,8 +89,8 @@ VEC_INLINE int32_t position_of(const SubBlock *sub, int sub_x, int sub_y) {
            sub_y << DIP_POSITION_SUB_Y;
 }
 
-// A sub-block that one draw fills, pixels with one patch each: its 16 fragments stay together, in a
-// list of their own kind.
+// Adds a sub-block that one draw fills with one patch per pixel. Its 16 fragments stay together, in
+// the draw's list of whole sub-blocks.
 static void push_whole(const SubBlock *sub, uint32_t draw) {
     DipTileShading *shading = sub->shading;
     activate(shading, draw);
@@ -106,8 +108,8 @@ static void push_whole(const SubBlock *sub, uint32_t draw) {
     }
 }
 
-// Pixels as fragments of a draw; ids of triangles, samples and positions per vector. uniform: all
-// lanes have the same samples.
+// Adds pixels as fragments of a draw. Triangle ids, samples and positions are given per vector.
+// uniform: all lanes have the same samples.
 VEC_INLINE void push(const SubBlock *sub, uint32_t draw, unsigned pixels, const Vu *ids,
                      const Vu *samples, const Vu *positions, bool uniform) {
     DipTileShading *shading = sub->shading;
@@ -128,8 +130,8 @@ VEC_INLINE void push(const SubBlock *sub, uint32_t draw, unsigned pixels, const 
     }
 }
 
-// Pixels that one patch each holds with all samples, shaded at their centres on the triangle of
-// their first sample.
+// Adds pixels whose samples all show one patch. They are shaded at their centres, on the triangle
+// of their first sample. draws: the draw of each pixel; left: the pixels.
 VEC_INLINE void push_uniform(const SubBlock *sub, const uint32_t *draws, unsigned left) {
     Vu ids[VECTORS];
     Vu samples[VECTORS];
@@ -147,14 +149,16 @@ VEC_INLINE void push_uniform(const SubBlock *sub, const uint32_t *draws, unsigne
     }
 }
 
-// A draw's groups, NULL where it has but one.
+// Returns the sample groups of a draw, or NULL if all its samples form one group.
 static inline const DipSampleGroups *groups_of(const DipTileShading *shading, uint32_t draw) {
     return shading->groups && shading->draws[draw].clip_shader ? shading->groups : NULL;
 }
 
-// Pixels whose samples differ, all those of the patch that the first of `left` holds in sample
-// `first`: shaded at their first sample of it. Of a draw with groups only those of the sample's
-// group, shaded at the centroid of what they hold of it. Takes them out of `left`.
+// Adds the fragments of one patch: the patch that sample `first` shows in the first pixel of
+// left[first]. left[s] holds the pixels whose sample s has not been added yet; samples that this
+// adds are removed from it. A fragment is shaded at its first sample that shows the patch. If the
+// draw has sample groups, only samples of `first`'s group are added, and the fragment is shaded at
+// the centroid of those that it holds.
 VEC_INLINE void push_multi_fragment_patch(const SubBlock *sub, unsigned *left, int first) {
     const DipSamplePattern *pattern = sub->shading->tile->pattern;
     const int pixel = __builtin_ctz(left[first]);
@@ -195,8 +199,9 @@ VEC_INLINE void push_multi_fragment_patch(const SubBlock *sub, unsigned *left, i
     push(sub, draw, pixels, ids, samples, positions, false);
 }
 
-// Starts the sums of multi_fragment pixels with their uncovered samples, of which there are mostly
-// none.
+// Starts the sums of multi-fragment pixels. Uncovered samples add the background; most pixels have
+// none. empty[s]: the pixels whose sample s is uncovered; any_empty: the pixels that have such a
+// sample.
 VEC_INLINE void begin_sums(const SubBlock *sub, unsigned multi_fragment,
                            const unsigned empty[DIP_MAX_SAMPLES], unsigned any_empty) {
     DipTileShading *shading = sub->shading;
@@ -257,7 +262,7 @@ static unsigned pixels_in_target(const SubBlock *sub) {
     return inside;
 }
 
-// Pixels among `left`, held by one draw each, whose draw has groups.
+// Returns the pixels among `left` whose draw has sample groups. Each pixel shows one draw only.
 static unsigned pixels_in_groups(const SubBlock *sub, const uint32_t *draws, unsigned left) {
     unsigned found = 0;
     while (left) {
@@ -277,7 +282,9 @@ static void find_draws(const SubBlock *sub, uint32_t draws[DIP_SUB_BLOCK_PIXELS]
     }
 }
 
-// Pixels in the target that several triangles share, and draws with groups: the general case.
+// Collects a sub-block in the general case, in which its pixels may show several triangles or draws
+// with sample groups. several: samples of some pixel hold different triangles. inside: the pixels
+// that lie in the target.
 static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned inside) {
     uint32_t draws[DIP_SUB_BLOCK_PIXELS]; // of the first samples
     find_draws(sub, draws);
@@ -306,7 +313,7 @@ static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned i
     }
 }
 
-// grouped: may hold triangles with groups.
+// grouped: the sub-block may hold triangles that were drawn in sample groups.
 static void collect_sub_block(SubBlock *sub, bool grouped) {
     const bool within = sub->x0 + 4 <= sub->shading->width && sub->y0 + 4 <= sub->shading->height;
     const bool several = sub->sample_count > 1 &&
@@ -349,7 +356,7 @@ void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
         }
         const uint32_t *ids = tile->id + dip_tile_index(tile, block, 0);
         for (int quarter = 0; quarter < 4; quarter++) {
-            SubBlock sub; // its patches are found when asked for
+            SubBlock sub; // its patches are found only if they are needed
             sub.shading = shading;
             sub.ids = ids + quarter * DIP_SUB_BLOCK_PIXELS;
             sub.sample_count = tile->pattern->count;

@@ -1,20 +1,22 @@
-// Fragment batches: varyings in, encoded colours out, compiled once per instruction set.
+// Interpolates the varyings of fragment batches and encodes their shaded colours. Compiled once per
+// instruction set.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/pairs.h"
 
-// Up to this many triangles of a vector are read one by one; more are gathered lane by lane.
+// If a vector has at most this many triangles, they are read one by one; otherwise their planes are
+// gathered lane by lane.
 enum { FEW_TRIANGLES = 4 };
 
 enum { MAX_ROWS = DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + 1 };
 
-// The floats of a vector of fragments' surfaces: those of one triangle for all lanes, or (one is
-// NULL) float i of each lane's at rows[i].
+// The planes of a vector of fragments (triangle.h). If all lanes have the same triangle, `one`
+// points to its floats. Otherwise `one` is NULL and rows[i] holds float i of each lane's triangle.
 typedef struct VaryingPlanes {
     const float *one;
     const Vf *rows;
 } VaryingPlanes;
 
-// One plane of a surface at the fragments' positions: value, d/dx, d/dy.
+// One plane at the fragments' positions: value, d/dx, d/dy.
 typedef struct Plane {
     Vf at;
     Vf dx;
@@ -25,8 +27,9 @@ VEC_INLINE const float *planes_of(const DipShadingInput *input, uint32_t triangl
     return input->planes + (size_t)triangle * (size_t)input->plane_stride;
 }
 
-// Reads the surfaces of several triangles. Of a few, the lanes of each are blended in, which costs
-// less than a gather per float. left: lanes that hold another triangle than the first.
+// Reads the planes of several triangles. If there are few, the floats of each are blended into its
+// lanes, which costs less than a gather per float. left: lanes with another triangle than the first
+// lane.
 VEC_INLINE void read_rows(const DipShadingInput *input, const uint32_t *triangle, unsigned left,
                           int count, Vf *rows) {
     const Vi ids = vi_load((const int32_t *)triangle);
@@ -46,7 +49,7 @@ VEC_INLINE void read_rows(const DipShadingInput *input, const uint32_t *triangle
     if (left) {
         const uint32_t *planes = (const uint32_t *)(const void *)input->planes;
         const Vi offset = vi_pair_order(ids * input->plane_stride);
-        for (int f = 0; f < count; f += 2) { // a surface has room for one more
+        for (int f = 0; f < count; f += 2) { // the padding of planes has one more
             const VuPair pair = vu_gather_pairs(planes + f, offset);
             rows[f] = (Vf)vu_pair_left(pair);
             rows[f + 1] = (Vf)vu_pair_right(pair);
@@ -64,12 +67,14 @@ VEC_INLINE Plane plane_at(const VaryingPlanes *planes, int i, Vf x, Vf y) {
     return (Plane){(value_of(planes, i) + dx * x) + dy * y, dx, dy};
 }
 
-// A position's pixel coordinate in 1/256 pixel of the tile, to pixels in the target.
+// Returns a coordinate of a position in pixels of the target. pixel: within the tile; sub: within
+// the pixel, in 1/256.
 VEC_INLINE Vf target_coordinate(Vi pixel, Vi sub, int tile_first) {
     return vf_from_int((pixel + tile_first) << 8 | sub) * (1.0f / 256.0f);
 }
 
-// u = (u/w) / (1/w); du/dx = (d(u/w)/dx - u d(1/w)/dx) / (1/w): exact, by the quotient rule.
+// Interpolates varyings: u = (u/w) / (1/w) and, exactly by the quotient rule, du/dx = (d(u/w)/dx -
+// u d(1/w)/dx) / (1/w). The last plain_count varyings get no derivatives.
 VEC_INLINE void interpolate(const VaryingPlanes *planes, Vf x, Vf y, int varying_count,
                             int plain_count, int i, DipFragmentBatch *batch) {
     const Vf from_x = x - value_of(planes, DIP_PLANES_ANCHOR);
@@ -123,7 +128,7 @@ void DIP_KERNEL(dip_kernel_encode)(const DipFragmentBatch *batch, const uint8_t 
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         Vu rgba8 = vu_splat(0xff000000u);
         for (int c = 0; c < 3; c++) {
-            // max first: a NaN becomes 0.
+            // max comes first, so that a NaN becomes 0.
             const Vf colour = vf_max(vf_load(batch->colour[c] + i), vf_splat(0.0f));
             const Vf scaled = vf_min(colour, vf_splat(1.0f)) * 65535.0f + 0.5f;
             const Vi linear16 = vi_from_float(scaled);
