@@ -47,8 +47,8 @@ DIP_API DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err);
 // Makes textures[0..count-1] with their mip chains on the pool (NULL: on the caller's thread), all
 // or none. The texels are the same for every number of threads. Fails with RANGE (size) or MEMORY.
 // used: textures[i] becomes NULL where used[i] is false; NULL means all are used.
-// keep_alpha: the alpha plane may be left out where keep_alpha[i] is false; NULL means all may have
-// one. A texture has one only if some texel is not opaque.
+// keep_alpha: textures[i] has an alpha plane only if keep_alpha[i] is true and some texel is not
+// opaque; NULL means true for all.
 DIP_API bool dip_textures_create(const DipTextureDef *defs, const bool *used,
                                  const bool *keep_alpha, int count, DipPool *pool,
                                  DipTexture **textures, DipError *err);

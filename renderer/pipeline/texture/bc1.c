@@ -1,4 +1,4 @@
-// BC1 blocks: encoding through stb_dxt, decoding to packed texels.
+// BC1 blocks: encodes them with stb_dxt and decodes them to packed texels.
 #include "renderer/pipeline/bc1.h"
 
 #include "renderer/base/srgb.h"
@@ -12,7 +12,8 @@ void dip_bc1_encode(const uint8_t rgba8[64], uint8_t block[DIP_BC1_BYTES]) {
     stb_compress_dxt_block(block, rgba8, 0, STB_DXT_NORMAL);
 }
 
-// Code c begins at the first root whose square reaches the light of c - 1/2.
+// Code c begins at the first root whose square reaches the light of the encoded value (c - 1/2) /
+// 255.
 static void fill_codes(uint8_t *codes, int last) {
     int code = 0;
     double end = dip_srgb_decode(0.5 / 255.0);
@@ -42,8 +43,9 @@ void dip_bc1_light_fill(DipBc1Light *light) {
 
 void dip_bc1_palette(const DipBc1Light *light, const uint8_t block[DIP_BC1_BYTES],
                      uint32_t texels[4]) {
-    // Sixths of the first colour; the rest are the second's. Where the first is not the greater
-    // number the third colour is half way between and the fourth black.
+    // How many sixths of each colour come from the first stored colour; the rest come from the
+    // second. If the first one is not the greater number (row 0), the third colour is half way
+    // between the two, and the fourth is black.
     static const int shares[2][4] = {{6, 0, 3, 0}, {6, 0, 4, 2}};
     const int a = block[0] | block[1] << 8;
     const int b = block[2] | block[3] << 8;

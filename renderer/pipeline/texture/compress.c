@@ -1,9 +1,10 @@
-// Compressed textures: every level's colours encoded as BC1 and decoded again, a row of blocks at a
-// time, on many threads.
+// Compressed textures: encodes the colours of every level as BC1 and decodes them again, on many
+// threads.
 //
-// The result has the layout of any texture. Reading blocks in the kernels would take a choice, a
-// palette and a curve per texel where one load does now. A CPU has no hardware for that, so BC1
-// changes the picture here as it does elsewhere, but saves neither time nor memory.
+// The result has the layout of any other texture. If the kernels read blocks, each texel would take
+// a selection, a palette and a decoding curve instead of one load. A CPU has no hardware for that,
+// so BC1 changes the picture here as it does on a graphics card, but it saves neither time nor
+// memory.
 #include "renderer/pipeline/texture/texture_layout.h"
 
 #include "renderer/pipeline/bc1.h"
@@ -11,12 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A level that is being made, by tasks of one row of blocks each.
+// A level that is being compressed. Each task compresses one row of blocks.
 typedef struct Level {
     const DipTexture *from;
     DipTexture *to;
     int level;
-    int first_task;
+    int first_task; // the task of its first row of blocks
 } Level;
 
 typedef struct Job {
@@ -27,7 +28,8 @@ typedef struct Job {
     DipBc1Light light;
 } Job;
 
-// The block at (x, y); beyond the level's edge its last column and row go on.
+// Reads the block whose first texel is (x, y). Beyond the level's edge, the last column and row are
+// repeated.
 static void read_block(const DipRootCodes *codes, const DipTexture *texture, int level, int x,
                        int y, uint8_t rgba8[64]) {
     const int width = texture->level_width[level];
@@ -92,14 +94,14 @@ static void make_row(void *context, int index, int worker) {
     }
 }
 
-// A texture like another, its texels not yet written.
+// Creates a texture of the same layout, without alpha and with texels that are not yet written.
 static DipTexture *begin_texture(const DipTexture *from) {
     DipTexture *texture = malloc(sizeof *texture);
     if (texture) {
         *texture = *from;
         texture->alpha = NULL;
         texture->shares_alpha = true;
-        // Reads past the end by one vector element stay inside.
+        // The spare texels keep a read that runs past the last texel inside the array.
         texture->texels = calloc(from->texel_count + 8, sizeof *texture->texels);
         if (!texture->texels) {
             dip_texture_destroy(&texture);

@@ -1,5 +1,5 @@
 // Footprints of fragments in a texture: level of detail and probes, for sample_simd.c.
-// docs/picture.md defines them.
+// docs/picture.md (Textures) defines them.
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_FOOTPRINT_SIMD_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_FOOTPRINT_SIMD_H
 
@@ -7,8 +7,8 @@
 #include "renderer/pipeline/texture/texture_layout.h"
 #include "renderer/simd/vec.h"
 
-// Texels per pixel. The greatest exceeds every texture, and the product of two squares is finite;
-// the square of the least is a normal number.
+// Texels per pixel. MAX_DERIVATIVE exceeds the size of every texture, and the product of two
+// squares of it is finite. The square of MIN_LENGTH is a normal number.
 #define MAX_DERIVATIVE 1e9f
 #define MIN_LENGTH     1e-18f
 
@@ -18,19 +18,20 @@ typedef struct Jacobian {
     Vf uy, vy; // dY
 } Jacobian;
 
-// log2 of positive normal numbers: exact at powers of two and monotone; error below 1e-5. On
-// [1, 2), log2(1 + t) = t (1 + (1 - t) r(t)), r interpolated at Chebyshev points.
+// Returns log2 of positive normal numbers. It is exact at powers of two and monotone; its error is
+// below 1e-5. On [1, 2) it computes log2(1 + t) = t (1 + (1 - t) r(t)), where the polynomial r
+// interpolates at Chebyshev points.
 VEC_INLINE Vf log2_of(Vf x) {
     const Vi bits = vi_bits(x);
     const Vf exponent = vf_from_int((bits >> 23) - 127);
     const Vf t = vf_bits((bits & 0x7fffff) | 0x3f800000) - 1.0f;
-    const Vf t2 = t * t; // r in a form that is short rather than long and thin
+    const Vf t2 = t * t; // for Estrin's scheme, whose dependency chain is short
     const Vf r = (0.442654073f - 0.276569515f * t) +
                  t2 * ((0.184100822f - 0.0972018316f * t) + 0.0256912634f * t2);
     return exponent + t * (1.0f + (1.0f - t) * r);
 }
 
-// Bounded to +-MAX_DERIVATIVE; NaN becomes the bound, so that it leads to the smallest level.
+// Clamps to +-MAX_DERIVATIVE. NaN becomes MAX_DERIVATIVE, which leads to the smallest level.
 VEC_INLINE Vf bounded(Vf v) {
     return vf_max(vf_min(v, vf_splat(MAX_DERIVATIVE)), vf_splat(-MAX_DERIVATIVE));
 }
@@ -49,18 +50,20 @@ VEC_INLINE Jacobian bounded_jacobian(Jacobian j) {
     return (Jacobian){bounded(j.ux), bounded(j.vx), bounded(j.uy), bounded(j.vy)};
 }
 
-// The major axis of a footprint in texels, with the squares of its length and of the minor one's as
-// it counts: no shorter than the greatest anisotropy allows.
+// The major axis of a footprint in texels, and the squared lengths of both axes. The minor axis
+// counts as no shorter than the greatest anisotropy allows. Trilinear reads use minor2 only.
 typedef struct Axis {
     Vf u, v;
     Vf length2;
     Vf minor2;
 } Axis;
 
-// Plain AF: the better of the screen's frame and one turned by 45 degrees, the latter capped at
-// half; hence a level of detail that depends on the angle. In the turned frame the derivatives are
-// (dX + dY) / sqrt 2 and (dY - dX) / sqrt 2, their squares half the sum plus and minus dX dY.
-// Squares of ratios are compared by their products, without division.
+// Plain AF: measures the footprint in the screen's frame and in one turned by 45 degrees, and uses
+// the frame with the greater ratio of lengths. The ratio in the turned frame is capped at half the
+// maximum, so the level of detail depends on the angle. The turned derivatives are (dX + dY) / sqrt
+// 2 and (dY - dX) / sqrt 2; their squared lengths are half the sum of the screen's squares, plus
+// and minus the dot product of dX and dY. Squared ratios are compared by cross multiplication,
+// without division.
 VEC_INLINE Axis two_frame_axis(Jacobian j, int max_anisotropy) {
     const float max = (float)max_anisotropy;
     const float half = max_anisotropy > 2 ? 0.5f * max : 1.0f;
@@ -86,9 +89,9 @@ VEC_INLINE Axis two_frame_axis(Jacobian j, int max_anisotropy) {
                   vf_max(short2, long2 * (1.0f / (max * max)))};
 }
 
-// Advanced AF: the ellipse's axes M >= m, the singular values of the Jacobian J in closed form,
-// which does not cancel: M = |(e, h)| + |(f, g)|, m = |det J| / M. The major direction is the
-// larger column of J J^T - m^2 I.
+// Advanced AF: the axes M >= m of the exact ellipse are the singular values of the Jacobian J.
+// Their closed form M = |(e, h)| + |(f, g)|, m = |det J| / M has no cancellation. The major axis
+// points along the larger column of J J^T - m^2 I.
 VEC_INLINE Axis ellipse_axis(Jacobian j, int max_anisotropy) {
     const Vf e = (j.ux + j.vy) * 0.5f;
     const Vf f = (j.ux - j.vy) * 0.5f;
@@ -113,14 +116,14 @@ VEC_INLINE Axis ellipse_axis(Jacobian j, int max_anisotropy) {
                   vf_max(vf_min(minor2, length2), length2 * (1.0f / (max * max)))};
 }
 
-// ceil(ratio - 1e-4) for ratios of 1..16.
+// Returns ceil(ratio - 1e-4) for ratios of 1..16.
 VEC_INLINE Vi probe_count(Vf ratio) {
     const Vf at = ratio - 1e-4f;
     const Vi whole = vi_from_float(at);
     return whole + vi_select(vf_lt(vf_from_int(whole), at), vi_splat(1), vi_splat(0));
 }
 
-// 1 / probes, for 1..16.
+// Returns 1 / probes for 1..16 probes.
 VEC_INLINE Vf inverse_of(Vi probes) {
     static const float inverses[16] = {
         1.0f / 16, 1.0f,     1.0f / 2,  1.0f / 3,  1.0f / 4,  1.0f / 5,  1.0f / 6,  1.0f / 7,
@@ -128,9 +131,9 @@ VEC_INLINE Vf inverse_of(Vi probes) {
     return vf_lookup16(inverses, probes & 15);
 }
 
-// Trilinear: the square of the longer derivative.
+// Returns the squared length of the longer derivative, from which trilinear reads take their level.
 VEC_INLINE Vf isotropic_minor2(Jacobian j) {
-    // Not finite: the bound, so that it leads to the smallest level.
+    // A length that is not finite becomes the bound, which leads to the smallest level.
     const Vf most = vf_splat(MAX_DERIVATIVE * MAX_DERIVATIVE);
     const Vf dx2 = vf_min(j.ux * j.ux + j.vx * j.vx, most);
     const Vf dy2 = vf_min(j.uy * j.uy + j.vy * j.vy, most);
@@ -143,14 +146,15 @@ VEC_INLINE Axis anisotropic_axis(const DipSampler *sampler, Jacobian j) {
                                     : two_frame_axis(bounds, sampler->max_anisotropy);
 }
 
-// The middle quarter of the way from a level to the next takes all of the blend between them;
-// before it the finer level is read alone, after it the coarser.
+// Narrows the blend between two levels to the middle quarter of the way from one to the next.
+// Before this quarter only the finer level is read, after it only the coarser one.
 VEC_INLINE Vi narrow_blend(Vi lod8) {
     const Vi fraction = ((lod8 & 255) - 96) * 4;
     return (lod8 & ~255) + vi_min(vi_max(fraction, vi_splat(0)), vi_splat(256));
 }
 
-// lambda = log2 of the minor axis, from its square, rounded to 1/256 level, biased, clamped.
+// Returns the level of detail, biased and clamped, in 1/256 level. lambda is log2 of the length of
+// the minor axis, which comes from its square, and is rounded to 1/256.
 VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
     const Vf lambda = log2_of(vf_max(minor2, vf_splat(MIN_LENGTH * MIN_LENGTH))) * 0.5f;
     const Vi lod8 = vi_from_float(vf_floor(lambda * 256.0f + 0.5f)) + sampler->bias_lod8;
@@ -159,9 +163,10 @@ VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
     return vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
 }
 
-// The probes of an anisotropic footprint on the nearer of its levels: no closer than a texel of the
-// finest level that may be read, since more would read the same texels again.
-// halve: 1: half of them, rounded up; 0: all.
+// Returns the number of probes of an anisotropic footprint in the finer of its two levels. Probes
+// are never closer than a texel of the finest level that may be read, since more probes would read
+// the same texels again.
+// halve: 1 returns half as many, rounded up; 0 returns all.
 VEC_INLINE Vi count_probes(const DipSampler *sampler, const Axis *axis, int halve) {
     const int last = sampler->texture->level_count - 1;
     const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
@@ -172,14 +177,16 @@ VEC_INLINE Vi count_probes(const DipSampler *sampler, const Axis *axis, int halv
     return (full + halve) >> halve;
 }
 
-// Of the probes of the nearer level how many the farther one takes, whose texels are twice as
-// large: half, and the more the nearer the level is to being read alone.
+// Returns how many probes the coarser level takes if the finer one takes near_count. Its texels are
+// twice as large, so half as many are enough as long as it has little weight; the number rises with
+// its weight to all of them. fraction: the coarser level's weight in 1/256.
 VEC_INLINE Vi count_far_probes(Vi near_count, Vi fraction) {
     return (near_count * vi_max(fraction, vi_splat(128)) + 255) >> 8;
 }
 
-// Half of the steps between probes of equal weight, texture coordinates: N of them lie at
-// (k + 1/2) / N - 1/2 of the major axis about its middle, hence N - 1 half steps before it.
+// Half of the step between neighbouring probes, in texture coordinates. N probes of equal weight
+// lie at (k + 1/2) / N - 1/2 of the major axis about its middle, so the first one is N - 1 half
+// steps before the middle.
 typedef struct Probes {
     Vf half_u, half_v;
 } Probes;

@@ -7,8 +7,9 @@ int dip_mip_next_size(int size) {
     return size > 1 ? size / 2 : 1;
 }
 
-// Of an odd size n = 2m + 1, target texel i spans [i n / m, (i + 1) n / m): two whole texels and
-// two ends, of which one may be empty, in all at most three texels.
+// If the size n = 2m + 1 is odd, texel i of the next level spans [i n / m, (i + 1) n / m) of the
+// source. That is the part 1 - i / m of texel 2i, all of texel 2i + 1, and the part (i + 1) / m of
+// texel 2i + 2.
 DipMipTap dip_mip_tap(int i, int size, int next) {
     if (size == next) {
         return (DipMipTap){i, 1, {1.0f, 0.0f, 0.0f}};
@@ -21,7 +22,7 @@ DipMipTap dip_mip_tap(int i, int size, int next) {
         2 * i, 3, {(float)((next - i) / n), (float)(next / n), (float)((i + 1) / n)}};
 }
 
-// The usual case, of even sizes, in the order of the general one.
+// Halves a row in the usual case of even sizes, in the order of the general case.
 static void halve_evenly(const float *upper, const float *lower, float *restrict to,
                          int next_width) {
     for (int x = 0; x < next_width; x++) {

@@ -1,10 +1,11 @@
-// Texture reads: probes and filtering, compiled once per instruction set. docs/picture.md defines
-// them.
+// Texture reads: probes and filtering, compiled once per instruction set. docs/picture.md
+// (Textures) defines them.
 //
-// Colours are filtered in 16-bit fixed point: a texel's codes are squared to linear light and
-// weighted by 16-bit fractions, keeping the upper half of each product. Two texels beside each
-// other are fetched at once and stay side by side ("pair order", simd/pairs.h) until their sum.
-// Sums are whole numbers, so no order of lanes or probes matters.
+// Colours are filtered in 16-bit fixed point: the codes of a texel are squared to linear light and
+// weighted by 16-bit fractions; the upper half of each product is kept. Two neighbouring texels are
+// fetched at once and stay side by side ("pair order", simd/pairs.h) until they are summed. Sums
+// are integers, so the order of lanes and probes does not matter. Of the two levels that a
+// footprint blends, `near` is the finer one and `far` the coarser.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/footprint_simd.h"
 #include "renderer/pipeline/texture/texture_layout.h"
@@ -14,41 +15,44 @@
 
 enum { VECTORS = DIP_FRAGMENT_BATCH / DIP_LANES };
 
-// A way to read a texture: constants of each inlined copy of the loops below.
+// How a texture is read. These are constants in each inlined copy of the loops below.
 typedef struct Way {
-    bool anisotropic; // several probes
-    bool in_bits;     // addresses are fractions of the texture in 32 bits, which wrap by themselves
+    bool anisotropic; // several probes per level
+    // Coordinates are fractions of the texture in 32 bits, which wrap by overflow.
+    bool in_bits;
 } Way;
 
-// Probes of a batch' footprints on one of the two levels that these blend. Places are fractions in
-// units of 2^-32, or the bits of floats where the way says so.
+// The probes of a batch's footprints in one of the two levels that they blend; only anisotropic
+// reads use them. Coordinates are in units of 2^-32 if the mode is in_bits, otherwise they are the
+// bits of floats.
 typedef struct Line {
-    Vi count[VECTORS];  // of probes; 0: the level is not read
-    Vf weight[VECTORS]; // of a probe in the footprint. This and what follows: anisotropic only
-    Vu u[VECTORS];      // of the first probe
+    Vi count[VECTORS];  // number of probes; 0: the level is not read
+    Vf weight[VECTORS]; // of each probe in the footprint
+    Vu u[VECTORS];      // coordinates of the first probe
     Vu v[VECTORS];
     Vu step_u[VECTORS];
     Vu step_v[VECTORS];
 } Line;
 
-// The footprints of a batch, found before any texel is read: their long chains of dependent
-// operations overlap, which they would not with the reads in between.
+// The footprints of a batch. All are found before any texel is read: their long chains of dependent
+// operations then overlap, which they would not with reads in between.
 typedef struct Footprints {
     Vi lod8[VECTORS];
-    Vu u[VECTORS]; // of the middle
+    Vu u[VECTORS]; // coordinates of the middle
     Vu v[VECTORS];
     Line near;
     Line far;
 } Footprints;
 
-// The fraction of a coordinate in units of 2^-32. Infinities and NaN become some fraction.
+// Returns the fractional part of a coordinate in units of 2^-32. Infinities and NaN become some
+// fraction.
 VEC_INLINE Vu fraction32(Vf coordinate) {
     const Vf unit = coordinate - vf_floor(coordinate);
     const Vf bounded = vf_max(vf_min(unit, vf_splat(0.99999994f)), vf_splat(0.0f));
     return (Vu)vi_from_float((bounded - 0.5f) * 4294967296.0f) + 0x80000000u;
 }
 
-// A step likewise, modulo 1: the nearest of its values, in -1/2 .. 1/2, so that small steps keep
+// Returns a step in units of 2^-32. It is reduced modulo 1 to -1/2 .. 1/2, so that small steps keep
 // their precision.
 VEC_INLINE Vu step32(Vf step) {
     const Vf near = step - vf_floor(step + 0.5f);
@@ -56,7 +60,8 @@ VEC_INLINE Vu step32(Vf step) {
     return (Vu)vi_from_float(bounded * 4294967296.0f);
 }
 
-// Steps are taken from their halves, since half of what wraps may be off by half.
+// Sets the first probe and the step of vector n as 32-bit fractions. The step is computed from its
+// half: half of a step that has wrapped could be off by 1/2.
 VEC_INLINE void place_probes32(const Probes *probes, Vu u, Vu v, Line *line, int n) {
     const Vu gaps = (Vu)line->count[n] - 1u;
     const Vu half_u = step32(probes->half_u);
@@ -67,7 +72,7 @@ VEC_INLINE void place_probes32(const Probes *probes, Vu u, Vu v, Line *line, int
     line->step_v[n] = half_v + half_v;
 }
 
-// A line's probes in vector n; level_weight: of the level.
+// Sets the probes of vector n in a level. level_weight: the level's weight in the blend.
 VEC_INLINE void place_line(Line *line, const DipTexture *texture, Way way, const Axis *axis,
                            const Footprints *footprints, Vf level_weight, int n) {
     const Vf inverse = inverse_of(line->count[n]);
@@ -84,20 +89,21 @@ VEC_INLINE void place_line(Line *line, const DipTexture *texture, Way way, const
     line->step_v[n] = (Vu)(probes.half_v + probes.half_v);
 }
 
-// The batch's work so far, a sum per lane: of probes of the nearer level, and of bilinear reads.
+// The work of a batch so far, summed per lane: probes in the finer level, and bilinear reads.
 typedef struct LaneWork {
     Vi probes;
     Vi reads;
 } LaneWork;
 
-// Adds the work of the lanes that are the batch's own.
+// Adds the work of the first `lanes` lanes; the other lanes are beyond the end of the batch.
 VEC_INLINE void count_work(LaneWork *work, Vi near, Vi far, int lanes) {
     const Mask own = vi_lt(vi_iota(), vi_splat(lanes));
     work->probes += vi_select(own, near, vi_splat(0));
     work->reads += vi_select(own, near + far, vi_splat(0));
 }
 
-// In short loops, for the same reason. textures: how many are read there.
+// Finds the footprints of a batch. Short loops let the processor overlap long dependency chains.
+// textures: the number of textures that share these footprints.
 VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
                                 int varying, int textures, Footprints *out) {
     const int count = (batch->count + DIP_LANES - 1) / DIP_LANES;
@@ -147,17 +153,16 @@ VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampl
 
 // --- addresses ---------------------------------------------------------------------------------
 
-// A level's table entries per lane.
+// The layout of the level that each lane reads.
 typedef struct Level {
     Vi offset;
     Vi stride;
     Vi stride_pairs; // stride, in pair order
-    Vi width;        // texels; in bits: their log2
+    Vi width;        // texels; log2 of them if the mode is in_bits
     Vi height;
 } Level;
 
-// A bilinear read: the first texel's index and its position in 1/256 texel, the whole texels
-// included.
+// A bilinear read: the index of its first texel, and its position in the level in 1/256 texel.
 typedef struct Taps {
     Vi index;
     Vi x8;
@@ -180,9 +185,9 @@ VEC_INLINE Level read_level(const DipTexture *texture, Way way, Vi level) {
     return out;
 }
 
-// A coordinate to 1/256 texel of a level of any size, texel centres at whole numbers. Before the
-// first centre comes the last texel. Infinities and NaN become 0 or 1, so that no address leaves
-// the texture.
+// Converts a coordinate to 1/256 texel of a level of any size, with texel centres at whole numbers.
+// If the axis repeats, positions before the first centre continue from the last texel. Infinities
+// and NaN become 0 or 1, so that no address leaves the texture.
 VEC_INLINE Vi address(Vf coordinate, DipWrap wrap, Vi size) {
     const Vf unwrapped = wrap == DIP_WRAP_REPEAT ? coordinate - vf_floor(coordinate) : coordinate;
     const Vf unit = vf_min(vf_max(unwrapped, vf_splat(0.0f)), vf_splat(1.0f));
@@ -191,16 +196,16 @@ VEC_INLINE Vi address(Vf coordinate, DipWrap wrap, Vi size) {
     return wrap == DIP_WRAP_REPEAT ? at + (before & (size << 8)) : at & ~before;
 }
 
-// A vector's probes on a level, one after another.
+// A walk along the probes of one vector in a level.
 typedef struct Walk {
     Level level;
-    Vu u, v; // in bits: less half a texel, so that texel centres lie at multiples of one
+    Vu u, v; // if in_bits: less half a texel, so that texel centres lie at multiples of one
     Vu step_u, step_v;
     int probe;
-    int count; // the greatest of the lanes
+    int count; // most probes of any lane
 } Walk;
 
-// line: of an anisotropic footprint.
+// line: used only if the mode is anisotropic.
 VEC_INLINE Walk begin_walk(const DipTexture *texture, Way way, Vi level,
                            const Footprints *footprints, const Line *line, int n) {
     Walk walk = {.level = read_level(texture, way, level),
@@ -227,7 +232,7 @@ VEC_INLINE void next_probe(Walk *walk, Way way) {
     }
 }
 
-// The read at the walk's position.
+// Returns the bilinear read at the walk's position.
 VEC_INLINE Taps find_taps(const DipTexture *texture, Way way, const Walk *walk) {
     const Level *level = &walk->level;
     Taps taps;
@@ -255,22 +260,23 @@ VEC_INLINE Vi far_level(const DipSampler *sampler, Vi lod8) {
     return vi_min((lod8 >> 8) + 1, vi_splat(sampler->texture->level_count - 1));
 }
 
-// The level that mip debugging shows for it.
+// Returns the level that mip debugging shows instead of `level`.
 VEC_INLINE Vi shown_level(const DipSampler *sampler, Vi level) {
     return sampler->shown ? vi_lookup16(sampler->shown_level, level) : level;
 }
 
 // --- colour ------------------------------------------------------------------------------------
 
-// Sums of weighted texels in pair order, 16 bits per channel: red and green, and blue.
+// Sums of weighted texels in pair order, with 16 bits per channel: red and green in one word, blue
+// in another.
 typedef struct PairSum {
     VuPair red_green;
     VuPair blue;
 } PairSum;
 
-// Sums of such sums, 32 bits per channel.
+// Sums of several PairSums, with 32 bits per channel.
 typedef struct WideSum {
-    VuPair red_green; // as they come, modulo 2^32: less red's sum it leaves green's
+    VuPair red_green; // packed sums modulo 2^32; minus red << 16 they leave green
     VuPair red;
     VuPair blue;
 } WideSum;
@@ -280,6 +286,7 @@ typedef struct WideSum {
 #define NO_SUM      ((PairSum){NO_PAIR, NO_PAIR})
 #define NO_WIDE_SUM ((WideSum){NO_PAIR, NO_PAIR, NO_PAIR})
 
+// Adds a PairSum to a WideSum.
 VEC_INLINE void widen(WideSum *wide, const PairSum *sum) {
     wide->red_green.a += sum->red_green.a;
     wide->red_green.b += sum->red_green.b;
@@ -289,7 +296,8 @@ VEC_INLINE void widen(WideSum *wide, const PairSum *sum) {
     wide->blue.b += sum->blue.b;
 }
 
-// Adds half of the pairs: linear light, the square of the codes, times a 16-bit weight.
+// Adds one of the two vectors of a pair of texels: linear light, which is the square of the codes,
+// times a 16-bit weight.
 VEC_INLINE void add_texels(Vu *red_green, Vu *blue, Vu texels, Vu weight) {
     const Vu b = vu_dot16(texels & DIP_TEXEL_BLUE, DIP_TEXEL_BLUE_PLACES);
     *red_green += vu_mulhi16(vu_mulhi16(texels, texels), weight);
@@ -302,7 +310,8 @@ VEC_INLINE void add_row(PairSum *sum, const DipTexture *texture, Vi index_pairs,
     add_texels(&sum->red_green.b, &sum->blue.b, texels.b, weight.b);
 }
 
-// Takes the lanes that have no further probe out of a ramp. count: of probes, as both values.
+// Zeroes the weight of lanes that have run out of probes. count: the number of probes of each lane,
+// as both values of a pair.
 VEC_INLINE VuPair has_probe(VuPair ramp, VuPair count, int probe) {
     const Vi at = vi_splat(probe);
     return (VuPair){(Vu)vi_select(vi_lt(at, (Vi)count.a), (Vi)ramp.a, vi_splat(0)),
@@ -320,14 +329,15 @@ VEC_INLINE Weights join_weights(VuPair across, VuPair upper, VuPair lower) {
                      {vu_mulhi16(across.a, lower.a), vu_mulhi16(across.b, lower.b)}};
 }
 
-// count: of the lanes' probes, as both values; a lane that has no such probe weighs nothing.
+// Returns the weights of a probe. count: the number of probes of each lane, as both values of a
+// pair; a lane that has no such probe weighs nothing.
 VEC_INLINE Weights weigh_probe(const Taps *taps, VuPair count, int probe) {
     const VuPair down = vu_pair_both(taps->y8);
     return join_weights(has_probe(vu_pair_ramp(taps->x8), count, probe), (VuPair){~down.a, ~down.b},
                         down);
 }
 
-// Times a level's weight.
+// Returns the weights of a level's only read, multiplied by the weight of the level.
 VEC_INLINE Weights weigh_level(const Taps *taps, VuPair weight) {
     const VuPair down = vu_pair_both(taps->y8);
     const VuPair lower = {vu_mulhi16(down.a, weight.a), vu_mulhi16(down.b, weight.b)};
@@ -342,8 +352,8 @@ VEC_INLINE void add_taps(PairSum *sum, const DipTexture *texture, const Level *l
     add_row(sum, texture, index + level->stride_pairs, weights->lower);
 }
 
-// Light of a sum, 1 as what white comes to within 6: the squares of its codes less what rounded
-// products lose.
+// Converts a sum to linear light. The divisors make white 1: its sum differs from them by at most
+// 6, because products of its squared codes lose some by rounding.
 VEC_INLINE void sum_channels(const WideSum *sum, Vf light[3]) {
     const Vu red = vu_pair_sum(sum->red);
     light[0] = vf_from_int((Vi)red) * (1.0f / 65526.0f);
@@ -351,13 +361,13 @@ VEC_INLINE void sum_channels(const WideSum *sum, Vf light[3]) {
     light[2] = vf_from_int((Vi)vu_pair_sum(sum->blue)) * (1.0f / 65402.0f);
 }
 
-// The textures that are read at the same footprints, one or two.
+// The one or two textures that are read at the same footprints.
 typedef struct Read {
     const DipTexture *texture[2];
     int count;
 } Read;
 
-// Adds vector n's probes on a level to its light.
+// Adds the light of vector n's probes in a level.
 VEC_INLINE void add_line(const Read *read, Way way, Vi level, const Footprints *footprints,
                          const Line *line, int n, Vf light[2][3]) {
     const VuPair count = vu_pair_same((Vu)line->count[n]);
@@ -382,7 +392,7 @@ VEC_INLINE void add_line(const Read *read, Way way, Vi level, const Footprints *
     }
 }
 
-// Adds vector n's only read of a level, by the level's weight.
+// Adds vector n's only read of a level, multiplied by the weight of the level.
 VEC_INLINE void add_level(const Read *read, Way way, Vi level, const Footprints *footprints, int n,
                           VuPair weight, PairSum sum[2]) {
     const Walk walk = begin_walk(read->texture[0], way, level, footprints, NULL, n);
@@ -458,8 +468,8 @@ VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const Level *level, cons
            (vf_from_int(lower & 255) * (gx * fy) + vf_from_int(lower >> 8 & 255) * (fx * fy));
 }
 
-// The mean over the probes of vector n on a level, in units of 1 / (255 * 65536). It is a quotient
-// so that a constant alpha comes out exact.
+// Returns the mean alpha over vector n's probes in a level, in units of 1 / (255 * 65536). The sum
+// is divided by the number of probes, so that a constant alpha stays exact.
 VEC_INLINE Vf mean_alpha(const DipTexture *texture, Way way, Vi level, const Footprints *footprints,
                          const Line *line, int n) {
     Vf total = vf_splat(0.0f);
@@ -496,7 +506,8 @@ VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler,
 
 // --- kernels -----------------------------------------------------------------------------------
 
-// Calls sample(batch, sampler, way, ...) with a way of constants.
+// Calls sample(batch, sampler, mode, ...) with a constant mode, so that each mode is inlined by
+// itself.
 #define SAMPLE_BY_WAY(sample, in_bits, ...)                                                        \
     do {                                                                                           \
         if (sampler->max_anisotropy > 1 && (in_bits)) {                                            \
@@ -516,8 +527,7 @@ void DIP_KERNEL(dip_kernel_sample_colour)(DipFragmentBatch *batch, const DipSamp
     SAMPLE_BY_WAY(sample_colour, texture->wraps_in_bits, u_varying, out);
 }
 
-// Whether two textures have the same texels at the same positions of memory and the same
-// footprints.
+// Returns whether two samplers read the same positions in memory, with the same footprints.
 static bool reads_alike(const DipSampler *a, const DipSampler *b) {
     const DipTexture *s = a->texture;
     const DipTexture *t = b->texture;

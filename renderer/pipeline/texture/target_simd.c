@@ -1,16 +1,16 @@
-// Reads of a target that a pass before drew, compiled once per instruction set.
+// Bilinear reads of a target that an earlier pass drew, compiled once per instruction set.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/simd/vec.h"
 
-// One axis of a bilinear read: the two texels and the share of the second.
+// One axis of a bilinear read: the indices of the two texels, and the weight of the second.
 typedef struct Axis {
     Vi near;
     Vi far;
     Vf share;
 } Axis;
 
-// A NaN reads the first texel.
+// A coordinate that is NaN reads the first texel.
 VEC_INLINE Axis axis_at(Vf fraction, int size) {
     const Vf at = fraction * (float)size - 0.5f;
     const Vf bounded = vf_min(vf_max(at, vf_splat(0.0f)), vf_splat((float)(size - 1)));

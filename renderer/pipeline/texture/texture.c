@@ -1,4 +1,5 @@
-// Building textures: decode, mip chain, pack, pad, on many threads.
+// Builds textures on many threads: decodes the pictures, filters the mip chains, packs and pads the
+// levels.
 #include "renderer/pipeline/texture/texture_layout.h"
 
 #include "renderer/base/assert.h"
@@ -17,16 +18,17 @@ enum { FULL_CODE16 = 65535, FULL_CODE10 = 1023 };
 
 static uint32_t quantise(double linear, int max) {
     const double clamped = linear > 0.0 ? (linear < 1.0 ? linear : 1.0) : 0.0;
-    return (uint32_t)(int32_t)(sqrt(clamped) * max + 0.5); // vectors convert to signed only
+    // Through a signed integer, because vector instructions convert to signed numbers only.
+    return (uint32_t)(int32_t)(sqrt(clamped) * max + 0.5);
 }
 
-// The multiple of 32 that comes closest to a 16-bit code with `low` added.
+// Returns the multiple of 32 that, with `low` added, comes closest to a 16-bit code.
 static uint32_t beside(uint32_t code16, uint32_t low) {
     const uint32_t at = code16 + 16 < low ? 0 : (code16 + 16 - low) & ~31u;
     return at > 65504 ? 65504 : at;
 }
 
-// From 16-bit codes of red and green and blue's of 10 bits.
+// Packs a texel from 16-bit codes of red and green and a 10-bit code of blue.
 static uint32_t join_codes(uint32_t red16, uint32_t green16, uint32_t blue10) {
     const uint32_t high = blue10 >> 5;
     const uint32_t low = blue10 & 31;
@@ -48,7 +50,8 @@ static bool check_def(const DipTextureDef *def, DipError *err) {
     return true;
 }
 
-// A few thousand texels at a time, so that the loop is free of branches.
+// Returns whether some texel is not opaque. It checks a few thousand texels at a time, so that the
+// inner loop has no branches.
 static bool has_alpha(const DipTextureDef *def) {
     const size_t count = (size_t)def->width * (size_t)def->height;
     uint8_t all = 255;
@@ -73,7 +76,7 @@ static bool is_power_of_two(int size) {
     return (size & (size - 1)) == 0;
 }
 
-// Appends a level's position to the table and returns the texels it takes.
+// Enters a level's size and offset into the tables. Returns the number of texels that it takes.
 static size_t place_level(DipTexture *texture, int level, int width, int height, size_t offset) {
     texture->level_width[level] = width;
     texture->level_height[level] = height;
@@ -99,7 +102,8 @@ static void place_chain(DipTexture *texture) {
     }
 }
 
-// Reads past the end by one vector element stay inside: 8 spare texels, 32 spare bytes of alpha.
+// 8 spare texels and 32 spare bytes of alpha keep reads that run past the last texel inside the
+// arrays.
 static bool allocate_texels(DipTexture *texture, bool with_alpha) {
     texture->texels = dip_pages_alloc((texture->texel_count + 8) * sizeof *texture->texels);
     if (with_alpha) {
@@ -108,8 +112,8 @@ static bool allocate_texels(DipTexture *texture, bool with_alpha) {
     return texture->texels && (texture->alpha || !with_alpha);
 }
 
-// What each of the 256 codes of a texture means: light for the filter, and the packed texel's
-// parts.
+// What each of the 256 codes of a texture stands for: linear light or alpha for the mip filter, and
+// the codes of packed texels.
 typedef struct CodeTables {
     float colour[256];
     float alpha[256];
@@ -130,13 +134,14 @@ static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
     }
 }
 
-// The padding's column or row repeats the first or the last of the level.
+// Returns which column (or row) of a level column i repeats: itself, or in the padding, i == size,
+// the first or the last one.
 static int padding_source(int i, int size, DipWrap wrap) {
     return i < size ? i : wrap == DIP_WRAP_REPEAT ? 0 : size - 1;
 }
 
-// Packs rows first..end-1 of a picture's own texels, code by code; the row of padding is the
-// height's.
+// Packs rows first..end-1 of a level straight from the codes of its picture, padding columns
+// included. Row `height` is the padding row.
 static void pack_codes(DipTexture *texture, int level, const DipTextureDef *def,
                        const CodeTables *tables, int first, int end) {
     const size_t position =
@@ -173,25 +178,26 @@ static void pack_row(const float *row, int width, uint32_t *restrict texels,
 
 // --- chains ------------------------------------------------------------------------------------
 
-// Level 0 is packed from the picture's codes and halved from them, row by row; the levels below are
-// a third of the work and are made by one task, which runs beside the next texture's bands.
-enum { BAND_TEXELS = 1 << 16 }; // of level 0, about
+// A chain is made in two parts. Level 0 is packed straight from the picture's codes, and level 1 is
+// filtered from them row by row; this work is cut into bands. The levels from 2 on are the rest, a
+// third of the work. One task makes them while other threads work on the bands of the next texture.
+enum { BAND_TEXELS = 1 << 16 }; // texels of level 0 in a band, about
 
 // A texture that is being built.
 typedef struct Chain {
     const DipTextureDef *def;
     DipTexture *texture;
     const CodeTables *tables;
-    float *level1; // rows of floats, see mip.h; level2 behind it
+    float *level1; // rows of floats, see mip.h; level2 follows it in the same block of memory
     float *level2;
-    int band_rows; // of level 1
+    int band_rows; // rows of level 1 in a band
     int band_count;
 } Chain;
 
 typedef struct ChainJobs {
-    Chain *bands; // NULL: none; whose bands are the tasks from 1 on
-    Chain *rest;  // NULL: none; whose further levels are task 0
-    float *rows;  // per worker, three rows of level 0
+    Chain *bands; // the texture whose bands are tasks 1 and up, or NULL
+    Chain *rest;  // the texture whose levels from 2 on are task 0, or NULL
+    float *rows;  // per worker: three rows of level 0
     size_t row_floats;
 } ChainJobs;
 
@@ -226,7 +232,7 @@ void dip_texture_pad_row(DipTexture *texture, int level, int y) {
     }
 }
 
-// Packs a row of a filtered level, with the padding that repeats it.
+// Packs a row of a filtered level, and the padding that repeats it.
 static void store_row(DipTexture *texture, int level, int y, const float *row) {
     const int width = texture->level_width[level];
     const size_t position = (size_t)texture->level_offset[level] + (size_t)y * ((size_t)width + 1);
@@ -235,7 +241,7 @@ static void store_row(DipTexture *texture, int level, int y, const float *row) {
     dip_texture_pad_row(texture, level, y);
 }
 
-// Level 0's rows that belong to a band of level 1, and that band.
+// Packs the rows of level 0 that a band of level 1 is filtered from, and makes that band.
 static void make_band(const Chain *chain, int band, float *scratch) {
     DipTexture *texture = chain->texture;
     const int width = texture->width;
@@ -263,7 +269,7 @@ static void make_band(const Chain *chain, int band, float *scratch) {
     }
 }
 
-// Every level from 2 on, with two levels in memory at a time.
+// Makes every level from 2 on, with two levels in memory at a time.
 static void make_rest(const Chain *chain) {
     DipTexture *texture = chain->texture;
     DipMipLevel from = {texture->level_width[1], texture->level_height[1], chain->level1};
@@ -296,7 +302,7 @@ static DipTexture *out_of_memory(DipTexture *texture, const char *name, DipError
     return NULL;
 }
 
-// A texture with its levels' positions, without texels in them.
+// Creates a texture with the layout of its levels and texels that are not yet written.
 static DipTexture *begin_texture(const DipTextureDef *def, bool clips, DipError *err) {
     if (!check_def(def, err)) {
         return NULL;
@@ -340,7 +346,7 @@ static bool begin_chain(Chain *chain, const DipTextureDef *def, bool clips,
     return true;
 }
 
-// What the tasks of every texture share.
+// Allocates what the tasks of all textures share.
 static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef *defs,
                        const bool *used, int count, DipPool *pool) {
     int widest = 1;
@@ -360,7 +366,8 @@ static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef
     return true;
 }
 
-// Runs a chain's bands beside the rest of the one before, whose memory is then given back.
+// Makes the bands of one chain together with the rest of the chain before it, then frees the rows
+// of the latter.
 static void run_chains(ChainJobs *jobs, DipPool *pool) {
     dip_pool_run(pool, 1 + (jobs->bands ? jobs->bands->band_count : 0), run_chain_task, jobs);
     if (jobs->rest) {
