@@ -15,7 +15,7 @@
 // geometry stage.
 #define SPIN_NS 300000
 
-enum { LOOKS_PER_CLOCK = 64 }; // checks for work between two reads of the clock
+enum { CHECKS_PER_CLOCK_READ = 64 }; // checks for work between two reads of the clock
 
 // One word holds the state of a run: its number, whether workers may still enter it, and how many
 // are inside. A run does not wait for workers that wake too late to enter it.
@@ -72,7 +72,7 @@ static uint32_t current_run(DipPool *pool) {
 static void await_run(DipPool *pool, uint32_t seen) {
     const int64_t end_ns = pool->spins ? dip_clock_ns() + SPIN_NS : 0;
     while (pool->spins && dip_clock_ns() < end_ns) {
-        for (int i = 0; i < LOOKS_PER_CLOCK; i++) {
+        for (int i = 0; i < CHECKS_PER_CLOCK_READ; i++) {
             if (current_run(pool) != seen) {
                 return;
             }

@@ -4,8 +4,8 @@
 // A block stores two colours with 5 bits of red, 6 of green and 5 of blue, low byte first, and two
 // bits per texel. These bits choose one of the two colours or one of two more, which follow from
 // them. All functions are thread-safe.
-#ifndef DIP_RENDERER_PIPELINE_TEXTURE_BC1_H
-#define DIP_RENDERER_PIPELINE_TEXTURE_BC1_H
+#ifndef DIP_RENDERER_PIPELINE_BC1_H
+#define DIP_RENDERER_PIPELINE_BC1_H
 
 #include "renderer/base/api.h"
 

@@ -1,7 +1,7 @@
 // Patches: small groups of a mesh's triangles that join smoothly. A pixel is shaded once per patch
 // (docs/picture.md, Shading), so edges inside a patch cost no shading.
-#ifndef DIP_RENDERER_PIPELINE_GEOMETRY_PATCH_H
-#define DIP_RENDERER_PIPELINE_GEOMETRY_PATCH_H
+#ifndef DIP_RENDERER_PIPELINE_PATCH_H
+#define DIP_RENDERER_PIPELINE_PATCH_H
 
 #include "renderer/base/api.h"
 

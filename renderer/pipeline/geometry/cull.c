@@ -167,7 +167,7 @@ bool dip_cull_outside(const DipCullPlanes *planes, const DipBox *box) {
 }
 
 DipBox dip_cull_transform_box(const float transform[12], const DipBox *box) {
-    DipBox placed;
+    DipBox moved;
     for (int axis = 0; axis < 3; axis++) {
         const float *m = transform + 4 * axis;
         double centre = m[3];
@@ -179,10 +179,10 @@ DipBox dip_cull_transform_box(const float transform[12], const DipBox *box) {
             extent += length * box->extent[k];
             size += length * (magnitude(box->centre[k]) + box->extent[k]);
         }
-        placed.centre[axis] = (float)centre;
-        placed.extent[axis] = (float)(extent + ROUNDING * size);
+        moved.centre[axis] = (float)centre;
+        moved.extent[axis] = (float)(extent + ROUNDING * size);
     }
-    return placed;
+    return moved;
 }
 
 static uint32_t cull_draw(const DipCullPlanes *planes, const DipMesh *mesh, uint32_t draw,

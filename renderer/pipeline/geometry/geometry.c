@@ -97,7 +97,7 @@ static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
 static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
     return needs->triangles <= INT32_MAX / (uint64_t)needs->plane_stride ||
            dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, "pass",
-                         "%d draws that need room for %llu triangles, accepted %d",
+                         "%d draws need space for %llu triangles, accepted at most %d",
                          pass->draw_count, (unsigned long long)needs->triangles,
                          INT32_MAX / needs->plane_stride);
 }
@@ -201,7 +201,7 @@ static DipTargetRegion tiles_of(const DipTargetRegion *region) {
                              (region->y1 + DIP_TILE - 1) / DIP_TILE};
 }
 
-static bool is_wanted(const DipGeometry *geometry, size_t tile) {
+static bool is_needed(const DipGeometry *geometry, size_t tile) {
     const DipTileRegion *parts = geometry->pass->tile_regions;
     return !parts || parts[tile].x1;
 }
@@ -216,7 +216,7 @@ static void list_group(DipGeometry *geometry, int x0, int y0) {
     for (int x = x0; x < x0 + TILE_GROUP && x < region->x1; x++) {
         for (int y = y0; y < y0 + TILE_GROUP && y < region->y1; y++) {
             const int tile = y * geometry->tiles_x + x;
-            if (is_wanted(geometry, (size_t)tile)) {
+            if (is_needed(geometry, (size_t)tile)) {
                 geometry->tiles[geometry->tile_count++] = (uint16_t)tile;
             }
         }
@@ -366,7 +366,7 @@ static void bin_triangle(JobRun *run, uint32_t index) {
     }
     for (size_t y = y0; y <= y1; y++) {
         for (size_t x = x0; x <= x1; x++) {
-            if (is_wanted(run->geometry, y * tiles_x + x)) {
+            if (is_needed(run->geometry, y * tiles_x + x)) {
                 add_to_bin(run, index, y * tiles_x + x);
             }
         }
@@ -398,9 +398,9 @@ static void add_batch(JobRun *run, const DipSetupBatch *batch) {
     }
     const DipGeometry *geometry = run->geometry;
     const uint32_t first = run->next_triangle;
-    const size_t surface = (size_t)first * (size_t)geometry->plane_stride;
+    const size_t first_plane = (size_t)first * (size_t)geometry->plane_stride;
     const int count = run->kernels->dip_kernel_setup(
-        &run->target, batch, geometry->triangles + first, geometry->planes + surface);
+        &run->target, batch, geometry->triangles + first, geometry->planes + first_plane);
     for (int i = 0; i < count; i++) {
         bin_triangle(run, first + (uint32_t)i);
     }

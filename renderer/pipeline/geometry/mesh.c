@@ -145,8 +145,8 @@ typedef struct Range {
     float high[3];
 } Range;
 
-// The empty range.
-static const Range nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+static const Range empty_range = {{INFINITY, INFINITY, INFINITY},
+                                  {-INFINITY, -INFINITY, -INFINITY}};
 
 static void add_range(Range *range, const Range *other) {
     for (int axis = 0; axis < 3; axis++) {
@@ -168,7 +168,7 @@ static DipBox box_of(const Range *range) {
 }
 
 static Range chunk_range(const DipMesh *mesh, const DipChunk *chunk) {
-    Range range = nothing;
+    Range range = empty_range;
     for (int axis = 0; axis < 3; axis++) {
         const float *values =
             mesh->attributes + (size_t)axis * mesh->vertex_total + chunk->first_vertex;
@@ -181,9 +181,9 @@ static Range chunk_range(const DipMesh *mesh, const DipChunk *chunk) {
 }
 
 static void bound_chunks(DipMesh *mesh) {
-    Range all = nothing;
+    Range all = empty_range;
     for (uint32_t first = 0; first < mesh->chunk_count; first += DIP_GROUP_CHUNKS) {
-        Range group = nothing;
+        Range group = empty_range;
         for (uint32_t c = first; c < first + DIP_GROUP_CHUNKS && c < mesh->chunk_count; c++) {
             const Range range = chunk_range(mesh, &mesh->chunks[c]);
             mesh->chunks[c].box = box_of(&range);

@@ -14,8 +14,8 @@ typedef struct Grower {
     size_t stride;
     const uint32_t *indices;
     uint32_t *patches;
-    uint32_t *first; // vertex v has the triangles at[first[v]] .. at[first[v + 1] - 1]
-    uint32_t *at;
+    uint32_t *first; // vertex v has triangles[first[v]] .. triangles[first[v + 1] - 1]
+    uint32_t *triangles;
     uint32_t queue[DIP_PATCH_TRIANGLES]; // triangles of the patch that is growing
     uint32_t queued;
     double normal[3]; // of the patch's first triangle, twice its area long
@@ -55,7 +55,7 @@ static bool has_vertex(const uint32_t corners[3], uint32_t vertex) {
     return corners[0] == vertex || corners[1] == vertex || corners[2] == vertex;
 }
 
-static void take(Grower *grower, uint32_t triangle, uint32_t patch) {
+static void add_triangle(Grower *grower, uint32_t triangle, uint32_t patch) {
     grower->patches[triangle] = patch;
     grower->queue[grower->queued++] = triangle;
 }
@@ -67,17 +67,17 @@ static uint32_t fan_size(const Grower *grower, uint32_t vertex) {
 // Adds the free triangles across one edge of the patch, as long as it has space. It looks for them
 // among the triangles of the end that has fewer, and not at all if these are many, so that no mesh
 // takes long.
-static void take_neighbours(Grower *grower, uint32_t a, uint32_t b, uint32_t patch) {
+static void add_neighbours(Grower *grower, uint32_t a, uint32_t b, uint32_t patch) {
     const uint32_t end = fan_size(grower, b) < fan_size(grower, a) ? b : a;
     if (fan_size(grower, end) > DIP_PATCH_FAN) {
         return;
     }
     for (uint32_t i = grower->first[end]; i < grower->first[end + 1]; i++) {
-        const uint32_t other = grower->at[i];
+        const uint32_t other = grower->triangles[i];
         const uint32_t *corners = grower->indices + 3 * (size_t)other;
         if (grower->queued < DIP_PATCH_TRIANGLES && grower->patches[other] == FREE &&
             has_vertex(corners, a) && has_vertex(corners, b) && is_smooth(grower, other)) {
-            take(grower, other, patch);
+            add_triangle(grower, other, patch);
         }
     }
 }
@@ -85,11 +85,11 @@ static void take_neighbours(Grower *grower, uint32_t a, uint32_t b, uint32_t pat
 static void grow(Grower *grower, uint32_t triangle, uint32_t patch) {
     grower->queued = 0;
     find_normal(grower, triangle, grower->normal);
-    take(grower, triangle, patch);
+    add_triangle(grower, triangle, patch);
     for (uint32_t i = 0; i < grower->queued; i++) {
         const uint32_t *corners = grower->indices + 3 * (size_t)grower->queue[i];
         for (int k = 0; k < 3; k++) {
-            take_neighbours(grower, corners[k], corners[(k + 1) % 3], patch);
+            add_neighbours(grower, corners[k], corners[(k + 1) % 3], patch);
         }
     }
 }
@@ -105,7 +105,7 @@ static void list_triangles(Grower *grower, uint32_t vertex_count, uint32_t index
         first[v + 2] += first[v + 1];
     }
     for (uint32_t i = 0; i < index_count; i++) {
-        grower->at[first[grower->indices[i] + 1]++] = i / 3;
+        grower->triangles[first[grower->indices[i] + 1]++] = i / 3;
     }
 }
 
@@ -117,8 +117,8 @@ bool dip_patches_find(const float *positions, size_t stride, uint32_t vertex_cou
                      .indices = indices,
                      .patches = patches,
                      .first = malloc(((size_t)vertex_count + 2) * sizeof *grower.first),
-                     .at = malloc(((size_t)index_count + 1) * sizeof *grower.at)};
-    const bool made = grower.first && grower.at;
+                     .triangles = malloc(((size_t)index_count + 1) * sizeof *grower.triangles)};
+    const bool made = grower.first && grower.triangles;
     *count = 0;
     if (made) {
         list_triangles(&grower, vertex_count, index_count);
@@ -130,6 +130,6 @@ bool dip_patches_find(const float *positions, size_t stride, uint32_t vertex_cou
         }
     }
     free(grower.first);
-    free(grower.at);
+    free(grower.triangles);
     return made;
 }

@@ -154,7 +154,7 @@ static void pad(Candidates *candidates, int count) {
 
 // One vector of triangles, with their vertices in 1/256 pixel, and vertex 0 and the two edges from
 // it in pixels.
-typedef struct Frame {
+typedef struct TriangleVector {
     Hi corner[3];
     Hi x[3];
     Hi y[3];
@@ -164,7 +164,7 @@ typedef struct Frame {
     Vd x0, y0;             // vertex 0, pixels
     Vd x10, y10, x20, y20; // from vertex 0 to vertices 1 and 2, pixels
     Vd inverse_area;       // 1 / (x10 y20 - x20 y10)
-} Frame;
+} TriangleVector;
 
 // The gradient of a value that is affine over the screen: at (x, y) it is the value at vertex 0
 // plus dx (x - x0) + dy (y - y0).
@@ -173,35 +173,35 @@ typedef struct Gradient {
     Vd dy;
 } Gradient;
 
-VEC_INLINE Gradient gradient(const Frame *frame, const Vd value[3]) {
+VEC_INLINE Gradient gradient(const TriangleVector *tri, const Vd value[3]) {
     const Vd v10 = value[1] - value[0];
     const Vd v20 = value[2] - value[0];
-    return (Gradient){(v10 * frame->y20 - v20 * frame->y10) * frame->inverse_area,
-                      (v20 * frame->x10 - v10 * frame->x20) * frame->inverse_area};
+    return (Gradient){(v10 * tri->y20 - v20 * tri->y10) * tri->inverse_area,
+                      (v20 * tri->x10 - v10 * tri->x20) * tri->inverse_area};
 }
 
 VEC_INLINE Vd to_pixels(Hi subpixels) {
     return vd_from_int(subpixels) * (1.0 / DIP_SUBPIXELS);
 }
 
-VEC_INLINE Frame frame_of(const Candidates *candidates, int at) {
-    Frame frame;
+VEC_INLINE TriangleVector load_triangles(const Candidates *candidates, int at) {
+    TriangleVector tri;
     for (int k = 0; k < 3; k++) {
-        frame.corner[k] = hi_load(candidates->corner[k] + at);
-        frame.x[k] = hi_load(candidates->x[k] + at);
-        frame.y[k] = hi_load(candidates->y[k] + at);
+        tri.corner[k] = hi_load(candidates->corner[k] + at);
+        tri.x[k] = hi_load(candidates->x[k] + at);
+        tri.y[k] = hi_load(candidates->y[k] + at);
     }
-    frame.patch = hi_load(candidates->patch + at);
-    frame.first_pixel = hi_load(candidates->first_pixel + at);
-    frame.last_pixel = hi_load(candidates->last_pixel + at);
-    frame.x0 = to_pixels(frame.x[0]);
-    frame.y0 = to_pixels(frame.y[0]);
-    frame.x10 = to_pixels(frame.x[1] - frame.x[0]);
-    frame.y10 = to_pixels(frame.y[1] - frame.y[0]);
-    frame.x20 = to_pixels(frame.x[2] - frame.x[0]);
-    frame.y20 = to_pixels(frame.y[2] - frame.y[0]);
-    frame.inverse_area = 1.0 / (frame.x10 * frame.y20 - frame.x20 * frame.y10);
-    return frame;
+    tri.patch = hi_load(candidates->patch + at);
+    tri.first_pixel = hi_load(candidates->first_pixel + at);
+    tri.last_pixel = hi_load(candidates->last_pixel + at);
+    tri.x0 = to_pixels(tri.x[0]);
+    tri.y0 = to_pixels(tri.y[0]);
+    tri.x10 = to_pixels(tri.x[1] - tri.x[0]);
+    tri.y10 = to_pixels(tri.y[1] - tri.y[0]);
+    tri.x20 = to_pixels(tri.x[2] - tri.x[0]);
+    tri.y20 = to_pixels(tri.y[2] - tri.y[0]);
+    tri.inverse_area = 1.0 / (tri.x10 * tri.y20 - tri.x20 * tri.y10);
+    return tri;
 }
 
 VEC_INLINE void gather3(const float *values, const Hi corner[3], Hf out[3]) {
@@ -213,10 +213,11 @@ VEC_INLINE void gather3(const float *values, const Hi corner[3], Hf out[3]) {
 // Computes edge i, from vertex i to the next: E(p) = dx (py - y) - dy (px - x) for any point (x, y)
 // on it, with dx and dy in pixels. By the top-left rule, a sample exactly on the edge is inside
 // only if this is a top edge (horizontal, going right) or a left edge (going up).
-VEC_INLINE void set_edge(const Frame *frame, int i, Vd dx, Vd dy, Vd x, Vd y, Hi *a, Hi *b, Vl *c) {
+VEC_INLINE void set_edge(const TriangleVector *tri, int i, Vd dx, Vd dy, Vd x, Vd y, Hi *a, Hi *b,
+                         Vl *c) {
     const int next = (i + 1) % 3;
-    const Hi subpixels_x = frame->x[next] - frame->x[i];
-    const Hi subpixels_y = frame->y[next] - frame->y[i];
+    const Hi subpixels_x = tri->x[next] - tri->x[i];
+    const Hi subpixels_y = tri->y[next] - tri->y[i];
     const Hi top_left = (subpixels_y < 0) | ((subpixels_y == 0) & (subpixels_x > 0));
     *a = -subpixels_y;
     *b = subpixels_x;
@@ -225,28 +226,28 @@ VEC_INLINE void set_edge(const Frame *frame, int i, Vd dx, Vd dy, Vd x, Vd y, Hi
 }
 
 // Stores a vector of DipTriangles as 64-bit words, in the order of its fields.
-VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen, uint32_t draw,
-                                DipTriangle *out) {
+VEC_INLINE void store_triangles(const TriangleVector *tri, const DipScreenBatch *screen,
+                                uint32_t draw, DipTriangle *out) {
     Hi a[3];
     Hi b[3];
     Vl c[3];
-    const Vd x0 = frame->x0;
-    const Vd y0 = frame->y0;
-    set_edge(frame, 0, frame->x10, frame->y10, x0, y0, &a[0], &b[0], &c[0]);
-    set_edge(frame, 1, frame->x20 - frame->x10, frame->y20 - frame->y10, x0 + frame->x10,
-             y0 + frame->y10, &a[1], &b[1], &c[1]);
-    set_edge(frame, 2, -frame->x20, -frame->y20, x0, y0, &a[2], &b[2], &c[2]);
+    const Vd x0 = tri->x0;
+    const Vd y0 = tri->y0;
+    set_edge(tri, 0, tri->x10, tri->y10, x0, y0, &a[0], &b[0], &c[0]);
+    set_edge(tri, 1, tri->x20 - tri->x10, tri->y20 - tri->y10, x0 + tri->x10, y0 + tri->y10, &a[1],
+             &b[1], &c[1]);
+    set_edge(tri, 2, -tri->x20, -tri->y20, x0, y0, &a[2], &b[2], &c[2]);
     Hf z[3];
-    gather3(screen->z, frame->corner, z);
+    gather3(screen->z, tri->corner, z);
     const Vd depth[3] = {vd_from_float(z[0]), vd_from_float(z[1]), vd_from_float(z[2])};
-    const Gradient slope = gradient(frame, depth);
-    const Vd origin = depth[0] - slope.dx * frame->x0 - slope.dy * frame->y0;
+    const Gradient slope = gradient(tri, depth);
+    const Vd origin = depth[0] - slope.dx * tri->x0 - slope.dy * tri->y0;
     const Hf low = hf_select(z[0] < z[1], z[0], z[1]);
     const Hf high = hf_select(z[0] > z[1], z[0], z[1]);
     const Vl words[3][4] = {
         {c[0], c[1], c[2], vl_pair(a[0], a[1])},
-        {vl_pair(a[2], b[0]), vl_pair(b[1], b[2]), vl_pair(frame->first_pixel, frame->last_pixel),
-         vl_pair(hi_splat((int32_t)draw), frame->patch)},
+        {vl_pair(a[2], b[0]), vl_pair(b[1], b[2]), vl_pair(tri->first_pixel, tri->last_pixel),
+         vl_pair(hi_splat((int32_t)draw), tri->patch)},
         {(Vl)origin, (Vl)slope.dx, (Vl)slope.dy,
          vl_pair((Hi)hf_select(low < z[2], low, z[2]), (Hi)hf_select(high > z[2], high, z[2]))},
     };
@@ -255,7 +256,7 @@ VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen
                        offsetof(DipTriangle, x1) == 52 && offsetof(DipTriangle, draw) == 56 &&
                        offsetof(DipTriangle, patch) == 60 &&
                        offsetof(DipTriangle, z_origin) == 64 && offsetof(DipTriangle, z_min) == 88,
-                   "triangles are written by words");
+                   "store_triangles writes DipTriangle word by word");
     for (int i = 0; i < 3; i++) {
         vl_store_rows((char *)out + 32 * i, sizeof *out, words[i]);
     }
@@ -264,18 +265,18 @@ VEC_INLINE void store_triangles(const Frame *frame, const DipScreenBatch *screen
 // Finds the corner of the box of target pixels that the triangle touches where 1/w is smallest in
 // magnitude. The box does not depend on sample positions, so that all passes from the same geometry
 // have the same planes.
-VEC_INLINE void find_anchor(const Frame *frame, const DipSetupTarget *target, Vd rw0,
+VEC_INLINE void find_anchor(const TriangleVector *tri, const DipSetupTarget *target, Vd rw0,
                             const Gradient *q, Vd anchor[2]) {
     Hi first[2];
     Hi last[2];
-    pixel_range(frame->x, 0, DIP_SUBPIXELS - 1, target->width, &first[0], &last[0]);
-    pixel_range(frame->y, 0, DIP_SUBPIXELS - 1, target->height, &first[1], &last[1]);
+    pixel_range(tri->x, 0, DIP_SUBPIXELS - 1, target->width, &first[0], &last[0]);
+    pixel_range(tri->y, 0, DIP_SUBPIXELS - 1, target->height, &first[1], &last[1]);
     Vd best = vd_splat(1e300);
     anchor[0] = anchor[1] = vd_splat(0.0);
     for (int corner = 0; corner < 4; corner++) {
         const Vd at_x = vd_from_int(corner & 1 ? last[0] + 1 : first[0]);
         const Vd at_y = vd_from_int(corner & 2 ? last[1] + 1 : first[1]);
-        const Vd size = vd_abs(rw0 + q->dx * (at_x - frame->x0) + q->dy * (at_y - frame->y0));
+        const Vd size = vd_abs(rw0 + q->dx * (at_x - tri->x0) + q->dy * (at_y - tri->y0));
         const Vl smaller = size < best;
         best = vd_select(smaller, size, best);
         anchor[0] = vd_select(smaller, at_x, anchor[0]);
@@ -290,25 +291,25 @@ VEC_INLINE void set_plane(Hf plane[3], Vd value, const Gradient *g, const Vd to_
     plane[2] = hf_from_double(g->dy);
 }
 
-VEC_INLINE void store_planes(const Frame *frame, const DipSetupTarget *target,
+VEC_INLINE void store_planes(const TriangleVector *tri, const DipSetupTarget *target,
                              const DipSetupBatch *batch, float *out) {
     Hf values[(DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + DIP_PLANES_ALIGN - 1) /
               DIP_PLANES_ALIGN * DIP_PLANES_ALIGN];
     Hf corner[3];
-    gather3(batch->screen->rw, frame->corner, corner);
+    gather3(batch->screen->rw, tri->corner, corner);
     const Vd rw[3] = {vd_from_float(corner[0]), vd_from_float(corner[1]), vd_from_float(corner[2])};
-    const Gradient q = gradient(frame, rw);
+    const Gradient q = gradient(tri, rw);
     Vd anchor[2];
-    find_anchor(frame, target, rw[0], &q, anchor);
-    const Vd to_anchor[2] = {anchor[0] - frame->x0, anchor[1] - frame->y0};
+    find_anchor(tri, target, rw[0], &q, anchor);
+    const Vd to_anchor[2] = {anchor[0] - tri->x0, anchor[1] - tri->y0};
     values[DIP_PLANES_ANCHOR] = hf_from_double(anchor[0]);
     values[DIP_PLANES_ANCHOR + 1] = hf_from_double(anchor[1]);
     set_plane(values + DIP_PLANES_RW, rw[0], &q, to_anchor);
     for (int s = 0; s < target->varying_count; s++) {
-        gather3(batch->varyings + s * batch->varying_stride, frame->corner, corner);
+        gather3(batch->varyings + s * batch->varying_stride, tri->corner, corner);
         const Vd value[3] = {vd_from_float(corner[0]) * rw[0], vd_from_float(corner[1]) * rw[1],
                              vd_from_float(corner[2]) * rw[2]};
-        const Gradient g = gradient(frame, value);
+        const Gradient g = gradient(tri, value);
         set_plane(values + DIP_PLANES_VARYINGS + 3 * s, value[0], &g, to_anchor);
     }
     const int used = dip_plane_floats(target->varying_count);
@@ -338,9 +339,9 @@ int DIP_KERNEL(dip_kernel_setup)(const DipSetupTarget *target, const DipSetupBat
     }
     pad(&candidates, count);
     for (int i = 0; i < count; i += DIP_HALF_LANES) {
-        const Frame frame = frame_of(&candidates, i);
-        store_triangles(&frame, batch->screen, target->draw, triangles + i);
-        store_planes(&frame, target, batch, planes + (size_t)i * (size_t)target->plane_stride);
+        const TriangleVector tri = load_triangles(&candidates, i);
+        store_triangles(&tri, batch->screen, target->draw, triangles + i);
+        store_planes(&tri, target, batch, planes + (size_t)i * (size_t)target->plane_stride);
     }
     return count;
 }

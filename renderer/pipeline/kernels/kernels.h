@@ -24,10 +24,10 @@
       (DipTile * tile, const DipTriangle *triangle, uint32_t id, const DipClipTest *clip))         \
     /* Adds the fragments of a tile's pixels to the lists of their draws. */                       \
     X(void, dip_kernel_collect, (DipTileShading * shading))                                        \
-    /* Interpolates varyings at a list's fragments. The last plain_count get no derivatives. */    \
+    /* Interpolates varyings; the last value_only_count get no derivatives. */                     \
     X(void, dip_kernel_interpolate,                                                                \
       (const DipShadingInput *input, const DipFragmentList *list, int varying_count,               \
-       int plain_count, DipFragmentBatch *batch))                                                  \
+       int value_only_count, DipFragmentBatch *batch))                                             \
     /* Converts shaded colours to 16-bit linear light and to sRGB pixels. */                       \
     X(void, dip_kernel_encode,                                                                     \
       (const DipFragmentBatch *batch, const uint8_t *srgb_code, DipEncodedBatch *out))             \

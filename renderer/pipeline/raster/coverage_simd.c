@@ -74,7 +74,7 @@ VEC_INLINE int64_t max_i64(int64_t a, int64_t b) {
 
 // Sets floor((c + a sx + b sy) / 256) of every sample, less that of sample 0. Each factor is split
 // at bit 8, so that 16-bit products are enough and nothing overflows.
-VEC_INLINE void place_samples(Edge *edge, int64_t c, const DipSamplePattern *pattern) {
+VEC_INLINE void set_samples(Edge *edge, int64_t c, const DipSamplePattern *pattern) {
     const int32_t high =
         (int32_t)((uint32_t)(edge->a >> 8) & 0xffff) | (int32_t)((uint32_t)(edge->b >> 8) << 16);
     const int32_t low = (edge->a & 255) | (edge->b & 255) << 16;
@@ -87,7 +87,7 @@ VEC_INLINE void place_samples(Edge *edge, int64_t c, const DipSamplePattern *pat
     }
 }
 
-VEC_INLINE void place_edge(InTile *in, int i, const DipTriangle *triangle, const DipTile *tile) {
+VEC_INLINE void set_edge(InTile *in, int i, const DipTriangle *triangle, const DipTile *tile) {
     enum { SPAN = (DIP_SUB_BLOCK - 1) * DIP_SUBPIXELS };
     const int64_t limit = (int64_t)1 << 38;
     const DipSamplePattern *pattern = tile->pattern;
@@ -103,9 +103,9 @@ VEC_INLINE void place_edge(InTile *in, int i, const DipTriangle *triangle, const
     const int first = pattern->least;
     const int last = SPAN + pattern->greatest;
     const int64_t most = max_i64(a * first, a * last) + max_i64(b * first, b * last);
-    const int64_t less = min_i64(a * first, a * last) + min_i64(b * first, b * last);
+    const int64_t least = min_i64(a * first, a * last) + min_i64(b * first, b * last);
     edge->greatest = (int32_t)((c + most) >> 8) - edge->corner;
-    edge->least = (int32_t)((c + less) >> 8) - edge->corner;
+    edge->least = (int32_t)((c + least) >> 8) - edge->corner;
     const Vi lanes = vi_splat(edge->a) * vi_load(lane_x) + vi_splat(edge->b) * vi_load(lane_y);
     for (int v = 0; v < VECTORS; v++) {
         const int first_lane = v * DIP_LANES;
@@ -113,12 +113,12 @@ VEC_INLINE void place_edge(InTile *in, int i, const DipTriangle *triangle, const
             lanes + vi_splat(edge->a * lane_x[first_lane] + edge->b * lane_y[first_lane]);
     }
     if (pattern->count > 1) {
-        place_samples(edge, c, pattern);
+        set_samples(edge, c, pattern);
     }
 }
 
-VEC_INLINE void place_depth(InTile *in, const DipTriangle *triangle,
-                            const DipSamplePattern *pattern) {
+VEC_INLINE void set_depth(InTile *in, const DipTriangle *triangle,
+                          const DipSamplePattern *pattern) {
     const float dx = (float)triangle->z_dx;
     const float dy = (float)triangle->z_dy;
     in->depth_min = vf_splat(triangle->z_min);
@@ -182,7 +182,8 @@ VEC_INLINE void classify(const InTile *in, Region *region) {
 
 // Sets the depth at the corners of a region's sub-blocks. It is computed in double from positions
 // in the target, so that it does not depend on the tile.
-VEC_INLINE void place_corners(Region *region, const DipTriangle *triangle, const DipTile *tile) {
+VEC_INLINE void set_corner_depths(Region *region, const DipTriangle *triangle,
+                                  const DipTile *tile) {
     typedef double Row __attribute__((vector_size(REGION * sizeof(double))));
     typedef float RowDepth __attribute__((vector_size(REGION * sizeof(float))));
     const double x = tile->x0 + region->x * DIP_SUB_BLOCK;
@@ -406,11 +407,11 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
     for (int i = 0; i < list->count; i += DIP_LANES) {
         vi_store((int32_t *)list->triangle + i, vi_splat((int32_t)id - 1));
     }
-    const uint8_t *there = queue->clip->test(queue->clip->context, triangle);
+    const uint8_t *kept = queue->clip->test(queue->clip->context, triangle);
     for (int i = 0; i < queue->count; i++) {
         unsigned keep = 0;
         for (unsigned left = queue->waiting[i].pixels; left; left &= left - 1) {
-            keep |= left & -left & (0u - (*there++ != 0)); // without a branch
+            keep |= left & -left & (0u - (*kept++ != 0)); // without a branch
         }
         if (keep) {
             keep_sub_block(in, tile, &queue->waiting[i], keep, id);
@@ -476,9 +477,9 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
     const Box box = box_of(triangle, tile);
     InTile in;
     for (int i = 0; i < 3; i++) {
-        place_edge(&in, i, triangle, tile);
+        set_edge(&in, i, triangle, tile);
     }
-    place_depth(&in, triangle, tile->pattern);
+    set_depth(&in, triangle, tile->pattern);
     ClipQueue queue;
     queue.clip = clip;
     queue.count = 0;
@@ -495,7 +496,7 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
                 continue;
             }
             tile->sub_blocks_accepted += (uint64_t)__builtin_popcount(region.inside);
-            place_corners(&region, triangle, tile);
+            set_corner_depths(&region, triangle, tile);
             if (clip) {
                 clip_region(&queue, &in, &region, triangle, sample_count, tile, id);
             } else {

@@ -68,7 +68,7 @@ const DipSamplePattern *dip_sample_pattern_of(int sample_count, DipPatternKind k
             return &patterns[kind][i];
         }
     }
-    DIP_ASSERT(!"a sample count of the aa setting");
+    DIP_ASSERT(!"sample_count is 1, 2, 4, 6 or 8");
     return &patterns[kind][0];
 }
 
@@ -99,15 +99,15 @@ void dip_sample_groups_make(DipSampleGroups *groups, const DipSamplePattern *pat
                             int samples_per_group) {
     const unsigned all = (1u << pattern->count) - 1;
     *groups = (DipSampleGroups){.count = pattern->count / samples_per_group};
-    for (int p = 0; p < groups->count; p++) {
-        groups->samples[p] =
+    for (int g = 0; g < groups->count; g++) {
+        groups->samples[g] =
             (uint8_t)(groups->count == 1       ? all
-                      : samples_per_group == 1 ? 1u << p
-                                               : pattern->sharing[samples_per_group][p]);
+                      : samples_per_group == 1 ? 1u << g
+                                               : pattern->sharing[samples_per_group][g]);
     }
     for (int s = 0; s < pattern->count; s++) {
-        for (int p = 0; p < groups->count; p++) {
-            groups->sharing[s] |= groups->samples[p] >> s & 1 ? groups->samples[p] : 0;
+        for (int g = 0; g < groups->count; g++) {
+            groups->sharing[s] |= groups->samples[g] >> s & 1 ? groups->samples[g] : 0;
         }
     }
     set_centroids(groups, pattern);

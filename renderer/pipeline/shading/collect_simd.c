@@ -184,9 +184,9 @@ VEC_INLINE void push_multi_fragment_patch(const SubBlock *sub, unsigned *left, i
             const Mask mask = mask_from_bits(held >> (v * DIP_LANES) & VEC_ALL_LANES);
             samples[v] |= (Vu)vi_select(mask, vi_splat(1 << s), vi_splat(0));
             positions[v] = (Vu)vi_select(mask, position, (Vi)positions[v]);
-            const Vi there =
+            const Vi sample_ids =
                 vi_load((const int32_t *)sub->ids + s * DIP_BLOCK_PIXELS + v * DIP_LANES);
-            ids[v] = (Vu)vi_select(mask, there, (Vi)ids[v]);
+            ids[v] = (Vu)vi_select(mask, sample_ids, (Vi)ids[v]);
         }
     }
     for (int v = 0; v < VECTORS; v++) {

@@ -74,14 +74,14 @@ VEC_INLINE Vf target_coordinate(Vi pixel, Vi sub, int tile_first) {
 }
 
 // Interpolates varyings: u = (u/w) / (1/w) and, exactly by the quotient rule, du/dx = (d(u/w)/dx -
-// u d(1/w)/dx) / (1/w). The last plain_count varyings get no derivatives.
+// u d(1/w)/dx) / (1/w). The last value_only_count varyings get no derivatives.
 VEC_INLINE void interpolate(const VaryingPlanes *planes, Vf x, Vf y, int varying_count,
-                            int plain_count, int i, DipFragmentBatch *batch) {
+                            int value_only_count, int i, DipFragmentBatch *batch) {
     const Vf from_x = x - value_of(planes, DIP_PLANES_ANCHOR);
     const Vf from_y = y - value_of(planes, DIP_PLANES_ANCHOR + 1);
     const Plane q = plane_at(planes, DIP_PLANES_RW, from_x, from_y);
     const Vf w = vf_splat(1.0f) / q.at;
-    const int gradient_count = varying_count - plain_count;
+    const int gradient_count = varying_count - value_only_count;
     for (int s = gradient_count; s < varying_count; s++) {
         const Plane over_w = plane_at(planes, DIP_PLANES_VARYINGS + 3 * s, from_x, from_y);
         vf_store(batch->varying[s] + i, over_w.at * w);
@@ -96,7 +96,7 @@ VEC_INLINE void interpolate(const VaryingPlanes *planes, Vf x, Vf y, int varying
 }
 
 void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipFragmentList *list,
-                                        int varying_count, int plain_count,
+                                        int varying_count, int value_only_count,
                                         DipFragmentBatch *batch) {
     batch->count = list->count < DIP_FRAGMENT_BATCH ? list->count : DIP_FRAGMENT_BATCH;
     for (int i = 0; i < batch->count; i += DIP_LANES) {
@@ -113,12 +113,12 @@ void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipF
             mask_bits(vi_eq(ids, vi_splat((int32_t)triangle[0]))) ^ VEC_ALL_LANES;
         if (!others) {
             const VaryingPlanes planes = {planes_of(input, triangle[0]), NULL};
-            interpolate(&planes, x, y, varying_count, plain_count, i, batch);
+            interpolate(&planes, x, y, varying_count, value_only_count, i, batch);
         } else {
             Vf rows[MAX_ROWS];
             const VaryingPlanes planes = {NULL, rows};
             read_rows(input, triangle, others, dip_plane_floats(varying_count), rows);
-            interpolate(&planes, x, y, varying_count, plain_count, i, batch);
+            interpolate(&planes, x, y, varying_count, value_only_count, i, batch);
         }
     }
 }

@@ -187,13 +187,13 @@ VEC_INLINE Vi count_far_probes(Vi near_count, Vi fraction) {
 // Half of the step between neighbouring probes, in texture coordinates. N probes of equal weight
 // lie at (k + 1/2) / N - 1/2 of the major axis about its middle, so the first one is N - 1 half
 // steps before the middle.
-typedef struct Probes {
-    Vf half_u, half_v;
-} Probes;
+typedef struct HalfStep {
+    Vf u, v;
+} HalfStep;
 
-VEC_INLINE Probes place_probes(const DipTexture *texture, const Axis *axis, Vf inverse_count) {
-    return (Probes){axis->u * (0.5f / (float)texture->width) * inverse_count,
-                    axis->v * (0.5f / (float)texture->height) * inverse_count};
+VEC_INLINE HalfStep half_step(const DipTexture *texture, const Axis *axis, Vf inverse_count) {
+    return (HalfStep){axis->u * (0.5f / (float)texture->width) * inverse_count,
+                      axis->v * (0.5f / (float)texture->height) * inverse_count};
 }
 
 #endif

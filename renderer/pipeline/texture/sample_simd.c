@@ -16,11 +16,11 @@
 enum { VECTORS = DIP_FRAGMENT_BATCH / DIP_LANES };
 
 // How a texture is read. These are constants in each inlined copy of the loops below.
-typedef struct Way {
+typedef struct ReadMode {
     bool anisotropic; // several probes per level
     // Coordinates are fractions of the texture in 32 bits, which wrap by overflow.
     bool in_bits;
-} Way;
+} ReadMode;
 
 // The probes of a batch's footprints in one of the two levels that they blend; only anisotropic
 // reads use them. Coordinates are in units of 2^-32 if the mode is in_bits, otherwise they are the
@@ -62,10 +62,10 @@ VEC_INLINE Vu step32(Vf step) {
 
 // Sets the first probe and the step of vector n as 32-bit fractions. The step is computed from its
 // half: half of a step that has wrapped could be off by 1/2.
-VEC_INLINE void place_probes32(const Probes *probes, Vu u, Vu v, Line *line, int n) {
+VEC_INLINE void set_line32(const HalfStep *half, Vu u, Vu v, Line *line, int n) {
     const Vu gaps = (Vu)line->count[n] - 1u;
-    const Vu half_u = step32(probes->half_u);
-    const Vu half_v = step32(probes->half_v);
+    const Vu half_u = step32(half->u);
+    const Vu half_v = step32(half->v);
     line->u[n] = u - gaps * half_u;
     line->v[n] = v - gaps * half_v;
     line->step_u[n] = half_u + half_u;
@@ -73,20 +73,20 @@ VEC_INLINE void place_probes32(const Probes *probes, Vu u, Vu v, Line *line, int
 }
 
 // Sets the probes of vector n in a level. level_weight: the level's weight in the blend.
-VEC_INLINE void place_line(Line *line, const DipTexture *texture, Way way, const Axis *axis,
-                           const Footprints *footprints, Vf level_weight, int n) {
+VEC_INLINE void set_line(Line *line, const DipTexture *texture, ReadMode mode, const Axis *axis,
+                         const Footprints *footprints, Vf level_weight, int n) {
     const Vf inverse = inverse_of(line->count[n]);
-    const Probes probes = place_probes(texture, axis, inverse);
+    const HalfStep half = half_step(texture, axis, inverse);
     line->weight[n] = level_weight * inverse;
-    if (way.in_bits) {
-        place_probes32(&probes, footprints->u[n], footprints->v[n], line, n);
+    if (mode.in_bits) {
+        set_line32(&half, footprints->u[n], footprints->v[n], line, n);
         return;
     }
     const Vf gaps = vf_from_int(line->count[n] - 1);
-    line->u[n] = (Vu)((Vf)footprints->u[n] - gaps * probes.half_u);
-    line->v[n] = (Vu)((Vf)footprints->v[n] - gaps * probes.half_v);
-    line->step_u[n] = (Vu)(probes.half_u + probes.half_u);
-    line->step_v[n] = (Vu)(probes.half_v + probes.half_v);
+    line->u[n] = (Vu)((Vf)footprints->u[n] - gaps * half.u);
+    line->v[n] = (Vu)((Vf)footprints->v[n] - gaps * half.v);
+    line->step_u[n] = (Vu)(half.u + half.u);
+    line->step_v[n] = (Vu)(half.v + half.v);
 }
 
 // The work of a batch so far, summed per lane: probes in the finer level, and bilinear reads.
@@ -104,14 +104,14 @@ VEC_INLINE void count_work(LaneWork *work, Vi near, Vi far, int lanes) {
 
 // Finds the footprints of a batch. Short loops let the processor overlap long dependency chains.
 // textures: the number of textures that share these footprints.
-VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
+VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, ReadMode mode,
                                 int varying, int textures, Footprints *out) {
     const int count = (batch->count + DIP_LANES - 1) / DIP_LANES;
     const DipTexture *texture = sampler->texture;
     Axis axes[VECTORS];
     for (int n = 0; n < count; n++) {
         const Jacobian jacobian = read_jacobian(batch, texture, varying, n * DIP_LANES);
-        if (way.anisotropic) {
+        if (mode.anisotropic) {
             axes[n] = anisotropic_axis(sampler, jacobian);
         } else {
             axes[n].minor2 = isotropic_minor2(jacobian);
@@ -127,10 +127,10 @@ VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampl
     LaneWork work = {vi_splat(0), vi_splat(0)};
     for (int n = 0; n < count; n++) {
         const Vi fraction = out->lod8[n] & 255;
-        const Vi near = way.anisotropic ? count_probes(sampler, &axes[n], cheap) : vi_splat(1);
-        const Vi most = way.anisotropic ? count_far_probes(near, fraction) : vi_splat(1);
+        const Vi near = mode.anisotropic ? count_probes(sampler, &axes[n], cheap) : vi_splat(1);
+        const Vi most = mode.anisotropic ? count_far_probes(near, fraction) : vi_splat(1);
         const Vi far = vi_select(vi_lt(vi_splat(0), fraction), most, vi_splat(0));
-        if (way.anisotropic) {
+        if (mode.anisotropic) {
             out->near.count[n] = near;
             out->far.count[n] = far;
         }
@@ -139,12 +139,12 @@ VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampl
     for (int n = 0; n < count; n++) {
         const Vf u = vf_load(batch->varying[varying] + n * DIP_LANES);
         const Vf v = vf_load(batch->varying[varying + 1] + n * DIP_LANES);
-        out->u[n] = way.in_bits ? fraction32(u) : (Vu)u;
-        out->v[n] = way.in_bits ? fraction32(v) : (Vu)v;
-        if (way.anisotropic) {
+        out->u[n] = mode.in_bits ? fraction32(u) : (Vu)u;
+        out->v[n] = mode.in_bits ? fraction32(v) : (Vu)v;
+        if (mode.anisotropic) {
             const Vf far = vf_from_int(out->lod8[n] & 255) * (1.0f / 256.0f);
-            place_line(&out->near, texture, way, &axes[n], out, 1.0f - far, n);
-            place_line(&out->far, texture, way, &axes[n], out, far, n);
+            set_line(&out->near, texture, mode, &axes[n], out, 1.0f - far, n);
+            set_line(&out->far, texture, mode, &axes[n], out, far, n);
         }
     }
     batch->work.probes += (uint64_t)vi_sum(work.probes) * (uint64_t)textures;
@@ -169,10 +169,10 @@ typedef struct Taps {
     Vi y8;
 } Taps;
 
-VEC_INLINE Level read_level(const DipTexture *texture, Way way, Vi level) {
+VEC_INLINE Level read_level(const DipTexture *texture, ReadMode mode, Vi level) {
     Level out;
     out.offset = vi_lookup16(texture->level_offset, level);
-    if (way.in_bits) {
+    if (mode.in_bits) {
         out.width = vi_lookup16(texture->level_log2_width, level);
         out.height = vi_lookup16(texture->level_log2_height, level);
         out.stride = (vi_splat(1) << out.width) + 1;
@@ -206,17 +206,17 @@ typedef struct Walk {
 } Walk;
 
 // line: used only if the mode is anisotropic.
-VEC_INLINE Walk begin_walk(const DipTexture *texture, Way way, Vi level,
+VEC_INLINE Walk begin_walk(const DipTexture *texture, ReadMode mode, Vi level,
                            const Footprints *footprints, const Line *line, int n) {
-    Walk walk = {.level = read_level(texture, way, level),
-                 .u = way.anisotropic ? line->u[n] : footprints->u[n],
-                 .v = way.anisotropic ? line->v[n] : footprints->v[n],
+    Walk walk = {.level = read_level(texture, mode, level),
+                 .u = mode.anisotropic ? line->u[n] : footprints->u[n],
+                 .v = mode.anisotropic ? line->v[n] : footprints->v[n],
                  .count = 1};
-    if (way.in_bits) {
+    if (mode.in_bits) {
         walk.u -= vu_splat(0x80000000u) >> (Vu)walk.level.width;
         walk.v -= vu_splat(0x80000000u) >> (Vu)walk.level.height;
     }
-    if (way.anisotropic) {
+    if (mode.anisotropic) {
         walk.step_u = line->step_u[n];
         walk.step_v = line->step_v[n];
         walk.count = vi_greatest(line->count[n]);
@@ -224,27 +224,27 @@ VEC_INLINE Walk begin_walk(const DipTexture *texture, Way way, Vi level,
     return walk;
 }
 
-VEC_INLINE void next_probe(Walk *walk, Way way) {
+VEC_INLINE void next_probe(Walk *walk, ReadMode mode) {
     walk->probe++;
-    if (way.in_bits && way.anisotropic) {
+    if (mode.in_bits && mode.anisotropic) {
         walk->u += walk->step_u;
         walk->v += walk->step_v;
     }
 }
 
 // Returns the bilinear read at the walk's position.
-VEC_INLINE Taps find_taps(const DipTexture *texture, Way way, const Walk *walk) {
+VEC_INLINE Taps find_taps(const DipTexture *texture, ReadMode mode, const Walk *walk) {
     const Level *level = &walk->level;
     Taps taps;
-    if (way.in_bits) {
+    if (mode.in_bits) {
         taps.x8 = (Vi)(walk->u >> (Vu)(24 - level->width));
         taps.y8 = (Vi)(walk->v >> (Vu)(24 - level->height));
         const Vi y = taps.y8 >> 8;
         taps.index = (level->offset + (taps.x8 >> 8)) + ((y << level->width) + y);
     } else {
         const float probe = (float)walk->probe;
-        const Vf u = way.anisotropic ? (Vf)walk->u + (Vf)walk->step_u * probe : (Vf)walk->u;
-        const Vf v = way.anisotropic ? (Vf)walk->v + (Vf)walk->step_v * probe : (Vf)walk->v;
+        const Vf u = mode.anisotropic ? (Vf)walk->u + (Vf)walk->step_u * probe : (Vf)walk->u;
+        const Vf v = mode.anisotropic ? (Vf)walk->v + (Vf)walk->step_v * probe : (Vf)walk->v;
         taps.x8 = address(u, texture->wrap_u, level->width);
         taps.y8 = address(v, texture->wrap_v, level->height);
         taps.index = (level->offset + (taps.x8 >> 8)) + (taps.y8 >> 8) * level->stride;
@@ -299,7 +299,7 @@ VEC_INLINE void widen(WideSum *wide, const PairSum *sum) {
 // Adds one of the two vectors of a pair of texels: linear light, which is the square of the codes,
 // times a 16-bit weight.
 VEC_INLINE void add_texels(Vu *red_green, Vu *blue, Vu texels, Vu weight) {
-    const Vu b = vu_dot16(texels & DIP_TEXEL_BLUE, DIP_TEXEL_BLUE_PLACES);
+    const Vu b = vu_dot16(texels & DIP_TEXEL_BLUE, DIP_TEXEL_BLUE_FACTORS);
     *red_green += vu_mulhi16(vu_mulhi16(texels, texels), weight);
     *blue += vu_mulhi16(vu_mulhi16(b, b), weight);
 }
@@ -312,7 +312,7 @@ VEC_INLINE void add_row(PairSum *sum, const DipTexture *texture, Vi index_pairs,
 
 // Zeroes the weight of lanes that have run out of probes. count: the number of probes of each lane,
 // as both values of a pair.
-VEC_INLINE VuPair has_probe(VuPair ramp, VuPair count, int probe) {
+VEC_INLINE VuPair zero_finished(VuPair ramp, VuPair count, int probe) {
     const Vi at = vi_splat(probe);
     return (VuPair){(Vu)vi_select(vi_lt(at, (Vi)count.a), (Vi)ramp.a, vi_splat(0)),
                     (Vu)vi_select(vi_lt(at, (Vi)count.b), (Vi)ramp.b, vi_splat(0))};
@@ -333,8 +333,8 @@ VEC_INLINE Weights join_weights(VuPair across, VuPair upper, VuPair lower) {
 // pair; a lane that has no such probe weighs nothing.
 VEC_INLINE Weights weigh_probe(const Taps *taps, VuPair count, int probe) {
     const VuPair down = vu_pair_both(taps->y8);
-    return join_weights(has_probe(vu_pair_ramp(taps->x8), count, probe), (VuPair){~down.a, ~down.b},
-                        down);
+    return join_weights(zero_finished(vu_pair_ramp(taps->x8), count, probe),
+                        (VuPair){~down.a, ~down.b}, down);
 }
 
 // Returns the weights of a level's only read, multiplied by the weight of the level.
@@ -368,20 +368,20 @@ typedef struct Read {
 } Read;
 
 // Adds the light of vector n's probes in a level.
-VEC_INLINE void add_line(const Read *read, Way way, Vi level, const Footprints *footprints,
+VEC_INLINE void add_line(const Read *read, ReadMode mode, Vi level, const Footprints *footprints,
                          const Line *line, int n, Vf light[2][3]) {
     const VuPair count = vu_pair_same((Vu)line->count[n]);
     WideSum sum[2] = {NO_WIDE_SUM, NO_WIDE_SUM};
-    Walk walk = begin_walk(read->texture[0], way, level, footprints, line, n);
+    Walk walk = begin_walk(read->texture[0], mode, level, footprints, line, n);
     while (walk.probe < walk.count) {
-        const Taps taps = find_taps(read->texture[0], way, &walk);
+        const Taps taps = find_taps(read->texture[0], mode, &walk);
         const Weights weights = weigh_probe(&taps, count, walk.probe);
         for (int t = 0; t < read->count; t++) {
             PairSum probe = NO_SUM;
             add_taps(&probe, read->texture[t], &walk.level, &taps, &weights);
             widen(&sum[t], &probe);
         }
-        next_probe(&walk, way);
+        next_probe(&walk, mode);
     }
     for (int t = 0; t < read->count; t++) {
         Vf of_level[3];
@@ -393,37 +393,37 @@ VEC_INLINE void add_line(const Read *read, Way way, Vi level, const Footprints *
 }
 
 // Adds vector n's only read of a level, multiplied by the weight of the level.
-VEC_INLINE void add_level(const Read *read, Way way, Vi level, const Footprints *footprints, int n,
-                          VuPair weight, PairSum sum[2]) {
-    const Walk walk = begin_walk(read->texture[0], way, level, footprints, NULL, n);
-    const Taps taps = find_taps(read->texture[0], way, &walk);
+VEC_INLINE void add_level(const Read *read, ReadMode mode, Vi level, const Footprints *footprints,
+                          int n, VuPair weight, PairSum sum[2]) {
+    const Walk walk = begin_walk(read->texture[0], mode, level, footprints, NULL, n);
+    const Taps taps = find_taps(read->texture[0], mode, &walk);
     const Weights weights = weigh_level(&taps, weight);
     for (int t = 0; t < read->count; t++) {
         add_taps(&sum[t], read->texture[t], &walk.level, &taps, &weights);
     }
 }
 
-VEC_INLINE void read_vector(const Read *read, const DipSampler *sampler, Way way,
+VEC_INLINE void read_vector(const Read *read, const DipSampler *sampler, ReadMode mode,
                             const Footprints *footprints, int n, Vf light[2][3]) {
     const Vi lod8 = footprints->lod8[n];
     const Vi near = shown_level(sampler, near_level(lod8));
     const Vi far = shown_level(sampler, far_level(sampler, lod8));
     const bool blends = mask_any(vi_lt(vi_splat(0), lod8 & 255));
-    if (way.anisotropic) {
+    if (mode.anisotropic) {
         for (int i = 0; i < 3 * read->count; i++) {
             light[i / 3][i % 3] = vf_splat(0.0f);
         }
-        add_line(read, way, near, footprints, &footprints->near, n, light);
+        add_line(read, mode, near, footprints, &footprints->near, n, light);
         if (blends) {
-            add_line(read, way, far, footprints, &footprints->far, n, light);
+            add_line(read, mode, far, footprints, &footprints->far, n, light);
         }
         return;
     }
     const VuPair weight = vu_pair_both(lod8 & 255);
     PairSum sum[2] = {NO_SUM, NO_SUM};
-    add_level(read, way, near, footprints, n, (VuPair){~weight.a, ~weight.b}, sum);
+    add_level(read, mode, near, footprints, n, (VuPair){~weight.a, ~weight.b}, sum);
     if (blends) {
-        add_level(read, way, far, footprints, n, weight, sum);
+        add_level(read, mode, far, footprints, n, weight, sum);
     }
     for (int t = 0; t < read->count; t++) {
         WideSum wide = NO_WIDE_SUM;
@@ -432,14 +432,14 @@ VEC_INLINE void read_vector(const Read *read, const DipSampler *sampler, Way way
     }
 }
 
-VEC_INLINE void sample_read(DipFragmentBatch *batch, const DipSampler *sampler, Way way, Read read,
-                            int u_varying, float (*const out[2])[DIP_FRAGMENT_BATCH]) {
+VEC_INLINE void sample_read(DipFragmentBatch *batch, const DipSampler *sampler, ReadMode mode,
+                            Read read, int u_varying, float (*const out[2])[DIP_FRAGMENT_BATCH]) {
     const int vectors = (batch->count + DIP_LANES - 1) / DIP_LANES;
     Footprints footprints;
-    find_footprints(batch, sampler, way, u_varying, read.count, &footprints);
+    find_footprints(batch, sampler, mode, u_varying, read.count, &footprints);
     for (int n = 0; n < vectors; n++) {
         Vf light[2][3];
-        read_vector(&read, sampler, way, &footprints, n, light);
+        read_vector(&read, sampler, mode, &footprints, n, light);
         for (int t = 0; t < read.count; t++) {
             for (int c = 0; c < 3; c++) {
                 vf_store(out[t][c] + n * DIP_LANES, light[t][c]);
@@ -448,11 +448,11 @@ VEC_INLINE void sample_read(DipFragmentBatch *batch, const DipSampler *sampler, 
     }
 }
 
-VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
+VEC_INLINE void sample_colour(DipFragmentBatch *batch, const DipSampler *sampler, ReadMode mode,
                               int u_varying, float (*out)[DIP_FRAGMENT_BATCH]) {
     const Read read = {{sampler->shown ? sampler->shown : sampler->texture, NULL}, 1};
     float(*const outs[2])[DIP_FRAGMENT_BATCH] = {out, NULL};
-    sample_read(batch, sampler, way, read, u_varying, outs);
+    sample_read(batch, sampler, mode, read, u_varying, outs);
 }
 
 // --- alpha -------------------------------------------------------------------------------------
@@ -470,33 +470,33 @@ VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const Level *level, cons
 
 // Returns the mean alpha over vector n's probes in a level, in units of 1 / (255 * 65536). The sum
 // is divided by the number of probes, so that a constant alpha stays exact.
-VEC_INLINE Vf mean_alpha(const DipTexture *texture, Way way, Vi level, const Footprints *footprints,
-                         const Line *line, int n) {
+VEC_INLINE Vf mean_alpha(const DipTexture *texture, ReadMode mode, Vi level,
+                         const Footprints *footprints, const Line *line, int n) {
     Vf total = vf_splat(0.0f);
-    Walk walk = begin_walk(texture, way, level, footprints, line, n);
+    Walk walk = begin_walk(texture, mode, level, footprints, line, n);
     while (walk.probe < walk.count) {
-        const Taps taps = find_taps(texture, way, &walk);
+        const Taps taps = find_taps(texture, mode, &walk);
         const Vf alpha = bilinear_alpha(texture, &walk.level, &taps);
-        total += way.anisotropic
+        total += mode.anisotropic
                      ? vf_select(vi_lt(vi_splat(walk.probe), line->count[n]), alpha, vf_splat(0.0f))
                      : alpha;
-        next_probe(&walk, way);
+        next_probe(&walk, mode);
     }
-    return way.anisotropic ? total / vf_from_int(vi_max(line->count[n], vi_splat(1))) : total;
+    return mode.anisotropic ? total / vf_from_int(vi_max(line->count[n], vi_splat(1))) : total;
 }
 
-VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler, Way way,
+VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler, ReadMode mode,
                              int u_varying, float *out) {
     const DipTexture *texture = sampler->texture;
     Footprints footprints;
-    find_footprints(batch, sampler, way, u_varying, 1, &footprints);
+    find_footprints(batch, sampler, mode, u_varying, 1, &footprints);
     for (int i = 0, n = 0; i < batch->count; i += DIP_LANES, n++) {
         const Vi lod8 = footprints.lod8[n];
         const Vf fraction = vf_from_int(lod8 & 255);
-        Vf alpha = mean_alpha(texture, way, near_level(lod8), &footprints, &footprints.near, n) *
+        Vf alpha = mean_alpha(texture, mode, near_level(lod8), &footprints, &footprints.near, n) *
                    (256.0f - fraction);
         if (mask_any(vi_lt(vi_splat(0), lod8 & 255))) {
-            alpha += mean_alpha(texture, way, far_level(sampler, lod8), &footprints,
+            alpha += mean_alpha(texture, mode, far_level(sampler, lod8), &footprints,
                                 &footprints.far, n) *
                      fraction;
         }
@@ -508,23 +508,23 @@ VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler,
 
 // Calls sample(batch, sampler, mode, ...) with a constant mode, so that each mode is inlined by
 // itself.
-#define SAMPLE_BY_WAY(sample, in_bits, ...)                                                        \
+#define SAMPLE_BY_MODE(sample, in_bits, ...)                                                       \
     do {                                                                                           \
         if (sampler->max_anisotropy > 1 && (in_bits)) {                                            \
-            sample(batch, sampler, (Way){true, true}, __VA_ARGS__);                                \
+            sample(batch, sampler, (ReadMode){true, true}, __VA_ARGS__);                           \
         } else if (sampler->max_anisotropy > 1) {                                                  \
-            sample(batch, sampler, (Way){true, false}, __VA_ARGS__);                               \
+            sample(batch, sampler, (ReadMode){true, false}, __VA_ARGS__);                          \
         } else if (in_bits) {                                                                      \
-            sample(batch, sampler, (Way){false, true}, __VA_ARGS__);                               \
+            sample(batch, sampler, (ReadMode){false, true}, __VA_ARGS__);                          \
         } else {                                                                                   \
-            sample(batch, sampler, (Way){false, false}, __VA_ARGS__);                              \
+            sample(batch, sampler, (ReadMode){false, false}, __VA_ARGS__);                         \
         }                                                                                          \
     } while (false)
 
 void DIP_KERNEL(dip_kernel_sample_colour)(DipFragmentBatch *batch, const DipSampler *sampler,
                                           int u_varying, float (*out)[DIP_FRAGMENT_BATCH]) {
     const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
-    SAMPLE_BY_WAY(sample_colour, texture->wraps_in_bits, u_varying, out);
+    SAMPLE_BY_MODE(sample_colour, texture->wraps_in_bits, u_varying, out);
 }
 
 // Returns whether two samplers read the same positions in memory, with the same footprints.
@@ -549,7 +549,7 @@ void DIP_KERNEL(dip_kernel_sample_colours)(DipFragmentBatch *batch,
     }
     const DipSampler *sampler = samplers[0];
     const Read read = {{sampler->texture, samplers[1]->texture}, 2};
-    SAMPLE_BY_WAY(sample_read, sampler->texture->wraps_in_bits, read, u_varying, out);
+    SAMPLE_BY_MODE(sample_read, sampler->texture->wraps_in_bits, read, u_varying, out);
 }
 
 void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampler *sampler,
@@ -560,5 +560,5 @@ void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampl
         }
         return;
     }
-    SAMPLE_BY_WAY(sample_alpha, sampler->texture->wraps_in_bits, u_varying, out);
+    SAMPLE_BY_MODE(sample_alpha, sampler->texture->wraps_in_bits, u_varying, out);
 }

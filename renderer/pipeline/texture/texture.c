@@ -12,8 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_TEXTURE_SIZE = 8192 };
-
 enum { FULL_CODE16 = 65535, FULL_CODE10 = 1023 };
 
 static uint32_t quantise(double linear, int max) {
@@ -41,11 +39,11 @@ uint32_t dip_texel_pack(const double rgb_lin[3]) {
 }
 
 static bool check_def(const DipTextureDef *def, DipError *err) {
-    if (def->width < 1 || def->height < 1 || def->width > MAX_TEXTURE_SIZE ||
-        def->height > MAX_TEXTURE_SIZE) {
+    if (def->width < 1 || def->height < 1 || def->width > DIP_MAX_TEXTURE_SIZE ||
+        def->height > DIP_MAX_TEXTURE_SIZE) {
         return dip_error_set(err, DIP_ERROR_RANGE, def->name, 0, "texture",
                              "%dx%d texels, accepted 1x1 to %dx%d", def->width, def->height,
-                             MAX_TEXTURE_SIZE, MAX_TEXTURE_SIZE);
+                             DIP_MAX_TEXTURE_SIZE, DIP_MAX_TEXTURE_SIZE);
     }
     return true;
 }
@@ -77,7 +75,7 @@ static bool is_power_of_two(int size) {
 }
 
 // Enters a level's size and offset into the tables. Returns the number of texels that it takes.
-static size_t place_level(DipTexture *texture, int level, int width, int height, size_t offset) {
+static size_t add_level(DipTexture *texture, int level, int width, int height, size_t offset) {
     texture->level_width[level] = width;
     texture->level_height[level] = height;
     texture->level_offset[level] = (int32_t)offset;
@@ -88,12 +86,12 @@ static size_t place_level(DipTexture *texture, int level, int width, int height,
     return (size_t)(width + 1) * (size_t)(height + 1);
 }
 
-static void place_chain(DipTexture *texture) {
+static void add_levels(DipTexture *texture) {
     int width = texture->width;
     int height = texture->height;
     for (;;) {
         texture->texel_count +=
-            place_level(texture, texture->level_count++, width, height, texture->texel_count);
+            add_level(texture, texture->level_count++, width, height, texture->texel_count);
         if (width == 1 && height == 1) {
             return;
         }
@@ -303,7 +301,7 @@ static DipTexture *out_of_memory(DipTexture *texture, const char *name, DipError
 }
 
 // Creates a texture with the layout of its levels and texels that are not yet written.
-static DipTexture *begin_texture(const DipTextureDef *def, bool clips, DipError *err) {
+static DipTexture *begin_texture(const DipTextureDef *def, bool keep_alpha, DipError *err) {
     if (!check_def(def, err)) {
         return NULL;
     }
@@ -316,15 +314,15 @@ static DipTexture *begin_texture(const DipTextureDef *def, bool clips, DipError 
     texture->wrap_u = def->wrap_u;
     texture->wrap_v = def->wrap_v;
     texture->wraps_in_bits = repeats(def);
-    place_chain(texture);
-    return allocate_texels(texture, clips && has_alpha(def))
+    add_levels(texture);
+    return allocate_texels(texture, keep_alpha && has_alpha(def))
                ? texture
                : out_of_memory(texture, def->name, err);
 }
 
-static bool begin_chain(Chain *chain, const DipTextureDef *def, bool clips,
+static bool begin_chain(Chain *chain, const DipTextureDef *def, bool keep_alpha,
                         const CodeTables tables[2], DipError *err) {
-    DipTexture *texture = begin_texture(def, clips, err);
+    DipTexture *texture = begin_texture(def, keep_alpha, err);
     *chain = (Chain){def, texture, &tables[def->encoding], NULL, NULL, 0, 0};
     if (!texture || texture->level_count == 1) {
         return texture != NULL;
@@ -353,7 +351,7 @@ static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef
     for (int i = 0; i < count; i++) {
         widest = (!used || used[i]) && defs[i].width > widest ? defs[i].width : widest;
     }
-    widest = widest < MAX_TEXTURE_SIZE ? widest : MAX_TEXTURE_SIZE;
+    widest = widest < DIP_MAX_TEXTURE_SIZE ? widest : DIP_MAX_TEXTURE_SIZE;
     const size_t workers = pool ? (size_t)dip_pool_thread_count(pool) : 1;
     jobs->row_floats = (size_t)DIP_MIP_MAX_TAPS * DIP_MIP_CHANNELS * (size_t)widest;
     jobs->rows = malloc(workers * jobs->row_floats * sizeof *jobs->rows);
@@ -377,8 +375,8 @@ static void run_chains(ChainJobs *jobs, DipPool *pool) {
     jobs->bands = NULL;
 }
 
-bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool *clip, int count,
-                         DipPool *pool, DipTexture **textures, DipError *err) {
+bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool *keep_alpha,
+                         int count, DipPool *pool, DipTexture **textures, DipError *err) {
     ChainJobs jobs = {NULL, NULL, NULL, 0};
     CodeTables *tables = NULL;
     Chain chains[2];
@@ -394,7 +392,7 @@ bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool
             continue;
         }
         Chain *chain = &chains[turn++ & 1];
-        made = begin_chain(chain, &defs[i], !clip || clip[i], tables, err);
+        made = begin_chain(chain, &defs[i], !keep_alpha || keep_alpha[i], tables, err);
         textures[i] = chain->texture;
         if (made && chain->level1) {
             jobs.bands = chain;
@@ -437,7 +435,7 @@ DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int leve
             return NULL;
         }
         texture->texel_count +=
-            place_level(texture, i, levels[i].width, levels[i].height, texture->texel_count);
+            add_level(texture, i, levels[i].width, levels[i].height, texture->texel_count);
     }
     if (!allocate_texels(texture, false)) {
         return out_of_memory(texture, levels[0].name, err);

@@ -19,8 +19,8 @@
 #include <stdint.h>
 
 // The mask of blue's bits, and the factors for its two parts that make their sum a 16-bit code.
-#define DIP_TEXEL_BLUE        0x001f001fu
-#define DIP_TEXEL_BLUE_PLACES 0x08000040u
+#define DIP_TEXEL_BLUE         0x001f001fu
+#define DIP_TEXEL_BLUE_FACTORS 0x08000040u
 
 struct DipTexture {
     int width; // of level 0, in texels
