@@ -51,7 +51,7 @@ DipScreenMapping dip_screen_mapping(const DipPass *pass) {
     return map;
 }
 
-// --- room --------------------------------------------------------------------------------------
+// --- space -------------------------------------------------------------------------------------
 
 // The lengths of the arrays that a pass needs, whatever is in view.
 typedef struct Needs {

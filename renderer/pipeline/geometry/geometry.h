@@ -93,8 +93,8 @@ typedef struct DipGeometry {
     DipBinBlock *blocks;
     DipTileBin *bins;   // [job][tile]; each job's bin of wide triangles is its last
     uint64_t *occupied; // [bin / 64][job]: bit bin % 64 is set if the job's bin is not empty
-    atomic_uint triangles_taken; // that jobs have taken space for
-    atomic_uint blocks_taken;
+    atomic_uint triangles_taken; // triangles that jobs have taken space for
+    atomic_uint blocks_taken;    // blocks that jobs have taken
 } DipGeometry;
 
 typedef struct DipKernels DipKernels;

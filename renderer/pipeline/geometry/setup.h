@@ -11,7 +11,7 @@
 
 enum {
     DIP_SETUP_BATCH = 128, // most triangles of a batch
-    // Set-up may overwrite up to this many triangles behind those that it keeps.
+    // Behind the triangles that it keeps, set-up may overwrite the space of this many more.
     DIP_SETUP_EXCESS = 8,
 };
 

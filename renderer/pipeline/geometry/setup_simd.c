@@ -19,7 +19,7 @@ typedef struct Candidates {
     int32_t y[3][ROOM];
     int32_t patch[ROOM];
     int32_t first_pixel[ROOM]; // first pixel of the pixel box, x | y << 16
-    int32_t last_pixel[ROOM];  // last pixel of the pixel box, which includes it
+    int32_t last_pixel[ROOM];  // last pixel of the box (inclusive), x | y << 16
 } Candidates;
 
 // --- rejection ---------------------------------------------------------------------------------

@@ -2,10 +2,11 @@
 //
 // Edge values E = a x + b y + c (x, y in 1/256 pixel) need 64 bits. Within a tile, a position is
 // split into its pixel and the sample in it: x = 256 px + sx, y = 256 py + sy. Let c' be E at the
-// tile's corner. Then E >= 0 if and only if a px + b py + floor((c' + a sx + b sy) / 256) >= 0,
-// because 256 (a px + b py) is a whole multiple of 256. The first two terms are below 2^30 in sum,
-// and so is the third one for an edge that crosses the tile. If c' / 256 is larger than 2^30 its
-// sign alone decides, so it is clamped to that. The inner loops are therefore exact in 32 bits.
+// tile's corner. Then E = 256 (a px + b py) + c' + a sx + b sy. The first term is a multiple of
+// 256, so E >= 0 if and only if a px + b py + floor((c' + a sx + b sy) / 256) >= 0. The first two
+// terms of this sum are below 2^30 together, and so is the third one for an edge that crosses the
+// tile. If c' / 256 is larger, its sign alone decides, so it is clamped to +-2^30. The inner loops
+// are therefore exact in 32 bits.
 //
 // A triangle is set up once per tile (InTile). Its pixel box is then walked in regions (Region) of
 // 4x4 sub-blocks, each of 4x4 pixels. One vector operation per edge tells which of the sixteen
@@ -24,29 +25,30 @@ enum {
 static const int32_t lane_x[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 static const int32_t lane_y[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
-// One edge within the tile. Its values are edge values divided by 256.
+// One edge within the tile. All values are edge values divided by 256.
 typedef struct Edge {
     int32_t a;
     int32_t b;
-    int32_t corner;   // at sample 0 of the tile's first pixel
-    int32_t greatest; // upper bound over a sub-block, less sample 0 of its first pixel
-    int32_t least;    // lower bound over a sub-block, less sample 0 of its first pixel
-    Vi lane[VECTORS]; // a px + b py of a sub-block's pixels
-    int32_t sample[DIP_SAMPLE_ROOM]; // per sample: its value less that of sample 0
+    int32_t corner; // at sample 0 of the tile's first pixel
+    // Bounds of the values at a sub-block's samples, relative to sample 0 of its first pixel.
+    int32_t greatest;
+    int32_t least;
+    Vi lane[VECTORS];                // a px + b py at the pixels of a sub-block
+    int32_t sample[DIP_SAMPLE_ROOM]; // per sample, relative to sample 0
 } Edge;
 
 // One triangle within the tile.
 typedef struct InTile {
     Edge edge[3];
-    Vf depth_lane[VECTORS]; // depth at a sub-block's pixels, less that at its corner
+    Vf depth_lane[VECTORS]; // at the pixels of a sub-block, relative to its corner
     Vf depth_min;
     Vf depth_max;
-    float depth_sample[DIP_SAMPLE_ROOM]; // per sample: its depth less that at the pixel's corner
+    float depth_sample[DIP_SAMPLE_ROOM]; // per sample, relative to the pixel's corner
 } InTile;
 
 // Sixteen sub-blocks of the tile. Arrays and bits are in lane order.
 typedef struct Region {
-    int x; // column and row of the first one, counted in sub-blocks of the tile
+    int x; // column and row of the first sub-block, counted in sub-blocks of the tile
     int y;
     unsigned reached;                   // sub-blocks that may hold covered samples
     unsigned inside;                    // sub-blocks that lie wholly inside the triangle
@@ -72,7 +74,7 @@ VEC_INLINE int64_t max_i64(int64_t a, int64_t b) {
 
 // --- set-up ------------------------------------------------------------------------------------
 
-// Sets floor((c + a sx + b sy) / 256) of every sample, less that of sample 0. Each factor is split
+// Sets floor((c + a sx + b sy) / 256) of every sample, relative to sample 0. Each factor is split
 // at bit 8, so that 16-bit products are enough and nothing overflows.
 VEC_INLINE void set_samples(Edge *edge, int64_t c, const DipSamplePattern *pattern) {
     const int32_t high =

@@ -10,16 +10,16 @@ enum { VECTORS = 16 / DIP_LANES, ALL_PIXELS = 0xffff };
 
 // Positions of a sub-block's pixels relative to its first one (tile_shading.h).
 static const int32_t pixel_position[16] = {
-    0,   1,   2,   3,   64,  65,  66,  67, // DIP_TILE to the next row
+    0,   1,   2,   3,   64,  65,  66,  67, // DIP_TILE from row to row
     128, 129, 130, 131, 192, 193, 194, 195,
 };
 
 // The sub-block whose fragments are being collected.
 typedef struct SubBlock {
     DipTileShading *shading;
-    const uint32_t *ids; // of sample 0; DIP_BLOCK_PIXELS to the next sample's
+    const uint32_t *ids; // of sample 0; those of the next sample follow DIP_BLOCK_PIXELS later
     int sample_count;
-    int x0, y0; // pixels in the tile
+    int x0, y0; // column and row of its first pixel in the tile
     // The patches that the samples show, [sample][pixel]; 0 for none. They are found only if
     // samples of a pixel hold several triangles, or if there may be sample groups.
     uint32_t patches[DIP_MAX_SAMPLES * DIP_SUB_BLOCK_PIXELS];
@@ -109,7 +109,7 @@ static void push_whole(const SubBlock *sub, uint32_t draw) {
 }
 
 // Adds pixels as fragments of a draw. Triangle ids, samples and positions are given per vector.
-// uniform: all lanes have the same samples.
+// uniform: all fragments hold the same samples.
 VEC_INLINE void push(const SubBlock *sub, uint32_t draw, unsigned pixels, const Vu *ids,
                      const Vu *samples, const Vu *positions, bool uniform) {
     DipTileShading *shading = sub->shading;
@@ -251,7 +251,7 @@ static void clear_pixels(const SubBlock *sub, unsigned left) {
     }
 }
 
-// The sub-block's pixels that lie in the target.
+// Returns the sub-block's pixels that lie in the target.
 static unsigned pixels_in_target(const SubBlock *sub) {
     unsigned inside = 0;
     for (int i = 0; i < 16; i++) {
@@ -286,7 +286,7 @@ static void find_draws(const SubBlock *sub, uint32_t draws[DIP_SUB_BLOCK_PIXELS]
 // with sample groups. several: samples of some pixel hold different triangles. inside: the pixels
 // that lie in the target.
 static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned inside) {
-    uint32_t draws[DIP_SUB_BLOCK_PIXELS]; // of the first samples
+    uint32_t draws[DIP_SUB_BLOCK_PIXELS]; // of each pixel's first sample
     find_draws(sub, draws);
     unsigned multi_fragment = 0;
     if (several || grouped) {

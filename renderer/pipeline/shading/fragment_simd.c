@@ -49,7 +49,7 @@ VEC_INLINE void read_rows(const DipShadingInput *input, const uint32_t *triangle
     if (left) {
         const uint32_t *planes = (const uint32_t *)(const void *)input->planes;
         const Vi offset = vi_pair_order(ids * input->plane_stride);
-        for (int f = 0; f < count; f += 2) { // the padding of planes has one more
+        for (int f = 0; f < count; f += 2) { // planes are padded: one more may be read
             const VuPair pair = vu_gather_pairs(planes + f, offset);
             rows[f] = (Vf)vu_pair_left(pair);
             rows[f + 1] = (Vf)vu_pair_right(pair);
@@ -67,8 +67,8 @@ VEC_INLINE Plane plane_at(const VaryingPlanes *planes, int i, Vf x, Vf y) {
     return (Plane){(value_of(planes, i) + dx * x) + dy * y, dx, dy};
 }
 
-// Returns a coordinate of a position in pixels of the target. pixel: within the tile; sub: within
-// the pixel, in 1/256.
+// Returns one coordinate of a fragment's position, in pixels of the target. pixel: the pixel in the
+// tile; sub: 1/256 pixel within it.
 VEC_INLINE Vf target_coordinate(Vi pixel, Vi sub, int tile_first) {
     return vf_from_int((pixel + tile_first) << 8 | sub) * (1.0f / 256.0f);
 }

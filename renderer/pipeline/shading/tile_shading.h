@@ -34,7 +34,7 @@ enum { DIP_LIST_ROOM = DIP_FRAGMENT_BATCH + 16 };
 typedef struct DipFragmentList {
     int count;
     uint32_t triangle[DIP_LIST_ROOM]; // index into the geometry's triangles
-    uint32_t position[DIP_LIST_ROOM]; // DIP_POSITION_... above
+    uint32_t position[DIP_LIST_ROOM]; // in bits, see DIP_POSITION_Y and below
     // Bit s: the fragment holds sample s. Not set in lists of whole sub-blocks, whose fragments
     // hold all samples.
     uint32_t samples[DIP_LIST_ROOM];
@@ -79,7 +79,7 @@ struct DipTileShading {
     const DipSampleGroups *groups; // of alpha-clipped draws; NULL: one group of all samples
     DipFlushList *flush;           // for `lists`, called when a list holds a batch
     DipFlushList *flush_whole;     // for `whole_lists`, called when a list holds a batch
-    void *context;                 // for the owner of both functions
+    void *context;                 // of whoever set these two functions
     DipFragmentList *lists;        // per draw
     DipFragmentList *whole_lists;  // per draw: whole sub-blocks, 16 fragments each
     uint32_t *active;              // draws whose lists this tile has used, in order of first use

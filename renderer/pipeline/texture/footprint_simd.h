@@ -7,8 +7,9 @@
 #include "renderer/pipeline/texture/texture_layout.h"
 #include "renderer/simd/vec.h"
 
-// Texels per pixel. MAX_DERIVATIVE exceeds the size of every texture, and the product of two
-// squares of it is finite. The square of MIN_LENGTH is a normal number.
+// Bounds of derivatives and lengths, in texels per pixel. MAX_DERIVATIVE exceeds the size of every
+// texture, and the product of two squares of it is finite. The square of MIN_LENGTH is a normal
+// number.
 #define MAX_DERIVATIVE 1e9f
 #define MIN_LENGTH     1e-18f
 
@@ -50,8 +51,8 @@ VEC_INLINE Jacobian bounded_jacobian(Jacobian j) {
     return (Jacobian){bounded(j.ux), bounded(j.vx), bounded(j.uy), bounded(j.vy)};
 }
 
-// The major axis of a footprint in texels, and the squared lengths of both axes. The minor axis
-// counts as no shorter than the greatest anisotropy allows. Trilinear reads use minor2 only.
+// The major axis of a footprint in texels, and the squared lengths of both axes. minor2 is at least
+// length2 / max_anisotropy^2. Trilinear reads use minor2 only.
 typedef struct Axis {
     Vf u, v;
     Vf length2;
@@ -153,8 +154,8 @@ VEC_INLINE Vi narrow_blend(Vi lod8) {
     return (lod8 & ~255) + vi_min(vi_max(fraction, vi_splat(0)), vi_splat(256));
 }
 
-// Returns the level of detail, biased and clamped, in 1/256 level. lambda is log2 of the length of
-// the minor axis, which comes from its square, and is rounded to 1/256.
+// Returns the level of detail in 1/256 level: log2 of the length of the minor axis (minor2 is its
+// square), rounded, biased and clamped.
 VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
     const Vf lambda = log2_of(vf_max(minor2, vf_splat(MIN_LENGTH * MIN_LENGTH))) * 0.5f;
     const Vi lod8 = vi_from_float(vf_floor(lambda * 256.0f + 0.5f)) + sampler->bias_lod8;

@@ -22,7 +22,8 @@ DipMipTap dip_mip_tap(int i, int size, int next) {
         2 * i, 3, {(float)((next - i) / n), (float)(next / n), (float)((i + 1) / n)}};
 }
 
-// Halves a row in the usual case of even sizes, in the order of the general case.
+// Halves a row in the usual case of even sizes. It adds in the same order as weigh does, so the
+// results are the same to the bit.
 static void halve_evenly(const float *upper, const float *lower, float *restrict to,
                          int next_width) {
     for (int x = 0; x < next_width; x++) {

@@ -205,7 +205,7 @@ typedef struct Walk {
     int count; // most probes of any lane
 } Walk;
 
-// line: used only if the mode is anisotropic.
+// Starts a walk along vector n's probes in a level. `line` is used only if the mode is anisotropic.
 VEC_INLINE Walk begin_walk(const DipTexture *texture, ReadMode mode, Vi level,
                            const Footprints *footprints, const Line *line, int n) {
     Walk walk = {.level = read_level(texture, mode, level),
@@ -296,8 +296,8 @@ VEC_INLINE void widen(WideSum *wide, const PairSum *sum) {
     wide->blue.b += sum->blue.b;
 }
 
-// Adds one of the two vectors of a pair of texels: linear light, which is the square of the codes,
-// times a 16-bit weight.
+// Adds weighted texels to the sums of red and green and of blue. A texel's linear light is the
+// square of its codes; a weight has 16 bits.
 VEC_INLINE void add_texels(Vu *red_green, Vu *blue, Vu texels, Vu weight) {
     const Vu b = vu_dot16(texels & DIP_TEXEL_BLUE, DIP_TEXEL_BLUE_FACTORS);
     *red_green += vu_mulhi16(vu_mulhi16(texels, texels), weight);
@@ -352,8 +352,8 @@ VEC_INLINE void add_taps(PairSum *sum, const DipTexture *texture, const Level *l
     add_row(sum, texture, index + level->stride_pairs, weights->lower);
 }
 
-// Converts a sum to linear light. The divisors make white 1: its sum differs from them by at most
-// 6, because products of its squared codes lose some by rounding.
+// Converts a sum to linear light, 1 for white. The divisors are below 65535 because rounding in the
+// products loses a little; the sum of a white texel comes to within 6 of them.
 VEC_INLINE void sum_channels(const WideSum *sum, Vf light[3]) {
     const Vu red = vu_pair_sum(sum->red);
     light[0] = vf_from_int((Vi)red) * (1.0f / 65526.0f);
@@ -506,8 +506,8 @@ VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler,
 
 // --- kernels -----------------------------------------------------------------------------------
 
-// Calls sample(batch, sampler, mode, ...) with a constant mode, so that each mode is inlined by
-// itself.
+// Calls sample(batch, sampler, mode, ...) with a constant mode, so that each mode gets an inlined
+// copy of its own.
 #define SAMPLE_BY_MODE(sample, in_bits, ...)                                                       \
     do {                                                                                           \
         if (sampler->max_anisotropy > 1 && (in_bits)) {                                            \

@@ -100,8 +100,8 @@ static void add_levels(DipTexture *texture) {
     }
 }
 
-// 8 spare texels and 32 spare bytes of alpha keep reads that run past the last texel inside the
-// arrays.
+// Allocates the texels and the alpha plane. 8 spare texels and 32 spare bytes of alpha keep reads
+// that run past the last texel inside the arrays.
 static bool allocate_texels(DipTexture *texture, bool with_alpha) {
     texture->texels = dip_pages_alloc((texture->texel_count + 8) * sizeof *texture->texels);
     if (with_alpha) {
@@ -132,8 +132,8 @@ static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
     }
 }
 
-// Returns which column (or row) of a level column i repeats: itself, or in the padding, i == size,
-// the first or the last one.
+// Returns the column (or row) of a level whose texels column i shows. That is i itself, except in
+// the padding (i == size), which repeats the first or the last column.
 static int padding_source(int i, int size, DipWrap wrap) {
     return i < size ? i : wrap == DIP_WRAP_REPEAT ? 0 : size - 1;
 }
@@ -344,7 +344,7 @@ static bool begin_chain(Chain *chain, const DipTextureDef *def, bool keep_alpha,
     return true;
 }
 
-// Allocates what the tasks of all textures share.
+// Allocates the rows and code tables that the tasks of all textures share.
 static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef *defs,
                        const bool *used, int count, DipPool *pool) {
     int widest = 1;
@@ -364,8 +364,8 @@ static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef
     return true;
 }
 
-// Makes the bands of one chain together with the rest of the chain before it, then frees the rows
-// of the latter.
+// Makes the bands of one chain together with the rest of the chain before it. Afterwards it frees
+// the rows of the earlier chain.
 static void run_chains(ChainJobs *jobs, DipPool *pool) {
     dip_pool_run(pool, 1 + (jobs->bands ? jobs->bands->band_count : 0), run_chain_task, jobs);
     if (jobs->rest) {

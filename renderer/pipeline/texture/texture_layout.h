@@ -18,7 +18,7 @@
 
 #include <stdint.h>
 
-// The mask of blue's bits, and the factors for its two parts that make their sum a 16-bit code.
+// The mask of blue's two parts, and the factors by which vu_dot16 makes one 16-bit code of them.
 #define DIP_TEXEL_BLUE         0x001f001fu
 #define DIP_TEXEL_BLUE_FACTORS 0x08000040u
 
@@ -39,7 +39,7 @@ struct DipTexture {
     uint32_t *texels;
     // Same layout as texels. NULL if all texels are opaque or the texture was made without alpha.
     uint8_t *alpha;
-    bool shares_alpha;  // the plane belongs to the texture that this one was made from
+    bool shares_alpha;  // the alpha plane belongs to the texture that this one was made from
     size_t texel_count; // of all levels, padding included
 };
 
