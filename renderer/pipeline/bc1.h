@@ -2,8 +2,8 @@
 // optimisation).
 //
 // A block stores two colours with 5 bits of red, 6 of green and 5 of blue, low byte first, and two
-// bits per texel. These bits choose one of the two colours or one of two more, which follow from
-// them. All functions are thread-safe.
+// bits per texel. These bits choose one of the two colours or one of two more that are computed
+// from them. All functions are thread-safe.
 #ifndef DIP_RENDERER_PIPELINE_BC1_H
 #define DIP_RENDERER_PIPELINE_BC1_H
 
@@ -32,6 +32,7 @@ typedef struct DipRootCodes {
     uint8_t of10[1024];  // by the 10-bit square root of blue
 } DipRootCodes;
 
+// Fills in the tables.
 DIP_API void dip_root_codes_fill(DipRootCodes *codes);
 
 // Returns the sRGB codes nearest to a packed texel's colour.
@@ -41,21 +42,23 @@ static inline void dip_root_codes_read(const DipRootCodes *codes, uint32_t texel
     rgb8[2] = codes->of10[(texel >> 16 & 31) << 5 | (texel & 31)];
 }
 
-// Linear light of a block's colours, by channel. Each colour is a sum of sixths of the two colours
-// that the block stores. A 5-bit channel (red, blue) is therefore a multiple of 1/(6 * 31) and a
-// 6-bit channel (green) one of 1/(6 * 63); that multiple is the index.
+// Linear light of the channels of a block's colours. Each colour is a sum of sixths of the two that
+// the block stores, so a channel of 5 bits (red, blue) is a multiple of 1/(6 * 31) and one of 6
+// bits (green) a multiple of 1/(6 * 63). of5[i] is the linear light of the sRGB value i / (6 * 31),
+// of6[i] that of i / (6 * 63).
 typedef struct DipBc1Light {
     double of5[6 * 31 + 1];
     double of6[6 * 63 + 1];
 } DipBc1Light;
 
+// Fills in the tables.
 DIP_API void dip_bc1_light_fill(DipBc1Light *light);
 
 // Returns the four packed texels that a block's texels choose from.
 DIP_API void dip_bc1_palette(const DipBc1Light *light, const uint8_t block[DIP_BC1_BYTES],
                              uint32_t texels[4]);
 
-// Returns which of the four, 0..3, texel i = 4 y + x shows.
+// Returns which of these four, 0..3, texel i = 4 y + x shows.
 static inline int dip_bc1_choice(const uint8_t block[DIP_BC1_BYTES], int i) {
     return block[4 + (i >> 2)] >> 2 * (i & 3) & 3;
 }

@@ -1,5 +1,5 @@
 // Patches: small groups of a mesh's triangles that join smoothly. A pixel is shaded once per patch
-// (docs/picture.md, Shading), so edges inside a patch cost no shading.
+// (docs/picture.md, Shading), so edges inside a patch cost no extra shading.
 #ifndef DIP_RENDERER_PIPELINE_PATCH_H
 #define DIP_RENDERER_PIPELINE_PATCH_H
 

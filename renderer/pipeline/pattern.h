@@ -4,8 +4,8 @@
 // The standard patterns of 1, 2, 4 and 8 samples are those of Direct3D and Vulkan. The one of 6
 // samples is a six-rooks lattice, chosen for the least error over all edge orientations and sorted
 // by distance from the centre. (In an n-rooks pattern, each of n columns and n rows has one
-// sample.) The two temporal patterns of n samples are n-rooks patterns about the pixel's centre
-// that together form a pattern of 2n-rooks. All functions are thread-safe.
+// sample.) The two temporal patterns of n samples are n-rooks patterns whose mean is the pixel's
+// centre; together they form a 2n-rooks pattern. All functions are thread-safe.
 #ifndef DIP_RENDERER_PIPELINE_PATTERN_H
 #define DIP_RENDERER_PIPELINE_PATTERN_H
 
@@ -20,7 +20,7 @@ extern "C" {
 
 enum {
     DIP_MAX_SAMPLES = 8,
-    DIP_SAMPLE_ROOM = 16, // entries of an array per sample; the widest vector can be read
+    DIP_SAMPLE_ROOM = 16, // length of arrays with an entry per sample: the widest vector fits
     DIP_MAX_SHARING = 4,  // most samples in a group, if there are several groups
 };
 
@@ -58,8 +58,8 @@ static inline DipPatternKind dip_pattern_kind(bool temporal, uint64_t frame_inde
 // The groups of one pattern's samples, for adaptive antialiasing.
 typedef struct DipSampleGroups {
     int count;                        // number of groups; 1: no adaptive antialiasing
-    uint8_t samples[DIP_MAX_SAMPLES]; // of each group, one bit per sample
-    uint8_t sharing[DIP_MAX_SAMPLES]; // per sample: all samples of its group, one bit each
+    uint8_t samples[DIP_MAX_SAMPLES]; // the samples of each group, one bit each
+    uint8_t sharing[DIP_MAX_SAMPLES]; // the group that each sample belongs to, as bits of samples
     // Mean position of every set of samples, rounded down, as x | y << 8. The index is the set, one
     // bit per sample; the entry of the empty set is 0.
     int32_t centroid[1 << DIP_MAX_SAMPLES];

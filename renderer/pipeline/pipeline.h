@@ -36,8 +36,10 @@ typedef struct DipDraw {
     DipFragmentShader *fragment_shader;
     DipFragmentShader *clip_shader; // decides where the surface exists; NULL: everywhere
     int varying_count;              // 0..DIP_MAX_VARYINGS
-    int clip_varying_count; // 0..varying_count: the clip shader gets this many of the first ones
-    // 0..varying_count: this many of the last varyings come without derivatives, which saves time.
+    // The clip shader gets only the first clip_varying_count varyings, 0..varying_count.
+    int clip_varying_count;
+    // The last value_only_varying_count varyings, 0..varying_count, come without derivatives, which
+    // saves time.
     int value_only_varying_count;
     const void *uniforms;
     const DipSampler *samplers; // up to DIP_MAX_SAMPLERS

@@ -16,7 +16,7 @@ enum { DIP_MAX_TARGET_SIZE = 8192 }; // largest width and height of a target, in
 // it (DipSampleTarget in shader.h).
 typedef struct DipTarget {
     uint8_t *rgba8;      // aligned to 4 bytes
-    size_t stride_bytes; // from one row to the next: a multiple of 4, at least 4 * width
+    size_t stride_bytes; // distance from one row to the next: a multiple of 4, at least 4 * width
     int width;           // pixels, as the pipeline's
     int height;
 } DipTarget;

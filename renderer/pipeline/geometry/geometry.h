@@ -66,7 +66,7 @@ typedef struct DipGeometryJob {
 typedef struct DipGeometry {
     const DipPass *pass;
     DipScreenMapping mapping;
-    DipSamplePositions samples; // of all passes that are drawn from this geometry
+    DipSamplePositions samples; // samples of all passes that are drawn from this geometry
     int tiles_x;
     int tiles_y;
     DipTargetRegion region;       // pixels that are drawn, see dip_drawn_region
@@ -86,7 +86,7 @@ typedef struct DipGeometry {
     // Triangles that the arrays have space for beyond those of the meshes, because clipping adds
     // triangles. The space for bin blocks grows with it. It becomes larger after an overflow.
     uint32_t slack;
-    uint32_t *first_patch; // per draw: the number of its mesh's patch 0
+    uint32_t *first_patch; // the number of patch 0 of each draw's mesh
     DipVisibleChunk *visible;
     DipTriangle *triangles;
     float *planes;

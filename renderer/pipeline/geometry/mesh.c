@@ -20,10 +20,10 @@ typedef struct LocalIndex {
 typedef struct Splitter {
     const DipMeshData *data;
     DipMesh *mesh;
-    LocalIndex *local;    // per source vertex
-    uint32_t *source;     // per chunk vertex: its source vertex; vertex_total of them
+    LocalIndex *local;    // one per source vertex
+    uint32_t *source;     // the source vertices of the vertex_total chunk vertices
     uint32_t index_total; // indices of the chunks that are complete
-    uint8_t corner[3][DIP_CHUNK_TRIANGLES]; // of the current chunk
+    uint8_t corner[3][DIP_CHUNK_TRIANGLES]; // corners of the current chunk
 } Splitter;
 
 static bool check_data(const DipMeshData *data, DipError *err) {

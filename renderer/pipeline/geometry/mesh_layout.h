@@ -35,7 +35,7 @@ struct DipMesh {
     DipBox *groups; // box i bounds the group that starts with chunk DIP_GROUP_CHUNKS * i
     DipBox box;
     float *attributes; // attribute a of vertex i: attributes[a * vertex_total + i]
-    uint8_t *indices;  // per corner: which vertex of the chunk
+    uint8_t *indices;  // the vertex of each corner, as an index within its chunk
     // patches[t] is the patch of triangle t of the mesh (patch.h). Reads may go DIP_BATCH_ALIGN
     // elements past the last triangle.
     uint32_t *patches;

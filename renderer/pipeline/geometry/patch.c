@@ -18,7 +18,7 @@ typedef struct Grower {
     uint32_t *triangles;
     uint32_t queue[DIP_PATCH_TRIANGLES]; // triangles of the patch that is growing
     uint32_t queued;
-    double normal[3]; // of the patch's first triangle, twice its area long
+    double normal[3]; // normal of the patch's first triangle, twice its area long
 } Grower;
 
 // Finds a triangle's normal; its length is twice the area.

@@ -33,7 +33,7 @@ static inline void dip_sample_positions_add(DipSamplePositions *positions,
 
 // The target of set-up, and the draw that the triangles belong to.
 typedef struct DipSetupTarget {
-    int width; // pixels
+    int width; // size of the target in pixels
     int height;
     int region_first[2]; // first pixel, x and y, of the region; a triangle outside it is dropped
     int region_last[2];  // last pixel of the region

@@ -162,14 +162,14 @@ typedef struct TriangleVector {
     Hi first_pixel;
     Hi last_pixel;
     Vd x0, y0;             // vertex 0, pixels
-    Vd x10, y10, x20, y20; // from vertex 0 to vertices 1 and 2, pixels
+    Vd x10, y10, x20, y20; // edges from vertex 0 to vertices 1 and 2, pixels
     Vd inverse_area;       // 1 / (x10 y20 - x20 y10)
 } TriangleVector;
 
 // The gradient of a value that is affine over the screen: at (x, y) it is the value at vertex 0
 // plus dx (x - x0) + dy (y - y0).
 typedef struct Gradient {
-    Vd dx; // per pixel
+    Vd dx; // change per pixel
     Vd dy;
 } Gradient;
 

@@ -21,7 +21,7 @@ typedef struct DipTriangle {
     uint32_t draw;          // index into the pass's draws
     uint32_t patch;         // number of its patch among those of all draws, from 1
     double z_origin;        // depth at the target's corner
-    double z_dx;            // per pixel
+    double z_dx;            // depth per pixel
     double z_dy;
     float z_min; // smallest depth of the vertices; depth is clamped to z_min..z_max
     float z_max;

@@ -29,21 +29,21 @@ static const int32_t lane_y[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 
 typedef struct Edge {
     int32_t a;
     int32_t b;
-    int32_t corner; // at sample 0 of the tile's first pixel
+    int32_t corner; // value at sample 0 of the tile's first pixel
     // Bounds of the values at a sub-block's samples, relative to sample 0 of its first pixel.
     int32_t greatest;
     int32_t least;
     Vi lane[VECTORS];                // a px + b py at the pixels of a sub-block
-    int32_t sample[DIP_SAMPLE_ROOM]; // per sample, relative to sample 0
+    int32_t sample[DIP_SAMPLE_ROOM]; // value at each sample, relative to sample 0
 } Edge;
 
 // One triangle within the tile.
 typedef struct InTile {
     Edge edge[3];
-    Vf depth_lane[VECTORS]; // at the pixels of a sub-block, relative to its corner
+    Vf depth_lane[VECTORS]; // depth at the pixels of a sub-block, relative to its corner
     Vf depth_min;
     Vf depth_max;
-    float depth_sample[DIP_SAMPLE_ROOM]; // per sample, relative to the pixel's corner
+    float depth_sample[DIP_SAMPLE_ROOM]; // depth at each sample, relative to the pixel's corner
 } InTile;
 
 // Sixteen sub-blocks of the tile. Arrays and bits are in lane order.
@@ -52,8 +52,8 @@ typedef struct Region {
     int y;
     unsigned reached;                   // sub-blocks that may hold covered samples
     unsigned inside;                    // sub-blocks that lie wholly inside the triangle
-    int32_t edge[3][REGION_SUB_BLOCKS]; // at sample 0 of each sub-block's first pixel
-    float depth[REGION_SUB_BLOCKS];     // at each sub-block's corner
+    int32_t edge[3][REGION_SUB_BLOCKS]; // values at sample 0 of the sub-blocks' first pixels
+    float depth[REGION_SUB_BLOCKS];     // depths at the sub-blocks' corners
 } Region;
 
 VEC_INLINE int min_int(int a, int b) {
@@ -297,10 +297,10 @@ VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_c
 // A sub-block whose fragments wait for the clip test.
 typedef struct Waiting {
     int first;       // index of its first value in the tile's arrays
-    float depth;     // at its corner
+    float depth;     // depth at its corner
     uint16_t pixels; // pixels that have a fragment in the list, in the list's order
     uint8_t samples; // samples that these fragments may hold, one bit each
-    uint16_t visible[DIP_MAX_SAMPLES]; // per sample: the pixels in which it is visible
+    uint16_t visible[DIP_MAX_SAMPLES]; // the pixels in which each sample is visible
 } Waiting;
 
 // The sub-blocks of the current triangle that wait for the clip test. Their fragments are in the

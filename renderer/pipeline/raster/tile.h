@@ -15,12 +15,12 @@
 enum {
     DIP_TILE = DIP_TARGET_TILE,
     DIP_BLOCK = 8,
-    DIP_TILE_BLOCKS = DIP_TILE / DIP_BLOCK, // per row
+    DIP_TILE_BLOCKS = DIP_TILE / DIP_BLOCK, // blocks per row of a tile
     DIP_BLOCKS = DIP_TILE_BLOCKS * DIP_TILE_BLOCKS,
     DIP_BLOCK_PIXELS = DIP_BLOCK * DIP_BLOCK,
     DIP_SUB_BLOCK = 4,
     DIP_SUB_BLOCK_PIXELS = DIP_SUB_BLOCK * DIP_SUB_BLOCK,
-    DIP_TILE_SUB_BLOCKS = DIP_TILE / DIP_SUB_BLOCK, // per row
+    DIP_TILE_SUB_BLOCKS = DIP_TILE / DIP_SUB_BLOCK, // sub-blocks per row of a tile
 };
 
 // Column of pixel i (0..63) of a block.
@@ -36,7 +36,7 @@ static inline int dip_block_y(int i) {
 typedef struct DipTile {
     int x0; // column and row of the first pixel in the target
     int y0;
-    // Pixels at each side that are not drawn, multiples of DIP_BLOCK.
+    // Pixels at each side that are not drawn, in multiples of DIP_BLOCK. 0: all are drawn.
     int left;
     int top;
     int right;

@@ -35,7 +35,7 @@ typedef struct DipTilePass {
     const DipKernels *kernels;
     const DipPass *pass;
     const DipSamplePattern *pattern;
-    const DipGeometry *geometry; // of this pipeline, or of another that draws the same geometry
+    const DipGeometry *geometry; // this pipeline's, or that of another that draws the same geometry
     DipSampleGroups groups_room;
     const DipSampleGroups *groups; // &groups_room; NULL: alpha-clipped draws have one sample group
     uint32_t clear_rgba8;
@@ -54,7 +54,7 @@ typedef struct DipTileWorker {
     DipFragmentBatch clip_batch;
     DipFragmentList clip_list;
     DipEncodedBatch encoded;
-    DipTileWork *work; // of the tile being drawn
+    DipTileWork *work; // work of the tile that is being drawn
 } DipTileWorker;
 
 // Returns NULL if memory runs out. Each worker has memory of its own, so that threads share no

@@ -17,7 +17,7 @@ static const int32_t pixel_position[16] = {
 // The sub-block whose fragments are being collected.
 typedef struct SubBlock {
     DipTileShading *shading;
-    const uint32_t *ids; // of sample 0; those of the next sample follow DIP_BLOCK_PIXELS later
+    const uint32_t *ids; // ids of sample 0; the next sample's follow DIP_BLOCK_PIXELS later
     int sample_count;
     int x0, y0; // column and row of its first pixel in the tile
     // The patches that the samples show, [sample][pixel]; 0 for none. They are found only if
@@ -286,7 +286,7 @@ static void find_draws(const SubBlock *sub, uint32_t draws[DIP_SUB_BLOCK_PIXELS]
 // with sample groups. several: samples of some pixel hold different triangles. inside: the pixels
 // that lie in the target.
 static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned inside) {
-    uint32_t draws[DIP_SUB_BLOCK_PIXELS]; // of each pixel's first sample
+    uint32_t draws[DIP_SUB_BLOCK_PIXELS]; // draws that the first samples show
     find_draws(sub, draws);
     unsigned multi_fragment = 0;
     if (several || grouped) {

@@ -34,7 +34,7 @@ enum { DIP_LIST_ROOM = DIP_FRAGMENT_BATCH + 16 };
 typedef struct DipFragmentList {
     int count;
     uint32_t triangle[DIP_LIST_ROOM]; // index into the geometry's triangles
-    uint32_t position[DIP_LIST_ROOM]; // in bits, see DIP_POSITION_Y and below
+    uint32_t position[DIP_LIST_ROOM]; // its position, in the bits described above
     // Bit s: the fragment holds sample s. Not set in lists of whole sub-blocks, whose fragments
     // hold all samples.
     uint32_t samples[DIP_LIST_ROOM];
@@ -76,22 +76,22 @@ struct DipTileShading {
     DipTile *tile;
     DipShadingInput input;
     const DipDraw *draws;
-    const DipSampleGroups *groups; // of alpha-clipped draws; NULL: one group of all samples
+    const DipSampleGroups *groups; // groups of alpha-clipped draws; NULL: one group
     DipFlushList *flush;           // for `lists`, called when a list holds a batch
     DipFlushList *flush_whole;     // for `whole_lists`, called when a list holds a batch
-    void *context;                 // of whoever set these two functions
-    DipFragmentList *lists;        // per draw
-    DipFragmentList *whole_lists;  // per draw: whole sub-blocks, 16 fragments each
+    void *context;                 // context of these two functions
+    DipFragmentList *lists;        // one per draw
+    DipFragmentList *whole_lists;  // one per draw, for whole sub-blocks of 16 fragments
     uint32_t *active;              // draws whose lists this tile has used, in order of first use
     int active_count;
-    uint8_t *is_active; // per draw
-    int width;          // of the part of the tile that lies in the target
+    uint8_t *is_active; // one per draw: whether it is in `active`
+    int width;          // width of the part of the tile that lies in the target
     int height;
     uint32_t *pixels; // the tile's first pixel in the target
     size_t stride;    // pixels from one row of the target to the next
     uint32_t clear_rgba8;
     int32_t clear_linear16[3];
-    int32_t (*sum)[4];        // per pixel of the tile: sums of 16-bit linear light
+    int32_t (*sum)[4];        // each pixel's sums of 16-bit linear light
     uint16_t *multi_fragment; // pixels that several fragments share
     int multi_fragment_count;
     uint64_t fragments;

@@ -27,7 +27,7 @@ typedef struct ReadMode {
 // bits of floats.
 typedef struct Line {
     Vi count[VECTORS];  // number of probes; 0: the level is not read
-    Vf weight[VECTORS]; // of each probe in the footprint
+    Vf weight[VECTORS]; // weight of each probe in the footprint
     Vu u[VECTORS];      // coordinates of the first probe
     Vu v[VECTORS];
     Vu step_u[VECTORS];

@@ -195,7 +195,7 @@ typedef struct Chain {
 typedef struct ChainJobs {
     Chain *bands; // the texture whose bands are tasks 1 and up, or NULL
     Chain *rest;  // the texture whose levels from 2 on are task 0, or NULL
-    float *rows;  // per worker: three rows of level 0
+    float *rows;  // space for three rows of level 0 for each worker
     size_t row_floats;
 } ChainJobs;
 

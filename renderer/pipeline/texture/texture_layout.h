@@ -23,7 +23,7 @@
 #define DIP_TEXEL_BLUE_FACTORS 0x08000040u
 
 struct DipTexture {
-    int width; // of level 0, in texels
+    int width; // width of level 0, in texels
     int height;
     int level_count;
     DipWrap wrap_u;
@@ -40,7 +40,7 @@ struct DipTexture {
     // Same layout as texels. NULL if all texels are opaque or the texture was made without alpha.
     uint8_t *alpha;
     bool shares_alpha;  // the alpha plane belongs to the texture that this one was made from
-    size_t texel_count; // of all levels, padding included
+    size_t texel_count; // number of texels of all levels, padding included
 };
 
 // Fills in the padding that repeats texels of row y of a level. The row's own texels must have been
