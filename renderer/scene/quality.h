@@ -29,8 +29,8 @@ extern "C" {
     X(aaa, AAA, "Adaptive AA", 0, ("off", "on"),                                                   \
       "alpha-clipped surfaces are clipped and shaded once per sample group of each pixel")         \
     X(asd, ASD, "Adaptive AA group size", 0, ("1", "2", "3", "4"),                                 \
-      "samples that share one sample group of adaptive AA: 1 or 2 with aa=2 and aa=4, "            \
-      "1, 2 or 3 with aa=6, 1, 2 or 4 with aa=8")                                                  \
+      "samples that share one sample group: 1 2 with aa=2 and aa=4, 1 2 3 with aa=6, "             \
+      "1 2 4 with aa=8")                                                                           \
     X(af, AF, "Anisotropic filtering", 0, ("none", "2", "4", "8", "16"),                           \
       "at most this many texture probes along the long axis of a footprint; none: trilinear")      \
     X(aaf, AAF, "Advanced AF", 0, ("off", "on"),                                                   \
