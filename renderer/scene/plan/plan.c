@@ -5,7 +5,7 @@
 #include "renderer/scene/resources/scene_layout.h"
 
 static const char forced[] = "all effects are forced";
-static const char plain[] = "surfaces are drawn plain, without it";
+static const char plain[] = "surfaces are drawn plain";
 
 static DipEffect run(const DipPlanInput *input, const char *why) {
     return (DipEffect){true, input->force_all ? forced : why};
@@ -185,7 +185,7 @@ static DipEffect plan_adaptive_aa(const DipPlanInput *input, DipFramePlan *plan)
     const int sample_count = dip_quality_sample_count(input->quality);
     plan->samples_per_group = sample_count;
     if (!input->quality->step[DIP_SETTING_AAA]) {
-        return skip("the setting aaa is off");
+        return skip("aaa is off");
     }
     if (dip_quality_samples_per_group(input->quality) == sample_count) {
         return skip("one sample group holds all samples");
@@ -244,7 +244,7 @@ DipFramePlan dip_plan_frame(const DipPlanInput *input) {
 
 static void settle(DipEffect *effect, uint64_t work) {
     if (effect->run && !work) {
-        *effect = skip("none of its fragments is visible");
+        *effect = skip("no fragment of it is visible");
     }
 }
 
