@@ -84,8 +84,8 @@ DIP_API DipQuality dip_quality_default(void);
 
 // Reads settings from text; a setting that the text leaves out gets its default. err may be NULL.
 // Fails with DIP_ERROR_UNKNOWN (a setting or a step), MISSING (a setting without a step), OVERSIZED
-// (a part that is too long to be one) or CONFLICT (a setting given twice, or as
-// dip_quality_check); then *quality is unchanged. Thread-safe.
+// (a part that is too long for key=step), CONFLICT (a setting given twice) or an error of
+// dip_quality_check; then *quality is unchanged. Thread-safe.
 DIP_API bool dip_quality_parse(const char *text, DipQuality *quality, DipError *err);
 
 // Writes all settings in the order of DIP_SETTING_LIST: "aa=none,taa=off,...". Cuts the text to the
