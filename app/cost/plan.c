@@ -165,10 +165,10 @@ static void plan_setting(DipCostReport *report, const DipSession *session, DipSe
     }
 }
 
-// Adds a sweep of adaptive AA for each number of samples, since its divisors depend on that number.
-// Steps go from few groups of samples to many.
+// Adds a sweep of adaptive AA for each number of samples, since its group sizes depend on that
+// number. Steps go from few sample groups to many.
 static void plan_adaptive(DipCostReport *report, const DipSession *session) {
-    const DipSettingInfo *divisors = dip_setting_info(DIP_SETTING_ASD);
+    const DipSettingInfo *group_size = dip_setting_info(DIP_SETTING_ASD);
     for (int aa = 1; aa < dip_setting_info(DIP_SETTING_AA)->step_count; aa++) {
         DipQuality base = report->options.baseline;
         base.step[DIP_SETTING_AA] = (uint8_t)aa;
@@ -183,7 +183,7 @@ static void plan_adaptive(DipCostReport *report, const DipSession *session) {
         context_text(&base, DIP_SETTING_AAA, with);
         DipCostSweep *sweep = begin_sweep(report, DIP_SETTING_AAA, path, base_row, with);
         add_to_sweep(sweep, base_row);
-        for (int asd = divisors->step_count - 1; asd >= 0; asd--) {
+        for (int asd = group_size->step_count - 1; asd >= 0; asd--) {
             DipQuality on = base;
             on.step[DIP_SETTING_AAA] = 1;
             on.step[DIP_SETTING_ASD] = (uint8_t)asd;

@@ -73,8 +73,8 @@ int dip_preview_category_of(DipSetting setting) {
 }
 
 // Goes on to the next step that fits the other settings. If a number of samples does not fit the
-// divisor of adaptive AA, the divisor goes back to its default. Returns false if no other step
-// fits.
+// group size of adaptive AA, the group size goes back to its default. Returns false if no other
+// step fits.
 static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     const DipSettingInfo *info = dip_setting_info(setting);
     DipQuality candidate;
@@ -284,7 +284,7 @@ static const char *brief_form(DipSetting setting) {
     case DIP_SETTING_AAA:
         return "adaptive AA";
     case DIP_SETTING_ASD:
-        return "divisor %s";
+        return "groups of %s";
     case DIP_SETTING_AF:
         return "AF %sx";
     case DIP_SETTING_AAF:

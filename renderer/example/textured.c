@@ -1,5 +1,5 @@
-// A textured cube that stands in a textured floor: a projection with a near and a far plane of its
-// own, hidden surfaces, mip chains and anisotropic filtering.
+// Draws a textured cube that stands in a textured floor. It shows a projection of the caller's own,
+// with a near and a far plane, and hidden surfaces, mip chains and anisotropic filtering.
 //
 // Usage: textured FILE.ppm
 #include "renderer/pipeline/pipeline.h"

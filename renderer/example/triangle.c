@@ -1,4 +1,5 @@
-// A triangle drawn with the caller's own shaders: the pipeline as a library, without a scene.
+// Draws a triangle with shaders of its own: the smallest program that uses the pipeline library
+// without a scene.
 //
 // Usage: triangle FILE.ppm
 #include "renderer/pipeline/pipeline.h"
@@ -8,7 +9,7 @@
 
 enum { WIDTH = 320, HEIGHT = 240 };
 
-// Per vertex: position x, y, z and the two varyings the fragment shader draws with.
+// Each vertex has a position x, y, z and the two numbers u, v that the fragment shader draws with.
 static const float vertices[3][5] = {
     {-0.8f, -0.7f, 0.5f, 0.0f, 0.0f},
     {0.8f, -0.7f, 0.5f, 1.0f, 0.0f},
@@ -16,7 +17,7 @@ static const float vertices[3][5] = {
 };
 static const uint32_t indices[3] = {0, 1, 2};
 
-// Positions are clip coordinates already; attributes 3 and 4 become varyings 0 and 1.
+// The positions are in clip space already, with w = 1. Attributes 3 and 4 become varyings 0 and 1.
 static void vertex_shader(const DipVertexBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         for (int c = 0; c < 3; c++) {
@@ -28,7 +29,8 @@ static void vertex_shader(const DipVertexBatch *batch) {
     }
 }
 
-// Rings around the middle, in the colours of the coordinates. The uniform is the rings' number.
+// Draws rings around the middle. The colour depends on u and v, and the uniform is the number of
+// rings per unit of squared distance from the middle.
 static void fragment_shader(DipFragmentBatch *batch) {
     const float rings = *(const float *)batch->uniforms;
     for (int i = 0; i < batch->count; i++) {

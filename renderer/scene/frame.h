@@ -1,4 +1,4 @@
-// What drawing a frame yields: pixels, counters of work, times and the effects that ran.
+// A frame: what drawing yields. It has pixels, counters of work, times and the effects that ran.
 #ifndef DIP_RENDERER_SCENE_FRAME_H
 #define DIP_RENDERER_SCENE_FRAME_H
 
@@ -16,21 +16,21 @@ extern "C" {
 
 enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, in pixels
 
-// Exact counts of what the scene's effects did and hold.
+// Exact counts of the work that the scene's effects did and of the memory that they take.
 // X(name, "what it counts")
 #define DIP_SCENE_COUNTER_LIST(X)                                                                  \
     X(fragments_normal_mapped, "fragments whose normal came from a normal map")                    \
     X(fragments_sky, "fragments of sky with moving clouds")                                        \
     X(fragments_reflecting, "fragments of water that show the reflection")                         \
-    X(fragments_mirrored, "fragments shaded to draw the reflection's picture")                     \
-    X(reflection_bytes, "memory of the reflection's target")                                       \
-    X(normal_map_bytes, "memory of normal maps")                                                   \
-    X(clip_map_bytes, "memory of the alpha of clip maps")                                          \
-    X(cloud_bytes, "memory of the sky's clouds")                                                   \
+    X(fragments_mirrored, "fragments shaded to draw the mirrored scene")                           \
+    X(reflection_bytes, "bytes of the mirrored scene's picture")                                   \
+    X(normal_map_bytes, "bytes of all normal maps")                                                \
+    X(clip_map_bytes, "bytes of the alpha of all clip maps")                                       \
+    X(cloud_bytes, "bytes of the textures of skies with clouds")                                   \
     X(meshes, "meshes that the scene's objects are drawn from, in view or not")                    \
-    X(geometry_bytes, "memory of these meshes: vertices, indices, bounds")
+    X(geometry_bytes, "bytes of the vertices, indices and bounds of these meshes")
 
-// All counters of a frame: those of its passes, then those of the scene.
+// All counters of a frame: the counters of its render passes, then those of the scene.
 #define DIP_COUNTER_LIST(X)                                                                        \
     DIP_PIPELINE_COUNTER_LIST(X)                                                                   \
     DIP_SCENE_COUNTER_LIST(X)
@@ -41,9 +41,8 @@ typedef struct DipCounters {
 #undef DIP_COUNTER_FIELD
 } DipCounters;
 
-// Whether an effect ran in this frame, and why; in the order in which the plan decides them
-// (renderer/scene/plan/).
-// X(name, "Title")
+// The effects, in the order in which the plan (renderer/scene/plan/) decides them.
+// X(name, "title")
 #define DIP_EFFECT_LIST(X)                                                                         \
     X(reflection, "reflection")                                                                    \
     X(alpha_clip, "alpha clip")                                                                    \
@@ -52,6 +51,7 @@ typedef struct DipCounters {
     X(normal_map, "normal maps")                                                                   \
     X(sky, "clouds")
 
+// Whether an effect ran in a frame, and the reason in words.
 typedef struct DipEffect {
     bool run;
     const char *why; // static storage
@@ -63,9 +63,10 @@ typedef struct DipEffects {
 #undef DIP_EFFECT_FIELD
 } DipEffects;
 
-// Owned by the renderer that drew it and valid until it draws, resizes or is destroyed.
+// The renderer that drew a frame owns its pixels. They are valid until that renderer draws again,
+// is resized or is destroyed.
 typedef struct DipFrame {
-    const uint8_t *rgba8; // sRGB, alpha 255, the top row first
+    const uint8_t *rgba8; // sRGB, alpha 255, top row first
     size_t stride_bytes;
     int width;
     int height;
@@ -74,8 +75,9 @@ typedef struct DipFrame {
     DipEffects effects;
 } DipFrame;
 
-// 128-bit hash of the frame's pixels (not of its padding or counters) as 32 hex digits. FNV-1a in
-// two lanes: guards determinism, is no protection against forgery.
+// Writes a 128-bit hash of a frame's size and pixels as 32 hex digits and a final 0. Padding and
+// counters do not count. The hash is FNV-1a in two lanes: it shows whether two pictures are the
+// same but does not protect against forgery.
 DIP_API void dip_frame_hash(const DipFrame *frame, char hex[33]);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
-// Where the camera is and what it sees.
+// A pose: where the camera is, where it looks and how wide it sees.
 //
-// World space is right-handed, +Y up, in metres by convention. The camera looks along its own -Z
-// with +Y up; orientation turns camera space into world space.
+// World space is right-handed with +Y up; its unit is the metre by convention. Camera space has +Y
+// up too, and the camera looks along -Z.
 #ifndef DIP_RENDERER_SCENE_POSE_H
 #define DIP_RENDERER_SCENE_POSE_H
 
@@ -11,7 +11,7 @@ extern "C" {
 
 typedef struct DipPose {
     double position_world[3];
-    double orientation[4]; // unit quaternion x, y, z, w
+    double orientation[4]; // unit quaternion x, y, z, w; rotates camera space to world space
     double fov_y_deg;      // vertical field of view, 1..170
 } DipPose;
 

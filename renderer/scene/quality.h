@@ -1,10 +1,11 @@
 // The image-quality settings of one pane, and the one list that defines them.
 //
 // DIP_SETTING_LIST yields the enumerators, the struct, the parser, the help, the panel and the
-// reports: a setting or a step is added here and nowhere else. A setting's value is the index of
-// its step in dip_setting_info(); the first step need not be the default.
+// reports, so a setting or a step is added here and nowhere else. The value of a setting is the
+// index of one of its steps (dip_setting_info). The first step is not always the default.
 //
-// Text form (command line, ini, reports): "aa=4,af=16,aaf=on"; what is left out keeps its default.
+// The command line, the ini and the reports write settings as text: "aa=4,af=16,aaf=on". A setting
+// that is left out has its default.
 #ifndef DIP_RENDERER_SCENE_QUALITY_H
 #define DIP_RENDERER_SCENE_QUALITY_H
 
@@ -22,25 +23,27 @@ extern "C" {
 // X(key, NAME, "Title", default step, (steps), "what it does")
 #define DIP_SETTING_LIST(X)                                                                        \
     X(aa, AA, "Antialiasing", 0, ("none", "2", "4", "6", "8"),                                     \
-      "coverage and depth samples per pixel; shading stays once per pixel and surface")            \
+      "coverage and depth samples per pixel; a surface is still shaded once per pixel")            \
     X(taa, TAA, "Temporal AA", 0, ("off", "on"),                                                   \
-      "the sample pattern alternates from frame to frame")                                         \
+      "two sample patterns alternate from frame to frame")                                         \
     X(aaa, AAA, "Adaptive AA", 0, ("off", "on"),                                                   \
-      "alpha-clipped surfaces are sampled at more than one place per pixel")                       \
-    X(asd, ASD, "Adaptive AA divisor", 0, ("1", "2", "3", "4"),                                    \
-      "samples that share one pass of adaptive AA; aa=2: 1 2, 4: 1 2, 6: 1 2 3, 8: 1 2 4")         \
+      "alpha-clipped surfaces are clipped and shaded once per sample group of each pixel")         \
+    X(asd, ASD, "Adaptive AA group size", 0, ("1", "2", "3", "4"),                                 \
+      "samples that share one sample group: 1 2 with aa=2 and aa=4, 1 2 3 with aa=6, "             \
+      "1 2 4 with aa=8")                                                                           \
     X(af, AF, "Anisotropic filtering", 0, ("none", "2", "4", "8", "16"),                           \
-      "texture probes along the long axis of a pixel's footprint, at most this many")              \
+      "at most this many texture probes along the long axis of a footprint; none: trilinear")      \
     X(aaf, AAF, "Advanced AF", 0, ("off", "on"),                                                   \
-      "footprints from the exact ellipse, the same at every angle")                                \
+      "footprints are exact ellipses, so filtering does not depend on a surface's angle")          \
     X(opt, OPT, "Texture optimisation", 0, ("off", "standard", "advanced"),                        \
-      "standard: BC1 colour textures; advanced: also cheaper filtering")                           \
+      "standard compresses colour textures with BC1; advanced also filters with fewer probes")     \
     X(miplod, MIPLOD, "Mip level of detail", 3,                                                    \
       ("high-performance", "performance", "quality", "high-quality"),                              \
       "bias towards smaller mip levels; high-performance also drops the largest levels")           \
-    X(gi, GI, "Geometry instancing", 1, ("off", "on"), "repeated objects share one mesh")          \
+    X(gi, GI, "Geometry instancing", 1, ("off", "on"),                                             \
+      "on: repeated objects share one mesh; off: each has a copy; the picture is the same")        \
     X(mipdebug, MIPDEBUG, "Mip colours", 0, ("off", "on"),                                         \
-      "colour textures show their mip levels as flat colours")
+      "colour textures show each of their mip levels as a flat colour")
 
 typedef enum DipSetting {
 #define DIP_SETTING_ENUM(key, NAME, title, def, steps, text) DIP_SETTING_##NAME,
@@ -51,7 +54,7 @@ typedef enum DipSetting {
 
 enum { DIP_MAX_STEPS = 5 };
 
-// Step indices that code compares with.
+// The steps of opt and miplod, by name.
 enum { DIP_OPT_OFF, DIP_OPT_STANDARD, DIP_OPT_ADVANCED };
 enum {
     DIP_MIPLOD_HIGH_PERFORMANCE,
@@ -60,16 +63,16 @@ enum {
     DIP_MIPLOD_HIGH_QUALITY
 };
 
-// One pane's settings: a step index per setting. Plain data, copied freely.
+// One pane's settings: the index of a step for each setting. Plain data that may be copied freely.
 typedef struct DipQuality {
     uint8_t step[DIP_SETTING_COUNT];
 } DipQuality;
 
-// What a panel or a help text needs to know of a setting. Static storage.
+// What a panel or a help text needs to know about a setting. All strings are static.
 typedef struct DipSettingInfo {
     const char *key;   // "aa"
     const char *title; // "Antialiasing"
-    const char *text;  // one sentence
+    const char *text;  // what the setting does, in one sentence
     int step_count;    // 2..DIP_MAX_STEPS
     int default_step;
     const char *steps[DIP_MAX_STEPS]; // "none", "2", ...
@@ -79,25 +82,28 @@ DIP_API const DipSettingInfo *dip_setting_info(DipSetting setting);
 
 DIP_API DipQuality dip_quality_default(void);
 
-// Reads settings as text over the defaults. NULL err is allowed. Fails with DIP_ERROR_UNKNOWN
-// (setting or step), CONFLICT (a setting twice); then
-// *quality is unchanged. Thread-safe.
+// Reads settings from text; a setting that the text leaves out gets its default. err may be NULL.
+// Fails with DIP_ERROR_UNKNOWN (a setting or a step), MISSING (a setting without a step), OVERSIZED
+// (a part that is too long for key=step), CONFLICT (a setting given twice) or an error of
+// dip_quality_check; then *quality is unchanged. Thread-safe.
 DIP_API bool dip_quality_parse(const char *text, DipQuality *quality, DipError *err);
 
-// Writes all settings in list order, "aa=none,taa=off,..."; returns the length as snprintf does.
+// Writes all settings in the order of DIP_SETTING_LIST: "aa=none,taa=off,...". Cuts the text to the
+// buffer and returns the length of the whole text, as snprintf does.
 DIP_API size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_bytes);
 
-// Fails when a step is out of range (RANGE) or does not fit another setting (CONFLICT: an asd that
-// aa has no passes for).
+// Fails if a step is out of range (RANGE) or if the samples of aa cannot be divided into groups of
+// asd samples (CONFLICT), even when adaptive AA is off.
 DIP_API bool dip_quality_check(const DipQuality *quality, DipError *err);
 
 DIP_API int dip_quality_sample_count(const DipQuality *quality);   // 1, 2, 4, 6 or 8
 DIP_API int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (trilinear), 2, 4, 8 or 16
 
-// Whether colour textures are shown compressed. Mip colours hide them.
+// Whether colour textures are drawn compressed: with opt=standard and opt=advanced, unless mip
+// colours replace their texels.
 DIP_API bool dip_quality_compresses(const DipQuality *quality);
 
-// Of alpha-clipped surfaces: all samples, unless adaptive AA makes passes.
+// Samples per sample group of alpha-clipped surfaces: asd with adaptive AA, otherwise all samples.
 DIP_API int dip_quality_samples_per_group(const DipQuality *quality);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// Renderers: creating, changing and destroying them, and what they keep for a scene.
+// Renderers: creating, changing and destroying them, and the resources they keep for a scene.
 #include "renderer/scene/renderer.h"
 
 #include "renderer/scene/draw/renderer_parts.h"
@@ -21,7 +21,7 @@ DipRendererDef dip_renderer_default_def(void) {
     };
 }
 
-// Makes the pipeline and the pixels of a size into *pipeline and *rgba8, or neither.
+// Creates a pipeline and a picture of the same size, or neither.
 static bool make_target(DipPool *pool, DipIsa isa, int width, int height, DipPipeline **pipeline,
                         uint8_t **rgba8, size_t *stride_bytes, DipError *err) {
     *pipeline = dip_pipeline_create(pool, isa, width, height, err);
@@ -45,13 +45,15 @@ static bool check_reflection(const DipReflectionDef *reflection, DipError *err) 
     if (reflection->width < 1 || reflection->height < 1 || reflection->width > DIP_MAX_FRAME_SIZE ||
         reflection->height > DIP_MAX_FRAME_SIZE) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "reflection",
-                             "%dx%d pixels, accepted 1x1 to %dx%d, or width 0 for none",
+                             "%dx%d pixels is out of range, accepted 1x1 to %dx%d, or width 0 for "
+                             "no reflection",
                              reflection->width, reflection->height, DIP_MAX_FRAME_SIZE,
                              DIP_MAX_FRAME_SIZE);
     }
     return isfinite(reflection->level_m) ||
            dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "reflection",
-                         "a level of %g m, accepted finite numbers", reflection->level_m);
+                         "level %g m is out of range, accepted finite numbers",
+                         reflection->level_m);
 }
 
 DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
@@ -88,7 +90,7 @@ static void free_mirror(DipMirror *mirror) {
     *mirror = (DipMirror){0};
 }
 
-// Everything made for a scene.
+// Frees the resources that were made for a scene.
 static void forget_scene(DipRenderer *renderer) {
     renderer->scene_serial = 0;
     dip_draw_set_free(&renderer->set);
@@ -126,7 +128,7 @@ bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *
     }
     if (reflection->width != renderer->reflection.width ||
         reflection->height != renderer->reflection.height) {
-        forget_scene(renderer); // its target is made anew with the next frame
+        forget_scene(renderer); // the next frame creates a target of the new size
     }
     renderer->reflection = *reflection;
     return true;
@@ -174,7 +176,7 @@ bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
     return true;
 }
 
-// --- what a scene takes ------------------------------------------------------------------------
+// --- resources for a scene ---------------------------------------------------------------------
 
 DipDrawInput dip_renderer_draw_input(const DipRenderer *renderer, const DipScene *scene) {
     return (DipDrawInput){
@@ -188,7 +190,7 @@ DipDrawInput dip_renderer_draw_input(const DipRenderer *renderer, const DipScene
     };
 }
 
-// Makes room for all that the scene has, in view or not.
+// Reserves the memory that drawing the whole scene takes, so that frames allocate nothing.
 static bool reserve(const DipRenderer *renderer, const DipScene *scene, bool mirrored,
                     DipPipeline *pipeline, DipDrawSet *set, DipError *err) {
     const DipPose pose = {.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
@@ -204,7 +206,7 @@ static int tiles_in(int size) {
     return (size + DIP_TARGET_TILE - 1) / DIP_TARGET_TILE;
 }
 
-// Makes the reflection's target and room for its pass.
+// Creates the reflection's target and reserves the memory for its pass.
 static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     DipMirror *mirror = &renderer->mirror;
     DipTarget *target = &mirror->target;
@@ -226,7 +228,7 @@ static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *
     return reserve(renderer, scene, true, mirror->pipeline, &mirror->set, err);
 }
 
-// Makes the arrays for a scene that was not drawn before.
+// Creates the resources for a scene that this renderer did not draw last.
 static bool make_for_scene(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     forget_scene(renderer);
     renderer->samplers = calloc((size_t)scene->material_count + 1, sizeof *renderer->samplers);

@@ -1,7 +1,7 @@
-// A renderer: draws a scene from a pose with one pane's settings into its own frame.
+// A renderer: draws a scene from a pose with one pane's settings into a frame that it owns.
 //
-// Two renderers may share a scene and a pool, but one pool runs one frame at a time. No function
-// here is safe to call on the same renderer from two threads.
+// Several renderers may share a scene and a pool, but a pool may work on one frame at a time only.
+// Two threads must not use the same renderer at once.
 #ifndef DIP_RENDERER_SCENE_RENDERER_H
 #define DIP_RENDERER_SCENE_RENDERER_H
 
@@ -25,24 +25,29 @@ typedef struct DipRendererDef {
     DipPool *pool; // borrowed; must outlive the renderer
     DipIsa isa;
     int width;  // pixels, 1..DIP_MAX_FRAME_SIZE
-    int height; // likewise
+    int height; // pixels, 1..DIP_MAX_FRAME_SIZE
     DipQuality quality;
-    // Normal maps and moving clouds are left out: a measuring aid, for pictures of what other
-    // renderers can draw too.
+    // Leaves out normal maps, moving clouds and the reflection, so that measurements can compare
+    // with renderers that do not have them.
     bool plain_surfaces;
     DipReflectionDef reflection;
-    bool force_all_effects; // also where the plan finds that they cannot be seen; the same picture
+    // Runs every effect that the scene has, even where the plan finds that it cannot be seen. The
+    // picture is the same.
+    bool force_all_effects;
 } DipRendererDef;
 
 typedef struct DipRenderer DipRenderer;
 
-// Default settings, 640x480, the best instruction set, no reflection; the pool must be filled in.
+// Default settings, 640x480 pixels, the best instruction set of this machine and no reflection. The
+// caller fills in the pool.
 DIP_API DipRendererDef dip_renderer_default_def(void);
 
+// Fails with RANGE, CONFLICT (see dip_quality_check), UNSUPPORTED (an instruction set that this
+// machine lacks) or MEMORY.
 DIP_API DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err);
 DIP_API void dip_renderer_destroy(DipRenderer **renderer);
 
-// Each takes effect in the next frame. On failure nothing changes.
+// Each of these takes effect in the next frame. If one fails, nothing changes.
 DIP_API bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality,
                                       DipError *err);
 DIP_API bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *reflection,
@@ -51,29 +56,33 @@ DIP_API bool dip_renderer_resize(DipRenderer *renderer, int width, int height, D
 
 DIP_API DipQuality dip_renderer_quality(const DipRenderer *renderer);
 
-// The number of the next frames, 0 at first; the caller counts. Only its parity matters, and only
-// to temporal antialiasing: which of the two sample patterns is drawn with.
+// Sets the number of the frame that is drawn next; the caller counts, and it is 0 at first. Only
+// temporal antialiasing uses it: even frames have one sample pattern, odd frames the other.
 DIP_API void dip_renderer_set_frame_index(DipRenderer *renderer, uint64_t frame_index);
 
-// Pictures for mip debugging instead of the flat colours: up to one per level size 1024, 512, ...,
-// 8 (index 0..7). A NULL picture keeps the flat colour. Copied.
+// Replaces the flat colours of mip debugging by pictures. Picture 0 stands for mip levels of 1024
+// texels and more, picture 1 for 512, and so on to picture 7 for 8 and fewer. A level whose picture
+// is NULL keeps its flat colour. The pictures are copied.
 enum { DIP_MIP_DEBUG_LEVELS = 8 };
 DIP_API bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
                                            const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
                                            DipError *err);
 
-// Draws the scene at a time (nanoseconds since the path's start). The frame is the same to the
-// bit for any pool size and instruction set.
+// Draws the scene at a time, in nanoseconds since the start of the path. The frame is the same to
+// the bit for any number of threads and any instruction set. Fails with RANGE (a pose that is not
+// finite or whose field of view is out of range), OVERSIZED (see dip_pipeline_draw) or MEMORY.
 DIP_API bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                                int64_t time_ns, DipFrame *frame, DipError *err);
 
 enum { DIP_MAX_FRAMES_AT_ONCE = 4 };
 
-// Draws the frames of several renderers at once, from one pose: frames[i] is what dip_renderer_draw
-// gives for renderers[i], to the bit, in less time. Tiles take turns on each worker, and the
-// geometry runs once if the settings differ only in samples and shading (everything but gi); its
-// time and counters are then in every frame. count: 1..DIP_MAX_FRAMES_AT_ONCE; the renderers are
-// distinct and on one pool.
+// Draws one frame with each of several renderers, all from one pose. frames[i] is the same to the
+// bit as what dip_renderer_draw gives for renderers[i], but all of them together take less time:
+// each worker draws the same tile of every frame in turn, and the geometry stage runs once for all
+// frames if the renderers differ only in samples and shading (in any setting but gi). The time and
+// the counters of that stage are then part of every frame. count is 1..DIP_MAX_FRAMES_AT_ONCE. The
+// renderers must be distinct and on one pool. Errors are those of dip_renderer_draw; RANGE also
+// means a bad count.
 DIP_API bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count,
                                       const DipScene *scene, const DipPose *pose, int64_t time_ns,
                                       DipFrame *const *frames, DipError *err);

@@ -1,4 +1,4 @@
-// Making a scene from its description: checks, textures, vertex layouts, bounds.
+// Creates a scene from its description: checks, textures, vertex layouts and bounds.
 #include "renderer/scene/resources/scene_layout.h"
 
 #include "renderer/base/clock.h"
@@ -28,8 +28,8 @@ static bool check_sky(const DipSkyDef *sky, DipError *err) {
         const double speed = sky->layers[i].speed_per_min;
         if (!(speed >= -DIP_MAX_SKY_SPEED && speed <= DIP_MAX_SKY_SPEED)) {
             return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "sky",
-                                 "a speed of %g, accepted -%d..%d", speed, DIP_MAX_SKY_SPEED,
-                                 DIP_MAX_SKY_SPEED);
+                                 "speed_per_min %g is out of range, accepted -%d..%d", speed,
+                                 DIP_MAX_SKY_SPEED, DIP_MAX_SKY_SPEED);
         }
     }
     return true;
@@ -66,7 +66,7 @@ static bool check_def(const DipSceneDef *def, DipError *err) {
         for (int k = 0; k < 12; k++) {
             if (!isfinite(object->transform[k])) {
                 return dip_error_set(err, DIP_ERROR_RANGE, object->name, 0, "transform",
-                                     "an element is not finite");
+                                     "element %d is not finite", k);
             }
         }
     }
@@ -75,14 +75,15 @@ static bool check_def(const DipSceneDef *def, DipError *err) {
 
 // --- meshes ------------------------------------------------------------------------------------
 
-// What a vertex of a mesh carries, in order; see DipSurfaceUniforms.
+// The arrays whose elements make up a vertex, in order; see DipSurfaceUniforms.
 typedef struct VertexLayout {
     const float *source[5];
-    int size[5]; // floats
-    int count;
+    int size[5]; // floats per vertex of each array
+    int count;   // number of arrays
     int attribute_count;
 } VertexLayout;
 
+// Appends an array and returns the index of its first attribute.
 static int add_source(VertexLayout *layout, const float *source, int size) {
     const int first = layout->attribute_count;
     layout->source[layout->count] = source;
@@ -91,8 +92,8 @@ static int add_source(VertexLayout *layout, const float *source, int size) {
     return first;
 }
 
-// Whether a material's normal map is drawn: on solid surfaces that have light to change. Water and
-// sky have shaders of their own.
+// Whether a material's normal map is drawn: only on opaque and clipped surfaces, and only if they
+// have a light that it can change. Water and sky have shaders of their own.
 static bool draws_normal_map(const DipMaterialDef *material) {
     const bool solid =
         material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;
@@ -100,8 +101,8 @@ static bool draws_normal_map(const DipMaterialDef *material) {
            (material->lit || material->light_map != DIP_NO_TEXTURE);
 }
 
-// The varyings of a normal-mapped mesh: coordinates, normal, depth and, where there are, vertex
-// colours.
+// Lays out the varyings of a normal-mapped mesh: texture coordinates, normal, depth and, if the
+// mesh has them, vertex colours.
 static void lay_out_normal_map(DipSceneMesh *out, int normal_attribute) {
     out->mapped_layout = out->layout;
     DipSurfaceUniforms *uniforms = &out->mapped_layout;
@@ -117,7 +118,7 @@ static void lay_out_normal_map(DipSceneMesh *out, int normal_attribute) {
     }
 }
 
-// Decides what the mesh's material needs of its vertices; nothing else is kept.
+// Lays out the vertices of a mesh: only the arrays that its material uses are kept.
 static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *material,
                             DipSceneMesh *out) {
     VertexLayout layout = {.count = 0};
@@ -227,7 +228,8 @@ static void mark_used_textures(const DipSceneDef *def, bool *used, bool *clip) {
     }
 }
 
-// Those that no material as it is drawn uses are not made, nor alpha that clips nothing.
+// Creates the textures that materials use as they are drawn, and no others. Alpha is kept only for
+// clip maps.
 static bool create_textures(const DipSceneDef *def, DipScene *scene, DipPool *pool, DipError *err) {
     bool *used = calloc(2 * (size_t)def->texture_count + 1, sizeof *used);
     if (!used) {
@@ -241,7 +243,7 @@ static bool create_textures(const DipSceneDef *def, DipScene *scene, DipPool *po
     return made;
 }
 
-// Whether a material shows a texture so.
+// Whether a material uses a texture in a certain way.
 typedef bool TextureUse(const DipSceneMaterial *material, int texture);
 
 static bool is_normal_map(const DipSceneMaterial *material, int texture) {
@@ -265,7 +267,7 @@ static uint64_t bytes_used(const DipScene *scene, TextureUse *uses) {
     return bytes;
 }
 
-// Alpha is kept of clip maps only.
+// Sums up the memory of each effect's textures. Only clip maps have alpha in memory.
 static void add_effect_bytes(DipScene *scene) {
     scene->normal_map_bytes = bytes_used(scene, is_normal_map);
     scene->cloud_bytes = scene->has_sky ? bytes_used(scene, is_clouds) : 0;
@@ -309,7 +311,8 @@ static DipSurface surface_of(const DipScene *scene, const DipSceneObject *object
     return scene->materials[scene->meshes[object->mesh].material].surface;
 }
 
-// Bounds of the objects of such surfaces. False when there is none.
+// Sets the scene's bounds to those of all objects of a kind of surface. Returns false if there are
+// none.
 static bool bound_objects(DipScene *scene, bool (*is)(DipSurface)) {
     bool any = false;
     for (int axis = 0; axis < 3; axis++) {
@@ -357,7 +360,8 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
     return true;
 }
 
-// Colour textures alone: BC1 would dent normals, displace clouds and put steps into a light map.
+// Marks the colour textures, which are the only ones to be compressed: BC1 would dent normals,
+// displace clouds and put steps into a light map.
 static void mark_compressible(const DipSceneDef *def, DipScene *scene) {
     for (int i = 0; i < def->material_count; i++) {
         const DipMaterialDef *material = &def->materials[i];
@@ -485,7 +489,8 @@ uint64_t dip_scene_texture_bytes(const DipScene *scene) {
     for (int i = 0; i < scene->texture_count; i++) {
         bytes += dip_texture_colour_bytes(scene->textures[i]) +
                  dip_texture_alpha_bytes(scene->textures[i]);
-        bytes += dip_texture_colour_bytes(dip_late_texture(scene->late, i)); // alpha is shared
+        // A compressed texture shares the alpha of its original.
+        bytes += dip_texture_colour_bytes(dip_late_texture(scene->late, i));
     }
     return bytes;
 }

@@ -1,9 +1,9 @@
-// A scene: textures, materials, meshes and the objects that place them. What it shows never
-// changes, so that any number of renderers on any thread may draw it.
+// A scene: textures, materials, meshes, and objects that place the meshes in the world. What a
+// scene shows never changes, so any number of renderers on any threads may draw it.
 //
-// DipSceneDef is the plain description that loaders fill; dip_scene_create copies what it needs,
-// builds mip chains and splits the meshes into chunks. The reference path reads the same
-// description, so that fast and slow share no derived data.
+// DipSceneDef is the plain description that loaders fill. dip_scene_create copies what it needs,
+// builds mip chains and splits the meshes into chunks. The reference renderer reads the same
+// description, so the two renderers share no derived data.
 #ifndef DIP_RENDERER_SCENE_SCENE_H
 #define DIP_RENDERER_SCENE_SCENE_H
 
@@ -19,81 +19,91 @@
 extern "C" {
 #endif
 
-// What a surface is, as the model file tags it.
+// What kind of surface a material is. Model files tag it (docs/models.md).
 typedef enum DipSurface {
     DIP_SURFACE_OPAQUE,
-    DIP_SURFACE_CLIPPED, // alpha-clipped: a texel with alpha below alpha_cutoff is not there
+    DIP_SURFACE_CLIPPED, // alpha-clipped: cut away where the texture's alpha is below alpha_cutoff
     DIP_SURFACE_WATER,
     DIP_SURFACE_SKY,
 } DipSurface;
 
 enum { DIP_NO_TEXTURE = -1 };
 
-// Colour = base colour * colour texture * light, all in linear light, clamped to 0..1 at the end.
-// Light is light_map * light_map_scale where there is a light map; else, for a surface that is
-// `lit`, a fixed sky-and-sun light from the vertex normals; else 1. A normal map changes the light
-// of opaque and clipped surfaces that have one of the two and adds a highlight of the sun.
+// The colour of a surface is base colour * vertex colour * colour texture * light, in linear light,
+// clamped to 0..1 at the end. The light is
+// - light_map * light_map_scale if there is a light map,
+// - otherwise, on a `lit` surface, a fixed light of sky and sun on the vertex normals,
+// - otherwise 1.
+// On an opaque or clipped surface that has one of the first two lights, a normal map changes that
+// light and adds a highlight of the sun. docs/picture.md defines all of it.
 typedef struct DipMaterialDef {
     const char *name;
     DipSurface surface;
     float base_colour_lin[3]; // 0..1
-    int colour_texture;       // index of a texture or DIP_NO_TEXTURE; uses the first coordinates
-    int light_map;            // likewise; uses the second coordinates
-    int normal_map;           // likewise; uses the first coordinates, green up, linear encoding
-    float light_map_scale;    // 2 for light maps stored as light / 2
-    float roughness;          // 0..1, of the highlight on normal-mapped surfaces
-    float alpha_cutoff;       // 0..1, for DIP_SURFACE_CLIPPED; alpha >= cutoff is there
-    bool double_sided;        // false: seen only where the winding is counter-clockwise
-    bool lit;
+    // Indices of textures, or DIP_NO_TEXTURE. The light map is read at the second texture
+    // coordinates (uv1), the other two at the first (uv0). A normal map has linear encoding, and
+    // its green points up.
+    int colour_texture;
+    int light_map;
+    int normal_map;
+    float light_map_scale; // 2 for a light map that stores half the light
+    float roughness;       // 0..1: roughness of the highlight on normal-mapped surfaces
+    float alpha_cutoff;    // 0..1, for DIP_SURFACE_CLIPPED: alpha >= alpha_cutoff is kept
+    bool double_sided;     // false: visible only where the winding is counter-clockwise
+    bool lit;              // without a light map, the fixed light of sky and sun falls on it
 } DipMaterialDef;
 
-// Indexed triangles of one material. Arrays are packed; NULL where the mesh has none of a kind.
+// Indexed triangles of one material. All arrays are packed. An array of an attribute that the mesh
+// does not have is NULL; only positions are required.
 typedef struct DipMeshDef {
     const char *name;
     uint32_t vertex_count;
     const float *positions;   // x, y, z
     const float *normals;     // x, y, z, unit
-    const float *uv0;         // u, v: colour textures
-    const float *uv1;         // u, v: light map
-    const float *colours_lin; // r, g, b, multiplies the base colour
+    const float *uv0;         // u, v for the colour texture and the normal map
+    const float *uv1;         // u, v for the light map
+    const float *colours_lin; // r, g, b; multiplies the base colour
     uint32_t index_count;     // a multiple of 3
     const uint32_t *indices;
-    int material;
+    int material; // index
 } DipMeshDef;
 
-// A mesh placed in the world: world = transform * (x, y, z, 1), rows of a 3x4 matrix.
+// A mesh placed in the world: world = transform * (x, y, z, 1).
 typedef struct DipObjectDef {
     const char *name;
-    int mesh;
-    float transform[12];
+    int mesh;            // index
+    float transform[12]; // 3x4 matrix, row by row
 } DipObjectDef;
 
-enum { DIP_MAX_SKY_SPEED = 600 };
+enum { DIP_MAX_SKY_SPEED = 600 }; // texture widths per minute
 
-// A layer of clouds: the sky's texture, scrolled and displaced.
+// One layer of clouds: the sky's texture, scrolled along u and displaced.
 typedef struct DipSkyLayer {
-    float scale;               // repeats of the texture per unit of the surface's coordinates
-    double speed_per_min;      // texture widths that u grows a minute, +-DIP_MAX_SKY_SPEED
-    float perturbation_widths; // displacement where red and green are 1 (0: as much back)
+    float scale;          // repeats of the texture per unit of the surface's texture coordinates
+    double speed_per_min; // growth of u in texture widths per minute, +-DIP_MAX_SKY_SPEED
+    // Displacement, in texture widths, where the texture's red and green are 1. Where they are 0
+    // it is as large in the opposite direction.
+    float perturbation_widths;
 } DipSkyLayer;
 
-// How sky surfaces with a texture and coordinates look: docs/picture.md, Sky. Of the texture red
-// and green displace, blue is cloud; it should repeat and be of linear encoding.
+// How sky surfaces look that have a colour texture and first texture coordinates: docs/picture.md,
+// Sky. The texture's red and green displace the clouds, and its blue is the density of the clouds.
+// It should repeat and have linear encoding.
 typedef struct DipSkyDef {
     DipSkyLayer layers[2];
-    float perturbation_scale; // repeats of red and green per unit of the surface's coordinates
+    float perturbation_scale; // repeats of the displacement per unit of texture coordinates
     float blend;              // share of the second layer, 0..1
-    float clear;              // blue where there is no cloud
-    float dense;              // blue where it is densest, more than clear
-    float overcast;           // 0: no cloud, 1: nothing but cloud
+    float clear;              // value of blue that means no cloud
+    float dense;              // value of blue that means the densest cloud; greater than clear
+    float overcast;           // 0: no clouds, 1: nothing but clouds
     float zenith_lin[3];
     float horizon_lin[3];
     float cloud_lin[3];
-    float glare_lin[3]; // added at the sun
-    float tint_lin[3];  // multiplies all of it, brightness included
+    float glare_lin[3]; // added around the sun
+    float tint_lin[3];  // tint times brightness; multiplies the whole sky
 } DipSkyDef;
 
-// Blue sky, half overcast.
+// The default sky: blue and half overcast.
 DIP_API DipSkyDef dip_sky_default(void);
 
 typedef struct DipSceneDef {
@@ -105,40 +115,46 @@ typedef struct DipSceneDef {
     int material_count;
     int mesh_count;
     int object_count;
-    float background_lin[3]; // seen where nothing is
+    float background_lin[3]; // colour of samples that no surface covers
     float near_m;            // distance of the near plane, > 0; there is no far plane
-    DipSkyDef sky;           // of surfaces of kind sky
+    DipSkyDef sky;           // look of all DIP_SURFACE_SKY surfaces
 } DipSceneDef;
 
 typedef struct DipScene DipScene;
 
-// Copies the description; nothing of *def is kept. The pool (may be NULL) speeds it up. Fails
-// with a reason when an index, size or number is out of range or memory runs out.
+// Creates a scene from a description. It copies everything, so *def and what it points to may be
+// freed afterwards. The mip chains are built on the pool, or on the caller's thread if pool is
+// NULL. Returns NULL with a reason if an index, size or number is out of range or memory runs out.
 DIP_API DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err);
 DIP_API void dip_scene_destroy(DipScene **scene);
 
-// Makes the textures that opt=standard and opt=advanced show, unless they are there already; else
-// the first frame that shows them does, and takes as long. They stay until the scene is destroyed.
-// Beside it other threads may draw the scene, with a pool of their own; those that need the
-// textures wait for them. Without a pool (NULL) the caller's thread does all the work.
+// Compresses the textures that opt=standard and opt=advanced show, unless that has been done. A
+// program that does not call this pays for it in the first frame that shows them. The compressed
+// textures stay until the scene is destroyed. Meanwhile other threads may draw the scene with a
+// pool of their own; if a frame needs the textures, it waits for them. If pool is NULL, the
+// caller's thread does all the work. Fails with DIP_ERROR_MEMORY.
 DIP_API bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError *err);
 
-// How long the parts of making it took, milliseconds.
+// How long the parts of dip_scene_create took.
 typedef struct DipSceneTimes {
-    double textures_ms; // mip chains
+    double textures_ms; // packing the textures and building their mip chains
     double meshes_ms;
 } DipSceneTimes;
 DIP_API DipSceneTimes dip_scene_times(const DipScene *scene);
 
-// Axis-aligned bounds of all objects in world space; of sky only where there is nothing else, so
-// that a camera made for the bounds does not look at a sky dome from outside.
+// Axis-aligned bounds in world space of all objects that are not sky, so that a camera placed by
+// these bounds does not look at a sky dome from outside. If the scene has nothing but sky, these
+// are the sky's bounds; if it has no triangles, both are 0.
 DIP_API void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]);
 
-// Height (world y) of the scene's lowest water; false when it has none.
+// Height (world y) of the scene's lowest water. Returns false if the scene has no water.
 DIP_API bool dip_scene_water_level(const DipScene *scene, double *level_m);
 
+// Triangles of all objects: a mesh counts once for each object that uses it.
 DIP_API uint64_t dip_scene_triangle_count(const DipScene *scene);
-DIP_API uint64_t dip_scene_texture_bytes(const DipScene *scene); // held now
+
+// Memory that the scene's textures take now, in bytes. Compressing textures adds to it.
+DIP_API uint64_t dip_scene_texture_bytes(const DipScene *scene);
 
 #ifdef __cplusplus
 }

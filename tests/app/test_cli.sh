@@ -1,5 +1,5 @@
 #!/bin/sh
-# The program as users run it: exit codes, messages, what is written and what is not.
+# Runs the program as users do and checks its exit codes, its messages and the files that it writes.
 # Usage: test_cli.sh DIPTYCH SOURCE_FOLDER
 set -u
 diptych=$1
@@ -10,7 +10,8 @@ cd "$work" || exit 1
 failures=0
 checks=0
 
-# expect CODE REGEX COMMAND...: the exit code, and a line of standard error that matches.
+# expect CODE REGEX COMMAND...: the command must end with this exit code, and a line of its standard
+# error must match.
 expect() {
     code=$1
     regex=$2
@@ -91,7 +92,8 @@ expect 2 "\[--category\] 'AF' .* follows --path; leave out one" "$diptych" dump 
 expect 2 "\[--category\] 'AF' .* follows an orbit .* leave out one" "$diptych" dump --hash --category AF --model x.obj
 expect 2 "\[path\] nothing to do; give one of path info FILE, path convert IN OUT" "$diptych" path
 
-# A mistyped option is told only of the command at hand: dump has --requested, bench does not.
+# The hint for a mistyped option names only options of the same command: dump has --requested, bench
+# does not.
 expect 2 "\[--requsted\] is not an option of .diptych bench.; .diptych bench --help. lists" \
     "$diptych" bench --requsted aa=2
 expect 2 "\[--requsted\] is not an option of .diptych preview.; did you mean --requested\?" \
@@ -194,7 +196,7 @@ if [ -c /dev/full ]; then
     done
 fi
 
-# --- the same picture, however it is made
+# --- options that must not change the picture
 same_hashes() {
     expect 0 '' "$diptych" dump $small --hash --frames 0:5:2 --requested aa=4 "$@"
     check "same hashes with $*" cmp out.txt hashes.txt
@@ -262,7 +264,7 @@ serve() { "$diptych" bench $quick --size 32x24 --sets aa=none --serve <asked.txt
 expect 1 "\[--serve\] 'draw 9 0 0'" serve
 check "a greeting and an answer" test "$(grep -cE '^diptych-bench 1 1 2$|total_ms=.*hash=[0-9a-f]{32}$' out.txt)" = 2
 
-# --- a model of one's own, with an orbit made for it
+# --- a model given on the command line, with an orbit made for it
 expect 0 '' "$diptych" dump $small --hash --model "$source/tests/assets/data/square.gltf"
 
 # --- failing while running
@@ -308,7 +310,7 @@ check "its state is not" test ! -e whole/cost.state
 check "nothing is as fast as the least budget" grep -q '0.01 ms: no measured combination' out.txt
 check "everything is as fast as the greatest" grep -qE '1000 ms: .*aa=' out.txt
 check "the page's pictures are in it" grep -q 'data:image/png;base64' whole/cost.html
-# The rest on a scene that is quickly there.
+# The other checks use a scene that loads quickly.
 cost="$cost --model $source/tests/assets/data/square.gltf"
 expect 0 '' $cost --out part0 --part 0:1 --rounds 2 --combine aa
 expect 0 '' $cost --out part1 --part 1:2 --errors-only --rounds 2 --combine aa
@@ -337,7 +339,7 @@ for wait in 0.4 0.8 1.2; do
     timeout -s KILL $wait $cost --out killed --rounds 8 >out.txt 2>err.txt
     check "no half report after $wait s" test ! -e killed/cost.json -o -s killed/cost.html
 done
-# It listens from its start on, and writes its first line after that.
+# It catches signals from its start on, and writes its first line after that.
 $cost --out stopped --rounds 5000 >out.txt 2>err.txt &
 for tenth in $(seq 600); do
     [ -s stopped/cost.state ] && break

@@ -1,4 +1,4 @@
-// Building a pass' draws, one object at a time.
+// Makes the draws of a render pass, one object at a time.
 #include "renderer/scene/draw/draws.h"
 
 #include "renderer/scene/resources/mip_debug.h"
@@ -29,7 +29,7 @@ void dip_draw_set_free(DipDrawSet *set) {
 
 static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *shown,
                                  const DipTexture *texture) {
-    // Per step of miplod, from high performance to high quality: bias in levels, times 256.
+    // Bias of each step of miplod, from high-performance to high-quality, in 1/256 level.
     static const int32_t bias_lod8[] = {384, 256, 128, 0};
     const int miplod = quality->step[DIP_SETTING_MIPLOD];
     DipSampler sampler = {
@@ -52,8 +52,9 @@ static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *sh
     return sampler;
 }
 
-// A pass' share of the pixel is smaller, so it may read finer levels: by log2(sqrt(passes)), which
-// keeps thin parts of clip maps from being averaged away.
+// Level-of-detail bias of a clipped surface, in 1/256 level: -log2(sqrt(groups)). A sample group
+// covers only a part of the pixel, so it may read finer levels. This keeps the thin parts of clip
+// maps from being averaged away.
 static int32_t group_bias_lod8(const DipQuality *quality) {
     static const int32_t bias_lod8[DIP_MAX_SAMPLES + 1] = {
         [2] = -128, [3] = -203, [4] = -256, [6] = -331, [8] = -384};
@@ -85,15 +86,15 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
         if (material->normal_map != DIP_NO_TEXTURE) {
             DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_NORMAL_MAP];
             *sampler = colour_sampler(quality, shown, scene->textures[material->normal_map]);
-            sampler->shown = NULL; // mip debugging colours the colour texture
+            sampler->shown = NULL; // mip colours replace colour textures only
         }
     }
 }
 
 // --- objects -----------------------------------------------------------------------------------
 
-// The cofactors of the transform's 3x3 part, which turn normals as the inverse transpose does but
-// for length and, where the transform mirrors, sign.
+// The cofactors of the transform's 3x3 part. They turn normals as the inverse transpose does,
+// except for the length and, if the transform mirrors, the sign.
 static void cofactors(const float t[12], double n[9]) {
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) {
@@ -111,8 +112,8 @@ static bool mirrors(const float t[12]) {
     return (t[0] * n[0] + t[1] * n[1]) + t[2] * n[2] < 0.0;
 }
 
-// Scaled to a greatest element of 1, so that the shader may normalise what it turns, however small
-// the object is.
+// The matrix that turns normals to the world. Its greatest element is scaled to +-1, so that the
+// shader can normalise the turned normals of very small and very large objects too.
 static void normal_matrix(const float t[12], float out[9]) {
     double n[9];
     cofactors(t, n);
@@ -127,9 +128,9 @@ static void normal_matrix(const float t[12], float out[9]) {
     }
 }
 
-// The rays through the target's places. The rows of x, y and w are at right angles in their first
-// three elements, so that a point is the sum of them, each times its coordinate over its squared
-// length.
+// The view rays through the pixels of a target, from the world-to-clip matrix. The first three
+// elements of its rows for x, y and w are orthogonal vectors, so a point relative to the eye is the
+// sum of these vectors, each times its clip coordinate divided by the vector's squared length.
 static DipViewRays view_rays(const double m[16], int width, int height) {
     DipViewRays rays;
     double inverse2[4];
@@ -148,7 +149,8 @@ static DipViewRays view_rays(const double m[16], int width, int height) {
     return rays;
 }
 
-// Turns a draw into one with an effect's shaders. Mip debugging shows a sky's own texture.
+// Gives a draw the shaders of its mesh's effect: normal map or clouds. With mip colours, a sky
+// keeps the plain shader, so that its texture's levels can be seen.
 static void set_effect(const DipDrawInput *input, const DipDrawSet *set, const DipSceneMesh *mesh,
                        DipSurfaceUniforms *uniforms, DipDraw *draw) {
     const DipMaterialKernels *kernels = input->kernels;
@@ -167,7 +169,7 @@ static void set_effect(const DipDrawInput *input, const DipDrawSet *set, const D
     }
 }
 
-// Turns the draw added last into one of water that shows the mirrored picture.
+// Makes the draw that was added last show the mirrored picture, as reflecting water.
 static void set_reflecting(const DipDrawInput *input, const DipDrawView *pass, DipDrawSet *set) {
     const int last = set->count - 1;
     DipWaterUniforms *water = &set->water[last];

@@ -1,5 +1,5 @@
-// A pass' draws: the objects of a scene with the shaders that materials and settings ask for, as
-// one view sees them. Private to the renderer.
+// The draws of a render pass: the objects of a scene that one view can see, with the shaders that
+// their materials and the settings ask for. Private to the renderer.
 #ifndef DIP_RENDERER_SCENE_DRAW_DRAWS_H
 #define DIP_RENDERER_SCENE_DRAW_DRAWS_H
 
@@ -18,7 +18,7 @@
 
 typedef DipSampler DipMaterialSamplers[DIP_SURFACE_SAMPLER_COUNT];
 
-// What all passes of a frame have in common.
+// What the draws of all passes of a frame have in common.
 typedef struct DipDrawInput {
     const DipScene *scene;
     const DipMaterialKernels *kernels;
@@ -29,33 +29,36 @@ typedef struct DipDrawInput {
     bool plain_surfaces;
 } DipDrawInput;
 
-// What a pass has of its own.
+// What differs from pass to pass.
 typedef struct DipDrawView {
     const DipView *view;
-    const DipCullPlanes *seen; // only what may lie within is drawn; NULL: all objects
-    int width;                 // of the target, pixels
-    int height;
-    bool mirrored;          // windings turn around, and water is left out
-    const DipTarget *shown; // by the water: the mirrored picture; NULL: water is plain
-    bool schlick;
+    const DipCullPlanes *seen; // objects outside these planes are left out; NULL: all are drawn
+    int width;                 // of the target, in pixels
+    int height;                // of the target, in pixels
+    bool mirrored;             // the mirrored scene: windings are reversed, water is left out
+    const DipTarget *shown;    // the mirrored picture that water shows; NULL: water is plain
+    bool schlick;              // see DipReflectionDef
 } DipDrawView;
 
-// One pass' draws and all that they point to; 0 in all when empty.
+// The draws of one pass and everything they point to. All members of an empty set are 0.
 typedef struct DipDrawSet {
-    DipDraw *draws; // one per object that may be seen
+    DipDraw *draws; // one per object that may be visible
     int count;
-    DipSurfaceUniforms *uniforms; // of each
-    DipWaterUniforms *water;      // likewise; NULL unless made for water that reflects
+    DipSurfaceUniforms *uniforms; // one per draw
+    DipWaterUniforms *water;      // one per draw; NULL if the set has no reflecting water
     DipViewRays rays;
 } DipDrawSet;
 
+// Allocates a set for up to object_count draws. reflects: the set may hold reflecting water. If it
+// fails (DIP_ERROR_MEMORY), the caller frees the set all the same.
 bool dip_draw_set_make(DipDrawSet *set, int object_count, bool reflects, DipError *err);
 void dip_draw_set_free(DipDrawSet *set);
 
-// Fills the set anew; allocates nothing.
+// Replaces the set's draws by those of a pass. Allocates nothing.
 void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDrawView *pass);
 
-// How each material's textures are read. shown: the levels of mip debugging.
+// Sets how the textures of each material are sampled. `shown` holds the levels that replace a
+// texture's own with mip colours (dip_mip_debug_create).
 void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const DipTexture *shown,
                       DipMaterialSamplers *samplers);
 

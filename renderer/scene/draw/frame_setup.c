@@ -25,10 +25,13 @@ static bool check_pose(const DipPose *pose, DipError *err) {
     for (int i = 0; i < 4; i++) {
         finite = finite && isfinite(pose->orientation[i]);
     }
-    if (!finite || pose->fov_y_deg < 1.0 || pose->fov_y_deg > 170.0) {
+    if (!finite) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
-                             "a pose with a field of view of %g degrees, accepted finite numbers "
-                             "and 1..170",
+                             "a number is not finite, accepted finite numbers");
+    }
+    if (pose->fov_y_deg < 1.0 || pose->fov_y_deg > 170.0) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
+                             "a field of view of %g degrees is out of range, accepted 1..170",
                              pose->fov_y_deg);
     }
     return true;
@@ -36,7 +39,8 @@ static bool check_pose(const DipPose *pose, DipError *err) {
 
 // --- passes ------------------------------------------------------------------------------------
 
-// What every pass takes of the settings and the scene, without its draws.
+// Begins a pass: everything that follows from the settings and the scene, but no draws and no
+// target.
 static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
                           const DipFramePlan *plan) {
     DipPass pass = {
@@ -49,7 +53,7 @@ static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
     return pass;
 }
 
-// Gives a pass the draws of what it may show.
+// Fills a set with the draws of the objects that a pass may show, and gives it to the pass.
 static void set_draws(const DipRenderer *renderer, const DipScene *scene, DipDrawView view,
                       DipDrawSet *set, DipPass *pass) {
     const DipDrawInput input = dip_renderer_draw_input(renderer, scene);
@@ -62,7 +66,7 @@ static void set_draws(const DipRenderer *renderer, const DipScene *scene, DipDra
     pass->draw_count = set->count;
 }
 
-// A frame in the setup. Its parts point at each other.
+// A frame that is being set up. It must not be copied, because its members point to each other.
 typedef struct FrameSetup {
     DipRenderer *renderer;
     const DipScene *scene;
@@ -74,9 +78,9 @@ typedef struct FrameSetup {
     DipParts parts;
     DipPlanInput input;
     DipFramePlan plan;
-    DipPass mirrored_pass; // where the plan reflects
+    DipPass mirrored_pass; // set if the plan runs the reflection
     DipPass pass;
-    DipPipelineCounters counters; // of both passes
+    DipPipelineCounters counters; // sums over both passes
     uint64_t fragments_mirrored;
 } FrameSetup;
 
@@ -84,8 +88,9 @@ static DipTarget target_of(const DipRenderer *renderer) {
     return (DipTarget){renderer->rgba8, renderer->stride_bytes, renderer->width, renderer->height};
 }
 
-// The mirrored scene above the water. What is less than two texels of the picture below it counts
-// as above, so that no background is read between a shore and its reflection.
+// Makes the pass that draws the mirrored scene above the water. A margin of two texels of the
+// mirrored picture below the water is drawn as well, so that no background is read between a shore
+// and its reflection.
 static void make_mirrored_pass(FrameSetup *setup) {
     const DipRenderer *renderer = setup->renderer;
     const DipView *mirrored = &setup->mirrored;
@@ -120,7 +125,7 @@ static void make_scene_pass(FrameSetup *setup) {
     set_draws(renderer, setup->scene, seen, &renderer->set, &setup->pass);
 }
 
-// What the effects hold, used in this frame or not.
+// Counts the memory of the effects' textures, whether this frame uses them or not.
 static void count_bytes(const DipScene *scene, DipCounters *counters) {
     counters->normal_map_bytes = scene->normal_map_bytes;
     counters->clip_map_bytes = scene->clip_map_bytes;
@@ -134,7 +139,7 @@ static void count_mirror(const DipMirror *mirror, bool drawn, DipCounters *count
     counters->tiles_spared += drawn ? 0 : across * down;
 }
 
-// Decides what is drawn.
+// Sets a frame up: plans it and makes its passes.
 static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene *scene,
                         const DipPose *pose, int64_t time_ns, DipFrame *frame, DipError *err) {
     if (!check_pose(pose, err) || !dip_renderer_adopt_scene(renderer, scene, err) ||
@@ -147,7 +152,8 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
     setup->mirrored = dip_view_mirror(&setup->view, renderer->reflection.level_m);
     setup->seen = dip_cull_view_planes(setup->view.world_to_clip);
     setup->seen_mirrored = dip_cull_view_planes(setup->mirrored.world_to_clip);
-    // A bilinear read takes in the next texel; one more for what is rounded.
+    // The margin is 2 texels: one because a bilinear read takes in the next texel, and one for
+    // rounding.
     const DipMirror *mirror = &renderer->mirror;
     setup->parts = (DipParts){mirror->tile_regions, mirror->target.width, mirror->target.height, 2};
     setup->input = (DipPlanInput){
@@ -185,7 +191,8 @@ static DipPassWork work_of(DipPipeline *pipeline, const DipPass *pass, FrameSetu
     return (DipPassWork){pipeline, pass, &setup->counters, &setup->frame->stages};
 }
 
-// Draws frames at once. same_geometry: they differ only in samples and shading.
+// Draws the passes of all frames at once, first the mirrored ones. same_geometry: the frames differ
+// only in samples and shading.
 static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipError *err) {
     DipPassWork works[DIP_MAX_FRAMES_AT_ONCE] = {{.pipeline = NULL}};
     int work_count = 0;
@@ -205,7 +212,7 @@ static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipEr
     return dip_pipeline_draw_passes(works, count, same_geometry, err);
 }
 
-// The counters of the passes, under the names that the frame gives them.
+// Converts the counters of the passes to those of a frame.
 static DipCounters frame_counters(const DipPipelineCounters *passes) {
     DipCounters counters = {
         .fragments_normal_mapped = passes->shader_counts[DIP_SHADER_COUNT_NORMAL_MAPPED],

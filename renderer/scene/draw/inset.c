@@ -1,4 +1,4 @@
-// Copying a picture, thinned out, to another's corner.
+// Copies a thinned-out picture to the corner of another picture.
 #include "renderer/scene/draw/inset.h"
 
 #include <string.h>

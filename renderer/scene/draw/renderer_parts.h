@@ -1,5 +1,5 @@
-// Inside of a renderer: what its creation (renderer.c) and the drawing of frames
-// (draw/frame_setup.c) share.
+// The inside of a renderer, shared by the code that creates it (renderer.c) and the code that draws
+// its frames (draw/frame_setup.c).
 #ifndef DIP_RENDERER_SCENE_DRAW_RENDERER_PARTS_H
 #define DIP_RENDERER_SCENE_DRAW_RENDERER_PARTS_H
 
@@ -8,11 +8,11 @@
 #include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/instancing.h"
 
-// What the reflection needs. All 0 while the scene has no water.
+// The resources of the reflection. All members are 0 while no scene with reflecting water is drawn.
 typedef struct DipMirror {
     DipPipeline *pipeline;
-    DipTarget target;
-    DipTileRegion *tile_regions; // of the target: what the water can show
+    DipTarget target;            // the picture of the mirrored scene
+    DipTileRegion *tile_regions; // the part of each of the target's tiles that water can show
     DipDrawSet set;
 } DipMirror;
 
@@ -26,28 +26,28 @@ struct DipRenderer {
     DipPipeline *pipeline;
     uint8_t *rgba8;
     size_t stride_bytes;
-    DipTexture *mip_colours; // levels 1024 .. 8 of mip debugging
+    DipTexture *mip_colours; // the levels that mip debugging shows, see dip_mip_debug_create
     DipReflectionDef reflection;
     bool plain_surfaces;
     bool force_all_effects;
-    DipSkyUniforms sky; // the sky of this frame, set when a shader needs it
+    DipSkyUniforms sky; // the sky at the frame's time; set only if the frame shows clouds
 
-    // What was made for the scene drawn last.
-    uint64_t scene_serial;
-    bool reserved; // the pipeline has room for the scene
+    // Resources for the scene that was drawn last.
+    uint64_t scene_serial; // DipScene.serial of that scene; 0: there is none
+    bool reserved;         // the pipeline has reserved the memory for the scene
     DipDrawSet set;
     DipMirror mirror;
-    DipMaterialSamplers *samplers; // per material
-    DipUnsharedMeshes *unshared;   // made for gi=off, else NULL
+    DipMaterialSamplers *samplers; // one per material
+    DipUnsharedMeshes *unshared;   // with gi=off; otherwise NULL
 };
 
-// Makes what a scene that was not drawn before needs.
+// Creates the resources that a scene needs, unless it is the scene that was drawn last.
 bool dip_renderer_adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *err);
 
 // Creates or frees resources that depend on the settings.
 bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err);
 
-// What the draws of every pass are made from.
+// The input that the draws of every pass are made from.
 DipDrawInput dip_renderer_draw_input(const DipRenderer *renderer, const DipScene *scene);
 
 #endif

@@ -1,9 +1,9 @@
-// Building a camera's matrices, in double.
+// Computes a camera's matrices in double precision.
 #include "renderer/scene/draw/view.h"
 
 #include "renderer/base/trig.h"
 
-// Rows of the matrix from the eye, the axes and the scales.
+// Computes the rows of world_to_clip from the eye, the axes and the scales.
 static void set_matrix(DipView *view) {
     const double scale[4] = {view->scale[0], view->scale[1], 0.0, -1.0};
     const int camera_axis[4] = {0, 1, 0, 2};
@@ -17,7 +17,7 @@ static void set_matrix(DipView *view) {
         }
         m[4 * row + 3] = scale[row] * shift;
     }
-    m[11] = view->near_m; // clip z is the near distance everywhere
+    m[11] = view->near_m; // clip z is the near plane's distance everywhere
 }
 
 DipView dip_view_make(const DipPose *pose, double near_m, double aspect) {
@@ -29,7 +29,7 @@ DipView dip_view_make(const DipPose *pose, double near_m, double aspect) {
     const double f = dip_cos(half_fov) / dip_sin(half_fov);
     DipView view = {
         .eye = {pose->position_world[0], pose->position_world[1], pose->position_world[2]},
-        // Rows of the world-to-camera rotation are the camera's axes in the world.
+        // The rows of the world-to-camera rotation are the camera's axes in world space.
         .axis = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
                  {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
                  {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}},
@@ -50,8 +50,9 @@ DipView dip_view_mirror(const DipView *view, double level) {
     return mirrored;
 }
 
-// Clip x, y and w are multiples of the camera coordinates and clip z is constant: the normal along
-// the axes, and the plane's value at the eye.
+// Clip x, y and w are multiples of camera x, y and -z, and clip z is constant. So the coefficients
+// for x, y and w come from the plane's normal along the camera's axes, and the coefficient for z
+// from the plane's value at the eye.
 void dip_view_plane(const DipView *view, const double plane[4], double clip[4]) {
     double along[3];
     double at_eye = plane[3];

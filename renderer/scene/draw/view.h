@@ -1,29 +1,31 @@
-// A camera as matrices: its view of the world, the view of the mirrored world, planes.
+// A camera as matrices: its view of the world and of the mirrored world, and planes in its clip
+// space.
 #ifndef DIP_RENDERER_SCENE_DRAW_VIEW_H
 #define DIP_RENDERER_SCENE_DRAW_VIEW_H
 
 #include "renderer/scene/pose.h"
 
 typedef struct DipView {
-    double eye[3];            // world
-    double axis[3][3];        // camera x, y, z in the world; left-handed in a mirrored view
-    double scale[2];          // clip x and y = scale * camera x and y
-    double near_m;            // clip z
+    double eye[3];            // the camera's position in world space
+    double axis[3][3];        // the camera's x, y, z axes in world space; left-handed if mirrored
+    double scale[2];          // clip x = scale[0] * camera x, clip y = scale[1] * camera y
+    double near_m;            // distance of the near plane; clip z everywhere
     double world_to_clip[16]; // row-major
 } DipView;
 
-// aspect: width / height of the picture; see docs/picture.md, Camera.
+// The view from a pose; docs/picture.md, Camera, defines it. aspect: width / height of the picture.
 DipView dip_view_make(const DipPose *pose, double near_m, double aspect);
 
-// What the view shows of the world mirrored at y = level: every point where its mirror image would
-// be. Windings turn around.
+// The view of the world mirrored at y = level: it shows every point where its mirror image would be
+// seen. It reverses the winding of every triangle.
 DipView dip_view_mirror(const DipView *view, double level);
 
-// The clip-space form of a world plane: dot(clip, clip position) is plane[0] x + plane[1] y +
-// plane[2] z + plane[3] at a world point.
+// Transforms a plane from world space to clip space: for a world point (x, y, z),
+// dot(clip, clip position) = plane[0] x + plane[1] y + plane[2] z + plane[3].
 void dip_view_plane(const DipView *view, const double plane[4], double clip[4]);
 
-// product = world_to_clip * transform, whose last row is (0, 0, 0, 1).
+// product = world_to_clip * transform. The transform is a 3x4 matrix; its fourth row is (0, 0, 0,
+// 1).
 void dip_view_object_to_clip(const DipView *view, const float transform[12], float product[16]);
 
 #endif

@@ -1,4 +1,4 @@
-// The materials' kernel tables.
+// The kernel tables of the scene's materials.
 #include "renderer/scene/materials/material_kernels.h"
 
 #include "renderer/base/assert.h"

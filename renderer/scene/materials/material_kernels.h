@@ -1,5 +1,5 @@
 // The shaders of the scene's materials, one table per instruction set
-// (renderer/simd/kernel_table.h). They are ordinary clients of the pipeline.
+// (renderer/simd/kernel_table.h). They use only what any caller's shaders can use.
 #ifndef DIP_RENDERER_SCENE_MATERIALS_MATERIAL_KERNELS_H
 #define DIP_RENDERER_SCENE_MATERIALS_MATERIAL_KERNELS_H
 
@@ -22,7 +22,7 @@ typedef struct DipMaterialKernels {
 
 DIP_KERNELS_DECLARE(DIP_MATERIAL_KERNEL_LIST)
 
-// The shaders of an instruction set for which dip_isa_available is true. Static storage.
+// The shaders for an instruction set that this machine has (dip_isa_available). Static storage.
 const DipMaterialKernels *dip_material_kernels(DipIsa isa);
 
 #endif

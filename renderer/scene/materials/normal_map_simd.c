@@ -1,17 +1,20 @@
-// Shaders of normal-mapped surfaces: light and highlight per fragment, compiled once per
-// instruction set. docs/picture.md, Normal maps, defines them.
+// The shaders of normal-mapped surfaces, which compute light and highlight per fragment. Compiled
+// once per instruction set. docs/picture.md, Normal maps, defines the formulas.
 #include "renderer/scene/materials/material_kernels.h"
 #include "renderer/scene/materials/surface_simd.h"
 
-// Light maps show the sun from SHADE on, in full from SHADE + SUNLIT.
+// Where a light map's luminance is up to SHADE_LIGHT, the surface is in the sun's shadow; from
+// SHADE_LIGHT + SUNLIT_LIGHT on, it is fully in the sun.
 #define SHADE_LIGHT  0.4f
 #define SUNLIT_LIGHT 0.5f
-// Bounds of what a mapped normal may change the light map by.
+// Bounds of the factor by which a mapped normal changes the light map.
 #define LEAST_RATIO    0.25f
 #define GREATEST_RATIO 2.5f
-// Least part along the mesh's normal: where a map's normals cancel out, rounding has no say.
+// Least component of a mapped normal along the mesh's normal, so that where the normals of a
+// footprint cancel out, the result is not the direction of a rounding error.
 #define LEAST_RISE 0.125f
-// Reflection of a dielectric seen along its normal, and the least width of its highlight.
+// Reflectance of a dielectric seen along its normal, and the least width (GGX alpha) of its
+// highlight.
 #define REFLECTANCE 0.04f
 #define LEAST_ALPHA 0.1f
 
@@ -32,15 +35,15 @@ void DIP_KERNEL(dip_kernel_normal_map_vertex)(const DipVertexBatch *batch) {
     }
 }
 
-// How a surface is turned where it is shaded.
+// The normals of a surface at the position that is shaded, in world space.
 typedef struct Facing {
     Vf3 mesh;          // unit normal of the mesh
-    Vf3 mapped;        // unit normal of the map
-    Vf inverse_length; // of the map's filtered normal
+    Vf3 mapped;        // unit normal from the normal map
+    Vf inverse_length; // 1 / length of the filtered normal in the map
 } Facing;
 
-// d(depth * ray): how the place on the surface moves per pixel.
-VEC_INLINE Vf3 place_step(const float ray_step[3], Vf depth, Vf3 ray, Vf depth_step) {
+// The derivative of depth * ray along x or y: how far the position on the surface moves per pixel.
+VEC_INLINE Vf3 position_step(const float ray_step[3], Vf depth, Vf3 ray, Vf depth_step) {
     return (Vf3){depth * ray_step[0] + ray.x * depth_step, depth * ray_step[1] + ray.y * depth_step,
                  depth * ray_step[2] + ray.z * depth_step};
 }
@@ -54,25 +57,30 @@ VEC_INLINE Vf3 cross(Vf3 a, Vf3 b) {
     return (Vf3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Directions along u and against v, at length 1 and square to each other and the normal; both 0
-// where the coordinates have no area or the normal lies along u.
+// Unit tangents along growing u and falling v, perpendicular to each other and to the normal. They
+// are valid where `there` is set. They do not exist where the texture coordinates have no area or u
+// grows along the normal.
 typedef struct Tangents {
     Vf3 u, v;
     Mask there;
 } Tangents;
 
-// From the derivatives of place and coordinates, so that mirrored coordinates turn them round.
+// Finds the tangents from the derivatives of the position and of the texture coordinates. If the
+// coordinates are mirrored, so are the tangents.
 VEC_INLINE Tangents find_tangents(DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const int u = uniforms->normal_map_varying;
     const int w = uniforms->depth_varying;
     const Vf depth = vf_load(batch->varying[w] + i);
-    const Vf3 dx = place_step(uniforms->rays->per_x, depth, ray, vf_load(batch->varying_dx[w] + i));
-    const Vf3 dy = place_step(uniforms->rays->per_y, depth, ray, vf_load(batch->varying_dy[w] + i));
+    const Vf3 dx =
+        position_step(uniforms->rays->per_x, depth, ray, vf_load(batch->varying_dx[w] + i));
+    const Vf3 dy =
+        position_step(uniforms->rays->per_y, depth, ray, vf_load(batch->varying_dy[w] + i));
     const Vf u_dx = vf_load(batch->varying_dx[u] + i), v_dx = vf_load(batch->varying_dx[u + 1] + i);
     const Vf u_dy = vf_load(batch->varying_dy[u] + i), v_dy = vf_load(batch->varying_dy[u + 1] + i);
     const Vf area = u_dx * v_dy - u_dy * v_dx;
-    const Vf3 along = combine(dx, v_dy, dy, v_dx); // both times the area
+    // The directions along u and against v, each times the area.
+    const Vf3 along = combine(dx, v_dy, dy, v_dx);
     const Vf3 against = combine(dx, u_dy, dy, u_dx);
     const Vf rise = vf3_dot(along, normal);
     const Vf3 flat = {along.x - normal.x * rise, along.y - normal.y * rise,
@@ -110,19 +118,22 @@ VEC_INLINE Facing find_facing(DipFragmentBatch *batch, int i, Vf3 ray,
     return facing;
 }
 
-// The fixed light on a normal that the sun meets so steeply.
+// The fixed light of sky and sun on a normal. `sun` is max(0, dot(normal, direction to the sun))
+// times the visible part of the sun.
 VEC_INLINE Vf fixed_light(Vf3 normal, Vf sun) {
     return (LIGHT_AMBIENT + normal.y * LIGHT_SKY) + sun * LIGHT_SUN;
 }
 
-// A fraction, so that one division serves several.
+// The fraction above / below. The caller divides, so that one division can serve several fractions.
 typedef struct Fraction {
     Vf above, below;
 } Fraction;
 
-// The sun's highlight, a GGX lobe that widens as the map's normals spread (Toksvig). With c the
-// cosine between eye and sun, half way has the squared length 2 (1 + c) and meets the sun with the
-// squared cosine (1 + c) / 2. `met` is dot(normal, sun), not less than 0.
+// The sun's highlight, a GGX lobe that widens where the map's normals spread (Toksvig). Let c be
+// the cosine of the angle between the directions to the eye and to the sun. The sum of the two
+// directions has the squared length 2 (1 + c), and the squared cosine between it and the sun is
+// (1 + c) / 2. `sun` is dot(mapped normal, direction to the sun); `met` is the same, but at least 0
+// and times the visible part of the sun.
 VEC_INLINE Fraction highlight(const Facing *facing, Vf3 ray, Vf sun, Vf met, float roughness) {
     const float alpha = roughness * roughness > LEAST_ALPHA ? roughness * roughness : LEAST_ALPHA;
     const Vf bounded = vf_min(facing->inverse_length, vf_splat(10.0f));
@@ -137,7 +148,8 @@ VEC_INLINE Fraction highlight(const Facing *facing, Vf3 ray, Vf sun, Vf met, flo
     return (Fraction){above, (d * d) * (vf_max(c1 * 0.5f, vf_splat(0.1f)) * width)};
 }
 
-// Lights the batch's colours by a light map, whose brightness says whether the sun is there.
+// Lights the batch's colours by a light map. The map's luminance tells how much of the sun is
+// visible.
 VEC_INLINE void light_by_map(DipFragmentBatch *batch, float (*map)[DIP_FRAGMENT_BATCH],
                              float (*light)[DIP_FRAGMENT_BATCH]) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
@@ -164,6 +176,7 @@ VEC_INLINE void light_by_map(DipFragmentBatch *batch, float (*map)[DIP_FRAGMENT_
     }
 }
 
+// Lights the batch's colours by the fixed light.
 VEC_INLINE void light_by_sun(DipFragmentBatch *batch, float (*map)[DIP_FRAGMENT_BATCH]) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     for (int i = 0; i < batch->count; i += DIP_LANES) {
@@ -180,8 +193,8 @@ VEC_INLINE void light_by_sun(DipFragmentBatch *batch, float (*map)[DIP_FRAGMENT_
     }
 }
 
-// Begins with base colour times texture, and reads the map with it where both have coordinates in
-// common.
+// Sets the batch's colours to base colour times texture, and reads the normal map. If both textures
+// have the same coordinates, one call samples both.
 VEC_INLINE void start_mapped_colour(DipFragmentBatch *batch, float (*texture)[DIP_FRAGMENT_BATCH],
                                     float (*map)[DIP_FRAGMENT_BATCH]) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;

@@ -1,10 +1,10 @@
-// The sky at a time: layers scroll by whole nanoseconds modulo their periods.
+// The sky at a given time. Layers scroll by whole nanoseconds, modulo their periods.
 #include "renderer/scene/materials/sky.h"
 
 #include <string.h>
 
 static const double minute_ns = 60e9;
-static const double least_speed_per_min = 1e-6; // its period is 2 years
+static const double least_speed_per_min = 1e-6; // a layer of this speed has a period of 2 years
 
 DipSkyDef dip_sky_default(void) {
     return (DipSkyDef){

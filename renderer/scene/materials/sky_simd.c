@@ -1,19 +1,20 @@
-// The sky's shader: two layers of cloud that scroll and are displaced, from one texture; compiled
-// once per instruction set. docs/picture.md, Sky, defines it.
+// The sky's fragment shader: two layers of clouds that scroll and are displaced, both read from one
+// texture. Compiled once per instruction set. docs/picture.md, Sky, defines the formulas.
 #include "renderer/scene/materials/material_kernels.h"
 #include "renderer/scene/materials/surface_simd.h"
 
-// Free varyings for the coordinates of a layer.
+// The last two varyings, which no sky mesh uses, hold the texture coordinates of a layer.
 enum { LAYER_VARYING = DIP_MAX_VARYINGS - 2 };
 
-// How steeply a displacement of one texture width may change per unit of coordinates: what a
-// layer's derivatives grow by, so that a displaced layer is read from levels coarse enough.
+// How much a displacement of one texture width may change per unit of texture coordinates. A
+// layer's derivatives grow by this, so that displaced clouds are read from coarse enough levels.
 #define DISPLACEMENT_SLOPE 8.0f
 
-// A cloud at its densest is darker by this part.
+// The part by which the densest cloud is darker than a thin one.
 #define CLOUD_SHADE 0.2f
 
-// The varyings of a read at coordinates * scale, with derivatives that are `steeper` times that.
+// Writes coordinates * scale to the layer's varyings. Their derivatives are multiplied by
+// scale * steeper.
 VEC_INLINE void scale_coordinates(DipFragmentBatch *batch, int varying, float scale,
                                   float steeper) {
     const float slope = scale * steeper;
@@ -29,7 +30,7 @@ VEC_INLINE void scale_coordinates(DipFragmentBatch *batch, int varying, float sc
     }
 }
 
-// Reads a layer's cloud: 0 clear, 1 dense.
+// Reads a layer's clouds into texels[2]: 0 is clear, 1 is dense.
 VEC_INLINE void read_layer(DipFragmentBatch *batch, int layer,
                            float (*displacement)[DIP_FRAGMENT_BATCH],
                            float (*texels)[DIP_FRAGMENT_BATCH]) {
@@ -54,12 +55,12 @@ VEC_INLINE void read_layer(DipFragmentBatch *batch, int layer,
     }
 }
 
-// Weights of the colours at a place of the sky.
+// Weights of the colours in one direction of the sky.
 typedef struct Weather {
-    Vf cover; // of cloud over sky
-    Vf shade; // of the cloud
-    Vf haze;  // of the horizon over both
-    Vf glare;
+    Vf cover; // how far clouds cover the clear sky
+    Vf shade; // brightness of the clouds
+    Vf haze;  // how far the horizon's colour covers sky and clouds
+    Vf glare; // factor of the sun's glare, which is added
 } Weather;
 
 VEC_INLINE Weather find_weather(const DipSkyUniforms *sky, Vf3 ray, Vf density) {

@@ -1,10 +1,11 @@
-// The scene's own surfaces as clients of the pipeline: the uniforms of their shaders.
+// The uniforms of the shaders of the scene's surfaces, which are clients of the pipeline.
 #ifndef DIP_RENDERER_SCENE_MATERIALS_SURFACE_H
 #define DIP_RENDERER_SCENE_MATERIALS_SURFACE_H
 
 #include <stdbool.h>
 
-// What the materials' shaders count (DipShaderWork.counts).
+// Indices of the counts of the materials' shaders (DipShaderWork.counts): fragments with a normal
+// map, of sky with clouds, and of reflecting water.
 enum {
     DIP_SHADER_COUNT_NORMAL_MAPPED,
     DIP_SHADER_COUNT_SKY,
@@ -16,22 +17,22 @@ enum {
     DIP_SURFACE_SAMPLER_LIGHT_MAP,
     DIP_SURFACE_SAMPLER_NORMAL_MAP,
     DIP_SURFACE_SAMPLER_COUNT,
-    DIP_ABSENT = -1
+    DIP_ABSENT = -1 // an attribute or varying that a mesh does not have
 };
 
-// The view ray through a place of the target: origin + x * per_x + y * per_y with x and y in
-// pixels, in the world; a point's place relative to the eye is its depth (clip w) times its ray.
+// The view ray through a position (x, y) in pixels of the target is origin + x * per_x + y * per_y,
+// in world space. The position of a point relative to the eye is its depth (clip w) times its ray.
 typedef struct DipViewRays {
     float origin[3];
     float per_x[3];
     float per_y[3];
 } DipViewRays;
 
-// A sky at a time, see DipSkyDef.
+// The sky at the time of a frame; see DipSkyDef.
 typedef struct DipSkyUniforms {
     struct {
         float scale;
-        float phase; // added to u
+        float phase; // added to u, 0..1
         float perturbation_widths;
     } layers[2];
     float perturbation_scale;
@@ -46,27 +47,28 @@ typedef struct DipSkyUniforms {
     float tint_lin[3];
 } DipSkyUniforms;
 
-// Vertex attributes in order: position; then what passes through to the varyings of the same order
-// (coordinates); then, where there is a light varying, normal (lit) and vertex colour. Of a
-// normal-mapped surface the light varying is the vertex colour alone.
+// A vertex has these attributes, in this order: the position; the texture coordinates, which are
+// copied to the first varyings in the same order; the normal, if the surface is lit or
+// normal-mapped; and the vertex colour, if the mesh has one. The light varying is the light of the
+// vertex times its colour; on a normal-mapped surface it is the vertex colour alone.
 typedef struct DipSurfaceUniforms {
     float to_clip[16];        // row-major
-    float normal_to_world[9]; // row-major; directions only, not normalised
-    int copied_varying_count; // attributes 3.. that become varyings 0..
-    int normal_attribute;     // DIP_ABSENT: not lit
-    int colour_attribute;     // DIP_ABSENT: white
-    int light_varying;        // three varyings: light times vertex colour; DIP_ABSENT: none
-    int colour_varying;       // two varyings: coordinates of the colour texture; or DIP_ABSENT
-    int light_map_varying;    // likewise
+    float normal_to_world[9]; // row-major; the turned normals have the right direction, any length
+    int copied_varying_count; // attributes from 3 on that are copied to varyings from 0 on
+    int normal_attribute;     // first of three; DIP_ABSENT: the vertices are not lit
+    int colour_attribute;     // first of three; DIP_ABSENT: white
+    int light_varying;        // first of three; DIP_ABSENT: the light is 1
+    int colour_varying;       // first of two, coordinates of the colour texture; or DIP_ABSENT
+    int light_map_varying;    // first of two, coordinates of the light map; or DIP_ABSENT
     float base_colour_lin[3];
     float light_map_scale;
     float alpha_cutoff;
-    int normal_map_varying; // two varyings: coordinates of the normal map
-    int normal_varying;     // three: unit normal of the vertex in the world
+    int normal_map_varying; // first of two, coordinates of the normal map
+    int normal_varying;     // first of three, unit normal of the vertex in world space
     int depth_varying;      // clip w
     float roughness;
-    const DipViewRays *rays; // of normal-mapped surfaces and sky
-    const DipSkyUniforms *sky;
+    const DipViewRays *rays;   // for normal-mapped surfaces, sky and water
+    const DipSkyUniforms *sky; // for sky
 } DipSurfaceUniforms;
 
 #endif

@@ -1,8 +1,9 @@
-// Shaders of the scene's surfaces, compiled once per instruction set.
+// The shaders of plain and alpha-clipped surfaces. Compiled once per instruction set.
 #include "renderer/scene/materials/surface_simd.h"
 
 #include "renderer/scene/materials/material_kernels.h"
 
+// The fixed light of sky and sun on a vertex.
 VEC_INLINE Vf light_of(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch, int i) {
     const Vf3 n = turn_normal(uniforms, batch, i);
     const Vf inverse = inverse_length(vf3_dot(n, n));

@@ -1,4 +1,4 @@
-// What the shaders of the scene's surfaces share, for *_simd.c only.
+// Code that the shaders of the scene's materials share; only *_simd.c files may include it.
 #ifndef DIP_RENDERER_SCENE_MATERIALS_SURFACE_SIMD_H
 #define DIP_RENDERER_SCENE_MATERIALS_SURFACE_SIMD_H
 
@@ -6,11 +6,12 @@
 #include "renderer/scene/materials/surface.h"
 #include "renderer/simd/vec.h"
 
-// The fixed light of surfaces without a light map: sky from above, sun from SUN.
+// The fixed light of surfaces without a light map: ambient light, light of the sky from above and
+// light of the sun from the direction SUN.
 #define LIGHT_AMBIENT 0.35f
 #define LIGHT_SKY     0.15f
 #define LIGHT_SUN     0.65f
-// (-0.42, 0.67, 0.61) normalised.
+// The direction to the sun: (-0.42, 0.67, 0.61) normalised.
 #define SUN_X -0.42046720f
 #define SUN_Y 0.67074529f
 #define SUN_Z 0.61067856f
@@ -35,7 +36,7 @@ VEC_INLINE Vf3 vf3_scale(Vf3 a, Vf s) {
     return (Vf3){a.x * s, a.y * s, a.z * s};
 }
 
-// 1 / sqrt of a square of a length, finite where that is 0.
+// 1 / sqrt(length2), but finite where length2 is 0.
 VEC_INLINE Vf inverse_length(Vf length2) {
     return vf_splat(1.0f) / vf_sqrt(vf_max(length2, vf_splat(1e-12f)));
 }
@@ -44,7 +45,7 @@ VEC_INLINE Vf clamp01(Vf v) {
     return vf_min(vf_max(v, vf_splat(0.0f)), vf_splat(1.0f));
 }
 
-// Clip positions and the varyings that pass through.
+// Computes clip positions and copies the varyings that are attributes.
 VEC_INLINE void transform_vertices(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch,
                                    int i) {
     const Vf x = vf_load(batch->in[0] + i);
@@ -59,7 +60,7 @@ VEC_INLINE void transform_vertices(const DipSurfaceUniforms *uniforms, const Dip
     }
 }
 
-// A vertex' normal turned to the world, not yet normalised.
+// A vertex's normal in world space, not normalised.
 VEC_INLINE Vf3 turn_normal(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch, int i) {
     const float *const *normal = batch->in + uniforms->normal_attribute;
     const float *m = uniforms->normal_to_world;
@@ -70,7 +71,7 @@ VEC_INLINE Vf3 turn_normal(const DipSurfaceUniforms *uniforms, const DipVertexBa
                  (nx * m[6] + ny * m[7]) + nz * m[8]};
 }
 
-// Not normalised; its part along the view axis is 1.
+// The view ray of a fragment. It is not normalised; its component along the view axis is 1.
 VEC_INLINE Vf3 view_ray(const DipViewRays *rays, const DipFragmentBatch *batch, int i) {
     const Vf x = vf_load(batch->x + i);
     const Vf y = vf_load(batch->y + i);
@@ -90,6 +91,7 @@ VEC_INLINE void scale_colour(DipFragmentBatch *batch, float (*factor)[DIP_FRAGME
     }
 }
 
+// Sets the batch's colours to the base colour.
 VEC_INLINE void start_base_colour(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     for (int c = 0; c < 3; c++) {
@@ -99,7 +101,8 @@ VEC_INLINE void start_base_colour(DipFragmentBatch *batch) {
     }
 }
 
-// Begins with base colour times texture.
+// Sets the batch's colours to base colour times texture. `texture` is room for the texture's
+// colours.
 VEC_INLINE void start_colour(DipFragmentBatch *batch, float (*texture)[DIP_FRAGMENT_BATCH]) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     start_base_colour(batch);

@@ -1,5 +1,4 @@
-// Water as a client of the pipeline: the uniforms of its fragment shader. Its vertex shader is the
-// surfaces'.
+// The uniforms of the water's fragment shader. Water has the vertex shader of plain surfaces.
 #ifndef DIP_RENDERER_SCENE_MATERIALS_WATER_H
 #define DIP_RENDERER_SCENE_MATERIALS_WATER_H
 
@@ -8,12 +7,12 @@
 
 #include <stdbool.h>
 
-// All pools are horizontal, so how much each pixel reflects follows from its view ray.
+// All water is treated as horizontal, so the view ray of a fragment tells how much it reflects.
 typedef struct DipWaterUniforms {
-    DipSurfaceUniforms surface; // first: the water's own colour is shaded from it
-    const DipTarget *mirrored;
-    float inverse_size[2]; // 1 / width, 1 / height of the picture that the water is in
-    bool schlick;
+    DipSurfaceUniforms surface; // must be first: the surface's shaders read it for the own colour
+    const DipTarget *mirrored;  // the picture of the mirrored scene
+    float inverse_size[2];      // 1 / width and 1 / height of the target that the water is drawn to
+    bool schlick;               // see DipReflectionDef
 } DipWaterUniforms;
 
 #endif

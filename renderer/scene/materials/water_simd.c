@@ -1,12 +1,12 @@
-// The fragment shader of water: its own colour, and the mirrored scene by Fresnel's share; compiled
-// once per instruction set.
+// The fragment shader of water: a blend of its own colour and the mirrored scene by the Fresnel
+// term. Compiled once per instruction set. docs/picture.md, Water, defines the formulas.
 #include "renderer/scene/materials/material_kernels.h"
 #include "renderer/scene/materials/surface_simd.h"
 #include "renderer/scene/materials/water.h"
 #include "renderer/scene/reflection.h"
 
-// Unpolarised light on a dielectric: with g = sqrt(n^2 - 1 + c^2), the mean of
-// ((c - g) / (c + g))^2 and that times ((c (g + c) - 1) / (c (g - c) + 1))^2.
+// The part of unpolarised light that a dielectric reflects. With g = sqrt(n^2 - 1 + c^2), it is the
+// mean of a = ((c - g) / (c + g))^2 and a * ((c (g + c) - 1) / (c (g - c) + 1))^2.
 VEC_INLINE Vf fresnel_exact(Vf c) {
     const float n = (float)DIP_WATER_INDEX;
     const Vf g = vf_sqrt(c * c + (n * n - 1.0f));
@@ -17,6 +17,7 @@ VEC_INLINE Vf fresnel_exact(Vf c) {
     return (across * across * 0.5f) * (ratio * ratio + 1.0f);
 }
 
+// Schlick's approximation of the same.
 VEC_INLINE Vf fresnel_schlick(Vf c) {
     const float n = (float)DIP_WATER_INDEX;
     const float straight = ((n - 1.0f) / (n + 1.0f)) * ((n - 1.0f) / (n + 1.0f));
@@ -25,7 +26,7 @@ VEC_INLINE Vf fresnel_schlick(Vf c) {
     return (square * square) * rest * (1.0f - straight) + straight;
 }
 
-// The mirrored scene's share along a view ray; none where the eye looks up at the surface.
+// The share of the mirrored scene along a view ray. It is 0 where the eye looks up at the surface.
 VEC_INLINE Vf share_of(const DipWaterUniforms *water, Vf3 ray) {
     const Vf down = vf_splat(0.0f) - ray.y;
     const Vf c = clamp01(down / vf_sqrt(vf3_dot(ray, ray)));

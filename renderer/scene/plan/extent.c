@@ -1,4 +1,4 @@
-// Projecting shapes to the rectangle that they can touch.
+// Projects shapes and finds the rectangle that they can touch.
 #include "renderer/scene/plan/extent.h"
 
 DipExtent dip_extent_none(void) {
@@ -13,7 +13,7 @@ void dip_extent_project(const DipView *view, const double world[3], double clip[
     }
 }
 
-static void take_in(DipExtent *extent, const double clip[3]) {
+static void extend(DipExtent *extent, const double clip[3]) {
     for (int axis = 0; axis < 2; axis++) {
         const double at = clip[axis] / clip[2];
         extent->min[axis] = at < extent->min[axis] ? at : extent->min[axis];
@@ -21,27 +21,27 @@ static void take_in(DipExtent *extent, const double clip[3]) {
     }
 }
 
-// The ends of an edge that lie beyond the near plane, and where it crosses it.
+// Adds the ends of an edge that lie beyond the near plane, and the point where the edge crosses it.
 static void add_edge(DipExtent *extent, const DipView *view, const double a[3], const double b[3]) {
     double from[3];
     double to[3];
     dip_extent_project(view, a, from);
     dip_extent_project(view, b, to);
     if (from[2] >= view->near_m) {
-        take_in(extent, from);
+        extend(extent, from);
     }
     if (to[2] >= view->near_m) {
-        take_in(extent, to);
+        extend(extent, to);
     }
     if ((from[2] < view->near_m) != (to[2] < view->near_m)) {
         const double t = (view->near_m - from[2]) / (to[2] - from[2]);
         const double cut[3] = {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]),
                                view->near_m};
-        take_in(extent, cut);
+        extend(extent, cut);
     }
 }
 
-// Adds the part of a shape's extent that is in the picture.
+// Adds the part of a shape's extent that lies within the picture.
 static void join(DipExtent *extent, const DipExtent *shape) {
     for (int axis = 0; axis < 2; axis++) {
         if (shape->min[axis] > 1.0 || shape->max[axis] < -1.0) {
@@ -89,7 +89,8 @@ void dip_extent_box_corners(const float transform[12], const DipBox *box, double
     }
 }
 
-// A range of -1..1 to whole pixels 0..size; positive is towards greater pixels.
+// Converts a range within -1..1 to a range of whole pixels, first..end-1 of 0..size-1, that has
+// `margin` more pixels on each side. -1 is pixel 0. Returns false if the range holds no pixel.
 static bool to_pixels(double min, double max, int size, int margin, int *first, int *end) {
     const double from = (min + 1.0) * 0.5 * size - margin;
     const double to = (max + 1.0) * 0.5 * size + margin;

@@ -8,26 +8,30 @@
 
 #include <stdbool.h>
 
-// In x / w and y / w, up positive, within -1..1; empty where min > max.
+// A rectangle in normalised device coordinates: x / w and y / w, +y up, within -1..1. It is empty
+// if min > max.
 typedef struct DipExtent {
     double min[2];
     double max[2];
 } DipExtent;
 
-DipExtent dip_extent_none(void);
+DipExtent dip_extent_none(void); // the empty extent
 
-// A point of the world in clip space: x, y and w.
+// Projects a world point to clip space: x, y and w.
 void dip_extent_project(const DipView *view, const double world[3], double clip[3]);
 
-// Each takes in what of a shape lies beyond the near plane and in the picture's rectangle.
+// Each extends the rectangle to hold the part of a shape that lies beyond the near plane and within
+// the picture. Corners are in world space; those of a box are in the order of
+// dip_extent_box_corners.
 void dip_extent_add_box(DipExtent *extent, const DipView *view, const double corners[8][3]);
 void dip_extent_add_triangle(DipExtent *extent, const DipView *view, const double corners[3][3]);
 
-// A placed box' corners in the world; corner bit k: the far end of axis k.
+// The world positions of the corners of a box that an object's transform places. Bit k of a
+// corner's index tells on which end of axis k it lies: 0 the low end, 1 the high end.
 void dip_extent_box_corners(const float transform[12], const DipBox *box, double corners[8][3]);
 
-// The pixels of a picture of that size which the extent touches, and `margin` more to each side.
-// False where there are none.
+// Finds the pixels that an extent touches in a picture of width x height pixels, and `margin` more
+// on each side. Returns false if there are none.
 bool dip_extent_region(const DipExtent *extent, int width, int height, int margin,
                        DipTargetRegion *region);
 

@@ -1,21 +1,23 @@
-// Cutting projected shapes to tiles.
+// Cuts projected shapes into tiles and bounds what each tile holds of them.
 #include "renderer/scene/plan/parts.h"
 
 #include "renderer/scene/plan/extent.h"
 
 #include <string.h>
 
-enum { BLOCK = 8, TILE_BLOCKS = DIP_TARGET_TILE / BLOCK }; // pixels, and blocks per tile row
+enum {
+    BLOCK = 8,                             // width and height of a block, in pixels
+    TILE_BLOCKS = DIP_TARGET_TILE / BLOCK, // blocks per row of a tile
+    MAX_CORNERS = 3 + 1 + 4 // corners of a triangle cut by the near plane and a tile's four sides
+};
 
-enum { MAX_CORNERS = 3 + 1 + 4 }; // of a triangle cut by the near plane and a tile's sides
-
-// Convex; in pixels, or in clip x, y and w before the division.
+// A convex polygon: in clip x, y and w before the division, in pixels after it.
 typedef struct Polygon {
     int count;
     double at[MAX_CORNERS][3];
 } Polygon;
 
-// Keeps what lies on the side of a plane where side . (at, 1) >= 0.
+// Keeps the part of a polygon where dot(side, (at, 1)) >= 0.
 static void cut(Polygon *polygon, const double side[4]) {
     Polygon kept = {.count = 0};
     for (int i = 0; i < polygon->count; i++) {
@@ -57,8 +59,8 @@ static double within(double value, double low, double high) {
     return value < low ? low : value > high ? high : value;
 }
 
-// The first and the last of `count` cells of a size that a range touches; the last is less than the
-// first where there is none.
+// The first and the last of `count` cells of `size` pixels that a range touches. If it touches
+// none, the last is less than the first.
 static void cells(double min, double max, int size, int count, int *first, int *last) {
     *first = (int)within(min / size, 0.0, count);
     *last = max < 0.0 ? -1 : (int)within(max / size, 0.0, count - 1);
@@ -72,7 +74,7 @@ static int greatest(int a, int b) {
     return a > b ? a : b;
 }
 
-// Adds the blocks of the tile at x, y (pixels) that the bounds meet.
+// Extends a tile's part by the blocks that the bounds touch. (x, y) is the tile's corner in pixels.
 static void join(DipTileRegion *part, const Bounds *bounds, int x, int y) {
     const int corner[2] = {x, y};
     int first[2];
@@ -91,6 +93,8 @@ static void join(DipTileRegion *part, const Bounds *bounds, int x, int y) {
     part->y1 = (uint8_t)greatest(part->y1, (last[1] + 1) * BLOCK);
 }
 
+// Extends a tile's part by a polygon. whole: the polygon touches no other tile, so it need not be
+// cut.
 static void add_to_tile(const DipParts *parts, Polygon polygon, int x, int y, bool whole,
                         DipTileRegion *part) {
     const double reach = DIP_TARGET_TILE + parts->margin;
@@ -111,7 +115,7 @@ static int tiles_in(int size) {
     return (size + DIP_TARGET_TILE - 1) / DIP_TARGET_TILE;
 }
 
-// In pixels.
+// Extends the parts of all tiles that a polygon in pixels touches.
 static void add_polygon(const DipParts *parts, const Polygon *polygon) {
     const Bounds bounds = bounds_of(polygon, parts->margin);
     const int across = tiles_in(parts->width);

@@ -1,4 +1,4 @@
-// Deciding a frame's effects, one function each.
+// Decides the effects of a frame, with one function for each effect.
 #include "renderer/scene/plan/plan.h"
 
 #include "renderer/scene/plan/extent.h"
@@ -30,7 +30,8 @@ static bool object_in_view(const DipScene *scene, const DipCullPlanes *seen, int
 
 // --- what is in view ---------------------------------------------------------------------------
 
-typedef bool IsOfEffect(const DipScene *scene, int object);
+// Whether an effect concerns an object.
+typedef bool ObjectHasEffect(const DipScene *scene, int object);
 
 static bool is_clipped(const DipScene *scene, int object) {
     return material_of(scene, object)->surface == DIP_SURFACE_CLIPPED;
@@ -48,13 +49,15 @@ static bool is_clouded(const DipScene *scene, int object) {
     return mesh_of(scene, object)->sky;
 }
 
-// Whether such an object may be seen, in the picture or in its water. The reflection is planned
-// before.
-static bool any_in_view(const DipPlanInput *input, const DipFramePlan *plan, IsOfEffect *is) {
+// Whether an object with the effect may be visible, in the picture itself or in the water's
+// reflection. The reflection must have been planned before.
+static bool any_in_view(const DipPlanInput *input, const DipFramePlan *plan,
+                        ObjectHasEffect *has_effect) {
     for (int i = 0; i < input->scene->object_count; i++) {
-        if (is(input->scene, i) && (object_in_view(input->scene, input->seen, i) ||
-                                    (plan->effects.reflection.run &&
-                                     object_in_view(input->scene, input->seen_mirrored, i)))) {
+        if (has_effect(input->scene, i) &&
+            (object_in_view(input->scene, input->seen, i) ||
+             (plan->effects.reflection.run &&
+              object_in_view(input->scene, input->seen_mirrored, i)))) {
             return true;
         }
     }
@@ -63,7 +66,8 @@ static bool any_in_view(const DipPlanInput *input, const DipFramePlan *plan, IsO
 
 // --- the reflection ----------------------------------------------------------------------------
 
-// Whether the eye looks down on some corner: only there does water reflect.
+// Whether any of the corners lies below the eye. Water reflects only where the eye looks down on
+// it.
 static bool is_below(const DipView *view, const double (*corners)[3], int count) {
     for (int i = 0; i < count; i++) {
         if (corners[i][1] < view->eye[1]) {
@@ -110,9 +114,10 @@ static void add_chunk_triangles(DipExtent *extent, const DipPlanInput *input,
     }
 }
 
-enum { FEW_CHUNKS = 8 }; // of a mesh: its triangles are looked at one by one
+// A mesh of up to this many chunks is bounded by its triangles, a larger one by its chunks' boxes.
+enum { FEW_CHUNKS = 8 };
 
-// Where the water that the eye looks down on may be in the picture; also adds it to the parts.
+// The extent of the water that the eye looks down on. Adds this water to the input's parts too.
 static DipExtent water_extent(const DipPlanInput *input) {
     DipExtent extent = dip_extent_none();
     for (int i = 0; i < input->scene->object_count; i++) {
@@ -144,7 +149,7 @@ static DipEffect plan_reflection(const DipPlanInput *input, DipFramePlan *plan) 
         return skip(plain);
     }
     if (!reflection->width) {
-        return skip("the reflection has no size");
+        return skip("the reflection's size is 0");
     }
     if (!(input->view->eye[1] > reflection->level_m)) {
         return skip("the camera is not above the water");
@@ -153,7 +158,7 @@ static DipEffect plan_reflection(const DipPlanInput *input, DipFramePlan *plan) 
     const DipTargetRegion whole = {0, 0, reflection->width, reflection->height};
     if (input->force_all || reflection->show) {
         plan->mirrored_region = whole;
-        return run(input, "its picture is shown whole");
+        return run(input, "the mirrored picture is shown in the corner");
     }
     plan->mirrored_parts = true;
     dip_parts_clear(input->parts);
@@ -175,21 +180,21 @@ static DipEffect plan_alpha_clip(const DipPlanInput *input, DipFramePlan *plan) 
                : skip("no alpha-clipped surface is in view");
 }
 
-// Passes cost only the tiles that hold alpha-clipped triangles: the pipeline sees to that.
+// Sample groups cost time only in tiles with alpha-clipped triangles; the pipeline sees to that.
 static DipEffect plan_adaptive_aa(const DipPlanInput *input, DipFramePlan *plan) {
     const int sample_count = dip_quality_sample_count(input->quality);
     plan->samples_per_group = sample_count;
     if (!input->quality->step[DIP_SETTING_AAA]) {
-        return skip("it is off");
+        return skip("aaa is off");
     }
     if (dip_quality_samples_per_group(input->quality) == sample_count) {
-        return skip("one pass holds all samples");
+        return skip("one sample group holds all samples");
     }
     if (!plan->effects.alpha_clip.run) {
         return plan->effects.alpha_clip;
     }
     plan->samples_per_group = dip_quality_samples_per_group(input->quality);
-    return run(input, "alpha-clipped surfaces are drawn in several passes");
+    return run(input, "alpha-clipped surfaces are drawn per sample group");
 }
 
 static DipEffect plan_light_map(const DipPlanInput *input, DipFramePlan *plan) {
@@ -201,7 +206,7 @@ static DipEffect plan_light_map(const DipPlanInput *input, DipFramePlan *plan) {
                : skip("no light-mapped surface is in view");
 }
 
-// A mesh without a map keeps the plain shader.
+// A mesh without a normal map has the plain shader in any case.
 static DipEffect plan_normal_map(const DipPlanInput *input, DipFramePlan *plan) {
     if (!input->scene->has_normal_map) {
         return skip("the scene has no normal-mapped surface");
@@ -214,7 +219,7 @@ static DipEffect plan_normal_map(const DipPlanInput *input, DipFramePlan *plan) 
                : skip("no normal-mapped surface is in view");
 }
 
-// The visibility buffer leaves of the sky only what nothing covers to be shaded.
+// Only sky that nothing covers is shaded: the visibility buffer leaves out the rest.
 static DipEffect plan_sky(const DipPlanInput *input, DipFramePlan *plan) {
     if (!input->scene->has_sky) {
         return skip("the scene has no sky with clouds");
@@ -223,11 +228,10 @@ static DipEffect plan_sky(const DipPlanInput *input, DipFramePlan *plan) {
         return skip(plain);
     }
     if (input->quality->step[DIP_SETTING_MIPDEBUG]) {
-        return skip("mip levels are shown in its place");
+        return skip("mip colours replace the clouds");
     }
-    return input->force_all || any_in_view(input, plan, is_clouded)
-               ? run(input, "sky is in view where nothing covers it")
-               : skip("no sky is in view");
+    return input->force_all || any_in_view(input, plan, is_clouded) ? run(input, "sky is in view")
+                                                                    : skip("no sky is in view");
 }
 
 DipFramePlan dip_plan_frame(const DipPlanInput *input) {
@@ -240,7 +244,7 @@ DipFramePlan dip_plan_frame(const DipPlanInput *input) {
 
 static void settle(DipEffect *effect, uint64_t work) {
     if (effect->run && !work) {
-        *effect = skip("all of it in view is covered");
+        *effect = skip("no fragment of it is visible");
     }
 }
 

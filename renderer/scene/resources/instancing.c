@@ -1,4 +1,4 @@
-// Meshes of one's own for objects that share one.
+// Copies meshes that several objects share, so that each object has a mesh of its own.
 #include "renderer/scene/resources/instancing.h"
 
 #include "renderer/scene/resources/scene_layout.h"
@@ -7,9 +7,9 @@
 
 struct DipUnsharedMeshes {
     const DipScene *scene;
-    int count;        // of objects
-    DipMesh **copies; // per object; NULL: the scene's mesh is its own
-    uint64_t bytes;   // of all meshes that are drawn, the scene's own included
+    int count;        // number of objects
+    DipMesh **copies; // one per object; NULL: the object keeps the scene's mesh
+    uint64_t bytes;   // of all meshes that are drawn, those of the scene included
 };
 
 static void copy_mesh(void *context, int index, int worker) {
@@ -43,7 +43,7 @@ DipUnsharedMeshes *dip_unshared_meshes_create(const DipScene *scene, DipPool *po
     if (!unshared || !unshared->copies || !is_complete(unshared)) {
         dip_unshared_meshes_destroy(&unshared);
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "gi",
-                      "no memory for a mesh of its own for each of %d objects",
+                      "no memory for %d objects with a mesh each; gi=on takes less",
                       scene->object_count);
         return NULL;
     }

@@ -1,4 +1,4 @@
-// Geometry instancing: objects that share a mesh, or (gi=off) each with a copy of its own.
+// Geometry instancing: with gi=on objects share meshes, with gi=off each has a copy of its own.
 #ifndef DIP_RENDERER_SCENE_RESOURCES_INSTANCING_H
 #define DIP_RENDERER_SCENE_RESOURCES_INSTANCING_H
 
@@ -6,16 +6,20 @@
 #include "renderer/scene/frame.h"
 #include "renderer/scene/scene.h"
 
-// A mesh for every object of a scene. The first object of a mesh keeps the scene's.
+// A mesh for every object of a scene. The first object that uses a mesh keeps the scene's mesh;
+// every other object has a copy.
 typedef struct DipUnsharedMeshes DipUnsharedMeshes;
 
-// On the pool (may be NULL). To be destroyed at any time, even after the scene.
+// Copies the meshes on the pool, or on the caller's thread if pool is NULL. Fails with
+// DIP_ERROR_MEMORY. The copies may be destroyed at any time, even after the scene.
 DipUnsharedMeshes *dip_unshared_meshes_create(const DipScene *scene, DipPool *pool, DipError *err);
 void dip_unshared_meshes_destroy(DipUnsharedMeshes **unshared);
 
+// The mesh that an object draws. The scene must still exist.
 const DipMesh *dip_unshared_mesh(const DipUnsharedMeshes *unshared, int object);
 
-// Fills in the counters of geometry that the objects draw from: NULL, the scene's own meshes.
+// Fills in the counters `meshes` and `geometry_bytes`. unshared: NULL if objects share the scene's
+// meshes.
 void dip_count_geometry(const DipScene *scene, const DipUnsharedMeshes *unshared,
                         DipCounters *counters);
 

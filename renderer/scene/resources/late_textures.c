@@ -1,4 +1,4 @@
-// Making a scene's compressed textures once, for whoever asks first.
+// Compresses a scene's textures once, when a renderer first asks for them.
 #include "renderer/scene/resources/late_textures.h"
 
 #include <pthread.h>
@@ -7,8 +7,8 @@
 
 struct DipLateTextures {
     pthread_mutex_t mutex;
-    atomic_bool made;      // then nothing below changes any more
-    DipTexture **textures; // one per texture of the scene
+    atomic_bool made;      // true: the members below do not change any more
+    DipTexture **textures; // one per texture of the scene; NULL where none was wanted
     int count;
 };
 

@@ -1,23 +1,25 @@
-// Textures that some settings need beside a scene's own, made when they are first asked for.
+// Textures that only some settings need. They are made when a renderer first asks for them.
 #ifndef DIP_RENDERER_SCENE_RESOURCES_LATE_TEXTURES_H
 #define DIP_RENDERER_SCENE_RESOURCES_LATE_TEXTURES_H
 
 #include "renderer/base/pool.h"
 #include "renderer/pipeline/texture.h"
 
-// The compressed textures of opt=standard and opt=advanced. Renderers on any thread share them.
+// The compressed textures that opt=standard and opt=advanced show. Renderers on any threads share
+// them.
 typedef struct DipLateTextures DipLateTextures;
 
-// Nothing is made yet; NULL when memory runs out.
+// Creates the object without textures. Returns NULL if memory runs out.
 DipLateTextures *dip_late_textures_create(void);
 void dip_late_textures_destroy(DipLateTextures **late);
 
-// Makes them from those of count textures that are wanted, unless they are there. Waits while
-// another thread is at it.
+// Compresses those of `count` textures for which `wanted` is true, unless that has been done. If
+// another thread is doing it, waits until it has finished. pool may be NULL. Thread-safe.
 bool dip_late_textures_make(DipLateTextures *late, DipTexture *const *textures, const bool *wanted,
                             int count, DipPool *pool, DipError *err);
 
-// One that was wanted, once they are made; NULL: not made, or not wanted.
+// The compressed form of a texture. NULL if the textures are not made yet or this one was not
+// wanted. Thread-safe.
 const DipTexture *dip_late_texture(const DipLateTextures *late, int index);
 
 #endif

@@ -1,7 +1,8 @@
-// The seed's Table 4: a colour for each mip level size.
+// A colour for each size of mip level, from Table 4 of the 2006 ATI Catalyst Control Preview
+// report.
 #include "renderer/scene/resources/mip_debug.h"
 
-// sRGB codes for 1024, 512, 256, 128, 64, 32, 16, 8 texels.
+// sRGB codes for levels of 1024, 512, 256, 128, 64, 32, 16 and 8 texels.
 static const uint8_t colours[DIP_MIP_DEBUG_LEVELS][4] = {
     {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
     {255, 255, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {128, 0, 128, 255},

@@ -1,16 +1,18 @@
-// Mip debugging: the colours (or pictures) that stand for mip levels by their absolute size.
+// Mip debugging: flat colours or pictures that replace mip levels according to their size in
+// texels.
 #ifndef DIP_RENDERER_SCENE_RESOURCES_MIP_DEBUG_H
 #define DIP_RENDERER_SCENE_RESOURCES_MIP_DEBUG_H
 
 #include "renderer/pipeline/texture.h"
 #include "renderer/scene/renderer.h"
 
-// A texture whose level i stands for levels of 1024 >> i texels. pictures: NULL, or one entry per
-// level, of which NULL ones keep their flat colour.
+// Creates a texture whose level i replaces levels of 1024 >> i texels. pictures: NULL for flat
+// colours only, or one picture per level; a level whose picture is NULL has its flat colour.
 DipTexture *dip_mip_debug_create(const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
                                  DipError *err);
 
-// For each level of a texture the debug level that stands for it.
+// For each level of a texture, finds the debug level that replaces it: the largest debug level that
+// is not larger than the greater of the level's width and height, or the last debug level.
 void dip_mip_debug_levels(const DipTexture *texture, int32_t shown_level[DIP_LEVEL_TABLE]);
 
 #endif

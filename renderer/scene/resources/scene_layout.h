@@ -1,4 +1,5 @@
-// Inside of a scene, for the renderer: textures, meshes and materials as the pipeline takes them.
+// The inside of a scene, for the renderer: textures, meshes and materials in the form that the
+// pipeline takes.
 #ifndef DIP_RENDERER_SCENE_RESOURCES_SCENE_LAYOUT_H
 #define DIP_RENDERER_SCENE_RESOURCES_SCENE_LAYOUT_H
 
@@ -11,39 +12,40 @@
 typedef struct DipSceneMesh {
     DipMesh *mesh;
     int material;
-    DipSurfaceUniforms
-        layout; // attributes, varyings and material; matrices are filled in per frame
+    // The uniforms with attributes, varyings and material. The matrices are set for each frame.
+    DipSurfaceUniforms layout;
     int varying_count;
     bool normal_mapped;
-    DipSurfaceUniforms mapped_layout; // of normal_mapped, likewise
+    // The same two for the normal-mapped shaders, if normal_mapped is true.
+    DipSurfaceUniforms mapped_layout;
     int mapped_varying_count;
-    bool sky; // with the texture and coordinates that the effect needs
+    bool sky; // a sky with the texture and the coordinates that moving clouds need
 } DipSceneMesh;
 
 typedef struct DipSceneObject {
     int mesh;
     float transform[12];
-    bool first_of_mesh; // no object before it uses its mesh
-    DipBox bounds;      // in the world, see dip_cull_transform_box
+    bool first_of_mesh; // no earlier object uses the same mesh
+    DipBox bounds;      // in world space, see dip_cull_transform_box
 } DipSceneObject;
 
 typedef struct DipSceneMaterial {
     DipSurface surface;
     int colour_texture; // index or DIP_NO_TEXTURE
     int light_map;
-    int normal_map; // DIP_NO_TEXTURE too where it is not drawn
+    int normal_map; // DIP_NO_TEXTURE also if the material's normal map is not drawn
     bool double_sided;
 } DipSceneMaterial;
 
 struct DipScene {
-    uint64_t serial; // different for every scene made, so that a renderer sees a change
+    uint64_t serial; // different for every scene, so that a renderer notices another scene
     int texture_count;
     int material_count;
     int mesh_count;
     int object_count;
-    DipTexture **textures; // NULL where nothing that is drawn uses it
-    bool *compressible;    // per texture: a colour texture of what is no sky
-    DipLateTextures *late; // the one part that may grow after
+    DipTexture **textures; // NULL for a texture that no material uses as it is drawn
+    bool *compressible;    // one per texture: true for colour textures, except the sky's
+    DipLateTextures *late; // the only member that may change after creation
     DipSceneMaterial *materials;
     DipSceneMesh *meshes;
     DipSceneObject *objects;
@@ -52,18 +54,18 @@ struct DipScene {
     float min_world[3];
     float max_world[3];
     uint64_t triangle_count;
-    int drawn_mesh_count;    // those that some object uses
-    uint64_t geometry_bytes; // likewise
-    bool has_light_map;
-    bool has_clipped;
-    bool has_normal_map; // some mesh is normal-mapped
-    bool has_sky;
+    int drawn_mesh_count;    // meshes that at least one object uses
+    uint64_t geometry_bytes; // of these meshes
+    bool has_light_map;      // some material has a light map
+    bool has_clipped;        // some material is alpha-clipped
+    bool has_normal_map;     // some mesh is normal-mapped
+    bool has_sky;            // some mesh is a sky with moving clouds
     DipSkyDef sky;
-    bool has_water;     // some object is water;
-    double water_level; // the least world y of these
+    bool has_water;     // some object is water
+    double water_level; // least world y of all water; 0 without water
     uint64_t normal_map_bytes;
-    uint64_t clip_map_bytes; // of their alpha
-    uint64_t cloud_bytes;
+    uint64_t clip_map_bytes; // of the clip maps' alpha
+    uint64_t cloud_bytes;    // of the textures of skies with moving clouds
     DipSceneTimes times;
 };
 

@@ -1,4 +1,4 @@
-// Filling plans and results.
+// Fills in plans and results by formula.
 #include "tests/app/bench/made_result.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-// Tests of the options of `diptych bench`: its lists, their limits, and what excludes what.
+// Tests of the options of `diptych bench`: its lists, their limits, and options that exclude each
+// other.
 #include "app/bench/bench.h"
 #include "app/bench/options.h"
 #include "app/command_line.h"
@@ -23,7 +24,7 @@ static const DipCommandList list = {only_bench, 1};
 
 static char *argv[MAX_WORDS] = {(char *)"diptych", (char *)"bench"};
 
-// Parses "bench" and what is given, up to a NULL.
+// Parses "bench" and the given arguments, up to a NULL.
 static bool parse(DipCommandLine *line, DipError *err, const char *const words[]) {
     int argc = 2;
     for (; words[argc - 2]; argc++) {
@@ -126,7 +127,7 @@ static void too_many_combinations_are_refused(void **state) {
     (void)state;
     assert_refused(DIP_ERROR_RANGE, "bench",
                    WORDS("--threads", "1,2,3,4,5,6,7,8,9,10", "--size",
-                         "1x1,2x1,3x1,4x1,5x1,6x1,7x1,8x1,9x1")); // 6 sets: 540
+                         "1x1,2x1,3x1,4x1,5x1,6x1,7x1,8x1,9x1")); // with 6 sets: 540
 }
 
 static void a_grid_excludes_a_scene(void **state) {

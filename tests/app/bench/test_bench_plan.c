@@ -1,4 +1,4 @@
-// Plans: every combination of the axes' values, in order, with its label.
+// A plan holds every combination of the axes' values, in order, with its label.
 #include "tests/app/bench/made_result.h"
 
 #include <setjmp.h>
@@ -12,7 +12,7 @@ static DipBenchPlan plan;
 
 static void the_last_axis_changes_fastest(void **state) {
     (void)state;
-    // size, set, threads; there is one instruction set and no grid
+    // Indices of size, set and number of threads; there is one instruction set and no grid.
     static const int expected[8][3] = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, 1, 1},
                                        {1, 0, 0}, {1, 0, 1}, {1, 1, 0}, {1, 1, 1}};
     dip_made_plan(&plan, 3, 2);

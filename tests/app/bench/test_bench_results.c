@@ -29,7 +29,7 @@ static bool print_ratios(void *context, FILE *out) {
     return dip_bench_print_ratios(&results[0], &results[1], out, NULL);
 }
 
-// The numbers of the line of `text` that contains `name`; returns how many.
+// Reads the numbers that follow `name` on its line of `text`. Returns how many there are.
 static int numbers_after(const char *text, const char *name, double *numbers, int room) {
     const char *at = strstr(text, name);
     assert_non_null(at);
@@ -100,7 +100,8 @@ static void work_is_the_mean_over_frames(void **state) {
 
 // --- tables ------------------------------------------------------------------------------------
 
-// 1, 2, 4, 5 and 10 ms: the median is 4, the 95th percentile lies 0.8 of the way from 5 to 10.
+// The times are 1, 2, 4, 5 and 10 ms. Their median is 4; the 95th percentile lies 0.8 of the way
+// from 5 to 10.
 static void quantiles_are_over_frames_and_rounds(void **state) {
     (void)state;
     const double ms[5] = {10, 1, 5, 2, 4};
@@ -123,8 +124,9 @@ static void quantiles_are_over_frames_and_rounds(void **state) {
     dip_bench_result_free(&result);
 }
 
-// Two frames in three rounds. This program: {2, 4}, {2, 4}, {3, 4}, median (3 + 4) / 2 = 3.5. The
-// other one takes twice as long in each; its fastest frames are 4 and 8, together 12 against 6.
+// Two frames in three rounds. This program takes {2, 4}, {2, 4} and {3, 4} ms, and the median is
+// (3 + 4) / 2 = 3.5. The other program takes twice as long in each frame. Its fastest frames take 4
+// and 8 ms, together 12 against 6.
 static void a_ratio_is_the_other_program_over_this_one(void **state) {
     (void)state;
     const double here_ms[6] = {2, 4, 2, 4, 3, 4};
@@ -143,7 +145,7 @@ static void a_ratio_is_the_other_program_over_this_one(void **state) {
     expect_near(numbers[1], 3.5);
     expect_near(numbers[2], 2.0);
     expect_near(numbers[3], 2.0);
-    // The interval, the ratio of the fastest frames, and those of the four stages.
+    // The interval, the ratio of the fastest frames, and the ratios of the four stages.
     assert_int_equal(numbers_after(text, " to ", numbers, 6), 6);
     for (int i = 0; i < 6; i++) {
         expect_near(numbers[i], 2.0);
@@ -159,7 +161,7 @@ static void a_ratio_is_the_other_program_over_this_one(void **state) {
     dip_bench_result_free(&results[1]);
 }
 
-// One slow round in three moves the median's interval, not the fastest rounds.
+// One slow round in three moves the interval of the median but not the fastest rounds.
 static void the_fastest_rounds_ignore_noise(void **state) {
     (void)state;
     const double here_ms[3] = {1, 1, 1};
@@ -171,7 +173,7 @@ static void the_fastest_rounds_ignore_noise(void **state) {
     dip_made_result(&results[1], &plan, other_ms);
     char *text = dip_printed(print_ratios, results);
     assert_int_equal(numbers_after(text, " to ", numbers, 2), 2);
-    expect_near(numbers[0], 50.0); // two of three drawings take the slow round in 26 % of cases
+    expect_near(numbers[0], 50.0); // two of three draws are the slow round in 26 % of cases
     expect_near(numbers[1], 1.0);
     free(text);
     dip_bench_result_free(&results[0]);
@@ -223,8 +225,8 @@ static void csv_has_a_line_per_program_round_and_frame(void **state) {
 
 typedef struct FakeProgram {
     double factor;
-    int hashed; // drawings that were asked for their hash
-    int drawn;
+    int hashed; // draws with a hash
+    int drawn;  // all draws
 } FakeProgram;
 
 static bool fake_draw(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
@@ -255,7 +257,7 @@ static void each_source_fills_its_result(void **state) {
         assert_true(dip_bench_measure(&plan, sources, count, results, NULL));
         for (int p = 0; p < count; p++) {
             assert_int_equal(programs[p].hashed, 8 * 3);
-            // Alone, each visit begins with an untimed frame.
+            // If it is measured alone, each visit begins with an untimed frame.
             assert_int_equal(programs[p].drawn, 8 * 3 + 2 * 8 * (count == 1 ? 4 : 3));
             for (int c = 0; c < plan.count; c++) {
                 const double *ms = dip_bench_result_ms(&results[p], c, DIP_BENCH_STAGE_total);

@@ -1,4 +1,4 @@
-// Drawing into memory: exact blends, clipping, scaling; and lines of text.
+// Drawing into memory: exact blends, clipping, scaling and lines of text.
 #include "app/canvas/canvas.h"
 #include "app/canvas/font.h"
 
@@ -26,7 +26,8 @@ static void clear(int width, int height, uint8_t code) {
     dip_canvas_fill(&canvas, canvas.clip, (DipColour){code, code, code, 255});
 }
 
-// Every background, every alpha, some colours: the nearest code of the exact blend.
+// For every background and alpha, and for some colours, a blend gives the code that is nearest to
+// the exact blend.
 static void a_fill_blends_exactly(void **state) {
     (void)state;
     for (int alpha = 0; alpha < 256; ++alpha) {
@@ -57,7 +58,7 @@ static void a_mask_is_a_fill_by_coverage(void **state) {
     assert_int_equal(pixel(3, 0)[1], 33);  // 10 * 191 / 255 + 100 * 64 / 255 = 32.6
 }
 
-// Returns how many pixels are not of the given code.
+// Returns how many pixels differ from the given code.
 static int changed_pixels(uint8_t code) {
     int count = 0;
     for (int i = 0; i < canvas.width * canvas.height; ++i) {
@@ -66,7 +67,7 @@ static int changed_pixels(uint8_t code) {
     return count;
 }
 
-// Rectangles that reach beyond the canvas and its clip rectangle on each side.
+// The rectangles reach beyond the canvas and its clip rectangle on each side.
 static void nothing_is_drawn_outside_the_clip(void **state) {
     (void)state;
     static uint8_t source[4 * 100 * 100];
@@ -91,7 +92,8 @@ static void nothing_is_drawn_outside_the_clip(void **state) {
     }
 }
 
-// Twice as wide and half as high: pixels repeat, and of two rows one is left out.
+// The rectangle is twice as wide and half as high as the picture, so pixels repeat and one of two
+// rows is left out.
 static void a_picture_is_scaled_to_its_rectangle(void **state) {
     (void)state;
     uint8_t source[4 * 3 * 4];
@@ -107,7 +109,7 @@ static void a_picture_is_scaled_to_its_rectangle(void **state) {
     }
 }
 
-// The sum of the darkness of all pixels, and the box that holds them.
+// Returns the box around all pixels that are not white, and sums up their darkness.
 static DipRect ink(int *sum) {
     DipRect box = {0};
     *sum = 0;
@@ -166,7 +168,8 @@ static void a_long_line_ends_in_an_ellipsis(void **state) {
         } else if (length > 0) {
             assert_memory_equal(cut + length - 3, "\xe2\x80\xa6", 3);
             assert_memory_equal(cut, line, length - 3);
-            assert_true((unsigned char)line[length - 3] >> 6 != 2); // A whole character goes.
+            assert_true((unsigned char)line[length - 3] >> 6 !=
+                        2); // The cut is between two characters.
         }
     }
 }
@@ -183,7 +186,7 @@ static void bytes_that_are_not_utf8_show_too(void **state) {
     assert_int_equal(dip_font_width(font, 12, "\xc3"), mark);
 }
 
-// More glyphs than the cache holds, at many sizes: the same line is the same picture after.
+// After more glyphs than the cache holds, at many sizes, the same line gives the same picture.
 static void the_cache_forgets_without_harm(void **state) {
     (void)state;
     int before = 0, after = 0;

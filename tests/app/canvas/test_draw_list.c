@@ -1,5 +1,5 @@
-// Lists of drawing commands: what is painted anew is what changed, and the picture is that of a
-// list painted from nothing.
+// Lists of drawing commands: only what changed is painted again, and the picture is the same as
+// that of a list painted on an empty canvas.
 #include "app/canvas/draw_list.h"
 
 #include <setjmp.h>
@@ -30,7 +30,7 @@ static DipColour random_colour(void) {
 static const DipRect whole = {0, 0, WIDTH, HEIGHT};
 static const DipColour opaque_black = {0, 0, 0, 255};
 
-// A base that covers the canvas, and commands that depend on `seed` alone.
+// Records a fill that covers the canvas, and commands that depend on `seed` alone.
 static void record(DipDrawList *list, uint32_t seed, int width, int height) {
     static uint8_t texels[4 * 16 * 16];
     random_state = seed;
@@ -62,8 +62,8 @@ static void paint(DipDrawList *list, DipCanvas *canvas, DipDamage *damage) {
     assert_true(dip_draw_list_paint(list, canvas, damage, NULL));
 }
 
-// Frames of random commands, some sizes: painting over the frame before gives the same picture as
-// painting from nothing, and no pixel outside the damage changes.
+// Draws frames of random commands in some sizes. Painting over the frame before gives the same
+// picture as painting on an empty canvas, and no pixel outside the damage changes.
 static void painting_over_equals_painting_anew(void **state) {
     (void)state;
     DipDrawList *list = dip_draw_list_create(font, NULL);

@@ -1,4 +1,4 @@
-// Filling in a report by formula.
+// Fills in a report by formula.
 #include "tests/app/cost/made_report.h"
 
 #include <stdlib.h>

@@ -20,7 +20,7 @@ enum { MAX_WORDS = 12 };
 static const DipCommand *const only_dump[] = {&dip_dump_command};
 static const DipCommandList list = {only_dump, 1};
 
-// Parses "dump" and what is given, up to a NULL.
+// Parses "dump" and the given arguments, up to a NULL.
 static bool parse(DipCommandLine *line, DipError *err, const char *const words[]) {
     char *argv[MAX_WORDS] = {(char *)"diptych", (char *)"dump"};
     int argc = 2;

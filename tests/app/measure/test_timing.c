@@ -109,7 +109,7 @@ static void everything_is_warmed_up_in_order(void **state) {
         assert_int_equal(turn->subject, i / 3);
         assert_int_equal(turn->frame, i % 3);
     }
-    // A visit: its first frame untimed, then all of them.
+    // A visit draws its first frame untimed, then all of its frames.
     assert_int_equal(fake.turns[6].phase, DIP_TIMING_REWARM);
     assert_int_equal(fake.turns[6].frame, 0);
     for (int i = 0; i < 3; i++) {

@@ -19,7 +19,7 @@
 
 enum { MAX_WORDS = 16, TEXT_SIZE = 65536 };
 
-// The least that each command needs.
+// The arguments that each command needs at least.
 static const char *const complete[] = {
     "preview",      "dump --hash",          "bench",
     "cost --out x", "cost merge --out x y", "cost assets",

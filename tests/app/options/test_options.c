@@ -31,7 +31,7 @@ typedef struct Fields {
 } Fields;
 
 typedef struct All {
-    double other; // The tables' fields do not stand at the start.
+    double other; // The options' fields are not the first of the struct.
     Fields fields;
 } All;
 

@@ -93,7 +93,7 @@ static DipErrorJobStep step_to_news(DipErrorJob *job, int *steps) {
     return step;
 }
 
-// At every level the figures equal the cost report's with as many samples.
+// At every level the figures equal those of the cost report with the same number of samples.
 static void errors_are_the_cost_reports(void **state) {
     (void)state;
     DipErrorJob *job = dip_error_job_create(reference, NULL);

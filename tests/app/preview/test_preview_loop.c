@@ -18,7 +18,7 @@
 
 #include <cmocka.h>
 
-// Rows without labels and status line, at every size that is used here.
+// Rows that no label and no status line covers, at every size that is used here.
 enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 80, LAST_ROW = 270 };
 
 static DipTestScene scene;
@@ -37,7 +37,7 @@ static bool load_scene_def(void *context, DipError *err) {
     return true;
 }
 
-// Ten seconds past the checker of the scene and back.
+// A path of ten seconds, past the chequers of the scene and back.
 static void make_path(void) {
     DipCamKey keys[2];
     for (int i = 0; i < 2; ++i) {
@@ -276,7 +276,7 @@ static void sheets_cover_and_leave(void **state) {
     }
 }
 
-// Widths that are even, odd and tiny; and one beyond the size that a frame may have.
+// The widths are even, odd and tiny, and one is beyond the size that a frame may have.
 static void the_panes_follow_the_display(void **state) {
     (void)state;
     static const int sizes[][2] = {{640, 300}, {321, 290}, {402, 480}, {3, 1}, {1, 1}};

@@ -68,12 +68,14 @@ static void settings_cycle(void **state) {
     assert_int_equal(f->state.scene_changes, 6);
 }
 
-// A divisor of 4 fits 8 samples alone: with another number it goes back to its default.
-static void samples_take_the_divisor_along(void **state) {
+// A group size of 4 fits 8 samples only; with another number of samples it goes back to its
+// default.
+static void samples_take_the_group_size_along(void **state) {
     Fixture *f = *state;
     f->state.quality[DIP_PANE_REQUESTED] = parse("aa=8,aaa=on,asd=2");
     press(f, DIP_ACTION_SETTING, DIP_SETTING_ASD, false);
-    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD), 3); // 3 is passed over
+    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD),
+                     3); // 3 does not fit and is skipped
     press(f, DIP_ACTION_SETTING, DIP_SETTING_AA, true);
     assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_AA), 3);
     assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD), 0);
@@ -118,7 +120,8 @@ static void a_setting_brings_its_path(void **state) {
     dip_preview_advance(&f->state, 3000000000, 0);
     press(f, DIP_ACTION_SETTING, DIP_SETTING_AF, false);
     assert_int_equal(f->track.active, DIP_CATEGORY_AF);
-    assert_int_equal(dip_camtrack_time(&f->track, f->state.play_ns), 0); // reset on switch
+    assert_int_equal(dip_camtrack_time(&f->track, f->state.play_ns),
+                     0); // a new path starts at its beginning
     press(f, DIP_ACTION_SETTING, DIP_SETTING_MIPDEBUG, false);
     assert_int_equal(f->track.active, DIP_CATEGORY_AF);
     press(f, DIP_ACTION_NEXT_PATH, 0, false);
@@ -127,7 +130,7 @@ static void a_setting_brings_its_path(void **state) {
     assert_int_equal(f->track.active, DIP_CATEGORY_AF);
     press(f, DIP_ACTION_PATH, DIP_CATEGORY_DEFAULT, false);
     assert_int_equal(f->track.active, DIP_CATEGORY_DEFAULT);
-    press(f, DIP_ACTION_PATH, DIP_CATEGORY_WATER, false); // there is none
+    press(f, DIP_ACTION_PATH, DIP_CATEGORY_WATER, false); // the scene has no such path
     assert_int_equal(f->track.active, DIP_CATEGORY_DEFAULT);
     assert_non_null(strstr(f->state.notice, "WATER"));
 }
@@ -138,7 +141,7 @@ static void time_stands_when_paused_or_flying(void **state) {
     assert_int_equal(f->state.play_ns, 1000);
     press(f, DIP_ACTION_STEP_BACK, 0, false);
     assert_true(f->state.paused);
-    assert_int_equal(f->state.play_ns, 0); // not below
+    assert_int_equal(f->state.play_ns, 0); // time does not go below 0
     press(f, DIP_ACTION_STEP, 0, false);
     assert_int_equal(f->state.play_ns, 33333333);
     dip_preview_advance(&f->state, 1000, 0);
@@ -172,10 +175,10 @@ static void settings_in_words(void **state) {
     assert_string_equal(text, "AA 4x, AF 16x, advanced AF, mip detail quality");
     quality = parse("aaa=on,asd=2,aa=4,gi=off");
     dip_preview_describe(&quality, true, text, sizeof text);
-    assert_string_equal(text, "AA 4x, adaptive AA, divisor 2, no instancing");
+    assert_string_equal(text, "AA 4x, adaptive AA, groups of 2, no instancing");
     char longer[128];
     dip_preview_describe(&quality, false, longer, sizeof longer);
-    assert_string_equal(longer, "Antialiasing 4x, Adaptive AA, Adaptive AA divisor 2, "
+    assert_string_equal(longer, "Antialiasing 4x, Adaptive AA, Adaptive AA group size 2, "
                                 "Geometry instancing off");
     char small[10];
     dip_preview_describe(&quality, false, small, sizeof small);
@@ -199,12 +202,12 @@ static void camera_flies(void **state) {
     const DipCameraKeys up = {.up = 1};
     dip_camera_move(&pose, &up, 2.0, 0.5);
     assert_at(&pose, 0, 1, -3);
-    // A turn to the right by 90 degrees: -Z becomes +X. 50 degrees a second.
+    // The camera turns right by 90 degrees at 50 degrees per second, so it looks along +X.
     const DipCameraKeys turn_right = {.right = 1, .turn = true};
     dip_camera_move(&pose, &turn_right, 2.0, 90.0 / 50.0);
     dip_camera_move(&pose, &forward, 2.0, 1.0);
     assert_at(&pose, 2, 1, -3);
-    // Then up by 90 degrees: forward is the sky.
+    // Then it turns up by 90 degrees and looks at the zenith.
     const DipCameraKeys turn_up = {.forward = 1, .turn = true};
     dip_camera_move(&pose, &turn_up, 2.0, 90.0 / 50.0);
     dip_camera_move(&pose, &forward, 2.0, 1.0);
@@ -220,10 +223,10 @@ static void median_of_the_last_second(void **state) {
     dip_timing_add(&timing, 600000000, 1.0);
     assert_true(dip_timing_median_ms(&timing, 700000000) == 3.0);
     dip_timing_add(&timing, 700000000, 2.0);
-    assert_true(dip_timing_median_ms(&timing, 1100000000) == 2.0); // 100 is too old
+    assert_true(dip_timing_median_ms(&timing, 1100000000) == 2.0); // the frame of 100 ms is too old
     assert_int_equal(dip_timing_per_second(&timing, 1100000000), 3);
-    assert_true(dip_timing_median_ms(&timing, 1550000000) == 1.5); // of two
-    assert_true(dip_timing_median_ms(&timing, 9000000000) == 2.0); // the last one
+    assert_true(dip_timing_median_ms(&timing, 1550000000) == 1.5); // the median of two frames
+    assert_true(dip_timing_median_ms(&timing, 9000000000) == 2.0); // only the last frame
     for (int i = 0; i < 1000; ++i) {
         dip_timing_add(&timing, 9000000000 + i, i);
     }
@@ -235,7 +238,7 @@ static void median_of_the_last_second(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(settings_cycle, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(samples_take_the_divisor_along, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(samples_take_the_group_size_along, set_up, tear_down),
         cmocka_unit_test_setup_teardown(every_setting_comes_round, set_up, tear_down),
         cmocka_unit_test_setup_teardown(panes_and_apply, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_setting_brings_its_path, set_up, tear_down),

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The window as a user meets it: real key presses, screenshots compared. Runs inside xvfb-run with
-# a screen of 1282x480. Usage: window.sh DIPTYCH
+# Tests the window as a user meets it: presses keys and compares screenshots. Runs inside xvfb-run
+# with a screen of 1282x480. Usage: window.sh DIPTYCH
 set -u
 diptych=$1
 folder=$(mktemp -d) || exit 1

@@ -355,7 +355,7 @@ static void effects_report_why_they_run_or_not(void **state) {
                         "the camera is not above the water");
     scene.reflection.width = 0;
     assert_true(dip_renderer_set_reflection(stage.renderer, &scene.reflection, NULL));
-    assert_string_equal(draw(&stage, &pose).effects.reflection.why, "the reflection has no size");
+    assert_string_equal(draw(&stage, &pose).effects.reflection.why, "the reflection's size is 0");
     assert_int_equal(draw(&stage, &pose).counters.reflection_bytes, 0);
     DipError err;
     scene.reflection.width = 9000;
