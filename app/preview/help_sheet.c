@@ -44,11 +44,14 @@ typedef struct HelpLayout {
 } HelpLayout;
 
 static void measure_columns(HelpLayout *l, DipFont *font, const HelpRow *rows, int count) {
-    for (int i = 0; i < count; ++i) {
-        int *label_width = &l->label_width[i / l->rows_per_column];
-        int *text_width = &l->text_width[i / l->rows_per_column];
-        *label_width = dip_style_max(*label_width, dip_font_width(font, l->size, rows[i].label));
-        *text_width = dip_style_max(*text_width, dip_font_width(font, l->size, rows[i].text));
+    for (int c = 0; c < MAX_HELP_COLUMNS; ++c) {
+        const int first = c * l->rows_per_column;
+        for (int i = first; i < first + l->rows_per_column && i < count; ++i) {
+            l->label_width[c] =
+                dip_style_max(l->label_width[c], dip_font_width(font, l->size, rows[i].label));
+            l->text_width[c] =
+                dip_style_max(l->text_width[c], dip_font_width(font, l->size, rows[i].text));
+        }
     }
 }
 
