@@ -62,7 +62,7 @@ static HelpLayout measure_help(DipFont *font, const HelpRow *rows, int count, in
     l.rows_per_column = (count + columns - 1) / columns;
     measure_columns(&l, font, rows, count);
     int rows_width = (columns - 1) * 2 * l.gap;
-    for (int c = 0; c < columns; ++c) {
+    for (int c = 0; c < columns && c < MAX_HELP_COLUMNS; ++c) {
         rows_width += l.label_width[c] + l.gap + l.text_width[c];
     }
     l.width = dip_style_max(rows_width, dip_font_width(font, size, help_note)) + 2 * size;
