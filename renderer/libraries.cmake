@@ -43,7 +43,7 @@ function(dip_add_objects name objects)
     target_sources(dip_${name}_shared PRIVATE $<TARGET_OBJECTS:${objects}>)
 endfunction()
 
-# dip_install_libraries(): headers, libraries, a CMake package and pkg-config files.
+# dip_install_libraries(): installs headers, libraries, a CMake package and pkg-config files.
 function(dip_install_libraries)
     get_property(names GLOBAL PROPERTY DIP_LIBRARIES)
     foreach(name IN LISTS names)

@@ -27,7 +27,8 @@ typedef enum DipWrap { DIP_WRAP_REPEAT, DIP_WRAP_CLAMP } DipWrap;
 // How a texture's colour channels are stored. Alpha is always linear.
 typedef enum DipEncoding { DIP_ENCODING_SRGB, DIP_ENCODING_LINEAR } DipEncoding;
 
-// 8-bit RGBA texels, row-major, the top row first (v = 0 is its upper edge), rows tightly packed.
+// A picture of 8-bit RGBA texels, row-major and tightly packed. The top row comes first; v = 0 is
+// its upper edge.
 typedef struct DipTextureDef {
     const char *name;
     int width;  // 1..DIP_MAX_TEXTURE_SIZE
@@ -92,8 +93,8 @@ typedef struct DipSampler {
     int32_t bias_lod8; // added to the level of detail
     int32_t min_lod8;  // smallest level of detail
     bool cheap; // blends levels over a quarter of the way only, and takes half as many probes
-    // Mip debugging: level l of `texture` shows level shown_level[l] of `shown`. NULL shows
-    // `texture` itself.
+    // Mip debugging: where a shader reads level l of `texture`, it gets level shown_level[l] of
+    // `shown`. If `shown` is NULL, it gets `texture` itself.
     const DipTexture *shown;
     int32_t shown_level[DIP_LEVEL_TABLE];
 } DipSampler;

@@ -457,7 +457,7 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
 
 // --- one job -----------------------------------------------------------------------------------
 
-// A triangle is invisible if all its vertices lie outside the same one of these planes.
+// A triangle is invisible if all its vertices lie outside the same plane, one of these.
 enum {
     REJECT = DIP_CLIP_PICTURE | DIP_CLIP_NEAR | DIP_CLIP_FAR | DIP_CLIP_W | DIP_CLIP_ALL_USER,
 };
