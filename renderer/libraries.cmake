@@ -30,7 +30,7 @@ function(dip_add_library name)
     endforeach()
     set_target_properties(dip_${name}_shared PROPERTIES
         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} INSTALL_RPATH "$ORIGIN")
-    if(NOT DIP_SANITIZE) # sanitized objects keep names that only the program defines
+    if(NOT DIP_SANITIZE) # sanitized objects need symbols that only the program defines
         target_link_options(dip_${name}_shared PRIVATE -Wl,-z,defs)
     endif()
     set_property(GLOBAL APPEND PROPERTY DIP_LIBRARIES ${name})
@@ -43,7 +43,7 @@ function(dip_add_objects name objects)
     target_sources(dip_${name}_shared PRIVATE $<TARGET_OBJECTS:${objects}>)
 endfunction()
 
-# dip_install_libraries(): headers, libraries, a CMake package and pkg-config files.
+# dip_install_libraries(): installs headers, libraries, a CMake package and pkg-config files.
 function(dip_install_libraries)
     get_property(names GLOBAL PROPERTY DIP_LIBRARIES)
     foreach(name IN LISTS names)

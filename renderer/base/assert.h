@@ -14,7 +14,7 @@ _Noreturn DIP_API void dip_assert_failed(const char *condition, const char *file
 #define DIP_ASSERT(condition) ((void)sizeof(condition))
 #endif
 
-// Number of elements of an array. It must not be a pointer.
+// Number of elements of an array. `array` must not be a pointer.
 #define DIP_ARRAY_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 #endif

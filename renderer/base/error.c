@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Copies a text. Of an over-long one it copies the end, which tells files apart.
+// Copies a text. If the text is too long, only its end is copied, because the ends of paths differ.
 static void copy_tail(char *to, size_t size_bytes, const char *from) {
     const size_t length = from ? strlen(from) : 0;
     const size_t skip = length >= size_bytes ? length - size_bytes + 1 : 0;

@@ -1,8 +1,9 @@
-// Errors as values: faults in what the user gave, and failures of the machine. Mistakes of this
-// program's own code are no DipErrors; DIP_ASSERT (assert.h) catches those.
+// Errors as values: faults in the user's input, and failures of the machine. Mistakes in Diptych's
+// own code are not reported as a DipError; DIP_ASSERT (assert.h) catches them.
 //
-// A function that can fail returns false or NULL and fills its last parameter, a DipError, which
-// may be NULL. A reader of a whole file collects every fault in a DipErrorList instead.
+// A function that can fail returns false or NULL and fills its last parameter, a DipError. The
+// caller may pass NULL for this parameter. Functions that read a whole file collect every fault in
+// a DipErrorList instead.
 #ifndef DIP_RENDERER_BASE_ERROR_H
 #define DIP_RENDERER_BASE_ERROR_H
 
@@ -15,7 +16,8 @@
 extern "C" {
 #endif
 
-// X(name, what went wrong in a few words). Tests check the code; users read the message.
+// The error codes, as X(name, what went wrong in a few words). Tests check the code; users read the
+// error's message.
 #define DIP_ERROR_LIST(X)                                                                          \
     X(NONE, "no error")                                                                            \
     X(IO, "a file cannot be opened, read or written")                                              \
@@ -45,39 +47,39 @@ typedef enum DipOrigin {
 
 typedef enum DipSeverity { DIP_SEVERITY_ERROR, DIP_SEVERITY_WARNING } DipSeverity;
 
-// One fault: where it is and what is accepted there. An empty file, an empty key or line 0 means
-// that the fault has none.
+// One fault: its place, what was found and what is accepted. `file` and `key` are empty, and `line`
+// is 0, if they do not apply.
 typedef struct DipError {
     DipErrorCode code;
     DipOrigin origin;
     DipSeverity severity;
-    char file[256];    // Name as the user wrote it; an over-long name keeps its end.
+    char file[256];    // Name as the user wrote it; only the end of a name that is too long.
     int line;          // Line in the file, from 1; 0 when the fault has no line.
     char key[64];      // Key, setting or argument at fault.
     char message[320]; // What was found and what is accepted, without a full stop.
 } DipError;
 
-// Fills *err (which may be NULL) and returns false, so that a caller can `return` it. file and key
-// may be NULL. A message that does not fit is cut. The origin is INPUT, except for the codes MEMORY
-// and RUNTIME, which nobody can type wrongly.
+// Fills *err and returns false, so that a caller can write `return dip_error_set(...)`. err, file
+// and key may be NULL. A message that does not fit is cut. The origin is RUNTIME for the codes
+// MEMORY and RUNTIME, and INPUT for all others.
 DIP_API bool dip_error_set(DipError *err, DipErrorCode code, const char *file, int line,
                            const char *key, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-// Does the same with the origin RUNTIME, whatever the code: a file cannot be written, another
-// program broke off, ...
+// Does the same, but sets the origin RUNTIME for every code. Examples: a file cannot be written,
+// another program broke off.
 DIP_API bool dip_error_set_runtime(DipError *err, DipErrorCode code, const char *file, int line,
                                    const char *key, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-// Writes "file:line: [key] message", leaving out the parts the error does not have. Returns the
-// length of the whole text, as snprintf does.
+// Writes "file:line: [key] message", without the parts that the error does not have. Returns the
+// length of the whole text, even if the buffer is too small for it, as snprintf does.
 DIP_API size_t dip_error_format(const DipError *err, char *buffer, size_t size_bytes);
 
-// "IO", "RANGE", ...
+// Returns the name of a code: "IO", "RANGE", ...
 DIP_API const char *dip_error_code_name(DipErrorCode code);
 
-// Every fault of one file, in the order of the file. Zero-initialise it; free it with
+// A list of the faults in one file, in the order of the file. Zero-initialise it; free it with
 // dip_error_list_free.
 typedef struct DipErrorList {
     DipError *items;
@@ -86,7 +88,7 @@ typedef struct DipErrorList {
     size_t error_count; // Number of items that are errors; the others are warnings.
 } DipErrorList;
 
-// Appends a copy. When memory runs out, the list counts the fault but loses its text.
+// Appends a copy of *err. If memory runs out, the list still counts an error but does not keep it.
 DIP_API void dip_error_list_add(DipErrorList *list, const DipError *err);
 DIP_API void dip_error_list_free(DipErrorList *list);
 

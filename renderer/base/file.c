@@ -1,4 +1,4 @@
-// Opening, checking, reading.
+// Opens, checks and reads files.
 #include "renderer/base/file.h"
 
 #include <errno.h>
@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// Finds the size of an open file, which must be a regular one within the limit.
+// Finds the size of an open file. Fails if it is not a regular file or is larger than max_bytes.
 static bool find_size(FILE *stream, const char *file, const char *kind, size_t max_bytes,
                       size_t *size_bytes, DipError *err) {
     struct stat status;

@@ -1,4 +1,4 @@
-// Reading a file whole, with the checks and the messages that every kind of input needs.
+// Reads whole files, with the checks and messages that every kind of input needs.
 #ifndef DIP_RENDERER_BASE_FILE_H
 #define DIP_RENDERER_BASE_FILE_H
 
@@ -11,11 +11,11 @@
 extern "C" {
 #endif
 
-// Reads a regular file of at most max_bytes. `kind` names what the file is in messages, "camera
-// path" or "picture". On success *bytes is the content with a terminating zero after it, to be
-// freed by the caller, and *size_bytes its size without that zero. Otherwise *bytes is NULL and
-// the code is MISSING (no such file), IO (cannot be read, or is a folder or device), OVERSIZED or
-// MEMORY. Thread-safe.
+// Reads a regular file of at most max_bytes. Messages call the file by `kind`, for example "camera
+// path" or "picture". On success *bytes is the content followed by a zero byte, and *size_bytes is
+// the size without this zero. The caller frees *bytes. On failure *bytes is NULL and the error's
+// code is MISSING (no such file), IO (the file cannot be read, or is a folder or device), OVERSIZED
+// or MEMORY. Thread-safe.
 DIP_API bool dip_file_read(const char *file, const char *kind, size_t max_bytes,
                            unsigned char **bytes, size_t *size_bytes, DipError *err);
 

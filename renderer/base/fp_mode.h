@@ -1,8 +1,8 @@
 // The floating-point mode of every thread that draws: round to nearest, subnormals kept.
 //
-// A host program may have set flush-to-zero, which linking with fast-math start-up code does.
-// Pictures must not depend on that, so the pool sets the mode for its own work and restores the
-// caller's mode afterwards.
+// A host program may have set flush-to-zero; linking with fast-math start-up code sets it, for
+// example. Pictures must not depend on the host's mode. The pool therefore sets this mode for its
+// own work and restores the caller's mode afterwards.
 #ifndef DIP_RENDERER_BASE_FP_MODE_H
 #define DIP_RENDERER_BASE_FP_MODE_H
 
@@ -14,7 +14,7 @@
 
 typedef uint64_t DipFpMode;
 
-// Sets the mode of the calling thread. Returns the mode that it had before.
+// Sets the mode of the calling thread. Returns the thread's previous mode.
 static inline DipFpMode dip_fp_mode_set(void) {
 #if defined(__x86_64__)
     const unsigned before = _mm_getcsr();

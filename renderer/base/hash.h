@@ -1,9 +1,10 @@
 // 128-bit hashes that identify content. They guard against mistakes, not against forgery.
 //
 // A hash has two lanes, each a 64-bit FNV-1a of the bytes (Fowler, Noll, Vo; draft-eastlake-fnv).
-// Lane 0 is the standard hash. Lane 1 hashes every byte inverted and may start from another basis,
-// so that the lanes are independent enough to be used together. The same bytes give the same hash
-// on every machine. Threads may use the functions at once on different hashes.
+// Lane 0 is the standard hash. Lane 1 inverts every byte before hashing it, and may start from
+// another basis. So the two lanes are independent enough to be used together. The same bytes give
+// the same hash on every machine. Several threads may call the functions at the same time on
+// different hashes.
 #ifndef DIP_RENDERER_BASE_HASH_H
 #define DIP_RENDERER_BASE_HASH_H
 
@@ -22,19 +23,19 @@ typedef struct DipHash {
 
 enum { DIP_HASH_HEX_SIZE = 33 }; // bytes of a hash's text, including the final zero
 
-// Starts a hash. `variant` changes the basis of lane 1 and leaves lane 0 alone. Pass 0, or a
-// different number for each kind of content if equal bytes of different kinds must get different
-// hashes.
+// Starts a hash. `variant` changes the basis of lane 1 and leaves lane 0 alone. Usually pass 0. If
+// equal bytes of different kinds of content must get different hashes, pass a different number for
+// each kind.
 DIP_API DipHash dip_hash_begin(uint64_t variant);
 
-// Adds size_bytes bytes.
+// Adds size_bytes bytes to the hash.
 DIP_API void dip_hash_bytes(DipHash *hash, const void *bytes, size_t size_bytes);
 
-// Adds a text and its length, so that "ab" followed by "c" differs from "a" followed by "bc". NULL
-// counts as "".
+// Adds a text and its length. Adding "ab" and then "c" therefore gives another hash than adding "a"
+// and then "bc". NULL counts as "".
 DIP_API void dip_hash_text(DipHash *hash, const char *text);
 
-// Adds the eight bytes of a number. The lowest byte comes first on every machine.
+// Adds the eight bytes of a number, the lowest byte first on every machine.
 DIP_API void dip_hash_integer(DipHash *hash, int64_t value);
 DIP_API void dip_hash_number(DipHash *hash, double value);
 

@@ -1,4 +1,4 @@
-// Finds the instruction sets that are built in and that the processor has.
+// Finds the instruction sets that are built into the program and supported by the processor.
 #include "renderer/base/isa.h"
 
 #include "renderer/base/assert.h"
@@ -26,7 +26,8 @@ bool dip_isa_parse(const char *name, DipIsa *isa) {
 }
 
 #if defined(__x86_64__)
-// Kernels for avx2 and avx512 count, search and move bits with these instructions.
+// Returns whether the processor has the bit-counting and bit-moving instructions that the kernels
+// for avx2 and avx512 use.
 static bool has_bit_counts(void) {
     return __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("bmi") &&
            __builtin_cpu_supports("bmi2");

@@ -11,8 +11,8 @@
 extern "C" {
 #endif
 
-// X(name, NAME, lanes), in ascending order of preference. lanes: 32-bit lanes of a vector. A
-// picture has the same bits with each instruction set.
+// The instruction sets, as X(name, NAME, lanes), in ascending order of preference. lanes: number of
+// 32-bit lanes of a vector. Pictures have the same bits with every instruction set.
 #define DIP_ISA_LIST(X)                                                                            \
     X(scalar, SCALAR, 1)                                                                           \
     X(sse2, SSE2, 4)                                                                               \
@@ -27,9 +27,9 @@ typedef enum DipIsa {
         DIP_ISA_COUNT
 } DipIsa;
 
-// Returns the name in the list. Static storage.
+// Returns the name that DIP_ISA_LIST gives an instruction set. Static storage.
 DIP_API const char *dip_isa_name(DipIsa isa);
-// Sets *isa to the instruction set with exactly this name. Returns false if the list has none.
+// Sets *isa to the instruction set with exactly this name. Returns false if there is none.
 DIP_API bool dip_isa_parse(const char *name, DipIsa *isa);
 // Returns whether the kernels for an instruction set are built in and this processor can run them.
 DIP_API bool dip_isa_available(DipIsa isa);

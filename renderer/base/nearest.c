@@ -4,7 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
-enum { MAX_LENGTH = 63 }; // Letters of a known name that are compared; further ones are ignored.
+enum { MAX_LENGTH = 63 }; // Letters of a known name that are compared; later ones are ignored.
 
 static size_t distance(const char *a, const char *b) {
     size_t row[MAX_LENGTH + 1];

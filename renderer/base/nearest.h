@@ -1,4 +1,5 @@
-// The known name that is most like a mistyped one, for messages that ask "did you mean ...?".
+// Finds the known name that is most similar to a mistyped one, for messages that ask "did you mean
+// ...?".
 #ifndef DIP_RENDERER_BASE_NEAREST_H
 #define DIP_RENDERER_BASE_NEAREST_H
 
@@ -10,13 +11,13 @@
 extern "C" {
 #endif
 
-// Returns the name with the smallest edit distance (insertions, deletions, replacements) to `name`,
-// or the first of several that are equally near. Upper and lower case count as the same letter.
-// count is at least 1.
+// Returns the one of `names` with the smallest edit distance (insertions, deletions, replacements)
+// to `name`. If several are equally near, returns the first of them. Upper and lower case count as
+// the same letter. count is at least 1.
 DIP_API const char *dip_nearest_name(const char *name, const char *const *names, size_t count);
 
-// Returns the nearest name if it is near enough to be what the user meant: at most every third of
-// its letters differs, or 1. Returns NULL if none is, or if count is 0.
+// Returns the nearest name if the user probably meant it: its edit distance is at most 1, or at
+// most a third of the known name's length. Otherwise, or if count is 0, returns NULL.
 DIP_API const char *dip_nearest_likely(const char *name, const char *const *names, size_t count);
 
 #ifdef __cplusplus

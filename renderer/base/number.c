@@ -9,10 +9,10 @@
 #include <string.h>
 
 // strtod and printf take the decimal point from the thread's locale. glibc's "C" locale object is
-// static, so this allocates nothing there.
+// static, so newlocale allocates no memory there.
 static locale_t enter_c_locale(locale_t *made) {
     *made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    return uselocale(*made); // if there is no new locale, (locale_t)0 changes nothing
+    return uselocale(*made); // if newlocale failed, uselocale((locale_t)0) changes nothing
 }
 
 static void leave_c_locale(locale_t previous, locale_t made) {

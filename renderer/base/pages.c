@@ -19,7 +19,8 @@ void *dip_pages_alloc(size_t size_bytes) {
     void *memory = aligned_alloc(HUGE_PAGE, room_bytes);
 #ifdef MADV_HUGEPAGE
     if (memory) {
-        (void)madvise(memory, room_bytes, MADV_HUGEPAGE); // only advice: small pages work as well
+        // This is only advice; small pages work too.
+        (void)madvise(memory, room_bytes, MADV_HUGEPAGE);
     }
 #endif
     return memory;

@@ -10,15 +10,15 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// How long an idle worker looks for work before it sleeps. This is about the pause between two
-// panes or between the stages of a frame. Waking a sleeping thread would cost a good part of a
-// geometry stage.
+// Time in nanoseconds that an idle worker looks for work before it sleeps. This is about as long as
+// the pause between two panes or between the stages of a frame. Waking a sleeping thread would take
+// about as long as a good part of a geometry stage.
 #define SPIN_NS 300000
 
-enum { CHECKS_PER_CLOCK_READ = 64 }; // checks for work between two reads of the clock
+enum { CHECKS_PER_CLOCK_READ = 64 }; // number of checks for work between two reads of the clock
 
-// One word holds the state of a run: its number, whether workers may still enter it, and how many
-// are inside. A run does not wait for workers that wake too late to enter it.
+// One word holds the state of a run: the run's number, whether workers may still enter the run, and
+// how many workers are inside. A run does not wait for workers that wake too late to enter it.
 #define STATE_RUN_SHIFT 32
 #define STATE_OPEN      0x80000000u
 #define STATE_INSIDE    0x7fffffffu
@@ -32,8 +32,8 @@ typedef struct Worker {
 struct DipPool {
     int thread_count;
     Worker *workers; // thread_count - 1 workers; the caller of dip_pool_run is worker 0
-    int started;     // workers whose threads have been started
-    bool spins;      // waiting threads spin: each of them may have a processor of its own
+    int started;     // number of workers whose threads have been started
+    bool spins;      // waiting threads spin: true if there is a processor for each thread
 
     // The current run. The caller writes these while no run is open and no worker is inside.
     DipTask task;
@@ -45,7 +45,7 @@ struct DipPool {
 
     pthread_mutex_t mutex; // for sleeping and waking only
     pthread_cond_t wake;
-    int sleeping; // workers that sleep
+    int sleeping; // number of workers that sleep
 };
 
 static void pause_briefly(void) {
@@ -110,13 +110,13 @@ static void *worker_main(void *argument) {
             work(pool, self->index);
             atomic_fetch_sub_explicit(&pool->state, 1, memory_order_release);
         } else if (atomic_load_explicit(&pool->stop, memory_order_acquire)) {
-            return NULL; // the run that was missed may be the one that stops the pool
+            return NULL; // the worker missed a run, perhaps the last one, which stops the pool
         }
     }
 }
 
-// Starts a new run. The mutex makes sure that no worker misses it between its last check and its
-// sleep.
+// Starts a new run. The mutex makes sure that no worker misses the run between its last check for
+// work and falling asleep.
 static void begin_run(DipPool *pool, uint32_t flags) {
     pthread_mutex_lock(&pool->mutex);
     const uint64_t run = (uint64_t)(uint32_t)(current_run(pool) + 1) << STATE_RUN_SHIFT;
@@ -127,7 +127,7 @@ static void begin_run(DipPool *pool, uint32_t flags) {
     pthread_mutex_unlock(&pool->mutex);
 }
 
-// Lets no more workers enter and waits until those inside have left.
+// Closes the run to workers that have not entered it, and waits until all workers inside have left.
 static void end_run(DipPool *pool) {
     uint64_t state =
         atomic_fetch_and_explicit(&pool->state, ~(uint64_t)STATE_OPEN, memory_order_acquire);

@@ -1,7 +1,8 @@
-// Conversion between sRGB and linear light: an exact function for set-up and tables for pixels.
+// Conversion between sRGB and linear light: an exact function for preparations, and tables for
+// pixels.
 //
-// The formulas are those of IEC 61966-2-1. They are computed with + - * / alone, so the tables are
-// the same on every machine. All functions are thread-safe.
+// The formulas are those of IEC 61966-2-1. The functions use only + - * /, so the tables are the
+// same on every machine. A code is an 8-bit encoded value, 0..255. All functions are thread-safe.
 #ifndef DIP_RENDERER_BASE_SRGB_H
 #define DIP_RENDERER_BASE_SRGB_H
 
@@ -24,7 +25,8 @@ typedef struct DipSrgbDecodeTable {
 DIP_API void dip_srgb_decode_table(DipSrgbDecodeTable *table);
 
 // sRGB codes of 16-bit linear light: code[i] = floor(255 * encode(i / 65535) + 0.5), where encode
-// is the inverse of dip_srgb_decode. The padding lets a kernel read four bytes from any i on.
+// is the inverse of dip_srgb_decode. The table has three more entries, so that a kernel can read
+// four bytes from any i on.
 enum { DIP_LINEAR16_MAX = 65535 };
 typedef struct DipSrgbEncodeTable {
     uint8_t code[DIP_LINEAR16_MAX + 1 + 3];

@@ -4,21 +4,22 @@
 #include <math.h>
 #include <stdint.h>
 
-// pi/2 as the sum of three parts. The first two have 32 significant bits, so that n times each of
-// them is exact for |n| < 2^21. Together the parts hold pi/2 to 2^-122.
+// pi/2 as the sum of three parts. The first two parts have 32 significant bits, so that n times
+// either part is exact for |n| < 2^21. The sum of the three parts differs from pi/2 by less than
+// 2^-122.
 static const double HALF_PI_1 = 0x1.921fb54400000p+0;
 static const double HALF_PI_2 = 0x1.0b4611a600000p-34;
 static const double HALF_PI_3 = 0x1.3198a2e037073p-69;
 static const double TWO_OVER_PI = 0x1.45f306dc9c883p-1;
 static const double MAX_ANGLE_RAD = 1e6;
 
-// Splits an angle into quadrant * pi/2 + rest. |rest| exceeds pi/4 by no more than rounding.
+// Splits an angle into quadrant * pi/2 + rest. |rest| <= pi/4, apart from rounding.
 static double reduce(double angle_rad, unsigned *quadrant) {
     const double turns = angle_rad * TWO_OVER_PI;
-    // Halves are rounded away from zero, so that a and -a are reduced alike.
+    // Halves are rounded away from zero, so that the results for a and -a differ only in sign.
     const int32_t count = (int32_t)(turns < 0.0 ? turns - 0.5 : turns + 0.5);
     const double n = (double)count;
-    // The first difference is exact. The second one rounds; `lost` is its rounding error.
+    // `coarse` is exact. `rest` is rounded; `lost` is the rounding error of `rest`.
     const double coarse = angle_rad - n * HALF_PI_1;
     const double step = n * HALF_PI_2;
     const double rest = coarse - step;
@@ -27,7 +28,7 @@ static double reduce(double angle_rad, unsigned *quadrant) {
     return rest + (lost - n * HALF_PI_3);
 }
 
-// Taylor series for |x| <= pi/4. The first term that is left out is below 2e-19.
+// Taylor series of the sine for |x| <= pi/4. The first term that is left out is below 2e-19.
 static double sin_series(double x) {
     const double s = x * x;
     double sum = 1.0 / 355687428096000.0; // 1 / 17!
@@ -91,9 +92,9 @@ double dip_tan(double angle_rad) {
     return quadrant & 1u ? -cosine / sine : sine / cosine;
 }
 
-// Arc tangent for 0..1: atan(x) = atan(k/8) + atan((x - k/8) / (1 + x k/8)). k is chosen so that
-// the second argument lies within 1/16. There the first term that the series leaves out is below
-// 1e-19 of the result.
+// Arc tangent for x in 0..1: atan(x) = atan(k/8) + atan(t) with t = (x - k/8) / (1 + x k/8). k is
+// chosen so that |t| <= 1/16. For such t, the first term that the series leaves out is below 1e-19
+// of the result.
 static double atan_unit(double x) {
     static const double eighths[] = {
         // eighths[k] = atan(k/8)

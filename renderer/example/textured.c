@@ -1,5 +1,6 @@
-// Draws a textured cube that stands in a textured floor. It shows a projection of the caller's own,
-// with a near and a far plane, and hidden surfaces, mip chains and anisotropic filtering.
+// Draws a textured cube that is sunk into a textured floor. The example shows how a caller makes
+// its own projection with a near and a far plane. It also shows hidden surfaces, mip chains and
+// anisotropic filtering.
 //
 // Usage: textured FILE.ppm
 #include "renderer/pipeline/pipeline.h"
@@ -32,7 +33,7 @@ static void vertex_shader(const DipVertexBatch *batch) {
     }
 }
 
-// Multiplies the texture by the colour that the draw's uniform holds.
+// Multiplies the texture's colour by the colour in the draw's uniforms.
 static void fragment_shader(DipFragmentBatch *batch) {
     const float *tint = batch->uniforms;
     batch->sample_colour(batch, &batch->samplers[0], 0, batch->colour);
@@ -43,7 +44,7 @@ static void fragment_shader(DipFragmentBatch *batch) {
     }
 }
 
-// A chequered texture with a dark line around each field.
+// Makes a chequered texture with a dark line around each field.
 static DipTexture *make_texture(DipError *err) {
     static uint8_t rgba8[TEXELS][TEXELS][4];
     for (int y = 0; y < TEXELS; y++) {
@@ -69,7 +70,7 @@ static DipMesh *make_floor(DipError *err) {
     return dip_mesh_create(&data, err);
 }
 
-// A cube of 1.6 m, turned about the vertical, whose lower part is hidden in the floor.
+// Makes a cube with sides of 1.6 m, turned about the vertical axis. The floor hides its lower part.
 static DipMesh *make_cube(DipError *err) {
     static const float corners[8][3] = {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1},
                                         {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

@@ -1,5 +1,5 @@
-// Draws a triangle with shaders of its own: the smallest program that uses the pipeline library
-// without a scene.
+// Draws a triangle with the program's own shaders. This is the smallest program that uses the
+// pipeline library, without a scene.
 //
 // Usage: triangle FILE.ppm
 #include "renderer/pipeline/pipeline.h"
@@ -9,7 +9,8 @@
 
 enum { WIDTH = 320, HEIGHT = 240 };
 
-// Each vertex has a position x, y, z and the two numbers u, v that the fragment shader draws with.
+// Each vertex has a position x, y, z and two numbers u, v, from which the fragment shader computes
+// the colour.
 static const float vertices[3][5] = {
     {-0.8f, -0.7f, 0.5f, 0.0f, 0.0f},
     {0.8f, -0.7f, 0.5f, 1.0f, 0.0f},
@@ -17,7 +18,7 @@ static const float vertices[3][5] = {
 };
 static const uint32_t indices[3] = {0, 1, 2};
 
-// The positions are in clip space already, with w = 1. Attributes 3 and 4 become varyings 0 and 1.
+// The positions are already in clip space; w is 1. Attributes 3 and 4 become varyings 0 and 1.
 static void vertex_shader(const DipVertexBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         for (int c = 0; c < 3; c++) {
@@ -29,8 +30,8 @@ static void vertex_shader(const DipVertexBatch *batch) {
     }
 }
 
-// Draws rings around the middle. The colour depends on u and v, and the uniform is the number of
-// rings per unit of squared distance from the middle.
+// Draws rings around the point u = 0.5, v = 0.4. The uniform is the number of rings per unit of
+// squared distance from this point. The colour also depends on u and v.
 static void fragment_shader(DipFragmentBatch *batch) {
     const float rings = *(const float *)batch->uniforms;
     for (int i = 0; i < batch->count; i++) {

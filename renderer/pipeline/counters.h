@@ -8,24 +8,24 @@
 extern "C" {
 #endif
 
-// Work done. The counts are exact: they are the same for any thread count, SIMD width and machine.
-// X(name, "what it counts")
+// Work done, as X(name, "what it counts"). The counts are exact: they are the same for any thread
+// count, SIMD width and machine.
 #define DIP_PIPELINE_COUNTER_LIST(X)                                                               \
     X(passes, "render passes drawn")                                                               \
     X(tiles_drawn, "64x64-pixel tiles drawn in these passes")                                      \
-    X(tiles_spared, "tiles left out because nothing visible needs them")                           \
+    X(tiles_spared, "tiles not drawn because nothing visible needs them")                          \
     X(triangles_in, "triangles of mesh chunks that are not culled as a whole")                     \
     X(triangles_drawn, "triangles left after culling and clipping")                                \
-    X(tile_triangles, "pairs of a triangle and a tile that it is binned to")                       \
+    X(tile_triangles, "triangles binned to tiles: one per triangle and tile")                      \
     X(sub_blocks_tested, "4x4-pixel blocks tested against a triangle's edges")                     \
     X(sub_blocks_accepted, "tested blocks that lie wholly inside the triangle")                    \
     X(fragments_clip_tested, "fragments of alpha-clipped surfaces whose clip map was read")        \
-    X(clip_sample_groups, "sample groups drawn of alpha-clipped triangles, tile by tile")          \
-    X(fragments_shaded, "fragments shaded: one per pixel and patch of surface seen in it")         \
+    X(clip_sample_groups, "sample groups drawn, summed over alpha-clipped triangles")              \
+    X(fragments_shaded, "fragments shaded: one per pixel and visible patch")                       \
     X(samples_shown, "samples that show a surface: covered, nearest, kept by its clip map")        \
     X(pixels_resolved, "pixels whose samples show more than one fragment")                         \
-    X(texture_probes, "positions at which textures were read, in the finer of two levels")         \
-    X(texels_fetched, "texels read for these probes")                                              \
+    X(texture_probes, "texture probes, without those of the coarser of two levels")                \
+    X(texels_fetched, "texels read for all probes, in both levels")                                \
     X(target_bytes, "bytes of colour written to targets")
 
 enum { DIP_SHADER_COUNT_MAX = 4 };
@@ -35,13 +35,14 @@ typedef struct DipPipelineCounters {
     DIP_PIPELINE_COUNTER_LIST(DIP_COUNTER_FIELD)
 #undef DIP_COUNTER_FIELD
     // Counts that the caller's fragment shaders add to (DipFragmentBatch.work). The pipeline only
-    // sums them; what each one means is the caller's choice.
+    // sums these counts; the caller decides what each of them means.
     uint64_t shader_counts[DIP_SHADER_COUNT_MAX];
 } DipPipelineCounters;
 
-// Wall-clock time by stage, in milliseconds. The stages of a tile overlap on the workers: their
-// times are summed over the workers and scaled to the wall time of the whole tile phase.
-// X(name, "what happens in it")
+// Wall-clock time by stage, in milliseconds. The three stages after geometry run per tile and
+// overlap on the worker threads. Their times are summed over the workers; then they are scaled so
+// that the sums of all passes drawn at once add up to the wall-clock time of drawing the tiles.
+// The list has X(name, "what happens in it").
 #define DIP_STAGE_LIST(X)                                                                          \
     X(geometry, "transform, clip, set-up, bins")                                                   \
     X(raster, "coverage and depth")                                                                \

@@ -1,4 +1,4 @@
-// Culling by bounding boxes: which objects may be in view of a pass.
+// Culling by bounding boxes: finds the objects that a pass may show.
 #ifndef DIP_RENDERER_PIPELINE_CULL_H
 #define DIP_RENDERER_PIPELINE_CULL_H
 
@@ -15,23 +15,25 @@ extern "C" {
 enum { DIP_VIEW_PLANES = 6, DIP_MAX_CULL_PLANES = DIP_VIEW_PLANES + DIP_MAX_CLIP_PLANES };
 
 // Half-spaces: a point is inside where dot(normal, (x, y, z, 1)) >= 0 for each of the first `count`
-// planes. The planes after them hold everything.
+// planes. The other planes of the array are padding; every point is inside them.
 typedef struct DipCullPlanes {
     int count;
-    float normal[4][DIP_MAX_CULL_PLANES]; // [coordinate][plane]: a vector holds several planes
+    // [coordinate][plane], so that a vector can hold one coordinate of several planes.
+    float normal[4][DIP_MAX_CULL_PLANES];
 } DipCullPlanes;
 
-// The planes, in the world, of what a pass draws: the view volume, narrowed to the pass's region,
-// and the user's clip planes. world_to_clip: 4x4, row-major. The pass's draws are not read.
+// Returns the planes, in world space, that bound what a pass draws: the planes of its view volume,
+// narrowed to the pass's region, and its user clip planes. world_to_clip: 4x4, row-major. The
+// function does not read the pass's draws.
 DIP_API DipCullPlanes dip_cull_pass_planes(const DipPass *pass, const double world_to_clip[16]);
 
-// The planes, in the world, of the whole view volume.
+// Returns the six planes, in world space, of the whole view volume.
 DIP_API DipCullPlanes dip_cull_view_planes(const double world_to_clip[16]);
 
 // Returns whether a box lies wholly outside one of the planes.
 DIP_API bool dip_cull_outside(const DipCullPlanes *planes, const DipBox *box);
 
-// Returns a box in the world that holds a transformed one, with a margin for the rounding of the
+// Returns a box in world space that holds the transformed box. A margin covers the rounding of the
 // shader that transforms the vertices. transform: rows of a 3x4 matrix.
 DIP_API DipBox dip_cull_transform_box(const float transform[12], const DipBox *box);
 

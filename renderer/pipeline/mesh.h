@@ -1,5 +1,6 @@
-// Vertex and index data as the pipeline draws it: immutable, and split into chunks of triangles
-// with bounds, so that what is out of view is left out early.
+// Meshes: the vertices and indices that the pipeline draws. A mesh is immutable. It is split into
+// chunks of triangles, and each chunk has a bounding box, so that chunks out of view are left out
+// early.
 #ifndef DIP_RENDERER_PIPELINE_MESH_H
 #define DIP_RENDERER_PIPELINE_MESH_H
 
@@ -16,8 +17,8 @@ extern "C" {
 
 typedef struct DipMesh DipMesh;
 
-// attributes: vertex_count rows of attribute_count floats, copied. The first three floats of a row
-// are a position; they give the bounds.
+// The data of a mesh. attributes: vertex_count rows of attribute_count floats. The first three
+// floats of a row are the vertex's position, from which the bounds are computed.
 typedef struct DipMeshData {
     const char *name;
     const float *attributes;
@@ -30,31 +31,31 @@ typedef struct DipMeshData {
 // An axis-aligned box.
 typedef struct DipBox {
     float centre[3];
-    float extent[3]; // half the box's size
+    float extent[3]; // half of the box's size along each axis
 } DipBox;
 
-// Fails with RANGE if an index or a number is out of range or a position is not finite, FORMAT if
-// index_count is not a multiple of 3, OVERSIZED if it is above 2^30, and MEMORY. The data are
-// copied. A mesh is immutable, so any thread may use it.
+// Makes a mesh from a copy of the data. Any thread may use the mesh. Fails with RANGE if an index
+// or attribute_count is out of range or a position is not finite, with FORMAT if index_count is not
+// a multiple of 3, with OVERSIZED if index_count is above 2^30, and with MEMORY.
 DIP_API DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err);
 
-// Returns a mesh with arrays of its own, or NULL when memory runs out.
+// Returns a copy that shares no memory with the mesh, or NULL if memory runs out.
 DIP_API DipMesh *dip_mesh_copy(const DipMesh *mesh);
 
 // Frees a mesh that no draw uses any more. *mesh may be NULL and becomes NULL.
 DIP_API void dip_mesh_destroy(DipMesh **mesh);
 
 DIP_API uint32_t dip_mesh_triangle_count(const DipMesh *mesh);
-DIP_API size_t dip_mesh_bytes(const DipMesh *mesh); // memory of vertices, indices and bounds
+DIP_API size_t dip_mesh_bytes(const DipMesh *mesh); // bytes of vertices, indices and bounds
 
-// The exact bounds of the positions; all 0 for a mesh without triangles.
+// Writes the exact bounds of the positions. They are all 0 for a mesh without triangles.
 DIP_API void dip_mesh_bounds(const DipMesh *mesh, float min[3], float max[3]);
 
-// The box that the pipeline culls the mesh by. It holds the bounds.
+// Returns the box by which the pipeline culls the mesh. The box contains the exact bounds.
 DIP_API DipBox dip_mesh_box(const DipMesh *mesh);
 
-// A mesh's triangles come in chunks of 1 to 128. Triangle t of a chunk has the positions
-// corners[0], corners[1] and corners[2], in the winding order of the indices.
+// A mesh's triangles are divided into chunks of 1 to 128 triangles. Triangle t of a chunk has the
+// positions corners[0], corners[1] and corners[2], in the winding order of the indices.
 DIP_API uint32_t dip_mesh_chunk_count(const DipMesh *mesh);
 DIP_API DipBox dip_mesh_chunk_box(const DipMesh *mesh, uint32_t chunk);
 DIP_API uint32_t dip_mesh_chunk_triangle_count(const DipMesh *mesh, uint32_t chunk);

@@ -1,5 +1,5 @@
-// The pipeline: runs the geometry jobs of one or several passes, then their tiles, and adds up what
-// they did.
+// The pipeline: runs the geometry jobs of one or several passes, then draws their tiles, and adds
+// up their work and times.
 #include "renderer/pipeline/pipeline.h"
 
 #include "renderer/base/clock.h"
@@ -21,9 +21,9 @@ struct DipPipeline {
     DipGeometry geometry;
     DipTilePass tile_pass; // the pass being drawn
     DipTileWork *tile_work;
-    int draw_room; // number of draws that the workers have lists for
+    int draw_room; // number of draws for which the workers have lists
     DipSrgbEncodeTable *srgb;
-    float srgb_light[256]; // linear light of the sRGB codes
+    float srgb_light[256]; // linear light of the 8-bit sRGB values
 };
 
 // --- preparing a pass --------------------------------------------------------------------------
@@ -48,7 +48,8 @@ static void set_sample_groups(DipTilePass *tile_pass, const DipPass *pass) {
     }
 }
 
-// Workers keep lists per draw, which grow with the largest number of draws.
+// Makes longer arrays of lists if the pass has more draws than any pass before. Each worker keeps
+// fragment lists for every draw.
 static bool make_lists(DipPipeline *pipeline, int draw_count, DipError *err) {
     if (draw_count <= pipeline->draw_room) {
         return true;
@@ -90,8 +91,8 @@ static void run_job(void *context, int index, int worker_index) {
                          &pipeline->workers[worker_index]->geometry);
 }
 
-// Runs the geometry of the first pass. The triangles that a sample of any of the passes may show
-// are kept.
+// Runs the geometry stage for the first pass. It keeps the triangles that may cover a sample of any
+// of the passes.
 static bool run_geometry(DipPipeline *pipeline, const DipPass *const *passes, int pass_count,
                          DipError *err) {
     do {
@@ -142,7 +143,7 @@ static void add_counters(const DipPipeline *pipeline, DipPipelineCounters *count
     }
 }
 
-// The times of a pass's tiles by stage, summed over the workers.
+// The time of each stage, summed over a pass's tiles on all workers.
 typedef struct StageSums {
     int64_t ns[DIP_TILE_STAGE_COUNT];
     int64_t total_ns;
@@ -161,7 +162,7 @@ static StageSums sum_stages(const DipPipeline *pipeline) {
     return sums;
 }
 
-// tile_scale: milliseconds of wall time per nanosecond of the workers' sums.
+// tile_scale: milliseconds of wall-clock time per nanosecond in `sums`.
 static void add_times(const StageSums *sums, int64_t geometry_ns, double tile_scale,
                       DipStageTimes *times) {
     times->geometry_ms += 1e-6 * (double)geometry_ns;
@@ -181,8 +182,8 @@ typedef struct Batch {
     int64_t geometry_ns[DIP_MAX_PASSES_AT_ONCE];
 } Batch;
 
-// Draws one tile of each pass. They alternate which goes first, so that none always gets the warm
-// cache.
+// Draws one tile of each pass. Which pass goes first alternates from tile to tile, so that no pass
+// always gets the warm cache.
 static void run_tiles(void *context, int tile, int worker_index) {
     const Batch *batch = context;
     for (int i = 0; i < batch->count; i++) {
@@ -196,7 +197,7 @@ static void run_tiles(void *context, int tile, int worker_index) {
     }
 }
 
-// Runs the geometry of each pass, or of the first one for all.
+// Runs the geometry stage for each pass, or once for all passes if they have the same geometry.
 static bool run_geometries(Batch *batch, DipError *err) {
     const DipPass *passes[DIP_MAX_PASSES_AT_ONCE];
     for (int i = 0; i < batch->count; i++) {
@@ -227,7 +228,7 @@ static int greatest_tile_count(const Batch *batch) {
     return greatest;
 }
 
-// tiles_ns: wall time that the tiles of all passes took.
+// tiles_ns: wall-clock time of drawing the tiles of all passes.
 static void add_results(const Batch *batch, int64_t tiles_ns) {
     StageSums sums[DIP_MAX_PASSES_AT_ONCE];
     int64_t total_ns = 0;
@@ -243,7 +244,7 @@ static void add_results(const Batch *batch, int64_t tiles_ns) {
     }
 }
 
-// Whether work `index` may be drawn together with those before it.
+// Checks whether works[index] may be drawn at once with the works before it.
 static bool check_work(const DipPassWork *works, int index, DipError *err) {
     const DipPipeline *pipeline = works[index].pipeline;
     if (!dip_pass_check(works[index].pass, pipeline->width, pipeline->height, err)) {

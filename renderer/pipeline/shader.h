@@ -28,30 +28,30 @@ enum {
     DIP_MAX_SAMPLERS = 4,
 };
 
-// A vertex shader reads in[a][i], attribute float a of vertex i as the mesh has it, and writes the
-// clip position clip[0..3][i] (x, y, z, w; a vertex is in view where -w <= x, y <= w and
-// 0 <= z <= w; z = w is nearest) and varying[s][i].
+// A vertex shader reads in[a][i]: float a of vertex i's attributes in the mesh. It writes
+// varying[s][i], the vertex's varying s, and clip[0..3][i], its clip position x, y, z, w. A vertex
+// is in view if -w <= x <= w, -w <= y <= w and 0 <= z <= w; z = w is nearest.
 typedef struct DipVertexBatch {
     int count; // 1..DIP_VERTEX_BATCH
     const float *const *in;
     float *const *clip;
     float *const *varying;
-    const void *uniforms; // the draw's
+    const void *uniforms; // uniforms of the draw (DipDraw, pipeline.h)
 } DipVertexBatch;
 
 typedef void DipVertexShader(const DipVertexBatch *batch);
 
-// Texture reads and the shaders' own counts, summed per tile.
+// Numbers of texture reads, and counts that the shaders define. They are summed per tile.
 typedef struct DipShaderWork {
     uint64_t probes;
     uint64_t texels;
-    uint64_t counts[DIP_SHADER_COUNT_MAX]; // see DipPipelineCounters
+    uint64_t counts[DIP_SHADER_COUNT_MAX]; // shader_counts of DipPipelineCounters
 } DipShaderWork;
 
 typedef struct DipFragmentBatch DipFragmentBatch;
 
-// Reads a texture at the coordinates u and v in varyings u_varying and u_varying + 1; the footprint
-// comes from their derivatives. Writes linear light, 0..1, to out[0..2][i].
+// Reads a texture at the coordinates u and v, which are varyings u_varying and u_varying + 1. The
+// derivatives of u and v give the footprint. Writes linear light, 0..1, to out[0..2][i].
 typedef void DipSampleColour(DipFragmentBatch *batch, const DipSampler *sampler, int u_varying,
                              float (*out)[DIP_FRAGMENT_BATCH]);
 
@@ -60,13 +60,13 @@ typedef void DipSampleColour(DipFragmentBatch *batch, const DipSampler *sampler,
 typedef void DipSampleColours(DipFragmentBatch *batch, const DipSampler *const samplers[2],
                               int u_varying, float (*const out[2])[DIP_FRAGMENT_BATCH]);
 
-// Reads a texture's alpha, 0..1, into out[i]. It is 1 for a texture without alpha.
+// Reads a texture's alpha, 0..1, into out[i]. The alpha is 1 if the texture has none.
 typedef void DipSampleAlpha(DipFragmentBatch *batch, const DipSampler *sampler, int u_varying,
                             float *out);
 
-// Reads a target that an earlier pass drew, at (u[i], v[i]): fractions of the target's size from
-// its top left corner, clamped to the target. Filters bilinearly in linear light and writes
-// out[0..2][i].
+// Reads a target that an earlier pass drew. u[i] and v[i] are fractions of the target's size,
+// measured from its top left corner; they are clamped to the target. The function filters
+// bilinearly in linear light and writes out[0..2][i].
 typedef void DipSampleTarget(DipFragmentBatch *batch, const DipTarget *target, const float *u,
                              const float *v, float (*out)[DIP_FRAGMENT_BATCH]);
 
@@ -76,15 +76,15 @@ struct DipFragmentBatch {
     float varying[DIP_MAX_VARYINGS][DIP_FRAGMENT_BATCH];
     float varying_dx[DIP_MAX_VARYINGS][DIP_FRAGMENT_BATCH];
     float varying_dy[DIP_MAX_VARYINGS][DIP_FRAGMENT_BATCH];
-    float x[DIP_FRAGMENT_BATCH]; // the position that is shaded: pixels from the target's top left
+    float x[DIP_FRAGMENT_BATCH]; // the shaded position, in pixels from the target's top left corner
     float y[DIP_FRAGMENT_BATCH];
-    const DipSampler *samplers; // the draw's
-    const void *uniforms;       // the draw's
+    const DipSampler *samplers; // samplers of the draw
+    const void *uniforms;       // uniforms of the draw
     DipSampleColour *sample_colour;
     DipSampleColours *sample_colours;
     DipSampleAlpha *sample_alpha;
     DipSampleTarget *sample_target;
-    const float *srgb_light; // linear light of the 256 sRGB codes, for sample_target
+    const float *srgb_light; // linear light of the 256 8-bit sRGB values, for sample_target
     DipShaderWork work;      // a shader may add to work.counts
     // A fragment shader writes linear light, 0..1; the pipeline clamps it.
     float colour[3][DIP_FRAGMENT_BATCH];

@@ -1,4 +1,4 @@
-// Where a render pass draws to: colour in caller-owned memory, and rectangles of pixels.
+// Render targets: pictures that render passes draw to, and rectangles of pixels in them.
 #ifndef DIP_RENDERER_PIPELINE_TARGET_H
 #define DIP_RENDERER_PIPELINE_TARGET_H
 
@@ -17,7 +17,7 @@ enum { DIP_MAX_TARGET_SIZE = 8192 }; // largest width and height of a target, in
 typedef struct DipTarget {
     uint8_t *rgba8;      // aligned to 4 bytes
     size_t stride_bytes; // distance from one row to the next: a multiple of 4, at least 4 * width
-    int width;           // pixels, as the pipeline's
+    int width;           // pixels; must be the size of the pipeline
     int height;
 } DipTarget;
 
@@ -28,8 +28,8 @@ typedef struct DipTargetRegion {
 
 enum { DIP_TARGET_TILE = 64 }; // targets are drawn in tiles of 64x64 pixels, row by row
 
-// A rectangle within one tile: pixels x0..x1-1 by y0..y1-1 from the tile's top left corner, all
-// multiples of 8. All 0 means nothing of the tile.
+// A rectangle within one tile: pixels x0..x1-1 by y0..y1-1, counted from the tile's top left
+// corner. All four are multiples of 8. All 0 means that no pixel of the tile is needed.
 typedef struct DipTileRegion {
     uint8_t x0, y0, x1, y1;
 } DipTileRegion;

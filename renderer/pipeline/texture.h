@@ -19,7 +19,7 @@ extern "C" {
 enum {
     DIP_MAX_TEXTURE_SIZE = 8192, // largest width and height, in texels
     DIP_MAX_LEVELS = 14,         // a texture of 8192 texels has 14 mip levels
-    DIP_LEVEL_TABLE = 16         // entries of a table with one value per level
+    DIP_LEVEL_TABLE = 16         // length of a table that has one value per level
 };
 
 typedef enum DipWrap { DIP_WRAP_REPEAT, DIP_WRAP_CLAMP } DipWrap;
@@ -27,7 +27,8 @@ typedef enum DipWrap { DIP_WRAP_REPEAT, DIP_WRAP_CLAMP } DipWrap;
 // How a texture's colour channels are stored. Alpha is always linear.
 typedef enum DipEncoding { DIP_ENCODING_SRGB, DIP_ENCODING_LINEAR } DipEncoding;
 
-// 8-bit RGBA texels, row-major, the top row first (v = 0 is its upper edge), rows tightly packed.
+// A picture of 8-bit RGBA texels, row-major and tightly packed. The top row comes first; v = 0 is
+// its upper edge.
 typedef struct DipTextureDef {
     const char *name;
     int width;  // 1..DIP_MAX_TEXTURE_SIZE
@@ -41,11 +42,12 @@ typedef struct DipTextureDef {
 typedef struct DipTexture DipTexture;
 
 // Makes a texture with its whole mip chain from a copy of the texels. Runs on the caller's thread.
-// Fails with RANGE (size) or MEMORY.
+// Fails with RANGE (the size is out of range) or MEMORY.
 DIP_API DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err);
 
-// Makes textures[0..count-1] with their mip chains on the pool (NULL: on the caller's thread), all
-// or none. The texels are the same for every number of threads. Fails with RANGE (size) or MEMORY.
+// Makes textures[0..count-1] with their mip chains. Runs on the pool, or on the caller's thread if
+// the pool is NULL. The texels are the same for every number of threads. Fails with RANGE (a size
+// is out of range) or MEMORY; then it makes no texture at all.
 // used: textures[i] becomes NULL where used[i] is false; NULL means all are used.
 // keep_alpha: textures[i] has an alpha plane only if keep_alpha[i] is true and some texel is not
 // opaque; NULL means true for all.
@@ -53,17 +55,17 @@ DIP_API bool dip_textures_create(const DipTextureDef *defs, const bool *used,
                                  const bool *keep_alpha, int count, DipPool *pool,
                                  DipTexture **textures, DipError *err);
 
-// Makes a texture whose mip levels are the given pictures, of any sizes, instead of a filtered
-// chain. level_count: 1..DIP_MAX_LEVELS. The texture has no alpha, and its address modes are those
-// of levels[0]. Fails with RANGE (size) or MEMORY.
+// Makes a texture whose mip levels are the given pictures, instead of a filtered chain. The
+// pictures may have any sizes. level_count: 1..DIP_MAX_LEVELS. The texture has no alpha, and it
+// takes its address modes from levels[0]. Fails with RANGE (a size is out of range) or MEMORY.
 DIP_API DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
                                                    DipError *err);
 
-// Makes compressed[i] from textures[i] as BC1 shows it: the colours of every level are encoded and
-// decoded, at the same size in memory. compressed[i] is NULL where wanted[i] is false; all or none
-// are made. It shares the alpha plane of textures[i], which must outlive it. Runs on the pool
-// (NULL: on the caller's thread); the texels are the same for every number of threads. Fails with
-// MEMORY.
+// Makes compressed[i], which shows textures[i] as BC1 would: the colours of every level are encoded
+// and decoded again. The result is as large in memory as the original. compressed[i] is NULL where
+// wanted[i] is false. It shares the alpha plane of textures[i], so textures[i] must outlive it.
+// Runs on the pool, or on the caller's thread if the pool is NULL. The texels are the same for
+// every number of threads. Fails with MEMORY; then it makes no texture at all.
 DIP_API bool dip_textures_compress(DipTexture *const *textures, const bool *wanted, int count,
                                    DipPool *pool, DipTexture **compressed, DipError *err);
 
@@ -75,22 +77,24 @@ DIP_API int dip_texture_level_count(const DipTexture *texture);
 // Size of a level in texels; level 0 is the largest. level: 0..dip_texture_level_count - 1.
 DIP_API void dip_texture_level_size(const DipTexture *texture, int level, int *width, int *height);
 
-// Memory that the texture's colours take, and its alpha plane unless it is shared. 0 for NULL.
+// Returns the bytes of the texture's colours, plus those of its alpha plane unless the plane
+// belongs to another texture. Returns 0 for NULL.
 DIP_API uint64_t dip_texture_colour_bytes(const DipTexture *texture);
 DIP_API uint64_t dip_texture_alpha_bytes(const DipTexture *texture);
 
 // How a shader reads a texture. Levels of detail are in units of 1/256 level.
 typedef struct DipSampler {
     const DipTexture *texture;
-    int max_anisotropy; // 1 (trilinear) .. 16 (probes along the long axis of a footprint)
-    // True: the long axis comes from the exact ellipse of the footprint. False: from the longer of
-    // the two screen derivatives, which depends on the angle.
+    int max_anisotropy; // most probes along a footprint's long axis: 1 (trilinear) .. 16
+    // True: the long axis is that of the footprint's exact ellipse. False: the long axis is
+    // estimated from the screen derivatives, so the level of detail depends on the surface's angle
+    // on the screen.
     bool exact_footprint;
     int32_t bias_lod8; // added to the level of detail
     int32_t min_lod8;  // smallest level of detail
-    bool cheap;        // blends levels over a quarter of the way only, and takes half the probes
-    // Mip debugging: level l of `texture` shows level shown_level[l] of `shown`. NULL shows
-    // `texture` itself.
+    bool cheap; // blends levels over a quarter of the way only, and takes half as many probes
+    // Mip debugging: where a shader reads level l of `texture`, it gets level shown_level[l] of
+    // `shown`. If `shown` is NULL, it gets `texture` itself.
     const DipTexture *shown;
     int32_t shown_level[DIP_LEVEL_TABLE];
 } DipSampler;

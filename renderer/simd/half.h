@@ -1,4 +1,5 @@
-// Half vectors: vectors of doubles and 64-bit integers for triangle set-up, beside those of vec.h.
+// Half vectors: vectors of doubles and 64-bit integers for triangle set-up, in addition to the
+// vectors of vec.h.
 #ifndef DIP_RENDERER_SIMD_HALF_H
 #define DIP_RENDERER_SIMD_HALF_H
 
@@ -7,9 +8,9 @@
 // --- half vectors ------------------------------------------------------------------------------
 
 // A half vector has as many lanes as doubles fit into a vector of vec.h. Vd and Vl have lanes of 64
-// bits; Hf, Hi and Hu have the same number of lanes of 32 bits. Where there are two lanes, the
-// 32-bit types have two more, which loads set to 0 and no code uses. A condition is a vector with 0
-// or -1 per lane, as comparisons return it.
+// bits; Hf, Hi and Hu have the same number of lanes of 32 bits. If a half vector has two lanes, the
+// 32-bit types have two further lanes, which loads set to 0 and no code uses. A condition is a
+// vector with 0 (false) or -1 (true) per lane; comparisons return it.
 enum { DIP_HALF_LANES = DIP_LANES > 1 ? DIP_LANES / 2 : 1 };
 
 #define VEC_HALF_BYTES (DIP_LANES == 4 ? 16 : 4 * (DIP_LANES > 1 ? DIP_LANES / 2 : 1))
@@ -100,8 +101,8 @@ VEC_INLINE Vd vd_abs(Vd v) {
     return (Vd)((Vl)v & INT64_MAX);
 }
 
-// Converts whole numbers below 2^51 in magnitude to integers. Adding 1.5 * 2^52 moves a whole
-// number into the low bits of the double.
+// Converts whole numbers v, |v| < 2^51, to integers. Adding 1.5 * 2^52 moves a whole number into
+// the low bits of the double.
 VEC_INLINE Vl vl_from_whole(Vd v) {
     const Vd shift = vd_splat(6755399441055744.0);
     return (Vl)(v + shift) - (Vl)shift;
@@ -168,7 +169,7 @@ VEC_INLINE Vl vl_condition(Hi m) {
 #endif
 }
 
-// Returns a condition as bits: bit i is set where lane i holds.
+// Returns a condition as bits: bit i is set if the condition is true in lane i.
 VEC_INLINE unsigned hi_mask_bits(Hi m) {
 #if VEC_AVX512
     return (unsigned)_mm256_movemask_ps((__m256)m);
@@ -204,7 +205,8 @@ VEC_INLINE Hf hf_gather(const float *base, Hi index) {
     return (Hf)hi_gather((const int32_t *)(const void *)base, index);
 }
 
-// Stores the lanes whose bits are set, without gaps. It may overwrite the space of a whole vector.
+// Stores the lanes whose bits are set in `bits` to `out`, without gaps. The function may overwrite
+// a whole vector's length from `out` on.
 VEC_INLINE void hi_store_packed(int32_t *out, Hi v, unsigned bits) {
 #if VEC_AVX512
     v = (Hi)_mm256_maskz_compress_epi32((__mmask8)bits, (__m256i)v);
@@ -220,7 +222,7 @@ VEC_INLINE void hi_store_packed(int32_t *out, Hi v, unsigned bits) {
 #endif
 }
 
-// Joins two 32-bit lanes to one of 64 bits, with `low` in its lower half.
+// Joins each pair of 32-bit lanes into one 64-bit lane, with `low` in the lower half.
 VEC_INLINE Vl vl_pair(Hi low, Hi high) {
 #if VEC_AVX512
     const __m512i order = _mm512_set_epi32(23, 7, 22, 6, 21, 5, 20, 4, 19, 3, 18, 2, 17, 1, 16, 0);
@@ -240,7 +242,7 @@ VEC_INLINE Vl vl_pair(Hi low, Hi high) {
 #endif
 }
 
-// Stores four words per lane: row[0..3] of lane i go to out + i * stride_bytes.
+// Stores four 64-bit words per lane: lane i of row[0..3] goes to out + i * stride_bytes.
 VEC_INLINE void vl_store_rows(void *out, size_t stride_bytes, const Vl row[4]) {
     char *at = out;
 #if VEC_AVX512
@@ -250,7 +252,8 @@ VEC_INLINE void vl_store_rows(void *out, size_t stride_bytes, const Vl row[4]) {
                              _mm512_unpacklo_epi64((__m512i)row[2], (__m512i)row[3])};
     const __m512i odd[2] = {_mm512_unpackhi_epi64((__m512i)row[0], (__m512i)row[1]),
                             _mm512_unpackhi_epi64((__m512i)row[2], (__m512i)row[3])};
-    // lanes[i] holds the words of lane i and, in its upper half, those of lane i + 4.
+    // lanes[i] holds the four words of lane i in its lower half, and those of lane i + 4 in its
+    // upper half.
     const __m512i lanes[4] = {_mm512_permutex2var_epi64(even[0], first, even[1]),
                               _mm512_permutex2var_epi64(odd[0], first, odd[1]),
                               _mm512_permutex2var_epi64(even[0], second, even[1]),

@@ -1,9 +1,9 @@
 // Kernel tables: one set of function pointers per instruction set, made from one list of kernels.
 //
-// A list is a macro LIST(X) of X(result, name, parameters). A kernel is a function in a *_simd.c
-// file that is compiled once per instruction set; the version for avx2 is called name_avx2. Only
-// scalars and pointers cross a kernel's boundary, because the calling convention of vector types
-// changes with the compiler's flags.
+// The list is a macro LIST(X) with one X(result, name, parameters) per kernel. A kernel is a
+// function in a *_simd.c file that is compiled once per instruction set; the version for avx2 is
+// called name_avx2. Only scalars and pointers cross a kernel's boundary, because the calling
+// convention of vector types changes with the compiler's flags.
 #ifndef DIP_RENDERER_SIMD_KERNEL_TABLE_H
 #define DIP_RENDERER_SIMD_KERNEL_TABLE_H
 
@@ -32,7 +32,7 @@
 #define DIP_KERNEL_ENTRY_AVX2(result, name, parameters)   name##_avx2,
 #define DIP_KERNEL_ENTRY_AVX512(result, name, parameters) name##_avx512,
 
-// Initialises an array of kernel tables that is indexed by DipIsa. It has an entry for every
+// Initialises an array of kernel tables. The index is a DipIsa; the array has an entry for every
 // instruction set of this processor family.
 #if defined(__x86_64__)
 #define DIP_KERNEL_TABLES(LIST)                                                                    \

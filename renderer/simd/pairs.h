@@ -1,14 +1,15 @@
-// Vectors of pairs of values that are neighbours in memory, such as texels, and 16-bit arithmetic.
+// Vectors of pairs: each lane has two values that are neighbours in memory, for example two texels.
+// Also operations on the 16-bit halves of lanes.
 #ifndef DIP_RENDERER_SIMD_PAIRS_H
 #define DIP_RENDERER_SIMD_PAIRS_H
 
 #include "renderer/simd/vec.h"
 
-// A left and a right value for each lane of a vector, in pair order. Where the instruction set
-// loads both values at once (SSE2, AVX2, AVX-512), they stay side by side: `a` holds the pairs of
-// the lanes in the first half of each 128-bit part, `b` those of the lanes in the second half.
-// Elsewhere `a` holds the left values and `b` the right ones. Only the functions of this file
-// depend on the difference.
+// A left and a right value for each lane of a vector, in pair order. With SSE2, AVX2 and AVX-512,
+// which load both values at once, the two values stay side by side. `a` then holds the pairs of the
+// lanes in the first half of each 128-bit part, and `b` holds the pairs of the lanes in the second
+// half. With other instruction sets, `a` holds the left values and `b` the right values. Only the
+// functions of this file depend on this difference.
 typedef struct VuPair {
     Vu a;
     Vu b;
@@ -27,8 +28,8 @@ VEC_INLINE Vu vu_mulhi16(Vu a, Vu b) {
 #endif
 }
 
-// Multiplies the 16-bit halves of each lane of a by those of b and returns the sum of both
-// products. All halves must be below 2^15.
+// Multiplies the lower 16-bit half of each lane of a by the lower half of b, and the upper half by
+// the upper half. Returns the sum of both products. All halves must be below 2^15.
 VEC_INLINE Vu vu_dot16(Vu a, uint32_t b) {
 #if VEC_AVX512
     return (Vu)_mm512_madd_epi16((__m512i)a, (__m512i)vu_splat(b));
@@ -41,7 +42,7 @@ VEC_INLINE Vu vu_dot16(Vu a, uint32_t b) {
 #endif
 }
 
-// Brings lanes into pair order, in which vu_gather_pairs takes its indices.
+// Brings lanes into pair order, which vu_gather_pairs expects of its indices.
 VEC_INLINE Vi vi_pair_order(Vi v) {
 #if VEC_AVX512
     const __m512i order = _mm512_set_epi32(15, 14, 11, 10, 7, 6, 3, 2, 13, 12, 9, 8, 5, 4, 1, 0);
@@ -53,8 +54,7 @@ VEC_INLINE Vi vi_pair_order(Vi v) {
 #endif
 }
 
-// Returns base[index] and base[index + 1] for each lane; both are fetched at once. index: in pair
-// order.
+// Returns base[index] and base[index + 1] for each lane, fetched at once. `index` is in pair order.
 VEC_INLINE VuPair vu_gather_pairs(const uint32_t *base, Vi index) {
 #if VEC_AVX512
     const __m512i i = (__m512i)index;
@@ -82,7 +82,7 @@ VEC_INLINE VuPair vu_gather_pairs(const uint32_t *base, Vi index) {
 #endif
 }
 
-// Returns pairs whose left and right values are both that of the lane.
+// Returns pairs in which the left and the right value are both the lane's value.
 VEC_INLINE VuPair vu_pair_same(Vu v) {
 #if VEC_AVX512
     return (VuPair){(Vu)_mm512_unpacklo_epi32((__m512i)v, (__m512i)v),
@@ -98,8 +98,8 @@ VEC_INLINE VuPair vu_pair_same(Vu v) {
 #endif
 }
 
-// Returns pairs whose left and right values both have 256 times the lane's lowest byte in each of
-// their 16-bit halves.
+// Returns pairs in which the left and the right value are equal. Each 16-bit half of them is 256
+// times the lane's lowest byte.
 VEC_INLINE VuPair vu_pair_both(Vi v) {
 #if VEC_AVX512 || VEC_AVX2
     const __m128i spread_a = _mm_set_epi8(4, -1, 4, -1, 4, -1, 4, -1, 0, -1, 0, -1, 0, -1, 0, -1);
@@ -118,9 +118,9 @@ VEC_INLINE VuPair vu_pair_both(Vi v) {
 #endif
 }
 
-// Returns the weights of a blend from left to right, in 16 bits: those of vu_pair_both for the
-// right values, and the same with all bits inverted for the left ones. A left and a right weight
-// sum to 65535.
+// Returns the 16-bit weights of a blend from left to right. The right weights are the values of
+// vu_pair_both; the left weights are their bitwise complement. A left and a right weight sum to
+// 65535.
 VEC_INLINE VuPair vu_pair_ramp(Vi v) {
     const VuPair both = vu_pair_both(v);
 #if VEC_AVX512

@@ -1,9 +1,11 @@
-// A vector of DIP_LANES 32-bit lanes and its operations. Only kernels (*_simd.c) include it.
+// Vectors of DIP_LANES 32-bit lanes and their operations. Only kernels (*_simd.c) include this
+// header.
 //
-// The types are the compilers' vector extensions, so + - * / & | ^ << >> and comparisons work as
-// written; intrinsics are used where the extensions have no operator. Every operation is exact
-// integer arithmetic or correctly rounded IEEE arithmetic, so all widths give the same bits. A
-// condition is a Mask: one bit per lane with AVX-512, otherwise a vector with 0 or -1 per lane.
+// The types are compiler vector extensions, so + - * / & | ^ << >> and comparisons apply to them
+// directly. Intrinsics serve where the extensions have no operator. Every operation is exact
+// integer arithmetic or correctly rounded IEEE arithmetic, so all widths give the same bits.
+// Comparison functions return a Mask: one bit per lane with AVX-512, otherwise a vector with 0
+// (false) or -1 (true) per lane.
 #ifndef DIP_RENDERER_SIMD_VEC_H
 #define DIP_RENDERER_SIMD_VEC_H
 
@@ -83,12 +85,12 @@ VEC_INLINE Vf vf_from_int(Vi v) {
     return __builtin_convertvector(v, Vf);
 }
 
-// Rounds towards zero. Every lane must be within the range of int32.
+// Converts to integers, rounding towards zero. Every lane must be within the range of int32.
 VEC_INLINE Vi vi_from_float(Vf v) {
     return __builtin_convertvector(v, Vi);
 }
 
-// These two reinterpret the bits of the lanes.
+// The next two functions reinterpret the bits of the lanes.
 VEC_INLINE Vi vi_bits(Vf v) {
     return (Vi)v;
 }
@@ -200,7 +202,7 @@ VEC_INLINE bool mask_any(Mask m) {
 
 // --- min, max, sqrt, floor ---------------------------------------------------------------------
 
-// Returns a < b ? a : b, which is b where either is NaN.
+// Returns a < b ? a : b. The result is b if a or b is NaN.
 VEC_INLINE Vf vf_min(Vf a, Vf b) {
 #if VEC_AVX512
     return (Vf)_mm512_min_ps((__m512)a, (__m512)b);
@@ -213,7 +215,7 @@ VEC_INLINE Vf vf_min(Vf a, Vf b) {
 #endif
 }
 
-// Returns a > b ? a : b, which is b where either is NaN.
+// Returns a > b ? a : b. The result is b if a or b is NaN.
 VEC_INLINE Vf vf_max(Vf a, Vf b) {
 #if VEC_AVX512
     return (Vf)_mm512_max_ps((__m512)a, (__m512)b);
@@ -266,7 +268,7 @@ VEC_INLINE Vf vf_abs(Vf a) {
     return vf_bits(vi_bits(a) & 0x7fffffff);
 }
 
-// Rounds down. Values of 2^23 and more in magnitude, infinities and NaN are returned as they are.
+// Rounds down. Returns lanes unchanged if they are NaN, infinite, or at least 2^23 in magnitude.
 VEC_INLINE Vf vf_floor(Vf a) {
 #if VEC_AVX512
     return (Vf)_mm512_roundscale_ps((__m512)a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
@@ -281,7 +283,8 @@ VEC_INLINE Vf vf_floor(Vf a) {
 #endif
 }
 
-// Multiplies the signed 16-bit halves of each lane and returns the sum of both products.
+// Multiplies the signed 16-bit halves of each lane of a by the same halves of b. Returns the sum of
+// both products.
 VEC_INLINE Vi vi_dot16(Vi a, Vi b) {
 #if VEC_AVX512
     return (Vi)_mm512_madd_epi16((__m512i)a, (__m512i)b);
@@ -342,8 +345,8 @@ VEC_INLINE Vi vi_load_bytes(const uint8_t *p) {
 #endif
 }
 
-// Stores the lanes of v that are in m to p. old: what p holds, which may be stored to the other
-// lanes.
+// Stores to p the lanes of v that are set in m. `old` must be what p holds, because the other lanes
+// may be overwritten with it.
 VEC_INLINE void vf_store_lanes(float *p, Mask m, Vf v, Vf old) {
 #if VEC_AVX512
     (void)old;
@@ -353,7 +356,7 @@ VEC_INLINE void vf_store_lanes(float *p, Mask m, Vf v, Vf old) {
 #endif
 }
 
-// Stores the lanes of v that are in m to p.
+// Stores to p the lanes of v that are set in m.
 VEC_INLINE void vi_store_lanes(int32_t *p, Mask m, Vi v) {
 #if VEC_AVX512
     _mm512_mask_storeu_epi32(p, m, (__m512i)v);
@@ -362,8 +365,8 @@ VEC_INLINE void vi_store_lanes(int32_t *p, Mask m, Vi v) {
 #endif
 }
 
-// Returns table[index[i]] in lane i, 0 <= index < 16. AVX2 and AVX-512 permute vectors instead of
-// loading lane by lane.
+// Returns table[index[i]] in lane i, for 0 <= index[i] < 16. With AVX2 and AVX-512, this permutes
+// vectors instead of loading lane by lane.
 VEC_INLINE Vi vi_lookup16(const int32_t table[16], Vi index) {
 #if VEC_AVX512
     return (Vi)_mm512_permutexvar_epi32((__m512i)index, _mm512_loadu_si512(table));
@@ -390,7 +393,8 @@ VEC_INLINE Vf vf_lookup16(const float table[16], Vi index) {
 #endif
 }
 
-// Returns the four bytes from base[index[i]] on, little-endian, in lane i. They need no alignment.
+// Returns in lane i the four bytes that start at base[index[i]], read as a little-endian number.
+// They need no alignment.
 VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
 #if VEC_AVX512
     return (Vu)_mm512_i32gather_epi32((__m512i)index, base, 1);
@@ -406,15 +410,15 @@ VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
 #endif
 }
 
-// Stores the lanes whose bits are set, without gaps, and returns their number. It may overwrite the
-// space of a whole vector.
+// Stores the lanes whose bits are set in `bits` to `out`, without gaps, and returns their number.
+// The function may overwrite a whole vector's length from `out` on.
 VEC_INLINE int vu_compress(uint32_t *out, unsigned bits, Vu v) {
 #if VEC_AVX512
     const __m512i packed = _mm512_maskz_compress_epi32((__mmask16)bits, (__m512i)v);
     _mm512_storeu_si512(out, packed);
     return __builtin_popcount(bits);
 #elif VEC_AVX2
-    // One byte per lane: the numbers of the lanes that stay are moved together.
+    // These words have one byte per lane. The numbers of the lanes that stay are moved together.
     const uint64_t stay = _pdep_u64(bits, 0x0101010101010101u) * 255;
     const uint64_t order = _pext_u64(0x0706050403020100u, stay);
     const __m256i lane = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order));
@@ -431,7 +435,7 @@ VEC_INLINE int vu_compress(uint32_t *out, unsigned bits, Vu v) {
 #endif
 }
 
-// Returns the greatest lane.
+// Returns the value of the greatest lane.
 VEC_INLINE int32_t vi_greatest(Vi v) {
 #if VEC_AVX512
     return _mm512_reduce_max_epi32((__m512i)v);

@@ -4,8 +4,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-// Returns the signed, scaled distance of p from the plane of a clip code. p is inside if it is >=
-// 0.
+// Returns the signed, scaled distance of p from the plane of a clip code. p is inside if the
+// distance is >= 0.
 static double distance_to(int32_t code, const DipScreenMapping *map, const float p[4]) {
     const double x = p[0];
     const double y = p[1];
@@ -39,8 +39,8 @@ static double distance_to(int32_t code, const DipScreenMapping *map, const float
 
 static void intersect(const DipClipVertex *inside, const DipClipVertex *outside, double from,
                       double to, int varying_count, DipClipVertex *out) {
-    // If rounding put both vertices on the same side (see keep_one_run), the result is the outside
-    // vertex itself.
+    // keep_one_run may have treated an inside vertex as outside. Both vertices are then on the same
+    // side, and the result is the outside vertex itself.
     const double at = from / (from - to);
     const double t = at >= 0.0 && at <= 1.0 ? at : 1.0;
     for (int i = 0; i < 4; i++) {
@@ -53,9 +53,11 @@ static void intersect(const DipClipVertex *inside, const DipClipVertex *outside,
     }
 }
 
-// A plane keeps one run of a convex polygon's vertices. If the plane nearly coincides with one that
-// has cut before, rounding scatters the vertices that lie on it to both sides. Then only the run
-// around the vertex that is farthest inside is kept, so that each plane adds at most one vertex.
+// In exact arithmetic, the vertices of a convex polygon that lie inside a plane follow one another:
+// they are one run. Rounding can break the run if the plane nearly coincides with an earlier clip
+// plane, because the vertices on both planes then scatter to either side. In this case, this
+// function keeps only the run around the vertex that is farthest inside. So each plane adds at most
+// one vertex to the polygon.
 static void keep_one_run(int count, const double *side, bool *inside) {
     int changes = 0;
     int farthest = 0;

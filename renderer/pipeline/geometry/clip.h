@@ -4,7 +4,8 @@
 
 #include "renderer/pipeline/geometry/project.h"
 
-// Each plane adds at most one vertex: near, far, smallest w, four of the guard band, the user's.
+// Each plane adds at most one vertex to the triangle's 3. There are seven planes (near, far,
+// smallest w, four of the guard band) and the user clip planes.
 enum { DIP_MAX_CLIP_VERTICES = 3 + 7 + DIP_MAX_CLIP_PLANES };
 
 typedef struct DipClipVertex {
@@ -17,9 +18,9 @@ typedef struct DipClipPolygon {
     DipClipVertex vertex[DIP_MAX_CLIP_VERTICES];
 } DipClipPolygon;
 
-// Clips a convex polygon in place by the planes whose codes are set. Every new vertex is
-// interpolated from the inside vertex towards the outside one, so that two triangles that share an
-// edge get the same vertex.
+// Clips a convex polygon in place by the planes whose bits are set in `codes`. Every new vertex is
+// interpolated from the edge's inside vertex towards its outside vertex. Two triangles that share
+// the edge therefore get the same new vertex.
 void dip_clip_polygon(DipClipPolygon *polygon, int32_t codes, const DipScreenMapping *map,
                       int varying_count);
 

@@ -1,5 +1,5 @@
-// Culling by the bounding boxes of meshes, of groups of chunks and of chunks. If a box lies wholly
-// inside all planes, the boxes within it need no test.
+// Culls by the bounding boxes of meshes, groups of chunks, and chunks. If a box lies wholly inside
+// all planes, the smaller boxes within it need no test.
 #include "renderer/pipeline/cull.h"
 
 #include "renderer/pipeline/geometry/chunk_cull.h"
@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-// Adds a clip-space plane, transformed to the space that the matrix starts from. Row r of the
-// matrix gives clip coordinate r, so the new plane is a weighted sum of rows.
+// Adds a clip-space plane, transformed back to the space from which matrix m goes to clip space.
+// Row r of m yields clip coordinate r, so the new plane is a weighted sum of the rows.
 static void transform_plane(const float *m, const float clip[4], DipCullPlanes *planes) {
     const int p = planes->count++;
     for (int c = 0; c < 4; c++) {
@@ -80,7 +80,7 @@ static DipCullPlanes pass_planes(const DipPass *pass, const NdcRegion *region, c
     return planes;
 }
 
-// Rounds a matrix to floats, as the shaders hold it.
+// Rounds a matrix to floats, because shaders use floats.
 static void round_matrix(const double matrix[16], float rounded[16]) {
     for (int i = 0; i < 16; i++) {
         rounded[i] = (float)matrix[i];
@@ -107,7 +107,7 @@ static double magnitude(double v) {
 // Relative tolerance. It covers float rounding in the matrix, the planes and the vertex shader.
 #define ROUNDING 1e-5f
 
-// One value for each of four planes.
+// Floats has one value for each of four planes.
 typedef float Floats __attribute__((vector_size(16)));
 typedef int32_t Ints __attribute__((vector_size(16)));
 
@@ -127,7 +127,7 @@ static bool any(Ints mask) {
     return halves[0] | halves[1];
 }
 
-// How a box lies relative to planes 4 v .. 4 v + 3.
+// On which sides of planes 4 v .. 4 v + 3 a box lies.
 typedef struct Sides {
     Ints outside; // the box is wholly outside the plane
     Ints crossed; // the box is not wholly inside the plane
@@ -148,8 +148,8 @@ static Sides sides_of(const DipCullPlanes *planes, const DipBox *box, int v) {
     return (Sides){distance + radius < -margin, distance - radius <= margin};
 }
 
-// Returns whether a box lies wholly outside one of the planes. *crosses tells whether it is not
-// wholly inside all of them, so that the boxes within it have to be tested.
+// Returns whether a box lies wholly outside one of the planes. Sets *crosses to whether the box is
+// only partly inside, so that the smaller boxes within it have to be tested.
 static bool outside(const DipCullPlanes *planes, const DipBox *box, bool *crosses) {
     Sides all = sides_of(planes, box, 0);
     for (int v = 1; 4 * v < planes->count; v++) {

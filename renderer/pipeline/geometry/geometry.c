@@ -11,12 +11,12 @@
 #include <string.h>
 
 enum {
-    TRIANGLE_RUN = 1024, // triangles that a job takes space for at a time
-    BLOCK_RUN = 32,      // bin blocks that a job takes at a time
-    // Most triangles that stay unused at the end of a run.
+    TRIANGLE_RUN = 1024, // number of triangles for which a job takes space at a time
+    BLOCK_RUN = 32,      // number of bin blocks that a job takes at a time
+    // A run is the space that a job takes at a time. At most this many triangles of it stay unused.
     TRIANGLE_RUN_WASTE = DIP_SETUP_BATCH + DIP_SETUP_EXCESS,
     LEAST_SLACK = 4096, // triangles
-    MEAN_BIN_TILES = 2, // tiles per triangle that a pass with very many triangles has space for
+    MEAN_BIN_TILES = 2, // tiles per triangle for which a pass with very many triangles has space
 };
 
 // Margin around the region, so that rounding in the clipper never rejects a visible triangle.
@@ -51,9 +51,9 @@ DipScreenMapping dip_screen_mapping(const DipPass *pass) {
     return map;
 }
 
-// --- space -------------------------------------------------------------------------------------
+// --- memory ------------------------------------------------------------------------------------
 
-// The lengths of the arrays that a pass needs, whatever is in view.
+// The lengths of the arrays that a pass needs, even if all of it is in view.
 typedef struct Needs {
     uint32_t draws;
     uint64_t chunks;
@@ -83,7 +83,7 @@ static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
     const uint64_t total = needs.triangles + geometry->slack;
     needs.triangles = total * TRIANGLE_RUN / (TRIANGLE_RUN - TRIANGLE_RUN_WASTE) +
                       jobs * TRIANGLE_RUN + DIP_SETUP_EXCESS;
-    // Every bin may end with a block that is not full.
+    // Each bin may end with a block that is not full, which needs space as well.
     const uint64_t entries =
         least(total * DIP_MAX_BIN_TILES, total * MEAN_BIN_TILES + (uint64_t)16 * geometry->slack);
     needs.blocks = entries / DIP_BIN_BLOCK +
@@ -92,8 +92,8 @@ static Needs needs_of(const DipGeometry *geometry, const DipPass *pass) {
     return needs;
 }
 
-// Refuses a pass that has too many triangles before any array is made for it: kernels gather planes
-// with signed 32-bit indices.
+// Refuses a pass that has too many triangles, before any array is allocated. The limit exists
+// because kernels gather planes with signed 32-bit indices.
 static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
     return needs->triangles <= INT32_MAX / (uint64_t)needs->plane_stride ||
            dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, "pass",
@@ -102,7 +102,7 @@ static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
                          INT32_MAX / needs->plane_stride);
 }
 
-// Makes an array anew, without keeping its content.
+// Frees an array and allocates it with a new length. Its content is lost.
 static bool replace(void *pointer_to_array, size_t count, size_t size) {
     void **array = pointer_to_array;
     free(*array);
@@ -186,7 +186,7 @@ bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *
     return true;
 }
 
-// Numbers the patches of all draws, from 1.
+// Numbers the patches of all draws consecutively, from 1.
 static void number_patches(DipGeometry *geometry) {
     uint32_t next = 1;
     for (int d = 0; d < geometry->pass->draw_count; d++) {
@@ -206,9 +206,9 @@ static bool is_needed(const DipGeometry *geometry, size_t tile) {
     return !parts || parts[tile].x1;
 }
 
-// Threads take tiles in the order of this list. It goes by groups of 2x2 tiles: threads then work
-// on neighbouring tiles, which read much the same texels and triangles, for longer than if it went
-// along rows.
+// Threads take tiles in the order of geometry->tiles, which goes by groups of 2x2 tiles. Threads
+// then work on neighbouring tiles for longer than if the order went along rows. Neighbouring tiles
+// read much the same texels and triangles.
 enum { TILE_GROUP = 2 };
 
 static void list_group(DipGeometry *geometry, int x0, int y0) {
@@ -233,7 +233,7 @@ static void list_tiles(DipGeometry *geometry) {
     }
 }
 
-// Adds the sample positions of each pass, once per pattern.
+// Collects the sample positions of all passes. A pattern that several passes share is added once.
 static void set_samples(DipSamplePositions *samples, const DipPass *const *passes, int count) {
     samples->count = 0;
     for (int i = 0; i < count; i++) {
@@ -274,7 +274,7 @@ bool dip_geometry_grow_after_overflow(DipGeometry *geometry) {
     for (int j = 0; j < geometry->job_count; j++) {
         overflowed |= geometry->jobs[j].overflowed;
     }
-    // The slack grows by at least half of the present space for triangles.
+    // The slack grows by at least half of the current space for triangles.
     if (overflowed) {
         geometry->slack = geometry->slack * 2 + geometry->triangle_room / 2;
     }
@@ -294,7 +294,7 @@ void dip_geometry_free(DipGeometry *geometry) {
 
 // --- binning -----------------------------------------------------------------------------------
 
-// A job while it runs.
+// The state of a job while it runs.
 typedef struct JobRun {
     DipGeometry *geometry;
     const DipKernels *kernels;
@@ -302,11 +302,12 @@ typedef struct JobRun {
     DipTileBin *bins;
     const DipDraw *draw;
     DipSetupTarget target;
-    uint32_t next_triangle; // index of the next free triangle of the run that the job has taken
+    uint32_t next_triangle; // index of the next free triangle in the job's current run
     uint32_t triangle_end;
-    uint32_t next_block; // index of the next free block of the run that the job has taken
+    uint32_t next_block; // index of the next free block in the job's current run
     uint32_t block_end;
-    // Stored to the geometry at the end, so that running jobs do not share cache lines.
+    // The job's result. It is copied to the geometry at the end, so that running jobs share no
+    // cache lines.
     DipGeometryJob job;
 } JobRun;
 
@@ -456,13 +457,13 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
 
 // --- one job -----------------------------------------------------------------------------------
 
-// A triangle is invisible if all its vertices lie outside the same one of these planes.
+// A triangle is invisible if all its vertices lie outside the same plane, one of these.
 enum {
     REJECT = DIP_CLIP_PICTURE | DIP_CLIP_NEAR | DIP_CLIP_FAR | DIP_CLIP_W | DIP_CLIP_ALL_USER,
 };
 
-// Adds the triangles of a chunk in which some have to be clipped. Their order is kept; the
-// triangles between two clipped ones are set up as one batch.
+// Adds the triangles of a chunk in which some triangles have to be clipped. The order of the
+// triangles is kept. The triangles between two clipped ones are set up as one batch.
 static void add_clipped_chunk(JobRun *run, const DipSetupBatch *chunk) {
     uint8_t corner[3][DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {{0}};
     uint32_t patch[DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN] = {0};
@@ -520,8 +521,8 @@ static void add_chunk_triangles(JobRun *run, const DipChunk *chunk) {
     if (any & (DIP_CLIP_NEEDED | DIP_CLIP_INVALID)) {
         add_clipped_chunk(run, &batch);
     } else {
-        // Set-up drops the triangles beyond one side of the picture, since they have no pixel in
-        // it.
+        // Triangles beyond one side of the picture need no test here: they have no pixel in the
+        // picture, so set-up drops them.
         add_batch(run, &batch);
     }
 }

@@ -1,9 +1,10 @@
 // The geometry stage: turns meshes into set-up triangles and bins them to tiles.
 //
-// The chunks of a pass that may be in view are cut into jobs, whose number does not depend on the
-// number of threads. A job takes space for its triangles from shared arrays, a run at a time and
-// without locks. Within a job, a triangle's index rises with submission order. Tiles read the jobs
-// in order, so they see all triangles in submission order.
+// The chunks of a pass that may be in view are divided into jobs. The number of jobs does not
+// depend on the number of threads. A job takes space for its triangles from shared arrays without
+// locks, in runs of many triangles at a time. Within a job, the indices of triangles increase in
+// submission order. Each tile reads the jobs in order, so it gets all triangles in submission
+// order.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_GEOMETRY_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_GEOMETRY_H
 
@@ -20,20 +21,21 @@
 
 enum {
     DIP_MAX_JOBS = 64,
-    // A triangle that meets more tiles goes to its job's bin of wide triangles.
+    // Most tiles that a binned triangle may touch. A triangle that touches more tiles goes to its
+    // job's bin of wide triangles.
     DIP_MAX_BIN_TILES = 16,
-    DIP_BIN_BLOCK = 15, // triangles of a block
-    // A bin for each tile of the largest target, and one for wide triangles.
+    DIP_BIN_BLOCK = 15, // number of triangles in a block
+    // Number of bins of a job: one for each tile of the largest target, and one for wide triangles.
     DIP_MAX_BINS = DIP_MAX_TARGET_SIZE / DIP_TILE * (DIP_MAX_TARGET_SIZE / DIP_TILE) + 1,
-    DIP_BIN_WORDS = (DIP_MAX_BINS + 63) / 64, // words of 64 bits, with one bit per bin
+    DIP_BIN_WORDS = (DIP_MAX_BINS + 63) / 64, // number of 64-bit words that hold one bit per bin
 };
 
-#define DIP_NO_TRIANGLE 0xffffffffu // greater than every index
+#define DIP_NO_TRIANGLE 0xffffffffu // greater than any triangle's index
 
 // A block of a bin's list. It fills one cache line.
 typedef struct DipBinBlock {
-    uint32_t triangle[DIP_BIN_BLOCK]; // indices of triangles, in rising order
-    uint32_t next;                    // index of the next block, unless this is the last
+    uint32_t triangle[DIP_BIN_BLOCK]; // indices of triangles, in increasing order
+    uint32_t next;                    // index of the list's next block; undefined in the last block
 } DipBinBlock;
 
 // The triangles of one job in one tile, as a list of blocks.
@@ -49,7 +51,7 @@ typedef struct DipVisibleChunk {
     uint32_t chunk; // index into the chunks of the draw's mesh
 } DipVisibleChunk;
 
-// A job: some of the visible chunks, and what it did with them. The job writes this once, at its
+// A job: the visible chunks that it draws, and its result. The job writes its result once, at its
 // end.
 typedef struct DipGeometryJob {
     uint32_t first_chunk; // index into the visible chunks
@@ -61,15 +63,15 @@ typedef struct DipGeometryJob {
 } DipGeometryJob;
 
 // What the geometry stage of a pass produces. The arrays grow if a pass needs more than any pass
-// before it; otherwise drawing allocates nothing. They have space for all triangles of the pass,
-// but only those in view are written, so the other pages cost no memory.
+// before; otherwise drawing allocates nothing. The arrays have space for all triangles of the pass.
+// Only the triangles in view are written, so pages for the others cost no memory.
 typedef struct DipGeometry {
     const DipPass *pass;
     DipScreenMapping mapping;
     DipSamplePositions samples; // samples of all passes that are drawn from this geometry
     int tiles_x;
     int tiles_y;
-    DipTargetRegion region;       // pixels that are drawn, see dip_drawn_region
+    DipTargetRegion region;       // the pixels to draw, see dip_drawn_region
     DipTargetRegion tile_region;  // the tiles that hold these pixels, counted in tiles
     int tile_count;               // number of tiles to draw
     uint16_t tiles[DIP_MAX_BINS]; // tiles to draw, in drawing order: y * tiles_x + x
@@ -81,10 +83,11 @@ typedef struct DipGeometry {
     uint32_t visible_room;
     uint32_t triangle_room;
     uint32_t block_room;
-    size_t plane_room; // floats
+    size_t plane_room; // number of floats
     uint32_t draw_room;
-    // Triangles that the arrays have space for beyond those of the meshes, because clipping adds
-    // triangles. The space for bin blocks grows with it. It becomes larger after an overflow.
+    // Number of triangles for which the arrays have space beyond the triangles of the meshes,
+    // because clipping adds triangles. The slack becomes larger after an overflow. The space for
+    // bin blocks grows with the slack.
     uint32_t slack;
     uint32_t *first_patch; // the number of patch 0 of each draw's mesh
     DipVisibleChunk *visible;
@@ -93,13 +96,13 @@ typedef struct DipGeometry {
     DipBinBlock *blocks;
     DipTileBin *bins;   // [job][tile]; each job's bin of wide triangles is its last
     uint64_t *occupied; // [bin / 64][job]: bit bin % 64 is set if the job's bin is not empty
-    atomic_uint triangles_taken; // triangles that jobs have taken space for
-    atomic_uint blocks_taken;    // blocks that jobs have taken
+    atomic_uint triangles_taken; // number of triangles for which jobs have taken space
+    atomic_uint blocks_taken;    // number of blocks that jobs have taken
 } DipGeometry;
 
 typedef struct DipKernels DipKernels;
 
-// What one worker needs to run a job.
+// Working memory that a worker needs to run a job.
 typedef struct DipGeometryScratch {
     float clip[4][DIP_VERTEX_BATCH];
     float varying[DIP_MAX_VARYINGS][DIP_VERTEX_BATCH];
@@ -112,8 +115,8 @@ static inline size_t dip_geometry_tiles(const DipGeometry *geometry) {
     return (size_t)geometry->tiles_x * (size_t)geometry->tiles_y;
 }
 
-// Returns one of a job's bins, or NULL if it is empty. Bins 0..dip_geometry_tiles - 1 are those of
-// the tiles, bin dip_geometry_tiles that of the wide triangles.
+// Returns one of a job's bins, or NULL if it is empty. Bins 0..dip_geometry_tiles - 1 belong to the
+// tiles; bin dip_geometry_tiles holds the wide triangles.
 static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, int job, size_t bin) {
     const uint64_t word = geometry->occupied[bin / 64 * DIP_MAX_JOBS + (size_t)job];
     return word >> bin % 64 & 1
@@ -124,9 +127,10 @@ static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, in
 // Makes the arrays large enough for a pass. Fails with OVERSIZED or MEMORY.
 bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *err);
 
-// Finds the chunks in view of the first pass, cuts them into jobs, and makes the arrays large
-// enough. The other passes are drawn from the same geometry: they differ from the first only in
-// samples and shading. pass_count: 1..DIP_MAX_PASSES_AT_ONCE. Fails with OVERSIZED or MEMORY.
+// Finds the chunks in view of the first pass, divides them into jobs, and makes the arrays large
+// enough. The other passes are drawn from the same geometry, so they may differ from the first pass
+// only in samples and shading. pass_count: 1..DIP_MAX_PASSES_AT_ONCE. Fails with OVERSIZED or
+// MEMORY.
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *const *passes, int pass_count,
                         DipError *err);
 
@@ -134,8 +138,8 @@ bool dip_geometry_begin(DipGeometry *geometry, const DipPass *const *passes, int
 void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int job,
                           DipGeometryScratch *scratch);
 
-// Call this after all jobs. Returns true if a job overflowed; then the slack has grown, and the
-// stage must start again with dip_geometry_begin.
+// Call this after all jobs have run. Returns true if a job ran out of space. The slack has then
+// grown, and the caller must start the stage again with dip_geometry_begin.
 bool dip_geometry_grow_after_overflow(DipGeometry *geometry);
 
 // Frees all arrays and sets *geometry to zero.

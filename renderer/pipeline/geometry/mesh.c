@@ -1,4 +1,4 @@
-// Makes a mesh: splits its triangles into chunks, bounds them and finds their patches.
+// Makes a mesh: splits its triangles into chunks, computes the chunks' boxes and finds the patches.
 #include "renderer/pipeline/geometry/mesh_layout.h"
 
 #include "renderer/base/assert.h"
@@ -8,21 +8,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_INDICES = 1 << 30 }; // so that 32 bits count the chunks' vertices and corners
+enum { MAX_INDICES = 1 << 30 }; // so that 32 bits can count the chunks' vertices and corners
 
-// Which vertex of the current chunk a source vertex is.
+// The index of a source vertex within a chunk.
 typedef struct LocalIndex {
     uint32_t chunk; // index + 1 of the last chunk that has this source vertex
     uint8_t index;
 } LocalIndex;
 
-// A mesh while it is split.
+// The state of splitting a mesh into chunks.
 typedef struct Splitter {
     const DipMeshData *data;
     DipMesh *mesh;
     LocalIndex *local;    // one per source vertex
-    uint32_t *source;     // the source vertices of the vertex_total chunk vertices
-    uint32_t index_total; // indices of the chunks that are complete
+    uint32_t *source;     // the source vertex of each of the vertex_total chunk vertices
+    uint32_t index_total; // number of indices in the chunks that are complete
     uint8_t corner[3][DIP_CHUNK_TRIANGLES]; // corners of the current chunk
 } Splitter;
 
@@ -90,7 +90,8 @@ static void add_triangle(Splitter *splitter, DipChunk *chunk, const uint32_t *co
     chunk->triangle_count++;
 }
 
-// Pads the chunk's vertices and corners, so that batches need no tail.
+// Pads the chunk's vertices and corners to a multiple of DIP_BATCH_ALIGN, so that vectorised loops
+// need no tail.
 static void end_chunk(Splitter *splitter, const DipChunk *chunk) {
     const uint32_t stride = dip_corner_stride(chunk);
     for (uint32_t k = 0; k < 3; k++) {
@@ -107,7 +108,7 @@ static void end_chunk(Splitter *splitter, const DipChunk *chunk) {
     splitter->mesh->vertex_total = end;
 }
 
-// Splits the triangles into chunks, in their order.
+// Splits the triangles into chunks and keeps their order.
 static void split(Splitter *splitter) {
     const DipMeshData *data = splitter->data;
     DipChunk *chunk = NULL;
@@ -161,7 +162,7 @@ static DipBox box_of(const Range *range) {
         const float low = range->low[axis];
         const float high = range->high[axis];
         box.centre[axis] = low * 0.5f + high * 0.5f;
-        // The extent is rounded up, so that the box holds its vertices.
+        // The extent is rounded up, so that the box contains all vertices.
         box.extent[axis] = fmaxf(high - box.centre[axis], box.centre[axis] - low) * 1.000001f;
     }
     return box;

@@ -1,5 +1,5 @@
-// The inside of a mesh: chunks of up to 128 triangles, each of which is culled and transformed as a
-// whole.
+// The private layout of a mesh. A mesh consists of chunks of up to 128 triangles. Each chunk is
+// culled and transformed as a whole.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_MESH_LAYOUT_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_MESH_LAYOUT_H
 
@@ -8,7 +8,7 @@
 
 enum {
     DIP_CHUNK_TRIANGLES = 128,
-    DIP_GROUP_CHUNKS = 32, // chunks of a group, which has a bounding box of its own
+    DIP_GROUP_CHUNKS = 32, // number of chunks in a group; each group has a bounding box
 };
 
 typedef struct DipChunk {
@@ -30,12 +30,13 @@ struct DipMesh {
     int attribute_count;
     uint32_t chunk_count;
     uint32_t triangle_count;
-    uint32_t vertex_total; // vertices of all chunks, padded; the length of each attribute's array
+    // Number of vertices of all chunks, padding included: the length of each attribute's array.
+    uint32_t vertex_total;
     DipChunk *chunks;
     DipBox *groups; // box i bounds the group that starts with chunk DIP_GROUP_CHUNKS * i
     DipBox box;
     float *attributes; // attribute a of vertex i: attributes[a * vertex_total + i]
-    uint8_t *indices;  // the vertex of each corner, as an index within its chunk
+    uint8_t *indices;  // the vertex of each corner, as an index into its chunk's vertices
     // patches[t] is the patch of triangle t of the mesh (patch.h). Reads may go DIP_BATCH_ALIGN
     // elements past the last triangle.
     uint32_t *patches;

@@ -14,14 +14,15 @@ typedef struct Grower {
     size_t stride;
     const uint32_t *indices;
     uint32_t *patches;
-    uint32_t *first; // vertex v has triangles[first[v]] .. triangles[first[v + 1] - 1]
+    uint32_t *first; // triangles[first[v]] .. triangles[first[v + 1] - 1] are those of vertex v
     uint32_t *triangles;
     uint32_t queue[DIP_PATCH_TRIANGLES]; // triangles of the patch that is growing
     uint32_t queued;
-    double normal[3]; // normal of the patch's first triangle, twice its area long
+    // Normal of the patch's first triangle. Its length is twice the triangle's area.
+    double normal[3];
 } Grower;
 
-// Finds a triangle's normal; its length is twice the area.
+// Computes a triangle's normal, whose length is twice the triangle's area.
 static void find_normal(const Grower *grower, uint32_t triangle, double normal[3]) {
     const float *corner[3];
     for (int k = 0; k < 3; k++) {
@@ -64,9 +65,9 @@ static uint32_t fan_size(const Grower *grower, uint32_t vertex) {
     return grower->first[vertex + 1] - grower->first[vertex];
 }
 
-// Adds the free triangles across one edge of the patch, as long as it has space. It looks for them
-// among the triangles of the end that has fewer, and not at all if these are many, so that no mesh
-// takes long.
+// Adds the free triangles across edge a-b to the patch, as long as the patch has space. The
+// function searches the triangles of vertex a or b, whichever has fewer. If both vertices have more
+// than DIP_PATCH_FAN triangles, it searches none, so that no mesh takes long.
 static void add_neighbours(Grower *grower, uint32_t a, uint32_t b, uint32_t patch) {
     const uint32_t end = fan_size(grower, b) < fan_size(grower, a) ? b : a;
     if (fan_size(grower, end) > DIP_PATCH_FAN) {

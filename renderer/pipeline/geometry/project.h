@@ -1,5 +1,5 @@
-// Projection from clip space to rounded screen positions: the mapping, the clip codes and the batch
-// of results.
+// Projection of vertices from clip space to rounded screen positions: the mapping, the clip codes
+// and the batch of results.
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_PROJECT_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_PROJECT_H
 
@@ -7,16 +7,18 @@
 
 #include <stdint.h>
 
-// Clip codes: one bit for each half-space that a vertex is outside of.
+// Clip codes: each bit says that a vertex lies outside one half-space.
 enum {
     DIP_CLIP_NEAR = 1 << 0, // z > w
     DIP_CLIP_FAR = 1 << 1,  // z < 0
     DIP_CLIP_W = 1 << 2,    // w below DIP_MIN_W
-    DIP_CLIP_LEFT = 1 << 3, // beyond the drawn part of the picture; these four only reject
+    // Beyond the drawn part of the picture. These four planes only reject triangles.
+    DIP_CLIP_LEFT = 1 << 3,
     DIP_CLIP_RIGHT = 1 << 4,
     DIP_CLIP_TOP = 1 << 5,
     DIP_CLIP_BOTTOM = 1 << 6,
-    DIP_CLIP_GUARD_LEFT = 1 << 7, // beyond the guard band: these four clip
+    // Beyond the guard band. These four planes clip triangles.
+    DIP_CLIP_GUARD_LEFT = 1 << 7,
     DIP_CLIP_GUARD_RIGHT = 1 << 8,
     DIP_CLIP_GUARD_TOP = 1 << 9,
     DIP_CLIP_GUARD_BOTTOM = 1 << 10,
@@ -28,14 +30,14 @@ enum {
     DIP_CLIP_GUARD =
         DIP_CLIP_GUARD_LEFT | DIP_CLIP_GUARD_RIGHT | DIP_CLIP_GUARD_TOP | DIP_CLIP_GUARD_BOTTOM,
     DIP_CLIP_ALL_USER = ((1 << DIP_MAX_CLIP_PLANES) - 1) * DIP_CLIP_USER,
-    // The planes that a triangle is clipped by.
+    // The planes by which triangles are clipped.
     DIP_CLIP_NEEDED =
         DIP_CLIP_NEAR | DIP_CLIP_FAR | DIP_CLIP_W | DIP_CLIP_GUARD | DIP_CLIP_ALL_USER,
 };
 
-// Projection divides by no smaller w than this.
+// The smallest w by which projection divides.
 #define DIP_MIN_W 1e-6f
-// Greatest magnitude of a clip coordinate. A triangle with a greater one, or with a NaN, is
+// Greatest magnitude of a clip coordinate. A triangle with a greater coordinate or with a NaN is
 // dropped.
 #define DIP_MAX_CLIP_COORDINATE 2.1e37f
 
@@ -43,7 +45,8 @@ enum {
 typedef struct DipScreenMapping {
     float half_width; // pixels
     float half_height;
-    // Bounds of x / w and y / w. Nothing beyond one of them can reach the pass's region.
+    // Bounds of x / w and y / w. A triangle that lies wholly beyond one of them cannot reach the
+    // pass's region.
     float left, right, bottom, top;
     // The guard band in units of w, with y pointing up: -guard_left w <= x <= guard_right w and
     // -guard_bottom w <= y <= guard_top w.
@@ -52,8 +55,8 @@ typedef struct DipScreenMapping {
     int clip_plane_count;
 } DipScreenMapping;
 
-// Screen positions of a chunk's vertices. x, y, z and rw are meaningless for a vertex whose code
-// asks for clipping.
+// Screen positions of a chunk's vertices. x, y, z and rw are undefined for a vertex whose code has
+// a bit of a clipping plane.
 typedef struct DipScreenBatch {
     int32_t x[DIP_VERTEX_BATCH]; // 1/256 pixel from the target's top left corner
     int32_t y[DIP_VERTEX_BATCH];
@@ -62,7 +65,7 @@ typedef struct DipScreenBatch {
     int32_t code[DIP_VERTEX_BATCH];
 } DipScreenBatch;
 
-// Returns the mapping for a pass's target, region and user planes.
+// Returns the mapping for a pass's target, region and user clip planes.
 DipScreenMapping dip_screen_mapping(const DipPass *pass);
 
 #endif

@@ -2,7 +2,8 @@
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/vec.h"
 
-// Adding and subtracting 1.5 * 2^23 rounds |v| <= 2^22 to the nearest integer, ties to even.
+// Adding 1.5 * 2^23 to v and subtracting it again rounds v to the nearest integer, ties to even, if
+// |v| <= 2^22.
 #define ROUNDER 12582912.0f
 
 // Returns (ndc + 1) * half in 1/256 pixel, clamped to +-2^22 and rounded.

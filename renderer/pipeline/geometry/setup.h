@@ -11,7 +11,7 @@
 
 enum {
     DIP_SETUP_BATCH = 128, // most triangles of a batch
-    // Behind the triangles that it keeps, set-up may overwrite the space of this many more.
+    // Set-up may overwrite the space of this many triangles after those that it keeps.
     DIP_SETUP_EXCESS = 8,
 };
 
@@ -35,8 +35,9 @@ static inline void dip_sample_positions_add(DipSamplePositions *positions,
 typedef struct DipSetupTarget {
     int width; // size of the target in pixels
     int height;
-    int region_first[2]; // first pixel, x and y, of the region; a triangle outside it is dropped
-    int region_last[2];  // last pixel of the region
+    int region_first[2]; // x and y of the region's first pixel; triangles outside the region are
+                         // dropped
+    int region_last[2];  // x and y of the region's last pixel
     int varying_count;
     int plane_stride; // floats per triangle, see dip_plane_stride
     uint32_t draw;
@@ -44,23 +45,23 @@ typedef struct DipSetupTarget {
     DipCull cull;
     const DipSamplePositions *samples;
     uint8_t sample_min[2]; // smallest x and y of the sample positions, 1/256 pixel
-    uint8_t sample_max[2]; // greatest x and y of them
+    uint8_t sample_max[2]; // greatest x and y of the sample positions, 1/256 pixel
 } DipSetupTarget;
 
 // Triangles of one draw. The arrays of corners and patches can be read up to the next multiple of
-// DIP_BATCH_ALIGN, and their corners are valid vertices up to there.
+// DIP_BATCH_ALIGN. The padding of the corners consists of valid vertices.
 typedef struct DipSetupBatch {
     int count;                // 1..DIP_SETUP_BATCH
     const uint8_t *corner[3]; // triangle t has the vertices corner[0..2][t] of `screen`
-    const uint32_t *patch;    // patch of triangle t, as the draw's mesh numbers it
+    const uint32_t *patch;    // patch[t]: patch of triangle t in the numbering of the draw's mesh
     const DipScreenBatch *screen;
     const float *varyings; // varying s of vertex v is varyings[s * varying_stride + v]
     int varying_stride;
 } DipSetupBatch;
 
-// dip_kernel_setup (kernels.h) drops triangles that are culled, have no area, lie outside the
-// region, or lie between the samples as far as a quick test can tell. It keeps the others in order
-// and returns their number. It writes the i-th of them to triangles[i], and its planes to planes +
-// i * plane_stride.
+// dip_kernel_setup (kernels.h) sets up the triangles of a batch. It drops triangles that are
+// culled, have no area, or lie outside the region. It also drops triangles that cover no sample, if
+// a quick test can tell. It keeps the other triangles in order and returns their number. The i-th
+// kept triangle goes to triangles[i], and its planes go to planes + i * plane_stride.
 
 #endif

@@ -1,9 +1,10 @@
-// Triangle set-up, compiled once per instruction set. It rejects triangles of a batch, then
-// computes the edges, the depth and the shading planes of the others.
+// Triangle set-up, compiled once per instruction set. Set-up first rejects triangles of a batch.
+// Then it computes the edges, the depth and the shading planes of the remaining triangles.
 //
-// Planes are solved in double, so that slivers keep their precision, and stored as floats about a
-// chosen anchor. Rounded positions are below 2^22 and edges below 2^23, in 1/256 pixel, so areas
-// and edge constants are whole numbers that doubles hold exactly.
+// Planes are computed in double precision, so that slivers keep their precision. They are stored as
+// floats relative to an anchor (triangle.h). In 1/256 pixel, the magnitudes of rounded positions
+// are below 2^22 and those of edges below 2^23. Areas and edge constants are therefore whole
+// numbers that doubles hold exactly.
 #include "renderer/pipeline/geometry/setup.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/half.h"
@@ -12,14 +13,14 @@
 
 enum { ROOM = DIP_SETUP_BATCH + DIP_BATCH_ALIGN };
 
-// The triangles that are kept, wound so that their area is positive.
+// The triangles that rejection keeps. Their vertices are reordered so that the area is positive.
 typedef struct Candidates {
     int32_t corner[3][ROOM];
     int32_t x[3][ROOM];
     int32_t y[3][ROOM];
     int32_t patch[ROOM];
-    int32_t first_pixel[ROOM]; // first pixel of the pixel box, x | y << 16
-    int32_t last_pixel[ROOM];  // last pixel of the box (inclusive), x | y << 16
+    int32_t first_pixel[ROOM]; // first pixel of the triangle's pixel box, x | y << 16
+    int32_t last_pixel[ROOM];  // last pixel of the pixel box (inclusive), x | y << 16
 } Candidates;
 
 // --- rejection ---------------------------------------------------------------------------------
@@ -32,16 +33,16 @@ VEC_INLINE Hi greatest3(const Hi v[3]) {
     return hi_max(hi_max(v[0], v[1]), v[2]);
 }
 
-// Finds the range of pixels along one axis, within 0..limit-1, in which a sample may fall between
-// the least and the greatest corner. Sample offsets lie in sample_min..sample_max.
+// Finds the range of pixels along one axis, within 0..limit-1, that may have a sample between the
+// triangle's least and greatest corner. Within a pixel, samples lie in sample_min..sample_max.
 VEC_INLINE void pixel_range(const Hi at[3], int sample_min, int sample_max, int limit, Hi *first,
                             Hi *last) {
     *first = hi_max((least3(at) + (DIP_SUBPIXELS - 1 - sample_max)) >> 8, hi_splat(0));
     *last = hi_min((greatest3(at) - sample_min) >> 8, hi_splat(limit - 1));
 }
 
-// Returns twice the area, in squares of 1/256 pixel. It is negative for front faces, which are
-// counter-clockwise as seen, because y points down.
+// Returns twice the area, in squares of 1/256 pixel. The area of a front face is negative: a front
+// face winds counter-clockwise on the screen, and y points down.
 VEC_INLINE Vd signed_area(const Hi x[3], const Hi y[3]) {
     return vd_from_int(x[1] - x[0]) * vd_from_int(y[2] - y[0]) -
            vd_from_int(x[2] - x[0]) * vd_from_int(y[1] - y[0]);
@@ -53,15 +54,16 @@ VEC_INLINE void swap_if(Hi m, Hi *a, Hi *b) {
     *b = hi_select(m, old, *b);
 }
 
-// 1/256 pixel. Products of such distances, and the products' differences, fit into 32 bits.
+// Limit of a small triangle's width and height, in 1/256 pixel. Products of such distances, and
+// differences of these products, fit into 32 bits.
 enum { SMALL = 1 << 14 };
 
 VEC_INLINE Hi is_small(const Hi at[3]) {
     return greatest3(at) - least3(at) < SMALL;
 }
 
-// Returns whether each triangle covers a sample of the one pixel that its box consists of. The
-// triangles must be small and wound so that their area is positive.
+// Returns for each triangle whether it covers a sample of `pixel`, the only pixel of its pixel box.
+// The triangles must be small (is_small) and have a positive area.
 VEC_INLINE Hi covers_pixel(const DipSamplePositions *samples, const Hi x[3], const Hi y[3],
                            const Hi pixel[2]) {
     Hi covers = hi_splat(0);
@@ -81,7 +83,7 @@ VEC_INLINE Hi covers_pixel(const DipSamplePositions *samples, const Hi x[3], con
     return covers;
 }
 
-// Appends those triangles of a vector that are kept to the `count` candidates before them. Returns
+// Tests one vector of triangles and appends those that are kept to the `count` candidates. Returns
 // the new count.
 VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch *batch, int at,
                                int count, Candidates *out) {
@@ -135,7 +137,7 @@ VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch
     return count + __builtin_popcount(bits);
 }
 
-// Fills the last vector with copies of the last triangle.
+// Fills up the last vector of candidates with copies of the last candidate.
 static void pad(Candidates *candidates, int count) {
     const int last = count - 1;
     for (int i = count; i % DIP_HALF_LANES; i++) {
@@ -152,8 +154,8 @@ static void pad(Candidates *candidates, int count) {
 
 // --- planes ------------------------------------------------------------------------------------
 
-// One vector of triangles, with their vertices in 1/256 pixel, and vertex 0 and the two edges from
-// it in pixels.
+// One vector of triangles. All vertices are in 1/256 pixel; vertex 0 and the two edges that start
+// at it are also in pixels.
 typedef struct TriangleVector {
     Hi corner[3];
     Hi x[3];
@@ -166,8 +168,8 @@ typedef struct TriangleVector {
     Vd inverse_area;       // 1 / (x10 y20 - x20 y10)
 } TriangleVector;
 
-// The gradient of a value that is affine over the screen: at (x, y) it is the value at vertex 0
-// plus dx (x - x0) + dy (y - y0).
+// The gradient of a value that is affine over the screen. The value at (x, y) is the value at
+// vertex 0, plus dx (x - x0) + dy (y - y0).
 typedef struct Gradient {
     Vd dx; // change per pixel
     Vd dy;
@@ -210,9 +212,9 @@ VEC_INLINE void gather3(const float *values, const Hi corner[3], Hf out[3]) {
     }
 }
 
-// Computes edge i, from vertex i to the next: E(p) = dx (py - y) - dy (px - x) for any point (x, y)
-// on it, with dx and dy in pixels. By the top-left rule, a sample exactly on the edge is inside
-// only if this is a top edge (horizontal, going right) or a left edge (going up).
+// Computes edge i, from vertex i to the next: E(p) = dx (py - y) - dy (px - x), where (x, y) is any
+// point on the edge and dx and dy are in pixels. By the top-left rule, a sample exactly on the edge
+// is inside only if the edge is a top edge (horizontal, going right) or a left edge (going up).
 VEC_INLINE void set_edge(const TriangleVector *tri, int i, Vd dx, Vd dy, Vd x, Vd y, Hi *a, Hi *b,
                          Vl *c) {
     const int next = (i + 1) % 3;
@@ -225,7 +227,7 @@ VEC_INLINE void set_edge(const TriangleVector *tri, int i, Vd dx, Vd dy, Vd x, V
     *c = vl_from_whole((dy * x - dx * y) * unit) + ~vl_condition(top_left);
 }
 
-// Stores a vector of DipTriangles as 64-bit words, in the order of its fields.
+// Stores a vector of DipTriangles as 64-bit words, in the order of DipTriangle's fields.
 VEC_INLINE void store_triangles(const TriangleVector *tri, const DipScreenBatch *screen,
                                 uint32_t draw, DipTriangle *out) {
     Hi a[3];
@@ -262,9 +264,10 @@ VEC_INLINE void store_triangles(const TriangleVector *tri, const DipScreenBatch 
     }
 }
 
-// Finds the corner of the box of target pixels that the triangle touches where 1/w is smallest in
-// magnitude. The box does not depend on sample positions, so that all passes from the same geometry
-// have the same planes.
+// Finds the anchor of a triangle's planes. The function takes the box of target pixels that the
+// triangle touches, and chooses the corner of the box at which 1/w is smallest in magnitude. The
+// box does not depend on sample positions, so all passes with the same geometry have the same
+// planes.
 VEC_INLINE void find_anchor(const TriangleVector *tri, const DipSetupTarget *target, Vd rw0,
                             const Gradient *q, Vd anchor[2]) {
     Hi first[2];
@@ -284,7 +287,7 @@ VEC_INLINE void find_anchor(const TriangleVector *tri, const DipSetupTarget *tar
     }
 }
 
-// Fills in a plane: the value at the anchor, d/dx and d/dy.
+// Fills in a plane: its value at the anchor, and its derivatives along x and y.
 VEC_INLINE void set_plane(Hf plane[3], Vd value, const Gradient *g, const Vd to_anchor[2]) {
     plane[0] = hf_from_double(value + g->dx * to_anchor[0] + g->dy * to_anchor[1]);
     plane[1] = hf_from_double(g->dx);

@@ -1,7 +1,8 @@
 // Walks the bins of a tile.
 #include "renderer/pipeline/geometry/visit.h"
 
-// Triangles. Drawing so many takes about as long as a read from another core's cache.
+// A walk prefetches this many triangles ahead. Drawing this many takes about as long as a read from
+// another core's cache.
 enum { PREFETCH_AHEAD = 3 };
 
 // The state of a walk along a bin's triangles.
@@ -9,7 +10,7 @@ typedef struct BinWalk {
     const DipBinBlock *block;
     const DipBinBlock *last;
     uint32_t entry;
-    uint32_t count; // triangles in the current block
+    uint32_t count; // number of triangles in the current block
     uint32_t last_count;
 } BinWalk;
 
@@ -29,7 +30,7 @@ static void prefetch(const DipTriangle *triangle) {
     __builtin_prefetch((const char *)(triangle + 1) - 1);
 }
 
-// Returns the next triangle's index and advances. Returns DIP_NO_TRIANGLE at the end.
+// Returns the next triangle's index and advances the walk. Returns DIP_NO_TRIANGLE at the end.
 static uint32_t next_of(const DipGeometry *geometry, BinWalk *walk) {
     if (walk->entry == walk->count) {
         if (walk->block == walk->last) {
@@ -45,15 +46,16 @@ static uint32_t next_of(const DipGeometry *geometry, BinWalk *walk) {
     return walk->block->triangle[walk->entry++];
 }
 
-// One job's triangles that may lie in the tile: its bin and its wide triangles.
+// Walks along the triangles of one job that may lie in the tile: the tile's bin and the wide
+// triangles.
 typedef struct JobWalks {
     BinWalk bin;
     BinWalk wide;
 } JobWalks;
 
-// Finds the jobs that have triangles in the tile or wide ones, in order, and returns their number.
-// It prefetches the bins of all jobs and then their first blocks, so that reads from other cores'
-// caches overlap.
+// Finds the jobs that have triangles in the tile's bin or wide triangles. Keeps the order of the
+// jobs and returns their number. It prefetches the bins of all jobs and then their first blocks, so
+// that the reads from other cores' caches overlap.
 static int find_jobs(const DipGeometry *geometry, size_t tile, JobWalks *found) {
     const DipTileBin *bins[DIP_MAX_JOBS][2];
     int count = 0;
@@ -78,7 +80,7 @@ static void prefetch_first(const DipGeometry *geometry, const BinWalk *walk) {
     }
 }
 
-// A tile, and the function that is called for its triangles.
+// A tile, and the function to call for its triangles.
 typedef struct Visit {
     const DipGeometry *geometry;
     int x0, y0; // the tile's first pixel
@@ -91,8 +93,8 @@ static bool in_tile(const Visit *visit, const DipTriangle *triangle) {
            triangle->y0 < visit->y0 + DIP_TILE && triangle->y1 >= visit->y0;
 }
 
-// Visits one job's triangles in the tile. It merges the bin and the wide triangles by index, which
-// is submission order.
+// Visits one job's triangles in the tile. It merges the tile's bin and the wide triangles by index,
+// which gives submission order.
 static void visit_job(const Visit *visit, JobWalks *job) {
     const DipGeometry *geometry = visit->geometry;
     uint32_t next = next_of(geometry, &job->bin);

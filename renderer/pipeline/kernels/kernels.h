@@ -10,7 +10,8 @@
 #include "renderer/pipeline/shading/tile_shading.h"
 #include "renderer/simd/kernel_table.h"
 
-// X(result, name, parameters): each kernel is declared and filled in from this one list.
+// The list of kernels, as X(result, name, parameters). The declarations and the tables are made
+// from this list.
 #define DIP_KERNEL_LIST(X)                                                                         \
     /* Turns clip positions into rounded screen positions, depth, 1/w and clip codes. */           \
     X(void, dip_kernel_project,                                                                    \
@@ -50,7 +51,7 @@ typedef struct DipKernels {
 
 DIP_KERNELS_DECLARE(DIP_KERNEL_LIST)
 
-// The kernels of an instruction set for which dip_isa_available is true. Static storage.
+// Returns the kernels of an instruction set. dip_isa_available must be true for it. Static storage.
 const DipKernels *dip_kernels(DipIsa isa);
 
 #endif

@@ -1,27 +1,28 @@
 // Coverage and depth of one triangle in one tile, compiled once per instruction set.
 //
 // Edge values E = a x + b y + c (x, y in 1/256 pixel) need 64 bits. Within a tile, a position is
-// split into its pixel and the sample in it: x = 256 px + sx, y = 256 py + sy. Let c' be E at the
-// tile's corner. Then E = 256 (a px + b py) + c' + a sx + b sy. The first term is a multiple of
-// 256, so E >= 0 if and only if a px + b py + floor((c' + a sx + b sy) / 256) >= 0. The first two
-// terms of this sum are below 2^30 together, and so is the third one for an edge that crosses the
-// tile. If c' / 256 is larger, its sign alone decides, so it is clamped to +-2^30. The inner loops
-// are therefore exact in 32 bits.
+// split into a pixel and a sample within the pixel: x = 256 px + sx, y = 256 py + sy. Let c' be E
+// at the tile's corner. Then E = 256 (a px + b py) + c' + a sx + b sy. The first term is a multiple
+// of 256, so E >= 0 if and only if a px + b py + floor((c' + a sx + b sy) / 256) >= 0. In this sum,
+// |a px + b py| is below 2^30. If the edge crosses the tile, the magnitude of the floor is below
+// 2^30 too. If |c' / 256| is larger, the sign of c' alone decides, so c' / 256 is clamped to
+// +-2^30. The inner loops are therefore exact in 32 bits.
 //
-// A triangle is set up once per tile (InTile). Its pixel box is then walked in regions (Region) of
-// 4x4 sub-blocks, each of 4x4 pixels. One vector operation per edge tells which of the sixteen
-// sub-blocks may hold covered samples and which lie wholly inside the triangle. Only the sub-blocks
-// that may hold covered samples are drawn.
+// A triangle is set up once per tile (InTile). Its pixel box is then drawn region by region
+// (Region). A region has 4x4 sub-blocks, and a sub-block has 4x4 pixels. One vector operation per
+// edge finds which of a region's sixteen sub-blocks may hold covered samples, and which lie wholly
+// inside the triangle. Only the sub-blocks that may hold covered samples are drawn.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/vec.h"
 
 enum {
-    VECTORS = DIP_SUB_BLOCK_PIXELS / DIP_LANES, // vectors per sub-block, and per region
-    REGION = 4,                                 // sub-blocks per side
+    VECTORS = DIP_SUB_BLOCK_PIXELS / DIP_LANES, // number of vectors per sub-block, and per region
+    REGION = 4,                                 // number of sub-blocks along a region's side
     REGION_SUB_BLOCKS = REGION * REGION,
 };
 
-// Columns and rows of a 4x4 grid in lane order: pixels of a sub-block, or sub-blocks of a region.
+// Columns and rows of a 4x4 grid in lane order. The grid is the pixels of a sub-block or the
+// sub-blocks of a region.
 static const int32_t lane_x[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 static const int32_t lane_y[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
@@ -30,11 +31,12 @@ typedef struct Edge {
     int32_t a;
     int32_t b;
     int32_t corner; // value at sample 0 of the tile's first pixel
-    // Bounds of the values at a sub-block's samples, relative to sample 0 of its first pixel.
+    // Bounds of the values at a sub-block's samples, relative to the value at sample 0 of the
+    // sub-block's first pixel.
     int32_t greatest;
     int32_t least;
     Vi lane[VECTORS];                // a px + b py at the pixels of a sub-block
-    int32_t sample[DIP_SAMPLE_ROOM]; // value at each sample, relative to sample 0
+    int32_t sample[DIP_SAMPLE_ROOM]; // value at each sample, relative to the value at sample 0
 } Edge;
 
 // One triangle within the tile.
@@ -52,7 +54,7 @@ typedef struct Region {
     int y;
     unsigned reached;                   // sub-blocks that may hold covered samples
     unsigned inside;                    // sub-blocks that lie wholly inside the triangle
-    int32_t edge[3][REGION_SUB_BLOCKS]; // values at sample 0 of the sub-blocks' first pixels
+    int32_t edge[3][REGION_SUB_BLOCKS]; // edge values at sample 0 of the sub-blocks' first pixels
     float depth[REGION_SUB_BLOCKS];     // depths at the sub-blocks' corners
 } Region;
 
@@ -74,8 +76,8 @@ VEC_INLINE int64_t max_i64(int64_t a, int64_t b) {
 
 // --- set-up ------------------------------------------------------------------------------------
 
-// Sets floor((c + a sx + b sy) / 256) of every sample, relative to sample 0. Each factor is split
-// at bit 8, so that 16-bit products are enough and nothing overflows.
+// Sets edge->sample: floor((c + a sx + b sy) / 256) of every sample, relative to sample 0. Each
+// factor is split at bit 8, so that 16-bit products are enough and nothing overflows.
 VEC_INLINE void set_samples(Edge *edge, int64_t c, const DipSamplePattern *pattern) {
     const int32_t high =
         (int32_t)((uint32_t)(edge->a >> 8) & 0xffff) | (int32_t)((uint32_t)(edge->b >> 8) << 16);
@@ -138,8 +140,8 @@ VEC_INLINE void set_depth(InTile *in, const DipTriangle *triangle,
 
 // --- regions -----------------------------------------------------------------------------------
 
-// The first and last sub-block that the triangle's pixel box reaches in the drawn part of the tile,
-// as columns x0, x1 and rows y0, y1.
+// The sub-blocks that the triangle's pixel box reaches in the drawn part of the tile: columns
+// x0..x1 and rows y0..y1.
 typedef struct Box {
     int x0, y0, x1, y1;
 } Box;
@@ -158,8 +160,8 @@ VEC_INLINE unsigned box_bits(const Region *region, int x0, int y0, int x1, int y
     return column * 0x1111u & rows;
 }
 
-// Sets edge, reached and inside of a region. The latter two follow from the edges alone; the caller
-// restricts them to the triangle's box.
+// Sets `edge`, `reached` and `inside` of a region. `reached` and `inside` consider only the edges;
+// the caller restricts them to the triangle's pixel box.
 VEC_INLINE void classify(const InTile *in, Region *region) {
     int32_t corner[3];
     for (int i = 0; i < 3; i++) {
@@ -182,8 +184,8 @@ VEC_INLINE void classify(const InTile *in, Region *region) {
     }
 }
 
-// Sets the depth at the corners of a region's sub-blocks. It is computed in double from positions
-// in the target, so that it does not depend on the tile.
+// Sets the depth at the corners of a region's sub-blocks. The depth is computed in double precision
+// from positions in the target, so that it does not depend on the tile.
 VEC_INLINE void set_corner_depths(Region *region, const DipTriangle *triangle,
                                   const DipTile *tile) {
     typedef double Row __attribute__((vector_size(REGION * sizeof(double))));
@@ -212,8 +214,8 @@ VEC_INLINE void clear_block(DipTile *tile, int block, int sample_count) {
     tile->touched |= (uint64_t)1 << block;
 }
 
-// Returns the index of sub-block n's first value in the tile's arrays. Clears its block first if
-// this tile has not touched it yet.
+// Returns the index of sub-block n's first value in the tile's arrays. If this is the first use of
+// the 8x8 block that the sub-block lies in, the function first clears the block.
 VEC_INLINE int touch_sub_block(DipTile *tile, const Region *region, int n, int sample_count) {
     const int x = region->x + n % REGION;
     const int y = region->y + n / REGION;
@@ -225,7 +227,7 @@ VEC_INLINE int touch_sub_block(DipTile *tile, const Region *region, int n, int s
     return block * sample_count * DIP_BLOCK_PIXELS + quarter * DIP_SUB_BLOCK_PIXELS;
 }
 
-// Edge values at sample 0 of some pixels of a sub-block, one vector of them.
+// One vector of edge values: those at sample 0 of DIP_LANES pixels of a sub-block.
 typedef struct PixelEdges {
     Vi at[3];
 } PixelEdges;
@@ -254,8 +256,8 @@ VEC_INLINE Vf depth_lanes(const InTile *in, float corner, int v, int s) {
     return vf_min(vf_max(depth, in->depth_min), in->depth_max);
 }
 
-// Stores those covered samples of an opaque triangle in sub-block n that are nearer than what is
-// stored there. inside: the triangle covers all of them.
+// Draws an opaque triangle in sub-block n: stores the covered samples that are nearer than the
+// stored depths. inside: the triangle covers all samples of the sub-block.
 VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bool inside,
                                int sample_count, DipTile *tile, uint32_t id) {
     const int first = touch_sub_block(tile, region, n, sample_count);
@@ -277,8 +279,9 @@ VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bo
     }
 }
 
-// Draws an opaque triangle in a region. Edges are left out only if no sub-block of the region is
-// partly covered: where both kinds are mixed, a branch per sub-block costs more than the edges.
+// Draws an opaque triangle in a region. The edge tests are left out only if the triangle covers
+// every sub-block that it reaches in the region. If some are partly covered, a branch per sub-block
+// costs more than the edge tests.
 VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_count, DipTile *tile,
                             uint32_t id) {
     if (region->inside == region->reached) {
@@ -294,24 +297,24 @@ VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_c
 
 // --- alpha-clipped triangles -------------------------------------------------------------------
 
-// A sub-block whose fragments wait for the clip test.
+// A sub-block whose fragments wait for the clip test (DipClipTest).
 typedef struct Waiting {
-    int first;       // index of its first value in the tile's arrays
-    float depth;     // depth at its corner
+    int first;       // index of the sub-block's first value in the tile's arrays
+    float depth;     // depth at the sub-block's corner
     uint16_t pixels; // pixels that have a fragment in the list, in the list's order
-    uint8_t samples; // samples that these fragments may hold, one bit each
+    uint8_t samples; // samples that the fragments may hold, one bit each
     uint16_t visible[DIP_MAX_SAMPLES]; // the pixels in which each sample is visible
 } Waiting;
 
-// The sub-blocks of the current triangle that wait for the clip test. Their fragments are in the
-// test's list.
+// The sub-blocks of the current triangle that wait for the clip test. Their fragments are in
+// clip->list.
 typedef struct ClipQueue {
     const DipClipTest *clip;
     int count; // number of sub-blocks
     Waiting waiting[DIP_FRAGMENT_BATCH];
 } ClipQueue;
 
-// Returns a point within a pixel, encoded as in a fragment's position (tile_shading.h).
+// Encodes a point within a pixel as part of a fragment's position (tile_shading.h).
 VEC_INLINE Vi sub_position(int sub_x, int sub_y) {
     return vi_splat(sub_x << DIP_POSITION_SUB_X | sub_y << DIP_POSITION_SUB_Y);
 }
@@ -350,7 +353,7 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
 }
 
 // Fills in the masks of a waiting sub-block for the samples of one group. Each fragment is shaded
-// at the centroid of those that the triangle covers.
+// at the centroid of the group's samples that the triangle covers.
 VEC_INLINE void test_group(const InTile *in, const Region *region, int n, const DipTile *tile,
                            const DipSampleGroups *groups, int group, Waiting *waiting,
                            Vi positions[VECTORS]) {
@@ -399,7 +402,7 @@ static uint64_t block_bit(const DipTile *tile, const Waiting *waiting) {
     return (uint64_t)1 << (waiting->first / (tile->pattern->count * DIP_BLOCK_PIXELS));
 }
 
-// Runs the clip test on the waiting fragments and stores those that it keeps.
+// Runs the clip test on the waiting fragments, and stores the fragments that the test keeps.
 static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriangle *triangle,
                              DipTile *tile, uint32_t id) {
     DipFragmentList *list = queue->clip->list;
@@ -426,8 +429,8 @@ static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriang
     queue->count = 0;
 }
 
-// Adds the visible pixels of sub-block n to the queue. If there are sample groups, these are the
-// pixels in which a sample of `group` is visible.
+// Adds the pixels of sub-block n in which the triangle is visible to the queue. If there are sample
+// groups, only the samples of `group` count.
 VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region *region, int n,
                                 int group, int sample_count, DipTile *tile) {
     const DipSampleGroups *groups = queue->clip->groups;
@@ -472,8 +475,8 @@ VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *re
 
 // --- a triangle --------------------------------------------------------------------------------
 
-// Draws a triangle, region by region of its box. sample_count is a constant in the callers that
-// gain from it.
+// Draws a triangle, region by region of its pixel box. Callers pass a constant sample_count where
+// this makes the code faster.
 VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_t id,
                              const DipClipTest *clip, int sample_count) {
     const Box box = box_of(triangle, tile);
@@ -487,7 +490,7 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
     queue.count = 0;
     for (int y = box.y0; y <= box.y1; y += REGION) {
         for (int x = box.x0; x <= box.x1; x += REGION) {
-            Region region; // lies within the tile; all its fields are set below
+            Region region; // all fields are set below; the region lies within the tile
             region.x = min_int(x, DIP_TILE_SUB_BLOCKS - REGION);
             region.y = min_int(y, DIP_TILE_SUB_BLOCKS - REGION);
             classify(&in, &region);
@@ -522,7 +525,7 @@ static void draw_clipped(DipTile *tile, const DipTriangle *triangle, uint32_t id
     }
 }
 
-// One version for each sample count, so that loops over samples unroll.
+// One version for each sample count, so that the compiler unrolls loops over samples.
 #define DRAW_SAMPLES(n)                                                                            \
     static void draw_##n(DipTile *tile, const DipTriangle *triangle, uint32_t id) {                \
         draw_in_tile(tile, triangle, id, NULL, n);                                                 \

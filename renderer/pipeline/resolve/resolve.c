@@ -1,4 +1,5 @@
-// Stores and averages fragments. All sums are integers, so the order of fragments does not matter.
+// Stores single fragments and averages several. All sums are integers, so the order of fragments
+// does not matter.
 #include "renderer/pipeline/resolve/resolve.h"
 
 #include <string.h>

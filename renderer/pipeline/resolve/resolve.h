@@ -1,5 +1,5 @@
-// Resolve: turns shaded fragments into pixels. A fragment that holds all samples of its pixel is
-// stored at once; other fragments are added to a sum over the pixel's samples.
+// Resolve: turns shaded fragments into pixels. A fragment that holds all samples of its pixel
+// becomes the pixel's colour at once. Other fragments are added to a sum over the pixel's samples.
 #ifndef DIP_RENDERER_PIPELINE_RESOLVE_RESOLVE_H
 #define DIP_RENDERER_PIPELINE_RESOLVE_RESOLVE_H
 
@@ -9,13 +9,14 @@
 void dip_store_whole(DipTileShading *shading, const DipFragmentList *list,
                      const DipEncodedBatch *encoded);
 
-// Handles the first `count` fragments of a list: stores those that hold all samples of their pixel,
-// and adds the others to the sum of their pixel, weighted by their number of samples.
+// Handles the first `count` fragments of a list. Stores the fragments that hold all samples of
+// their pixel. Adds the other fragments to the sums of their pixels, weighted by their numbers of
+// samples.
 void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list, int count,
                          const DipEncodedBatch *encoded);
 
-// Stores the pixels that several fragments share: the mean over their samples in linear light,
-// encoded to sRGB. srgb_code: see DipSrgbEncodeTable.
+// Stores the pixels that several fragments share. Such a pixel gets the mean of its samples in
+// linear light, encoded to sRGB. srgb_code: `code` of a DipSrgbEncodeTable.
 void dip_resolve_multi_fragment(DipTileShading *shading, const uint8_t *srgb_code);
 
 #endif

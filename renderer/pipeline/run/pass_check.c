@@ -1,4 +1,4 @@
-// Finds the field of a pass that is wrong, and says what is accepted.
+// Finds a field of a pass that is wrong, and says what is accepted.
 #include "renderer/pipeline/run/pass_check.h"
 
 #include <stdarg.h>

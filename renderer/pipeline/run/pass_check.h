@@ -1,11 +1,11 @@
-// Checks a pass before it is drawn, in release builds too.
+// Checks a pass before it is drawn. Release builds make this check too.
 #ifndef DIP_RENDERER_PIPELINE_RUN_PASS_CHECK_H
 #define DIP_RENDERER_PIPELINE_RUN_PASS_CHECK_H
 
 #include "renderer/pipeline/pipeline.h"
 
-// Returns whether a pass can be drawn into a target of this size. On failure the error's key is the
-// field at fault, and the message says what was found and what is accepted.
+// Returns whether a pass can be drawn into a target of this size. If not, the error's key is the
+// wrong field, and the message says what was found and what is accepted.
 bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err);
 
 #endif

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Fills a list up to a multiple of DIP_BATCH_ALIGN with its last fragment, so that vectors read
-// valid triangles.
+// Fills a list up to a multiple of DIP_BATCH_ALIGN with copies of its last fragment, so that
+// vectors read valid triangles.
 static void pad_list(DipFragmentList *list) {
     const int last = list->count - 1;
     for (int i = list->count; i % DIP_BATCH_ALIGN; i++) {
@@ -28,8 +28,8 @@ static void bind_batch(const DipTileWorker *worker, const DipDraw *draw, DipFrag
     batch->srgb_light = worker->pass->srgb_light;
 }
 
-// Shades the first fragments of a list, at most a batch, into the worker's encoded batch. Returns
-// their number.
+// Shades the first fragments of a list, at most one batch. Their colours go to the worker's encoded
+// batch. Returns the number of these fragments.
 static int shade_batch(DipTileWorker *worker, uint32_t draw_index, DipFragmentList *list) {
     const DipTilePass *pass = worker->pass;
     const DipDraw *draw = &pass->pass->draws[draw_index];
@@ -64,8 +64,8 @@ static void flush_whole_list(DipTileShading *shading, uint32_t draw) {
     list->count = 0;
 }
 
-// Runs the clip shader on the fragments in the worker's clip list. Returns a byte per fragment: 0
-// where the surface is cut away.
+// Runs the clip shader on the fragments in the worker's clip list. Returns a byte per fragment; 0
+// means that the surface is cut away.
 static const uint8_t *clip_test(void *context, const DipTriangle *triangle) {
     DipTileWorker *worker = context;
     const DipTilePass *pass = worker->pass;
@@ -99,8 +99,8 @@ static int greatest(int a, int b) {
     return a > b ? a : b;
 }
 
-// Sets how many pixels at each side of the tile are not needed. region: of the target; needed: of
-// the tile, NULL for all of it.
+// Sets the number of pixels at each side of the tile that are not needed. region: rectangle of the
+// target that is drawn. needed: rectangle of the tile that is needed, or NULL for the whole tile.
 static void set_margins(const DipTargetRegion *region, const DipTileRegion *needed, DipTile *tile) {
     static const DipTileRegion whole = {0, 0, DIP_TILE, DIP_TILE};
     needed = needed ? needed : &whole;

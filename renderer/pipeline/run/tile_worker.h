@@ -1,5 +1,5 @@
-// The working memory of a worker thread, and what it does with a tile: coverage, shading and
-// resolve of 64x64 pixels of a pass.
+// The working memory of a worker thread, and the drawing of one tile (64x64 pixels of a pass):
+// coverage, shading and resolve.
 #ifndef DIP_RENDERER_PIPELINE_RUN_TILE_WORKER_H
 #define DIP_RENDERER_PIPELINE_RUN_TILE_WORKER_H
 
@@ -17,7 +17,8 @@ typedef enum DipTileStage {
     DIP_TILE_STAGE_COUNT
 } DipTileStage;
 
-// What one tile did. The pipeline sums these in tile order once all tiles are drawn.
+// The counters and times of drawing one tile. The pipeline sums them in tile order after all tiles
+// are drawn.
 typedef struct DipTileWork {
     DipShaderWork sampling;
     uint64_t sub_blocks_tested;
@@ -30,21 +31,22 @@ typedef struct DipTileWork {
     int64_t stage_ns[DIP_TILE_STAGE_COUNT];
 } DipTileWork;
 
-// What all tiles of a pass have in common. It does not change while tiles are drawn.
+// Data that all tiles of a pass share. They do not change while tiles are drawn.
 typedef struct DipTilePass {
     const DipKernels *kernels;
     const DipPass *pass;
     const DipSamplePattern *pattern;
-    const DipGeometry *geometry; // this pipeline's, or that of another that draws the same geometry
+    const DipGeometry *geometry; // of this pipeline, or of another one that shares its geometry
     DipSampleGroups groups_room;
-    const DipSampleGroups *groups; // &groups_room; NULL: alpha-clipped draws have one sample group
+    // &groups_room, or NULL if alpha-clipped draws have one sample group.
+    const DipSampleGroups *groups;
     uint32_t clear_rgba8;
     int32_t clear_linear16[3];
     const DipSrgbEncodeTable *srgb;
-    const float *srgb_light; // linear light of the 256 sRGB codes
+    const float *srgb_light; // linear light of the 256 8-bit sRGB values
 } DipTilePass;
 
-// Everything that one thread writes while it runs geometry jobs and tiles.
+// The memory that one thread writes while it runs geometry jobs and draws tiles.
 typedef struct DipTileWorker {
     const DipTilePass *pass;
     DipGeometryScratch geometry;
@@ -54,19 +56,19 @@ typedef struct DipTileWorker {
     DipFragmentBatch clip_batch;
     DipFragmentList clip_list;
     DipEncodedBatch encoded;
-    DipTileWork *work; // work of the tile that is being drawn
+    DipTileWork *work; // counters and times of the tile that is being drawn
 } DipTileWorker;
 
-// Returns NULL if memory runs out. Each worker has memory of its own, so that threads share no
-// cache line.
+// Creates the working memory of one thread. Each worker's memory is allocated separately, so that
+// threads share no cache line. Returns NULL if memory runs out.
 DipTileWorker *dip_tile_worker_create(const DipTilePass *pass);
 void dip_tile_worker_destroy(DipTileWorker **worker);
 
-// Makes new fragment lists for draw_count draws. The pipeline calls this for all its workers when a
-// pass has more draws than any pass before it. Returns false if memory runs out.
+// Replaces the fragment lists by new ones for draw_count draws. The pipeline calls this for all its
+// workers when a pass has more draws than any pass before. Returns false if memory runs out.
 bool dip_tile_worker_make_lists(DipTileWorker *worker, int draw_count);
 
-// Draws the tile with this index (y * tiles_x + x) and fills *work.
+// Draws the tile with this index (y * tiles_x + x) and fills in *work.
 void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work);
 
 #endif

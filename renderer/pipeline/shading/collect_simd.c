@@ -1,6 +1,8 @@
-// Collects the fragments of a tile: adds every distinct patch of a pixel (pipeline/patch.h) to the
-// list of its draw. Pixels of a sub-block are added together, as a mask of 16 bits, if they have
-// the same draw or, where the samples of a pixel differ, the same patch.
+// Collects the fragments of a tile. Each distinct patch (pipeline/patch.h) that a pixel shows
+// becomes a fragment in the list of the patch's draw. The 16 pixels of a sub-block are handled as a
+// mask of 16 bits. Pixels whose samples all show one patch are added together with all others of
+// the same draw. Pixels that show several patches are added together with all others that show the
+// same patch.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/vec.h"
 
@@ -8,24 +10,25 @@
 
 enum { VECTORS = 16 / DIP_LANES, ALL_PIXELS = 0xffff };
 
-// Positions of a sub-block's pixels relative to its first one (tile_shading.h).
+// Positions (tile_shading.h) of a sub-block's pixels, relative to the sub-block's first pixel.
 static const int32_t pixel_position[16] = {
-    0,   1,   2,   3,   64,  65,  66,  67, // DIP_TILE from row to row
+    0,   1,   2,   3,   64,  65,  66,  67, // one row adds DIP_TILE
     128, 129, 130, 131, 192, 193, 194, 195,
 };
 
 // The sub-block whose fragments are being collected.
 typedef struct SubBlock {
     DipTileShading *shading;
-    const uint32_t *ids; // ids of sample 0; the next sample's follow DIP_BLOCK_PIXELS later
+    // Triangle ids at sample 0. Those at sample s are DIP_BLOCK_PIXELS * s elements later.
+    const uint32_t *ids;
     int sample_count;
-    int x0, y0; // column and row of its first pixel in the tile
-    // The patches that the samples show, [sample][pixel]; 0 for none. They are found only if
+    int x0, y0; // column and row, in the tile, of the sub-block's first pixel
+    // The patches that the samples show, [sample][pixel]; 0 for none. This array is filled only if
     // samples of a pixel hold several triangles, or if there may be sample groups.
     uint32_t patches[DIP_MAX_SAMPLES * DIP_SUB_BLOCK_PIXELS];
 } SubBlock;
 
-// Returns the pixels, one bit each, whose number equals `number`.
+// Returns the pixels, one bit each, for which the entry of `numbers` equals `number`.
 VEC_INLINE unsigned pixels_with(const uint32_t *numbers, uint32_t number) {
     unsigned bits = 0;
     for (int v = 0; v < VECTORS; v++) {
@@ -35,8 +38,8 @@ VEC_INLINE unsigned pixels_with(const uint32_t *numbers, uint32_t number) {
     return bits;
 }
 
-// Gathers one 32-bit field of DipTriangle for each id. An id of 0 means no triangle; its lane gets
-// the field of triangle 0.
+// Gathers one 32-bit field of DipTriangle for each triangle id. The id 0 means that there is no
+// triangle; its lane gets the field of triangle 0.
 VEC_INLINE Vi gather_words(const SubBlock *sub, Vi ids, size_t offset_bytes) {
     enum { WORDS = sizeof(DipTriangle) / sizeof(int32_t) };
     const char *triangles = (const char *)sub->shading->input.triangles;
@@ -56,8 +59,8 @@ static void find_patches(SubBlock *sub) {
     }
 }
 
-// Returns the pixels whose samples have different numbers. numbers: ids or patches. stride:
-// distance from one sample's numbers to the next sample's.
+// Returns the pixels, one bit each, whose samples have different numbers. numbers: triangle ids or
+// patches. stride: distance from the numbers of one sample to those of the next.
 VEC_INLINE unsigned multi_fragment_pixels(const uint32_t *numbers, int sample_count, int stride) {
     unsigned same = 0;
     for (int v = 0; v < VECTORS; v++) {
@@ -76,7 +79,7 @@ static inline uint32_t draw_of(const DipTileShading *shading, uint32_t triangle)
     return shading->input.triangles[triangle].draw;
 }
 
-// Adds a draw to those whose lists this tile uses.
+// Adds a draw to the active draws: those whose lists this tile uses.
 static inline void activate(DipTileShading *shading, uint32_t draw) {
     if (!shading->is_active[draw]) {
         shading->is_active[draw] = 1;
@@ -89,8 +92,8 @@ VEC_INLINE int32_t position_of(const SubBlock *sub, int sub_x, int sub_y) {
            sub_y << DIP_POSITION_SUB_Y;
 }
 
-// Adds a sub-block that one draw fills with one patch per pixel. Its 16 fragments stay together, in
-// the draw's list of whole sub-blocks.
+// Adds a sub-block in which all 16 pixels show the same draw, and each pixel shows one patch. Its
+// 16 fragments stay together in the draw's list of whole sub-blocks.
 static void push_whole(const SubBlock *sub, uint32_t draw) {
     DipTileShading *shading = sub->shading;
     activate(shading, draw);
@@ -108,7 +111,7 @@ static void push_whole(const SubBlock *sub, uint32_t draw) {
     }
 }
 
-// Adds pixels as fragments of a draw. Triangle ids, samples and positions are given per vector.
+// Adds pixels as fragments of a draw. Triangle ids, samples and positions are given as vectors.
 // uniform: all fragments hold the same samples.
 VEC_INLINE void push(const SubBlock *sub, uint32_t draw, unsigned pixels, const Vu *ids,
                      const Vu *samples, const Vu *positions, bool uniform) {
@@ -130,8 +133,9 @@ VEC_INLINE void push(const SubBlock *sub, uint32_t draw, unsigned pixels, const 
     }
 }
 
-// Adds pixels whose samples all show one patch. They are shaded at their centres, on the triangle
-// of their first sample. draws: the draw of each pixel; left: the pixels.
+// Adds pixels whose samples all show one patch. Such a pixel is shaded at its centre, on the
+// triangle of its first sample. draws: the draw of each pixel. left: the pixels to add, one bit
+// each.
 VEC_INLINE void push_uniform(const SubBlock *sub, const uint32_t *draws, unsigned left) {
     Vu ids[VECTORS];
     Vu samples[VECTORS];
@@ -155,10 +159,10 @@ static inline const DipSampleGroups *groups_of(const DipTileShading *shading, ui
 }
 
 // Adds the fragments of one patch: the patch that sample `first` shows in the first pixel of
-// left[first]. left[s] holds the pixels whose sample s has not been added yet; samples that this
-// adds are removed from it. A fragment is shaded at its first sample that shows the patch. If the
-// draw has sample groups, only samples of `first`'s group are added, and the fragment is shaded at
-// the centroid of those that it holds.
+// left[first]. left[s] holds the pixels whose sample s has not been added yet; the function removes
+// the samples that it adds. A fragment is shaded at its first sample that shows the patch. If the
+// draw has sample groups, the function adds only samples in the same group as `first`. The fragment
+// is then shaded at the centroid of the samples that it holds.
 VEC_INLINE void push_multi_fragment_patch(const SubBlock *sub, unsigned *left, int first) {
     const DipSamplePattern *pattern = sub->shading->tile->pattern;
     const int pixel = __builtin_ctz(left[first]);
@@ -200,8 +204,8 @@ VEC_INLINE void push_multi_fragment_patch(const SubBlock *sub, unsigned *left, i
 }
 
 // Starts the sums of multi-fragment pixels. Uncovered samples add the background; most pixels have
-// none. empty[s]: the pixels whose sample s is uncovered; any_empty: the pixels that have such a
-// sample.
+// no uncovered sample. empty[s]: the pixels whose sample s is uncovered. any_empty: the pixels that
+// have an uncovered sample.
 VEC_INLINE void begin_sums(const SubBlock *sub, unsigned multi_fragment,
                            const unsigned empty[DIP_MAX_SAMPLES], unsigned any_empty) {
     DipTileShading *shading = sub->shading;
@@ -262,7 +266,8 @@ static unsigned pixels_in_target(const SubBlock *sub) {
     return inside;
 }
 
-// Returns the pixels among `left` whose draw has sample groups. Each pixel shows one draw only.
+// Returns the pixels among `left` whose draw has sample groups. Each pixel of `left` must show only
+// one draw.
 static unsigned pixels_in_groups(const SubBlock *sub, const uint32_t *draws, unsigned left) {
     unsigned found = 0;
     while (left) {
@@ -282,11 +287,12 @@ static void find_draws(const SubBlock *sub, uint32_t draws[DIP_SUB_BLOCK_PIXELS]
     }
 }
 
-// Collects a sub-block in the general case, in which its pixels may show several triangles or draws
-// with sample groups. several: samples of some pixel hold different triangles. inside: the pixels
-// that lie in the target.
+// Collects a sub-block in the general case: its pixels may show several triangles, or draws with
+// sample groups. several: the samples of some pixel hold different triangles. grouped: the
+// sub-block may hold triangles that were drawn in sample groups. inside: the pixels that lie in the
+// target.
 static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned inside) {
-    uint32_t draws[DIP_SUB_BLOCK_PIXELS]; // draws that the first samples show
+    uint32_t draws[DIP_SUB_BLOCK_PIXELS]; // the draw that sample 0 of each pixel shows
     find_draws(sub, draws);
     unsigned multi_fragment = 0;
     if (several || grouped) {
@@ -356,7 +362,7 @@ void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
         }
         const uint32_t *ids = tile->id + dip_tile_index(tile, block, 0);
         for (int quarter = 0; quarter < 4; quarter++) {
-            SubBlock sub; // its patches are found only if they are needed
+            SubBlock sub; // `patches` is filled only if it is needed
             sub.shading = shading;
             sub.ids = ids + quarter * DIP_SUB_BLOCK_PIXELS;
             sub.sample_count = tile->pattern->count;

@@ -1,10 +1,10 @@
-// Interpolates the varyings of fragment batches and encodes their shaded colours. Compiled once per
-// instruction set.
+// Interpolates the varyings of fragment batches, and encodes the colours of shaded batches. This
+// file is compiled once per instruction set.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/pairs.h"
 
-// If a vector has at most this many triangles, they are read one by one; otherwise their planes are
-// gathered lane by lane.
+// If the fragments of a vector have at most this many triangles, the planes are read triangle by
+// triangle. Otherwise they are gathered lane by lane.
 enum { FEW_TRIANGLES = 4 };
 
 enum { MAX_ROWS = DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + 1 };
@@ -16,7 +16,7 @@ typedef struct VaryingPlanes {
     const Vf *rows;
 } VaryingPlanes;
 
-// One plane at the fragments' positions: value, d/dx, d/dy.
+// The value of a plane at the fragments' positions, and its derivatives along x and y.
 typedef struct Plane {
     Vf at;
     Vf dx;
@@ -27,9 +27,9 @@ VEC_INLINE const float *planes_of(const DipShadingInput *input, uint32_t triangl
     return input->planes + (size_t)triangle * (size_t)input->plane_stride;
 }
 
-// Reads the planes of several triangles. If there are few, the floats of each are blended into its
-// lanes, which costs less than a gather per float. left: lanes with another triangle than the first
-// lane.
+// Reads the planes of a vector with several triangles. If there are few triangles, the floats of
+// each triangle are blended into its lanes, which costs less than one gather per float. left: the
+// lanes whose triangle differs from that of the first lane.
 VEC_INLINE void read_rows(const DipShadingInput *input, const uint32_t *triangle, unsigned left,
                           int count, Vf *rows) {
     const Vi ids = vi_load((const int32_t *)triangle);
@@ -49,7 +49,7 @@ VEC_INLINE void read_rows(const DipShadingInput *input, const uint32_t *triangle
     if (left) {
         const uint32_t *planes = (const uint32_t *)(const void *)input->planes;
         const Vi offset = vi_pair_order(ids * input->plane_stride);
-        for (int f = 0; f < count; f += 2) { // planes are padded: one more may be read
+        for (int f = 0; f < count; f += 2) { // planes are padded, so one float more may be read
             const VuPair pair = vu_gather_pairs(planes + f, offset);
             rows[f] = (Vf)vu_pair_left(pair);
             rows[f + 1] = (Vf)vu_pair_right(pair);
@@ -73,8 +73,8 @@ VEC_INLINE Vf target_coordinate(Vi pixel, Vi sub, int tile_first) {
     return vf_from_int((pixel + tile_first) << 8 | sub) * (1.0f / 256.0f);
 }
 
-// Interpolates varyings: u = (u/w) / (1/w) and, exactly by the quotient rule, du/dx = (d(u/w)/dx -
-// u d(1/w)/dx) / (1/w). The last value_only_count varyings get no derivatives.
+// Interpolates varyings: u = (u/w) / (1/w). By the quotient rule, du/dx = (d(u/w)/dx - u d(1/w)/dx)
+// / (1/w) is the exact derivative. The last value_only_count varyings get no derivatives.
 VEC_INLINE void interpolate(const VaryingPlanes *planes, Vf x, Vf y, int varying_count,
                             int value_only_count, int i, DipFragmentBatch *batch) {
     const Vf from_x = x - value_of(planes, DIP_PLANES_ANCHOR);

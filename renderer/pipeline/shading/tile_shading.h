@@ -1,10 +1,11 @@
 // Shading of a tile: the lists and buffers in which a worker turns the visibility buffer into
 // pixels.
 //
-// Each distinct patch in a pixel becomes one fragment. Fragments are collected per draw and shaded
-// 64 at a time. A fragment that holds all samples of its pixel gives the pixel its colour. Other
-// fragments are added to a sum in 16-bit linear light, weighted by their number of samples. The
-// sums are integers, so the order of fragments does not matter.
+// A patch is a small group of triangles that join smoothly (pipeline/patch.h). Each distinct patch
+// that a pixel shows becomes one fragment. Fragments are collected per draw and shaded 64 at a
+// time. If a fragment holds all samples of its pixel, its colour becomes the pixel's colour. Other
+// fragments are added to the pixel's sum in 16-bit linear light, weighted by their numbers of
+// samples. The sums are integers, so the order of fragments does not matter.
 #ifndef DIP_RENDERER_PIPELINE_SHADING_TILE_SHADING_H
 #define DIP_RENDERER_PIPELINE_SHADING_TILE_SHADING_H
 
@@ -17,13 +18,14 @@
 
 enum { DIP_TILE_PIXELS = DIP_TILE * DIP_TILE };
 
-// A fragment's position, in bits: its pixel in the tile, y * DIP_TILE + x, and the point that is
-// shaded within the pixel, in 1/256 pixel from the pixel's top left corner.
+// The bits of a fragment's position. The lowest bits are its pixel in the tile, y * DIP_TILE + x.
+// The bits above them are the shaded point within the pixel, in 1/256 pixel from the pixel's top
+// left corner.
 enum {
-    DIP_POSITION_Y = 6,                       // first of y's 6 bits, after the 6 of x
-    DIP_POSITION_SUB_X = 12,                  // first of 8 bits
-    DIP_POSITION_SUB_Y = 20,                  // first of 8 bits
-    DIP_POSITION_PIXEL = DIP_TILE_PIXELS - 1, // mask of the pixel's x and y
+    DIP_POSITION_Y = 6,                       // first of 6 bits, the pixel's row y
+    DIP_POSITION_SUB_X = 12,                  // first of 8 bits, the shaded point's x
+    DIP_POSITION_SUB_Y = 20,                  // first of 8 bits, the shaded point's y
+    DIP_POSITION_PIXEL = DIP_TILE_PIXELS - 1, // mask of the pixel in the tile
 };
 
 // The length of a list. The 16 fragments of a sub-block are added at once, so a list may become
@@ -34,17 +36,18 @@ enum { DIP_LIST_ROOM = DIP_FRAGMENT_BATCH + 16 };
 typedef struct DipFragmentList {
     int count;
     uint32_t triangle[DIP_LIST_ROOM]; // index into the geometry's triangles
-    uint32_t position[DIP_LIST_ROOM]; // its position, in the bits described above
-    // Bit s: the fragment holds sample s. Not set in lists of whole sub-blocks, whose fragments
-    // hold all samples.
+    uint32_t position[DIP_LIST_ROOM]; // the fragment's position, in the bits described above
+    // Bit s: the fragment holds sample s. The array is unused in lists of whole sub-blocks, whose
+    // fragments hold all samples.
     uint32_t samples[DIP_LIST_ROOM];
 } DipFragmentList;
 
-// How coverage finds out which fragments of an alpha-clipped triangle exist. It fills in the list's
-// count, position and triangle (the same for all; both arrays up to a multiple of DIP_BATCH_ALIGN),
-// but not its samples. Then it calls test, which returns a byte per fragment: 0 where the surface
-// is cut away. With sample groups, a pixel is tested once for each group in which it has visible
-// samples.
+// The clip test: coverage uses it to find out which fragments of an alpha-clipped triangle exist.
+// Coverage fills in the list's count, positions and triangles, but not its samples. All entries
+// have the same triangle. Both arrays are padded for vector reads: `position` to a multiple of
+// DIP_BATCH_ALIGN, `triangle` to whole vectors. Then coverage calls test, which returns a byte per
+// fragment; 0 means that the surface is cut away. With sample groups, a pixel has one fragment for
+// each group in which it has visible samples.
 typedef struct DipClipTest {
     DipFragmentList *list;
     const uint8_t *(*test)(void *context, const DipTriangle *triangle);
@@ -61,7 +64,7 @@ typedef struct DipEncodedBatch {
 // The geometry's arrays, as kernels read them.
 typedef struct DipShadingInput {
     const DipTriangle *triangles;
-    const float *planes; // those of triangle i start at i * plane_stride
+    const float *planes; // the planes of triangle i start at i * plane_stride
     int plane_stride;
     int x0; // column and row of the tile's first pixel in the target
     int y0;
@@ -69,17 +72,18 @@ typedef struct DipShadingInput {
 
 typedef struct DipTileShading DipTileShading;
 
-// Shades at most a batch of a draw's list, and moves the rest to its start.
+// Shades the first fragments of a draw's list, at most one batch, and moves the remaining fragments
+// to the start of the list.
 typedef void DipFlushList(DipTileShading *shading, uint32_t draw);
 
 struct DipTileShading {
     DipTile *tile;
     DipShadingInput input;
     const DipDraw *draws;
-    const DipSampleGroups *groups; // groups of alpha-clipped draws; NULL: one group
-    DipFlushList *flush;           // for `lists`, called when a list holds a batch
-    DipFlushList *flush_whole;     // for `whole_lists`, called when a list holds a batch
-    void *context;                 // context of these two functions
+    const DipSampleGroups *groups; // sample groups of alpha-clipped draws; NULL: one group
+    DipFlushList *flush;           // called when one of `lists` holds a batch
+    DipFlushList *flush_whole;     // called when one of `whole_lists` holds a batch
+    void *context;                 // for use by `flush` and `flush_whole`
     DipFragmentList *lists;        // one per draw
     DipFragmentList *whole_lists;  // one per draw, for whole sub-blocks of 16 fragments
     uint32_t *active;              // draws whose lists this tile has used, in order of first use

@@ -12,8 +12,8 @@ void dip_bc1_encode(const uint8_t rgba8[64], uint8_t block[DIP_BC1_BYTES]) {
     stb_compress_dxt_block(block, rgba8, 0, STB_DXT_NORMAL);
 }
 
-// Code c begins at the first root whose square reaches the light of the encoded value (c - 1/2) /
-// 255.
+// Fills codes[0..last], whose index is a square root of linear light. sRGB code c begins at the
+// first root whose square is at least the light of the sRGB value (c - 1/2) / 255.
 static void fill_codes(uint8_t *codes, int last) {
     int code = 0;
     double end = dip_srgb_decode(0.5 / 255.0);
@@ -43,9 +43,10 @@ void dip_bc1_light_fill(DipBc1Light *light) {
 
 void dip_bc1_palette(const DipBc1Light *light, const uint8_t block[DIP_BC1_BYTES],
                      uint32_t texels[4]) {
-    // How many sixths of each colour come from the first stored colour; the rest come from the
-    // second. If the first one is not the greater number (row 0), the third colour is half way
-    // between the two, and the fourth is black.
+    // The number of sixths of each colour that come from the first stored colour; the others come
+    // from the second. Row 1 applies if the first stored colour is the greater number, row 0
+    // otherwise. In row 0, the third colour is half way between the two stored ones, and the fourth
+    // is black.
     static const int shares[2][4] = {{6, 0, 3, 0}, {6, 0, 4, 2}};
     const int a = block[0] | block[1] << 8;
     const int b = block[2] | block[3] << 8;

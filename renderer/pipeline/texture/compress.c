@@ -1,10 +1,10 @@
 // Compressed textures: encodes the colours of every level as BC1 and decodes them again, on many
 // threads.
 //
-// The result has the layout of any other texture. If the kernels read blocks, each texel would take
-// a selection, a palette and a decoding curve instead of one load. A CPU has no hardware for that,
-// so BC1 changes the picture here as it does on a graphics card, but it saves neither time nor
-// memory.
+// The result has the same layout as any other texture. If the kernels read BC1 blocks instead, each
+// texel would take a selection, a palette and a decoding curve instead of one load. A CPU has no
+// hardware for this decoding. So BC1 changes the picture here as it does on a graphics card, but it
+// saves neither time nor memory.
 #include "renderer/pipeline/texture/texture_layout.h"
 
 #include "renderer/pipeline/bc1.h"
@@ -17,7 +17,7 @@ typedef struct Level {
     const DipTexture *from;
     DipTexture *to;
     int level;
-    int first_task; // the task of its first row of blocks
+    int first_task; // index of the task that compresses the level's first row of blocks
 } Level;
 
 typedef struct Job {
@@ -28,8 +28,8 @@ typedef struct Job {
     DipBc1Light light;
 } Job;
 
-// Reads the block whose first texel is (x, y). Beyond the level's edge, the last column and row are
-// repeated.
+// Reads the 4x4 texels of the block whose first texel is (x, y). The last column and row of the
+// level are repeated beyond its edges.
 static void read_block(const DipRootCodes *codes, const DipTexture *texture, int level, int x,
                        int y, uint8_t rgba8[64]) {
     const int width = texture->level_width[level];
@@ -94,14 +94,14 @@ static void make_row(void *context, int index, int worker) {
     }
 }
 
-// Creates a texture of the same layout, without alpha and with texels that are not yet written.
+// Creates a texture with the layout of `from`, without alpha. Its texels are not yet filled in.
 static DipTexture *begin_texture(const DipTexture *from) {
     DipTexture *texture = malloc(sizeof *texture);
     if (texture) {
         *texture = *from;
         texture->alpha = NULL;
         texture->shares_alpha = true;
-        // The spare texels keep a read that runs past the last texel inside the array.
+        // The 8 spare texels keep reads that run past the last texel inside the array.
         texture->texels = calloc(from->texel_count + 8, sizeof *texture->texels);
         if (!texture->texels) {
             dip_texture_destroy(&texture);

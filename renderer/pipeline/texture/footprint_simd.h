@@ -1,5 +1,5 @@
-// Footprints of fragments in a texture: level of detail and probes, for sample_simd.c.
-// docs/picture.md (Textures) defines them.
+// Footprints of fragments in a texture: the level of detail and the number and positions of probes,
+// for sample_simd.c. docs/picture.md (Textures) defines them.
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_FOOTPRINT_SIMD_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_FOOTPRINT_SIMD_H
 
@@ -8,31 +8,30 @@
 #include "renderer/simd/vec.h"
 
 // Bounds of derivatives and lengths, in texels per pixel. MAX_DERIVATIVE exceeds the size of every
-// texture, and the product of two squares of it is finite. The square of MIN_LENGTH is a normal
-// number.
+// texture, and its fourth power is finite. The square of MIN_LENGTH is a normal number.
 #define MAX_DERIVATIVE 1e9f
 #define MIN_LENGTH     1e-18f
 
-// The Jacobian in texels of level 0 per pixel.
+// The Jacobian of the texture coordinates, in texels of level 0 per pixel.
 typedef struct Jacobian {
-    Vf ux, vx; // dX
-    Vf uy, vy; // dY
+    Vf ux, vx; // dX: change along the screen's x
+    Vf uy, vy; // dY: change along the screen's y
 } Jacobian;
 
-// Returns log2 of positive normal numbers. It is exact at powers of two and monotone; its error is
-// below 1e-5. On [1, 2) it computes log2(1 + t) = t (1 + (1 - t) r(t)), where the polynomial r
-// interpolates at Chebyshev points.
+// Returns log2 of positive normal numbers. The result is exact at powers of two, and the function
+// is monotone; its error is below 1e-5. On [1, 2), the function computes log2(1 + t) = t (1 + (1 -
+// t) r(t)), where the polynomial r interpolates at Chebyshev points.
 VEC_INLINE Vf log2_of(Vf x) {
     const Vi bits = vi_bits(x);
     const Vf exponent = vf_from_int((bits >> 23) - 127);
     const Vf t = vf_bits((bits & 0x7fffff) | 0x3f800000) - 1.0f;
-    const Vf t2 = t * t; // for Estrin's scheme, whose dependency chain is short
+    const Vf t2 = t * t; // for Estrin's scheme, which has a short dependency chain
     const Vf r = (0.442654073f - 0.276569515f * t) +
                  t2 * ((0.184100822f - 0.0972018316f * t) + 0.0256912634f * t2);
     return exponent + t * (1.0f + (1.0f - t) * r);
 }
 
-// Clamps to +-MAX_DERIVATIVE. NaN becomes MAX_DERIVATIVE, which leads to the smallest level.
+// Clamps to +-MAX_DERIVATIVE. NaN becomes MAX_DERIVATIVE, which selects the smallest mip level.
 VEC_INLINE Vf bounded(Vf v) {
     return vf_max(vf_min(v, vf_splat(MAX_DERIVATIVE)), vf_splat(-MAX_DERIVATIVE));
 }
@@ -51,20 +50,21 @@ VEC_INLINE Jacobian bounded_jacobian(Jacobian j) {
     return (Jacobian){bounded(j.ux), bounded(j.vx), bounded(j.uy), bounded(j.vy)};
 }
 
-// The major axis of a footprint in texels, and the squared lengths of both axes. minor2 is at least
-// length2 / max_anisotropy^2. Trilinear reads use minor2 only.
+// A footprint's major axis (u, v) in texels, the squared length of the major axis (length2), and
+// the squared length of the minor axis (minor2). minor2 is at least length2 / max_anisotropy^2.
+// Trilinear reads use only minor2.
 typedef struct Axis {
     Vf u, v;
     Vf length2;
     Vf minor2;
 } Axis;
 
-// Plain AF: measures the footprint in the screen's frame and in one turned by 45 degrees, and uses
-// the frame with the greater ratio of lengths. The ratio in the turned frame is capped at half the
-// maximum, so the level of detail depends on the angle. The turned derivatives are (dX + dY) / sqrt
-// 2 and (dY - dX) / sqrt 2; their squared lengths are half the sum of the screen's squares, plus
-// and minus the dot product of dX and dY. Squared ratios are compared by cross multiplication,
-// without division.
+// Plain anisotropic filtering (AF). It measures the footprint along the screen's axes and along
+// axes turned by 45 degrees, and uses the pair of axes with the greater ratio of lengths. For the
+// turned axes, the ratio is capped at half the maximum, so the level of detail depends on the
+// angle. The turned derivatives are (dX + dY) / sqrt 2 and (dY - dX) / sqrt 2. Their squared
+// lengths are (|dX|^2 + |dY|^2) / 2 plus and minus the dot product of dX and dY. Squared ratios are
+// compared by cross multiplication, without division.
 VEC_INLINE Axis two_frame_axis(Jacobian j, int max_anisotropy) {
     const float max = (float)max_anisotropy;
     const float half = max_anisotropy > 2 ? 0.5f * max : 1.0f;
@@ -90,9 +90,9 @@ VEC_INLINE Axis two_frame_axis(Jacobian j, int max_anisotropy) {
                   vf_max(short2, long2 * (1.0f / (max * max)))};
 }
 
-// Advanced AF: the axes M >= m of the exact ellipse are the singular values of the Jacobian J.
-// Their closed form M = |(e, h)| + |(f, g)|, m = |det J| / M has no cancellation. The major axis
-// points along the larger column of J J^T - m^2 I.
+// Advanced AF. The lengths M >= m of the exact ellipse's axes are the singular values of the
+// Jacobian J. The closed form M = |(e, h)| + |(f, g)|, m = |det J| / M has no cancellation. The
+// major axis points along the larger column of J J^T - m^2 I.
 VEC_INLINE Axis ellipse_axis(Jacobian j, int max_anisotropy) {
     const Vf e = (j.ux + j.vy) * 0.5f;
     const Vf f = (j.ux - j.vy) * 0.5f;
@@ -132,9 +132,10 @@ VEC_INLINE Vf inverse_of(Vi probes) {
     return vf_lookup16(inverses, probes & 15);
 }
 
-// Returns the squared length of the longer derivative, from which trilinear reads take their level.
+// Returns the squared length of the longer derivative. Trilinear reads compute their level of
+// detail from it.
 VEC_INLINE Vf isotropic_minor2(Jacobian j) {
-    // A length that is not finite becomes the bound, which leads to the smallest level.
+    // A length that is not finite becomes the bound, which selects the smallest mip level.
     const Vf most = vf_splat(MAX_DERIVATIVE * MAX_DERIVATIVE);
     const Vf dx2 = vf_min(j.ux * j.ux + j.vx * j.vx, most);
     const Vf dy2 = vf_min(j.uy * j.uy + j.vy * j.vy, most);
@@ -147,15 +148,15 @@ VEC_INLINE Axis anisotropic_axis(const DipSampler *sampler, Jacobian j) {
                                     : two_frame_axis(bounds, sampler->max_anisotropy);
 }
 
-// Narrows the blend between two levels to the middle quarter of the way from one to the next.
-// Before this quarter only the finer level is read, after it only the coarser one.
+// Narrows the blend between two levels to the middle quarter of the way from one level to the next.
+// Before this quarter, only the finer level is read; after it, only the coarser level.
 VEC_INLINE Vi narrow_blend(Vi lod8) {
     const Vi fraction = ((lod8 & 255) - 96) * 4;
     return (lod8 & ~255) + vi_min(vi_max(fraction, vi_splat(0)), vi_splat(256));
 }
 
-// Returns the level of detail in 1/256 level: log2 of the length of the minor axis (minor2 is its
-// square), rounded, biased and clamped.
+// Returns the level of detail in 1/256 level: log2 of the minor axis's length, rounded, biased and
+// clamped. minor2 is the square of this length.
 VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
     const Vf lambda = log2_of(vf_max(minor2, vf_splat(MIN_LENGTH * MIN_LENGTH))) * 0.5f;
     const Vi lod8 = vi_from_float(vf_floor(lambda * 256.0f + 0.5f)) + sampler->bias_lod8;
@@ -164,10 +165,10 @@ VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
     return vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
 }
 
-// Returns the number of probes of an anisotropic footprint in the finer of its two levels. Probes
-// are never closer than a texel of the finest level that may be read, since more probes would read
-// the same texels again.
-// halve: 1 returns half as many, rounded up; 0 returns all.
+// Returns the number of probes of an anisotropic footprint in the finer of its two levels. The
+// distance between probes is never less than a texel of the finest level that may be read, since
+// more probes would read the same texels again.
+// halve: if 1, returns half as many, rounded up; if 0, returns all.
 VEC_INLINE Vi count_probes(const DipSampler *sampler, const Axis *axis, int halve) {
     const int last = sampler->texture->level_count - 1;
     const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
@@ -178,16 +179,17 @@ VEC_INLINE Vi count_probes(const DipSampler *sampler, const Axis *axis, int halv
     return (full + halve) >> halve;
 }
 
-// Returns how many probes the coarser level takes if the finer one takes near_count. Its texels are
-// twice as large, so half as many are enough as long as it has little weight; the number rises with
-// its weight to all of them. fraction: the coarser level's weight in 1/256.
+// Returns the number of probes in the coarser level if the finer level has near_count probes.
+// Texels of the coarser level are twice as large, so half as many probes are enough while its
+// weight is small. As its weight grows, the number rises to near_count. fraction: the coarser
+// level's weight in 1/256.
 VEC_INLINE Vi count_far_probes(Vi near_count, Vi fraction) {
     return (near_count * vi_max(fraction, vi_splat(128)) + 255) >> 8;
 }
 
-// Half of the step between neighbouring probes, in texture coordinates. N probes of equal weight
-// lie at (k + 1/2) / N - 1/2 of the major axis about its middle, so the first one is N - 1 half
-// steps before the middle.
+// Half of the step between neighbouring probes, in texture coordinates. The N probes have equal
+// weight. Probe k lies at (k + 1/2) / N - 1/2 of the major axis from its middle, so the first probe
+// is N - 1 half steps before the middle.
 typedef struct HalfStep {
     Vf u, v;
 } HalfStep;

@@ -7,9 +7,9 @@ int dip_mip_next_size(int size) {
     return size > 1 ? size / 2 : 1;
 }
 
-// If the size n = 2m + 1 is odd, texel i of the next level spans [i n / m, (i + 1) n / m) of the
-// source. That is the part 1 - i / m of texel 2i, all of texel 2i + 1, and the part (i + 1) / m of
-// texel 2i + 2.
+// If the source's size n = 2m + 1 is odd, texel i of the next level spans [i n / m, (i + 1) n / m)
+// of the source. This range contains the fraction 1 - i / m of source texel 2i, the whole of texel
+// 2i + 1, and the fraction (i + 1) / m of texel 2i + 2.
 DipMipTap dip_mip_tap(int i, int size, int next) {
     if (size == next) {
         return (DipMipTap){i, 1, {1.0f, 0.0f, 0.0f}};
@@ -22,8 +22,8 @@ DipMipTap dip_mip_tap(int i, int size, int next) {
         2 * i, 3, {(float)((next - i) / n), (float)(next / n), (float)((i + 1) / n)}};
 }
 
-// Halves a row in the usual case of even sizes. It adds in the same order as weigh does, so the
-// results are the same to the bit.
+// Computes a row of the next level in the usual case of even sizes. The additions have the same
+// order as in `weigh`, so the results are the same to the bit.
 static void halve_evenly(const float *upper, const float *lower, float *restrict to,
                          int next_width) {
     for (int x = 0; x < next_width; x++) {

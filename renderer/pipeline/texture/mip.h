@@ -1,7 +1,8 @@
-// Mip chains: the area-weighted box filter that halves a level, exact for odd sizes.
+// Mip chains: the area-weighted box filter that computes each level from the level before. It is
+// exact for odd sizes too.
 //
-// A row of a level that is being built consists of four runs of floats: red, green and blue in
-// linear light, then alpha. Loops therefore run along contiguous floats.
+// While a level is being built, each of its rows consists of four runs of floats: red, green and
+// blue in linear light, then alpha. Loops therefore run along contiguous floats.
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_MIP_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_MIP_H
 
@@ -10,29 +11,32 @@ enum { DIP_MIP_CHANNELS = 4, DIP_MIP_MAX_TAPS = 3 };
 // Returns the next level's size along one axis: size / 2, but at least 1.
 int dip_mip_next_size(int size);
 
-// The source texels that one texel of the next level covers along one axis, and their weights.
+// A tap: the source texels that one texel of the next level covers along one axis, and their
+// weights.
 typedef struct DipMipTap {
     int first;
     int count;
     float weight[DIP_MIP_MAX_TAPS];
 } DipMipTap;
 
-// Returns the tap of texel i of the next level. size, next: sizes of both levels along the axis.
+// Returns the tap of texel i of the next level. size: source size along the axis. next: the next
+// level's size along the axis.
 DipMipTap dip_mip_tap(int i, int size, int next);
 
-// Computes one row of the next level, of next_width texels. rows: the source rows that the tap
-// names, of width texels each.
+// Computes one row of the next level, which has next_width texels. rows: the source rows of the
+// tap, each with `width` texels.
 void dip_mip_halve_row(const DipMipTap *tap, const float *const rows[DIP_MIP_MAX_TAPS], int width,
                        float *to, int next_width);
 
-// A level that is being built: its rows, one after the other.
+// A level that is being built. Its rows follow one another.
 typedef struct DipMipLevel {
     int width;
     int height;
     float *rows;
 } DipMipLevel;
 
-// Computes the next level. `to` has the next level's size, and space for 4 * width * height floats.
+// Computes the next level. The caller sets the size of `to` to that of the next level, and gives it
+// space for 4 * width * height floats.
 void dip_mip_halve(const DipMipLevel *from, DipMipLevel *to);
 
 #endif

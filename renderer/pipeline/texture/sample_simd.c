@@ -1,11 +1,12 @@
-// Texture reads: probes and filtering, compiled once per instruction set. docs/picture.md
-// (Textures) defines them.
+// Texture reads: probes and filtering. docs/picture.md (Textures) defines both. This file is
+// compiled once per instruction set.
 //
-// Colours are filtered in 16-bit fixed point: the codes of a texel are squared to linear light and
-// weighted by 16-bit fractions; the upper half of each product is kept. Two neighbouring texels are
-// fetched at once and stay side by side ("pair order", simd/pairs.h) until they are summed. Sums
-// are integers, so the order of lanes and probes does not matter. Of the two levels that a
-// footprint blends, `near` is the finer one and `far` the coarser.
+// Colours are filtered in 16-bit fixed point. A texel holds square roots of linear light
+// (texture_layout.h). The roots are squared and the squares are multiplied by 16-bit weights; each
+// product keeps its upper 16 bits. Two neighbouring texels are fetched at once and stay side by
+// side ("pair order", simd/pairs.h) until they are summed. Sums are integers, so the order of lanes
+// and probes does not matter. A footprint blends two mip levels: `near` is the finer level and
+// `far` is the coarser level.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/footprint_simd.h"
 #include "renderer/pipeline/texture/texture_layout.h"
@@ -15,45 +16,45 @@
 
 enum { VECTORS = DIP_FRAGMENT_BATCH / DIP_LANES };
 
-// How a texture is read. These are constants in each inlined copy of the loops below.
+// How a texture is read. The fields are constants in each inlined copy of the loops below.
 typedef struct ReadMode {
     bool anisotropic; // several probes per level
-    // Coordinates are fractions of the texture in 32 bits, which wrap by overflow.
+    // Coordinates are 32-bit fixed-point fractions of the texture's size, which wrap by overflow.
     bool in_bits;
 } ReadMode;
 
-// The probes of a batch's footprints in one of the two levels that they blend; only anisotropic
-// reads use them. Coordinates are in units of 2^-32 if the mode is in_bits, otherwise they are the
-// bits of floats.
+// The probes of a batch's footprints in one of their two levels. Only anisotropic reads use this.
+// Coordinates are in units of 2^-32 if the mode is in_bits; otherwise they are floats, stored as
+// their bits.
 typedef struct Line {
-    Vi count[VECTORS];  // number of probes; 0: the level is not read
-    Vf weight[VECTORS]; // weight of each probe in the footprint
+    Vi count[VECTORS];  // number of probes; 0 if the level is not read
+    Vf weight[VECTORS]; // weight of one probe in the footprint
     Vu u[VECTORS];      // coordinates of the first probe
     Vu v[VECTORS];
     Vu step_u[VECTORS];
     Vu step_v[VECTORS];
 } Line;
 
-// The footprints of a batch. All are found before any texel is read: their long chains of dependent
-// operations then overlap, which they would not with reads in between.
+// The footprints of a batch. All footprints are computed before any texel is read. Their long
+// chains of dependent operations then overlap; reads in between would prevent this.
 typedef struct Footprints {
     Vi lod8[VECTORS];
-    Vu u[VECTORS]; // coordinates of the middle
+    Vu u[VECTORS]; // coordinates of the footprint's middle
     Vu v[VECTORS];
     Line near;
     Line far;
 } Footprints;
 
-// Returns the fractional part of a coordinate in units of 2^-32. Infinities and NaN become some
-// fraction.
+// Returns the fractional part of a coordinate in units of 2^-32. Infinities and NaN give an
+// arbitrary fraction.
 VEC_INLINE Vu fraction32(Vf coordinate) {
     const Vf unit = coordinate - vf_floor(coordinate);
     const Vf bounded = vf_max(vf_min(unit, vf_splat(0.99999994f)), vf_splat(0.0f));
     return (Vu)vi_from_float((bounded - 0.5f) * 4294967296.0f) + 0x80000000u;
 }
 
-// Returns a step in units of 2^-32. It is reduced modulo 1 to -1/2 .. 1/2, so that small steps keep
-// their precision.
+// Returns a step in units of 2^-32. The step is first reduced modulo 1 to -1/2 .. 1/2, so that
+// small steps keep their precision.
 VEC_INLINE Vu step32(Vf step) {
     const Vf near = step - vf_floor(step + 0.5f);
     const Vf bounded = vf_max(vf_min(near, vf_splat(0.49999997f)), vf_splat(-0.5f));
@@ -61,7 +62,7 @@ VEC_INLINE Vu step32(Vf step) {
 }
 
 // Sets the first probe and the step of vector n as 32-bit fractions. The step is computed from its
-// half: half of a step that has wrapped could be off by 1/2.
+// half, and not the half from the step: half of a step that has wrapped could be off by 1/2.
 VEC_INLINE void set_line32(const HalfStep *half, Vu u, Vu v, Line *line, int n) {
     const Vu gaps = (Vu)line->count[n] - 1u;
     const Vu half_u = step32(half->u);
@@ -72,7 +73,8 @@ VEC_INLINE void set_line32(const HalfStep *half, Vu u, Vu v, Line *line, int n) 
     line->step_v[n] = half_v + half_v;
 }
 
-// Sets the probes of vector n in a level. level_weight: the level's weight in the blend.
+// Sets the probes of vector n in a level. level_weight: the level's weight in the blend of the two
+// levels.
 VEC_INLINE void set_line(Line *line, const DipTexture *texture, ReadMode mode, const Axis *axis,
                          const Footprints *footprints, Vf level_weight, int n) {
     const Vf inverse = inverse_of(line->count[n]);
@@ -95,14 +97,14 @@ typedef struct LaneWork {
     Vi reads;
 } LaneWork;
 
-// Adds the work of the first `lanes` lanes; the other lanes are beyond the end of the batch.
+// Adds the work of the first `lanes` lanes. The other lanes are beyond the end of the batch.
 VEC_INLINE void count_work(LaneWork *work, Vi near, Vi far, int lanes) {
     const Mask own = vi_lt(vi_iota(), vi_splat(lanes));
     work->probes += vi_select(own, near, vi_splat(0));
     work->reads += vi_select(own, near + far, vi_splat(0));
 }
 
-// Finds the footprints of a batch. Short loops let the processor overlap long dependency chains.
+// Computes the footprints of a batch. Short loops let the processor overlap long dependency chains.
 // textures: the number of textures that share these footprints.
 VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, ReadMode mode,
                                 int varying, int textures, Footprints *out) {
@@ -158,11 +160,11 @@ typedef struct Level {
     Vi offset;
     Vi stride;
     Vi stride_pairs; // stride, in pair order
-    Vi width;        // texels; log2 of them if the mode is in_bits
+    Vi width;        // width in texels; its log2 if the mode is in_bits
     Vi height;
 } Level;
 
-// A bilinear read: the index of its first texel, and its position in the level in 1/256 texel.
+// A bilinear read: the index of its first texel, and its position within the level in 1/256 texel.
 typedef struct Taps {
     Vi index;
     Vi x8;
@@ -185,24 +187,24 @@ VEC_INLINE Level read_level(const DipTexture *texture, ReadMode mode, Vi level) 
     return out;
 }
 
-// Converts a coordinate to 1/256 texel of a level of any size, with texel centres at whole numbers.
-// If the axis repeats, positions before the first centre continue from the last texel. Infinities
-// and NaN become 0 or 1, so that no address leaves the texture.
+// Converts a coordinate to a position in 1/256 texel, in a level of any size. Texel centres are at
+// whole numbers of texels. If the axis repeats, positions before the first centre continue from the
+// last texel. Infinities and NaN become coordinate 0 or 1, so that no address leaves the texture.
 VEC_INLINE Vi address(Vf coordinate, DipWrap wrap, Vi size) {
     const Vf unwrapped = wrap == DIP_WRAP_REPEAT ? coordinate - vf_floor(coordinate) : coordinate;
     const Vf unit = vf_min(vf_max(unwrapped, vf_splat(0.0f)), vf_splat(1.0f));
     const Vi at = vi_from_float(unit * vf_from_int(size << 8)) - 128;
-    const Vi before = at >> 31; // all ones where negative
+    const Vi before = at >> 31; // all bits set where negative
     return wrap == DIP_WRAP_REPEAT ? at + (before & (size << 8)) : at & ~before;
 }
 
 // A walk along the probes of one vector in a level.
 typedef struct Walk {
     Level level;
-    Vu u, v; // if in_bits: less half a texel, so that texel centres lie at multiples of one
+    Vu u, v; // if in_bits: half a texel less, so that texel centres are at whole texels
     Vu step_u, step_v;
     int probe;
-    int count; // most probes of any lane
+    int count; // largest number of probes of any lane
 } Walk;
 
 // Starts a walk along vector n's probes in a level. `line` is used only if the mode is anisotropic.
@@ -232,7 +234,7 @@ VEC_INLINE void next_probe(Walk *walk, ReadMode mode) {
     }
 }
 
-// Returns the bilinear read at the walk's position.
+// Returns the bilinear read at the walk's current position.
 VEC_INLINE Taps find_taps(const DipTexture *texture, ReadMode mode, const Walk *walk) {
     const Level *level = &walk->level;
     Taps taps;
@@ -267,8 +269,8 @@ VEC_INLINE Vi shown_level(const DipSampler *sampler, Vi level) {
 
 // --- colour ------------------------------------------------------------------------------------
 
-// Sums of weighted texels in pair order, with 16 bits per channel: red and green in one word, blue
-// in another.
+// Sums of weighted texels in pair order, with 16 bits per channel. Red and green share a 32-bit
+// word; blue has a word of its own.
 typedef struct PairSum {
     VuPair red_green;
     VuPair blue;
@@ -276,7 +278,7 @@ typedef struct PairSum {
 
 // Sums of several PairSums, with 32 bits per channel.
 typedef struct WideSum {
-    VuPair red_green; // packed sums modulo 2^32; minus red << 16 they leave green
+    VuPair red_green; // packed sums modulo 2^32; subtracting red << 16 gives green
     VuPair red;
     VuPair blue;
 } WideSum;
@@ -296,8 +298,8 @@ VEC_INLINE void widen(WideSum *wide, const PairSum *sum) {
     wide->blue.b += sum->blue.b;
 }
 
-// Adds weighted texels to the sums of red and green and of blue. A texel's linear light is the
-// square of its codes; a weight has 16 bits.
+// Adds weighted texels to *red_green and *blue. The squares of a texel's roots are its linear
+// light; a weight has 16 bits.
 VEC_INLINE void add_texels(Vu *red_green, Vu *blue, Vu texels, Vu weight) {
     const Vu b = vu_dot16(texels & DIP_TEXEL_BLUE, DIP_TEXEL_BLUE_FACTORS);
     *red_green += vu_mulhi16(vu_mulhi16(texels, texels), weight);
@@ -310,8 +312,8 @@ VEC_INLINE void add_row(PairSum *sum, const DipTexture *texture, Vi index_pairs,
     add_texels(&sum->red_green.b, &sum->blue.b, texels.b, weight.b);
 }
 
-// Zeroes the weight of lanes that have run out of probes. count: the number of probes of each lane,
-// as both values of a pair.
+// Sets to zero the weights of lanes that have run out of probes. count: the number of probes of
+// each lane, as both values of a pair.
 VEC_INLINE VuPair zero_finished(VuPair ramp, VuPair count, int probe) {
     const Vi at = vi_splat(probe);
     return (VuPair){(Vu)vi_select(vi_lt(at, (Vi)count.a), (Vi)ramp.a, vi_splat(0)),
@@ -330,14 +332,14 @@ VEC_INLINE Weights join_weights(VuPair across, VuPair upper, VuPair lower) {
 }
 
 // Returns the weights of a probe. count: the number of probes of each lane, as both values of a
-// pair; a lane that has no such probe weighs nothing.
+// pair; lanes with fewer probes get the weight 0.
 VEC_INLINE Weights weigh_probe(const Taps *taps, VuPair count, int probe) {
     const VuPair down = vu_pair_both(taps->y8);
     return join_weights(zero_finished(vu_pair_ramp(taps->x8), count, probe),
                         (VuPair){~down.a, ~down.b}, down);
 }
 
-// Returns the weights of a level's only read, multiplied by the weight of the level.
+// Returns the weights of the single read of a level, multiplied by the weight of the level.
 VEC_INLINE Weights weigh_level(const Taps *taps, VuPair weight) {
     const VuPair down = vu_pair_both(taps->y8);
     const VuPair lower = {vu_mulhi16(down.a, weight.a), vu_mulhi16(down.b, weight.b)};
@@ -352,8 +354,8 @@ VEC_INLINE void add_taps(PairSum *sum, const DipTexture *texture, const Level *l
     add_row(sum, texture, index + level->stride_pairs, weights->lower);
 }
 
-// Converts a sum to linear light, 1 for white. The divisors are below 65535 because rounding in the
-// products loses a little; the sum of a white texel comes to within 6 of them.
+// Converts a sum to linear light, in which white is 1. The divisors are below 65535 because the
+// products are rounded down. The sum of a white texel differs from the divisor by at most 6.
 VEC_INLINE void sum_channels(const WideSum *sum, Vf light[3]) {
     const Vu red = vu_pair_sum(sum->red);
     light[0] = vf_from_int((Vi)red) * (1.0f / 65526.0f);
@@ -392,7 +394,7 @@ VEC_INLINE void add_line(const Read *read, ReadMode mode, Vi level, const Footpr
     }
 }
 
-// Adds vector n's only read of a level, multiplied by the weight of the level.
+// Adds the light of vector n's single read of a level, multiplied by the weight of the level.
 VEC_INLINE void add_level(const Read *read, ReadMode mode, Vi level, const Footprints *footprints,
                           int n, VuPair weight, PairSum sum[2]) {
     const Walk walk = begin_walk(read->texture[0], mode, level, footprints, NULL, n);
@@ -527,7 +529,7 @@ void DIP_KERNEL(dip_kernel_sample_colour)(DipFragmentBatch *batch, const DipSamp
     SAMPLE_BY_MODE(sample_colour, texture->wraps_in_bits, u_varying, out);
 }
 
-// Returns whether two samplers read the same positions in memory, with the same footprints.
+// Returns whether two samplers read textures of the same layout with the same footprints.
 static bool reads_alike(const DipSampler *a, const DipSampler *b) {
     const DipTexture *s = a->texture;
     const DipTexture *t = b->texture;

@@ -10,7 +10,7 @@ typedef struct Axis {
     Vf share;
 } Axis;
 
-// A coordinate that is NaN reads the first texel.
+// Computes the read along one axis. A NaN coordinate reads the first texel.
 VEC_INLINE Axis axis_at(Vf fraction, int size) {
     const Vf at = fraction * (float)size - 0.5f;
     const Vf bounded = vf_min(vf_max(at, vf_splat(0.0f)), vf_splat((float)(size - 1)));

@@ -16,17 +16,18 @@ enum { FULL_CODE16 = 65535, FULL_CODE10 = 1023 };
 
 static uint32_t quantise(double linear, int max) {
     const double clamped = linear > 0.0 ? (linear < 1.0 ? linear : 1.0) : 0.0;
-    // Through a signed integer, because vector instructions convert to signed numbers only.
+    // The conversion goes through a signed integer, because vector instructions convert only to
+    // signed numbers.
     return (uint32_t)(int32_t)(sqrt(clamped) * max + 0.5);
 }
 
-// Returns the multiple of 32 that, with `low` added, comes closest to a 16-bit code.
+// Returns the multiple of 32 for which the sum with `low` is closest to code16.
 static uint32_t beside(uint32_t code16, uint32_t low) {
     const uint32_t at = code16 + 16 < low ? 0 : (code16 + 16 - low) & ~31u;
     return at > 65504 ? 65504 : at;
 }
 
-// Packs a texel from 16-bit codes of red and green and a 10-bit code of blue.
+// Packs a texel from 16-bit roots of red and green and a 10-bit root of blue.
 static uint32_t join_codes(uint32_t red16, uint32_t green16, uint32_t blue10) {
     const uint32_t high = blue10 >> 5;
     const uint32_t low = blue10 & 31;
@@ -74,7 +75,8 @@ static bool is_power_of_two(int size) {
     return (size & (size - 1)) == 0;
 }
 
-// Enters a level's size and offset into the tables. Returns the number of texels that it takes.
+// Enters a level's size and offset into the texture's tables. Returns the number of texels that the
+// level takes.
 static size_t add_level(DipTexture *texture, int level, int width, int height, size_t offset) {
     texture->level_width[level] = width;
     texture->level_height[level] = height;
@@ -100,8 +102,8 @@ static void add_levels(DipTexture *texture) {
     }
 }
 
-// Allocates the texels and the alpha plane. 8 spare texels and 32 spare bytes of alpha keep reads
-// that run past the last texel inside the arrays.
+// Allocates the texels and the alpha plane. Reads may run past the last texel; 8 spare texels and
+// 32 spare bytes of alpha keep such reads inside the arrays.
 static bool allocate_texels(DipTexture *texture, bool with_alpha) {
     texture->texels = dip_pages_alloc((texture->texel_count + 8) * sizeof *texture->texels);
     if (with_alpha) {
@@ -110,8 +112,8 @@ static bool allocate_texels(DipTexture *texture, bool with_alpha) {
     return texture->texels && (texture->alpha || !with_alpha);
 }
 
-// What each of the 256 codes of a texture stands for: linear light or alpha for the mip filter, and
-// the codes of packed texels.
+// Tables for the 256 possible values (codes) of a picture's channel: the linear light or alpha for
+// the mip filter, and the roots for packed texels.
 typedef struct CodeTables {
     float colour[256];
     float alpha[256];
@@ -132,14 +134,14 @@ static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
     }
 }
 
-// Returns the column (or row) of a level whose texels column i shows. That is i itself, except in
-// the padding (i == size), which repeats the first or the last column.
+// Returns the column (or row) of a level from which column (or row) i takes its texels. This is i
+// itself, except in the padding (i == size), which repeats the first or the last one.
 static int padding_source(int i, int size, DipWrap wrap) {
     return i < size ? i : wrap == DIP_WRAP_REPEAT ? 0 : size - 1;
 }
 
-// Packs rows first..end-1 of a level straight from the codes of its picture, padding columns
-// included. Row `height` is the padding row.
+// Packs rows first..end-1 of a level, including their padding columns, directly from the 8-bit
+// values of the level's picture. Row `height` is the padding row.
 static void pack_codes(DipTexture *texture, int level, const DipTextureDef *def,
                        const CodeTables *tables, int first, int end) {
     const size_t position =
@@ -176,25 +178,26 @@ static void pack_row(const float *row, int width, uint32_t *restrict texels,
 
 // --- chains ------------------------------------------------------------------------------------
 
-// A chain is made in two parts. Level 0 is packed straight from the picture's codes, and level 1 is
-// filtered from them row by row; this work is cut into bands. The levels from 2 on are the rest, a
-// third of the work. One task makes them while other threads work on the bands of the next texture.
-enum { BAND_TEXELS = 1 << 16 }; // texels of level 0 in a band, about
+// A mip chain is made in two parts. The first part packs level 0 directly from the picture's 8-bit
+// values and filters level 1 from them, row by row. This part is divided into bands. The second
+// part, called the rest, makes the levels from 2 on, which is a third of the work. One task makes
+// the rest while other threads work on the bands of the next texture.
+enum { BAND_TEXELS = 1 << 16 }; // approximate number of texels of level 0 in a band
 
 // A texture that is being built.
 typedef struct Chain {
     const DipTextureDef *def;
     DipTexture *texture;
     const CodeTables *tables;
-    float *level1; // rows of floats, see mip.h; level2 follows it in the same block of memory
+    float *level1; // rows of floats (mip.h); level2 follows level1 in the same block of memory
     float *level2;
-    int band_rows; // rows of level 1 in a band
+    int band_rows; // number of rows of level 1 in a band
     int band_count;
 } Chain;
 
 typedef struct ChainJobs {
-    Chain *bands; // the texture whose bands are tasks 1 and up, or NULL
-    Chain *rest;  // the texture whose levels from 2 on are task 0, or NULL
+    Chain *bands; // the chain whose bands are tasks 1 and up, or NULL
+    Chain *rest;  // the chain whose levels from 2 on are task 0, or NULL
     float *rows;  // space for three rows of level 0 for each worker
     size_t row_floats;
 } ChainJobs;
@@ -230,7 +233,7 @@ void dip_texture_pad_row(DipTexture *texture, int level, int y) {
     }
 }
 
-// Packs a row of a filtered level, and the padding that repeats it.
+// Packs a row of a filtered level, and the padding that repeats its texels.
 static void store_row(DipTexture *texture, int level, int y, const float *row) {
     const int width = texture->level_width[level];
     const size_t position = (size_t)texture->level_offset[level] + (size_t)y * ((size_t)width + 1);
@@ -239,7 +242,7 @@ static void store_row(DipTexture *texture, int level, int y, const float *row) {
     dip_texture_pad_row(texture, level, y);
 }
 
-// Packs the rows of level 0 that a band of level 1 is filtered from, and makes that band.
+// Makes a band: packs its rows of level 0, and filters its rows of level 1 from them.
 static void make_band(const Chain *chain, int band, float *scratch) {
     DipTexture *texture = chain->texture;
     const int width = texture->width;
@@ -267,7 +270,7 @@ static void make_band(const Chain *chain, int band, float *scratch) {
     }
 }
 
-// Makes every level from 2 on, with two levels in memory at a time.
+// Makes every level from 2 on. Only two unpacked levels are in memory at a time.
 static void make_rest(const Chain *chain) {
     DipTexture *texture = chain->texture;
     DipMipLevel from = {texture->level_width[1], texture->level_height[1], chain->level1};
@@ -300,7 +303,7 @@ static DipTexture *out_of_memory(DipTexture *texture, const char *name, DipError
     return NULL;
 }
 
-// Creates a texture with the layout of its levels and texels that are not yet written.
+// Creates a texture with the layout of its levels. Its texels are not yet filled in.
 static DipTexture *begin_texture(const DipTextureDef *def, bool keep_alpha, DipError *err) {
     if (!check_def(def, err)) {
         return NULL;
@@ -364,8 +367,8 @@ static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef
     return true;
 }
 
-// Makes the bands of one chain together with the rest of the chain before it. Afterwards it frees
-// the rows of the earlier chain.
+// Makes the bands of one chain and the rest of the chain before it at the same time. Afterwards the
+// function frees the float rows of the earlier chain.
 static void run_chains(ChainJobs *jobs, DipPool *pool) {
     dip_pool_run(pool, 1 + (jobs->bands ? jobs->bands->band_count : 0), run_chain_task, jobs);
     if (jobs->rest) {
