@@ -310,8 +310,8 @@ static DipSurface surface_of(const DipScene *scene, const DipSceneObject *object
     return scene->materials[scene->meshes[object->mesh].material].surface;
 }
 
-// Sets the scene's bounds to those of all objects for whose surface `is` returns true. Returns
-// false if there are no such objects with triangles.
+// Sets the scene's bounds to the bounds of all objects whose kind of surface `is` accepts. Returns
+// false if no such object has triangles.
 static bool bound_objects(DipScene *scene, bool (*is)(DipSurface)) {
     bool any = false;
     for (int axis = 0; axis < 3; axis++) {

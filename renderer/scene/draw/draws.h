@@ -54,7 +54,7 @@ typedef struct DipDrawSet {
 bool dip_draw_set_make(DipDrawSet *set, int object_count, bool reflects, DipError *err);
 void dip_draw_set_free(DipDrawSet *set);
 
-// Replaces the set's draws by those of a pass. Allocates nothing.
+// Replaces the set's draws by the draws of a pass. Allocates nothing.
 void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDrawView *pass);
 
 // Sets how the textures of each material are sampled. If mip colours are on, the levels of `shown`

@@ -213,7 +213,7 @@ static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipEr
     return dip_pipeline_draw_passes(works, count, same_geometry, err);
 }
 
-// Converts the counters of the passes to those of a frame.
+// Converts the passes' counters to a frame's counters.
 static DipCounters frame_counters(const DipPipelineCounters *passes) {
     DipCounters counters = {
         .fragments_normal_mapped = passes->shader_counts[DIP_SHADER_COUNT_NORMAL_MAPPED],
