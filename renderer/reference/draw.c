@@ -1,5 +1,5 @@
-// Draws the picture of the settings: exact coverage, depth per sample, one shading per pixel and
-// patch.
+// Draws the picture that the settings define. Coverage is exact, depth is tested per sample, and a
+// patch is shaded once per pixel.
 #include "renderer/reference/internal/internal.h"
 
 #include "renderer/pipeline/pattern.h"

@@ -190,8 +190,8 @@ static int clip_near(const ClipVertex *const corners[3], double near_m,
     return count >= 3 ? count : 0;
 }
 
-// Converts pixels to steps of 1/256 pixel. Positions stay below 2^40 steps, so that products of two
-// fit 128 bits and doubles hold the positions exactly.
+// Converts pixels to steps of 1/256 pixel. Positions stay below 2^40 steps, so that the product of
+// two positions fits 128 bits and doubles hold the positions exactly.
 static double to_steps(double px, bool rounded) {
     const double steps = fmin(fmax(px * 256.0, -0x1p40), 0x1p40);
     return rounded ? rint(steps) : steps;
@@ -293,8 +293,8 @@ static int clip_below(int count, ClipVertex polygon[MAX_CORNERS]) {
     return kept >= 3 ? kept : 0;
 }
 
-// Adds the triangles of a mesh. *like holds what all of them have in common, and the number of the
-// mesh's first patch.
+// Adds the triangles of a mesh. *like holds what these triangles have in common, and the number of
+// the mesh's first patch.
 static bool add_mesh(const DipReference *reference, const Camera *camera, int mesh_index,
                      const ClipVertex *vertices, const DipRefTriangle *like,
                      DipRefTriangles *triangles) {

@@ -39,7 +39,7 @@ enum {
     DIP_REF_VARYINGS
 };
 
-enum { DIP_REF_DERIVED = 7 }; // number of varyings that have derivatives: the first ones
+enum { DIP_REF_DERIVED = 7 }; // this many varyings, the first ones, have derivatives
 
 typedef struct DipRefVertex {
     double x; // on the screen, to the right, in 1/256 pixel
