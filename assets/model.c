@@ -180,7 +180,7 @@ static bool add_object(DipModel *model, int file, const struct aiNode *node, uns
     return true;
 }
 
-// Adds a node and its children to the objects. The import has limited the depth of nodes.
+// Adds a node and its children to the objects. The import has already limited how deep nodes nest.
 static bool walk(DipModel *model, int file, const struct aiNode *node, const NodeState *parent,
                  DipError *err) {
     NodeState state = *parent;

@@ -22,7 +22,7 @@ struct aiScene;
 
 enum { DIP_NOT_FOUND = -1 };
 
-// Kind of surface that an object's metadata name.
+// Kind of surface, as an object's metadata gives it.
 typedef enum DipTag {
     DIP_TAG_SOLID,
     DIP_TAG_MASK,

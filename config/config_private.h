@@ -57,7 +57,7 @@ typedef struct DipConfigReader {
     bool stopped;      // the rest of the file is not read
 } DipConfigReader;
 
-// The ini_reader callback of inih, which has the shape of fgets. context is a DipConfigReader.
+// The ini_reader callback of inih, which has the signature of fgets. context is a DipConfigReader.
 char *dip_config_read_line(char *to, int room, void *context);
 
 // Appends a fault of the reader's file to its list. line is 0 if the fault is in no line, and key

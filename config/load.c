@@ -192,8 +192,8 @@ static void compare_fov(Loader *loader, int category) {
     }
 }
 
-// CAMPATH_DEFAULT_FOV needs no path beside it: it also applies to the orbit that takes the place of
-// a path, and to a path that the command line names.
+// CAMPATH_DEFAULT_FOV may be given without CAMPATH_DEFAULT. It also applies to the orbit that
+// replaces a missing path, and to a path that the command line names.
 static void settle_cameras(Loader *loader) {
     DipConfig *config = loader->config;
     for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
