@@ -17,16 +17,16 @@
 #include <sys/stat.h>
 
 // aiProcess_JoinIdenticalVertices is left out. It merges vertices that differ only in their second
-// texture coordinates and so tears light maps; mesh.c compares all attributes.
+// texture coordinates, and so it tears light maps. mesh.c compares all attributes instead.
 static const unsigned process_flags =
     aiProcess_Triangulate | aiProcess_FlipUVs | aiProcess_SortByPType;
 
-static const size_t import_stack_bytes = (size_t)256
-                                         << 20; // address space; memory is used as needed
+// This is address space; memory is used as needed.
+static const size_t import_stack_bytes = (size_t)256 << 20;
 
 enum {
-    MAX_NODE_DEPTH = 512, // levels of child nodes
-    MAX_LOG_WARNINGS = 8, // warnings of assimp that are passed on per file
+    MAX_NODE_DEPTH = 512, // most levels of child nodes
+    MAX_LOG_WARNINGS = 8, // most warnings of assimp that are passed on per file
 };
 
 static bool check_extension(const char *path, DipError *err) {
@@ -142,8 +142,8 @@ static bool check_scene(const char *path, const struct aiScene *scene, bool proc
     return check_node(path, scene, scene->mRootNode, 0, err);
 }
 
-// Removes NULLs among a node's children. Some of assimp's readers (RAW) leave them, and its
-// processing would follow them.
+// Removes NULLs among a node's children. Some of assimp's readers (RAW) leave NULLs there, and
+// assimp's processing would follow them.
 static void close_gaps(struct aiNode *node) {
     unsigned kept = 0;
     for (unsigned i = 0; i < node->mNumChildren; ++i) {
@@ -156,11 +156,12 @@ static void close_gaps(struct aiNode *node) {
 }
 
 // Changes a checked scene so that no processing step throws an exception. After an exception
-// aiApplyPostProcessing frees the scene twice, which ends the program. Two things make steps throw:
-// - Meshes without a primitive type, which have no faces (an empty solid in an STL file). Marked as
-//   points they are skipped.
-// - Scenes flagged as sharing vertices between faces (files that assimp wrote). Scenes of other
-// formats
+// aiApplyPostProcessing frees the scene twice, which ends the program. Steps throw for two kinds of
+// scenes:
+// - Scenes with a mesh without a primitive type, which has no faces (an empty solid in an STL
+//   file). Such meshes are marked as points, so that the steps skip them.
+// - Scenes flagged as sharing vertices between faces (files that assimp wrote). The flag is
+//   removed; scenes of other formats share vertices without the flag and are processed.
 //   share vertices without the flag and are processed.
 static void mend_scene(const struct aiScene *checked) {
     struct aiScene *scene = (struct aiScene *)checked; // assimp allocated it writable.
@@ -222,8 +223,8 @@ typedef struct ImportLog {
     bool indices_dropped; // assimp has dropped faces whose indices are out of range
 } ImportLog;
 
-// The callback of aiLogStream. Lines look like "Warn,  T0: text". Only the log says when assimp has
-// dropped faces because of their indices.
+// The callback of aiLogStream. Lines look like "Warn,  T0: text". Only the log tells that assimp
+// has dropped faces because of their indices.
 static void add_log_line(const char *line, char *user) {
     ImportLog *log = (ImportLog *)(void *)user;
     const bool matters = strncmp(line, "Warn", 4) == 0 || strncmp(line, "Error", 5) == 0;
@@ -248,7 +249,7 @@ static bool import_bare(DipModel *model, DipModelFile *file, DipError *err) {
     file->scene = aiImportFile(file->path, 0);
     aiDetachLogStream(&stream);
     if ((!file->scene || log.indices_dropped) && model->warnings) {
-        model->warnings->count = warnings_before; // The error replaces them.
+        model->warnings->count = warnings_before; // The error replaces the warnings.
     }
     if (!file->scene) {
         return import_error(file->path, err);

@@ -42,8 +42,8 @@ static void warn_of_transform(DipModel *model, const char *path, const char *nam
     }
 }
 
-// Returns the use of the first of these types of picture that the material has and the mesh has
-// texture coordinates for.
+// Tries the given types of picture in order. Returns the use of the first picture that the material
+// has and that the mesh has texture coordinates for.
 static DipTextureUse texture_use(DipModel *model, int file, const char *name,
                                  const struct aiMesh *mesh, const enum aiTextureType *types,
                                  size_t type_count) {
@@ -181,7 +181,8 @@ static void fill_material(DipModel *model, int file_index, const struct aiMesh *
     def->colour_texture = def->light_map = def->normal_map = DIP_NO_TEXTURE;
 }
 
-// A mesh without some texture coordinates cannot share the material of a mesh that has them.
+// Returns one bit for each set of texture coordinates that the mesh has. Meshes with different sets
+// cannot share a material.
 static unsigned coordinate_mask(const struct aiMesh *mesh) {
     unsigned mask = 0;
     for (unsigned i = 0; i < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++i) {
@@ -274,8 +275,8 @@ static int add_texture(DipModel *model, const DipTextureKey *key, const DipTextu
     return model->def.texture_count++;
 }
 
-// Returns the texture that shows a picture, or DIP_NO_TEXTURE if there is no decoded one. Sets *ok
-// to false when memory runs out.
+// Returns the texture that shows a picture, or DIP_NO_TEXTURE if the picture was not decoded. Sets
+// *ok to false when memory runs out.
 static int texture_of(DipModel *model, const DipTextureUse *use, const DipTextureUse *opacity,
                       DipEncoding encoding, bool *ok) {
     const DipTextureKey key = {

@@ -15,8 +15,8 @@ bool dip_mesh_is_triangles(const struct aiMesh *mesh) {
     return (mesh->mPrimitiveTypes & kinds) == aiPrimitiveType_TRIANGLE;
 }
 
-// Decides which vertices of the file become vertices of the mesh, and in which order: each vertex
-// once, or, if normals must be made, one vertex per corner of a face.
+// Decides which vertices of the file become vertices of the mesh, and in which order. If normals
+// must be made, each corner of a face becomes a vertex; otherwise each vertex is used once.
 typedef struct VertexSource {
     const struct aiMesh *mesh;
     bool by_corner;
@@ -88,15 +88,15 @@ static float *pack_colours(DipModel *model, const VertexSource *source, bool lin
 
 enum { ATTRIBUTE_COUNT = 5 };
 
-// The arrays of a mesh's vertices: positions, normals, both coordinates and colours. NULL if the
-// mesh lacks an attribute.
+// The arrays of a mesh's vertices: positions, normals, two sets of texture coordinates and colours.
+// The array of an attribute that the mesh lacks is NULL.
 typedef struct VertexArrays {
     float *values[ATTRIBUTE_COUNT];
 } VertexArrays;
 
 static const size_t attribute_width[ATTRIBUTE_COUNT] = {3, 3, 2, 2, 3};
 
-// FNV-1a over the bits of the values.
+// Hashes the bits of a vertex's values with FNV-1a.
 static uint32_t hash_vertex(const VertexArrays *arrays, size_t vertex) {
     uint32_t hash = 2166136261u;
     for (int a = 0; a < ATTRIBUTE_COUNT; ++a) {

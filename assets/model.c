@@ -180,7 +180,7 @@ static bool add_object(DipModel *model, int file, const struct aiNode *node, uns
     return true;
 }
 
-// Adds a node and its children to the objects. The import has limited the depth of nodes.
+// Adds a node and its children to the objects. The import has already limited how deep nodes nest.
 static bool walk(DipModel *model, int file, const struct aiNode *node, const NodeState *parent,
                  DipError *err) {
     NodeState state = *parent;
@@ -250,8 +250,8 @@ static void extend_bounds(double low[3], double high[3], const DipMeshDef *mesh,
     }
 }
 
-// Finds the distance of the near plane from the size of the model without its sky, which may be as
-// large as its author likes.
+// Computes the distance of the near plane from the size of the model. The sky does not count,
+// because it may be as large as its author likes.
 static float near_distance(const DipModel *model) {
     double low[3] = {INFINITY, INFINITY, INFINITY};
     double high[3] = {-INFINITY, -INFINITY, -INFINITY};

@@ -1,28 +1,26 @@
 // Loads model files (glTF, OBJ, X, PLY, STL and other formats that assimp reads) and the pictures
-// they name into one scene description for the renderer.
+// that they name into one scene description for the renderer.
 //
 // docs/models.md explains for authors what the loader reads. In short:
-// - Polygons are triangulated; points and lines are left out with a warning. A mesh without normals
-//   gets some, smooth where faces meet at less than 60 degrees. A mesh that several nodes use stays
-//   one mesh with several objects. A node that mirrors uses the same mesh; the renderer turns the
-//   winding back (docs/picture.md, Coverage).
-// - Base colours and vertex colours are linear in glTF. Those of all other formats are taken as
-// sRGB,
-//   because the programs that write these formats show them so. Outside glTF a black base colour
-//   with a colour texture counts as white, because many exporters write black for "none".
-// - Alpha: glTF's MASK keeps its cutoff; BLEND is drawn as MASK with a cutoff of 0.5 and a warning.
-// In
-//   other formats an opacity picture clips at 0.5. A surface whose texture is opaque throughout is
-//   an opaque surface.
-// - A surface is double-sided if the file says so, and in formats that cannot say.
-// - Node metadata (glTF: extras) of a node, or of the nearest node above it that has some:
-// `surface` is
-//   solid, mask, glass, water or sky; `lightmapped` is 1 if the material's occlusion picture is a
-//   light map that stores light / 2. Light maps of other formats store the light itself.
+// - Polygons are triangulated. Points and lines are left out with a warning.
+// - A mesh without normals gets normals, which are smooth where faces meet at less than 60 degrees.
+// - A mesh that several nodes use stays one mesh with several objects. A node that mirrors uses the
+//   same mesh; the renderer turns the winding back (docs/picture.md, Coverage).
+// - Base colours and vertex colours are linear in glTF. In all other formats they are taken as
+//   sRGB, because the programs that write these formats show them so.
+// - Outside glTF, a black base colour with a colour texture counts as white, because many exporters
+//   write black for "none".
+// - In glTF, MASK keeps its cutoff, and BLEND is drawn as MASK with a cutoff of 0.5 and a warning.
+//   In other formats an opacity picture clips at 0.5. A surface whose texture is opaque throughout
+//   is an opaque surface.
+// - A surface is double-sided if the file says so, and always in formats that cannot say.
+// - A node takes its metadata (glTF: extras) from itself or from the nearest node above it that has
+//   some. `surface` is solid, mask, glass, water or sky. `lightmapped` is 1 if the material's
+//   occlusion picture is a light map that stores light / 2. Light maps of other formats store the
+//   light itself.
 // - The renderer's fixed light lights solid and mask surfaces without a light map.
-// - Roughness comes from glTF, or is 0.6 if the file has none. A sky's texture is data (DipSkyDef),
-// not
-//   colour, and is read as linear.
+// - Roughness comes from glTF, or is 0.6 if the file has none.
+// - A sky's texture is data (DipSkyDef), not colour, and is read as linear.
 // - Texture coordinates have v = 0 at the picture's upper edge.
 #ifndef DIP_ASSETS_MODEL_H
 #define DIP_ASSETS_MODEL_H

@@ -1,9 +1,9 @@
-// Shared by the parts of the model loader: the model while it is loaded. Private to assets/.
+// The model while it is loaded, shared by the parts of the model loader. Private to assets/.
 //
-// A load has these steps. Each file is imported and checked (import.c). model.c walks its nodes and
-// turns them into objects; each object needs a mesh (mesh.c) and a material (material.c), and the
-// material registers its pictures (pictures.c). Then all pictures are decoded and the materials get
-// their textures.
+// A load has these steps. Each file is imported and checked (import.c). model.c walks the file's
+// nodes and turns them into objects. Each object needs a mesh (mesh.c) and a material (material.c),
+// and the material registers its pictures (pictures.c). Then all pictures are decoded and the
+// materials get their textures.
 #ifndef DIP_ASSETS_MODEL_PARTS_H
 #define DIP_ASSETS_MODEL_PARTS_H
 
@@ -22,7 +22,7 @@ struct aiScene;
 
 enum { DIP_NOT_FOUND = -1 };
 
-// Kind of surface that an object's metadata names.
+// Kind of surface, as an object's metadata gives it.
 typedef enum DipTag {
     DIP_TAG_SOLID,
     DIP_TAG_MASK,
@@ -51,31 +51,31 @@ typedef struct DipTextureUse {
     DipWrap wrap_v;
 } DipTextureUse;
 
-// One per DipMaterialDef: what distinguishes it from other materials, and what is needed once the
-// pictures are decoded.
+// One per DipMaterialDef: what distinguishes the material from other materials, and what is needed
+// once the pictures are decoded.
 typedef struct DipMaterialPlan {
     int file;             // index of the model file
     unsigned source;      // index of the material in that file
     unsigned coordinates; // bit i is set if the mesh has texture coordinates i
     DipTag tag;
-    bool light_mapped; // the occlusion picture is a light map
-    bool has_uv0;      // the mesh needs coordinates for colour, opacity or normal map
-    bool has_uv1;      // the mesh needs coordinates for the light map
-    bool invisible;    // the material's own opacity is below its cutoff
+    bool light_mapped; // true: the occlusion picture is a light map
+    bool has_uv0;      // true: the mesh needs coordinates for colour, opacity or normal map
+    bool has_uv1;      // true: the mesh needs coordinates for the light map
+    bool invisible;    // true: the material's own opacity is below its cutoff
     DipTextureUse colour;
     DipTextureUse opacity;
     DipTextureUse light;
     DipTextureUse normal;
 } DipMaterialPlan;
 
-// One per DipTextureDef: what distinguishes it from other textures.
+// One per DipTextureDef: what distinguishes the texture from other textures.
 typedef struct DipTextureKey {
     int picture;
     int opacity_picture;
     bool has_alpha;
 } DipTextureKey;
 
-// One per DipMeshDef: what distinguishes it from other meshes.
+// One per DipMeshDef: what distinguishes the mesh from other meshes.
 typedef struct DipMeshKey {
     int file;        // index of the model file
     unsigned source; // index of the mesh in that file
@@ -85,7 +85,7 @@ typedef struct DipMeshKey {
 typedef struct DipModelFile {
     const char *path;            // as the caller gave it; owned by the model
     const struct aiScene *scene; // owned; NULL before the import and after the load
-    bool linear_colours;         // colours are linear, as in glTF, and not sRGB
+    bool linear_colours;         // true: colours are linear, as in glTF; false: colours are sRGB
 } DipModelFile;
 
 struct DipModel {
@@ -101,13 +101,13 @@ struct DipModel {
     int picture_count;
     DipPicture *merged; // pictures made of a colour and an opacity picture
     int merged_count;
-    void **blocks; // memory of dip_model_alloc
+    void **blocks; // memory blocks that dip_model_alloc has allocated
     int block_count;
     DipModelFile *files;
     int file_count;
-    DipErrorList *warnings; // the caller's, only during the load; may be NULL
+    DipErrorList *warnings; // the caller's list, used only during the load; may be NULL
     DipModelTimes times;
-    bool normal_maps; // normal maps are to be loaded
+    bool normal_maps; // true: normal maps are loaded
 };
 
 // Makes room for one more item in an array of `count` items. Returns the array, which may have
@@ -118,16 +118,16 @@ void *dip_array_grow(void *items, int count, size_t item_bytes);
 void *dip_model_alloc(DipModel *model, size_t count, size_t item_bytes);
 char *dip_model_copy_text(DipModel *model, const char *text);
 
-// Adds a warning, unless the caller wants none. key may be NULL.
+// Adds a warning, unless the caller wants no warnings. key may be NULL.
 
 void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-// Fills *err and returns false.
+// Fills *err with DIP_ERROR_MEMORY and returns false.
 bool dip_model_out_of_memory(DipError *err, const char *file);
 
-// Converts a colour channel of a file to linear light and clamps it to 0..1. linear: it is linear
-// already, and is only clamped.
+// Converts a colour channel of a file to linear light and clamps it to 0..1. linear: the value is
+// linear already and is only clamped.
 float dip_model_colour_to_linear(float value, bool linear);
 
 // mesh.c: true if a processed mesh consists of triangles.
@@ -140,20 +140,20 @@ bool dip_model_precheck(DipModel *model, const char *path, DipError *err);
 // import.c: imports and checks a file, and sets file->scene.
 bool dip_model_import(DipModel *model, DipModelFile *file, DipError *err);
 
-// mesh.c: returns the index of a mesh with this material, which is added if it is new. Returns
+// mesh.c: returns the index of the mesh with this material. Adds the mesh if it is new. Returns
 // DIP_NOT_FOUND on failure.
 int dip_model_mesh(DipModel *model, int file, unsigned source, int material, DipError *err);
 
-// mesh.c: normalises n. A vector that is zero or not finite (a face without area has such a normal)
-// becomes +Y.
+// mesh.c: normalises n. A vector that is zero or not finite becomes +Y. (The normal of a face
+// without area is such a vector.)
 void dip_model_unit_normal(const double n[3], float to[3]);
 
 // normals.c: makes normals for a mesh of triangles, three floats per corner, smooth where faces
 // meet at less than 60 degrees. The model owns them. Returns NULL when memory runs out.
 float *dip_model_make_normals(DipModel *model, const struct aiMesh *mesh);
 
-// material.c: returns the index of the material of a mesh in an object with this tag, which is
-// added if it is new. Returns DIP_NOT_FOUND on failure.
+// material.c: returns the index of the material for this mesh in an object with this tag. Adds the
+// material if it is new. Returns DIP_NOT_FOUND on failure.
 int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, DipTag tag,
                        bool light_mapped, DipError *err);
 
@@ -161,8 +161,8 @@ int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, Dip
 // memory runs out.
 int dip_model_picture(DipModel *model, int file, const char *path);
 
-// pictures.c: decodes all registered pictures on the pool. A missing picture is a warning; a broken
-// one fails.
+// pictures.c: decodes all registered pictures on the pool. A missing picture gives a warning; a
+// broken picture makes the load fail.
 bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err);
 
 // material.c: makes the textures from the decoded pictures and decides which surfaces are opaque.

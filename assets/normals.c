@@ -1,7 +1,8 @@
 // Makes normals for meshes that have none.
 //
-// assimp's own step writes a face's normal to its vertices and then averages vertices at the same
-// position. That is right only if no two faces share a vertex, but in glTF and PLY they do.
+// assimp's own step writes a face's normal to the face's vertices and then averages vertices at the
+// same position. That works only if no two faces share a vertex, but faces in glTF and PLY files
+// do.
 #include "assets/model_parts.h"
 
 #include <assimp/mesh.h>
@@ -9,13 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Where more faces meet they stay flat, because comparing all pairs would take too long.
+// If more faces than this meet at a point, they stay flat there: comparing all pairs would take too
+// long.
 enum { MAX_FACES_AT_A_POINT = 1024 };
 
 static const double smoothing_cosine = 0.5; // cos 60 degrees; faces that meet at more keep an edge
 static const uint32_t free_slot = UINT32_MAX;
 
-// The corners of all faces, three per face. Those at the same position form a linked list.
+// The corners of all faces, three per face. Corners at the same position form a linked list.
 typedef struct Corners {
     const struct aiMesh *mesh;
     uint32_t count;
@@ -83,8 +85,9 @@ static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Sums the normals of the faces that meet this corner's face smoothly at this position. They are
-// weighted by area, so that the way polygons were triangulated does not matter.
+// Sums the normals of the faces that meet this corner's face smoothly at this position. Each normal
+// is weighted by its face's area, so that the way in which polygons were triangulated does not
+// matter.
 static void smooth(const Corners *corners, uint32_t first, uint32_t corner, float to[3]) {
     const double *own = corners->face_normal[corner / 3];
     double sum[3] = {own[0], own[1], own[2]};

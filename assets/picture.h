@@ -27,8 +27,8 @@ typedef struct DipPicture {
     bool has_alpha; // true if the alpha of some texel is below 255
 } DipPicture;
 
-// Decodes the bytes of a picture file. Messages call it `name`. Codes: FORMAT, TRUNCATED, RANGE
-// (size).
+// Decodes the bytes of a picture file. Messages call the file `name`. Codes: FORMAT, TRUNCATED,
+// RANGE (size).
 bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
                         DipPicture *picture, DipError *err);
 
@@ -40,9 +40,10 @@ bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err)
 bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_t height, const char *name,
                            DipPicture *picture, DipError *err);
 
-// Makes a new picture from the colours of one picture (NULL: white) and the opacity picture's
-// alpha: its alpha channel if it has one, else its brightness. If the sizes differ, the nearest
-// texel of the opacity picture is used. Returns false when memory runs out.
+// Makes a new picture from the colours of one picture (NULL: white) and the opacity of another. The
+// opacity is the alpha channel of the opacity picture if it has one, otherwise its brightness. If
+// the sizes differ, the nearest texel of the opacity picture is used. Returns false when memory
+// runs out.
 bool dip_picture_with_opacity(const DipPicture *colour, const DipPicture *opacity,
                               DipPicture *picture);
 

@@ -15,8 +15,8 @@ static const char *base_name(const char *path) {
     return slash ? slash + 1 : path;
 }
 
-// Finds an embedded picture. "*3" is the fourth one; otherwise the last part of the file names are
-// compared.
+// Finds an embedded picture. The path "*3" names the fourth picture. For any other path, the last
+// parts of the file names are compared.
 static const struct aiTexture *find_embedded(const struct aiScene *scene, const char *path) {
     if (path[0] == '*') {
         char *end = NULL;
@@ -64,10 +64,10 @@ static void decode_percent(char *path) {
     *to = '\0';
 }
 
-// Finds a picture file: at its path relative to the model's folder, or under its last part in that
-// folder, because some models hold absolute paths of another machine. Both are tried as written and
-// then with percent-encoding decoded. Returns the path, or the first path tried if there is no
-// file. The caller frees it; NULL when memory runs out.
+// Finds a picture file: at its path relative to the model's folder, or under the path's last part
+// in that folder, because some models hold absolute paths of another machine. Each of the two is
+// tried as written and then with percent-encoding decoded. Returns the path, or the first path
+// tried if there is no file; the caller frees it. Returns NULL when memory runs out.
 static char *find_file(const char *model_path, const char *picture_path) {
     const size_t folder_length = (size_t)(base_name(model_path) - model_path);
     const size_t size_bytes = folder_length + strlen(picture_path) + 1;
@@ -166,7 +166,7 @@ static void decode(DipPictureEntry *entry) {
     }
 }
 
-// A picture to decode, with its size in bytes as a measure of the time that takes.
+// A picture to decode. Its size in bytes tells roughly how long decoding takes.
 typedef struct DecodeJob {
     DipPictureEntry *entry;
     size_t size_bytes;
@@ -188,7 +188,7 @@ static void decode_task(void *context, int index, int worker) {
     decode(((const DecodeJob *)context)[index].entry);
 }
 
-// Decodes the largest pictures first, so that no thread starts a long one at the end.
+// Decodes the largest pictures first, so that no thread starts a large picture at the end.
 static bool decode_all(DipModel *model, DipPool *pool) {
     DecodeJob *jobs = malloc(((size_t)model->picture_count + 1) * sizeof *jobs);
     if (!jobs) {

@@ -9,8 +9,8 @@
 
 enum {
     MAX_JSON_DEPTH = 512,
-    // Every node with children has an array, so this also limits how deep nodes nest. assimp uses
-    // some 600 bytes of stack per level.
+    // Also limits how deep nodes nest, because every node with children has an array. For each
+    // level of nodes assimp uses some 600 bytes of stack.
     MAX_JSON_ARRAYS = 400000,
     MAX_EXTENSION_NAME = 64,
 };
@@ -35,8 +35,9 @@ static bool can_read_without(const char *extension) {
            strcmp(extension, "KHR_texture_transform") == 0;
 }
 
-// A string of the outermost object is a key (or a value, which changes nothing); a string one level
-// deeper, after the key "extensionsRequired", is the name of an extension.
+// Handles a string that has ended. In the outermost object, a string is a key (or a value, which
+// changes nothing). One level deeper, after the key "extensionsRequired", a string is the name of
+// an extension.
 static void end_string(JsonScan *scan) {
     if (scan->depth == 1) {
         scan->lists_required = strcmp(scan->text, "extensionsRequired") == 0;
@@ -166,7 +167,7 @@ static bool next_count(FILE *file, double *count) {
 }
 
 // Compares the counts in an OFF header with the file's size, because assimp allocates memory for
-// all vertices and faces at once. Each takes at least one byte in the file.
+// all vertices and faces at once. Each vertex or face takes at least one byte in the file.
 static bool check_off(const char *path, DipError *err) {
     long size_bytes;
     FILE *file = open_sized(path, &size_bytes, err);
@@ -176,7 +177,8 @@ static bool check_off(const char *path, DipError *err) {
     char word[64] = "";
     double count = 0.0;
     bool fits = true;
-    // The first word is [ST][C][N][4][n]OFF. With n, the dimension comes before the counts.
+    // The first word is [ST][C][N][4][n]OFF. If it has the n, the dimension comes before the
+    // counts.
     if (fscanf(file, "%63s", word) == 1 && strstr(word, "OFF") &&
         (!strchr(word, 'n') || next_count(file, &count))) {
         for (int i = 0; i < 2 && fits && next_count(file, &count); ++i) {

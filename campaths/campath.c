@@ -1,4 +1,4 @@
-// A camera path in memory: the rules for its keys, figures about it, and the pose at a time.
+// A camera path in memory: the rules for its keys, its statistics, and the pose at a time.
 #include "campaths/campath_private.h"
 
 #include "renderer/base/assert.h"
@@ -25,8 +25,8 @@ double dip_campath_component(const DipCamKey *key, int index) {
     return index < 3 ? key->position_world[index] : key->orientation[index - 3];
 }
 
-// After one division the squared length is within 1e-15 of 1. dip_campath_is_unit accepts that, so
-// a quaternion is never normalised twice.
+// After one division the squared length is within 1e-15 of 1. dip_campath_is_unit accepts this
+// length, so a quaternion is never normalised twice.
 static void normalise(double q[4]) {
     const double length = sqrt(dip_campath_dot(q, q));
     for (int i = 0; i < 4; i++) {
@@ -65,7 +65,7 @@ bool dip_campath_admit(DipCamKey *key, const DipCamKey *before, const char *name
 DipCamPath *dip_campath_allocate(size_t key_count, int64_t period_ns, const char *name,
                                  DipError *err) {
     DIP_ASSERT(key_count >= 1 && key_count <= DIP_CAMPATH_MAX_KEYS);
-    // At most 1e6 * 56 bytes, and 3.6e18 ns: neither product can overflow.
+    // A path takes at most 1e6 * 56 bytes and 3.6e18 ns, so neither product can overflow.
     DipCamPath *path = malloc(sizeof *path + key_count * sizeof path->keys[0]);
     if (!path) {
         dip_error_set(err, DIP_ERROR_MEMORY, name, 0, NULL, "out of memory for %zu keys",
@@ -126,7 +126,8 @@ DipCamKey dip_campath_key(const DipCamPath *path, size_t index) {
     return path->keys[index];
 }
 
-// Orientation at the end of the step that starts at key `index`, on the hemisphere of that key.
+// Finds the orientation at the end of the step that starts at key `index`. It lies on the
+// hemisphere of that key.
 static void step_target(const DipCamPath *path, size_t index, double q[4]) {
     const size_t next = index + 1 < path->key_count ? index + 1 : 0;
     const double sign = next == 0 ? path->closing_sign : 1.0;
@@ -135,8 +136,9 @@ static void step_target(const DipCamPath *path, size_t index, double q[4]) {
     }
 }
 
-// Angle between two unit quaternions as 4-vectors, which is half the angle between the rotations.
-// Computed from chords, because acos of the dot product loses half its digits at small angles.
+// Returns the angle between two unit quaternions as 4-vectors, which is half the angle between the
+// rotations. It is computed from chords, because acos of the dot product loses half its digits at
+// small angles.
 static double angle_between(const double a[4], const double b[4]) {
     double apart = 0.0;
     double along = 0.0;

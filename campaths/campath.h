@@ -16,8 +16,8 @@
 // Numbers are decimal and finite, with '.' in every locale. The period is rounded to nanoseconds.
 // Quaternions may have any length from 1e-6 to 1e6. Loading normalises a quaternion unless its
 // squared length is within DIP_CAMPATH_UNIT_TOLERANCE of 1, and negates it if it lies on the other
-// hemisphere than the key before it. Loading changes nothing in keys that it has already treated,
-// so a path keeps every bit when it is loaded, saved and converted any number of times, in either
+// hemisphere than the quaternion before it. Loading does not change keys that were loaded before.
+// So a path keeps every bit when it is loaded, saved and converted any number of times, in either
 // format.
 //
 // Binary format, `.bth`. All numbers are little-endian on every host:
@@ -57,10 +57,10 @@ enum {
 };
 
 #define DIP_CAMPATH_MAX_FILE_BYTES ((size_t)256 << 20)
-#define DIP_CAMPATH_MAX_POSITION   1e9                    // metres, of either sign
+#define DIP_CAMPATH_MAX_POSITION   1e9                    // metres, positive or negative
 #define DIP_CAMPATH_MIN_PERIOD_NS  INT64_C(1000)          // a microsecond
 #define DIP_CAMPATH_MAX_PERIOD_NS  INT64_C(3600000000000) // an hour
-#define DIP_CAMPATH_UNIT_TOLERANCE 1e-14                  // of a quaternion's squared length
+#define DIP_CAMPATH_UNIT_TOLERANCE 1e-14                  // allowed error of a squared length
 
 typedef struct DipCamKey {
     double position_world[3];
@@ -69,7 +69,7 @@ typedef struct DipCamKey {
 
 typedef struct DipCamPath DipCamPath;
 
-// Figures about a path, as `diptych path info` shows them.
+// Statistics of a path, as `diptych path info` shows them.
 typedef struct DipCamPathInfo {
     size_t key_count;
     int64_t period_ns;
@@ -82,7 +82,7 @@ typedef struct DipCamPathInfo {
 } DipCamPathInfo;
 
 // Creates a path from keys, which must follow the rules of the text format. The keys are copied.
-// The caller owns *path and destroys it with dip_campath_destroy. On failure *path is NULL; codes:
+// The caller owns *path and destroys it with dip_campath_destroy. On failure *path is NULL. Codes:
 // RANGE (count, period or a number), MEMORY.
 bool dip_campath_create(const DipCamKey *keys, size_t key_count, int64_t period_ns,
                         DipCamPath **path, DipError *err);
@@ -90,7 +90,7 @@ bool dip_campath_create(const DipCamKey *keys, size_t key_count, int64_t period_
 // Destroys the path and sets the pointer to NULL. Accepts NULL and a pointer to NULL.
 void dip_campath_destroy(DipCamPath **path);
 
-// Loads either format; the content decides which it is, not the name. The caller owns *path. On
+// Loads either format; the file's content decides which, not its name. The caller owns *path. On
 // failure *path is NULL and *err names the file, the line (text) or byte (binary, in the message),
 // the key, and what is accepted. Codes: IO, FORMAT (not a path file, another version, a malformed
 // line), TYPE (not a number), RANGE, MISSING (header, period or keys), CONFLICT (a second period),
@@ -101,8 +101,8 @@ bool dip_campath_load(const char *file, DipCamPath **path, DipError *err);
 bool dip_campath_parse(const void *bytes, size_t size_bytes, const char *name, DipCamPath **path,
                        DipError *err);
 
-// Each saves the path in one format and replaces an existing file. Fails with IO and then removes
-// what it has written.
+// Each function saves the path in one format and replaces an existing file. If it fails (IO), it
+// removes what it has written.
 bool dip_campath_save_pth(const DipCamPath *path, const char *file, DipError *err);
 bool dip_campath_save_bth(const DipCamPath *path, const char *file, DipError *err);
 
@@ -110,8 +110,8 @@ DipCamPathInfo dip_campath_info(const DipCamPath *path);
 DipCamKey dip_campath_key(const DipCamPath *path, size_t index); // index < key_count
 
 // Sets the pose's position and orientation to those at a time, which may be negative, and leaves
-// fov_y_deg unchanged. The time is reduced to the duration in integers, so that times one duration
-// apart give the same bits.
+// fov_y_deg unchanged. The time is an integer and is taken modulo the duration, so times one
+// duration apart give the same bits.
 void dip_campath_sample(const DipCamPath *path, int64_t time_ns, DipPose *pose);
 
 // An orbit about a model's bounding box: one full turn at constant speed, from +Z over +X. The
@@ -129,7 +129,7 @@ typedef struct DipCamOrbitDef {
 // an aspect of 4:3.
 DipCamOrbitDef dip_campath_default_orbit(void);
 
-// Creates the path of an orbit, which the caller owns. On failure *path is NULL; codes: RANGE (box,
+// Creates the path of an orbit, which the caller owns. On failure *path is NULL. Codes: RANGE (box,
 // fov, aspect or period), MEMORY.
 bool dip_campath_orbit(const DipCamOrbitDef *def, DipCamPath **path, DipError *err);
 

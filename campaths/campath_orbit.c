@@ -5,11 +5,14 @@
 
 #include <math.h>
 
-enum { ORBIT_KEYS = 100 }; // 3.6 degrees per step; the chord comes 0.05 % nearer than the circle
+// Each step is 3.6 degrees. The middle of its chord is 0.05 % nearer to the box than the circle.
+enum { ORBIT_KEYS = 100 };
 
 static const double ELEVATION_RAD = 15.0 * DIP_PI / 180.0;
-static const double MARGIN = 1.05;      // factor of the distance, for a border and for the chords
-static const double MIN_RADIUS_M = 0.5; // half size in which a model of a single point is framed
+// Factor on the distance. It leaves a border and allows for the chords.
+static const double MARGIN = 1.05;
+// Half the size of the box that is framed around a model of a single point.
+static const double MIN_RADIUS_M = 0.5;
 
 DipCamOrbitDef dip_campath_default_orbit(void) {
     return (DipCamOrbitDef){
@@ -21,7 +24,8 @@ DipCamOrbitDef dip_campath_default_orbit(void) {
     };
 }
 
-// World-space axes of a camera that stands at `yaw` (from +Z over +X) and looks at the middle.
+// World-space axes of a camera that stands at `yaw` (from +Z over +X) and looks at the middle of
+// the box.
 typedef struct Axes {
     double right[3];
     double up[3];
@@ -44,9 +48,9 @@ static double dot3(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Distance from the middle at which every corner of the box (half: its half sizes) lies in the
-// picture everywhere on the orbit. A corner at depth d in front of the camera is in the picture if
-// |x| <= d * tan_x and |y| <= d * tan_y.
+// Returns the distance from the middle at which every corner of the box lies in the picture
+// everywhere on the orbit. `half` is half the size of the box. A corner at depth d in front of the
+// camera is in the picture if |x| <= d * tan_x and |y| <= d * tan_y.
 static double framing_distance(const double half[3], double tan_x, double tan_y) {
     double distance = 0.0;
     for (int k = 0; k < ORBIT_KEYS; k++) {

@@ -1,4 +1,4 @@
-// Shared by the parts of campaths/: the layout of a path and the rules for its keys. Private to
+// The layout of a path and the rules for its keys, shared by the parts of campaths/. Private to
 // campaths/.
 #ifndef DIP_CAMPATHS_CAMPATH_PRIVATE_H
 #define DIP_CAMPATHS_CAMPATH_PRIVATE_H
@@ -46,7 +46,7 @@ bool dip_campath_parse_text(const char *text, size_t size_bytes, const char *nam
 bool dip_campath_parse_binary(const unsigned char *bytes, size_t size_bytes, const char *name,
                               DipCamPath **path, DipError *err);
 
-// The caller must check the stream for errors afterwards.
+// Writes the text format. The caller must check the stream for errors afterwards.
 void dip_campath_write_text(const DipCamPath *path, FILE *stream);
 void dip_campath_write_binary(const DipCamPath *path, FILE *stream);
 

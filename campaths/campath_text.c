@@ -33,8 +33,9 @@ static bool fault(const TextReader *reader, DipErrorCode code, const char *key,
     return dip_error_set(reader->err, code, reader->name, reader->line, key, "%s", message);
 }
 
-// Reports a file that is not a camera path at all. `found` says what it has instead of a header.
-// Files named like models get a hint, because they are easily confused on the command line.
+// Reports a file that is not a camera path at all. `found` says what the file has instead of a
+// header. A file whose name is that of a model gets a hint, because the two are easily confused on
+// the command line.
 static bool not_a_path(const TextReader *reader, const char *found) {
     static const char *const model_endings[] = {".gltf", ".glb", ".obj", ".ply", ".stl", ".x",
                                                 ".dae",  ".fbx", ".3ds", ".md2", ".off"};
@@ -49,7 +50,8 @@ static bool not_a_path(const TextReader *reader, const char *found) {
                          found, hint);
 }
 
-// Refuses a line that is too long or binary. Before the header that means another kind of file.
+// Refuses a line that is too long or binary. Before the header, such a line means that the file is
+// of another kind.
 static bool check_line(const TextReader *reader, const char *at, const char *end) {
     const bool may_be_path = reader->has_header || *at == '#';
     const bool is_long = end - at > DIP_CAMPATH_MAX_LINE;
@@ -109,7 +111,8 @@ static bool token_is(Token token, const char *word) {
     return token.length == strlen(word) && memcmp(token.text, word, token.length) == 0;
 }
 
-// Copies a token for a message: at most 40 bytes, with '?' for what is not printable ASCII.
+// Copies a token for a message: at most 40 bytes, with '?' for every byte that is not printable
+// ASCII.
 static const char *show(Token token, char buffer[41]) {
     const size_t length = token.length < 40 ? token.length : 40;
     for (size_t i = 0; i < length; i++) {
@@ -159,7 +162,8 @@ static bool read_period(TextReader *reader, const Token *tokens, int count) {
     if (!read_number(reader, tokens[1], "period", &seconds)) {
         return false;
     }
-    // Compared before the conversion to an integer, which is undefined for values that do not fit.
+    // The range is checked before the conversion to an integer, which is undefined for values that
+    // do not fit.
     const double ns = seconds * 1e9 + 0.5;
     if (!(ns >= (double)DIP_CAMPATH_MIN_PERIOD_NS) ||
         !(ns < (double)DIP_CAMPATH_MAX_PERIOD_NS + 1.0)) {
@@ -276,7 +280,8 @@ bool dip_campath_parse_text(const char *text, size_t size_bytes, const char *nam
     return made != NULL;
 }
 
-// Writes the period in seconds with up to nine decimals, from integers, so that it is exact.
+// Writes the period in seconds with up to nine decimals. The decimals come from integers, so the
+// text is exact.
 static void write_period(FILE *stream, int64_t period_ns) {
     char decimals[16];
     snprintf(decimals, sizeof decimals, "%09d", (int)(period_ns % 1000000000));

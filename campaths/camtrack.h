@@ -33,11 +33,11 @@ typedef struct DipCamTrack {
     int64_t start_ns;     // play time at which the active path is at its beginning
 } DipCamTrack;
 
-// Returns a track without paths, with category 0 active, on which the path's time is the play time.
+// Returns a track without paths. Category 0 is active, and the time on the path is the play time.
 DipCamTrack dip_camtrack_make(bool reset_on_switch);
 
-// Sets the path and field of view of a category. Categories with one path must share the pointer,
-// so that a change between them counts as no change of path.
+// Sets the path and field of view of a category. Categories that play the same path must share the
+// pointer, so that a change between them counts as no change of path.
 void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path, double fov_y_deg);
 
 // Makes a category active at a play time. If this changes the path and reset_on_switch is set, the

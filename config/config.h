@@ -50,7 +50,7 @@ typedef enum DipConfigMipLevel {
     DIP_MIP_LEVEL_COUNT
 } DipConfigMipLevel;
 
-// Every key: DIP_KEY_RES, ..., DIP_KEY_CAMPATH_AA, DIP_KEY_CAMPATH_AA_FOV, ...
+// The keys of the ini: DIP_KEY_RES, ..., DIP_KEY_CAMPATH_AA, DIP_KEY_CAMPATH_AA_FOV, ...
 typedef enum DipConfigKey {
 #define DIP_CONFIG_KEY(NAME, field, TYPE, fallback, low, high, text) DIP_KEY_##NAME,
 #define DIP_CONFIG_CAMERA(NAME, fov, text) DIP_KEY_CAMPATH_##NAME, DIP_KEY_CAMPATH_##NAME##_FOV,
@@ -74,7 +74,7 @@ typedef struct DipConfigColor {
 
 // A file that the ini names. The DipConfig owns the strings.
 typedef struct DipConfigFile {
-    char *path;       // name to open, the ini's folder included; NULL when the ini names no file
+    char *path;       // name to open, with the ini's folder; NULL if the ini names no file
     char *text;       // name as the ini gives it
     DipConfigKey key; // key that names the file
     int line;         // line of that key, 1-based
@@ -86,7 +86,7 @@ typedef struct DipConfigFiles {
 } DipConfigFiles;
 
 typedef struct DipConfigCamera {
-    DipConfigFile file; // path NULL: the path of DIP_CATEGORY_DEFAULT plays, or an orbit
+    DipConfigFile file; // if its path is NULL, the path of DIP_CATEGORY_DEFAULT or an orbit plays
     double fov_y_deg;   // vertical field of view, 1..170; 0 without a path, except for DEFAULT
 } DipConfigCamera;
 
@@ -107,28 +107,30 @@ typedef struct DipConfig {
     DipConfigCamera camera[DIP_CATEGORY_COUNT];
     DipConfigFile mip_picture[DIP_MIP_LEVEL_COUNT];
     char *file;              // the ini's own name, as the caller gave it
-    int line[DIP_KEY_COUNT]; // line that sets each key (the last such), 1-based; 0: it has its
-                             // default
+    int line[DIP_KEY_COUNT]; // last line that sets each key, 1-based; 0: the key has its default
 } DipConfig;
 
 // Reads the whole file and adds every fault to *faults: unknown keys with the key they resemble,
-// bad values with what is accepted, lines without a value, required keys that are missing. Returns
-// true when there was no error; the caller then owns *config and frees it with dip_config_free. On
-// failure *config is zeroed. A warning (a repeated key, whose later value counts) is no failure.
+// bad values with what is accepted, lines without a value, and required keys that are missing.
+// Returns true if there was no error; the caller then owns *config and frees it with
+// dip_config_free. On failure *config is zeroed. A repeated key is only a warning, and its later
+// value counts.
 //
 // A CAMPATH_*_FOV that is left out takes the field of view of another category with the same path
-// file, else its default. Categories with the same path file must have the same field of view.
+// file. If there is none, the key has its default. Categories with the same path file must have the
+// same field of view.
 //
 // Codes: IO, FORMAT (a line without a value, a section, a NUL byte), OVERSIZED, UNKNOWN, TYPE,
-// RANGE, MISSING, CONFLICT (two fields of view; as a warning: a repeated key), MEMORY. Reads no
-// file but the ini: whoever opens the files it names reports them with dip_config_file_fault.
+// RANGE, MISSING, CONFLICT (two fields of view for one path; as a warning: a repeated key), MEMORY.
+// This function opens no file but the ini. Code that opens a file named there reports its faults
+// with dip_config_file_fault.
 bool dip_config_load(const char *file, DipConfig *config, DipErrorList *faults);
 
 // Frees what the config owns and zeroes it. Accepts a zeroed config.
 void dip_config_free(DipConfig *config);
 
-// For a file that the ini names but that cannot be used: fills *err with the line that names it,
-// "ini:12: [XFILE] message", and returns false.
+// Reports a file that the ini names but that cannot be used. Fills *err with the line that names
+// the file, "ini:12: [XFILE] message", and returns false.
 bool dip_config_file_fault(const DipConfig *config, const DipConfigFile *file, DipErrorCode code,
                            DipError *err, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
@@ -136,8 +138,8 @@ bool dip_config_file_fault(const DipConfig *config, const DipConfigFile *file, D
 // Returns "RES", ...; static storage.
 const char *dip_config_key_name(DipConfigKey key);
 
-// True if both names mean one file, such as "a.pth" and "./a.pth". Compares the text only and opens
-// no file. False when either has no path.
+// Returns true if both names mean one file, such as "a.pth" and "./a.pth". Compares the text only
+// and opens no file. Returns false if either has no path.
 bool dip_config_same_file(const DipConfigFile *a, const DipConfigFile *b);
 
 // Writes a key's row of the table in docs/config.md: "| `RES` | accepted | default | meaning |".

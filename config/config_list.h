@@ -19,9 +19,9 @@
 #define DIP_CONFIG_LIST(KEY, CAMERA, PICTURE)                                                      \
     KEY(RES, res, SIZE, DIP_CONFIG_REQUIRED, 1, 8192, "resolution of each of the two panes")       \
     KEY(REFLECTION_RES, reflection_res, SIZE, "320x240", 1, 8192,                                  \
-        "resolution of the reflection's texture; more than the pane's own adds no detail")         \
+        "resolution of the reflection's texture; a resolution above the pane's adds no detail")    \
     KEY(FOUNTAIN_WATER_LEVEL, fountain_water_level, NUMBER, "", -1e9, 1e9,                         \
-        "height (y) of the water that reflects, metres; left out: that of the lowest water")       \
+        "height (y) of the water that reflects, metres; if left out: height of the lowest water")  \
     KEY(DEBUG_SHOW_REFLECTION, debug_show_reflection, FLAG, "false", 0, 0,                         \
         "show the reflection's texture in the picture's corner")                                   \
     KEY(WATER_SCHLICK, water_schlick, FLAG, "false", 0, 0,                                         \
@@ -29,7 +29,8 @@
     KEY(XFILE, xfile, FILES, DIP_CONFIG_REQUIRED, 0, 0,                                            \
         "model file; repeat the key to load several, which share one origin")                      \
     KEY(CAMPATH_RESET_ON_SWITCH, campath_reset_on_switch, FLAG, "true", 0, 0,                      \
-        "after a switch the new path starts at its beginning, else at the time of the old one")    \
+        "after a change of path, true: the new path starts at its beginning; "                     \
+        "false: it goes on at the old path's time")                                                \
     CAMERA(DEFAULT, "55", "while no setting is being chosen")                                      \
     CAMERA(AA, "55", "for antialiasing")                                                           \
     CAMERA(AF, "55", "for anisotropic filtering")                                                  \
@@ -73,13 +74,13 @@
     KEY(SKY_TINT, sky_tint, COLOR, "255,255,255", 0, 255,                                          \
         "colour that multiplies the whole sky, sRGB")                                              \
     KEY(SKY_CLEAR, sky_clear, NUMBER, "0.75", 0, 1,                                                \
-        "value of the texture's blue channel where there is no cloud, 1 for 255")                  \
+        "blue of the sky's texture where there is no cloud, as a fraction of 255")                 \
     KEY(SKY_DENSE, sky_dense, NUMBER, "1", 0, 1,                                                   \
-        "value of the blue channel where cloud is densest, more than SKY_CLEAR")                   \
+        "blue of the sky's texture where cloud is densest; more than SKY_CLEAR")                   \
     KEY(SKY_BLEND, sky_blend, NUMBER, "0.4", 0, 1,                                                 \
         "share of the second layer of clouds; 0: the first alone, 1: the second alone")            \
     KEY(SKY_PERTURBATION_SCALE, sky_perturbation_scale, NUMBER, "1", 0.001, 1000,                  \
-        "repeats per unit of texture coordinates of red and green, which displace the clouds")     \
+        "repeats of the displacement (red and green) per unit of texture coordinates")             \
     KEY(SKY_LAYER1_SCALE, sky_layer1_scale, NUMBER, "1", 0.001, 1000,                              \
         "repeats of the first layer of clouds per unit of texture coordinates")                    \
     KEY(SKY_LAYER1_SPEED, sky_layer1_speed, NUMBER, "0.3", -600, 600,                              \

@@ -1,4 +1,4 @@
-// Shared by the parts of the configuration: the table of keys, the reader and the values. Private
+// The table of keys, the reader and the values, shared by the parts of the configuration. Private
 // to config/.
 #ifndef DIP_CONFIG_CONFIG_PRIVATE_H
 #define DIP_CONFIG_CONFIG_PRIVATE_H
@@ -31,23 +31,23 @@ typedef struct DipConfigKeyInfo {
 
 const DipConfigKeyInfo *dip_config_key_info(DipConfigKey key);
 
-// Returns false when no key has exactly this name.
+// Finds the key with exactly this name. Returns false if there is none.
 bool dip_config_find_key(const char *name, DipConfigKey *key);
 
-// The key that a misspelt name most resembles: at most a third of its letters differ, or one in a
-// short name. NULL when no key is that near.
+// Returns the key that a misspelt name most resembles, or NULL if no key is near enough. At most a
+// third of the name's letters may differ; in a short name, one letter may.
 const char *dip_config_nearest_key(const char *name);
 
 // Writes what a key accepts, for messages and the table: "WIDTHxHEIGHT, 1..8192 each".
 void dip_config_describe(DipConfigKey key, char *buffer, size_t size_bytes);
 
 // Parses a value's text into the key's field. line is where the ini gives the value, 0 for a
-// default. On failure fills *err except its file and line and leaves the field unchanged.
+// default. On failure leaves the field unchanged and fills *err except for its file and line.
 bool dip_config_set_value(DipConfig *config, DipConfigKey key, const char *text, int line,
                           DipError *err);
 
-// Source of lines for ini_parse_stream that passes on only clean lines. inih alone would split long
-// lines, join an indented line to the one above it, and ignore lines without a value.
+// Passes lines of the ini to ini_parse_stream, but only clean ones. inih alone would split long
+// lines, join an indented line to the line above it, and ignore lines without a value.
 typedef struct DipConfigReader {
     FILE *stream;
     const char *file;
@@ -57,10 +57,11 @@ typedef struct DipConfigReader {
     bool stopped;      // the rest of the file is not read
 } DipConfigReader;
 
-// The ini_reader callback of inih, which has the shape of fgets. context is a DipConfigReader.
+// The ini_reader callback of inih, which has the signature of fgets. context is a DipConfigReader.
 char *dip_config_read_line(char *to, int room, void *context);
 
-// Appends a fault of the reader's file to its list. line 0 and key NULL: not applicable.
+// Appends a fault of the reader's file to its list. line is 0 if the fault is in no line, and key
+// is NULL if it concerns no key.
 void dip_config_add_fault(DipConfigReader *reader, DipErrorCode code, DipSeverity severity,
                           int line, const char *key, const char *format, ...)
     __attribute__((format(printf, 6, 7)));

@@ -66,8 +66,9 @@ static bool same_letter(char a, char b) {
     return toupper((unsigned char)a) == toupper((unsigned char)b);
 }
 
-// Optimal string alignment distance, ignoring case: the number of letters to insert, delete or
-// replace and of neighbours to swap. Both strings are shorter than MAX_NAME.
+// Returns the optimal string alignment distance of two names, ignoring case: the number of letters
+// to insert, delete or replace plus the number of neighbours to swap. Both strings are shorter than
+// MAX_NAME.
 static int edit_distance(const char *a, const char *b) {
     const int b_length = (int)strlen(b);
     int rows[3][MAX_NAME]; // row i of the table is rows[i % 3]
@@ -97,7 +98,7 @@ const char *dip_config_nearest_key(const char *name) {
     if (length >= MAX_NAME) {
         return NULL;
     }
-    // A name with more than a third of its letters wrong is another word.
+    // At this distance more than a third of the letters are wrong, so the name is another word.
     int nearest = 1 + (int)(length / 3 > 1 ? length / 3 : 1);
     const char *found = NULL;
     for (int k = 0; k < DIP_KEY_COUNT; k++) {
@@ -148,7 +149,7 @@ void dip_config_describe(DipConfigKey key, char *buffer, size_t size_bytes) {
     }
 }
 
-// What holds when the ini leaves a key out, for the table in docs/config.md.
+// Returns the default of a key as the table in docs/config.md words it.
 static const char *default_in_words(DipConfigKey key) {
     const DipConfigKeyInfo *info = dip_config_key_info(key);
     if (!info->fallback) {

@@ -12,7 +12,7 @@
 typedef struct Loader {
     DipConfigReader reader;
     DipConfig *config;
-    bool failed[DIP_KEY_COUNT]; // The ini gives the key, but with a bad value.
+    bool failed[DIP_KEY_COUNT]; // true: the ini gives the key, but with a bad value
 } Loader;
 
 static void add(Loader *loader, DipErrorCode code, int line, DipConfigKey key,
@@ -85,7 +85,7 @@ static DipConfigKey path_key(int category) {
 }
 
 static DipConfigKey fov_key(int category) {
-    return (DipConfigKey)(path_key(category) + 1); // CAMPATH_X_FOV follows CAMPATH_X in the enum.
+    return (DipConfigKey)(path_key(category) + 1); // CAMPATH_X_FOV follows CAMPATH_X in the enum
 }
 
 static bool is_fov_key(int key) {
@@ -105,8 +105,8 @@ static const char *skip_idle(const char *at) {
     return at;
 }
 
-// Compares the paths component by component. ".." is compared as text, because symbolic links
-// decide what it means.
+// Compares the paths component by component. ".." is compared as text, because only the file system
+// knows where it leads through symbolic links.
 bool dip_config_same_file(const DipConfigFile *a, const DipConfigFile *b) {
     if (!a->path || !b->path || (a->path[0] == '/') != (b->path[0] == '/')) {
         return false;
@@ -154,9 +154,9 @@ static void set_defaults(Loader *loader) {
     }
 }
 
-// A category without a field of view takes that of a category with the same path, else the default.
-// The ini of the 2006 ATI Catalyst Control Preview report, its Figure 12, relies on this: it gives
-// CAMPATH_AAA_FOV twice and CAMPATH_AAF_FOV not at all.
+// A category without a field of view takes the field of view of a category with the same path. If
+// there is none, it takes the default. The ini of the 2006 ATI Catalyst Control Preview report, its
+// Figure 12, relies on this: it gives CAMPATH_AAA_FOV twice and CAMPATH_AAF_FOV not at all.
 static void settle_fov(Loader *loader, int category) {
     DipConfig *config = loader->config;
     DipConfigCamera *camera = &config->camera[category];
@@ -170,7 +170,8 @@ static void settle_fov(Loader *loader, int category) {
     set_default(loader, fov_key(category));
 }
 
-// Compares with the first category that has the same path only, so that one odd value is one fault.
+// Compares a category only with the first category that has the same path, so that one odd value is
+// one fault.
 static void compare_fov(Loader *loader, int category) {
     DipConfig *config = loader->config;
     const DipConfigCamera *camera = &config->camera[category];
@@ -191,8 +192,8 @@ static void compare_fov(Loader *loader, int category) {
     }
 }
 
-// CAMPATH_DEFAULT_FOV needs no path beside it: it also applies to the orbit that takes the place of
-// a path, and to a path that the command line names.
+// CAMPATH_DEFAULT_FOV may be given without CAMPATH_DEFAULT. It also applies to the orbit that
+// replaces a missing path, and to a path that the command line names.
 static void settle_cameras(Loader *loader) {
     DipConfig *config = loader->config;
     for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
@@ -243,7 +244,8 @@ static bool read_file(Loader *loader) {
         dip_config_add_fault(reader, DIP_ERROR_MEMORY, DIP_SEVERITY_ERROR, 0, NULL,
                              "is not read: out of memory");
     }
-    // After a stop, keys below it would be reported as missing although the file gives them.
+    // If reading stopped early, keys further down would be reported as missing although the file
+    // gives them.
     return !is_broken && result == 0 && !reader->stopped;
 }
 

@@ -27,11 +27,11 @@ static void refuse(DipConfigReader *reader, DipErrorCode code, const char *key,
 // A line without its indentation and comment.
 typedef struct Line {
     char text[DIP_CONFIG_MAX_LINE + 1];
-    int length;           // bytes so far; beyond limit, text lacks the bytes from limit on
-    int limit;            // DIP_CONFIG_MAX_LINE, or less where inih's buffer is smaller
-    bool in_comment;      // a comment has begun, which lasts to the end of the line
-    bool has_bad_control; // contains a control character that is not white space
-    bool after_space;     // the last byte was white space
+    int length;      // bytes so far, even beyond the limit; text holds only the first `limit` bytes
+    int limit;       // DIP_CONFIG_MAX_LINE, or less where inih's buffer is smaller
+    bool in_comment; // true: a comment has begun; it lasts to the end of the line
+    bool has_bad_control; // true: the line contains a control character that is not white space
+    bool after_space;     // true: the last byte was white space
     int ended_length;     // length without trailing white space
 } Line;
 
@@ -109,7 +109,7 @@ static bool scan(DipConfigReader *reader, Line *line) {
     return !reader->stopped;
 }
 
-// Copies the key that a faulty line seems to set, for its message.
+// Copies the key that a faulty line seems to set. The message about the line names this key.
 static void guess_key(const char *text, char key[64]) {
     const size_t length = strcspn(text, ":= \t");
     snprintf(key, 64, "%.*s", (int)(length < 63 ? length : 63), text);

@@ -44,8 +44,8 @@ static bool read_integers(DipConfigKey key, const char *text, char separator, in
     bool in_range = true;
     for (int i = 0; i < count; i++) {
         const char *end = i + 1 < count ? strchr(at, separator) : at + strlen(at);
-        double number; // A double, so that a number beyond int is out of range and not of another
-                       // type.
+        // A double, so that a number too large for int is out of range and not of another type.
+        double number;
         if (!end || !dip_number_parse(at, (size_t)(end - at), &number) ||
             strcspn(at, ".eE") < (size_t)(end - at)) {
             return refuse_type(key, text, err);

@@ -9,9 +9,9 @@ static size_t blocks_across(int size) {
     return (size_t)(size + 3) / 4;
 }
 
-// Encodes the block at texel (x, y). The encoder's input is rounded as the fast renderer's texels
-// are, since a difference of one code may produce another block. Colours that are read from the
-// block are not rounded.
+// Encodes the block at texel (x, y). The encoder's input is rounded in the same way as the fast
+// renderer's texels, because a difference of 1 in a rounded value may produce another block.
+// Colours that are read from the block are not rounded.
 static void encode_block(const DipRefTexture *texture, int level, int x, int y,
                          const DipRootCodes *codes, uint8_t *block) {
     uint8_t rgba8[64];

@@ -7,10 +7,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { NOTHING = -1, TILE = 8 }; // in pixels; a tile's samples fit the second-level cache
+// TILE is the width and height of a tile, in pixels. A tile's samples fit the second-level cache.
+enum { NOTHING = -1, TILE = 8 };
 
-// The triangles that reach each tile: items[first[tile]] .. items[first[tile + 1] - 1] are their
-// indices.
+// The triangles that reach each tile. The indices of a tile's triangles are items[first[tile]] to
+// items[first[tile + 1] - 1].
 typedef struct Bins {
     size_t *first;
     int32_t *items;
@@ -31,16 +32,17 @@ struct DipConvergence {
 // The samples of a tile, pixel by pixel.
 typedef struct Samples {
     const DipConvergence *convergence;
-    const struct Samples *mirrored; // at the same positions; NULL if no reflecting water is visible
-    double *x;                      // position in the frame, in 1/256 pixel
+    const struct Samples *mirrored; // the mirrored samples; NULL if no reflecting water is visible
+    double *x;                      // positions in the frame, in 1/256 pixel
     double *y;
     double *depths;
-    double *clip_depths; // depth of the nearest alpha-clipped triangle, even where alpha removes it
+    // Depths of the nearest alpha-clipped triangles, even where alpha removes them.
+    double *clip_depths;
     int32_t *triangles;
     int per_pixel;
-    int x0; // the tile's pixels, from (x0, y0) on
+    int x0; // first pixel of the tile
     int y0;
-    int x1; // exclusive
+    int x1; // one past the last pixel of the tile
     int y1;
     void *memory;
 } Samples;
@@ -48,7 +50,7 @@ typedef struct Samples {
 // --- bins --------------------------------------------------------------------------------------
 
 // Visits all tiles that each triangle reaches, in submission order. Counts the triangles of each
-// tile, or also writes their indices. Returns false if the work should stop.
+// tile and, unless count_only is true, writes their indices. Returns false if the work should stop.
 static bool fill_bins(DipConvergence *c, size_t *cursor, bool count_only) {
     for (size_t t = 0; t < c->triangles.count; t++) {
         const DipRefTriangle *triangle = &c->triangles.items[t];
@@ -341,10 +343,10 @@ static double depth_between(const Samples *samples, const DipRefTriangle *a,
     return dip_reference_depth(&at_a, near_m) - dip_reference_depth(&at_b, near_m);
 }
 
-// Returns true if sample i shows a continuation of the surface that the first sample shows: the
-// same material, on planes that meet within a pixel. Depths are linear on the screen, and so is
-// their difference. A corner between two walls counts as a continuation; an edge with something
-// behind it does not.
+// Returns true if sample i shows a continuation of the surface that the first sample shows. It does
+// if both have the same material and lie on planes that meet within a pixel. Depths are linear on
+// the screen, and so is their difference. A corner between two walls counts as a continuation; an
+// edge with something behind it does not.
 static bool goes_on(const Samples *samples, size_t first, size_t i) {
     const DipConvergence *c = samples->convergence;
     if (samples->triangles[i] == samples->triangles[first]) {

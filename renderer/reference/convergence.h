@@ -1,6 +1,6 @@
-// Draws the converged picture of dip_reference_converge tile by tile, the same to the bit. Several
-// threads may draw tiles at the same time. It can also classify each pixel by what is visible in
-// it.
+// Draws the same picture as dip_reference_converge, to the bit, but tile by tile. Several threads
+// may draw tiles at the same time. The functions here can also classify each pixel by what is
+// visible in it.
 #ifndef DIP_RENDERER_REFERENCE_CONVERGENCE_H
 #define DIP_RENDERER_REFERENCE_CONVERGENCE_H
 
@@ -22,10 +22,11 @@ DIP_API void dip_convergence_destroy(DipConvergence **convergence);
 
 DIP_API int dip_convergence_tile_count(const DipConvergence *convergence);
 
-// Draws sample_count (a square) samples in each pixel of a tile, and adds share times their mean to
-// rgb_lin, which has width * height * 3 values. If rgb_lin was zero and share is 1, the result is
-// the picture of dip_reference_converge. classes has width * height values, which are set to what
-// the samples show (DipSeen); it may be NULL. Other threads may add other tiles at the same time.
+// Draws sample_count samples (a square number) in each pixel of a tile. Multiplies their mean by
+// share and adds the result to rgb_lin, which has width * height * 3 values. If rgb_lin was zero
+// and share is 1, the result is the picture of dip_reference_converge. classes may be NULL.
+// Otherwise it has width * height values, and the tile's values are set to what the samples show
+// (DipSeen). Other threads may add other tiles at the same time.
 DIP_API bool dip_convergence_add_tile(const DipConvergence *convergence, int tile, int sample_count,
                                       uint32_t seed, double share, double *rgb_lin,
                                       uint8_t *classes, DipError *err);

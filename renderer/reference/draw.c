@@ -1,5 +1,5 @@
-// Draws the picture of the settings: exact coverage, depth per sample, one shading per pixel and
-// patch.
+// Draws the picture that the settings define. Coverage is exact, depth is tested per sample, and a
+// patch is shaded once per pixel.
 #include "renderer/reference/internal/internal.h"
 
 #include "renderer/pipeline/pattern.h"
@@ -25,7 +25,7 @@ typedef struct Drawing {
     DipSampleGroups groups; // the sample groups of clipped surfaces
     DipRefTriangles triangles;
     DipRefFilter filter;
-    DipRefFilter group_filter; // filter of clipped surfaces if there are several sample groups
+    DipRefFilter group_filter; // filter of clipped surfaces if a pixel has several sample groups
     Samples samples;
     DipRefShot shot;
     int width;
@@ -40,9 +40,9 @@ static Int128 find_edge(const DipRefVertex *from, const DipRefVertex *to, int64_
            (Int128)((int64_t)to->y - from_y) * (x - from_x);
 }
 
-// Returns true if samples on this edge belong to the triangle: the edge is exactly horizontal with
-// the rest of the triangle below it, or the rest lies to its right. The corners are clockwise to
-// the eye.
+// Returns true if samples on this edge belong to the triangle. They do if the edge is exactly
+// horizontal and the rest of the triangle lies below it, or if the rest lies to its right. The
+// corners are clockwise to the eye.
 static bool is_top_left(const DipRefVertex *from, const DipRefVertex *to) {
     return to->y < from->y || (to->y == from->y && to->x > from->x);
 }
@@ -74,15 +74,16 @@ static DipRefPosition place_at(const DipRefTriangle *triangle, int64_t x, int64_
         triangle, {(double)edges[0], (double)edges[1], (double)edges[2]}, (double)x, (double)y};
 }
 
-// The position of one of a pixel's samples on a triangle.
+// Returns the position of one of a pixel's samples on a triangle.
 static DipRefPosition place_at_sample(const Drawing *drawing, const DipRefTriangle *triangle, int x,
                                       int y, int sample) {
     return place_at(triangle, (int64_t)x * 256 + drawing->pattern->x[sample],
                     (int64_t)y * 256 + drawing->pattern->y[sample]);
 }
 
-// Returns where a surface that holds these samples of a pixel (one bit each) is shaded: at the
-// centre if it holds all of them, otherwise at the sample with the lowest index.
+// Finds the position at which a surface is shaded in a pixel. mask has a bit for each sample that
+// the surface holds. The position is the centre if the surface holds all samples, otherwise the
+// sample with the lowest index.
 static DipRefPosition place_to_shade(const Drawing *drawing, const DipRefTriangle *triangle, int x,
                                      int y, unsigned mask) {
     if (mask == (1u << drawing->pattern->count) - 1u) {
@@ -103,7 +104,7 @@ static const DipRefFilter *filter_of(const Drawing *drawing, const DipRefTriangl
     return has_groups(drawing, triangle) ? &drawing->group_filter : &drawing->filter;
 }
 
-// Returns where a sample group that holds these samples of a pixel is shaded: at their centroid,
+// Finds the position at which a sample group is shaded: the centroid of its samples in mask,
 // rounded down.
 static DipRefPosition place_of_pass(const Drawing *drawing, const DipRefTriangle *triangle, int x,
                                     int y, unsigned mask) {
@@ -123,8 +124,7 @@ static bool alpha_keeps(const Drawing *drawing, const DipRefPosition *place) {
     return (float)alpha >= place->triangle->material->alpha_cutoff;
 }
 
-// Returns those of the covered samples that the alpha test keeps. Each sample group is tested on
-// its own.
+// Returns the covered samples that the alpha test keeps. Each sample group is tested on its own.
 static unsigned clip_samples(const Drawing *drawing, const DipRefTriangle *triangle, int x, int y,
                              unsigned mask) {
     if (!has_groups(drawing, triangle)) {
@@ -178,7 +178,7 @@ static void draw_triangles(Drawing *drawing) {
     }
 }
 
-// Shades a surface that holds these samples of a pixel, or of one sample group of the pixel.
+// Shades a surface at the samples in mask, which belong to one pixel or to one sample group of it.
 static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigned mask,
                   double colour[3]) {
     const DipRefTriangle *triangle = &drawing->triangles.items[surface];
@@ -267,7 +267,7 @@ static bool sees_water(const Drawing *drawing) {
     return false;
 }
 
-// Draws the picture of a shot whose triangles are built.
+// Draws the picture of a shot. Its triangles must have been built.
 static bool draw_built(Drawing *drawing, double *rgb_lin, DipError *err) {
     const bool made = make_samples(drawing, err);
     if (made) {
@@ -291,7 +291,7 @@ static double *draw_mirrored(const Drawing *drawing, DipError *err) {
     mirrored.width = mirrored.shot.width = reflection->width;
     mirrored.height = mirrored.shot.height = reflection->height;
     mirrored.shot.mirrored = true;
-    // The height of two pixels of the mirrored picture, at a distance of 1.
+    // The height of two texels of the mirrored picture, at a distance of 1.
     mirrored.shot.margin =
         4.0 * tan(drawing->shot.pose->fov_y_deg * (pi / 360.0)) / reflection->height;
     double *rgb_lin = malloc((size_t)mirrored.width * (size_t)mirrored.height * 3 * sizeof(double));

@@ -64,7 +64,8 @@ DipFootprint dip_reference_footprint(const double ddx[2], const double ddy[2], i
     }
     const Frame frame = exact_footprint ? judge_ellipse(ddx, ddy, max_anisotropy)
                                         : judge_plain(ddx, ddy, max_anisotropy);
-    const double most = fmax(1.0, frame.length / (1 << min_level)); // keeps probes a texel apart
+    // Keeps probes at least a texel apart.
+    const double most = fmax(1.0, frame.length / (1 << min_level));
     const int probe_count = (int)ceil(fmin(frame.ratio, most) - 1e-4);
     return (DipFootprint){{frame.major[0], frame.major[1]},
                           frame.ratio,

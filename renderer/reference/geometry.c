@@ -12,13 +12,13 @@ typedef struct ClipVertex {
     double x; // in clip space
     double y;
     double w;     // distance along the view axis, in metres
-    double above; // signed height above the cut; negative parts are cut off
+    double above; // signed height above the cut; the parts below the cut are removed
     double varyings[DIP_REF_VARYINGS];
 } ClipVertex;
 
 typedef struct Camera {
     double position[3];
-    double rows[3][3]; // world to camera
+    double rows[3][3]; // rows of the rotation from world to camera space
     double scale_x;    // clip.x = scale_x * x
     double scale_y;
     double width_px;
@@ -160,7 +160,7 @@ static ClipVertex cut_edge(const ClipVertex *inside, const ClipVertex *outside, 
     return cut;
 }
 
-enum { MAX_CORNERS = 5 }; // of a triangle that is cut at two planes
+enum { MAX_CORNERS = 5 }; // most corners of a triangle that is cut at two planes
 
 // Returns the point where an edge crosses the near plane.
 static ClipVertex cut_near(const ClipVertex *inside, const ClipVertex *outside, double near_m) {
@@ -190,8 +190,8 @@ static int clip_near(const ClipVertex *const corners[3], double near_m,
     return count >= 3 ? count : 0;
 }
 
-// Converts pixels to steps of 1/256 pixel. Positions stay below 2^40 steps, so that products of two
-// fit 128 bits and doubles hold the positions exactly.
+// Converts pixels to steps of 1/256 pixel. Positions stay below 2^40 steps, so that the product of
+// two positions fits 128 bits and doubles hold the positions exactly.
 static double to_steps(double px, bool rounded) {
     const double steps = fmin(fmax(px * 256.0, -0x1p40), 0x1p40);
     return rounded ? rint(steps) : steps;
@@ -271,8 +271,8 @@ static bool add_piece(const Camera *camera, const ClipVertex *a, const ClipVerte
     return append(triangles, &piece);
 }
 
-// Keeps the part above the level if the scene is mirrored there. Returns the number of corners, at
-// most one more than before.
+// If the scene is mirrored, keeps only the part of a polygon above the mirror's level. Returns the
+// number of corners, at most one more than before.
 static int clip_below(int count, ClipVertex polygon[MAX_CORNERS]) {
     ClipVertex from[MAX_CORNERS];
     memcpy(from, polygon, sizeof from);
@@ -293,8 +293,8 @@ static int clip_below(int count, ClipVertex polygon[MAX_CORNERS]) {
     return kept >= 3 ? kept : 0;
 }
 
-// Adds the triangles of a mesh. *like holds what they have in common, and the number of the mesh's
-// first patch.
+// Adds the triangles of a mesh. *like holds what these triangles have in common, and the number of
+// the mesh's first patch.
 static bool add_mesh(const DipReference *reference, const Camera *camera, int mesh_index,
                      const ClipVertex *vertices, const DipRefTriangle *like,
                      DipRefTriangles *triangles) {
@@ -346,8 +346,8 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
     return like;
 }
 
-// Adds the triangles of an object. Its patches have numbers from first_patch on; no other object
-// uses the 2^32 numbers from there.
+// Adds the triangles of an object. Its patches are numbered from first_patch on. The 2^32 numbers
+// from there on belong to this object alone.
 static bool add_object(const DipReference *reference, const Camera *camera,
                        const DipObjectDef *object, uint64_t first_patch,
                        DipRefTriangles *triangles) {

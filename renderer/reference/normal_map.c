@@ -33,10 +33,10 @@ bool dip_reference_is_bumpy(const DipMaterialDef *material) {
     return is_solid && has_light && material->normal_map != DIP_NO_TEXTURE;
 }
 
-// Finds the tangents: the direction in which u grows while v stays constant, made perpendicular to
-// the normal, and perpendicular to both the direction in which v shrinks. dP/du = (dP/dx dv/dy -
-// dP/dy dv/dx) / (du/dx dv/dy - du/dy dv/dx), and accordingly for v. Returns false if the texture
-// coordinates have no area.
+// Finds the tangents. along_u points where u grows while v stays constant, made perpendicular to
+// the normal. against_v is perpendicular to both and points where v shrinks. dP/du is (dP/dx dv/dy
+// - dP/dy dv/dx) / (du/dx dv/dy - du/dy dv/dx), and dP/dv is found accordingly. Returns false if
+// the texture coordinates have no area.
 static bool find_tangents(const DipRefVaryings *varyings, const double normal[3], double along_u[3],
                           double against_v[3]) {
     const double *dx = varyings->ddx;
@@ -68,7 +68,7 @@ static bool find_tangents(const DipRefVaryings *varyings, const double normal[3]
     return dot(along_u, along_u) > 0.0;
 }
 
-// Applies the map's filtered normal. Returns the length that it has.
+// Turns a normal by the map's filtered normal. Returns the length of the filtered normal.
 static double map_normal(const DipRefVaryings *varyings, const double texel[3],
                          const double normal[3], double mapped[3]) {
     double along_u[3];

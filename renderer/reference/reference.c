@@ -65,7 +65,7 @@ static bool load_texture(DipReference *reference, int index, DipError *err) {
                                       reference->for_truth ? 1 : DIP_REF_MAX_LEVELS, err);
 }
 
-// Compresses the material's colour texture, except a sky's.
+// Compresses the material's colour texture. The texture of a sky is not compressed.
 static bool compress_texture(DipReference *reference, const DipMaterialDef *material,
                              DipError *err) {
     if (material->surface == DIP_SURFACE_SKY || material->colour_texture == DIP_NO_TEXTURE) {

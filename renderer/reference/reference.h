@@ -31,13 +31,13 @@ typedef struct DipReference DipReference;
 DIP_API DipReference *dip_reference_create(const DipSceneDef *def, DipError *err);
 
 // Creates a reference that draws converged pictures only. It has neither smaller mip levels nor
-// compressed textures. This function, and creating a convergence with the reference, fail soon
-// after *stop becomes true. stop is borrowed until destroy; NULL never stops.
+// compressed textures. This function, and the creation of a convergence with the reference, fail
+// soon after *stop becomes true. stop is borrowed until destroy; NULL never stops.
 DIP_API DipReference *dip_reference_create_for_truth(const DipSceneDef *def,
                                                      const DipCancelFlag *stop, DipError *err);
 DIP_API void dip_reference_destroy(DipReference **reference);
 
-// Sets the number of the frames drawn next, as dip_renderer_set_frame_index does.
+// Sets the number of the frame that is drawn next, as dip_renderer_set_frame_index does.
 DIP_API void dip_reference_set_frame_index(DipReference *reference, uint64_t frame_index);
 
 // Sets the time of the pictures drawn next, in nanoseconds since the start of the path; 0 at first.
@@ -53,10 +53,10 @@ DIP_API bool dip_reference_draw(const DipReference *reference, const DipQuality 
                                 const DipPose *pose, int width, int height, double *rgb_lin,
                                 DipError *err);
 
-// Draws the converged picture. Each pixel has sample_count (a square) samples, jittered within the
-// cells of a grid. Each sample is shaded at its own position, with its own alpha test; textures are
-// read bilinearly from level 0, and positions are not rounded. A pixel is the mean in linear light.
-// seed selects the jitter: two seeds give independent pictures.
+// Draws the converged picture. Each pixel has sample_count samples (a square number), jittered
+// within the cells of a grid. Each sample is shaded at its own position, with its own alpha test.
+// Textures are read bilinearly from level 0, and positions are not rounded. A pixel is the mean of
+// its samples in linear light. seed selects the jitter: two seeds give independent pictures.
 DIP_API bool dip_reference_converge(const DipReference *reference, const DipPose *pose, int width,
                                     int height, int sample_count, uint32_t seed, double *rgb_lin,
                                     DipError *err);

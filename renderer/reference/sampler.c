@@ -21,14 +21,14 @@ static int address(double texel, int size, DipWrap wrap) {
     return (int)(wrapped < 0.0 ? wrapped + size : wrapped);
 }
 
-// The two texels that a coordinate lies between, and its distance from the first, in texels.
+// The two texels between which a coordinate lies, and its distance from the first one, in texels.
 typedef struct Pair {
     int index[2];
     double fraction;
 } Pair;
 
-// Finds the texels around a coordinate. The position in texels is rounded down to 1/grain texel;
-// grain 0 means no rounding.
+// Finds the texels around a coordinate. The position in texels is rounded down to 1/grain texel,
+// unless grain is 0.
 static Pair find_pair(double coordinate, int size, DipWrap wrap, double grain) {
     double place = coordinate * size - 0.5;
     if (grain > 0.0) {
@@ -81,7 +81,7 @@ static void sample_line(const DipRefTexture *texture, bool compressed, int level
     }
 }
 
-// Blends a level with the next one, which takes fewer probes.
+// Blends a level with the next coarser level, which takes fewer probes.
 static void sample_levels(const DipRefTexture *texture, bool compressed, double level,
                           const double uv[2], const DipFootprint *footprint, double rgba[4]) {
     const int finer = (int)level;

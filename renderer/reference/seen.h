@@ -7,7 +7,7 @@
 #define DIP_SEEN_LIST(X)                                                                           \
     X(WATER, "reflection", "a sample sees water")                                                  \
     X(CLIPPED, "clipped",                                                                          \
-      "an alpha-clipped surface covers a sample with nothing before it, clipped away or not")      \
+      "an alpha-clipped surface is nearest at a sample, even if alpha clips it away there")        \
     X(EDGE, "edges",                                                                               \
       "samples see two materials, or triangles whose planes do not meet within the pixel")         \
     X(TEXTURED, "interior", "one surface with a colour texture, not the sky")                      \

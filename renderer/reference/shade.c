@@ -13,9 +13,9 @@ double dip_reference_depth(const DipRefPosition *place, double near_m) {
 }
 
 // Interpolates varyings. U = u/w and Q = 1/w are linear on the screen, so u = U/Q and du/dx =
-// (dU/dx - u dQ/dx) / Q. The edge functions weigh the vertices: edge i lies opposite vertex i, runs
-// from vertex i+1 to i+2, and changes by -dy per step in x and by +dx per step in y. Their common
-// factor cancels out.
+// (dU/dx - u dQ/dx) / Q. The edge functions are the weights of the vertices, up to a common factor
+// that cancels out. Edge i lies opposite vertex i and runs from vertex i+1 to i+2. It changes by
+// -dy per step in x and by +dx per step in y.
 static void interpolate(const DipRefPosition *place, int first, int count, bool derive,
                         DipRefVaryings *out) {
     const DipRefVertex *v = place->triangle->vertices;

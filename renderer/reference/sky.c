@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-// Returns how far a layer has scrolled, modulo its period in whole nanoseconds.
+// Returns how far a layer has scrolled. Its period is a whole number of nanoseconds.
 static double find_scroll(const DipSkyLayer *layer, int64_t time_ns) {
     if (fabs(layer->speed_per_min) < 1e-6) {
         return 0.0;

@@ -1,4 +1,4 @@
-// sRGB, and mip chains by exact area weights.
+// Decodes sRGB and builds mip chains with exact area weights.
 #include "renderer/reference/internal/texture.h"
 
 #include <math.h>
@@ -13,8 +13,8 @@ double dip_reference_encode_srgb(double linear) {
     return linear <= 0.0031308 ? linear * 12.92 : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-// Computes the mean of a level's texels over the box from..to, in texels. Each texel weighs as much
-// as the part of it that the box covers.
+// Computes the mean of a level's texels over a box, whose corners from and to are in texels. Each
+// texel has the weight of the part of it that the box covers.
 static void average_box(const DipRefTexture *texture, int level, const double from[2],
                         const double to[2], double rgba[4]) {
     double sum[4] = {0};

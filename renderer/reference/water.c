@@ -10,12 +10,12 @@ bool dip_reference_reflects(const DipReference *reference, const DipPose *pose) 
            pose->position_world[1] > reference->reflection.level_m;
 }
 
-// Returns the world y of the normalised direction from the eye through a position of the frame.
+// Returns the world y of the unit vector from the eye through a position of the frame.
 static double look_up(const DipPose *pose, int width, int height, const DipRefPosition *place) {
     const double half = tan(pose->fov_y_deg * (pi / 360.0));
     const double ray[3] = {(place->x / (128.0 * width) - 1.0) * half * width / height,
                            (1.0 - place->y / (128.0 * height)) * half, -1.0};
-    // The quaternion turns v to v + 2 q x (q x v + w v); this is its y.
+    // The quaternion turns v to v + 2 q x (q x v + w v). This is the y of the result.
     const double *q = pose->orientation;
     const double cross[3] = {q[1] * ray[2] - q[2] * ray[1] + q[3] * ray[0],
                              q[2] * ray[0] - q[0] * ray[2] + q[3] * ray[1],
@@ -25,7 +25,7 @@ static double look_up(const DipPose *pose, int width, int height, const DipRefPo
     return turned / sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
 }
 
-// Fresnel's reflectance of unpolarised light, from the angles on both sides of the surface.
+// Computes Fresnel's reflectance of unpolarised light from the angles on both sides of the surface.
 static double reflectance(double cos_in) {
     const double sin_out = sqrt(1.0 - cos_in * cos_in) / DIP_WATER_INDEX;
     const double cos_out = sqrt(1.0 - sin_out * sin_out);

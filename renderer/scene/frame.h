@@ -1,4 +1,4 @@
-// A frame: what drawing yields. It has pixels, counters of work, times and the effects that ran.
+// A frame: the result of drawing. It has pixels, counters of work, times and the effects that ran.
 #ifndef DIP_RENDERER_SCENE_FRAME_H
 #define DIP_RENDERER_SCENE_FRAME_H
 
@@ -51,10 +51,10 @@ typedef struct DipCounters {
     X(normal_map, "normal maps")                                                                   \
     X(sky, "clouds")
 
-// Whether an effect ran in a frame, and the reason in words.
+// States whether an effect ran in a frame, and gives the reason in words.
 typedef struct DipEffect {
     bool run;
-    const char *why; // static storage
+    const char *why; // the reason; static storage
 } DipEffect;
 
 typedef struct DipEffects {
@@ -75,8 +75,8 @@ typedef struct DipFrame {
     DipEffects effects;
 } DipFrame;
 
-// Writes a 128-bit hash of a frame's size and pixels as 32 hex digits and a final 0. Padding and
-// counters do not count. The hash is FNV-1a in two lanes: it shows whether two pictures are the
+// Writes a 128-bit hash of a frame's size and pixels as 32 hex digits and a final 0. The hash
+// ignores padding and counters. It is FNV-1a in two lanes: it shows whether two pictures are the
 // same but does not protect against forgery.
 DIP_API void dip_frame_hash(const DipFrame *frame, char hex[33]);
 

@@ -1,4 +1,4 @@
-// The settings list at work: info, parse, format, check.
+// Implements the settings: their description, parsing, formatting and checking.
 #include "renderer/scene/quality.h"
 
 #include "renderer/base/assert.h"
@@ -123,13 +123,14 @@ size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_b
     return length;
 }
 
-// Refuses an asd that the number of samples cannot be grouped by, even if adaptive AA is off.
+// Refuses a group size (asd) into which the samples of aa cannot be divided, even if adaptive AA is
+// off.
 static bool check_groups(const DipQuality *quality, DipError *err) {
     const DipSettingInfo *aa = &infos[DIP_SETTING_AA];
     const DipSettingInfo *asd = &infos[DIP_SETTING_ASD];
     const int asd_step = quality->step[DIP_SETTING_ASD];
-    unsigned fitting_asd = 0; // Steps of asd that fit this aa, as bits.
-    unsigned fitting_aa = 0;  // Steps of aa that fit this asd.
+    unsigned fitting_asd = 0; // steps of asd that fit this aa, as bits
+    unsigned fitting_aa = 0;  // steps of aa that fit this asd, as bits
     for (int i = 0; i < asd->step_count; i++) {
         fitting_asd |= (unsigned)dip_sample_groups_exist(dip_quality_sample_count(quality), i + 1)
                        << i;

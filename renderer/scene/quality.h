@@ -68,7 +68,7 @@ typedef struct DipQuality {
     uint8_t step[DIP_SETTING_COUNT];
 } DipQuality;
 
-// What a panel or a help text needs to know about a setting. All strings are static.
+// Describes a setting for panels and help texts. All strings are static.
 typedef struct DipSettingInfo {
     const char *key;   // "aa"
     const char *title; // "Antialiasing"
@@ -85,7 +85,7 @@ DIP_API DipQuality dip_quality_default(void);
 // Reads settings from text; a setting that the text leaves out gets its default. err may be NULL.
 // Fails with DIP_ERROR_UNKNOWN (a setting or a step), MISSING (a setting without a step), OVERSIZED
 // (a part that is too long for key=step), CONFLICT (a setting given twice) or an error of
-// dip_quality_check; then *quality is unchanged. Thread-safe.
+// dip_quality_check. On failure *quality is unchanged. Thread-safe.
 DIP_API bool dip_quality_parse(const char *text, DipQuality *quality, DipError *err);
 
 // Writes all settings in the order of DIP_SETTING_LIST: "aa=none,taa=off,...". Cuts the text to the
@@ -99,11 +99,12 @@ DIP_API bool dip_quality_check(const DipQuality *quality, DipError *err);
 DIP_API int dip_quality_sample_count(const DipQuality *quality);   // 1, 2, 4, 6 or 8
 DIP_API int dip_quality_max_anisotropy(const DipQuality *quality); // 1 (trilinear), 2, 4, 8 or 16
 
-// Whether colour textures are drawn compressed: with opt=standard and opt=advanced, unless mip
-// colours replace their texels.
+// Returns true if colour textures are drawn compressed. This is so with opt=standard and
+// opt=advanced, unless mip colours replace the texels.
 DIP_API bool dip_quality_compresses(const DipQuality *quality);
 
-// Samples per sample group of alpha-clipped surfaces: asd with adaptive AA, otherwise all samples.
+// Returns the samples per sample group of alpha-clipped surfaces: asd with adaptive AA, otherwise
+// all samples.
 DIP_API int dip_quality_samples_per_group(const DipQuality *quality);
 
 #ifdef __cplusplus

@@ -228,7 +228,7 @@ static bool make_mirror(DipRenderer *renderer, const DipScene *scene, DipError *
     return reserve(renderer, scene, true, mirror->pipeline, &mirror->set, err);
 }
 
-// Creates the resources for a scene that this renderer did not draw last.
+// Creates the resources for a scene other than the one that this renderer drew last.
 static bool make_for_scene(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     forget_scene(renderer);
     renderer->samplers = calloc((size_t)scene->material_count + 1, sizeof *renderer->samplers);

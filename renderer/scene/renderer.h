@@ -31,8 +31,8 @@ typedef struct DipRendererDef {
     // with renderers that do not have them.
     bool plain_surfaces;
     DipReflectionDef reflection;
-    // Runs every effect that the scene has, even where the plan finds that it cannot be seen. The
-    // picture is the same.
+    // Runs every effect that the scene has, even if the plan finds that the effect cannot be seen.
+    // The picture is the same.
     bool force_all_effects;
 } DipRendererDef;
 
@@ -47,7 +47,7 @@ DIP_API DipRendererDef dip_renderer_default_def(void);
 DIP_API DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err);
 DIP_API void dip_renderer_destroy(DipRenderer **renderer);
 
-// Each of these takes effect in the next frame. If one fails, nothing changes.
+// Each of these functions takes effect in the next frame. A function that fails changes nothing.
 DIP_API bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality,
                                       DipError *err);
 DIP_API bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *reflection,
@@ -56,13 +56,14 @@ DIP_API bool dip_renderer_resize(DipRenderer *renderer, int width, int height, D
 
 DIP_API DipQuality dip_renderer_quality(const DipRenderer *renderer);
 
-// Sets the number of the frame that is drawn next; the caller counts, and it is 0 at first. Only
-// temporal antialiasing uses it: even frames have one sample pattern, odd frames the other.
+// Sets the number of the frame that is drawn next. The caller counts frames; the number is 0 at
+// first. Only temporal antialiasing uses it: even frames have one sample pattern, odd frames the
+// other.
 DIP_API void dip_renderer_set_frame_index(DipRenderer *renderer, uint64_t frame_index);
 
 // Replaces the flat colours of mip debugging by pictures. Picture 0 stands for mip levels of 1024
-// texels and more, picture 1 for 512, and so on to picture 7 for 8 and fewer. A level whose picture
-// is NULL keeps its flat colour. The pictures are copied.
+// texels and more, picture 1 for 512 texels, and so on; picture 7 stands for 8 texels and fewer. A
+// level whose picture is NULL keeps its flat colour. The pictures are copied.
 enum { DIP_MIP_DEBUG_LEVELS = 8 };
 DIP_API bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
                                            const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
@@ -76,11 +77,11 @@ DIP_API bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, con
 
 enum { DIP_MAX_FRAMES_AT_ONCE = 4 };
 
-// Draws one frame with each of several renderers, all from one pose. frames[i] is the same to the
-// bit as what dip_renderer_draw gives for renderers[i], but all of them together take less time:
-// each worker draws the same tile of every frame in turn, and the geometry stage runs once for all
-// frames if the renderers differ only in samples and shading (in any setting but gi). The time and
-// the counters of that stage are then part of every frame. count is 1..DIP_MAX_FRAMES_AT_ONCE. The
+// Draws one frame with each of several renderers, all from one pose. frames[i] has the same bits as
+// if dip_renderer_draw drew it with renderers[i]. Drawing the frames together takes less time,
+// because each worker draws the same tile of every frame in turn. If the renderers differ only in
+// samples and shading (in any setting but gi), the geometry stage also runs once for all frames.
+// Its time and counters are then part of every frame. count is 1..DIP_MAX_FRAMES_AT_ONCE. The
 // renderers must be distinct and on one pool. Errors are those of dip_renderer_draw; RANGE also
 // means a bad count.
 DIP_API bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count,

@@ -118,7 +118,7 @@ static void lay_out_normal_map(DipSceneMesh *out, int normal_attribute) {
     }
 }
 
-// Lays out the vertices of a mesh: only the arrays that its material uses are kept.
+// Lays out the vertices of a mesh. Only the arrays that its material uses are kept.
 static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *material,
                             DipSceneMesh *out) {
     VertexLayout layout = {.count = 0};
@@ -228,8 +228,7 @@ static void mark_used_textures(const DipSceneDef *def, bool *used, bool *clip) {
     }
 }
 
-// Creates the textures that materials use as they are drawn, and no others. Alpha is kept only for
-// clip maps.
+// Creates only the textures that materials draw with. Alpha is kept only for clip maps.
 static bool create_textures(const DipSceneDef *def, DipScene *scene, DipPool *pool, DipError *err) {
     bool *used = calloc(2 * (size_t)def->texture_count + 1, sizeof *used);
     if (!used) {
@@ -311,8 +310,8 @@ static DipSurface surface_of(const DipScene *scene, const DipSceneObject *object
     return scene->materials[scene->meshes[object->mesh].material].surface;
 }
 
-// Sets the scene's bounds to those of all objects of a kind of surface. Returns false if there are
-// none.
+// Sets the scene's bounds to the bounds of all objects whose kind of surface `is` accepts. Returns
+// false if no such object has triangles.
 static bool bound_objects(DipScene *scene, bool (*is)(DipSurface)) {
     bool any = false;
     for (int axis = 0; axis < 3; axis++) {
@@ -360,8 +359,8 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
     return true;
 }
 
-// Marks the colour textures, which are the only ones to be compressed: BC1 would dent normals,
-// displace clouds and put steps into a light map.
+// Marks the colour textures as compressible. Other textures are never compressed: BC1 would dent
+// normals, displace clouds and put steps into a light map.
 static void mark_compressible(const DipSceneDef *def, DipScene *scene) {
     for (int i = 0; i < def->material_count; i++) {
         const DipMaterialDef *material = &def->materials[i];

@@ -1,5 +1,5 @@
-// A scene: textures, materials, meshes, and objects that place the meshes in the world. What a
-// scene shows never changes, so any number of renderers on any threads may draw it.
+// A scene: textures, materials, meshes, and objects that place the meshes in the world. The visible
+// content of a scene never changes, so any number of renderers on any threads may draw it.
 //
 // DipSceneDef is the plain description that loaders fill. dip_scene_create copies what it needs,
 // builds mip chains and splits the meshes into chunks. The reference renderer reads the same
@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-// What kind of surface a material is. Model files tag it (docs/models.md).
+// The kind of surface that a material describes. Model files name it (docs/models.md).
 typedef enum DipSurface {
     DIP_SURFACE_OPAQUE,
     DIP_SURFACE_CLIPPED, // alpha-clipped: cut away where the texture's alpha is below alpha_cutoff
@@ -35,7 +35,7 @@ enum { DIP_NO_TEXTURE = -1 };
 // - otherwise, on a `lit` surface, a fixed light of sky and sun on the vertex normals,
 // - otherwise 1.
 // On an opaque or clipped surface that has one of the first two lights, a normal map changes that
-// light and adds a highlight of the sun. docs/picture.md defines all of it.
+// light and adds a highlight of the sun. docs/picture.md defines the formulas.
 typedef struct DipMaterialDef {
     const char *name;
     DipSurface surface;
@@ -50,7 +50,7 @@ typedef struct DipMaterialDef {
     float roughness;       // 0..1: roughness of the highlight on normal-mapped surfaces
     float alpha_cutoff;    // 0..1, for DIP_SURFACE_CLIPPED: alpha >= alpha_cutoff is kept
     bool double_sided;     // false: visible only where the winding is counter-clockwise
-    bool lit;              // without a light map, the fixed light of sky and sun falls on it
+    bool lit;              // true: without a light map, the fixed light of sky and sun falls on it
 } DipMaterialDef;
 
 // Indexed triangles of one material. All arrays are packed. An array of an attribute that the mesh
@@ -65,13 +65,13 @@ typedef struct DipMeshDef {
     const float *colours_lin; // r, g, b; multiplies the base colour
     uint32_t index_count;     // a multiple of 3
     const uint32_t *indices;
-    int material; // index
+    int material; // index of the mesh's material
 } DipMeshDef;
 
 // A mesh placed in the world: world = transform * (x, y, z, 1).
 typedef struct DipObjectDef {
     const char *name;
-    int mesh;            // index
+    int mesh;            // index of the object's mesh
     float transform[12]; // 3x4 matrix, row by row
 } DipObjectDef;
 
@@ -80,15 +80,15 @@ enum { DIP_MAX_SKY_SPEED = 600 }; // texture widths per minute
 // One layer of clouds: the sky's texture, scrolled along u and displaced.
 typedef struct DipSkyLayer {
     float scale;          // repeats of the texture per unit of the surface's texture coordinates
-    double speed_per_min; // growth of u in texture widths per minute, +-DIP_MAX_SKY_SPEED
-    // Displacement, in texture widths, where the texture's red and green are 1. Where they are 0
-    // it is as large in the opposite direction.
+    double speed_per_min; // speed along u, in texture widths per minute, within +-DIP_MAX_SKY_SPEED
+    // Displacement, in texture widths, where the texture's red and green are 1. Where red and green
+    // are 0, the displacement is as large in the opposite direction.
     float perturbation_widths;
 } DipSkyLayer;
 
-// How sky surfaces look that have a colour texture and first texture coordinates: docs/picture.md,
-// Sky. The texture's red and green displace the clouds, and its blue is the density of the clouds.
-// It should repeat and have linear encoding.
+// The look of sky surfaces that have a colour texture and first texture coordinates (uv0).
+// docs/picture.md, Sky, defines the formulas. The texture's red and green displace the clouds, and
+// its blue is the density of the clouds. The texture should repeat and have linear encoding.
 typedef struct DipSkyDef {
     DipSkyLayer layers[2];
     float perturbation_scale; // repeats of the displacement per unit of texture coordinates
@@ -99,7 +99,7 @@ typedef struct DipSkyDef {
     float zenith_lin[3];
     float horizon_lin[3];
     float cloud_lin[3];
-    float glare_lin[3]; // added around the sun
+    float glare_lin[3]; // colour of the sun's glare, which is added to the sky
     float tint_lin[3];  // tint times brightness; multiplies the whole sky
 } DipSkyDef;
 
@@ -128,14 +128,14 @@ typedef struct DipScene DipScene;
 DIP_API DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err);
 DIP_API void dip_scene_destroy(DipScene **scene);
 
-// Compresses the textures that opt=standard and opt=advanced show, unless that has been done. A
-// program that does not call this pays for it in the first frame that shows them. The compressed
-// textures stay until the scene is destroyed. Meanwhile other threads may draw the scene with a
-// pool of their own; if a frame needs the textures, it waits for them. If pool is NULL, the
-// caller's thread does all the work. Fails with DIP_ERROR_MEMORY.
+// Compresses the textures that opt=standard and opt=advanced show, unless they are compressed
+// already. If a program does not call this function, the first frame that shows the compressed
+// textures makes them. They stay until the scene is destroyed. During the call other threads may
+// draw the scene with a pool of their own; a frame that needs the compressed textures waits for
+// them. If pool is NULL, the caller's thread does all the work. Fails with DIP_ERROR_MEMORY.
 DIP_API bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError *err);
 
-// How long the parts of dip_scene_create took.
+// Durations of the parts of dip_scene_create, in milliseconds.
 typedef struct DipSceneTimes {
     double textures_ms; // packing the textures and building their mip chains
     double meshes_ms;

@@ -6,16 +6,16 @@
 #include <stdbool.h>
 
 typedef struct DipFootprint {
-    double major_texels[2]; // the whole line on which the probes lie, in texels of level 0
+    double major_texels[2]; // from the start to the end of the line of probes, in texels of level 0
     double eta;             // anisotropy that the probes compensate for, 1..max
     int probe_count;        // 1..max, for the finer of the two levels
     double lambda;          // level of detail before bias and clamping; may be infinite or NaN
 } DipFootprint;
 
-// Computes a footprint. ddx and ddy are the Jacobian in texels of level 0 per pixel. max_anisotropy
-// 1 means trilinear filtering, for which `exact_footprint` has no effect. min_level is the finest
-// level that may be read; probes lie at least one of its texels apart. A Jacobian that is not
-// finite gives one probe and a lambda of NaN.
+// Computes a footprint. ddx and ddy are the Jacobian in texels of level 0 per pixel. If
+// max_anisotropy is 1, filtering is trilinear and `exact_footprint` has no effect. min_level is the
+// finest level that may be read; probes lie at least one texel of this level apart. A Jacobian that
+// is not finite gives one probe and a lambda of NaN.
 DipFootprint dip_reference_footprint(const double ddx[2], const double ddy[2], int max_anisotropy,
                                      bool exact_footprint, int min_level);
 

@@ -12,15 +12,16 @@ struct DipReference {
     uint64_t frame_index;
     int64_t time_ns;
     DipReflectionDef reflection;
-    const atomic_bool *stop; // NULL: never stops
+    const atomic_bool *stop; // NULL: the work never stops early
     bool for_truth;          // textures have level 0 only
     uint32_t **patches;      // for each mesh, the patch of each of its triangles; NULL if for_truth
-    // Textures, with the description's indices. A texture that no surface shows has no levels.
+    // Textures, with the same indices as in the description. A texture that no surface shows has no
+    // levels.
     DipRefTexture *textures;
 };
 
-// The varyings: what a vertex carries besides its position. They are interpolated
-// perspective-correctly.
+// The varyings: values that a vertex carries besides its position. They are interpolated with
+// perspective correction.
 enum {
     DIP_REF_U0,
     DIP_REF_V0,
@@ -38,7 +39,7 @@ enum {
     DIP_REF_VARYINGS
 };
 
-enum { DIP_REF_DERIVED = 7 }; // the first varyings; only these have derivatives
+enum { DIP_REF_DERIVED = 7 }; // this many varyings, the first ones, have derivatives
 
 typedef struct DipRefVertex {
     double x; // on the screen, to the right, in 1/256 pixel
@@ -47,8 +48,8 @@ typedef struct DipRefVertex {
     double varyings[DIP_REF_VARYINGS];
 } DipRefVertex;
 
-// A triangle after clipping. It is visible from its front, or double-sided, and its vertices are in
-// such an order that its area is positive where y points down.
+// A triangle after clipping. It faces the eye or is double-sided. Its vertices are ordered so that
+// its area is positive if y points down.
 typedef struct DipRefTriangle {
     DipRefVertex vertices[3];
     double area; // twice the area, in squared steps of 1/256 pixel
@@ -61,10 +62,10 @@ typedef struct DipRefTriangle {
     const DipRefTexture *normal_map;
     const DipSkyDef *sky; // the clouds of a sky surface; NULL for other surfaces
     int64_t time_ns;      // time of the clouds
-    uint64_t patch;       // a patch is shaded as one surface; unique among all objects
-    bool mirrored;        // true if the object's transform mirrors, which reverses the winding
-    bool clipped;         // true if the alpha of `colour` clips the surface
-    int min_x, max_x;     // pixels of the frame that the triangle may touch, inclusive
+    uint64_t patch;   // number of a patch, which is shaded as one surface; unique among all objects
+    bool mirrored;    // true if the object's transform mirrors, which reverses the winding
+    bool clipped;     // true if the alpha of `colour` clips the surface
+    int min_x, max_x; // pixels of the frame that the triangle may touch, inclusive
     int min_y, max_y;
 } DipRefTriangle;
 
@@ -80,11 +81,10 @@ typedef struct DipRefShot {
     int width; // pixels
     int height;
     double aspect; // width / height of the view; pixels need not be square
-    bool rounded;  // true if positions are rounded to 1/256 pixel before any decision is based on
-                   // them
-    // If true, the scene is mirrored at the reflection's level, without its water, and cut at the
-    // level. Points below the level stay if they are less than `margin` times their distance along
-    // the view axis below it.
+    bool rounded;  // true: positions are rounded to 1/256 pixel before any decision
+    // If true, the scene is mirrored at the reflection's level and cut there, and its water is left
+    // out. A point below the level stays if its distance below the level is less than `margin`
+    // times its distance along the view axis.
     bool mirrored;
     double margin;
 } DipRefShot;
@@ -94,8 +94,8 @@ bool dip_reference_build_triangles(const DipReference *reference, const DipRefSh
                                    DipRefTriangles *triangles, DipError *err);
 void dip_reference_triangles_free(DipRefTriangles *triangles);
 
-// A triangle at one position. The edge functions there are the weights of its vertices, up to a
-// common factor.
+// A triangle at one position. Up to a common factor, the edge functions at the position are the
+// weights of the vertices.
 typedef struct DipRefPosition {
     const DipRefTriangle *triangle;
     double edges[3];
@@ -105,12 +105,12 @@ typedef struct DipRefPosition {
 
 double dip_reference_depth(const DipRefPosition *place, double near_m);
 
-// Returns the alpha of a clipped surface. Without a filter (NULL), it is read bilinearly from level
-// 0.
+// Returns the alpha of a clipped surface. If filter is NULL, the texture is read bilinearly from
+// level 0.
 double dip_reference_alpha(const DipRefPosition *place, const DipRefFilter *filter);
 
 // Shades a triangle at a position; the result is linear light, 0..1. filter is the colour texture's
-// filter. Without a filter (NULL), all textures are read bilinearly from level 0.
+// filter. If filter is NULL, all textures are read bilinearly from level 0.
 void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter, double rgb[3]);
 
 // Returns the light of sun and sky on a surface with a normal of length 1. sunlit, 0..1, is the
@@ -129,14 +129,15 @@ typedef struct DipRefVaryings {
 } DipRefVaryings;
 
 // normal_map.c: multiplies a surface's own colour by the light that falls on a normal-mapped
-// surface. texel is the map's, 0..1 each; light is the light map's value, NULL if there is none.
+// surface, and adds the highlight. texel is the normal map's value, 0..1 each. light is the light
+// map's value, or NULL if there is no light map.
 void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryings *varyings,
                                const double texel[3], const double light[3], double rgb[3]);
 
-// sky.c: shades a sky surface. Without a filter (NULL), textures are read bilinearly from level 0.
+// sky.c: shades a sky surface. If filter is NULL, the texture is read bilinearly from level 0.
 void dip_reference_shade_sky(const DipRefTriangle *triangle, const DipRefFilter *filter,
                              const DipRefVaryings *varyings, double rgb[3]);
-// Returns true if water shows the mirrored scene, which requires that the eye is above the water
+// Returns true if water shows the mirrored scene. It does so only if the eye is above the water
 // level.
 bool dip_reference_reflects(const DipReference *reference, const DipPose *pose);
 
@@ -151,17 +152,17 @@ void dip_reference_blend_water(const DipReference *reference, const DipPose *pos
 void dip_reference_read_mirrored(const DipReference *reference, const double *mirrored, int width,
                                  int height, const DipRefPosition *place, double rgb[3]);
 
-// Computes the position of the converged picture's sample `index` in a pixel, jittered within its
-// cell of a side x side grid. pixel is y * width + x. The position is relative to the frame, in
-// 1/256 pixel.
+// Computes the position of sample `index` of the converged picture in a pixel. The sample is
+// jittered within its cell of a side x side grid. pixel is y * width + x. The position is relative
+// to the frame, in 1/256 pixel.
 void dip_reference_sample_position(int index, int side, uint32_t seed, size_t pixel, int x, int y,
                                    double *place_x, double *place_y);
 
-// Checks that the sample count is a square; *side is its root.
+// Checks that the sample count is a square number; *side receives its root.
 bool dip_reference_check_samples(int sample_count, int *side, DipError *err);
 
-// Returns true if work should end early. Loops over triangles ask once per DIP_REF_STOP_PERIOD
-// triangles.
+// Returns true if work should end early. Loops over triangles call this once per
+// DIP_REF_STOP_PERIOD triangles.
 enum { DIP_REF_STOP_PERIOD = 4096 };
 bool dip_reference_stopped(const DipReference *reference, DipError *err);
 

@@ -35,12 +35,11 @@ typedef struct DipRefFilter {
     bool cheap;       // use a narrow blend of levels and half the probes
 } DipRefFilter;
 
-// Decodes sRGB: converts a code, 0..1, to linear light, 0..1.
+// Decodes sRGB: converts an encoded value, 0..1, to linear light, 0..1.
 double dip_reference_decode_srgb(double code);
 double dip_reference_encode_srgb(double linear);
 
-// Builds the mip chain of *def, which is borrowed. Levels beyond the first most_levels are left
-// out.
+// Builds the mip chain of *def, which is borrowed. The chain has at most most_levels levels.
 bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def, int most_levels,
                                 DipError *err);
 void dip_reference_texture_free(DipRefTexture *texture);
@@ -63,7 +62,7 @@ static inline void dip_reference_texel(const DipRefTexture *texture, int level, 
 // Encodes the BC1 blocks of every level.
 bool dip_reference_texture_compress(DipRefTexture *texture, DipError *err);
 
-// Reads one texel with the colour that its block shows; alpha is the texture's own.
+// Reads one texel with the colour that its BC1 block shows; alpha is the texture's own.
 void dip_reference_compressed_texel(const DipRefTexture *texture, int level, int x, int y,
                                     double rgba[4]);
 
@@ -73,8 +72,8 @@ void dip_reference_block_colour(const uint8_t block[8], int x, int y, double rgb
 DipRefFilter dip_reference_colour_filter(const DipQuality *quality);
 DipRefFilter dip_reference_light_map_filter(void);
 
-// Returns the filter of a texture that is read as the colour texture is but holds data, not
-// colours: without mip colours and compression.
+// Returns the filter of a texture that holds data instead of colours: the colour texture's filter
+// without mip colours and without compression.
 DipRefFilter dip_reference_data_filter(const DipRefFilter *colour);
 
 // Reads a texture at uv with the given derivatives of uv per pixel in x and y.

@@ -52,9 +52,9 @@ static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *sh
     return sampler;
 }
 
-// Level-of-detail bias of a clipped surface, in 1/256 level: -log2(sqrt(groups)). A sample group
-// covers only a part of the pixel, so it may read finer levels. This keeps the thin parts of clip
-// maps from being averaged away.
+// Level-of-detail bias of a clipped surface, in 1/256 level: -log2(sqrt(groups)). Each sample group
+// covers only a part of the pixel, so it reads finer levels. They still hold the thin parts of clip
+// maps, which coarser levels average away.
 static int32_t group_bias_lod8(const DipQuality *quality) {
     static const int32_t bias_lod8[DIP_MAX_SAMPLES + 1] = {
         [2] = -128, [3] = -203, [4] = -256, [6] = -331, [8] = -384};
@@ -93,8 +93,8 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
 
 // --- objects -----------------------------------------------------------------------------------
 
-// The cofactors of the transform's 3x3 part. They turn normals as the inverse transpose does,
-// except for the length and, if the transform mirrors, the sign.
+// Computes the cofactors of the transform's 3x3 part: the inverse transpose times the determinant.
+// They turn normals in the same way, but change the length and, if the transform mirrors, the sign.
 static void cofactors(const float t[12], double n[9]) {
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) {
@@ -112,8 +112,8 @@ static bool mirrors(const float t[12]) {
     return (t[0] * n[0] + t[1] * n[1]) + t[2] * n[2] < 0.0;
 }
 
-// The matrix that turns normals to the world. Its greatest element is scaled to +-1, so that the
-// shader can normalise the turned normals of very small and very large objects too.
+// Computes the matrix that turns normals to world space. Its greatest element is scaled to +-1, so
+// that the shader can normalise the turned normals of very small and very large objects too.
 static void normal_matrix(const float t[12], float out[9]) {
     double n[9];
     cofactors(t, n);
@@ -128,9 +128,10 @@ static void normal_matrix(const float t[12], float out[9]) {
     }
 }
 
-// The view rays through the pixels of a target, from the world-to-clip matrix. The first three
-// elements of its rows for x, y and w are orthogonal vectors, so a point relative to the eye is the
-// sum of these vectors, each times its clip coordinate divided by the vector's squared length.
+// Computes the view rays through the pixels of a target from the world-to-clip matrix. The first
+// three elements of the rows for x, y and w are orthogonal vectors. So a point relative to the eye
+// is a weighted sum of these vectors: the weight of a vector is its clip coordinate divided by the
+// vector's squared length.
 static DipViewRays view_rays(const double m[16], int width, int height) {
     DipViewRays rays;
     double inverse2[4];
@@ -150,7 +151,7 @@ static DipViewRays view_rays(const double m[16], int width, int height) {
 }
 
 // Gives a draw the shaders of its mesh's effect: normal map or clouds. With mip colours, a sky
-// keeps the plain shader, so that its texture's levels can be seen.
+// keeps the plain shader, so that the levels of its texture can be seen.
 static void set_effect(const DipDrawInput *input, const DipDrawSet *set, const DipSceneMesh *mesh,
                        DipSurfaceUniforms *uniforms, DipDraw *draw) {
     const DipMaterialKernels *kernels = input->kernels;
@@ -169,7 +170,7 @@ static void set_effect(const DipDrawInput *input, const DipDrawSet *set, const D
     }
 }
 
-// Makes the draw that was added last show the mirrored picture, as reflecting water.
+// Turns the draw that was added last into reflecting water, which shows the mirrored picture.
 static void set_reflecting(const DipDrawInput *input, const DipDrawView *pass, DipDrawSet *set) {
     const int last = set->count - 1;
     DipWaterUniforms *water = &set->water[last];

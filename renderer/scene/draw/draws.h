@@ -18,26 +18,26 @@
 
 typedef DipSampler DipMaterialSamplers[DIP_SURFACE_SAMPLER_COUNT];
 
-// What the draws of all passes of a frame have in common.
+// Input that all passes of a frame share.
 typedef struct DipDrawInput {
     const DipScene *scene;
     const DipMaterialKernels *kernels;
     const DipQuality *quality;
-    const DipMaterialSamplers *samplers; // per material
+    const DipMaterialSamplers *samplers; // one per material
     const DipSkyUniforms *sky;
     const DipUnsharedMeshes *unshared; // NULL: objects share the scene's meshes
     bool plain_surfaces;
 } DipDrawInput;
 
-// What differs from pass to pass.
+// Input that differs from pass to pass.
 typedef struct DipDrawView {
     const DipView *view;
     const DipCullPlanes *seen; // objects outside these planes are left out; NULL: all are drawn
-    int width;                 // of the target, in pixels
-    int height;                // of the target, in pixels
-    bool mirrored;             // the mirrored scene: windings are reversed, water is left out
-    const DipTarget *shown;    // the mirrored picture that water shows; NULL: water is plain
-    bool schlick;              // see DipReflectionDef
+    int width;                 // width of the target, in pixels
+    int height;                // height of the target, in pixels
+    bool mirrored; // true: draws the mirrored scene, so windings are reversed and water is left out
+    const DipTarget *shown; // the mirrored picture that water shows; NULL: water is plain
+    bool schlick;           // see DipReflectionDef
 } DipDrawView;
 
 // The draws of one pass and everything they point to. All members of an empty set are 0.
@@ -49,16 +49,16 @@ typedef struct DipDrawSet {
     DipViewRays rays;
 } DipDrawSet;
 
-// Allocates a set for up to object_count draws. reflects: the set may hold reflecting water. If it
-// fails (DIP_ERROR_MEMORY), the caller frees the set all the same.
+// Allocates a set for up to object_count draws. reflects: the set may hold reflecting water. If the
+// call fails (DIP_ERROR_MEMORY), the caller must still free the set.
 bool dip_draw_set_make(DipDrawSet *set, int object_count, bool reflects, DipError *err);
 void dip_draw_set_free(DipDrawSet *set);
 
-// Replaces the set's draws by those of a pass. Allocates nothing.
+// Replaces the set's draws by the draws of a pass. Allocates nothing.
 void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDrawView *pass);
 
-// Sets how the textures of each material are sampled. `shown` holds the levels that replace a
-// texture's own with mip colours (dip_mip_debug_create).
+// Sets how the textures of each material are sampled. If mip colours are on, the levels of `shown`
+// (dip_mip_debug_create) replace the levels of colour textures.
 void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const DipTexture *shown,
                       DipMaterialSamplers *samplers);
 

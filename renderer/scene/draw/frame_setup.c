@@ -39,8 +39,8 @@ static bool check_pose(const DipPose *pose, DipError *err) {
 
 // --- passes ------------------------------------------------------------------------------------
 
-// Begins a pass: everything that follows from the settings and the scene, but no draws and no
-// target.
+// Begins a pass: sets what follows from the settings and the scene. The caller adds the target and
+// the draws.
 static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
                           const DipFramePlan *plan) {
     DipPass pass = {
@@ -78,7 +78,7 @@ typedef struct FrameSetup {
     DipParts parts;
     DipPlanInput input;
     DipFramePlan plan;
-    DipPass mirrored_pass; // set if the plan runs the reflection
+    DipPass mirrored_pass; // made only if the plan runs the reflection
     DipPass pass;
     DipPipelineCounters counters; // sums over both passes
     uint64_t fragments_mirrored;
@@ -88,15 +88,16 @@ static DipTarget target_of(const DipRenderer *renderer) {
     return (DipTarget){renderer->rgba8, renderer->stride_bytes, renderer->width, renderer->height};
 }
 
-// Makes the pass that draws the mirrored scene above the water. A margin of two texels of the
-// mirrored picture below the water is drawn as well, so that no background is read between a shore
-// and its reflection.
+// Makes the pass that draws the mirrored scene above the water. The pass also draws a margin below
+// the water, two texels of the mirrored picture high. Without the margin, background would be read
+// between a shore and its reflection.
 static void make_mirrored_pass(FrameSetup *setup) {
     const DipRenderer *renderer = setup->renderer;
     const DipView *mirrored = &setup->mirrored;
     DipMirror *mirror = &setup->renderer->mirror;
     const double above[4] = {0.0, 1.0, 0.0, -renderer->reflection.level_m};
-    const double texel = 2.0 / (mirrored->scale[1] * mirror->target.height); // at a distance of 1
+    // The height of a texel at a distance of 1.
+    const double texel = 2.0 / (mirrored->scale[1] * mirror->target.height);
     double plane[4];
     dip_view_plane(mirrored, above, plane);
     plane[3] += 2.0 * texel;
@@ -125,7 +126,7 @@ static void make_scene_pass(FrameSetup *setup) {
     set_draws(renderer, setup->scene, seen, &renderer->set, &setup->pass);
 }
 
-// Counts the memory of the effects' textures, whether this frame uses them or not.
+// Counts the memory of the textures that effects use, even of effects that this frame does not run.
 static void count_bytes(const DipScene *scene, DipCounters *counters) {
     counters->normal_map_bytes = scene->normal_map_bytes;
     counters->clip_map_bytes = scene->clip_map_bytes;
@@ -152,7 +153,7 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
     setup->mirrored = dip_view_mirror(&setup->view, renderer->reflection.level_m);
     setup->seen = dip_cull_view_planes(setup->view.world_to_clip);
     setup->seen_mirrored = dip_cull_view_planes(setup->mirrored.world_to_clip);
-    // The margin is 2 texels: one because a bilinear read takes in the next texel, and one for
+    // The margin is 2 texels: one because a bilinear read also uses the next texel, and one for
     // rounding.
     const DipMirror *mirror = &renderer->mirror;
     setup->parts = (DipParts){mirror->tile_regions, mirror->target.width, mirror->target.height, 2};
@@ -191,8 +192,8 @@ static DipPassWork work_of(DipPipeline *pipeline, const DipPass *pass, FrameSetu
     return (DipPassWork){pipeline, pass, &setup->counters, &setup->frame->stages};
 }
 
-// Draws the passes of all frames at once, first the mirrored ones. same_geometry: the frames differ
-// only in samples and shading.
+// Draws the mirrored passes of all frames together, then the main passes of all frames together.
+// same_geometry: the frames differ only in samples and shading.
 static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipError *err) {
     DipPassWork works[DIP_MAX_FRAMES_AT_ONCE] = {{.pipeline = NULL}};
     int work_count = 0;
@@ -212,7 +213,7 @@ static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipEr
     return dip_pipeline_draw_passes(works, count, same_geometry, err);
 }
 
-// Converts the counters of the passes to those of a frame.
+// Converts the passes' counters to a frame's counters.
 static DipCounters frame_counters(const DipPipelineCounters *passes) {
     DipCounters counters = {
         .fragments_normal_mapped = passes->shader_counts[DIP_SHADER_COUNT_NORMAL_MAPPED],

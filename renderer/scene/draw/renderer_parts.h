@@ -8,11 +8,12 @@
 #include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/instancing.h"
 
-// The resources of the reflection. All members are 0 while no scene with reflecting water is drawn.
+// The resources of the reflection. All members are 0 unless the scene that was drawn last has
+// reflecting water.
 typedef struct DipMirror {
     DipPipeline *pipeline;
     DipTarget target;            // the picture of the mirrored scene
-    DipTileRegion *tile_regions; // the part of each of the target's tiles that water can show
+    DipTileRegion *tile_regions; // for each tile of the target, the part that water can show
     DipDrawSet set;
 } DipMirror;
 
@@ -38,16 +39,16 @@ struct DipRenderer {
     DipDrawSet set;
     DipMirror mirror;
     DipMaterialSamplers *samplers; // one per material
-    DipUnsharedMeshes *unshared;   // with gi=off; otherwise NULL
+    DipUnsharedMeshes *unshared;   // one mesh per object with gi=off; NULL with gi=on
 };
 
-// Creates the resources that a scene needs, unless it is the scene that was drawn last.
+// Creates the resources for a scene. Does nothing if the scene is the one that was drawn last.
 bool dip_renderer_adopt_scene(DipRenderer *renderer, const DipScene *scene, DipError *err);
 
 // Creates or frees resources that depend on the settings.
 bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err);
 
-// The input that the draws of every pass are made from.
+// Returns the input from which the draws of every pass are made.
 DipDrawInput dip_renderer_draw_input(const DipRenderer *renderer, const DipScene *scene);
 
 #endif

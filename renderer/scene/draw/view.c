@@ -17,7 +17,7 @@ static void set_matrix(DipView *view) {
         }
         m[4 * row + 3] = scale[row] * shift;
     }
-    m[11] = view->near_m; // clip z is the near plane's distance everywhere
+    m[11] = view->near_m; // clip z is constant: the distance of the near plane
 }
 
 DipView dip_view_make(const DipPose *pose, double near_m, double aspect) {
@@ -51,7 +51,7 @@ DipView dip_view_mirror(const DipView *view, double level) {
 }
 
 // Clip x, y and w are multiples of camera x, y and -z, and clip z is constant. So the coefficients
-// for x, y and w come from the plane's normal along the camera's axes, and the coefficient for z
+// for x, y and w come from the plane's normal along the camera's axes. The coefficient for z comes
 // from the plane's value at the eye.
 void dip_view_plane(const DipView *view, const double plane[4], double clip[4]) {
     double along[3];

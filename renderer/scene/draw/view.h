@@ -9,23 +9,25 @@ typedef struct DipView {
     double eye[3];            // the camera's position in world space
     double axis[3][3];        // the camera's x, y, z axes in world space; left-handed if mirrored
     double scale[2];          // clip x = scale[0] * camera x, clip y = scale[1] * camera y
-    double near_m;            // distance of the near plane; clip z everywhere
+    double near_m;            // distance of the near plane; also the clip z of every point
     double world_to_clip[16]; // row-major
 } DipView;
 
-// The view from a pose; docs/picture.md, Camera, defines it. aspect: width / height of the picture.
+// Computes the view from a pose, as docs/picture.md, Camera, defines it. aspect: width / height of
+// the picture.
 DipView dip_view_make(const DipPose *pose, double near_m, double aspect);
 
-// The view of the world mirrored at y = level: it shows every point where its mirror image would be
-// seen. It reverses the winding of every triangle.
+// Computes the view of the world mirrored at y = level. It shows every point at the position at
+// which the eye would see the point's mirror image. The view reverses the winding of every
+// triangle.
 DipView dip_view_mirror(const DipView *view, double level);
 
 // Transforms a plane from world space to clip space: for a world point (x, y, z),
 // dot(clip, clip position) = plane[0] x + plane[1] y + plane[2] z + plane[3].
 void dip_view_plane(const DipView *view, const double plane[4], double clip[4]);
 
-// product = world_to_clip * transform. The transform is a 3x4 matrix; its fourth row is (0, 0, 0,
-// 1).
+// Computes product = world_to_clip * transform. The transform is a 3x4 matrix; its fourth row is
+// (0, 0, 0, 1).
 void dip_view_object_to_clip(const DipView *view, const float transform[12], float product[16]);
 
 #endif

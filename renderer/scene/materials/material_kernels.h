@@ -1,5 +1,5 @@
 // The shaders of the scene's materials, one table per instruction set
-// (renderer/simd/kernel_table.h). They use only what any caller's shaders can use.
+// (renderer/simd/kernel_table.h). To the pipeline they are ordinary shaders of a caller.
 #ifndef DIP_RENDERER_SCENE_MATERIALS_MATERIAL_KERNELS_H
 #define DIP_RENDERER_SCENE_MATERIALS_MATERIAL_KERNELS_H
 
@@ -22,7 +22,8 @@ typedef struct DipMaterialKernels {
 
 DIP_KERNELS_DECLARE(DIP_MATERIAL_KERNEL_LIST)
 
-// The shaders for an instruction set that this machine has (dip_isa_available). Static storage.
+// Returns the shaders for an instruction set that this machine has (dip_isa_available). Static
+// storage.
 const DipMaterialKernels *dip_material_kernels(DipIsa isa);
 
 #endif

@@ -3,15 +3,15 @@
 #include "renderer/scene/materials/material_kernels.h"
 #include "renderer/scene/materials/surface_simd.h"
 
-// Where a light map's luminance is up to SHADE_LIGHT, the surface is in the sun's shadow; from
-// SHADE_LIGHT + SUNLIT_LIGHT on, it is fully in the sun.
+// A surface is in the sun's shadow where its light map's luminance is at most SHADE_LIGHT. It is
+// fully in the sun where the luminance is at least SHADE_LIGHT + SUNLIT_LIGHT.
 #define SHADE_LIGHT  0.4f
 #define SUNLIT_LIGHT 0.5f
 // Bounds of the factor by which a mapped normal changes the light map.
 #define LEAST_RATIO    0.25f
 #define GREATEST_RATIO 2.5f
-// Least component of a mapped normal along the mesh's normal, so that where the normals of a
-// footprint cancel out, the result is not the direction of a rounding error.
+// Least component of a mapped normal along the mesh's normal. Where the normals of a footprint
+// cancel out, this bound keeps rounding errors from deciding the direction.
 #define LEAST_RISE 0.125f
 // Reflectance of a dielectric seen along its normal, and the least width (GGX alpha) of its
 // highlight.
@@ -57,16 +57,16 @@ VEC_INLINE Vf3 cross(Vf3 a, Vf3 b) {
     return (Vf3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Unit tangents along growing u and falling v, perpendicular to each other and to the normal. They
-// are valid where `there` is set. They do not exist where the texture coordinates have no area or u
-// grows along the normal.
+// Unit tangents that point along growing u and falling v. They are perpendicular to each other and
+// to the normal. They are valid where `there` is set. It is not set where the texture coordinates
+// have no area or u grows along the normal.
 typedef struct Tangents {
     Vf3 u, v;
     Mask there;
 } Tangents;
 
 // Finds the tangents from the derivatives of the position and of the texture coordinates. If the
-// coordinates are mirrored, so are the tangents.
+// coordinates are mirrored, the tangents are mirrored too.
 VEC_INLINE Tangents find_tangents(DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const int u = uniforms->normal_map_varying;
@@ -79,7 +79,7 @@ VEC_INLINE Tangents find_tangents(DipFragmentBatch *batch, int i, Vf3 ray, Vf3 n
     const Vf u_dx = vf_load(batch->varying_dx[u] + i), v_dx = vf_load(batch->varying_dx[u + 1] + i);
     const Vf u_dy = vf_load(batch->varying_dy[u] + i), v_dy = vf_load(batch->varying_dy[u + 1] + i);
     const Vf area = u_dx * v_dy - u_dy * v_dx;
-    // The directions along u and against v, each times the area.
+    // The directions of growing u and falling v, each multiplied by the area.
     const Vf3 along = combine(dx, v_dy, dy, v_dx);
     const Vf3 against = combine(dx, u_dy, dy, u_dx);
     const Vf rise = vf3_dot(along, normal);
@@ -118,8 +118,8 @@ VEC_INLINE Facing find_facing(DipFragmentBatch *batch, int i, Vf3 ray,
     return facing;
 }
 
-// The fixed light of sky and sun on a normal. `sun` is max(0, dot(normal, direction to the sun))
-// times the visible part of the sun.
+// Computes the fixed light of sky and sun on a surface with this normal. `sun` is max(0,
+// dot(normal, direction to the sun)) times the visible fraction of the sun.
 VEC_INLINE Vf fixed_light(Vf3 normal, Vf sun) {
     return (LIGHT_AMBIENT + normal.y * LIGHT_SKY) + sun * LIGHT_SUN;
 }
@@ -129,11 +129,11 @@ typedef struct Fraction {
     Vf above, below;
 } Fraction;
 
-// The sun's highlight, a GGX lobe that widens where the map's normals spread (Toksvig). Let c be
-// the cosine of the angle between the directions to the eye and to the sun. The sum of the two
-// directions has the squared length 2 (1 + c), and the squared cosine between it and the sun is
-// (1 + c) / 2. `sun` is dot(mapped normal, direction to the sun); `met` is the same, but at least 0
-// and times the visible part of the sun.
+// Computes the sun's highlight, a GGX lobe that widens where the map's normals spread (Toksvig).
+// Let c be the cosine of the angle between the directions to the eye and to the sun. The sum of
+// these directions has the squared length 2 (1 + c). The squared cosine between the sum and the
+// direction to the sun is (1 + c) / 2. `sun` is dot(mapped normal, direction to the sun). `met` is
+// max(0, sun) times the visible fraction of the sun.
 VEC_INLINE Fraction highlight(const Facing *facing, Vf3 ray, Vf sun, Vf met, float roughness) {
     const float alpha = roughness * roughness > LEAST_ALPHA ? roughness * roughness : LEAST_ALPHA;
     const Vf bounded = vf_min(facing->inverse_length, vf_splat(10.0f));
@@ -142,13 +142,14 @@ VEC_INLINE Fraction highlight(const Facing *facing, Vf3 ray, Vf sun, Vf met, flo
     const Vf to_eye = vf_splat(0.0f) - inverse_length(vf3_dot(ray, ray));
     const Vf c1 = vf_max(vf3_dot_sun(ray) * to_eye + 1.0f, vf_splat(1e-6f));
     const Vf n_h = vf_max(sun + vf3_dot(facing->mapped, ray) * to_eye, vf_splat(0.0f));
-    const Vf d = n_h * n_h * (alpha2 - 1.0f) + c1 * 2.0f; // times 2 (1 + c)
+    // The base of GGX's denominator, times 2 (1 + c).
+    const Vf d = n_h * n_h * (alpha2 - 1.0f) + c1 * 2.0f;
     const Vf above = (alpha2 * met) * ((c1 * c1) * (4.0f * REFLECTANCE * LIGHT_SUN));
     const Vf width = vf_sqrt(alpha2) * 4.0f + 2.0f;
     return (Fraction){above, (d * d) * (vf_max(c1 * 0.5f, vf_splat(0.1f)) * width)};
 }
 
-// Lights the batch's colours by a light map. The map's luminance tells how much of the sun is
+// Lights the batch's colours by a light map. The map's luminance tells what fraction of the sun is
 // visible.
 VEC_INLINE void light_by_map(DipFragmentBatch *batch, float (*map)[DIP_FRAGMENT_BATCH],
                              float (*light)[DIP_FRAGMENT_BATCH]) {

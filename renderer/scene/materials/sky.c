@@ -1,10 +1,12 @@
-// The sky at a given time. Layers scroll by whole nanoseconds, modulo their periods.
+// Computes the sky at a given time. The time is a whole number of nanoseconds, so layers repeat
+// exactly.
 #include "renderer/scene/materials/sky.h"
 
 #include <string.h>
 
 static const double minute_ns = 60e9;
-static const double least_speed_per_min = 1e-6; // a layer of this speed has a period of 2 years
+// Slower layers stand still. A layer of this speed has a period of 2 years.
+static const double least_speed_per_min = 1e-6;
 
 DipSkyDef dip_sky_default(void) {
     return (DipSkyDef){

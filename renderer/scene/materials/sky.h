@@ -1,4 +1,4 @@
-// The sky at a given time. Private to the renderer.
+// Computes the sky at a given time. Private to the renderer.
 #ifndef DIP_RENDERER_SCENE_MATERIALS_SKY_H
 #define DIP_RENDERER_SCENE_MATERIALS_SKY_H
 
@@ -7,12 +7,12 @@
 
 #include <stdint.h>
 
-// How far a layer has scrolled, in texture widths, 0..1. It repeats exactly with the layer's
-// period, which is 60 s / |speed_per_min|, rounded to whole nanoseconds. A layer whose
+// Returns how far a layer has scrolled, in texture widths, 0..1. The result repeats exactly after
+// the layer's period, which is 60 s / |speed_per_min|, rounded to whole nanoseconds. A layer whose
 // |speed_per_min| is below 1e-6 does not move.
 double dip_sky_phase(double speed_per_min, int64_t time_ns);
 
-// The uniforms of the sky's shader at a time.
+// Computes the uniforms of the sky's shader at a time.
 DipSkyUniforms dip_sky_at(const DipSkyDef *sky, int64_t time_ns);
 
 #endif

@@ -6,11 +6,12 @@
 // The last two varyings, which no sky mesh uses, hold the texture coordinates of a layer.
 enum { LAYER_VARYING = DIP_MAX_VARYINGS - 2 };
 
-// How much a displacement of one texture width may change per unit of texture coordinates. A
-// layer's derivatives grow by this, so that displaced clouds are read from coarse enough levels.
+// The shader assumes that a displacement of up to one texture width changes by at most this much
+// per unit of texture coordinates. It enlarges a layer's derivatives accordingly, so that displaced
+// clouds are read from coarse enough levels.
 #define DISPLACEMENT_SLOPE 8.0f
 
-// The part by which the densest cloud is darker than a thin one.
+// The densest clouds are darker than thin clouds by this fraction.
 #define CLOUD_SHADE 0.2f
 
 // Writes coordinates * scale to the layer's varyings. Their derivatives are multiplied by
@@ -59,7 +60,7 @@ VEC_INLINE void read_layer(DipFragmentBatch *batch, int layer,
 typedef struct Weather {
     Vf cover; // how far clouds cover the clear sky
     Vf shade; // brightness of the clouds
-    Vf haze;  // how far the horizon's colour covers sky and clouds
+    Vf haze;  // how far the horizon's colour covers the sky and the clouds
     Vf glare; // factor of the sun's glare, which is added
 } Weather;
 

@@ -1,11 +1,12 @@
-// The uniforms of the shaders of the scene's surfaces, which are clients of the pipeline.
+// Uniforms of the shaders that draw the scene's surfaces. To the pipeline these shaders are
+// ordinary shaders of a caller.
 #ifndef DIP_RENDERER_SCENE_MATERIALS_SURFACE_H
 #define DIP_RENDERER_SCENE_MATERIALS_SURFACE_H
 
 #include <stdbool.h>
 
-// Indices of the counts of the materials' shaders (DipShaderWork.counts): fragments with a normal
-// map, of sky with clouds, and of reflecting water.
+// What the materials' shaders count, as indices into DipShaderWork.counts: fragments that have a
+// normal map, that show sky with clouds, and that show reflecting water.
 enum {
     DIP_SHADER_COUNT_NORMAL_MAPPED,
     DIP_SHADER_COUNT_SKY,
@@ -53,22 +54,25 @@ typedef struct DipSkyUniforms {
 // vertex times its colour; on a normal-mapped surface it is the vertex colour alone.
 typedef struct DipSurfaceUniforms {
     float to_clip[16];        // row-major
-    float normal_to_world[9]; // row-major; the turned normals have the right direction, any length
-    int copied_varying_count; // attributes from 3 on that are copied to varyings from 0 on
-    int normal_attribute;     // first of three; DIP_ABSENT: the vertices are not lit
-    int colour_attribute;     // first of three; DIP_ABSENT: white
-    int light_varying;        // first of three; DIP_ABSENT: the light is 1
-    int colour_varying;       // first of two, coordinates of the colour texture; or DIP_ABSENT
-    int light_map_varying;    // first of two, coordinates of the light map; or DIP_ABSENT
+    float normal_to_world[9]; // row-major; gives a normal the right direction, but any length
+    int copied_varying_count; // number of attributes, from 3 on, copied to varyings, from 0 on
+    // Each of the next five is the index of the first of several attributes or varyings, or
+    // DIP_ABSENT.
+    int normal_attribute;  // three attributes; DIP_ABSENT: the vertices are not lit
+    int colour_attribute;  // three attributes; DIP_ABSENT: white
+    int light_varying;     // three varyings; DIP_ABSENT: the light is 1
+    int colour_varying;    // two varyings: coordinates of the colour texture
+    int light_map_varying; // two varyings: coordinates of the light map
     float base_colour_lin[3];
     float light_map_scale;
     float alpha_cutoff;
-    int normal_map_varying; // first of two, coordinates of the normal map
-    int normal_varying;     // first of three, unit normal of the vertex in world space
-    int depth_varying;      // clip w
+    // The next four are set for normal-mapped surfaces only.
+    int normal_map_varying; // index of the first of two: coordinates of the normal map
+    int normal_varying;     // index of the first of three: unit normal of the vertex in world space
+    int depth_varying;      // index of one varying: clip w
     float roughness;
-    const DipViewRays *rays;   // for normal-mapped surfaces, sky and water
-    const DipSkyUniforms *sky; // for sky
+    const DipViewRays *rays;   // only for normal-mapped surfaces, sky and water
+    const DipSkyUniforms *sky; // only for sky
 } DipSurfaceUniforms;
 
 #endif

@@ -3,7 +3,7 @@
 
 #include "renderer/scene/materials/material_kernels.h"
 
-// The fixed light of sky and sun on a vertex.
+// Computes the fixed light of sky and sun on a vertex.
 VEC_INLINE Vf light_of(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch, int i) {
     const Vf3 n = turn_normal(uniforms, batch, i);
     const Vf inverse = inverse_length(vf3_dot(n, n));

@@ -6,8 +6,8 @@
 #include "renderer/scene/materials/surface.h"
 #include "renderer/simd/vec.h"
 
-// The fixed light of surfaces without a light map: ambient light, light of the sky from above and
-// light of the sun from the direction SUN.
+// The fixed light of surfaces without a light map. It has three parts: ambient light, light of the
+// sky from above and light of the sun from the direction SUN.
 #define LIGHT_AMBIENT 0.35f
 #define LIGHT_SKY     0.15f
 #define LIGHT_SUN     0.65f
@@ -36,7 +36,7 @@ VEC_INLINE Vf3 vf3_scale(Vf3 a, Vf s) {
     return (Vf3){a.x * s, a.y * s, a.z * s};
 }
 
-// 1 / sqrt(length2), but finite where length2 is 0.
+// Returns 1 / sqrt(length2), or a finite value if length2 is 0.
 VEC_INLINE Vf inverse_length(Vf length2) {
     return vf_splat(1.0f) / vf_sqrt(vf_max(length2, vf_splat(1e-12f)));
 }
@@ -45,7 +45,7 @@ VEC_INLINE Vf clamp01(Vf v) {
     return vf_min(vf_max(v, vf_splat(0.0f)), vf_splat(1.0f));
 }
 
-// Computes clip positions and copies the varyings that are attributes.
+// Computes clip positions and copies attributes to varyings.
 VEC_INLINE void transform_vertices(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch,
                                    int i) {
     const Vf x = vf_load(batch->in[0] + i);
@@ -60,7 +60,7 @@ VEC_INLINE void transform_vertices(const DipSurfaceUniforms *uniforms, const Dip
     }
 }
 
-// A vertex's normal in world space, not normalised.
+// Returns a vertex's normal in world space, not normalised.
 VEC_INLINE Vf3 turn_normal(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch, int i) {
     const float *const *normal = batch->in + uniforms->normal_attribute;
     const float *m = uniforms->normal_to_world;
@@ -71,7 +71,7 @@ VEC_INLINE Vf3 turn_normal(const DipSurfaceUniforms *uniforms, const DipVertexBa
                  (nx * m[6] + ny * m[7]) + nz * m[8]};
 }
 
-// The view ray of a fragment. It is not normalised; its component along the view axis is 1.
+// Returns the view ray of a fragment. It is not normalised; its component along the view axis is 1.
 VEC_INLINE Vf3 view_ray(const DipViewRays *rays, const DipFragmentBatch *batch, int i) {
     const Vf x = vf_load(batch->x + i);
     const Vf y = vf_load(batch->y + i);
@@ -101,8 +101,8 @@ VEC_INLINE void start_base_colour(DipFragmentBatch *batch) {
     }
 }
 
-// Sets the batch's colours to base colour times texture. `texture` is room for the texture's
-// colours.
+// Sets the batch's colours to base colour times texture. `texture` is scratch space for the
+// texture's colours.
 VEC_INLINE void start_colour(DipFragmentBatch *batch, float (*texture)[DIP_FRAGMENT_BATCH]) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     start_base_colour(batch);

@@ -7,12 +7,14 @@
 
 #include <stdbool.h>
 
-// All water is treated as horizontal, so the view ray of a fragment tells how much it reflects.
+// All water is treated as horizontal, so a fragment's view ray determines how much the water
+// reflects.
 typedef struct DipWaterUniforms {
-    DipSurfaceUniforms surface; // must be first: the surface's shaders read it for the own colour
-    const DipTarget *mirrored;  // the picture of the mirrored scene
-    float inverse_size[2];      // 1 / width and 1 / height of the target that the water is drawn to
-    bool schlick;               // see DipReflectionDef
+    // Must be first: the surface shader reads it to compute the water's own colour.
+    DipSurfaceUniforms surface;
+    const DipTarget *mirrored; // the picture of the mirrored scene
+    float inverse_size[2];     // 1 / width and 1 / height of the target that the water is drawn to
+    bool schlick;              // see DipReflectionDef
 } DipWaterUniforms;
 
 #endif

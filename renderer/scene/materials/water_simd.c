@@ -1,12 +1,14 @@
-// The fragment shader of water: a blend of its own colour and the mirrored scene by the Fresnel
-// term. Compiled once per instruction set. docs/picture.md, Water, defines the formulas.
+// The fragment shader of water. It blends the water's own colour with the mirrored scene, weighted
+// by the Fresnel term. Compiled once per instruction set. docs/picture.md, Water, defines the
+// formulas.
 #include "renderer/scene/materials/material_kernels.h"
 #include "renderer/scene/materials/surface_simd.h"
 #include "renderer/scene/materials/water.h"
 #include "renderer/scene/reflection.h"
 
-// The part of unpolarised light that a dielectric reflects. With g = sqrt(n^2 - 1 + c^2), it is the
-// mean of a = ((c - g) / (c + g))^2 and a * ((c (g + c) - 1) / (c (g - c) + 1))^2.
+// Returns the fraction of unpolarised light that a dielectric reflects. c is the cosine between the
+// view ray and the normal, and n is the refractive index. With g = sqrt(n^2 - 1 + c^2), the result
+// is the mean of a = ((c - g) / (c + g))^2 and a * ((c (g + c) - 1) / (c (g - c) + 1))^2.
 VEC_INLINE Vf fresnel_exact(Vf c) {
     const float n = (float)DIP_WATER_INDEX;
     const Vf g = vf_sqrt(c * c + (n * n - 1.0f));
@@ -17,7 +19,7 @@ VEC_INLINE Vf fresnel_exact(Vf c) {
     return (across * across * 0.5f) * (ratio * ratio + 1.0f);
 }
 
-// Schlick's approximation of the same.
+// Returns Schlick's approximation of fresnel_exact.
 VEC_INLINE Vf fresnel_schlick(Vf c) {
     const float n = (float)DIP_WATER_INDEX;
     const float straight = ((n - 1.0f) / (n + 1.0f)) * ((n - 1.0f) / (n + 1.0f));
@@ -26,7 +28,8 @@ VEC_INLINE Vf fresnel_schlick(Vf c) {
     return (square * square) * rest * (1.0f - straight) + straight;
 }
 
-// The share of the mirrored scene along a view ray. It is 0 where the eye looks up at the surface.
+// Returns the weight of the mirrored scene along a view ray. It is 0 where the eye looks up at the
+// surface.
 VEC_INLINE Vf share_of(const DipWaterUniforms *water, Vf3 ray) {
     const Vf down = vf_splat(0.0f) - ray.y;
     const Vf c = clamp01(down / vf_sqrt(vf3_dot(ray, ray)));

@@ -21,7 +21,8 @@ static void extend(DipExtent *extent, const double clip[3]) {
     }
 }
 
-// Adds the ends of an edge that lie beyond the near plane, and the point where the edge crosses it.
+// Adds the ends of an edge that lie beyond the near plane, and the point where the edge crosses
+// that plane.
 static void add_edge(DipExtent *extent, const DipView *view, const double a[3], const double b[3]) {
     double from[3];
     double to[3];
@@ -89,8 +90,9 @@ void dip_extent_box_corners(const float transform[12], const DipBox *box, double
     }
 }
 
-// Converts a range within -1..1 to a range of whole pixels, first..end-1 of 0..size-1, that has
-// `margin` more pixels on each side. -1 is pixel 0. Returns false if the range holds no pixel.
+// Converts a range of device coordinates within -1..1 to whole pixels, *first to *end - 1. The
+// range gets `margin` more pixels on each side, but stays within 0..size - 1. -1 is the edge of
+// pixel 0. Returns false if the range holds no pixel.
 static bool to_pixels(double min, double max, int size, int margin, int *first, int *end) {
     const double from = (min + 1.0) * 0.5 * size - margin;
     const double to = (max + 1.0) * 0.5 * size + margin;

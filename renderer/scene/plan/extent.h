@@ -20,18 +20,18 @@ DipExtent dip_extent_none(void); // the empty extent
 // Projects a world point to clip space: x, y and w.
 void dip_extent_project(const DipView *view, const double world[3], double clip[3]);
 
-// Each extends the rectangle to hold the part of a shape that lies beyond the near plane and within
-// the picture. Corners are in world space; those of a box are in the order of
+// Each function extends the rectangle to hold the part of a shape that lies beyond the near plane
+// and within the picture. Corners are in world space. The corners of a box have the order of
 // dip_extent_box_corners.
 void dip_extent_add_box(DipExtent *extent, const DipView *view, const double corners[8][3]);
 void dip_extent_add_triangle(DipExtent *extent, const DipView *view, const double corners[3][3]);
 
-// The world positions of the corners of a box that an object's transform places. Bit k of a
-// corner's index tells on which end of axis k it lies: 0 the low end, 1 the high end.
+// Computes the corners of an object's box in world space. Bit k of a corner's index tells at which
+// end of axis k the corner lies: 0 the low end, 1 the high end.
 void dip_extent_box_corners(const float transform[12], const DipBox *box, double corners[8][3]);
 
 // Finds the pixels that an extent touches in a picture of width x height pixels, and `margin` more
-// on each side. Returns false if there are none.
+// pixels on each side. Returns false if there are none in the picture.
 bool dip_extent_region(const DipExtent *extent, int width, int height, int margin,
                        DipTargetRegion *region);
 

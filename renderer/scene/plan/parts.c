@@ -1,4 +1,4 @@
-// Cuts projected shapes into tiles and bounds what each tile holds of them.
+// Cuts projected shapes at the borders of tiles and bounds the piece in each tile.
 #include "renderer/scene/plan/parts.h"
 
 #include "renderer/scene/plan/extent.h"
@@ -11,7 +11,7 @@ enum {
     MAX_CORNERS = 3 + 1 + 4 // corners of a triangle cut by the near plane and a tile's four sides
 };
 
-// A convex polygon: in clip x, y and w before the division, in pixels after it.
+// A convex polygon. `at` holds clip x, y and w before the division by w, and pixels after it.
 typedef struct Polygon {
     int count;
     double at[MAX_CORNERS][3];
@@ -59,8 +59,8 @@ static double within(double value, double low, double high) {
     return value < low ? low : value > high ? high : value;
 }
 
-// The first and the last of `count` cells of `size` pixels that a range touches. If it touches
-// none, the last is less than the first.
+// Finds the first and the last of `count` cells of `size` pixels that a range touches. If the range
+// touches no cell, the last is less than the first.
 static void cells(double min, double max, int size, int count, int *first, int *last) {
     *first = (int)within(min / size, 0.0, count);
     *last = max < 0.0 ? -1 : (int)within(max / size, 0.0, count - 1);

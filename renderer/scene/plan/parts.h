@@ -7,16 +7,16 @@
 
 typedef struct DipParts {
     DipTileRegion *tiles; // one per tile of the picture, row by row
-    int width;            // of the picture, in pixels
-    int height;           // of the picture, in pixels
+    int width;            // width of the picture, in pixels
+    int height;           // height of the picture, in pixels
     int margin;           // pixels by which each shape is enlarged on every side
 } DipParts;
 
 // Empties all tiles.
 void dip_parts_clear(const DipParts *parts);
 
-// Each extends the parts by all blocks of 8x8 pixels that a shape can touch beyond the near plane.
-// The part of a tile stays one rectangle. Corners are in world space.
+// Each function extends the parts by all blocks of 8x8 pixels that a shape can touch beyond the
+// near plane. The part of each tile remains one rectangle. Corners are in world space.
 void dip_parts_add_triangle(const DipParts *parts, const DipView *view, const double corners[3][3]);
 void dip_parts_add_box(const DipParts *parts, const DipView *view, const double corners[8][3]);
 

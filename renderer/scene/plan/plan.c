@@ -114,10 +114,12 @@ static void add_chunk_triangles(DipExtent *extent, const DipPlanInput *input,
     }
 }
 
-// A mesh of up to this many chunks is bounded by its triangles, a larger one by its chunks' boxes.
+// A mesh of up to this many chunks is bounded by its triangles. A larger mesh is bounded by the
+// boxes of its chunks.
 enum { FEW_CHUNKS = 8 };
 
-// The extent of the water that the eye looks down on. Adds this water to the input's parts too.
+// Returns the extent of the water that the eye looks down on, and adds this water to the input's
+// parts.
 static DipExtent water_extent(const DipPlanInput *input) {
     DipExtent extent = dip_extent_none();
     for (int i = 0; i < input->scene->object_count; i++) {
@@ -180,7 +182,7 @@ static DipEffect plan_alpha_clip(const DipPlanInput *input, DipFramePlan *plan) 
                : skip("no alpha-clipped surface is in view");
 }
 
-// Sample groups cost time only in tiles with alpha-clipped triangles; the pipeline sees to that.
+// Sample groups cost time only in tiles with alpha-clipped triangles; the pipeline ensures this.
 static DipEffect plan_adaptive_aa(const DipPlanInput *input, DipFramePlan *plan) {
     const int sample_count = dip_quality_sample_count(input->quality);
     plan->samples_per_group = sample_count;
@@ -206,7 +208,7 @@ static DipEffect plan_light_map(const DipPlanInput *input, DipFramePlan *plan) {
                : skip("no light-mapped surface is in view");
 }
 
-// A mesh without a normal map has the plain shader in any case.
+// A mesh without a normal map always has the plain shader.
 static DipEffect plan_normal_map(const DipPlanInput *input, DipFramePlan *plan) {
     if (!input->scene->has_normal_map) {
         return skip("the scene has no normal-mapped surface");
@@ -219,7 +221,7 @@ static DipEffect plan_normal_map(const DipPlanInput *input, DipFramePlan *plan) 
                : skip("no normal-mapped surface is in view");
 }
 
-// Only sky that nothing covers is shaded: the visibility buffer leaves out the rest.
+// Covered sky needs no test here: the visibility buffer keeps it from being shaded.
 static DipEffect plan_sky(const DipPlanInput *input, DipFramePlan *plan) {
     if (!input->scene->has_sky) {
         return skip("the scene has no sky with clouds");

@@ -1,7 +1,7 @@
-// The plan of a frame: which passes it needs, which parts of their targets, and which effects run
-// in them. For every effect the plan gives the reason why it runs or not. It is made before
-// anything is drawn, from the scene, the views, the settings and the bounding boxes that are in
-// view.
+// The plan of a frame: the passes that it needs, the parts of their targets that are drawn, and the
+// effects that run. For every effect the plan gives the reason why it runs or not. The plan is made
+// before anything is drawn, from the scene, the views, the settings and the bounding boxes that are
+// in view.
 //
 // Every row of DIP_EFFECT_LIST (renderer/scene/frame.h) has one function in plan.c that decides it.
 // An effect that the plan skips could not change the picture.
@@ -25,27 +25,28 @@ typedef struct DipPlanInput {
     const DipView *mirrored;            // the view of the mirrored scene
     const DipCullPlanes *seen;          // the planes around what `view` sees
     const DipCullPlanes *seen_mirrored; // the planes around what `mirrored` sees
-    const DipParts *parts; // parts of the mirrored picture; written if the plan has mirrored_parts
+    // Receives the parts of the mirrored picture if the plan sets mirrored_parts.
+    const DipParts *parts;
     const DipReflectionDef *reflection;
     const DipQuality *quality;
     bool plain_surfaces;
-    bool force_all; // run every effect that the scene has, everywhere; the picture is the same
+    bool force_all; // see DipRendererDef.force_all_effects
 } DipPlanInput;
 
 typedef struct DipFramePlan {
     DipEffects effects;
-    // The eye is above the mirror plane, so that water shows the mirrored scene. This does not
-    // depend on what is in view.
+    // True if water shows the mirrored scene: the reflection is on and the eye is above the mirror
+    // plane. This does not depend on what is in view.
     bool water_reflects;
-    DipTargetRegion mirrored_region; // the region of its target that the mirrored pass draws
-    bool mirrored_parts;             // within the region, only the input's parts are drawn
-    int samples_per_group;           // for alpha-clipped surfaces
+    DipTargetRegion mirrored_region; // the part of its target that the mirrored pass draws
+    bool mirrored_parts;             // true: within this region, only the input's parts are drawn
+    int samples_per_group;           // samples per sample group of alpha-clipped surfaces
 } DipFramePlan;
 
 DipFramePlan dip_plan_frame(const DipPlanInput *input);
 
-// Corrects the effects after the frame is drawn: an effect that was planned to run, but of which no
-// fragment was visible, did not run.
+// Corrects the effects after the frame is drawn. An effect that was planned to run counts as
+// skipped if no fragment of it was visible.
 void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, DipEffects *effects);
 
 #endif

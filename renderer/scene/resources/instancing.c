@@ -9,7 +9,7 @@ struct DipUnsharedMeshes {
     const DipScene *scene;
     int count;        // number of objects
     DipMesh **copies; // one per object; NULL: the object keeps the scene's mesh
-    uint64_t bytes;   // of all meshes that are drawn, those of the scene included
+    uint64_t bytes;   // memory of all meshes that are drawn, including the scene's
 };
 
 static void copy_mesh(void *context, int index, int worker) {

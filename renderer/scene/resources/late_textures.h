@@ -13,13 +13,14 @@ typedef struct DipLateTextures DipLateTextures;
 DipLateTextures *dip_late_textures_create(void);
 void dip_late_textures_destroy(DipLateTextures **late);
 
-// Compresses those of `count` textures for which `wanted` is true, unless that has been done. If
-// another thread is doing it, waits until it has finished. pool may be NULL. Thread-safe.
+// Compresses the textures for which `wanted` is true, unless they are compressed already. `count`
+// is the length of both arrays. If another thread is compressing the textures, waits until it has
+// finished. pool may be NULL. Thread-safe.
 bool dip_late_textures_make(DipLateTextures *late, DipTexture *const *textures, const bool *wanted,
                             int count, DipPool *pool, DipError *err);
 
-// The compressed form of a texture. NULL if the textures are not made yet or this one was not
-// wanted. Thread-safe.
+// Returns the compressed form of a texture. Returns NULL if the textures are not compressed yet or
+// this texture was not wanted. Thread-safe.
 const DipTexture *dip_late_texture(const DipLateTextures *late, int index);
 
 #endif

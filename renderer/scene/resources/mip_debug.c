@@ -2,7 +2,7 @@
 // report.
 #include "renderer/scene/resources/mip_debug.h"
 
-// sRGB codes for levels of 1024, 512, 256, 128, 64, 32, 16 and 8 texels.
+// sRGB colours of levels of 1024, 512, 256, 128, 64, 32, 16 and 8 texels.
 static const uint8_t colours[DIP_MIP_DEBUG_LEVELS][4] = {
     {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
     {255, 255, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {128, 0, 128, 255},

@@ -6,13 +6,15 @@
 #include "renderer/pipeline/texture.h"
 #include "renderer/scene/renderer.h"
 
-// Creates a texture whose level i replaces levels of 1024 >> i texels. pictures: NULL for flat
-// colours only, or one picture per level; a level whose picture is NULL has its flat colour.
+// Creates a texture whose level i replaces levels of 1024 >> i texels. If `pictures` is NULL, all
+// levels are flat colours. Otherwise it has one picture per level; a level whose picture is NULL
+// has a flat colour.
 DipTexture *dip_mip_debug_create(const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
                                  DipError *err);
 
-// For each level of a texture, finds the debug level that replaces it: the largest debug level that
-// is not larger than the greater of the level's width and height, or the last debug level.
+// For each level of a texture, finds the debug level that replaces it. This is the largest debug
+// level that is not larger than the longer side of the texture's level. If there is none, it is the
+// last debug level.
 void dip_mip_debug_levels(const DipTexture *texture, int32_t shown_level[DIP_LEVEL_TABLE]);
 
 #endif

@@ -12,14 +12,15 @@
 typedef struct DipSceneMesh {
     DipMesh *mesh;
     int material;
-    // The uniforms with attributes, varyings and material. The matrices are set for each frame.
+    // Uniforms with the indices of attributes and varyings and the values of the material. The
+    // matrices are set for each frame.
     DipSurfaceUniforms layout;
     int varying_count;
     bool normal_mapped;
-    // The same two for the normal-mapped shaders, if normal_mapped is true.
+    // `layout` and `varying_count` for the normal-mapped shaders; valid if normal_mapped is true.
     DipSurfaceUniforms mapped_layout;
     int mapped_varying_count;
-    bool sky; // a sky with the texture and the coordinates that moving clouds need
+    bool sky; // true for a sky that has the texture and the coordinates that moving clouds need
 } DipSceneMesh;
 
 typedef struct DipSceneObject {
@@ -38,12 +39,12 @@ typedef struct DipSceneMaterial {
 } DipSceneMaterial;
 
 struct DipScene {
-    uint64_t serial; // different for every scene, so that a renderer notices another scene
+    uint64_t serial; // unique number of the scene, so that a renderer notices another scene
     int texture_count;
     int material_count;
     int mesh_count;
     int object_count;
-    DipTexture **textures; // NULL for a texture that no material uses as it is drawn
+    DipTexture **textures; // one per texture; NULL if no material draws with the texture
     bool *compressible;    // one per texture: true for colour textures, except the sky's
     DipLateTextures *late; // the only member that may change after creation
     DipSceneMaterial *materials;
@@ -55,7 +56,7 @@ struct DipScene {
     float max_world[3];
     uint64_t triangle_count;
     int drawn_mesh_count;    // meshes that at least one object uses
-    uint64_t geometry_bytes; // of these meshes
+    uint64_t geometry_bytes; // bytes of these meshes
     bool has_light_map;      // some material has a light map
     bool has_clipped;        // some material is alpha-clipped
     bool has_normal_map;     // some mesh is normal-mapped
@@ -64,8 +65,8 @@ struct DipScene {
     bool has_water;     // some object is water
     double water_level; // least world y of all water; 0 without water
     uint64_t normal_map_bytes;
-    uint64_t clip_map_bytes; // of the clip maps' alpha
-    uint64_t cloud_bytes;    // of the textures of skies with moving clouds
+    uint64_t clip_map_bytes; // bytes of the clip maps' alpha
+    uint64_t cloud_bytes;    // bytes of the textures of skies with moving clouds
     DipSceneTimes times;
 };
 
