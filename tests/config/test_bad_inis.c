@@ -1,5 +1,6 @@
-// Ini files that must be refused. Each fault has its line, key and reason, and one run reports all
-// faults. Mutations of good files may be refused but never crash.
+// Tests ini files that must be refused. Each fault is reported with its line, key and reason, and
+// one run reports all faults. Mutated copies of good files may be refused but must not crash the
+// program.
 #include "config/config.h"
 
 #include <setjmp.h>
@@ -13,7 +14,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// A good file of 26 lines. Cases add lines below it or blank one of its lines out.
+// A good file of 26 lines. A case adds lines below these lines or blanks one of them out.
 static const char good[] = "RES: 640x480\n"
                            "REFLECTION_RES: 320x240\n"
                            "FOUNTAIN_WATER_LEVEL: 0.5\n"
@@ -44,7 +45,7 @@ static const char good[] = "RES: 640x480\n"
 typedef struct BadIni {
     const char *promise;
     const char *without; // the key whose line is blanked out, NULL for none
-    const char *added;   // from line 27 on
+    const char *added;   // lines to add, from line 27 on
     DipErrorCode code;
     int line;
     const char *key;
@@ -216,7 +217,7 @@ static void check_refused(const char *promise, DipErrorCode code, int line, cons
     remove("bad.ini");
 }
 
-// The good text with one key's line blanked out and lines added.
+// Composes the good text with one key's line blanked out and with lines added at the end.
 static void compose(const char *without, const char *added, char *text, size_t size_bytes) {
     snprintf(text, size_bytes, "%s%s", good, added);
     if (!without) {
@@ -422,7 +423,8 @@ static void mutations_never_crash(void **context) {
         dip_error_list_free(&faults);
     }
     remove("bad.ini");
-    // Enough mutations must be accepted and enough refused, else they test only one of the two.
+    // Enough mutations must be accepted and enough refused; otherwise only one of the two is
+    // tested.
     assert_in_range(accepted, RUNS / 20, RUNS - RUNS / 20);
 }
 
