@@ -101,13 +101,13 @@ static const BadIni bad_inis[] = {
      "255"},
     {"an instruction set unheard of", NULL, "ISA: avx1024\n", DIP_ERROR_UNKNOWN, 27, "ISA",
      "accepted auto scalar"},
-    {"a sky more than overcast", NULL, "SKY_OVERCAST: 1.1\n", DIP_ERROR_RANGE, 27, "SKY_OVERCAST",
+    {"an overcast above 1", NULL, "SKY_OVERCAST: 1.1\n", DIP_ERROR_RANGE, 27, "SKY_OVERCAST",
      "0..1"},
-    {"clouds faster than can be seen", NULL, "SKY_LAYER1_SPEED: 1e9\n", DIP_ERROR_RANGE, 27,
+    {"a cloud speed above 600", NULL, "SKY_LAYER1_SPEED: 1e9\n", DIP_ERROR_RANGE, 27,
      "SKY_LAYER1_SPEED", "-600..600"},
-    {"dense cloud that is clear", NULL, "SKY_DENSE: 0.75\n", DIP_ERROR_CONFLICT, 27, "SKY_DENSE",
-     "SKY_CLEAR 0.75"},
-    {"clear sky that is dense", NULL, "SKY_CLEAR: 1\n", DIP_ERROR_CONFLICT, 27, "SKY_CLEAR",
+    {"SKY_DENSE not above SKY_CLEAR", NULL, "SKY_DENSE: 0.75\n", DIP_ERROR_CONFLICT, 27,
+     "SKY_DENSE", "SKY_CLEAR 0.75"},
+    {"SKY_CLEAR not below SKY_DENSE", NULL, "SKY_CLEAR: 1\n", DIP_ERROR_CONFLICT, 27, "SKY_CLEAR",
      "SKY_DENSE is 1"},
     // Settings as text.
     {"a setting unheard of", NULL, "CURRENT: aa=4,fsaa=2\n", DIP_ERROR_UNKNOWN, 27, "CURRENT",
@@ -163,8 +163,8 @@ static const BadIni bad_inis[] = {
     // Lines.
     {"a line without a value", NULL, "THREADS 4\n", DIP_ERROR_FORMAT, 27, "THREADS",
      "'THREADS 4' has no value, accepted KEY: value"},
-    {"a second such line is not passed over", NULL, "; fine\n   true\n", DIP_ERROR_FORMAT, 28,
-     "true", "has no value"},
+    {"a value alone on an indented line", NULL, "; fine\n   true\n", DIP_ERROR_FORMAT, 28, "true",
+     "has no value"},
     {"an indented line is no continuation", NULL, "THREADS: 4\n  5: 6\n", DIP_ERROR_UNKNOWN, 28,
      "5", "no such key"},
     {"a section", NULL, "[panes]\n", DIP_ERROR_FORMAT, 27, "", "'[panes]' begins a section"},
@@ -172,7 +172,8 @@ static const BadIni bad_inis[] = {
      "'[panes' begins a section"},
     {"a control character", NULL, "LOG: a\x1b[2J.log\n", DIP_ERROR_FORMAT, 27, "",
      "a control char"},
-    {"old line ends alone", NULL, "THREADS: 4\rISA: auto\n", DIP_ERROR_FORMAT, 27, "", "control"},
+    {"carriage returns without line feeds", NULL, "THREADS: 4\rISA: auto\n", DIP_ERROR_FORMAT, 27,
+     "", "control"},
 };
 
 static void write_ini(const void *bytes, size_t size_bytes) {

@@ -28,9 +28,9 @@ double dip_image_rms(const double *a, const double *b, size_t value_count);
 
 typedef struct DipImageBounds {
     double rms_lin;
-    double pixel_lin;    // the error that every pixel may have
-    double over_share;   // the share of pixels whose error may exceed pixel_lin
-    double over_max_lin; // the error that no pixel may exceed
+    double pixel_lin;    // the bound for the error of a pixel
+    double over_share;   // the share of pixels that may exceed pixel_lin
+    double over_max_lin; // the bound for the error of the pixels in over_share
 } DipImageBounds;
 
 // Returns true if the frame stays within the bounds. Otherwise prints the number of pixels with too
