@@ -17,18 +17,18 @@ int fixture_close(void **state);
 // Returns the path of a file in the folder. The buffer is reused after four calls.
 const char *fixture_path(const char *name);
 
-// Returns the path of a file in tests/assets/data, in the same buffers.
+// Returns the path of a file in tests/assets/data, in one of the same four buffers.
 const char *fixture_data(const char *name);
 
-// Each writes a file into the folder, the last one a copy of a file in tests/assets/data.
+// Each function writes a file into the folder. fixture_copy copies a file from tests/assets/data.
 void fixture_write(const char *name, const void *bytes, size_t size_bytes);
 void fixture_write_text(const char *name, const char *text);
 void fixture_copy(const char *data_name);
 
-// Writes an uncompressed TGA of 24 bits, top row first, whose pixels have one grey.
+// Writes an uncompressed TGA of 24 bits, top row first. All pixels have the same grey.
 void fixture_write_tga(const char *name, int width, int height, uint8_t grey);
 
-// Reads a file of less than 1 MiB. The caller frees the bytes; there is room for one more.
+// Reads a file of less than 1 MiB. The caller frees the array, which has room for one more byte.
 uint8_t *fixture_read(const char *path, size_t *size_bytes);
 
 #endif

@@ -1,4 +1,5 @@
-// Broken and hostile model files. Each is refused with its name, a reason and the right code.
+// Tests broken and hostile model files. Each file must be refused with an error that has
+// the file's name, a reason and the right code.
 #include "assets/model.h"
 #include "tests/assets/fixture.h"
 
@@ -155,7 +156,8 @@ static void required_extensions_that_cannot_be_decoded_are_refused(void **state)
                    DIP_ERROR_UNSUPPORTED, "\"a?b\"");
 }
 
-// assimp refuses these files, but only because they have no scene.
+// These files need no extension that cannot be decoded. assimp refuses them only because they have
+// no scene.
 static void other_mentions_of_extensions_are_ignored(void **state) {
     (void)state;
     static const char *const members[] = {

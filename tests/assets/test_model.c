@@ -1,4 +1,4 @@
-// Models: the scene description is compared with what the files say.
+// Tests models: compares the scene description with the content of the files.
 #include "assets/model.h"
 #include "renderer/scene/renderer.h"
 #include "tests/assets/fixture.h"
@@ -53,7 +53,7 @@ static void normal_maps_are_loaded_only_on_request(void **state) {
     dip_model_destroy(&model);
 }
 
-// World position of a corner of an object.
+// Computes the world position of a corner of an object.
 static void corner_world(const DipSceneDef *def, int object, uint32_t corner, double to[3]) {
     const DipMeshDef *mesh = mesh_of(def, object);
     const float *p = mesh->positions + 3 * (size_t)mesh->indices[corner];
@@ -64,7 +64,7 @@ static void corner_world(const DipSceneDef *def, int object, uint32_t corner, do
     }
 }
 
-// z of the world normal that the winding of the first triangle gives.
+// Returns the z of the world normal that the winding of the object's first triangle gives.
 static double winding_z(const DipSceneDef *def, int object) {
     double a[3], b[3], c[3];
     corner_world(def, object, 0, a);
@@ -73,8 +73,8 @@ static double winding_z(const DipSceneDef *def, int object) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-// True if a camera in front of the object's first corner sees it when all surfaces are
-// single-sided.
+// Returns true if a camera in front of the object's first corner sees the object when all surfaces
+// are single-sided.
 static bool faces_forward(const DipSceneDef *def, int object) {
     DipMaterialDef materials[8];
     DipSceneDef alone = *def;
@@ -105,7 +105,7 @@ static bool faces_forward(const DipSceneDef *def, int object) {
     return seen;
 }
 
-// Returns the first material of that name.
+// Returns the first material with the name.
 static const DipMaterialDef *find_material(const DipSceneDef *def, const char *name) {
     for (int i = 0; i < def->material_count; ++i) {
         if (strcmp(def->materials[i].name, name) == 0) {
@@ -125,7 +125,8 @@ static void the_courtyard_is_loaded_completely(void **state) {
     assert_non_null(model);
     const DipSceneDef *def = dip_model_scene_def(model);
     assert_int_equal(warnings.count, 0);
-    // The numbers that assets/author/gltf.py prints. Each primitive of a glTF mesh is a mesh here.
+    // These are the numbers that assets/author/gltf.py prints. Each primitive of a glTF mesh is a
+    // mesh of the scene.
     assert_int_equal(def->mesh_count, 181);
     assert_int_equal(def->object_count, 540);
     uint64_t triangles = 0;
@@ -183,7 +184,7 @@ static void the_courtyard_is_loaded_completely(void **state) {
     dip_error_list_free(&warnings);
 }
 
-// Columns in the same light share a mesh, and so do the panels of the fence.
+// Columns in the same light share a mesh. So do the panels of the fence.
 static void repeated_parts_of_the_courtyard_share_meshes(void **state) {
     (void)state;
     DipModel *model = load(DIP_ASSETS_DIR "/courtyard/court.gltf", NULL, NULL);
@@ -245,8 +246,8 @@ static void put_u32(uint8_t *to, size_t value) {
     }
 }
 
-// The same square as one binary file. It has a JSON chunk and a binary chunk with the arrays and
-// the PNG.
+// The square of square.gltf as one binary file: a JSON chunk, and a binary chunk with the arrays
+// and the PNG.
 static const char glb_json[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
     "\"nodes\":[{\"mesh\":0,\"name\":\"square\"}],"
@@ -291,8 +292,8 @@ static void a_glb_file_with_an_embedded_picture_loads(void **state) {
     dip_model_destroy(&model);
 }
 
-// Two triangles have separate charts on the light map, so the corners they share differ only in
-// their second texture coordinates.
+// Two triangles have separate charts on the light map. The corners that they share therefore
+// differ, but only in their second texture coordinates.
 static void seams_of_light_maps_are_kept(void **state) {
     (void)state;
     static const float uv1[6][2] = {{0.125f, 0.25f}, {0.25f, 0.25f},  {0.25f, 0.125f},
@@ -319,8 +320,8 @@ static void every_node_with_a_mesh_becomes_an_object(void **state) {
     assert_int_equal(def->objects[plain].mesh, def->objects[moved].mesh);
     const float *m = def->objects[moved].transform;
     assert_true(m[3] == 2.0f && m[7] == 3.0f && m[11] == 4.0f);
-    // The mirrored node shares the mesh. glTF says that its winding is reversed in world space, and
-    // the renderer turns it back (docs/picture.md, Coverage).
+    // The mirrored node shares the mesh. glTF says that mirroring reverses its winding in world
+    // space, and the renderer reverses the winding again (docs/picture.md, Coverage).
     assert_int_equal(def->objects[mirrored].mesh, def->objects[plain].mesh);
     assert_true(winding_z(def, plain) > 0.0);
     assert_true(winding_z(def, mirrored) < 0.0);
@@ -453,7 +454,7 @@ static void stl_and_x_files_load_together(void **state) {
     assert_int_equal(def->object_count, 2);
     assert_int_equal(mesh_of(def, 0)->index_count, 3);
     assert_int_equal(mesh_of(def, 1)->index_count, 6);
-    // The frame's matrix moves the square to x = 5..6.
+    // The frame in the X file has a matrix that moves the square to x = 5..6.
     double corner[3];
     corner_world(def, 1, 0, corner);
     assert_true(corner[0] >= 5.0 && corner[0] <= 6.0);
@@ -466,15 +467,15 @@ static const char cube_ply[] =
     "-1 -1 -1\n-1 -1 1\n-1 1 -1\n-1 1 1\n1 -1 -1\n1 -1 1\n1 1 -1\n1 1 1\n"
     "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n";
 
-// A roof whose halves slope by 20 degrees, so they meet at 40.
+// A roof. Each half slopes by 20 degrees, so the angle between their normals is 40 degrees.
 static const char roof_ply[] =
     "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
     "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
     "0 1 0\n0 1 1\n1 0.63603 0\n1 0.63603 1\n-1 0.63603 0\n-1 0.63603 1\n"
     "4 0 1 3 2\n4 0 4 5 1\n";
 
-// Both files have faces that share vertices, and no normals. The cube keeps its edges; the flat
-// roof is smooth.
+// Both files have faces that share vertices, and no normals. The cube keeps its sharp edges; the
+// flat roof becomes smooth.
 static void missing_normals_are_made(void **state) {
     (void)state;
     fixture_write_text("cube.ply", cube_ply);
@@ -484,7 +485,8 @@ static void missing_normals_are_made(void **state) {
     for (uint32_t i = 0; i < mesh->index_count; ++i) {
         const uint32_t *face = mesh->indices + i / 3 * 3;
         for (int axis = 0; axis < 3; ++axis) {
-            // The normal's axis is the one on which the corners agree, and their value is its sign.
+            // The corners of a face have one coordinate in common. The normal points along this
+            // axis, and the common coordinate is its sign.
             const float at = mesh->positions[3 * face[0] + axis];
             const bool own = at == mesh->positions[3 * face[1] + axis] &&
                              at == mesh->positions[3 * face[2] + axis];

@@ -1,4 +1,4 @@
-// Pictures: hand-made files have exactly their texels, and broken files are refused.
+// Tests pictures: hand-made files give exactly their texels, and broken files are refused.
 #include "assets/picture.h"
 #include "tests/assets/fixture.h"
 
@@ -24,7 +24,7 @@ static void a_png_has_its_texels(void **state) {
     dip_picture_free(&picture);
 }
 
-// Every cut of a file must be refused.
+// Every file that is cut short must be refused.
 static void every_cut_is_refused(const uint8_t *bytes, size_t size_bytes) {
     for (size_t cut = 0; cut < size_bytes; ++cut) {
         DipPicture picture;
@@ -72,7 +72,7 @@ static void a_cut_bmp_is_refused(void **state) {
     dip_picture_free(&picture);
 }
 
-// 12 x 10 pixels of 200, 100, 50, baseline and progressive.
+// Two JPEG files, baseline and progressive. Each has 12 x 10 pixels of the colour (200, 100, 50).
 static const uint8_t baseline_jpeg[] = {
     255, 216, 255, 224, 0,   16,  74,  70,  73, 70,  0,   1,  1,  0,  0,  1,  0,  1,   0,   0,
     255, 219, 0,   67,  0,   5,   3,   4,   4,  4,   3,   5,  4,  4,  4,  5,  5,  5,   6,   7,

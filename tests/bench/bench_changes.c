@@ -3,10 +3,11 @@
 //   dip_bench_changes [ROUNDS]
 //
 // Two panes of the courtyard at 640x480 fly along the ambient path, as in the preview. The
-// requested pane changes from the default to a step and back. A frame's time is that of both panes
-// together. "longest" is the longest of six frames, the last before a change and the first five
-// after it, each as a ratio to the median of the frames with the same settings. The table has its
-// median and its minimum over the rounds; noise only ever adds time.
+// requested pane changes from the default to a step of a setting and back. The time of a frame
+// includes both panes. For every change, six frames are measured: the last frame before the change
+// and the first five after it. Each time is divided by the median time of the frames with the same
+// settings. "longest" is the greatest of the six ratios. The table has its median and its minimum
+// over the rounds; noise only ever adds time.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/base/clock.h"
@@ -91,7 +92,7 @@ static double median(const double *values, int count) {
     return sorted[count / 2];
 }
 
-// Times of successive frames with one quality, beginning with the change to it.
+// Times of successive frames with one quality. The first frame is the first one with this quality.
 typedef struct Stretch {
     double ms[WARM + AROUND];
 } Stretch;
@@ -103,8 +104,8 @@ static void play(Court *court, const DipQuality *quality, Stretch *stretch) {
     }
 }
 
-// The longest frame around the change from one stretch to the next, as a ratio to the median of its
-// own stretch.
+// Returns the time of the longest frame around the change from one stretch to the next. The time is
+// a ratio to the median of the frame's own stretch.
 static double longest_ratio(const Stretch *before, const Stretch *after) {
     double longest = before->ms[WARM + AROUND - 1] / median(before->ms, WARM + AROUND);
     const double middle = median(after->ms, WARM + AROUND);
@@ -129,7 +130,7 @@ static void measure(Court *court, DipSetting setting, int step, int rounds) {
     DipQuality changed = base;
     changed.step[setting] = (uint8_t)step;
     if (setting == DIP_SETTING_AAA || setting == DIP_SETTING_TAA) {
-        changed.step[DIP_SETTING_AA] = 2; // without samples these settings have no effect
+        changed.step[DIP_SETTING_AA] = 2; // these settings need several samples per pixel
     }
     if (!dip_quality_check(&changed, NULL)) {
         return;

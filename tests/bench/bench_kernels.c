@@ -3,8 +3,8 @@
 //
 //   dip_bench_kernels [ROW [ISA]]      only rows whose name contains ROW, only one instruction set
 //
-// Cycles are core cycles, calibrated by a chain of dependent additions of one cycle each. Every
-// number is the fastest of many rounds.
+// Cycles are core cycles. A chain of dependent additions, which take one cycle each, gives their
+// length. Every number is from the fastest of many rounds.
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
@@ -31,7 +31,7 @@ typedef struct Raster {
 static Raster raster;
 
 // A kernel with one kind of input. `prepare` fills the input; `run` does the work once and returns
-// how many units it was.
+// the number of units of work.
 typedef struct Row {
     const char *name;
     const char *unit;
@@ -49,7 +49,8 @@ static void begin_raster(int sample_count) {
     raster.triangle_count = 0;
 }
 
-// Adds a triangle with corners in pixels. Its depth is greater than that of the triangles before.
+// Adds a triangle with corners in pixels. The triangle is nearer (its depth is greater) than all
+// triangles that were added before.
 static void add_triangle(const double x[3], const double y[3]) {
     static DipScreenBatch screen;
     static uint8_t corner[3][DIP_BATCH_ALIGN];
@@ -210,7 +211,7 @@ static double run_reads(const DipKernels *kernels) {
 // --- the table ---------------------------------------------------------------------------------
 
 static const Row rows[] = {
-    // A tile is cleared and filled by one triangle.
+    // One triangle fills a tile that has just been cleared.
     {"tile, 1 sample", "pixel", prepare_full_tile, run_full_tile, 1},
     {"tile, 2 samples", "pixel", prepare_full_tile, run_full_tile, 2},
     {"tile, 4 samples", "pixel", prepare_full_tile, run_full_tile, 4},
@@ -242,7 +243,7 @@ static double fastest_ns_per_unit(const Row *row, const DipKernels *kernels) {
     return fastest;
 }
 
-// Times a chain of additions in which each needs the result before it. The empty assembler
+// Times a chain of additions. Each addition needs the result of the one before. The empty assembler
 // statements hide the values from the compiler. The addend is in a register, since some processors
 // fold chains of constants.
 static double measure_ns_per_cycle(void) {

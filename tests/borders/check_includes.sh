@@ -3,7 +3,7 @@
 # another library. tests/borders/layers.txt says who may use what.
 #
 # Usage: check_includes.sh LAYERS ROOT [LEAST]
-# LEAST: the number of includes between libraries that the tree has at least.
+# Also fails when the tree has fewer than LEAST (default 100) includes between libraries.
 set -eu
 layers=$1
 cd "$2"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Fails unless check_includes.sh accepts the tree, and refuses it once one include is crossed.
+# Fails unless check_includes.sh accepts the tree and refuses small trees with a forbidden include.
 #
 # Usage: check_includes_notice.sh SOURCE_DIR
 set -eu

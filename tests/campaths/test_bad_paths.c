@@ -1,5 +1,5 @@
-// Camera path files that must be refused, each with its line or byte and the reason. Mutations of
-// good files may be refused but never crash.
+// Tests camera path files that must be refused, each with its line or byte and the reason. Mutated
+// copies of good files may be refused but must not crash the program.
 #include "campaths/campath.h"
 
 #include <setjmp.h>
@@ -65,8 +65,8 @@ static const BadText bad_texts[] = {
     {"a hexadecimal number", HEAD "0x10 0 0 0 0 0 1\n", DIP_ERROR_TYPE, 3, "x", "'0x10'"},
     {"a decimal comma", HEAD "0,5 0 0 0 0 0 1\n", DIP_ERROR_TYPE, 3, "x", "'0,5'"},
     {"garbage after a number", HEAD "0 0 0 0.5f 0 0 1\n", DIP_ERROR_TYPE, 3, "qx", "'0.5f'"},
-    {"a lonely sign", HEAD "0 0 0 0 - 0 1\n", DIP_ERROR_TYPE, 3, "qy", "'-'"},
-    {"a lonely point", HEAD "0 0 0 0 0 . 1\n", DIP_ERROR_TYPE, 3, "qz", "'.'"},
+    {"a sign without digits", HEAD "0 0 0 0 - 0 1\n", DIP_ERROR_TYPE, 3, "qy", "'-'"},
+    {"a decimal point without digits", HEAD "0 0 0 0 0 . 1\n", DIP_ERROR_TYPE, 3, "qz", "'.'"},
     {"an exponent without digits", HEAD "0 0 0 0 0 0 1e+\n", DIP_ERROR_TYPE, 3, "qw", "'1e+'"},
     {"a number of 64 digits",
      HEAD "0 0000000000000000000000000000000000000000000000000000000000000000 0 0 0 0 1\n",
@@ -80,8 +80,8 @@ static const BadText bad_texts[] = {
     {"a quaternion beyond all bounds", HEAD "0 0 0 0 0 0 1e200\n", DIP_ERROR_RANGE, 3, "qw",
      "1e+200"},
     {"escape codes are not echoed", HEAD "\x1b[2J 0 0 0 0 0 1\n", DIP_ERROR_TYPE, 3, "x", "'?[2J'"},
-    {"old line ends alone", "diptych-path 1\rperiod 1\r" KEY, DIP_ERROR_FORMAT, 1, "diptych-path",
-     "version"},
+    {"carriage returns without line feeds", "diptych-path 1\rperiod 1\r" KEY, DIP_ERROR_FORMAT, 1,
+     "diptych-path", "version"},
     {"another encoding",
      "\xff\xfe"
      "d",
@@ -193,7 +193,7 @@ enum { GOOD_BYTES = 24 + 2 * 56 };
 
 typedef struct BadBinary {
     const char *promise;
-    size_t size_bytes; // size of the file: the good one, cut or with zeros added
+    size_t size_bytes; // size of the file: the good file's, or less (cut), or more (zeros added)
     size_t offset;     // where bytes are changed
     size_t count;
     unsigned char bytes[8];
@@ -363,7 +363,8 @@ static size_t below(size_t count) {
     return (size_t)((state * UINT64_C(2685821657736338717)) >> 33) % count;
 }
 
-// Changes, cuts or doubles a few bytes; text files get characters that mean something to them.
+// Changes, cuts or doubles a few bytes. Text files get characters that have a meaning in the
+// format.
 static size_t mutate(unsigned char *bytes, size_t size_bytes, size_t room) {
     static const char meaningful[] = "0123456789.-+eE \t\r\n#xpd\0\x89\xff";
     for (size_t n = 1 + below(4); n > 0; n--) {
@@ -429,7 +430,8 @@ static void mutations_never_crash(void **context) {
         }
         accepted += parse_mutation(bytes, mutate(bytes, size_bytes, ROOM));
     }
-    // Enough mutations must be accepted and enough refused, else they test only one of the two.
+    // Enough mutations must be accepted and enough refused; otherwise only one of the two is
+    // tested.
     assert_in_range(accepted, RUNS / 20, 2 * RUNS - RUNS / 20);
 }
 

@@ -1,4 +1,5 @@
-// Camera paths: sampling compared with closed forms, both file formats, the orbit and the track.
+// Tests camera paths: sampling, compared with closed forms; both file formats; the orbit; the
+// track.
 #include "campaths/campath.h"
 #include "campaths/camtrack.h"
 #include "renderer/base/hash.h"
@@ -36,7 +37,7 @@ static DipPose sample(const DipCamPath *path, int64_t time_ns) {
     return pose;
 }
 
-// Compares rotations: q and -q are the same one.
+// Compares rotations: q and -q are the same rotation.
 static void check_orientation(const double q[4], double x, double y, double z, double w,
                               double bound) {
     const double sign = q[0] * x + q[1] * y + q[2] * z + q[3] * w < 0.0 ? -1.0 : 1.0;
@@ -85,7 +86,7 @@ static void positions_move_linearly_and_the_loop_closes(void **context) {
         for (int a = 0; a < 3; a++) {
             assert_true(pose.position_world[a] == cases[i].position[a]);
         }
-        assert_true(pose.fov_y_deg == 33.0); // left alone
+        assert_true(pose.fov_y_deg == 33.0); // a path does not change the field of view
     }
     dip_campath_destroy(&path);
     assert_null(path);
@@ -117,7 +118,7 @@ static void the_sign_of_a_quaternion_does_not_matter(void **context) {
                              "0 0 0 0 0 0 1\n"
                              "0 0 0 0 -0.38268343236508977 0 -0.92387953251128674\n");
     const DipPose pose = sample(path, SECOND / 2);
-    check_turn_about_y(&pose, 22.5, 1e-15); // The long way would be at 202.5.
+    check_turn_about_y(&pose, 22.5, 1e-15); // The long way round would give 202.5.
     const DipCamKey key = dip_campath_key(path, 1);
     assert_true(key.orientation[3] > 0.0);
     dip_campath_destroy(&path);
@@ -204,7 +205,7 @@ static void info_gives_length_speed_and_box(void **context) {
 
 // ---- Files ----
 
-// Written by hand from the header's table: one key at (1, -2, 0.5), looking along -Z.
+// Written by hand from the table in the header: one key at (1, -2, 0.5), looking along -Z.
 static const unsigned char one_key_bth[80] = {
     0x89, 'D',  'I',  'P',  'B', 'T', 'H',  0x0A,                               // magic
     1,    0,    0,    0,                                                        // version
@@ -373,7 +374,7 @@ static void errors_name_files_that_cannot_be_read_or_written(void **context) {
     assert_false(dip_campath_save_bth(path, "no/such.bth", &err));
     assert_int_equal(err.code, DIP_ERROR_IO);
     assert_string_equal(err.file, "no/such.bth");
-    // A disk that is full after ten bytes leaves nothing behind.
+    // If the disk is full after ten bytes, saving leaves no file behind.
     const struct rlimit ten = {10, RLIM_INFINITY};
     const struct rlimit unlimited = {RLIM_INFINITY, RLIM_INFINITY};
     signal(SIGXFSZ, SIG_IGN);
@@ -415,7 +416,7 @@ static void to_camera(const DipPose *pose, const double v_world[3], double v[3])
     }
 }
 
-// Greatest |x| or |y| of a corner of the box in the picture; 1 is the picture's edge.
+// Returns the greatest |x| or |y| of the box's corners in the picture; 1 is the picture's edge.
 static double reach_of_box(const DipCamOrbitDef *def, const DipPose *pose) {
     const double tan_y = tan(def->fov_y_deg * PI / 360.0);
     double reach = 0.0;
@@ -426,7 +427,7 @@ static double reach_of_box(const DipCamOrbitDef *def, const DipPose *pose) {
             p[i] = corner >> i & 1 ? def->max_world[i] : def->min_world[i];
         }
         to_camera(pose, p, v);
-        assert_true(v[2] < 0.0); // in front
+        assert_true(v[2] < 0.0); // the corner is in front of the camera
         reach = fmax(reach, fabs(v[1]) / (-v[2] * tan_y));
         reach = fmax(reach, fabs(v[0]) / (-v[2] * tan_y * def->aspect));
     }
@@ -465,7 +466,8 @@ static void the_orbit_shows_the_whole_box(void **context) {
             assert_true(fabs(v[0]) < 2e-4 * -v[2] && fabs(v[1]) < 2e-4 * -v[2]);
             assert_true(pose.position_world[1] > middle[1]);
         }
-        // A long box is framed for the end that is near, so elsewhere there is more border.
+        // The orbit fits a long box into the picture when one end is near; elsewhere the border is
+        // wider.
         if (!(widest < 1.0 && widest > 0.75)) {
             fail_msg("case %zu: the box reaches to %.3f of the picture", c, widest);
         }
@@ -555,8 +557,8 @@ static void a_new_path_starts_anew_or_at_the_old_time(void **context) {
         assert_true(dip_camtrack_pose(&track, SECOND, &pose));
         assert_true(pose.position_world[0] == (reset ? 0.0 : 10.0));
         assert_true(pose.position_world[1] == 5.0 && pose.fov_y_deg == 45.0);
-        dip_camtrack_switch(&track, 7,
-                            5 * SECOND / 2); // Category 7 has no path, so that of 0 plays.
+        // Category 7 has no path, so the path of category 0 plays.
+        dip_camtrack_switch(&track, 7, 5 * SECOND / 2);
         assert_true(dip_camtrack_pose(&track, 5 * SECOND / 2, &pose));
         assert_true(pose.position_world[0] == (reset ? 0.0 : 5.0) && pose.fov_y_deg == 55.0);
         dip_camtrack_restart(&track, 3 * SECOND);

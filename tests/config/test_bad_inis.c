@@ -1,5 +1,6 @@
-// Ini files that must be refused. Each fault has its line, key and reason, and one run reports all
-// faults. Mutations of good files may be refused but never crash.
+// Tests ini files that must be refused. Each fault is reported with its line, key and reason, and
+// one run reports all faults. Mutated copies of good files may be refused but must not crash the
+// program.
 #include "config/config.h"
 
 #include <setjmp.h>
@@ -13,7 +14,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// A good file of 26 lines. Cases add lines below it or blank one of its lines out.
+// A good file of 26 lines. A case adds lines below these lines or blanks one of them out.
 static const char good[] = "RES: 640x480\n"
                            "REFLECTION_RES: 320x240\n"
                            "FOUNTAIN_WATER_LEVEL: 0.5\n"
@@ -44,7 +45,7 @@ static const char good[] = "RES: 640x480\n"
 typedef struct BadIni {
     const char *promise;
     const char *without; // the key whose line is blanked out, NULL for none
-    const char *added;   // from line 27 on
+    const char *added;   // lines to add, from line 27 on
     DipErrorCode code;
     int line;
     const char *key;
@@ -100,13 +101,13 @@ static const BadIni bad_inis[] = {
      "255"},
     {"an instruction set unheard of", NULL, "ISA: avx1024\n", DIP_ERROR_UNKNOWN, 27, "ISA",
      "accepted auto scalar"},
-    {"a sky more than overcast", NULL, "SKY_OVERCAST: 1.1\n", DIP_ERROR_RANGE, 27, "SKY_OVERCAST",
+    {"an overcast above 1", NULL, "SKY_OVERCAST: 1.1\n", DIP_ERROR_RANGE, 27, "SKY_OVERCAST",
      "0..1"},
-    {"clouds faster than can be seen", NULL, "SKY_LAYER1_SPEED: 1e9\n", DIP_ERROR_RANGE, 27,
+    {"a cloud speed above 600", NULL, "SKY_LAYER1_SPEED: 1e9\n", DIP_ERROR_RANGE, 27,
      "SKY_LAYER1_SPEED", "-600..600"},
-    {"dense cloud that is clear", NULL, "SKY_DENSE: 0.75\n", DIP_ERROR_CONFLICT, 27, "SKY_DENSE",
-     "SKY_CLEAR 0.75"},
-    {"clear sky that is dense", NULL, "SKY_CLEAR: 1\n", DIP_ERROR_CONFLICT, 27, "SKY_CLEAR",
+    {"SKY_DENSE not above SKY_CLEAR", NULL, "SKY_DENSE: 0.75\n", DIP_ERROR_CONFLICT, 27,
+     "SKY_DENSE", "SKY_CLEAR 0.75"},
+    {"SKY_CLEAR not below SKY_DENSE", NULL, "SKY_CLEAR: 1\n", DIP_ERROR_CONFLICT, 27, "SKY_CLEAR",
      "SKY_DENSE is 1"},
     // Settings as text.
     {"a setting unheard of", NULL, "CURRENT: aa=4,fsaa=2\n", DIP_ERROR_UNKNOWN, 27, "CURRENT",
@@ -162,8 +163,8 @@ static const BadIni bad_inis[] = {
     // Lines.
     {"a line without a value", NULL, "THREADS 4\n", DIP_ERROR_FORMAT, 27, "THREADS",
      "'THREADS 4' has no value, accepted KEY: value"},
-    {"a second such line is not passed over", NULL, "; fine\n   true\n", DIP_ERROR_FORMAT, 28,
-     "true", "has no value"},
+    {"a value alone on an indented line", NULL, "; fine\n   true\n", DIP_ERROR_FORMAT, 28, "true",
+     "has no value"},
     {"an indented line is no continuation", NULL, "THREADS: 4\n  5: 6\n", DIP_ERROR_UNKNOWN, 28,
      "5", "no such key"},
     {"a section", NULL, "[panes]\n", DIP_ERROR_FORMAT, 27, "", "'[panes]' begins a section"},
@@ -171,7 +172,8 @@ static const BadIni bad_inis[] = {
      "'[panes' begins a section"},
     {"a control character", NULL, "LOG: a\x1b[2J.log\n", DIP_ERROR_FORMAT, 27, "",
      "a control char"},
-    {"old line ends alone", NULL, "THREADS: 4\rISA: auto\n", DIP_ERROR_FORMAT, 27, "", "control"},
+    {"carriage returns without line feeds", NULL, "THREADS: 4\rISA: auto\n", DIP_ERROR_FORMAT, 27,
+     "", "control"},
 };
 
 static void write_ini(const void *bytes, size_t size_bytes) {
@@ -216,7 +218,7 @@ static void check_refused(const char *promise, DipErrorCode code, int line, cons
     remove("bad.ini");
 }
 
-// The good text with one key's line blanked out and lines added.
+// Composes the good text with one key's line blanked out and with lines added at the end.
 static void compose(const char *without, const char *added, char *text, size_t size_bytes) {
     snprintf(text, size_bytes, "%s%s", good, added);
     if (!without) {
@@ -422,7 +424,8 @@ static void mutations_never_crash(void **context) {
         dip_error_list_free(&faults);
     }
     remove("bad.ini");
-    // Enough mutations must be accepted and enough refused, else they test only one of the two.
+    // Enough mutations must be accepted and enough refused; otherwise only one of the two is
+    // tested.
     assert_in_range(accepted, RUNS / 20, RUNS - RUNS / 20);
 }
 

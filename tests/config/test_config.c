@@ -1,5 +1,6 @@
-// Good ini files: the one of the 2006 ATI Catalyst Control Preview report (its Figure 12) and the
-// shipped one load with every value they give; defaults apply; the documentation has every key.
+// Tests good ini files. The ini file of the 2006 ATI Catalyst Control Preview report (its Figure
+// 12) and the shipped ini file load with every value that they give. Missing keys get their
+// defaults. The documentation has every key.
 #include "config/config.h"
 
 #include <setjmp.h>
@@ -47,7 +48,7 @@ static void load_text(const char *file, const char *text, DipConfig *config, Dip
     remove(file);
 }
 
-// An ini of 17 lines that gives every older key, each value as short as it can be.
+// An ini of 17 lines with another key in each line. Each value is as short as it can be.
 #define SHORT                                                                                      \
     "RES:1x2\nREFLECTION_RES=3x4\nFOUNTAIN_WATER_LEVEL:-.5\nDEBUG_SHOW_REFLECTION=true\n"          \
     "XFILE:a.x\nCAMPATH_RESET_ON_SWITCH:false\nCAMPATH_DEFAULT:p\nCAMPATH_AA:p\nCAMPATH_AF:p\n"    \
@@ -83,10 +84,11 @@ static void the_ini_of_figure_12_loads_as_printed(void **context) {
     }
     assert_null(config.camera[DIP_CATEGORY_WATER].file.path);
     assert_false(config.mipdebug);
+    // The key MIPDEBUG32 occurs twice; its later value, tex16.bmp, counts.
     static const char *const pictures[] = {
         "./Mipdebug_textures/texbase1024.bmp", "./Mipdebug_textures/tex512.bmp",
         "./Mipdebug_textures/tex256.bmp",      "./Mipdebug_textures/tex128.bmp",
-        "./Mipdebug_textures/tex64.bmp",       "./Mipdebug_textures/tex16.bmp", // later value
+        "./Mipdebug_textures/tex64.bmp",       "./Mipdebug_textures/tex16.bmp",
         "./Mipdebug_textures/tex8.bmp",
     };
     for (int l = 0; l < 7; l++) {
@@ -239,7 +241,7 @@ static void comments_and_white_space_are_ignored(void **context) {
     load_text("test.ini", text, &config, &faults);
     assert_int_equal(faults.count, 0);
     assert_int_equal(config.res.width, 1);
-    assert_int_equal(config.threads, 3); // An indented line is a key of its own.
+    assert_int_equal(config.threads, 3); // An indented line does not continue a value.
     assert_int_equal(config.line[DIP_KEY_THREADS], 21);
     assert_int_equal(config.isa, DIP_ISA_SCALAR);
     assert_string_equal(config.log.text, "a;b c.log");

@@ -1,4 +1,4 @@
-// Draws a scene of one triangle with the installed libraries, from C++, in two settings.
+// Draws a scene of one triangle from C++ with the installed libraries, with two settings.
 #include "renderer/scene/renderer.h"
 #include "renderer/scene/scene.h"
 

@@ -87,12 +87,12 @@ typedef struct DipGl {
 // Opens the context. threads is the number of llvmpipe's rasteriser threads, 1..32; llvmpipe also
 // sets up triangles on the calling thread. Call this before anything else uses OpenGL in this
 // process. Fails with UNSUPPORTED if there is no llvmpipe with OpenGL 3.3 and the extensions that
-// the peer needs; *gl is then closed.
+// the peer needs. On failure *gl is closed.
 bool dip_gl_open(DipGl *gl, int threads, DipError *err);
 void dip_gl_close(DipGl *gl); // accepts a zeroed context
 
-// Fails with RUNTIME if OpenGL has recorded an error since the last call, with MEMORY if it ran out
-// of memory. `what` names the operation in the message.
+// Fails with MEMORY if OpenGL has run out of memory since the last call, and with RUNTIME if OpenGL
+// has recorded another error. `what` names the operation in the message.
 bool dip_gl_check(const DipGl *gl, const char *what, DipError *err);
 
 #endif

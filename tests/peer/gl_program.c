@@ -35,7 +35,8 @@ static const char vertex_source[] =
     "#endif\n"
     "}\n";
 
-// The alpha test follows the last texture read: after a discard, derivatives would be undefined.
+// The alpha test comes after the last texture read, since derivatives are undefined after a
+// discard.
 static const char fragment_source[] =
     "in vec2 colour_uv;\n"
     "in vec2 light_uv;\n"

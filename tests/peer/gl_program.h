@@ -1,12 +1,12 @@
-// The peer's shaders: GLSL for what docs/picture.md, Shading, defines, with a program per kind of
-// surface.
+// The peer's shaders: GLSL that follows docs/picture.md, Shading. Each kind of surface has a
+// program.
 #ifndef DIP_TESTS_PEER_GL_PROGRAM_H
 #define DIP_TESTS_PEER_GL_PROGRAM_H
 
 #include "tests/peer/gl.h"
 
-// The features of a surface, as bits. A program does only what its surface needs, as our renderer
-// does.
+// The features of a surface, as bits. A program does only the work that its surface needs, like our
+// renderer.
 enum {
     DIP_GL_TEXTURED = 1,
     DIP_GL_LIGHT_MAPPED = 2,

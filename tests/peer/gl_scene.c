@@ -10,7 +10,7 @@
 
 // --- meshes ------------------------------------------------------------------------------------
 
-// The features that the mesh has and its material uses: docs/picture.md, Shading.
+// Returns the features that the mesh has and that its material uses (docs/picture.md, Shading).
 static int features_of(const DipMeshDef *mesh, const DipMaterialDef *material) {
     int features = 0;
     if (material->colour_texture != DIP_NO_TEXTURE && mesh->uv0) {
@@ -38,7 +38,7 @@ static void set_bounds(const DipMeshDef *def, DipGlMesh *mesh) {
 
 typedef struct Attribute {
     GLuint location;
-    GLint size; // floats
+    GLint size; // number of floats per vertex
     const float *source;
 } Attribute;
 

@@ -11,8 +11,8 @@ typedef struct DipGlMesh {
     GLuint vertex_array;
     GLsizei index_count;
     int material;
-    int features; // of the program that draws the mesh
-    float min[3]; // bounding box
+    int features; // features of the program that draws the mesh
+    float min[3]; // corners of the bounding box
     float max[3];
 } DipGlMesh;
 
@@ -32,13 +32,13 @@ typedef struct DipGlScene {
 
 // Uploads the scene. def is borrowed until the scene is freed. On failure *scene is freed.
 bool dip_gl_scene_make(const DipGl *gl, const DipSceneDef *def, DipGlScene *scene, DipError *err);
-void dip_gl_scene_free(DipGlScene *scene); // OpenGL's objects are freed with the context
+void dip_gl_scene_free(DipGlScene *scene); // OpenGL's objects live as long as the context
 
 // Sets the anisotropy of colour textures, 1 (trilinear) to 16. Light maps stay trilinear.
 void dip_gl_scene_set_anisotropy(const DipGl *gl, const DipGlScene *scene, int max_anisotropy);
 
-// Draws into the bound target all objects that a bounding-box test does not exclude, in the scene's
-// order.
+// Draws the objects in the scene's order into the bound target. Skips objects whose bounding box is
+// out of view.
 void dip_gl_scene_draw(const DipGl *gl, const DipGlScene *scene, const DipPose *pose,
                        double aspect);
 

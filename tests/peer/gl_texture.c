@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Converts interleaved codes to the rows of a level; renderer/pipeline/texture/mip.h describes the
-// layout.
+// Converts interleaved 8-bit values to the rows of a level. renderer/pipeline/texture/mip.h
+// describes the layout of rows.
 static void decode(const DipTextureDef *def, float *rows) {
     DipSrgbDecodeTable srgb;
     dip_srgb_decode_table(&srgb);

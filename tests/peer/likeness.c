@@ -1,4 +1,4 @@
-// Squared error and PSNR of two pictures.
+// Computes the squared error and the PSNR of two pictures.
 #include "tests/peer/likeness.h"
 
 #include <math.h>

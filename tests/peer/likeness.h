@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Returns the mean of the squared differences of red, green and blue, in squared 8-bit codes.
+// Returns the mean squared difference of red, green and blue, in units of squared 8-bit steps.
 // Pixels have 4 bytes; alpha is ignored.
 double dip_likeness_squared_error(const uint8_t *a, size_t a_stride_bytes, const uint8_t *b,
                                   size_t b_stride_bytes, int width, int height);

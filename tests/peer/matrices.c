@@ -61,7 +61,7 @@ bool dip_peer_normal_matrix(const float t[12], float normal_to_world[9]) {
 }
 
 bool dip_peer_box_visible(const float to_clip[16], const float min[3], const float max[3]) {
-    // How many corners lie outside the left, right, lower, upper and near plane.
+    // Number of corners outside the left, right, lower, upper and near plane.
     int outside[5] = {0};
     for (int corner = 0; corner < 8; corner++) {
         const float p[3] = {corner & 1 ? max[0] : min[0], corner & 2 ? max[1] : min[1],

@@ -17,8 +17,8 @@ void dip_peer_place(const double m[16], const float transform[12], float product
 // if the transform mirrors.
 bool dip_peer_normal_matrix(const float transform[12], float normal_to_world[9]);
 
-// Returns false if the box lies wholly outside one of the view volume's planes, so that it can be
-// left out.
+// Returns false if the whole box lies outside one of the view volume's planes, so that the box is
+// invisible.
 bool dip_peer_box_visible(const float to_clip[16], const float min[3], const float max[3]);
 
 #endif

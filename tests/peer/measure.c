@@ -105,7 +105,7 @@ static bool compare_frames(const DipPeerBench *bench, DipPeerMeasurement *m, Dip
 // --- time --------------------------------------------------------------------------------------
 
 // In an animation, every frame follows another. So each side first draws a frame slightly earlier
-// on the path; then neither side is timed with the caches as the other left them.
+// on the path. Then neither side is timed with caches that the other side has filled.
 enum { STEPS_PER_FRAME = 64 };
 
 static DipPose pose_before(const DipPeerBench *bench, int index) {
@@ -131,8 +131,9 @@ static bool time_ours(const DipPeerBench *bench, const DipPose *before, const Di
     return drawn;
 }
 
-// Times the peer. If a frame is extremely slow, the time of its first draw is used: the frame lies
-// far above the median whatever its exact time, and compiling shaders is a small part of that time.
+// Times the peer. If a frame is extremely slow, the time of its first draw is used. Such a frame
+// lies far above the median whatever its exact time, and shader compilation is a small part of that
+// time.
 static void time_peer(const DipPeerBench *bench, const DipPose *before, const DipPose *pose,
                       double first_ms, double *ms) {
     if (first_ms > SLOW_FRAME_MS) {

@@ -1,4 +1,4 @@
-// Measures the rows of the table: both sides in turn, frame by frame, round by round.
+// Measures the rows of the table. Both sides draw in turn, frame by frame, round by round.
 #ifndef DIP_TESTS_PEER_MEASURE_H
 #define DIP_TESTS_PEER_MEASURE_H
 
@@ -12,7 +12,7 @@
 // Settings that both sides have.
 typedef struct DipPeerRow {
     const char *name;     // as in --rows
-    const char *settings; // the same, as our renderer's settings
+    const char *settings; // the row's settings as text for our renderer
     int sample_count;
     int max_anisotropy; // 1: trilinear
 } DipPeerRow;
@@ -26,7 +26,7 @@ bool dip_peer_row_has_peer(const DipPeerRow *row);      // false above 4 samples
 // peer can draw.
 unsigned dip_peer_rows_alike(void);
 
-// What a measurement needs. Everything is borrowed.
+// The inputs of a measurement. All pointers are borrowed.
 typedef struct DipPeerBench {
     const DipPeerScene *scene;
     const DipScene *drawn; // our scene, created from scene->def
@@ -38,7 +38,7 @@ typedef struct DipPeerBench {
     int rounds;           // 0: only compare the pictures
     const char *pictures; // folder; NULL: write no pictures
     uint8_t *peer_rgba8;  // width * height * 4 bytes
-    uint64_t random;      // state of the generator that tosses for the order; the caller seeds it
+    uint64_t random;      // state of the coin toss for the order; the caller seeds it
 } DipPeerBench;
 
 typedef struct DipPeerMeasurement {
@@ -46,15 +46,15 @@ typedef struct DipPeerMeasurement {
     int frames;
     int rounds;
     double *ours_ms;       // [round * frames + frame]
-    double *peer_ms;       // same index; not filled if the peer does not have the row
-    double *first_peer_ms; // [frame], of the first, untimed draw, with the compilation of shaders
+    double *peer_ms;       // same index; not filled if the peer cannot draw the row
+    double *first_peer_ms; // [frame]: first draw, before the rounds; compiles shaders
     double psnr_db;        // from the mean squared error of all frames; NaN without a peer
     double worst_psnr_db;
     int worst_frame;
 } DipPeerMeasurement;
 
-// Draws every frame once without timing it (the peer compiles its shaders, and the pictures are
-// compared), then measures. On success the caller owns the measurement and frees it.
+// First draws every frame once to compare the pictures; in this draw, the peer also compiles its
+// shaders. Then measures the rounds. On success the caller owns the measurement and frees it.
 bool dip_peer_measure(DipPeerBench *bench, const DipPeerRow *row, DipPeerMeasurement *measurement,
                       DipError *err);
 void dip_peer_measurement_free(DipPeerMeasurement *measurement);

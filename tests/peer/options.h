@@ -26,7 +26,7 @@ typedef struct DipPeerOptions {
     int model_count;
     const char *path;
     double fov_y_deg; // vertical; 0: the scene's own
-    double turn_deg;  // turns the camera before a relief about the vertical axis; 180: away from it
+    double turn_deg;  // turns the camera about the vertical axis; 0: faces the relief, 180: away
     int width;        // pixels
     int height;
     int threads;

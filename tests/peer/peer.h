@@ -12,7 +12,7 @@
 
 typedef struct DipPeer DipPeer;
 
-// Creates the peer for frames of width x height pixels. def is borrowed for the peer's life.
+// Creates the peer for frames of width x height pixels. def is borrowed as long as the peer exists.
 // threads is the number of llvmpipe's rasteriser threads. A process has at most one peer, which
 // only the thread that created it may use. Fails with UNSUPPORTED if llvmpipe is not installed.
 DipPeer *dip_peer_create(const DipSceneDef *def, int width, int height, int threads, DipError *err);
@@ -21,8 +21,8 @@ void dip_peer_destroy(DipPeer **peer);
 const char *dip_peer_renderer(const DipPeer *peer); // valid until the peer is destroyed
 const char *dip_peer_version(const DipPeer *peer);
 
-// Sets what the next frames are drawn with. sample_count is 1 or 4, max_anisotropy 1 (trilinear) to
-// 16.
+// Sets the sample count (1 or 4) and the maximum anisotropy (1, which is trilinear, to 16) for the
+// next frames.
 bool dip_peer_set(DipPeer *peer, int sample_count, int max_anisotropy, DipError *err);
 
 // Draws a frame. Returns when the picture is complete in memory.

@@ -12,7 +12,7 @@ typedef struct DipPeerScene {
     char name[96];
     DipSceneDef def; // borrows from model or synthetic
     uint64_t triangle_count;
-    bool all_in_view; // true if triangles per second are meaningful
+    bool all_in_view; // true if all triangles are in view, so triangles per second mean something
     DipCamPath *path;
     double fov_y_deg;
     DipModel *model;
@@ -24,7 +24,7 @@ bool dip_peer_scene_open(const DipPeerOptions *options, DipPool *pool, DipPeerSc
                          DipError *err);
 void dip_peer_scene_close(DipPeerScene *scene);
 
-// Returns the pose of frame `index`, where `count` frames divide the path evenly.
+// Returns the pose of frame `index` of `count` frames, which are spread evenly over the path.
 DipPose dip_peer_scene_pose(const DipPeerScene *scene, int index, int count);
 
 #endif

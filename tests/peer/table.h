@@ -16,12 +16,13 @@ void dip_table_print_heading(FILE *out, const DipPeerOptions *options, const Dip
 // Prints a line per measurement. Rows in which llvmpipe has pathological frames come last.
 bool dip_table_print(FILE *out, const DipPeerMeasurement *measurements, int count, DipError *err);
 
-// Prints the millions of triangles per second of each row, for scenes that are wholly in view.
+// Prints the millions of triangles per second of each row, for scenes whose triangles are all in
+// view.
 bool dip_table_print_triangles(FILE *out, const DipPeerMeasurement *measurements, int count,
                                uint64_t triangle_count, DipError *err);
 
-// Writes "row,frame,round,peer_ms,ours_ms" for every frame; peer_ms is empty in rows that the peer
-// does not have.
+// Writes "row,frame,round,peer_ms,ours_ms" for every frame. peer_ms is empty in rows that the peer
+// cannot draw.
 bool dip_table_write_csv(const char *file, const DipPeerMeasurement *measurements, int count,
                          DipError *err);
 

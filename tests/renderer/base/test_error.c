@@ -1,4 +1,5 @@
-// Tests of error.h and nearest.h: origins, formatting, lists, likely names.
+// Tests error.h and nearest.h: the origin and the text of errors, lists of errors, and the choice
+// of the likely name.
 #include "renderer/base/error.h"
 #include "renderer/base/nearest.h"
 

@@ -1,4 +1,4 @@
-// Reading whole files, and what is refused.
+// Tests reading whole files, and which files are refused.
 #include "renderer/base/file.h"
 
 #include <setjmp.h>
@@ -53,7 +53,7 @@ static void what_cannot_be_read_is_named(void **state) {
     (void)state;
     refuse("none/there", 10, DIP_ERROR_MISSING, "cannot open camera path: ");
     refuse(".", 10, DIP_ERROR_IO, "camera path is not a file");
-    refuse("/dev/zero", 10, DIP_ERROR_IO, "camera path is not a file"); // would never end
+    refuse("/dev/zero", 10, DIP_ERROR_IO, "camera path is not a file"); // has no end
     write_bytes("12345", 5);
     refuse(name, 4, DIP_ERROR_OVERSIZED, "camera path file has 5 bytes, accepted at most 4");
     remove(name);

@@ -1,4 +1,4 @@
-// Hashes against the published vectors of FNV-1a, and what makes contents differ.
+// Compares hashes with the published test vectors of FNV-1a, and tests which contents differ.
 #include "renderer/base/hash.h"
 
 #include <setjmp.h>
@@ -16,7 +16,8 @@ static DipHash hash_of(const char *bytes) {
     return hash;
 }
 
-// Values of the authors' list of test vectors (isthe.com/chongo/tech/comp/fnv, FNV-1a, 64 bits).
+// These values are from the FNV authors' list of test vectors (isthe.com/chongo/tech/comp/fnv,
+// FNV-1a, 64 bits).
 static void lane_0_is_fnv_1a(void **state) {
     (void)state;
     assert_int_equal(hash_of("").lanes[0], UINT64_C(0xcbf29ce484222325));
@@ -24,7 +25,7 @@ static void lane_0_is_fnv_1a(void **state) {
     assert_int_equal(hash_of("foobar").lanes[0], UINT64_C(0x85944171f73967e8));
 }
 
-// FNV-1a of the inverted bytes, so lane 1 of "a" is lane 0 of the byte 0x9e.
+// Lane 1 is FNV-1a of the inverted bytes. So lane 1 of "a" is lane 0 of the byte 0x9e.
 static void lane_1_takes_bytes_inverted(void **state) {
     (void)state;
     assert_int_equal(hash_of("a").lanes[1], hash_of("\x9e").lanes[0]);

@@ -58,7 +58,7 @@ static void every_index_runs_once(void **state) {
     }
 }
 
-// A worker that wakes too late for one run joins the next one.
+// A worker that wakes too late for one run joins the next run.
 static void workers_that_wake_late_join_the_next_run(void **state) {
     (void)state;
     enum { THREADS = 4, SHORT_RUNS = 20000, TASKS = 3 };

@@ -50,8 +50,8 @@ static void sin_cos_tan_match_libm(void **context) {
     }
 }
 
-// The argument reduction cancels most next to multiples of pi/4. The bound is relative there, so
-// that all digits of the small results must be right.
+// Next to multiples of pi/4, the argument reduction loses most digits by cancellation. The bound on
+// the error is relative there, so all digits of the small results must be right.
 static void results_near_multiples_of_quarter_pi_keep_their_digits(void **context) {
     (void)context;
     for (int n = 1; n <= 20000; n++) {

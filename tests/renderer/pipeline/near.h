@@ -1,5 +1,5 @@
-// assert_near checks that a number is what it should be, and prints both if it is not. Include this
-// file after <cmocka.h>.
+// assert_near fails the test if a number differs from the expected number by more than a tolerance,
+// and prints both numbers. Include this file after <cmocka.h>.
 #ifndef DIP_TESTS_RENDERER_PIPELINE_NEAR_H
 #define DIP_TESTS_RENDERER_PIPELINE_NEAR_H
 

@@ -1,4 +1,4 @@
-// Coverage by exact integers, and triangles that are hard to cover.
+// Computes coverage with exact integers, and creates triangles that are hard to cover.
 #include "tests/renderer/pipeline/oracle.h"
 
 #include <math.h>
@@ -9,12 +9,12 @@ __extension__ typedef __int128 Int128;
 
 typedef struct Edge {
     int64_t x, y;   // start of the edge
-    int64_t dx, dy; // direction to its end
+    int64_t dx, dy; // vector from the start of the edge to its end
     bool owns;      // true if samples on the edge belong to the triangle
 } Edge;
 
-// Returns twice the area of the triangle of the edge and the point. It is positive if the point
-// lies to the right of the edge as the eye sees it.
+// Returns twice the area of the triangle that the edge and the point form. The area is positive if
+// the point lies to the right of the edge as the eye sees it.
 static Int128 side_of(const Edge *edge, int64_t x, int64_t y) {
     return (Int128)edge->dx * (y - edge->y) - (Int128)edge->dy * (x - edge->x);
 }
@@ -62,7 +62,7 @@ uint64_t dip_oracle_cover(const DipOracleTriangle *triangle, const DipSamplePatt
                           const DipOracleRegion *region, uint8_t *masks) {
     Edge edges[3];
     const bool has_area = make_edges(triangle, edges);
-    // No sample outside the bounding box of the corners' pixels can lie inside.
+    // Only samples in the box around the pixels that hold the corners can lie inside the triangle.
     const int low_x = least(triangle->x) >> 8, high_x = greatest(triangle->x) >> 8;
     const int low_y = least(triangle->y) >> 8, high_y = greatest(triangle->y) >> 8;
     uint64_t count = 0;
@@ -137,7 +137,8 @@ static Point far_point(const Maker *maker) {
     return p;
 }
 
-// Returns a point on the line through p and q, at a whole multiple of their distance from p.
+// Returns a point on the line through p and q. Its distance from p is a random whole multiple of
+// the distance from p to q.
 static Point beyond(const Maker *maker, Point p, Point q, int least_step, int most_step) {
     const int step = random_int(maker->random, least_step, most_step);
     return (Point){p.x + step * (q.x - p.x), p.y + step * (q.y - p.y)};
@@ -218,7 +219,7 @@ DipOracleTriangle dip_oracle_make(DipOracleKind kind, Random *random,
     makers[kind](&maker, v);
     DipOracleTriangle triangle;
     const int first = random_int(random, 0, 2);
-    const int turn = random_int(random, 1, 2); // either winding, starting at any corner
+    const int turn = random_int(random, 1, 2); // starts at any corner and has either winding
     for (int i = 0; i < 3; i++) {
         triangle.x[i] = clamp(v[(first + i * turn) % 3].x, limit);
         triangle.y[i] = clamp(v[(first + i * turn) % 3].y, limit);
@@ -230,9 +231,9 @@ void dip_oracle_make_fan(Random *random, const DipSamplePattern *pattern,
                          const DipOracleRegion *region, DipOracleTriangle fan[DIP_ORACLE_FAN]) {
     const Maker maker = {random, pattern, region, 0};
     const Point hub = random_int(random, 0, 1) ? sample_point(&maker) : any_point(&maker, 0);
-    // The rim has one corner in each of DIP_ORACLE_FAN equal sectors around the hub. The corners
-    // lie so far away that the sides between neighbours (less than 90 degrees apart) stay outside
-    // the region.
+    // The rim has one corner in each of DIP_ORACLE_FAN equal sectors around the hub. Neighbouring
+    // corners are less than 90 degrees apart and so far away that the sides between them stay
+    // outside the region.
     const double radius = 256.0 * 4.0 * (region->width + region->height);
     Point rim[DIP_ORACLE_FAN];
     for (int i = 0; i < DIP_ORACLE_FAN; i++) {
@@ -240,7 +241,7 @@ void dip_oracle_make_fan(Random *random, const DipSamplePattern *pattern,
             (i + random_real(random, 0.0, 0.9)) * (6.283185307179586 / DIP_ORACLE_FAN);
         const double far = radius * random_real(random, 1.0, 3.0);
         rim[i] = (Point){hub.x + llrint(far * cos(angle)), hub.y + llrint(far * sin(angle))};
-        if (random_int(random, 0, 3) == 0) { // along a row of samples, if the hub lies on one
+        if (random_int(random, 0, 3) == 0) { // edges along samples if the hub is one
             rim[i].x = i == 2 || i == 6 ? hub.x : rim[i].x;
             rim[i].y = i == 0 || i == 4 ? hub.y : rim[i].y;
         }

@@ -1,5 +1,6 @@
-// The oracle computes coverage with exact integers, one sample at a time; every rasteriser of ours
-// must agree with it. This file also creates triangles that are hard to cover correctly.
+// The oracle computes coverage with exact integers, one sample at a time. Every rasteriser in
+// Diptych must agree with its result. This file also creates triangles that are hard to cover
+// correctly.
 #ifndef DIP_TESTS_RENDERER_PIPELINE_ORACLE_H
 #define DIP_TESTS_RENDERER_PIPELINE_ORACLE_H
 
@@ -9,7 +10,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// A triangle of rounded screen positions in 1/256 pixel, y down, within +-DIP_ORACLE_LIMIT.
+// A triangle. Its corners are screen positions in units of 1/256 pixel, y down, within
+// +-DIP_ORACLE_LIMIT.
 typedef struct DipOracleTriangle {
     int32_t x[3];
     int32_t y[3];
@@ -26,13 +28,13 @@ typedef struct DipOracleRegion {
 } DipOracleRegion;
 
 // Finds the samples that a triangle of either winding covers, by the top-left rule: a sample on an
-// edge belongs to the triangle if the edge is its left or its upper horizontal edge. Sets masks[y *
-// width + x] (relative to the region), with bit s for sample s. Returns the number of covered
-// samples.
+// edge belongs to the triangle if the edge is its left or its upper horizontal edge. Sets bit s of
+// masks[y * width + x] if sample s is covered; x and y count from the region's first pixel. Returns
+// the number of covered samples.
 uint64_t dip_oracle_cover(const DipOracleTriangle *triangle, const DipSamplePattern *pattern,
                           const DipOracleRegion *region, uint8_t *masks);
 
-// The kinds of triangles. X(name, "what is hard about it")
+// The kinds of triangles. X(name, "how triangles of this kind lie")
 #define DIP_ORACLE_LIST(X)                                                                         \
     X(small, "a few pixels large, anywhere in the region and around it")                           \
     X(large, "about the size of the region")                                                       \
@@ -52,16 +54,17 @@ typedef enum DipOracleKind {
 
 const char *dip_oracle_kind_name(DipOracleKind kind);
 
-// Creates a random triangle of a kind, in and around a region. Its corners lie within +-limit.
+// Creates a random triangle of the given kind in and around the region. Its corners lie within
+// +-limit.
 DipOracleTriangle dip_oracle_make(DipOracleKind kind, Random *random,
                                   const DipSamplePattern *pattern, const DipOracleRegion *region,
                                   int32_t limit);
 
 enum { DIP_ORACLE_FAN = 8 };
 
-// Creates triangles around one corner in the region that all of them share; half of the time this
-// corner lies on a sample. The outer corners lie outside the region, so that together the triangles
-// cover each of its samples exactly once.
+// Creates triangles that surround one shared corner, the hub. The hub lies in the region, half of
+// the time on a sample. All other corners lie outside the region, so that together the triangles
+// cover each sample of the region exactly once.
 void dip_oracle_make_fan(Random *random, const DipSamplePattern *pattern,
                          const DipOracleRegion *region, DipOracleTriangle fan[DIP_ORACLE_FAN]);
 

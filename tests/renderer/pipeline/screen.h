@@ -1,8 +1,9 @@
 // Creates scenes whose vertices fall on chosen screen positions, for tests of the reference.
 //
-// The picture is DIP_SCREEN pixels wide and high, with a field of view of 90 degrees. The point at
-// distance w behind the screen position (x, y) is therefore ((x / 32 - 1) w, (1 - y / 32) w, -w).
-// This is exact in float if the position is in 1/256 pixel and w is a power of two.
+// The picture is DIP_SCREEN pixels wide and high, with a field of view of 90 degrees. The point
+// that appears at the screen position (x, y) and lies at distance w along the view axis is
+// therefore ((x / 32 - 1) w, (1 - y / 32) w, -w). This is exact in float if x and y are multiples
+// of 1/256 pixel and w is a power of two.
 #ifndef DIP_TESTS_RENDERER_PIPELINE_SCREEN_H
 #define DIP_TESTS_RENDERER_PIPELINE_SCREEN_H
 
@@ -17,7 +18,7 @@ typedef struct DipScreenPoint {
     double w; // distance along the view axis, in metres
 } DipScreenPoint;
 
-// Rounds a position to 1/256 pixel.
+// Returns the point with x and y rounded to 1/256 pixel.
 DipScreenPoint dip_screen_snap(double x, double y, double w);
 
 // Begins an empty scene with a black background and a near plane at 1/16 m.
@@ -37,7 +38,7 @@ void dip_screen_add_cover(DipTestScene *scene, int material, float u, float v);
 
 typedef double DipScreenPicture[DIP_SCREEN][DIP_SCREEN][3]; // [y][x], in linear light
 
-// Draws the scene with the reference. If this fails, the test fails.
+// Draws the scene with the reference renderer. The test fails if drawing fails.
 void dip_screen_draw(const DipTestScene *scene, const char *settings, DipScreenPicture picture);
 void dip_screen_converge(const DipTestScene *scene, int sample_count, uint32_t seed,
                          DipScreenPicture picture);

@@ -1,5 +1,5 @@
-// Compares the decoding of BC1 blocks with the published definition, written out here in whole
-// numbers, and compressed textures with the blocks that they are made of.
+// Compares decoded BC1 blocks with the published definition, which this file computes in whole
+// numbers. Also compares compressed textures with the blocks that they consist of.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/bc1.h"
 #include "renderer/pipeline/texture/texture_layout.h"
@@ -16,7 +16,8 @@
 
 #include <cmocka.h>
 
-// Half a step of blue's ten bits in a packed texel, as sRGB 0..1, where the curve is steepest.
+// The rounding error of blue, whose ten bits are the fewest in a packed texel: half a step, as sRGB
+// 0..1, where the sRGB curve is steepest.
 static const double texel_tolerance_srgb = 0.19 / 255.0;
 
 static void light_of_texel(uint32_t texel, double rgb[3]) {
@@ -45,7 +46,8 @@ static void expect_texel(const DipBc1Light *light, const uint8_t block[8], int x
     expect_srgb(rgb, srgb, texel_tolerance_srgb);
 }
 
-// The parts of a block: two colours of 5, 6 and 5 bits and a code per texel.
+// The parts of a block: two colours, each with 5 bits of red, 6 of green and 5 of blue, and a code
+// of 2 bits for each texel.
 typedef struct Parts {
     int colour[2][3];
     int code[16];
@@ -108,13 +110,13 @@ static void decoders_follow_the_definition(void **state) {
     }
 }
 
-// A packed texel is precise enough to give an 8-bit code back.
+// A packed texel is precise enough: 8-bit values stay the same when packed and unpacked.
 static void packed_texels_give_8_bit_codes_back(void **state) {
     (void)state;
     static DipRootCodes codes;
     dip_root_codes_fill(&codes);
     for (int i = 0; i < 65536; i++) {
-        const int mix = i * 37; // blue takes every value beside every value of red
+        const int mix = i * 37; // pairs every value of red with every value of blue
         const uint8_t rgb8[3] = {(uint8_t)i, (uint8_t)(i >> 8), (uint8_t)(mix >> 4)};
         double light[3];
         uint8_t back[3];
@@ -126,8 +128,8 @@ static void packed_texels_give_8_bit_codes_back(void **state) {
     }
 }
 
-// Colours that a block can represent come back unchanged. The error of a gradient stays below one
-// step of 5 bits.
+// Colours that a block can represent stay the same when they are encoded and decoded. The error of
+// a gradient stays below one step of 5 bits.
 static void the_encoder_keeps_colours_that_a_block_can_hold(void **state) {
     (void)state;
     uint8_t rgba8[64];
@@ -190,8 +192,8 @@ static void expect_texture(const DipTextureDef *def, DipPool *pool) {
     dip_texture_destroy(&texture);
 }
 
-// Compares every texel of every level, with padding and alpha. Sizes that are no multiple of 4 are
-// included, as is compression with and without a pool.
+// Compares every texel of every level, including padding and alpha. Some sizes are not multiples of
+// 4. Textures are compressed both with and without a pool.
 static void compressed_textures_show_what_their_blocks_decode_to(void **state) {
     (void)state;
     static const int sizes[][2] = {{64, 64}, {1, 1}, {7, 5}, {2, 9}, {33, 16}};

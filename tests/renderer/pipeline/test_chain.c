@@ -1,5 +1,5 @@
-// Compares mip chains with the definition, computed one texel at a time. No bit may differ, for any
-// size, address mode or number of threads.
+// Compares mip chains with the definition, which this file computes one texel at a time. All bits
+// must be equal for every size, address mode and number of threads.
 #include "renderer/base/pool.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/bc1.h"
@@ -37,8 +37,8 @@ static Plain decode(const DipTextureDef *def) {
     return level;
 }
 
-// Computes the shares of the source texels, from 2i on, that target texel i covers. Returns their
-// number.
+// Along one axis, target texel i covers one to three source texels, the first of which is texel 2i.
+// Stores the weight of each source texel in `share` and returns their number.
 static int shares(int i, int size, int next, float share[3]) {
     if (size == next) {
         share[0] = 1.0f;

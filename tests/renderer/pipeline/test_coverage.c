@@ -1,5 +1,5 @@
-// Compares the fast renderer's coverage with exact integers, for every sample pattern and every
-// instruction set. No difference is allowed.
+// Compares the fast renderer's coverage with coverage computed in exact integers, for every sample
+// pattern and every instruction set. No difference is allowed.
 //
 //   test_coverage [--triangles N]
 #include "renderer/base/assert.h"
@@ -37,7 +37,8 @@ typedef struct Case {
     DipOracleKind kind;
 } Case;
 
-// samples: the positions of the pattern, which the target points to.
+// Makes the target for set-up. Fills `samples` with the pattern's sample positions; the target
+// points to them.
 static DipSetupTarget target_of(const DipSamplePattern *pattern, DipSamplePositions *samples) {
     samples->count = 0;
     dip_sample_positions_add(samples, pattern);
@@ -70,14 +71,14 @@ static DipOracleRegion random_tile(Random *random) {
     return region;
 }
 
-// Returns true if the triangle reaches the tile's pixels. The pipeline gives a tile only such
-// triangles.
+// Returns true if the triangle's box of pixels overlaps the tile. The pipeline gives a tile only
+// such triangles.
 static bool meets(const DipTriangle *triangle, const DipOracleRegion *region) {
     return triangle->x0 < region->x0 + region->width && triangle->x1 >= region->x0 &&
            triangle->y0 < region->y0 + region->height && triangle->y1 >= region->y0;
 }
 
-// Draws the case's triangle. Returns false if it is culled or does not reach the tile.
+// Draws the case's triangle. Returns false if the triangle is culled or does not reach the tile.
 static bool draw_fast(const DipKernels *kernels, const Case *c, const DipClipTest *clip,
                       DipTile *tile) {
     static DipScreenBatch screen;
@@ -107,7 +108,7 @@ static bool draw_fast(const DipKernels *kernels, const Case *c, const DipClipTes
     return true;
 }
 
-// Fills masks in the oracle's format.
+// Reads the tile's covered samples into masks, in the format of dip_oracle_cover.
 static void read_masks(const Case *c, const DipTile *tile, uint8_t *masks) {
     memset(masks, 0, (size_t)c->region.width * (size_t)c->region.height);
     for (int block = 0; block < DIP_BLOCKS; block++) {
@@ -176,7 +177,7 @@ static void coverage_is_exact(void **state) {
     printf("\n");
 }
 
-// Large triangles that meet the target in one pixel at its corner only.
+// Draws large triangles that overlap the target only in the pixel at its corner.
 static void large_triangles_that_meet_one_pixel_are_exact(void **state) {
     (void)state;
     static uint8_t expected[DIP_TILE * DIP_TILE];
@@ -206,8 +207,8 @@ static void large_triangles_that_meet_one_pixel_are_exact(void **state) {
     assert_true(covered > 10000);
 }
 
-// Neighbours share edges around a hub. Every sample around the hub is covered exactly once, by the
-// oracle and by the kernels.
+// The triangles around a hub share edges with their neighbours. The oracle and the kernels must
+// cover every sample around the hub exactly once.
 static void fans_cover_every_sample_exactly_once(void **state) {
     (void)state;
     static uint8_t masks[DIP_TILE * DIP_TILE];
@@ -242,13 +243,14 @@ static void fans_cover_every_sample_exactly_once(void **state) {
     }
 }
 
-// A clip test that keeps a chequer of pixels and checks the positions at which it is asked.
+// The state of a clip test that keeps every second pixel, like a chequerboard, and checks the
+// positions at which the pipeline runs it.
 typedef struct Chequer {
     const Case *c;
     const uint8_t *covered; // the oracle's masks
     DipFragmentList list;
     uint8_t keep[DIP_FRAGMENT_BATCH];
-    uint8_t asked[DIP_TILE * DIP_TILE]; // number of times, per pixel of the region
+    uint8_t asked[DIP_TILE * DIP_TILE]; // number of calls for each pixel of the region
 } Chequer;
 
 static bool chequer_keeps(int x, int y) {
@@ -281,9 +283,9 @@ static const uint8_t *ask_chequer(void *context, const DipTriangle *triangle) {
     return chequer->keep;
 }
 
-// The clip test is asked once for every covered pixel, at the pixel's centre or its first covered
-// sample. If it answers yes, the covered samples are drawn. The counters do not depend on the
-// vector width.
+// The pipeline runs the clip test once for every covered pixel, at the pixel's centre or at its
+// first covered sample. If the test keeps the pixel, the covered samples are drawn. The counters do
+// not depend on the vector width.
 static void the_clip_test_is_asked_once_per_pixel_and_obeyed(void **state) {
     (void)state;
     static uint8_t expected[DIP_TILE * DIP_TILE];

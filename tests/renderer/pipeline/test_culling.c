@@ -1,5 +1,6 @@
-// Tests that culling by bounds never changes a picture and leaves out what is out of view, and that
-// passes are drawn correctly if they need more room than expected.
+// Tests culling by bounding boxes. Culling must not change any picture and must reject objects that
+// are out of view. Also tests that passes are drawn correctly if they need more memory than the
+// pipeline first allocates.
 #include "renderer/pipeline/cull.h"
 #include "renderer/pipeline/geometry/chunk_cull.h"
 #include "renderer/pipeline/geometry/mesh_layout.h"
@@ -116,8 +117,8 @@ static DipPipelineCounters draw(const DipMesh *mesh, const float *matrix, bool c
 
 // --- cameras -----------------------------------------------------------------------------------
 
-// Makes a camera at a random position that looks in a random direction: an orthonormal frame times
-// a perspective matrix.
+// Makes a camera at a random position that looks in a random direction. Its matrix is an
+// orthonormal frame times a perspective matrix.
 static void random_camera(Random *random, float m[16]) {
     double axis[3][3];
     for (int a = 0; a < 2; a++) {
@@ -202,7 +203,7 @@ static void culling_never_changes_a_picture(void **state) {
         read += culled.triangles_in;
         drawn += culled.triangles_drawn;
     }
-    // Something is culled, and something is visible.
+    // Some triangles are culled, and some are visible.
     assert_true(read < all * CAMERAS / 2);
     assert_true(drawn > all * CAMERAS / 100);
     dip_mesh_destroy(&mesh);
@@ -220,8 +221,8 @@ static void assert_same_blocks(const DipTargetRegion *region) {
     }
 }
 
-// Whatever does not reach the region may be rejected: a box, a chunk, or a triangle that would be
-// clipped. The region must still hold what the whole picture holds there.
+// With a region, the pipeline may reject every box, chunk and clipped triangle that does not reach
+// the region. Inside the region, the picture must equal the picture without a region.
 static void a_region_holds_what_the_whole_picture_holds_there(void **state) {
     (void)state;
     enum { REGIONS = 6 };
@@ -267,8 +268,8 @@ static DipMesh *random_mesh(Random *random) {
     return mesh_of(&soup);
 }
 
-// Makes a transform with any 3x3 part, so that some mirror or flatten the object. Every other one
-// does not rotate, so that transformed boxes are tight.
+// Makes a transform with a random 3x3 part. Some transforms mirror or flatten the object. Every
+// second transform does not rotate, so that the transformed boxes are tight.
 static void random_transform(Random *random, float transform[12]) {
     const double scale = pow(10.0, random_real(random, -2.0, 0.5));
     for (int i = 0; i < 12; i++) {
@@ -344,7 +345,7 @@ static bool shows(const DipPass *pass, const DipView *view, const double world[3
            y <= region->y1;
 }
 
-// Picks a random point of one of a chunk's triangles; half of the time it is a corner.
+// Picks a random point of one of a chunk's triangles. Half of the time the point is a corner.
 static void random_point(Random *random, const DipMesh *mesh, const DipChunk *chunk, uint32_t t,
                          const float transform[12], double world[3]) {
     const double u = random_real(random, 0.0, 1.0);
@@ -383,7 +384,7 @@ static bool shows_some(Random *random, const DipPass *pass, const DipView *view,
 typedef struct Kept {
     int seen;    // chunks with a visible point
     int objects; // objects that culling keeps
-    int chunks;
+    int chunks;  // chunks that culling keeps
 } Kept;
 
 static void check_object(Random *random, DipPass *pass, const DipView *view, const DipMesh *mesh,
@@ -454,8 +455,8 @@ static bool project_point(const DipView *view, const double world[3], double at[
     return shows(&whole, view, world);
 }
 
-// Checks that all pixels of the picture around a position, up to the margin, lie in the parts of
-// their tiles.
+// Checks that all pixels within MARGIN of a position in the picture lie in the drawn part of their
+// tile.
 static void assert_in_parts(const DipTileRegion *parts, const double at[2]) {
     for (int dy = -MARGIN; dy <= MARGIN; dy++) {
         for (int dx = -MARGIN; dx <= MARGIN; dx++) {
@@ -494,8 +495,8 @@ static void random_shape(Random *random, int count, double (*corners)[3]) {
     }
 }
 
-// Picks a point in the hull of the shape: a random mean of its corners that mostly depends on few
-// of them.
+// Picks a point in the convex hull of the shape: a random weighted mean of its corners, in which
+// few corners have most of the weight.
 static void mean_of(Random *random, int count, double (*corners)[3], double world[3]) {
     double sum = 0.0;
     world[0] = world[1] = world[2] = 0.0;
@@ -551,8 +552,8 @@ static void tile_parts_hold_everything_visible(void **state) {
 
 static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-// One corner of each triangle is in front of the near plane (z > w = 1), so clipping makes two
-// triangles of each.
+// One corner of each triangle is nearer than the near plane (z > w = 1), so clipping turns each
+// triangle into two.
 static void clipping_can_double_the_triangles(void **state) {
     (void)state;
     enum { COUNT = 40000 };
@@ -578,7 +579,8 @@ static void clipping_can_double_the_triangles(void **state) {
     }
 }
 
-// The box of each triangle covers the picture except one row of tiles: 5 x 3 tiles, all in bins.
+// The box of each triangle covers all tiles of the picture except one row. So each of 5 x 3 tiles
+// has every triangle in its bin.
 static void many_triangles_can_lie_in_many_tiles(void **state) {
     (void)state;
     enum { COUNT = 30000, TILES = 5 * 3 };

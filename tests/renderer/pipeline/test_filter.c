@@ -1,6 +1,6 @@
-// Compares the fast renderer's level of detail on a grazing plane with the footprint in closed
-// form, for every step of anisotropic filtering, plain and advanced, with the camera rolled about
-// its view axis.
+// Compares the fast renderer's level of detail on a grazing plane with the level that follows from
+// the footprint in closed form. The camera is rolled about its view axis. Tests every step of
+// anisotropic filtering (AF), plain and advanced.
 //
 // In the middle of the picture, the view axis points 6 degrees down at a plane 1 m below, so the
 // pixel's footprint there is an ellipse with known axes. Mip colours show which level was read.
@@ -21,7 +21,7 @@ enum { WIDTH = 15, HEIGHT = 961, TEXELS = 256 };
 
 static const double pi = 3.14159265358979323846;
 static const double tolerance_lin =
-    0.012; // of a colour; allows for 8 bits, rounded positions and a float lambda
+    0.012; // per channel; covers 8-bit pixels, rounded positions and lambda in float
 
 typedef struct Bench {
     DipTestScene scene;
@@ -67,7 +67,8 @@ static void middle_colour(Bench *bench, int af_step, bool exact_footprint, doubl
     }
 }
 
-// Blends the mip colours of docs/picture.md from 256 texels on; the codes are sRGB.
+// Blends the mip colours that docs/picture.md gives to levels from 256 texels down. The table has
+// 8-bit sRGB values.
 static void colour_of_level(double lambda, double rgb_lin[3]) {
     static const double codes[][3] = {{255, 0, 0}, {255, 128, 0}, {255, 255, 0},
                                       {0, 255, 0}, {0, 0, 255},   {128, 0, 128}};
@@ -94,7 +95,7 @@ static double ratio_of(double a, double b, double cap) {
     return fmax(fmin(fmax(a, b) / fmin(a, b), cap), 1.0);
 }
 
-// Returns the lambda that docs/picture.md defines for the ellipse, seen by a camera rolled by
+// Returns the lambda that docs/picture.md defines for the ellipse if the camera is rolled by
 // `roll`.
 static double expected_lambda(double roll, int max, bool exact_footprint) {
     double major;
@@ -103,7 +104,8 @@ static double expected_lambda(double roll, int max, bool exact_footprint) {
     if (exact_footprint && max > 1) {
         return log2(major / fmin(major / minor, max));
     }
-    // The lengths of dX and dY, in the screen's frame and in one turned by 45 degrees.
+    // The lengths of the derivatives dX and dY in the screen's frame and in a frame turned by 45
+    // degrees.
     const double x = hypot(major * sin(roll), minor * cos(roll));
     const double y = hypot(major * cos(roll), minor * sin(roll));
     if (max == 1) {
@@ -120,8 +122,8 @@ static double expected_lambda(double roll, int max, bool exact_footprint) {
 
 static void levels_follow_the_closed_form(bool exact_footprint) {
     for (int degrees = -90; degrees <= 180; degrees += 15) {
-        // The roll is a little off the angles at which two frames tie, and off the 22.5 degrees
-        // between them.
+        // The 2 degrees keep the roll off the angles at which the screen's frame and the frame
+        // turned by 45 degrees tie, and off the 22.5 degrees halfway between them.
         const double roll_deg = degrees + 2.0;
         Bench bench;
         open_bench(&bench, roll_deg);

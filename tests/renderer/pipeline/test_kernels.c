@@ -1,5 +1,6 @@
-// Compares every kernel of every instruction set with the scalar kernel, bit for bit, on random
-// input that includes the values that break things: zeros, infinities, NaN, huge and tiny numbers.
+// Compares every kernel of every instruction set with the scalar kernel, bit for bit. The random
+// input includes special values that often cause faults: zeros, infinities, NaN, huge and tiny
+// numbers.
 #include "renderer/base/assert.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/kernels/kernels.h"
@@ -18,7 +19,7 @@
 
 enum { ROUNDS = 300, SEED = 20261 };
 
-// Returns a number of any size, now and then one of the values that break things.
+// Returns a random number within +-magnitude or, once in 16 calls on average, a special value.
 static float awkward(Random *random, double magnitude) {
     static const float specials[] = {0.0f, -0.0f,  1.0f,   -1.0f, INFINITY, -INFINITY,
                                      NAN,  1e-38f, 1e-45f, 3e38f, -3e38f,   0.5f};
@@ -80,7 +81,7 @@ static void compare_project(const DipKernels *scalar, const DipKernels *other, R
     for (size_t i = 0; i < n; i++) {
         assert_int_equal(found.code[i], expected.code[i]);
         if (expected.code[i] & (DIP_CLIP_INVALID | DIP_CLIP_NEEDED)) {
-            continue; // the other results are undefined then
+            continue; // for such a vertex, the other results are undefined
         }
         assert_int_equal(found.x[i], expected.x[i]);
         assert_int_equal(found.y[i], expected.y[i]);
@@ -98,8 +99,8 @@ static void projection_is_the_same_for_every_isa(void **state) {
 
 enum { SETUP_ROOM = DIP_SETUP_BATCH + DIP_SETUP_EXCESS };
 
-// Makes random vertices. Now and then they lie on a coarse lattice, so that edges meet samples and
-// areas vanish.
+// Makes random vertices. Sometimes they lie on a coarse lattice, so that edges pass through samples
+// and some triangles have no area.
 static void random_screen(Random *random, DipScreenBatch *screen) {
     const int far = 1 << random_int(random, 4, 22);
     const int step = 1 << random_int(random, 0, 8);
@@ -237,8 +238,8 @@ static void compare_sampling(const DipKernels *scalar, const DipKernels *other, 
     dip_texture_destroy(&texture);
 }
 
-// Reading two textures at once gives what reading each alone gives, whether the two are alike or
-// not.
+// Reading two textures at once gives the same values as reading each texture alone, whether or not
+// their sizes and samplers are equal.
 static void compare_two_textures(const DipKernels *scalar, const DipKernels *other,
                                  Random *random) {
     static DipFragmentBatch batch;
@@ -311,7 +312,7 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
     other->dip_kernel_interpolate(&input, &list, VARYINGS, 0, &found);
     for (int s = 0; s < VARYINGS; s++) {
         for (int i = 0; i < list.count; i++) {
-            // Any NaN equals any other NaN: its bits depend on the order of an instruction's
+            // Two NaNs count as equal: the bits of a NaN depend on the order of an instruction's
             // operands.
             const float *pairs[3][2] = {{&found.varying[s][i], &expected.varying[s][i]},
                                         {&found.varying_dx[s][i], &expected.varying_dx[s][i]},

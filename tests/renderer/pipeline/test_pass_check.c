@@ -1,5 +1,6 @@
-// Passes that cannot be drawn are refused with the field at fault, in release builds too; and
-// passes drawn at once are the same as passes drawn one by one.
+// Tests that the pipeline refuses passes that it cannot draw and names the field at fault, also in
+// release builds. Also tests that passes drawn at once give the same results as passes drawn one by
+// one.
 #include "renderer/pipeline/pipeline.h"
 #include "tests/renderer/random.h"
 
@@ -41,8 +42,8 @@ static void show_varying(DipFragmentBatch *batch) {
     batch->work.counts[1] += (uint64_t)batch->count;
 }
 
-// One large triangle behind many that are smaller than a pixel, so that each falls between the
-// samples of some patterns and on a sample of others.
+// Makes one large triangle behind many triangles that are smaller than a pixel. Each small triangle
+// lies between the samples of some patterns and covers a sample of others.
 static DipMesh *make_mesh(void) {
     static const float large[3][3] = {
         {-0.9f, -0.8f, 0.2f}, {0.9f, -0.7f, 0.2f}, {0.1f, 0.9f, 0.2f}};
@@ -100,7 +101,7 @@ static DipPass good_pass(const Stage *stage, int index) {
                      .target = {pictures[0][index], (size_t)WIDTH * 4, WIDTH, HEIGHT}};
 }
 
-// A pass with one fault, and the error that says so.
+// A pass with one fault, and the error that the pipeline must report.
 typedef struct BadPass {
     const char *field;
     DipErrorCode code;
@@ -196,7 +197,7 @@ static void a_good_pass_is_drawn(void **state) {
     assert_int_equal(counters.shader_counts[0], 0);
 }
 
-// A pass of its own for each of PASSES: samples, patterns and clear colours differ.
+// Makes PASSES passes that differ in their samples, patterns, clear colours and targets.
 static void make_passes(const Stage *stage, int which, DipPass passes[PASSES]) {
     static const int samples[PASSES] = {1, 2, 4, 6, 8, 4, 8, 1};
     for (int i = 0; i < PASSES; i++) {

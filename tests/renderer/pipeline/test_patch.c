@@ -91,7 +91,7 @@ static bool neighbours(const Grid *grid, uint32_t a, uint32_t b) {
     return shared == 2;
 }
 
-// Checks everything that the header promises of a patch, from the grid alone.
+// Checks everything that patch.h promises about a patch. The check uses nothing but the grid.
 static void check_patch(const Grid *grid, uint32_t patch) {
     uint32_t members[TRIANGLES];
     uint32_t count = 0;
@@ -127,7 +127,7 @@ static void patches_are_small_connected_and_smooth(void **state) {
         for (uint32_t p = 0; p < grid.count; p++) {
             check_patch(&grid, p);
         }
-        // Only a few patches hold fewer triangles than they could.
+        // On average, a patch holds more than half as many triangles as it could.
         assert_true(grid.count < 2 * TRIANGLES / DIP_PATCH_TRIANGLES);
     }
 }
@@ -147,8 +147,9 @@ static void patches_do_not_cross_a_crease(void **state) {
 static void triangles_without_area_or_neighbours_stand_alone(void **state) {
     (void)state;
     const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 5, 5, 5, 6, 5, 5, 5, 6, 5};
-    // A triangle, one without area on the first one's edge, one that shares only a corner, and one
-    // far away.
+    // Four triangles. The second one has no area and shares an edge with the first. The third
+    // shares an edge only with the second. The fourth lies far away and shares only a corner with
+    // the third.
     const uint32_t indices[] = {0, 1, 2, 0, 1, 3, 1, 3, 4, 4, 5, 6};
     uint32_t patches[4], count;
     assert_true(dip_patches_find(positions, 3, 7, indices, 12, patches, &count));
@@ -157,8 +158,8 @@ static void triangles_without_area_or_neighbours_stand_alone(void **state) {
     assert_int_equal(count, 0);
 }
 
-// Very many triangles share a vertex or an edge. Looking at all of them for each triangle would
-// take hours.
+// Very many triangles share a vertex or an edge. It would take hours to visit all of them for each
+// triangle.
 static void patches_of_wide_fans_are_found_quickly(void **state) {
     (void)state;
     enum { FAN = 400000 };

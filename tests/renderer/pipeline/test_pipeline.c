@@ -1,5 +1,5 @@
-// Tests the pipeline as its callers use it: with shaders of their own, culling, user clip planes,
-// clip shaders, the near plane, and input that must draw nothing.
+// Tests the pipeline as its callers use it: with their own shaders, culling, user clip planes, clip
+// shaders, the near plane, and input that must draw nothing.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
 
@@ -60,7 +60,7 @@ static void keep_upper_half(DipFragmentBatch *batch) {
 
 static uint8_t picture[WIDTH * HEIGHT * 4];
 
-// Makes a draw of a mesh with everything at its default.
+// Makes a draw of a mesh with this fragment shader and with defaults in all other fields.
 static DipDraw draw_of(const DipMesh *mesh, DipFragmentShader *shader) {
     return (DipDraw){.mesh = mesh,
                      .vertex_shader = vertex_shader,
@@ -125,7 +125,8 @@ static void every_pixel_is_drawn_once(void **state) {
         const DipPass pass = pass_of(&draw, 1, samples);
         const DipPipelineCounters counters = run(&pass);
         assert_int_equal(lit_pixels(), WIDTH * HEIGHT);
-        // Pixels on the diagonal hold samples of both triangles, but these belong to one patch.
+        // Pixels on the diagonal hold samples of both triangles, but both triangles belong to one
+        // patch.
         assert_int_equal(counters.fragments_shaded, WIDTH * HEIGHT);
         assert_int_equal(counters.triangles_drawn, 2);
         assert_int_equal(counters.samples_shown, WIDTH * HEIGHT * samples);
@@ -134,8 +135,8 @@ static void every_pixel_is_drawn_once(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// The number of visible samples equals that of the picture, in which a white triangle lies on
-// black.
+// A white triangle lies on black. The counter of visible samples must equal the number of white
+// samples in the picture.
 static void visible_samples_are_counted(void **state) {
     (void)state;
     const Vertex vertices[3] = {
@@ -172,13 +173,14 @@ static void back_and_front_faces_are_culled_by_winding(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// The plane x * 1 + w * c >= 0 keeps what lies to the right of x = -c.
+// The plane x * 1 + w * c >= 0 keeps the part of the picture to the right of x = -c.
 static void user_planes_cut_exactly_where_they_lie(void **state) {
     (void)state;
     DipMesh *mesh = screen(0.5f);
     const DipDraw draw = draw_of(mesh, white);
     DipPass pass = pass_of(&draw, 1, 1);
-    // The last offset cuts off all but two columns: the vertices outside are only just outside.
+    // The last offset cuts off only two columns, so the vertices outside the plane are just
+    // outside.
     const float offsets[4] = {0.0f, 0.5f, -0.5f, 0.96f};
     for (int i = 0; i < 4; i++) {
         pass.clip_plane_count = 1;
@@ -233,8 +235,8 @@ static void nearer_surfaces_win_and_the_first_of_equals_stays(void **state) {
     dip_mesh_destroy(&same);
 }
 
-// With w from 1 at the left to 3 at the right, the varying is u(x) = (x / 3) / ((1 - x) + x / 3), x
-// = 0..1.
+// w rises from 1 at the left to 3 at the right. The varying is therefore u(x) = (x / 3) / ((1 - x)
+// + x / 3) for x = 0..1.
 static void varyings_are_interpolated_in_perspective(void **state) {
     (void)state;
     const Vertex vertices[4] = {
@@ -270,8 +272,8 @@ static DipMesh *wide(void) {
     return mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3, 1, 3, 0}, 9);
 }
 
-// Blocks inside the region hold the same as without a region. The other blocks hold what they held
-// before.
+// Blocks inside the region get the same pixels as without a region. The other blocks keep their old
+// pixels.
 static void blocks_outside_a_region_are_left_untouched(void **state) {
     (void)state;
     enum { TILE = 64, BLOCK = 8 };
@@ -317,8 +319,8 @@ static void blocks_outside_a_region_are_left_untouched(void **state) {
     dip_mesh_destroy(&bounded);
 }
 
-// Blocks outside a tile's part are left untouched, whether their triangles are in bins or in the
-// list of wide ones.
+// Drawing leaves the blocks outside a tile's part untouched. This holds for triangles in bins and
+// for triangles in the list of wide ones.
 static void blocks_outside_tile_parts_are_left_untouched(void **state) {
     (void)state;
     enum { TILE = 64, BLOCK = 8, TILES_X = (WIDTH + TILE - 1) / TILE };
@@ -358,7 +360,7 @@ static void blocks_outside_tile_parts_are_left_untouched(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// Samples the target in the uniforms, rotated by 180 degrees.
+// Samples the target that the uniforms point to, rotated by 180 degrees.
 static void turned_copy(DipFragmentBatch *batch) {
     float u[DIP_FRAGMENT_BATCH] = {0};
     float v[DIP_FRAGMENT_BATCH] = {0};
@@ -388,7 +390,7 @@ static void a_pass_samples_the_target_of_an_earlier_pass(void **state) {
     for (size_t i = 0; i < sizeof before; i++) {
         before[i] = i % 4 == 3 ? 255 : (uint8_t)(i * 2654435761u >> 13);
     }
-    before[0] = 0; // in its first row, red begins with black and white and ends with 200
+    before[0] = 0; // the first row's red begins with 0 and 255 and ends with 200
     before[4] = 255;
     before[4 * (WIDTH - 1)] = 200;
     const DipTarget target = {before, (size_t)WIDTH * 4, WIDTH, HEIGHT};
@@ -402,18 +404,18 @@ static void a_pass_samples_the_target_of_an_earlier_pass(void **state) {
     }
     draw.fragment_shader = halfway;
     run(&pass);
-    assert_int_equal(red(10, 30), 188); // half of white's light
+    assert_int_equal(red(10, 30), 188); // half of white's linear light
     assert_int_equal(red(60, 5), 0);
     assert_int_equal(red(60, 15), 200);
     assert_int_equal(red(60, 50), 0);
     dip_mesh_destroy(&mesh);
 }
 
-// A floor begins behind the eye. Only what lies beyond the near plane (z = w) is visible.
+// A floor begins behind the eye. Only the part beyond the near plane (z = w) is visible.
 static void the_near_plane_cuts_exactly(void **state) {
     (void)state;
-    // y is -1/2, and w runs from -1 (behind the eye) to 3. z is 1 everywhere, so the floor is cut
-    // at w = 1, which the picture shows at y = -1/2; w = 3 is at y = -1/6.
+    // y is -1/2 everywhere, and w runs from -1 (behind the eye) to 3. z is 1 everywhere, so the
+    // floor is cut at w = 1. In the picture, w = 1 lies at y = -1/2, and w = 3 at y = -1/6.
     const Vertex vertices[4] = {{{-9, -0.5f, 1, -1}, 0},
                                 {{9, -0.5f, 1, -1}, 0},
                                 {{9, -0.5f, 1, 3}, 1},

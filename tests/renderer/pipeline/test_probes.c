@@ -1,5 +1,6 @@
-// Tests anisotropic reads, in which the two levels take different numbers of probes. The kernels of
-// every instruction set are compared with closed forms and with the reference in double.
+// Tests anisotropic reads, which take different numbers of probes in the two mip levels. Compares
+// the kernels of every instruction set with closed forms and with the reference in double
+// precision.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/texture_layout.h"
 #include "renderer/reference/internal/texture.h"
@@ -20,7 +21,7 @@ enum { SIZE = 256, LANES = DIP_FRAGMENT_BATCH };
 
 static uint8_t texels[4 * SIZE * SIZE];
 
-// One texture, read by a kernel of some instruction set and by the reference.
+// One texture, which a kernel of some instruction set and the reference both read.
 typedef struct Bench {
     DipTexture *fast;
     DipRefTexture reference;
@@ -73,9 +74,9 @@ static void sample(const DipKernels *kernels, bool cheap) {
                                                                         : NULL;                    \
              kernels; kernels = NULL)
 
-// The codes rise by one per column and fall by one per row, and light is linear in them. A
-// footprint therefore reads the value at its middle, however many probes its levels take, if the
-// probes are spread evenly around the middle.
+// The texels' values rise by one per column and fall by one per row, and light is linear in these
+// values. If the probes are spread evenly around the middle of a footprint, a read gives the value
+// at the middle. The number of probes does not matter.
 static void a_ramp_is_read_exactly(void **state) {
     (void)state;
     for (int i = 0; i < SIZE * SIZE; i++) {
@@ -97,8 +98,8 @@ static void a_ramp_is_read_exactly(void **state) {
             }
             sample(kernels, round % 2);
             for (int i = 0; i < LANES; i++) {
-                // Probe positions are rounded down by up to 8/256 texel of the ramp. Alpha has 8
-                // bits. Red and green texels are steps of 1/2048 of the square root of light.
+                // Tolerances: probe positions are rounded down by up to 8/256 texel. Alpha has 8
+                // bits. Red and green are stored as the square root of light, in steps of 1/2048.
                 assert_near(bench.colour[0][i] * 255.0, u[i] - 0.5 - 1.0 / 64.0, 0.14);
                 assert_near(bench.colour[1][i] * 255.0, SIZE - 0.5 - v[i] + 1.0 / 64.0, 0.14);
                 assert_near(bench.alpha[i] * 255.0, u[i] - 0.5 - 1.0 / 64.0, 0.6);
@@ -111,8 +112,8 @@ static void a_ramp_is_read_exactly(void **state) {
 // Stripes of 10 texels each along u, read by a footprint 20 texels long and 1.25 wide: 16 probes in
 // level 0 and, at a fraction of log2 1.25, half as many in level 1. Both numbers are even, so every
 // probe has a partner half a period away that reads the complement. The mean is therefore 1/2
-// wherever the footprint lies. With an odd number of probes, or with probes in other positions, it
-// would not be.
+// wherever the footprint lies. An odd number of probes, or probes in other positions, would give
+// another mean.
 static void a_footprint_of_one_period_reads_the_mean_of_stripes(void **state) {
     (void)state;
     enum { PERIOD = 20, WIDTH = 240 };
@@ -194,7 +195,7 @@ static void noise_is_read_as_the_reference_reads_it(void **state) {
                 dip_reference_sample(&bench.reference, &filter, uv, dx, dy, rgba);
                 const double off =
                     fmax(fabs(bench.colour[0][i] - rgba[0]), fabs(bench.alpha[i] - rgba[3]));
-                // The levels of detail may differ by 1/256 where they are rounded.
+                // Rounding may make the two levels of detail differ by 1/256.
                 far_off += off > 0.01;
                 worst = fmax(worst, off > 0.01 ? 0.0 : off);
             }

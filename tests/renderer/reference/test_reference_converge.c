@@ -1,4 +1,4 @@
-// Tests the converged picture: it is right on the mean, and it improves with more samples.
+// Tests the converged picture: its mean is right, and more samples improve it.
 #include "renderer/reference/convergence.h"
 #include "tests/renderer/pipeline/screen.h"
 #include "tests/renderer/scene/image.h"
@@ -42,15 +42,15 @@ static void textures_converge_to_their_mean(void **state) {
             assert_near(value, expected, 0.12);
             mean += value / (DIP_SCREEN * DIP_SCREEN);
         }
-        // The mean of 4096 pixels with 64 jittered samples each, whose standard deviation is below
-        // 0.3.
+        // `mean` has 4096 pixels of 64 jittered samples. The standard deviation of a sample is
+        // below 0.3. The tolerance is four standard deviations of the mean.
         assert_near(mean, expected, 4.0 * 0.3 / sqrt(4096.0 * 64.0));
     }
     dip_test_scene_free(&scene);
 }
 
-// On a ramp of 4 codes per pixel, the mean over a pixel is the value at its centre. A jittered
-// sample is off by at most one cell of the grid.
+// On a ramp that rises by 4/255 per pixel, the mean over a pixel is the value at its centre. A
+// jittered sample is off by at most one cell of the jitter grid.
 static void a_ramp_converges_to_its_value_at_pixel_centres(void **state) {
     (void)state;
     DipTestScene scene;
@@ -72,14 +72,14 @@ static void a_ramp_converges_to_its_value_at_pixel_centres(void **state) {
             error += picture[y][x][0] - expected;
         }
     }
-    // The standard deviation of the mean is a cell's width / sqrt 12 / sqrt of the number of all
-    // samples.
+    // The standard deviation of the mean is the standard deviation of a sample (a cell's width
+    // divided by sqrt 12) divided by the square root of the number of all samples.
     assert_near(error / (64 * 62), 0.0, 4.0 * (4.0 / 255.0 / 8.0 / sqrt(12.0 * 64 * 62 * 64)));
     dip_test_scene_free(&scene);
 }
 
-// Over one period, the texture is u times v. Its mean is 1/4 if u and v are independent, and 1/3 if
-// they were equal. Each pixel has a single sample.
+// Over one period, the texture's value is u times v. Its mean is 1/4 if the jitter in u and in v is
+// independent; it would be 1/3 if both were equal. Each pixel has a single sample.
 static void jitter_is_independent_in_x_and_y(void **state) {
     (void)state;
     DipTestScene scene;
@@ -108,8 +108,8 @@ static double rms_of_two_seeds(const DipTestScene *scene, int sample_count) {
     return dip_image_rms(&picture[0][0][0], &other[0][0][0], VALUES);
 }
 
-// With four times as many samples, the error at edges falls by 4^(3/4), and by 4 where the picture
-// is smooth within a cell. The scene has both.
+// With four times as many samples, the error falls by a factor of 4^(3/4) at edges, and by 4 where
+// the picture is smooth within a cell. The scene has both.
 static void pictures_of_two_seeds_approach_with_more_samples(void **state) {
     (void)state;
     DipTestScene scene;
@@ -223,8 +223,8 @@ static void pixels_are_classified_by_what_is_visible(void **state) {
     DipTestScene scene;
     make_squares(&scene, DIP_SURFACE_OPAQUE);
     converge_tiles(&scene, DIP_SCREEN, DIP_SCREEN, 16, picture);
-    // Only the upright sides of the near square cut through pixels. The edge that its two triangles
-    // share does not count.
+    // Pixels are cut only by the upright sides of the near square. The edge that the square's two
+    // triangles share does not count.
     assert_int_equal(count_class(DIP_SEEN_EDGE), 2 * 32);
     assert_int_equal(count_class(DIP_SEEN_TEXTURED), 31 * 32);
     assert_int_equal(count_class(DIP_SEEN_PLAIN), DIP_SCREEN * DIP_SCREEN - 33 * 32);
@@ -235,8 +235,8 @@ static void pixels_are_classified_by_what_is_visible(void **state) {
     assert_int_equal(count_class(DIP_SEEN_WATER), 33 * 32);
     dip_test_scene_free(&scene);
 
-    // All pixels of the clipped square count, also those where alpha removes it; half of its texels
-    // are transparent.
+    // All pixels of the clipped square count, even if alpha removes the square there. Half of its
+    // texels are transparent.
     make_squares(&scene, DIP_SURFACE_CLIPPED);
     uint8_t *texels = dip_test_scene_texels(&scene, 0);
     for (int i = 0; i < 32; i++) {
@@ -248,7 +248,7 @@ static void pixels_are_classified_by_what_is_visible(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// A corner between two walls of one material is no edge; a step in depth is one.
+// A corner between two walls of one material is not an edge. A step in depth is an edge.
 static void corners_of_one_surface_are_not_classified_as_edges(void **state) {
     (void)state;
     for (int step = 0; step < 2; step++) {

@@ -22,8 +22,8 @@ static const char *const aa_settings[] = {"aa=none", "aa=2", "aa=4", "aa=6", "aa
 static DipScreenPicture picture;
 static DipScreenPicture other;
 
-// Returns the area of a pixel that lies where n . p >= d: the unit square is cut by the line, and
-// the shoelace formula gives the area.
+// Returns the area of the part of a pixel where n . p >= d. Cuts the unit square along the line and
+// computes the area with the shoelace formula.
 static double half_plane_area(const double n[2], double d, int x, int y) {
     const double square[4][2] = {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}};
     double polygon[8][2];
@@ -80,7 +80,7 @@ typedef struct Deviation {
     int count;
 } Deviation;
 
-// Adds the deviations of the pixels that the edge crosses, and checks that all other pixels are
+// Adds up the deviations of the pixels that the edge crosses. Checks that all other pixels are
 // exact.
 static void add_deviations(const HalfPlane *half, Deviation *deviation) {
     for (int y = 0; y < DIP_SCREEN; y++) {
@@ -98,7 +98,7 @@ static void add_deviations(const HalfPlane *half, Deviation *deviation) {
     }
 }
 
-// The bounds follow from the sample positions of the patterns alone.
+// The bounds depend only on the sample positions of the patterns.
 static void coverage_of_half_planes_is_as_exact_as_the_pattern_allows(void **state) {
     (void)state;
     static const double greatest[] = {0.5, 0.497, 0.308, 0.220, 0.226};
@@ -133,15 +133,15 @@ static void the_converged_coverage_of_a_half_plane_is_its_area(void **state) {
         add_deviations(&half, &deviation);
         dip_test_scene_free(&half.scene);
     }
-    // A jittered grid of 256 samples deviates by 1.5 codes RMS and by at most 6.3 codes.
+    // A jittered grid of 256 samples deviates by 1.5/255 RMS and by at most 6.3/255.
     assert_true(sqrt(deviation.squares / deviation.count) < 2.0 / 255.0);
     assert_true(deviation.greatest < 9.0 / 255.0);
 }
 
 enum { CELLS = 6 };
 
-// Makes a grid of points that reaches beyond the picture's edges. The points are moved at random,
-// and every third lies exactly on a sample position of the pattern.
+// Makes a grid of points that reaches beyond the picture's edges. The points are moved at random.
+// Every third point lies exactly on a sample position of the pattern.
 static void make_grid(DipScreenPoint grid[CELLS + 1][CELLS + 1], const DipSamplePattern *pattern,
                       Random *random) {
     for (int j = 0; j <= CELLS; j++) {
@@ -227,7 +227,7 @@ static void only_front_faces_and_double_sided_surfaces_are_visible(void **state)
         }
         scene.objects[0].transform[0] = mirrored ? -1.0f : 1.0f;
         dip_screen_draw(&scene, "aa=none", picture);
-        // A mesh that faces the eye also faces it if it is mirrored.
+        // A mesh that faces the eye also faces it when the object mirrors the mesh.
         assert_near(picture[32][32][0], double_sided || !clockwise ? 1.0 : 0.0, 0.0);
         dip_test_scene_free(&scene);
     }
@@ -255,9 +255,9 @@ static void nearer_surfaces_win_and_the_first_of_coplanar_ones_stays(void **stat
     }
 }
 
-// Two quads cross where both have the same depth: 1/w = 1 - x/128 and 1/w = 1/2 + x/128 meet at x =
-// 32, between two columns. Shifted by half a pixel, they meet at x = 32.5, where depth decides per
-// sample.
+// Two quads cross where both have the same depth. 1/w = 1 - x/128 and 1/w = 1/2 + x/128 are equal
+// at x = 32, between two columns of pixels. Shifted by half a pixel, the quads cross at x = 32.5,
+// inside a column, where depth decides for each sample.
 static void depth_is_decided_per_sample(void **state) {
     (void)state;
     DipTestScene scene;
@@ -287,12 +287,13 @@ static void depth_is_decided_per_sample(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// A surface at the near plane (1/16 m) is visible; a nearer one is not. In the third case, the
-// upper half leans from in front of the near plane to the near plane.
+// A surface at the near plane (1/16 m) is visible; a nearer surface is not. In the third case, the
+// lower half of the surface is at the near plane, and the upper half leans from there towards the
+// eye.
 static void surfaces_nearer_than_the_near_plane_are_cut_off(void **state) {
     (void)state;
     static const double distances[][2] = {{0.0625, 0.0625}, {0.03125, 0.03125}, {0.03125, 0.0625}};
-    static const int seen[][2] = {{1, 1}, {0, 0}, {0, 1}}; // at y = 12 and y = 40
+    static const int seen[][2] = {{1, 1}, {0, 0}, {0, 1}}; // visible at y = 12 and at y = 40
     for (int k = 0; k < 3; k++) {
         DipTestScene scene;
         dip_screen_begin(&scene);
@@ -312,8 +313,8 @@ static void surfaces_nearer_than_the_near_plane_are_cut_off(void **state) {
 }
 
 // A floor 1 m below the eye begins behind the eye. One corner lies far behind the eye, and one
-// between the eye and the near plane. Its colour is its position, so the test computes where the
-// rays through the pixels' centres meet it.
+// between the eye and the near plane. The floor's colour is its position, so the test computes
+// where the rays through the pixels' centres meet the floor.
 static void a_floor_that_begins_behind_the_eye_is_cut_at_the_near_plane(void **state) {
     (void)state;
     DipTestScene scene;

@@ -70,7 +70,8 @@ static double plain_eta(double ratio, double roll_deg, int max) {
     return dip_reference_footprint(dx, dy, max, false, 0).eta;
 }
 
-// Returns the ratio of the two derivatives of an ellipse that is turned against the frame.
+// Returns the ratio, at least 1, of the lengths of dX and dY. The ellipse has the axes m and 1 and
+// is turned by `roll` against the frame.
 static double frame_ratio(double m, double roll) {
     const double c = cos(roll) * cos(roll);
     const double s = sin(roll) * sin(roll);
@@ -106,7 +107,7 @@ static void plain_af_takes_the_level_of_the_frame_it_uses(void **state) {
     assert_near(fabs(turned.major_texels[1]), 16.0 * sin(0.3), 1e-9);
 }
 
-// Returns any finite number of any magnitude, now and then one of the values that break things.
+// Returns any finite number of any magnitude, sometimes a special value.
 static double awkward(Random *random) {
     static const double specials[] = {0.0, -0.0, 1.0, -1.0, 1e308, -1e308, 5e-324, 1e-300};
     if (random_int(random, 0, 2) == 0) {
@@ -152,8 +153,8 @@ static void degenerate_jacobians_have_defined_footprints(void **state) {
     }
 }
 
-// A footprint of 6 x 0.1 texels has an eta of 16, but six probes already are a texel apart. With
-// two levels dropped, a texel is 4 texels of level 0 wide.
+// A footprint of 6 x 0.1 texels has an eta of 16, but six probes are already only one texel apart.
+// If the two largest levels are dropped, a texel is as wide as 4 texels of level 0.
 static void probes_are_no_closer_than_texels(void **state) {
     (void)state;
     const double along[2] = {6.0, 0.0};

@@ -26,9 +26,9 @@ static double determinant(const double a[3], const double b[3], const double c[3
            a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-// Finds where the ray through a screen position meets the triangle, as weights of its corners, by
-// Cramer's rule on "sum of weighted corners = ray", scaled so that the weights add up to 1. If all
-// three are positive, the ray hits the triangle.
+// Finds where the ray through a screen position meets the triangle. Solves "sum of weighted corners
+// = ray" for the weights of the corners by Cramer's rule and scales the weights so that they add up
+// to 1. The ray hits the triangle if all three weights are positive.
 static void cast_ray(const DipTestMesh *mesh, double x, double y, double weights[3]) {
     const double ray[3] = {x / 32.0 - 1.0, 1.0 - y / 32.0, -1.0};
     double v[3][3];
@@ -121,8 +121,9 @@ static void interpolation_agrees_with_ray_casting(void **state) {
     assert_true(told > 40 * DIP_SCREEN * DIP_SCREEN * 99 / 100);
 }
 
-// Makes a ground 1 m below the eye, with x across and w ahead, from w = 1 to w = 16. Its uv = (x,
-// w), times 256 texels. On the screen, w = 1 / (y / 32 - 1) and x = (x_px / 32 - 1) w.
+// Makes a ground 1 m below the eye, with x across and w ahead, from w = 1 to w = 16. Its texture
+// coordinates are (x, w), and a unit has 256 texels. On the screen, w = 1 / (y / 32 - 1) and x =
+// (x_px / 32 - 1) w.
 static void make_ground(DipTestScene *scene) {
     dip_screen_begin(scene);
     const int texture = dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 256, 256);
@@ -143,7 +144,8 @@ static void ground_jacobian(double x, double y, double dx[2], double dy[2]) {
     dy[1] = 256.0 * (-w * w / 32.0);
 }
 
-// The greater eigenvalue of J J^T is M^2, and the determinant gives m.
+// Returns the lambda of the advanced footprint. The greater eigenvalue of J J^T is M^2, and the
+// determinant gives m.
 static double advanced_lambda(const double dx[2], const double dy[2], double max) {
     const double a = dx[0] * dx[0] + dy[0] * dy[0];
     const double b = dx[0] * dx[1] + dy[0] * dy[1];
@@ -220,7 +222,7 @@ static void light_follows_the_normal(void **state) {
     }
 }
 
-// Adds a texture with one row of texels, each of one grey.
+// Adds a texture with one row of grey texels.
 static int add_grey(DipTestScene *scene, int width, const uint8_t *grey, DipEncoding encoding) {
     const int texture = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, width, 1);
     uint8_t *texels = dip_test_scene_texels(scene, texture);
@@ -283,9 +285,10 @@ static void alpha_at_the_cutoff_keeps_the_sample(void **state) {
     }
 }
 
-// Alpha rises from 0 to 1 between u = 1/4 and u = 3/4, over 32 pixels. The cutoff of 0.375 lies
-// where column 28 begins, and the cutoff of 0.38 at 28.16. The test at whole pixels takes place at
-// their centre, whatever aa is. The converged picture depends on the area.
+// Alpha rises from 0 to 1 between u = 1/4 and u = 3/4, over 32 pixels. Alpha reaches the cutoff of
+// 0.375 where column 28 begins, and the cutoff of 0.38 at x = 28.16. Fully covered pixels test
+// alpha at their centre with every step of aa. The converged picture depends on the area that alpha
+// keeps.
 static void alpha_is_tested_at_centres_and_converges_to_area(void **state) {
     (void)state;
     static const float cutoffs[] = {0.375f, 0.38f, 0.395f};
@@ -304,7 +307,7 @@ static void alpha_is_tested_at_centres_and_converges_to_area(void **state) {
         for (int y = 0; y < DIP_SCREEN; y++) {
             column += picture[y][28][0] / DIP_SCREEN;
         }
-        // The mean of alpha over the part that is kept.
+        // The mean of alpha over the kept area.
         const double mean = area[k] * (12.0 + 1.0 - area[k] * 0.5) / 32.0;
         assert_near(column, mean, 2e-3);
         dip_test_scene_free(&scene);

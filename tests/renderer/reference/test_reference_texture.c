@@ -101,9 +101,9 @@ static void mip_levels_keep_the_mean(void **state) {
     }
 }
 
-// From 7 columns to 3: the first target column takes columns 0, 1 and a third of 2; the second
-// takes two thirds of 2, 3 and two thirds of 4. From 5 rows to 2: the first target row takes rows
-// 0, 1 and half of 2.
+// From 7 columns to 3: the first target column takes columns 0 and 1 and a third of column 2. The
+// second takes two thirds of column 2, column 3 and two thirds of column 4. From 5 rows to 2: the
+// first target row takes rows 0 and 1 and half of row 2.
 static void odd_sizes_are_weighted_by_area(void **state) {
     (void)state;
     fill_ramp(7, 5);
@@ -138,7 +138,7 @@ static void a_ramp_is_read_exactly(void **state) {
     const DipRefFilter trilinear = {.max_anisotropy = 1};
     Random random = {5};
     for (int i = 0; i < 5000; i++) {
-        // Far enough from the edges for level 3 to be linear.
+        // The column is far enough from the edges for level 3 to be linear.
         const double column = random_real(&random, 16.0, 240.0);
         const double row = random_real(&random, 16.0, 240.0);
         const double uv[2] = {(column + 0.5) / 256.0, (row + 0.5) / 256.0};
@@ -150,8 +150,8 @@ static void a_ramp_is_read_exactly(void **state) {
         const double grid[2] = {(floor(column * 256.0) / 256.0 + 0.5) / 256.0, uv[1]};
         read_at(&texture, &trilinear, uv[0], uv[1], 0.0, rgba);
         assert_near(rgba[0] * 255.0, grid[0] * 256.0 - 0.5, 1e-9);
-        // Every level of the ramp is the same ramp. Any blend of levels reads the same value,
-        // except that it is rounded down by less than 1/256 texel of the coarser level.
+        // Every level of the ramp is the same ramp. So every blend of levels reads the same value,
+        // but rounds it down by less than 1/256 texel of the coarser level.
         const double lambda = random_real(&random, 0.0, 3.0);
         read_at(&texture, &trilinear, uv[0], uv[1], lambda, rgba);
         const double low = column - exp2(floor(lambda) + 1.0) / 256.0;
@@ -167,9 +167,10 @@ static void fill_step(void) {
     }
 }
 
-// 16 probes lie one texel apart, at -7.5..7.5 texels around the read position, on texel centres.
-// Seven texels left of the step (the left edge of column 32), for example, only the last probe lies
-// to its right. With another spacing, for example of 16/17 texel, the result would lie in between.
+// 16 probes lie one texel apart, at -7.5..7.5 texels around the read position, on texel centres. If
+// the read position is seven texels left of the step (the left edge of column 32), for example,
+// only the last probe lies right of the step. With another spacing, for example of 16/17 texel, the
+// result would lie in between.
 static void probes_lie_at_interval_midpoints(void **state) {
     (void)state;
     fill_step();

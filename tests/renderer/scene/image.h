@@ -7,20 +7,20 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// The error of a frame. Errors are in linear light, 0..1. The error of a pixel is that of its worst
-// channel.
+// The error of a frame. Errors are in linear light, 0..1. The error of a pixel is the error of its
+// worst channel.
 typedef struct DipImageError {
     double rms_lin;
     double mean_lin; // mean absolute difference
     double max_lin;
-    double psnr_db;    // of sRGB codes; infinite if the pictures are equal
+    double psnr_db;    // from 8-bit sRGB values; infinite if the pictures are equal
     size_t over_count; // number of pixels whose error is greater than pixel_lin
     int first_x;       // the first such pixel in reading order; -1 if there is none
     int first_y;
 } DipImageError;
 
-// Compares a frame, whose bytes are decoded to linear light, with the expected picture: rgb_lin has
-// width*height*3 values in linear light.
+// Compares a frame with the expected picture. The frame's bytes are decoded to linear light.
+// rgb_lin has width * height * 3 values in linear light.
 DipImageError dip_image_compare(const double *rgb_lin, const DipFrame *frame, double pixel_lin);
 
 // Returns the RMS difference of two pictures in linear light.
@@ -28,15 +28,15 @@ double dip_image_rms(const double *a, const double *b, size_t value_count);
 
 typedef struct DipImageBounds {
     double rms_lin;
-    double pixel_lin;    // the error that any pixel may have
-    double over_share;   // the share of pixels whose error may be greater
-    double over_max_lin; // the error that no pixel may exceed
+    double pixel_lin;    // the bound for the error of a pixel
+    double over_share;   // the share of pixels that may exceed pixel_lin
+    double over_max_lin; // the bound for the error of the pixels in over_share
 } DipImageBounds;
 
 // Returns true if the frame stays within the bounds. Otherwise prints the number of pixels with too
-// great an error, and the first of them with its expected and its actual colour, and writes
-// <name>_expected.png, <name>_got.png and <name>_difference.png (16 times the absolute difference
-// in linear light) to the working folder.
+// great an error, and the first such pixel with its expected and its actual colour. Then also
+// writes <name>_expected.png, <name>_got.png and <name>_difference.png (16 times the absolute
+// difference in linear light) to the working folder.
 bool dip_image_check(const char *name, const double *rgb_lin, const DipFrame *frame,
                      const DipImageBounds *bounds);
 

@@ -1,4 +1,4 @@
-// Scenes made in code: one function per kind.
+// Makes scenes in code. Each kind of scene has its own function.
 #include "tests/renderer/random.h"
 #include "tests/renderer/scene/scenes_private.h"
 
@@ -57,8 +57,8 @@ static void make_cube_on_plane(DipTestScene *scene) {
     scene->materials[sides].lit = true;
     scene->materials[sides].base_colour_lin[2] = 0.5f;
     dip_test_scene_add_ground(scene, ground);
-    // The decal lies on the ground's own vertices. It is never visible, since the first of coplanar
-    // surfaces stays.
+    // The decal has the same vertices as the ground. It is never visible: of coplanar surfaces, the
+    // one that is drawn first stays visible.
     const int decal = dip_test_scene_add_material(scene, DIP_NO_TEXTURE);
     dip_test_scene_add_ground(scene, decal);
     add_cube(scene, sides, (const float[]){0.3f, -0.5f, -3.0f});
@@ -157,7 +157,7 @@ static void make_huge(DipTestScene *scene) {
     const int texture = dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 256, 256);
     const int material = dip_test_scene_add_material(scene, texture);
     scene->materials[material].double_sided = true;
-    // A floor, a leaning wall and a ceiling, which all begin behind the eye.
+    // A floor, a leaning wall and a ceiling. All three begin behind the eye.
     dip_test_scene_add_quad(scene, material, (const float[]){-3000, -0.7f, 900},
                             (const float[]){6000, 1, 0}, (const float[]){0, 0, -6000}, 600, 600);
     dip_test_scene_add_quad(scene, material, (const float[]){3, -900, 700},
@@ -286,8 +286,8 @@ static void make_light_map(DipTestScene *scene) {
     }
 }
 
-// Adds a quad with all arrays. Its normals point along +z or, if it lies on the ground, along +y.
-// Texture coordinates follow the order of the positions.
+// Adds a quad with all arrays. Its normals point along +z, or along +y if the quad lies on the
+// ground. Texture coordinates follow the order of the positions.
 static void add_bumpy_quad(DipTestScene *scene, int material, const float positions[12],
                            const float uv0[8], bool lies) {
     const DipTestMesh mesh = dip_test_scene_add_mesh(
@@ -305,7 +305,8 @@ static void add_bumpy_quad(DipTestScene *scene, int material, const float positi
     }
 }
 
-// Sets longitude along u and latitude along v. At the poles the coordinates have no area.
+// Sets u to the longitude and v to the latitude. At the poles, triangles have no area in texture
+// space.
 static void wrap_sphere(const DipTestMesh *mesh) {
     for (int r = 0; r <= RINGS; r++) {
         for (int s = 0; s <= SECTORS; s++) {
@@ -372,7 +373,7 @@ static void add_clouds(DipTestScene *scene, const float corner[3]) {
 static void make_sky(DipTestScene *scene) {
     dip_test_scene_begin(scene);
     add_clouds(scene, (const float[]){-400, 60, 120});
-    // Turned around and up by 35 degrees, so that the sun is to the right.
+    // The camera is turned around and looks up by 35 degrees, so that the sun is to the right.
     const double up = 35.0 * pi / 360.0;
     scene->pose.orientation[0] = 0.0;
     scene->pose.orientation[1] = cos(up);

@@ -1,4 +1,4 @@
-// Scenes made in code: the parts that they are built from, and the grazing plane.
+// Makes scenes in code: the parts of scenes, and the grazing plane.
 #include "tests/renderer/scene/scenes.h"
 
 #include "tests/renderer/random.h"
@@ -89,7 +89,7 @@ int dip_test_scene_add_material(DipTestScene *scene, int colour_texture) {
     return scene->def.material_count++;
 }
 
-// Adds a texture of linear encoding with size x size texels of zero.
+// Adds a texture with linear encoding and size x size texels, all zero.
 static uint8_t *add_data(DipTestScene *scene, int size) {
     uint8_t *rgba8 = dip_test_scene_alloc(scene, (size_t)size * (size_t)size, 4);
     scene->textures[scene->def.texture_count++] = (DipTextureDef){.name = "test",
@@ -187,7 +187,8 @@ void dip_test_scene_make_grazing(DipTestScene *scene, DipTestTexture texture, in
     const int material =
         dip_test_scene_add_material(scene, dip_test_scene_add_texture(scene, texture, size, size));
     dip_test_scene_add_ground(scene, material);
-    // Half the angles of two rotations: first down a little, then about the view axis.
+    // Half the angles of two rotations: the camera first turns down by 6 degrees, then rolls about
+    // its view axis.
     const double roll = roll_deg * pi / 360.0;
     const double down = -6.0 * pi / 360.0;
     scene->pose.orientation[0] = sin(down) * cos(roll);

@@ -57,8 +57,8 @@ void dip_test_scene_free(DipTestScene *scene);
 
 typedef enum DipTestTexture { DIP_TEST_CHECKER, DIP_TEST_NOISE } DipTestTexture;
 
-// Makes a plane 1 m below the eye that reaches to the horizon, seen by a camera that is rolled
-// about its view axis. The texture repeats every metre.
+// Makes a plane 1 m below the eye that reaches to the horizon. The camera is rolled about its view
+// axis. The texture repeats every metre.
 void dip_test_scene_make_grazing(DipTestScene *scene, DipTestTexture texture, int size,
                                  double roll_deg);
 
@@ -76,8 +76,8 @@ void *dip_test_scene_alloc(DipTestScene *scene, size_t count, size_t size);
 int dip_test_scene_add_texture(DipTestScene *scene, DipTestTexture texture, int width, int height);
 int dip_test_scene_add_material(DipTestScene *scene, int colour_texture);
 
-// Adds a normal map of round bumps, which can be repeated, or soft noise as the data of a sky. The
-// encoding is linear.
+// The first function adds a normal map of round bumps, which can be repeated. The second adds soft
+// noise as the data texture of a sky. Both textures have linear encoding.
 int dip_test_scene_add_bumps(DipTestScene *scene, int size);
 int dip_test_scene_add_clouds(DipTestScene *scene, int size);
 uint8_t *dip_test_scene_texels(DipTestScene *scene, int texture);
@@ -98,8 +98,8 @@ enum { DIP_TEST_NORMALS = 1, DIP_TEST_UV0 = 2, DIP_TEST_UV1 = 4, DIP_TEST_COLOUR
 DipTestMesh dip_test_scene_add_mesh(DipTestScene *scene, uint32_t vertex_count,
                                     uint32_t index_count, int arrays, int material);
 
-// Adds a quad with corner p and sides a and b that faces along a x b. Its uv0 run from (0,0) to
-// (u,v) along a and b.
+// Adds a quad with corner p and sides a and b. The quad faces along a x b. Its uv0 run from (0,0)
+// to (u,v) along a and b.
 void dip_test_scene_add_quad(DipTestScene *scene, int material, const float p[3], const float a[3],
                              const float b[3], float u, float v);
 

@@ -1,4 +1,4 @@
-// Shared by the two source files that make scenes.
+// Declares the function that scenes.c and scene_kinds.c share.
 #ifndef DIP_TESTS_RENDERER_SCENE_SCENES_PRIVATE_H
 #define DIP_TESTS_RENDERER_SCENE_SCENES_PRIVATE_H
 

@@ -16,9 +16,9 @@
 
 static const int sizes[][2] = {{160, 120}, {97, 61}};
 
-static const int64_t time_ns = INT64_C(123456789012); // of everything that moves
+static const int64_t time_ns = INT64_C(123456789012); // all pictures show this time
 
-// One scene in both renderers.
+// The renderers that both draw one scene: the fast renderer and the reference.
 typedef struct Pair {
     DipTestScene scene;
     DipReference *reference;
@@ -70,36 +70,39 @@ static void close_pair(Pair *pair) {
     free(pair->expected);
 }
 
-// The bounds of scenes in which no sample can flip. The remaining differences come from the frame's
-// 8 bits (half a code is up to 0.0045 at white) and from the fast renderer's texels and floats.
+// The bounds for scenes in which rounding cannot switch a sample between covered and uncovered. The
+// remaining differences come from the frame's 8 bits (half a step is up to 0.0045 of light, at
+// white) and from the fast renderer's texels and floats.
 static const DipImageBounds steady = {0.0016, 0.01, 0.0, 0.01};
 
 static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *quality) {
     // A clipped pixel whose alpha is close to the cutoff may appear or disappear.
     static const DipImageBounds fence = {0.004, 0.01, 0.0015, 1.0};
     static const DipImageBounds fence_mips = {0.010, 0.01, 0.0015, 1.0};
-    // This scene is bright, and so are its few pixels that flip.
+    // This scene is bright, so the few pixels that appear or disappear have large errors.
     static const DipImageBounds mirrored_fence = {0.008, 0.01, 0.0015, 1.0};
-    // With sample groups, there are more columns of positions that may lie on the edge of an
-    // upright bar, along which u is constant. Each position decides about the samples of one group
-    // only.
+    // With sample groups, alpha is tested at more columns of positions. Along the edge of an
+    // upright bar u is constant, so all positions of a column may lie on the edge. Each position
+    // decides only about the samples of one group.
     static const DipImageBounds fence_passes = {0.004, 0.01, 0.006, 0.5};
-    // A position between two steps may be rounded to either; slivers show this most.
+    // A vertex position halfway between two steps of 1/256 pixel may be rounded to either step.
+    // Slivers show this most.
     static const DipImageBounds slivers = {0.004, 0.01, 0.001, 0.5};
     // Corners that the guard band cuts are rounded too. On a floor that runs from the eye to the
-    // horizon, an error of 1/512 pixel there changes 1/w by a tenth at the far edge, and with it
-    // the level of detail. With AF, the number of probes in the coarser level changes in steps with
-    // the level of detail.
+    // horizon, an error of 1/512 pixel at such a corner changes 1/w by a tenth at the far edge, and
+    // so changes the level of detail. With AF, the number of probes in the coarser level changes in
+    // steps with the level of detail.
     static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.05};
     static const DipImageBounds huge_af = {0.0025, 0.025, 0.0005, 0.08};
     static const DipImageBounds huge_mips = {0.06, 0.01, 0.03, 1.0};
-    // The narrow blend multiplies a difference in the level of detail by four.
+    // The narrow blend multiplies differences in the level of detail by four.
     static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
     static const DipImageBounds huge_narrow = {0.0025, 0.025, 0.0005, 0.1};
-    // Reflections in water are rounded to 8 bits twice, and are sharper than with the wide blend.
+    // Reflections in water are rounded to 8 bits twice. The narrow blend makes them sharper than
+    // the wide blend does.
     static const DipImageBounds water_narrow = {0.0018, 0.01, 0.0, 0.01};
-    // A displacement that is read from rounded texels moves the clouds; the cover makes their edges
-    // steep.
+    // The displacement of the clouds is read from rounded texels, which moves the clouds a little.
+    // The cover makes the edges of clouds steep.
     static const DipImageBounds sky = {0.0023, 0.01, 0.0, 0.01};
     const bool mip_colours = quality->step[DIP_SETTING_MIPDEBUG] != 0;
     const bool narrow = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
@@ -143,8 +146,8 @@ static bool matches(Pair *pair, DipTestSceneKind kind, const char *settings, int
     return dip_image_check(name, pair->expected, &frame, bounds_of(kind, &quality));
 }
 
-// Compares all settings of the list in all scenes and sizes, in the first frames of each, and
-// reports all failures before it fails.
+// Compares pictures with all settings of the list in all scenes and sizes, in the first frame_count
+// frames of each. Reports all failures before the test fails.
 static void check_all(const char *const *settings, size_t count, int frame_count) {
     int missed = 0;
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {

@@ -1,6 +1,6 @@
-// Tests that a frame allocates nothing: after the first frame of a scene, drawing it with any
-// settings and any camera calls no allocator. The linker redirects the library's calls to this file
-// (--wrap).
+// Tests that a frame allocates nothing. After the first frame of a scene, drawing the scene with
+// any settings and any camera calls no allocator. The linker redirects calls of the allocator to
+// this file (--wrap).
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
 
@@ -44,8 +44,8 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return __real_aligned_alloc(alignment, size);
 }
 
-// Draws with the steps of every setting from several positions, alone and together with another
-// pane. Returns the number of allocations.
+// Draws from several positions with the steps of every setting. Draws each frame twice: with the
+// first pane alone, and with both panes together. Returns the number of allocations.
 static int draw_everything(DipRenderer *const panes[2], const DipScene *scene, DipPose pose,
                            bool instancing) {
     const int before = atomic_load(&calls);
@@ -88,15 +88,15 @@ static void frames_after_the_first_allocate_nothing(void **state) {
         DipFrame frame;
         assert_true(panes[0] && panes[1]);
         assert_true(atomic_load(&calls) > before); // proves that calls are counted
-        // The first frame shows nothing: the memory that it allocates does not depend on the view.
+        // In the first frame, nothing is in view: the memory that it allocates does not depend on
+        // the view.
         DipPose away = scene.pose;
         away.position_world[1] += 1000.0;
         away.orientation[0] = away.orientation[3] = 0.7071067811865476;
         for (int p = 0; p < 2; p++) {
             assert_true(dip_renderer_draw(panes[p], fast, &away, 0, &frame, NULL));
         }
-        // Textures are compressed ahead, so that frames with and without compression find what they
-        // need.
+        // The textures are compressed in advance, so that no frame has to make compressed textures.
         assert_true(dip_scene_compress_textures(fast, pool, NULL));
         assert_int_equal(draw_everything(panes, fast, scene.pose, true), 0);
         // The first frame without instancing creates a mesh for each object.

@@ -1,5 +1,5 @@
-// Draws a million triangles: any number of threads gives the same picture, memory follows what is
-// in view, and triangles out of view cost next to nothing.
+// Draws a million triangles. Any number of threads gives the same picture, memory depends on the
+// triangles in view, and triangles out of view cost next to nothing.
 #include "renderer/scene/renderer.h"
 
 #include <setjmp.h>

@@ -193,7 +193,7 @@ static bool run_sweep(Bench *bench, const Sweep *sweep, const DipPose *poses) {
     return falls;
 }
 
-// Runs every sweep. The frames of each path are converged once.
+// Runs every sweep. Converges the frames of each path only once.
 static bool run_all(Bench *bench) {
     bool passed = true;
     const char *truth_of = "";

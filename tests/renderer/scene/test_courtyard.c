@@ -1,4 +1,4 @@
-// Compares the courtyard as the fast renderer and as the reference draw it, along every path.
+// Compares the fast renderer's pictures of the courtyard with the reference's, along every path.
 //
 // Usage: test_courtyard [--size WxH] [--frames N] [--time]
 // --time compares nothing. It prints how long the reference takes, in milliseconds.
@@ -27,8 +27,8 @@ static const char *const settings[] = {
     "opt=advanced,aa=2,af=16",
 };
 
-// Rounding of positions, and of alpha close to the cutoff, moves single samples of the fence and of
-// small triangles far away. Everything else is as close as eight bits allow.
+// The rounding of positions, and of alpha close to the cutoff, changes single samples of the fence
+// and of small triangles far away. All other pixels are as close as 8 bits allow.
 static const DipImageBounds bounds = {0.012, 0.02, 0.002, 1.0};
 
 static const DipReflectionDef reflection = {.width = 80, .height = 60, .level_m = 0.66};
@@ -123,7 +123,7 @@ static void print_times(Court *court, const DipPose *pose) {
     }
 }
 
-// Returns the number of frames that missed the bounds, or -1 on failure.
+// Draws frames along a path. Returns the number of frames that missed the bounds, or -1 on failure.
 static int follow(Court *court, const char *name, bool only_time) {
     char file[512];
     DipError err = {0};

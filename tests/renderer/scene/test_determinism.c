@@ -1,11 +1,12 @@
 // Draws the courtyard along the ambient path, with every step of antialiasing and filtering, every
 // thread count and every instruction set. All pictures must have the hashes of one list, which the
-// gcc and clang builds share. A missing or different hash fails, and so does a difference in any
-// work counter.
+// gcc and clang builds share. The test fails if a hash is missing or different, or if any work
+// counter differs.
 //
 // Usage: test_determinism LIST [--write] [--every N] [--size WxH]
 // --write creates the list, with the scalar kernels on one thread. --every N draws every N-th frame
-// of the path, not only the list's few frames, and compares the combinations with each other.
+// of the path instead of the list's few frames. It compares the pictures with each other, not with
+// the list.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/scene/renderer.h"
@@ -114,11 +115,11 @@ static void list_frames(Stage *stage) {
     }
 }
 
-// One hash per setting and frame, 33 characters each.
+// A hash as text: 32 digits and the final zero byte. There is one per setting and frame.
 typedef char Hash[33];
 
-// Counters must be the same everywhere, too. Keeps those of the first run and compares all others
-// with them.
+// Every run must count the same work. Keeps the counters of the first run and compares the counters
+// of all other runs with them.
 static bool check_work(Stage *stage, int index, const DipCounters *counters) {
     if (!stage->work_known) {
         stage->work[index] = *counters;

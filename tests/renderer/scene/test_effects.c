@@ -1,5 +1,6 @@
-// Tests normal maps and the sky's clouds: light against formulas written out in this file, exact
-// periods, and that a scene without these effects spends nothing on them.
+// Tests normal maps and the sky's clouds. Compares light with formulas that this file computes,
+// tests that clouds repeat after exact periods, and tests that a scene without these effects spends
+// nothing on them.
 #include "renderer/scene/materials/sky.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
@@ -73,7 +74,8 @@ static double decode(uint8_t code) {
     return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
 }
 
-// Makes a wall in front of the eye, seen straight on. The normal in its map is the same everywhere.
+// Makes a wall in front of the eye, seen straight on. All texels of its normal map have the same
+// normal.
 static void make_wall(const int code[3], const float uv0[8], bool from_behind) {
     dip_test_scene_begin(&scene);
     const int map = dip_test_scene_add_bumps(&scene, 4);
@@ -103,7 +105,8 @@ static void make_wall(const int code[3], const float uv0[8], bool from_behind) {
     }
 }
 
-// The light that docs/picture.md defines for a wall perpendicular to the view with the normal n.
+// Returns the light that docs/picture.md defines for a wall that is perpendicular to the view and
+// has the normal n.
 static double expected_light(Vec n, double map_length) {
     Vec sun = {-0.42, 0.67, 0.61};
     Vec half = {0.0, 0.0, 1.0};
@@ -151,7 +154,7 @@ static void mapped_normals_are_lit_as_the_definition_says(void **state) {
     static const int leaning[3] = {204, 64, 214};
     static const int tilted[3] = {52, 128, 230};
     static const int short_one[3] = {110, 150,
-                                     190}; // shortened by filtering, so the highlight is wider
+                                     190}; // shortened by filtering, which widens the highlight
     check_wall(flat, upright, false, 1, 1);
     check_wall(leaning, upright, false, 1, 1);
     check_wall(leaning, mirrored, false, -1, 1);
@@ -160,7 +163,8 @@ static void mapped_normals_are_lit_as_the_definition_says(void **state) {
     check_wall(short_one, upright, false, 1, 1);
 }
 
-// Where normals cancel out, the mesh's own normal remains, with the widest highlight.
+// Where the normals of a footprint cancel out, the mesh's own normal remains, and the highlight is
+// as wide as possible.
 static void normals_that_cancel_out_leave_the_meshs_normal(void **state) {
     (void)state;
     make_wall((const int[]){128, 128, 128}, upright, false);
@@ -203,8 +207,8 @@ static void phases_repeat_to_the_bit_and_run_evenly(void **state) {
             assert_true(dip_sky_phase(speeds[i], at) ==
                         dip_sky_phase(speeds[i], at + 1000 * period_ns));
         }
-        // The step from one frame to the next at time 0 and after 32 years, modulo one texture
-        // width.
+        // In the same interval, clouds must move equally far at time 0 and after 32 years, modulo
+        // one texture width.
         const int64_t late = INT64_C(1000000000) * second_ns + 12345;
         for (int frame = 0; frame < 100; frame++) {
             const int64_t dt = frame * INT64_C(16666667);
@@ -227,11 +231,11 @@ static void hash_at(const Stage *stage, int64_t time_ns, char hex[33]) {
 static void clouds_repeat_to_the_bit_and_move_between(void **state) {
     (void)state;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_sky);
-    scene.def.sky.layers[0].speed_per_min = 0.5;   // 120 s
-    scene.def.sky.layers[1].speed_per_min = -0.75; // 80 s; both layers repeat after 240 s
+    scene.def.sky.layers[0].speed_per_min = 0.5;   // repeats after 120 s
+    scene.def.sky.layers[1].speed_per_min = -0.75; // after 80 s; both together after 240 s
     Stage stage = open_stage(false);
     const int64_t period_ns = 240 * second_ns;
-    const int64_t long_ns = INT64_C(4166667) * period_ns; // 1e9 s and 80 s
+    const int64_t long_ns = INT64_C(4166667) * period_ns; // 1e9 s + 80 s
     char first[33], again[33];
     for (int64_t t = 0; t < period_ns; t += 37 * second_ns) {
         hash_at(&stage, t, first);
@@ -240,7 +244,7 @@ static void clouds_repeat_to_the_bit_and_move_between(void **state) {
         hash_at(&stage, t + long_ns, again);
         assert_string_equal(first, again);
         hash_at(&stage, t + 120 * second_ns,
-                again); // not a whole number of the second layer's periods
+                again); // 120 s are 1.5 periods of the second layer
         assert_string_not_equal(first, again);
         hash_at(&stage, t + second_ns, again);
         assert_string_not_equal(first, again);
@@ -277,7 +281,7 @@ static void scenes_without_effects_spend_nothing_on_them(void **state) {
     assert_int_equal(dip_scene_texture_bytes(stage.scene), unlit_bytes);
     close_stage(&stage);
     dip_test_scene_free(&scene);
-    // With plain surfaces, a normal-mapped scene looks, to the bit, like the scene without its
+    // With def.plain_surfaces, a normal-mapped scene has the same bits as the scene without its
     // maps.
     dip_test_scene_make(&scene, DIP_TEST_SCENE_normal_map);
     stage = open_stage(true);
@@ -326,7 +330,7 @@ static void effects_out_of_view_do_not_run(void **state) {
         Stage stage = open_stage(false);
         DipFrame frame = draw(&stage, 0);
         assert_true((i ? frame.effects.sky : frame.effects.normal_map).run);
-        for (int k = 0; k < 4; k++) { // straight down, from far below
+        for (int k = 0; k < 4; k++) { // look straight down, from far below the scene
             scene.pose.orientation[k] = k == 0 ? -sqrt(0.5) : k == 3 ? sqrt(0.5) : 0.0;
         }
         scene.pose.position_world[1] = -50.0;

@@ -1,5 +1,6 @@
-// Draws the courtyard along its paths, with the effects that the plan finds necessary and with all
-// effects forced. The pictures must be the same, and the planned ones must take less work.
+// Draws the courtyard along its paths, once with only the effects that the plan finds necessary,
+// and once with all effects forced. The pictures must be the same, and frames with only the
+// necessary effects must take less work.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/scene/renderer.h"
@@ -22,7 +23,7 @@ typedef struct Court {
     DipPool *pool;
     DipScene *scene;
     DipCamPath *paths[PATHS];
-    DipRenderer *renderers[2]; // by PLANNED, FORCED
+    DipRenderer *renderers[2]; // indexed by PLANNED or FORCED
 } Court;
 
 static Court court;
@@ -66,7 +67,7 @@ static int close_court(void **state) {
     return 0;
 }
 
-// What the frames of a path took, planned and forced.
+// The work that the frames of a path take, with planned and with forced effects.
 typedef struct Sums {
     uint64_t fragments[2];
     uint64_t spared[2];

@@ -1,4 +1,4 @@
-// Tests settings as text: which are accepted, and which are refused with which message.
+// Tests settings as text: which texts are accepted, which are refused, and with which message.
 #include "renderer/scene/quality.h"
 
 #include <setjmp.h>
@@ -79,8 +79,8 @@ static void bad_settings_are_refused(void **state) {
     assert_int_equal(err.code, DIP_ERROR_OVERSIZED);
 }
 
-// The table in docs/picture.md, Adaptive AA: number of sample groups by samples and samples per
-// group. 0 means that the pair is not in the table.
+// The table in docs/picture.md, Adaptive AA: the number of sample groups, indexed by samples per
+// pixel and samples per group. 0 means that the table does not have the pair.
 static void only_pairs_of_aa_and_asd_in_the_table_are_accepted(void **state) {
     (void)state;
     static const char *const aa[] = {"none", "2", "4", "6", "8"};

@@ -1,6 +1,6 @@
-// Compares the reflection in water with the mirrored scene drawn directly, tests its hard cases,
-// and tests the plan: what it leaves out cannot be visible, and a scene without water costs
-// nothing.
+// Compares the reflection in water with the mirrored scene drawn directly, and tests hard cases of
+// reflections. Also tests the plan: effects that the plan leaves out cannot be visible, and a scene
+// without water costs nothing.
 #include "renderer/reference/reference.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/random.h"
@@ -75,7 +75,8 @@ static int add_water(DipTestScene *scene, const float corner[3], float size_x, f
     return material;
 }
 
-// Adds single-sided triangles with colours and a texture. Their y lies between low and high.
+// Adds single-sided triangles with colours and a texture. The y coordinates of their corners lie
+// between low and high.
 static void add_soup(DipTestScene *scene, int texture, Random *random, double low, double high) {
     enum { TRIANGLES = 120 };
     const int material = dip_test_scene_add_material(scene, texture);
@@ -109,10 +110,10 @@ static void decode_frame(const DipFrame *frame, double *rgb_lin) {
     }
 }
 
-// One renderer draws random triangles above a random level, others below it, and water. Another
-// renderer draws only the triangles above, mirrored by their transform. The first renderer must
-// show the second one's picture as its mirrored picture, which it shows in its corner for this
-// test.
+// The first renderer draws water at a random level, random triangles above the water and others
+// below. The second renderer draws only the triangles above, mirrored by their object's transform.
+// The first renderer shows its mirrored picture in a corner for this test. The corner must equal
+// the second renderer's picture.
 static bool mirrors_at(Random *random, int index, const char *settings) {
     static DipTestScene scene;
     static double expected[MIRRORED_WIDTH * MIRRORED_HEIGHT * 3];
@@ -147,7 +148,7 @@ static bool mirrors_at(Random *random, int index, const char *settings) {
     DipFrame corner = draw(&stage, &pose);
     corner.width = MIRRORED_WIDTH;
     corner.height = MIRRORED_HEIGHT;
-    // A position between two steps may be rounded to either.
+    // A vertex position halfway between two steps may be rounded to either step.
     static const DipImageBounds bounds = {0.02, 0.02, 0.01, 1.0};
     char name[64];
     snprintf(name, sizeof name, "mirrored_%d", index);
@@ -203,9 +204,10 @@ static int other_than_grey(const DipFrame *frame) {
     return count;
 }
 
-// Every surface is grey, and so is everything that the water reflects; any other colour has leaked
-// in. The eye moves from far above the water to within it and below. It stays away from the walls:
-// a pixel would cover much of a wall's height where the eye looks down along it.
+// Every surface is grey, and the water reflects only grey surfaces, so any other colour comes from
+// the background. The eye moves from far above the water to its surface and below. The eye stays
+// away from the walls: if it looked down along a wall, a pixel would cover much of the wall's
+// height.
 static void no_background_shows_at_the_waterline(void **state) {
     (void)state;
     static DipTestScene scene;
@@ -231,8 +233,8 @@ static void no_background_shows_at_the_waterline(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// Seen along its surface, water covers the less of the picture the closer the eye is to its plane.
-// From both sides, pictures converge to that of an eye in the plane.
+// The closer the eye is to the water's plane, the less of the picture the water covers. From above
+// and from below, pictures must converge to the picture of an eye in the plane.
 static void pictures_are_continuous_as_the_eye_crosses_the_water(void **state) {
     (void)state;
     static DipTestScene scene;
@@ -367,7 +369,7 @@ static void effects_report_why_they_run_or_not(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// This holds even if all effects are forced: there is nothing to run.
+// A scene without water has no reflection to draw, even if all effects are forced.
 static void a_scene_without_water_costs_nothing(void **state) {
     (void)state;
     static DipTestScene dry;
@@ -400,8 +402,8 @@ static void a_scene_without_water_costs_nothing(void **state) {
 // --- Fresnel -----------------------------------------------------------------------------------
 
 // Black water lies under a white sky and is seen at an angle in the middle of the picture. The
-// visible light is the reflected share itself, which follows from Fresnel's equations with the
-// angles on both sides of the surface.
+// light there is therefore the share of light that the surface reflects. Fresnel's equations give
+// this share from the angles on both sides of the surface.
 static void water_reflects_the_share_that_fresnel_gives(void **state) {
     (void)state;
     static DipTestScene scene;

@@ -1,5 +1,5 @@
 // Tests settings that change how a picture is made, on the courtyard. Without instancing, the
-// picture is the same to the bit and takes more memory; with optimised textures, it takes less
+// picture has the same bits and takes more memory. With optimised textures, the picture takes less
 // work.
 #include "assets/model.h"
 #include "campaths/campath.h"
@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-enum { FRAMES = 3, TRIANGLE_BYTES = 3 }; // an index is one byte
+enum { FRAMES = 3, TRIANGLE_BYTES = 3 }; // a triangle has three indices of one byte
 
 static DipPool *pool;
 static DipScene *scene;
@@ -40,8 +40,7 @@ static int open_court(void **state) {
 
 static int close_court(void **state) {
     (void)state;
-    dip_scene_destroy(
-        &scene); // before the renderer, which may still hold copies of the scene's meshes
+    dip_scene_destroy(&scene); // destroyed while the renderer may still hold copies of its meshes
     dip_renderer_destroy(&renderer);
     dip_campath_destroy(&path);
     dip_pool_destroy(&pool);
@@ -115,8 +114,8 @@ static void advanced_optimisation_saves_work(void **state) {
         assert_int_equal(texels[1], texels[0]);
         assert_int_equal(probes[1], probes[0]);
         assert_true((double)texels[2] < 0.9 * (double)texels[0]);
-        // Trilinear filtering takes one probe per read. Alpha that is read from other levels clips
-        // slightly different fragments, so the sums may differ a little.
+        // Trilinear filtering takes one probe per read. Optimised textures read alpha from other
+        // levels, which clips slightly different fragments, so the sums may differ a little.
         const double share = (double)probes[2] / (double)probes[0];
         assert_true(i == 0 ? share > 0.99 && share < 1.01 : share < 0.9);
     }

@@ -1,5 +1,5 @@
-// Tests that any number of threads draws the same picture and counts the same work, and that
-// drawing again or at another size changes nothing else.
+// Tests that any number of threads draws the same picture and counts the same work. Also tests that
+// drawing again, or at another size, does not change other pictures.
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
 
@@ -116,16 +116,16 @@ static void panes_that_share_a_scene_do_not_disturb_each_other(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// Pairs of settings that differ in samples only, temporal patterns, sample groups, textures, and
-// copies of meshes.
+// Pairs of settings. The first pair differs only in samples. The other pairs also differ in
+// filtering, temporal patterns, sample groups, textures or copies of meshes.
 static const char *const pairs[][2] = {{"aa=8,af=16", "aa=4,af=16"},
                                        {"aa=none", "aa=2,af=4,aaf=on"},
                                        {"aa=6,taa=on", "aa=8,aaa=on,asd=2"},
                                        {"opt=standard,miplod=performance", "aa=4,mipdebug=on"},
                                        {"aa=4,gi=off", "aa=8"}};
 
-// The work of shading does not depend on the other pane. Geometry keeps every triangle that either
-// pane may show.
+// Shading must take the same work with and without the other pane. Geometry keeps every triangle
+// that either pane may show.
 static void compare_work(const DipFrame *alone, const DipFrame *paired) {
     assert_int_equal(paired->counters.fragments_shaded, alone->counters.fragments_shaded);
     assert_int_equal(paired->counters.samples_shown, alone->counters.samples_shown);
@@ -154,8 +154,8 @@ static void draw_both_ways(DipRenderer *const panes[2], const DipTestScene *scen
     }
 }
 
-// Two frames that are drawn at once equal those drawn one by one, to the bit, even if their sizes
-// differ.
+// Two frames drawn at once have the same bits as the two frames drawn one by one, even if their
+// sizes differ.
 static void frames_drawn_as_a_pair_equal_frames_drawn_alone(void **state) {
     (void)state;
     static const int other_size[2] = {90, 130};
@@ -249,8 +249,8 @@ static void *compress(void *scene) {
     return dip_scene_compress_textures(scene, NULL, NULL) ? scene : NULL;
 }
 
-// One thread compresses the textures while a renderer draws frames, and another renderer asks for
-// them meanwhile.
+// One thread compresses the textures while this thread draws frames. The first frames do not use
+// compressed textures; the next ones do and may have to wait for them.
 static void textures_can_be_compressed_while_frames_are_drawn(void **state) {
     (void)state;
     static DipTestScene scene;

@@ -1,5 +1,5 @@
-// Tests the sample patterns of temporal AA and the sample groups of adaptive AA, against coverage
-// by exact integers and shading computed in this file.
+// Tests the sample patterns of temporal AA and the sample groups of adaptive AA. Compares them with
+// coverage computed in exact integers and with shading computed in this file.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/reference/reference.h"
@@ -23,14 +23,14 @@ enum { SIDE = DIP_SCREEN, PIXELS = SIDE * SIDE }; // one tile
 
 static const DipOracleRegion region = {0, 0, SIDE, SIDE};
 
-// The table in docs/picture.md, Adaptive AA: samples, and samples per group.
+// The pairs of the table in docs/picture.md, Adaptive AA: samples per pixel, and samples per group.
 static const int pairs[][2] = {{1, 1}, {2, 1}, {2, 2}, {4, 1}, {4, 2}, {6, 1},
                                {6, 2}, {6, 3}, {8, 1}, {8, 2}, {8, 4}};
 enum { PAIRS = sizeof pairs / sizeof pairs[0] };
 
 // --- tables ------------------------------------------------------------------------------------
 
-// The union of the two patterns of temporal antialiasing, in units of 1/steps pixel.
+// The samples of both patterns of temporal antialiasing. Positions are in units of 1/steps pixel.
 typedef struct Union {
     int count; // samples of each pattern
     int steps;
@@ -38,7 +38,7 @@ typedef struct Union {
 } Union;
 
 static const Union unions[] = {
-    {2, 16, {{6, 2}, {14, 6}, {2, 10}, {10, 14}}}, // the standard pattern of 4 samples
+    {2, 16, {{6, 2}, {14, 6}, {2, 10}, {10, 14}}}, // together, the standard pattern of 4 samples
     {4, 16, {{1, 7}, {3, 11}, {5, 3}, {7, 15}, {9, 1}, {11, 13}, {13, 5}, {15, 9}}},
     {6,
      24,
@@ -188,8 +188,8 @@ static void make_triangles(Random *random, const Union *both, DipTestScene *scen
     }
 }
 
-// Draws a frame with the fast renderer and adds the number of white samples in each pixel, which
-// follows exactly from the pixel's code.
+// Draws a frame with the fast renderer and adds the number of white samples of each pixel to found.
+// This number follows exactly from the pixel's 8-bit value.
 static void add_fast_frame(const DipTestScene *scene, const DipQuality *quality, int frame_index,
                            int found[PIXELS]) {
     DipError err;
@@ -259,8 +259,8 @@ static void black(DipFragmentBatch *batch) {
     memset(batch->colour, 0, sizeof batch->colour);
 }
 
-// Red and green hold the squared position within the pixel. They are squared so that their mean
-// over the sample groups is not their value at the centre.
+// Red and green hold the square of the position within the pixel. Because of the squares, the mean
+// over the sample groups differs from the value at the centre.
 static void place_as_colour(DipFragmentBatch *batch) {
     for (int i = 0; i < batch->count; i++) {
         const float x = batch->x[i] - (float)(int)batch->x[i];
@@ -271,7 +271,7 @@ static void place_as_colour(DipFragmentBatch *batch) {
     }
 }
 
-// A clip test that depends on every bit of the position, in 1/256 pixel.
+// Answers a clip test. The answer depends on every bit of the position, in units of 1/256 pixel.
 static bool is_there(int x, int y) {
     return ((uint32_t)(x * 40503 + y * 10007) * 2654435761u) >> 31;
 }
@@ -299,7 +299,7 @@ typedef struct Expected {
     uint64_t whole; // number of covered samples of the clipped triangle
 } Expected;
 
-// Computes the mean position of some samples, in 1/256 pixel, rounded down.
+// Computes the mean position of some samples, in units of 1/256 pixel, rounded down.
 static void centroid_of(const DipSamplePattern *pattern, unsigned samples, int at[2]) {
     int n = 0;
     at[0] = at[1] = 0;
@@ -314,7 +314,7 @@ static void centroid_of(const DipSamplePattern *pattern, unsigned samples, int a
     at[1] /= n;
 }
 
-// Computes the picture of a clipped triangle behind an opaque one that is drawn first.
+// Computes the expected picture of a clipped triangle behind an opaque one that is drawn first.
 static void expect(const DipSamplePattern *pattern, int samples_per_group, const uint8_t *front,
                    const uint8_t *clipped, Expected *out) {
     static DipSampleGroups groups;
@@ -371,12 +371,12 @@ static void check_picture(const Expected *expected) {
         for (int c = 0; c < 3; c++) {
             const int code = table.code[lround(expected->rgb[p][c] * DIP_LINEAR16_MAX)];
             assert_in_range(picture[4 * p + c] + 1, code,
-                            code + 2); // the code is rounded twice, the first time to 16 bits
+                            code + 2); // the value is rounded twice, first to 16 bits
         }
     }
 }
 
-// Tests every pair with several groups, with every pattern, on random triangles.
+// Tests every pair that gives several groups, with every pattern, on random triangles.
 static void every_sample_group_is_clipped_and_shaded_at_its_centroid(void **state) {
     (void)state;
     static uint8_t masks[2][PIXELS];
@@ -387,7 +387,7 @@ static void every_sample_group_is_clipped_and_shaded_at_its_centroid(void **stat
         const DipPatternKind kind = (DipPatternKind)(t / PAIRS % DIP_PATTERN_KINDS);
         const DipSamplePattern *pattern = dip_sample_pattern_of(pair[0], kind);
         if (pair[0] == pair[1]) {
-            continue; // one group is the same as no groups, see below
+            continue; // the next test shows that one group equals no groups
         }
         DipMesh *meshes[2];
         for (int i = 0; i < 2; i++) {
@@ -419,8 +419,8 @@ static void every_sample_group_is_clipped_and_shaded_at_its_centroid(void **stat
     }
 }
 
-// Opaque surfaces, and clipped surfaces with one group, take the same work and give the same
-// picture as without adaptive AA.
+// Opaque surfaces, and clipped surfaces with one group per pixel, take the same work and give the
+// same picture as without adaptive AA.
 static void one_sample_group_takes_no_extra_work(void **state) {
     (void)state;
     static uint8_t plain[sizeof picture];
