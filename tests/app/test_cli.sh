@@ -291,7 +291,7 @@ expect 1 'none/x.bth: ' "$diptych" path convert aa.pth none/x.bth
 expect 2 "\[--out\] there is no folder for the report; give one with --out DIR" "$diptych" cost
 expect 2 "\[--samples\] '50' is not a square number from 1 to 4096" "$diptych" cost --out x --samples 50
 expect 2 "\[--part\] '3:2' is not A:B" "$diptych" cost --out x --part 3:2
-expect 2 "\[--part\] ends at 4 of 3 places" "$diptych" cost --out x --part 0:4
+expect 2 "\[--part\] ends at 4 of 3 viewpoints" "$diptych" cost --out x --part 0:4
 expect 2 "\[--budget-ms\] 'x' is not a number of milliseconds" "$diptych" cost --out x --budget-ms 8,x
 expect 2 "\[--budget-ms\] advice needs times" "$diptych" cost --out x --budget-ms 8 --errors-only
 expect 2 "\[--combine\] 'ab' is not a setting; give none, or some of aa, taa" "$diptych" cost --out x --combine aa,ab
