@@ -128,7 +128,7 @@ expect 2 'none.glb: ' "$diptych" dump --hash --model none.glb
 expect 2 'none.pth: ' "$diptych" dump --hash --path none.pth
 expect 2 'none.pth: ' "$diptych" path info none.pth
 printf 'v 0 0 0\nv 1e-7 0 0\nv 0 1e-7 0\nf 1 2 3\n' >tiny.obj
-expect 2 'tiny.obj: \[box\] the model is 1e-07 large' "$diptych" dump --hash --model tiny.obj
+expect 2 "tiny.obj: \[box\] the model's size is 1e-07" "$diptych" dump --hash --model tiny.obj
 expect 2 'tiny.obj:1: .* not a camera path, .*; load a model with --model$' \
     "$diptych" path convert tiny.obj tiny.pth
 sed 's/1e-7/1e12/' tiny.obj >huge.obj
@@ -257,7 +257,7 @@ expect 0 '' "$diptych" bench $quick --size 32x24 --sets "aa=none;aa=2" --vs "$di
 check "against itself: the same pictures" test "$(grep -cE '^aa=.* same$' out.txt)" = 2
 check "CSV of both programs" test "$(grep -c '^other,' vs.csv)" = 8
 expect 1 "\[--vs\] .*true has ended" "$diptych" bench $quick --vs /bin/true
-expect 1 "\[--vs\] .*echo is no diptych" "$diptych" bench $quick --vs /bin/echo
+expect 1 "\[--vs\] .*echo did not answer as diptych's bench does" "$diptych" bench $quick --vs /bin/echo
 expect 1 'none/a.csv' "$diptych" bench $quick --size 8x8 --csv none/a.csv
 printf 'draw 0 0 1\ndraw 9 0 0\n' >asked.txt
 serve() { "$diptych" bench $quick --size 32x24 --sets aa=none --serve <asked.txt; }
