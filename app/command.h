@@ -1,5 +1,5 @@
-// What a command of the program is: a row of the list in command_list.c. To add a command, write
-// its folder with one such row and add the row to that list.
+// A command of the program. To add a command, make a folder that defines one DipCommand, and add
+// that DipCommand to the list in command_list.c.
 #ifndef DIP_APP_COMMAND_H
 #define DIP_APP_COMMAND_H
 
@@ -20,42 +20,43 @@ extern const DipOptionTable dip_program_option_table;
 typedef struct DipOperands {
     size_t field; // Offset of the array in the command's struct of options.
     size_t count; // Offset of the int that holds their number.
-    int most;     // Most operands the command takes; 0: it takes none.
+    int most;     // Greatest number of operands; 0: the command takes none.
 } DipOperands;
 
-// Texts that show a command at work: "diptych dump --out out", "draws one frame".
+// An example in the help of a command.
 typedef struct DipExample {
-    const char *typed;
-    const char *does; // Whole sentence without a full stop.
+    const char *typed; // The command line: "diptych dump --out out".
+    const char *does;  // What it does, beginning with a verb: "draws one frame".
 } DipExample;
 
 typedef struct DipCommand {
     const char *name;    // "dump", "cost merge": one word or two.
     const char *summary; // Starts with a verb; one line in the list of commands.
-    const char *usage;   // What follows the name: "--out DIR [OPTION]..."
+    const char *usage;   // Command line after the name: "--out DIR [OPTION]..."
     const char *text;    // Paragraphs that explain the command, separated by "\n\n".
     const DipExample *examples;
     size_t example_count;
-    bool lists_settings; // The help explains the settings (SET), since options take them.
+    bool lists_settings; // The help also lists the settings, because an option takes a SET.
     const DipOptionParts *parts;
     DipOperands operands;
     size_t options_size; // Bytes of the command's struct of options.
 
-    // Fills in what holds when an option is not given; the struct is zero before. argv is the whole
-    // command line. NULL: zeros are right.
+    // Fills in the default of every option. The struct is zero before the call. argv is the whole
+    // command line. NULL: zero is the default of every option.
     void (*set_defaults)(void *options, int argc, char *const *argv);
 
-    // Refuses options that do not fit together, or too few of them.
+    // Returns false and fills *err if options contradict each other or a necessary option is
+    // missing.
     bool (*check)(const void *options, DipError *err);
 
-    // Says what the session must load. NULL: the command runs without a session.
+    // Fills in *def with what the session must load. NULL: the command runs without a session.
     void (*describe_session)(const void *options, DipSessionDef *def);
 
-    // Does the work. The session is NULL if there is no describe_session.
+    // Does the command's work. The session is NULL if describe_session is NULL.
     bool (*run)(DipSession *session, const void *options, DipError *err);
 } DipCommand;
 
-// The commands of a program. The first one runs when none is named.
+// The commands of a program. The first one runs if the command line names none.
 typedef struct DipCommandList {
     const DipCommand *const *commands;
     size_t count;

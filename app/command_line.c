@@ -53,16 +53,17 @@ static bool unknown_command(const DipCommandList *list, const char *word, DipErr
     }
     const char *likely = dip_nearest_likely(word, names, list->count);
     return likely ? dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, word,
-                                  "is not a command; did you mean %s? (A model of this name opens "
-                                  "as ./%.60s)",
+                                  "is not a command; did you mean %s? (To open a model of this "
+                                  "name, write ./%.60s)",
                                   likely, word)
                   : dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, word,
-                                  "is not a command; `diptych --help` lists them (a model of this "
-                                  "name opens as ./%.60s)",
+                                  "is not a command; `diptych --help` lists them (to open a model "
+                                  "of this name, write ./%.60s)",
                                   word);
 }
 
-// The first word belongs to commands of two words, but the second one is not among theirs.
+// Fails: `first` begins two-word commands, but none of them has this second word. A NULL `second`
+// means that the second word is missing.
 static bool unknown_second_word(const DipCommandList *list, const char *first, const char *second,
                                 DipError *err) {
     char known[256] = "";
@@ -79,8 +80,8 @@ static bool unknown_second_word(const DipCommandList *list, const char *first, c
                                   "nothing to do; give one of %s", known);
 }
 
-// Finds the command of two words first, then the one of the first word alone. Sets *used to the
-// number of words it has; 0: none is named.
+// Finds the command that argv names. A two-word command has precedence over a one-word command.
+// Sets *used to the number of words in the command's name, or to 0 if no command is named.
 static bool find_command(const DipCommandList *list, int argc, char *const *argv,
                          DipCommandLine *line, int *used, DipError *err) {
     const char *first = argc > 1 ? argv[1] : "-";

@@ -1,13 +1,14 @@
-// The command line: which command, and its options.
+// Reading the command line: finding the command and reading its options.
 #ifndef DIP_APP_COMMAND_LINE_H
 #define DIP_APP_COMMAND_LINE_H
 
 #include "app/command.h"
 
 typedef struct DipCommandLine {
-    const DipCommand *command; // The command that was named, else the first of the list.
-    bool named;                // A command was named.
-    // First word of several commands, "path", when the second word is --help; else NULL.
+    const DipCommand *command; // The named command; if none is named, the list's first.
+    bool named;                // The command line names a command.
+    // After `diptych path --help`: "path", the first word that several commands share. Otherwise
+    // NULL.
     const char *group;
     void *options; // The command's struct of options, which begins with DipProgramOptions.
 } DipCommandLine;

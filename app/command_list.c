@@ -1,4 +1,4 @@
-// The list of commands. A new command is one include and one line here.
+// The list of commands. To add a command, add its include and its entry here.
 #include "app/command_list.h"
 
 #include "app/bench/bench.h"

@@ -36,7 +36,7 @@ static void print_summary(const DipCommand *command, FILE *out) {
     fprintf(out, "  %-14s %s\n", command->name, command->summary);
 }
 
-// Tables with one title stand under one heading.
+// Prints all options. Successive tables with the same title share one heading.
 static void print_options(const DipOptionParts *parts, FILE *out) {
     const char *title = "";
     for (size_t p = 0; p < parts->count; p++) {
@@ -82,12 +82,12 @@ static void print_examples(const DipCommand *command, FILE *out) {
 static void print_exit_codes(FILE *out) {
     fputs("\nExit codes:\n"
           "  0  The command is done.\n"
-          "  1  It failed while it ran: a file cannot be written, there is no display, ...\n"
+          "  1  The command failed: a file cannot be written, there is no display, ...\n"
           "  2  The command line or an input file is wrong.\n",
           out);
 }
 
-// Other commands whose first word is the same.
+// Prints the other commands that begin with the same first word.
 static void print_related(const DipCommandList *list, const DipCommand *command, FILE *out) {
     const size_t length = strcspn(command->name, " ");
     bool first = true;
@@ -125,7 +125,7 @@ static void print_group(const DipCommandList *list, const char *word, FILE *out)
             lead = "      ";
         }
     }
-    fprintf(out, "\nCommands; `diptych %s WORD --help` explains one of them:\n", word);
+    fprintf(out, "\nCommands (`diptych %s WORD --help` explains a command):\n", word);
     for (size_t c = 0; c < list->count; c++) {
         const DipCommand *command = list->commands[c];
         if (strncmp(command->name, word, length) == 0 && command->name[length] == ' ') {
@@ -141,7 +141,7 @@ static void print_all(const DipCommandList *list, FILE *out) {
                   0, out);
     fprintf(out, "\nUsage: diptych [COMMAND] [OPTION]...\n       diptych [%s] %s\n", first->name,
             first->usage);
-    fputs("\nCommands; `diptych COMMAND --help` explains one of them:\n", out);
+    fputs("\nCommands (`diptych COMMAND --help` explains a command):\n", out);
     for (size_t c = 0; c < list->count; c++) {
         print_summary(list->commands[c], out);
     }

@@ -1,4 +1,4 @@
-// Catching the signals.
+// Catching SIGINT and SIGTERM.
 #include "app/interrupt.h"
 
 #include <signal.h>

@@ -1,4 +1,4 @@
-// Formatting errors and writing them to both places.
+// Formatting errors and writing them to standard error and to the log file.
 #include "app/log.h"
 
 #include <errno.h>

@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-// Appends every further line to this file, too. Fails with IO.
+// From now on, also appends every line to this file. Fails with DIP_ERROR_IO.
 bool dip_log_open(const char *file, DipError *err);
 void dip_log_close(void);
 

@@ -10,8 +10,7 @@ void dip_machine_processor(char *name, size_t size_bytes);
 // Returns the number of processors that are online, at least 1.
 int dip_machine_processor_count(void);
 
-// Returns the greatest amount of memory that this process has had resident so far, or 0 if it is
-// not known.
+// Returns the greatest resident memory of this process so far, in bytes, or 0 if it is unknown.
 size_t dip_machine_peak_rss_bytes(void);
 
 #endif

@@ -16,7 +16,8 @@ static int fail(const DipError *err) {
     return err->origin == DIP_ORIGIN_INPUT ? EXIT_BAD_INPUT : EXIT_FAILED;
 }
 
-// The exit code of a session that did not open. One fault in the input makes it EXIT_BAD_INPUT.
+// Returns the exit code after a session failed to open: EXIT_BAD_INPUT if at least one error is in
+// the user's input, otherwise EXIT_FAILED.
 static int exit_code_of(const DipErrorList *faults) {
     int code = EXIT_FAILED;
     for (size_t i = 0; i < faults->count; i++) {

@@ -1,4 +1,5 @@
-// Writing the manual page. An option of a table that several commands share is described once.
+// Writing the manual page. If several commands share a table of options, the page describes these
+// options once.
 #include "app/manual.h"
 
 #include "renderer/scene/quality.h"
@@ -7,7 +8,8 @@
 
 // --- roff ----------------------------------------------------------------------------------------
 
-// Prints text in which no character is a command of roff. A blank line starts a new paragraph.
+// Prints text and escapes the characters that have a meaning in roff. A blank line starts a new
+// paragraph.
 static void print_text(const char *text, FILE *out) {
     if (*text == '.' || *text == '\'') {
         fputs("\\&", out);
@@ -51,7 +53,8 @@ static bool has_table(const DipCommand *command, const DipOptionTable *table) {
     return false;
 }
 
-// Number of commands that take a table's options; the first of them goes to *first.
+// Returns the number of commands that take a table's options. Sets *first to the first of these
+// commands.
 static size_t count_users(const DipCommandList *list, const DipOptionTable *table,
                           const DipCommand **first) {
     size_t count = 0;
@@ -77,7 +80,7 @@ static void print_table(const DipOptionTable *table, FILE *out) {
     }
 }
 
-// Names the commands that take the options, if not all do.
+// Prints which commands take the options of a table. `count` is their number.
 static void print_users(const DipCommandList *list, const DipOptionTable *table, size_t count,
                         FILE *out) {
     if (count == list->count) {
@@ -183,7 +186,8 @@ void dip_manual_print(const DipCommandList *list, FILE *out) {
     print_examples(list, out);
     fputs(".SH EXIT STATUS\n"
           ".TP\n.B 0\nThe command is done.\n"
-          ".TP\n.B 1\nIt failed while it ran: a file cannot be written, there is no display, ...\n"
+          ".TP\n.B 1\nThe command failed: a file cannot be written, there is no "
+          "display, ...\n"
           ".TP\n.B 2\nThe command line or an input file is wrong.\n",
           out);
 }

@@ -5,7 +5,7 @@
 #include "app/session.h"
 
 // Reads the pictures that the ini names and gives them to the renderers of both panes. Does nothing
-// if it names none. Faults carry the line of the ini.
+// if the ini names no pictures. A fault gives the ini's line that names the picture.
 bool dip_mip_pictures_load(DipSession *session, DipErrorList *faults);
 
 #endif

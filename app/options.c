@@ -108,7 +108,7 @@ bool dip_option_each(void *fields, const DipOptionRow *row, const char *value, c
     return true;
 }
 
-// Counts the values of a LIST while the row's own reader stores them.
+// Stores one value of a LIST with the row's reader, and counts the value.
 static bool read_item(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     int *count = (int *)((char *)fields + row->count);
     if (*count >= (int)row->most) {
@@ -163,7 +163,8 @@ static bool read_value(const DipOptionRow *row, const char *value, void *fields,
 
 // --- finding options -----------------------------------------------------------------------------
 
-// Finds the row of a name of `length` letters, and the part that it stands in.
+// Finds the row of an option by its name, which has `length` letters. Sets *part to the part that
+// contains the row.
 static const DipOptionRow *find(const DipOptionParts *parts, const char *name, size_t length,
                                 const DipOptionPart **part) {
     for (size_t p = 0; p < parts->count; p++) {
@@ -183,7 +184,7 @@ const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *nam
     return find(parts, name, strlen(name), &part);
 }
 
-// Suggests only options of the command at hand.
+// Fails, and suggests the most similar option of this command.
 static bool unknown_option(const DipOptionParts *parts, const char *command, const char *name,
                            DipError *err) {
     const char *names[MAX_ROWS];

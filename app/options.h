@@ -1,5 +1,5 @@
-// Options of a command line, described by tables. This file knows no command: each command brings
-// its tables (command.h), and the parser, the help and the manual page are made from them.
+// Options of a command line, described by tables. Each command has its own tables (command.h). The
+// parser, the help and the manual page all use these tables.
 #ifndef DIP_APP_OPTIONS_H
 #define DIP_APP_OPTIONS_H
 
@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// How an option's value is read, and the type of the field that it is stored in.
+// How an option's value is read, and the type of the field that stores the value.
 typedef enum DipOptionKind {
     DIP_OPTION_FLAG,     // bool; the option takes no value
     DIP_OPTION_TEXT,     // const char *, borrowed from argv
@@ -28,7 +28,8 @@ typedef struct DipOptionSize {
 
 typedef struct DipOptionRow DipOptionRow;
 
-// Stores a value in the struct that the row's table describes, or fills *err with what is wrong.
+// Stores a value in the struct that the row's table describes. Returns false and fills *err if the
+// value is wrong.
 typedef bool DipOptionReader(void *fields, const DipOptionRow *row, const char *value,
                              DipError *err);
 
@@ -41,16 +42,18 @@ struct DipOptionRow {
     size_t field; // Offset of the field that holds the value.
     size_t given; // Offset of a bool that becomes true when the option is given; 0: there is none.
     size_t count; // TEXTS and LIST: offset of an int that holds the number of values.
-    double least; // INTEGER and NUMBER: the range of the value.
-    double most;
-    const char *accepted;  // What the value must be, for messages. NULL: it follows from the kind.
+    double least; // INTEGER and NUMBER: the least value.
+    double most;  // INTEGER and NUMBER: the greatest value. TEXTS and LIST: most values.
+    // What a value must be, for the message "'value' is not accepted". NULL: the message follows
+    // from the kind.
+    const char *accepted;
     char separator;        // LIST: the character between two values.
-    DipOptionReader *read; // LIST and CUSTOM.
+    DipOptionReader *read; // LIST and CUSTOM: the function that stores a value.
 };
 
-// Options that belong together, and whose fields stand in one struct.
+// A group of options. Their fields are in one struct.
 typedef struct DipOptionTable {
-    const char *title; // "Scene and camera", above the options in the help.
+    const char *title; // Heading of these options in the help: "Scene and camera".
     const DipOptionRow *rows;
     size_t count;
 } DipOptionTable;
@@ -58,7 +61,7 @@ typedef struct DipOptionTable {
 // A table as a part of a command. Several commands can share a table.
 typedef struct DipOptionPart {
     const DipOptionTable *table;
-    size_t offset; // Where the table's struct starts in the command's struct of options.
+    size_t offset; // Offset of the table's struct in the command's struct of options.
 } DipOptionPart;
 
 // All options of a command.
@@ -67,8 +70,9 @@ typedef struct DipOptionParts {
     size_t count;
 } DipOptionParts;
 
-// Reads argv[*index], and argv[*index + 1] if that is its value, into `options`, the command's
-// struct of options. Leaves *index at the last argument read. `command` is the name for messages.
+// Reads the option argv[*index] and stores its value in `options`, the command's struct of options.
+// The value may be in argv[*index + 1]. Leaves *index at the last argument read. `command` is the
+// command's name, for messages.
 bool dip_option_parse(const DipOptionParts *parts, const char *command, int argc, char *const *argv,
                       int *index, void *options, DipError *err);
 
@@ -77,16 +81,16 @@ const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *nam
 
 // --- for readers of values -----------------------------------------------------------------------
 
-// Fails with "'value' is not what"; returns false.
+// Fills *err with the message "'value' is not what". Returns false.
 bool dip_option_refuse(DipError *err, DipErrorCode code, const char *key, const char *value,
                        const char *what);
 
-// Calls `read` for each value between separators. Refuses empty values.
+// Splits `value` at the separators and calls `read` for each part. Refuses empty parts.
 bool dip_option_each(void *fields, const DipOptionRow *row, const char *value, char separator,
                      DipOptionReader *read, DipError *err);
 
-// Reads numbers between separators, at most `count`. Returns how many there are, or 0 if one is not
-// a whole number or there are too many.
+// Reads at most `count` whole numbers between separators. Returns how many there are. Returns 0 if
+// a part is not a whole number or there are more than `count` parts.
 int dip_option_integers(const char *text, char separator, int count, int *values);
 
 // Reads a whole number in the row's range.

@@ -6,7 +6,7 @@
 #include <string.h>
 
 bool dip_output_finish(DipError *err) {
-    // An earlier print may have failed, but its reason is gone; then the flush may well succeed.
+    // An earlier print may have failed, and its errno is lost. The flush can succeed all the same.
     const bool lost = ferror(stdout) != 0;
     errno = 0;
     if (fflush(stdout) == 0 && !lost) {

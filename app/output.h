@@ -1,4 +1,4 @@
-// Standard output that may be full, such as a file on a full disk.
+// Checking that standard output took all that was printed. It may be a file on a full disk.
 #ifndef DIP_APP_OUTPUT_H
 #define DIP_APP_OUTPUT_H
 
@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-// Writes what standard output still holds back. Fails with IO if anything that the program printed
-// was lost. Call it once, at the end.
+// Flushes standard output. Fails with DIP_ERROR_IO if anything that the program printed was lost.
+// Call it once, at the end of the program.
 bool dip_output_finish(DipError *err);
 
 #endif

@@ -1,4 +1,4 @@
-// Shows on standard error how far a long command is.
+// Shows on standard error how much of its work a long command has done.
 #ifndef DIP_APP_PROGRESS_H
 #define DIP_APP_PROGRESS_H
 
@@ -16,7 +16,8 @@ typedef struct DipProgress {
 DipProgress dip_progress_begin(const char *things, int64_t total);
 
 // Shows "7 of 12 frames, 3 s left". On a terminal this is one line, which is overwritten up to ten
-// times a second. Elsewhere it is a line every ten seconds, so that a short command prints none.
+// times a second. If standard error is not a terminal, it is a new line every ten seconds, so that
+// a short command prints none.
 void dip_progress_show(DipProgress *progress, int64_t done);
 
 // Shows the last state and ends the line. Prints nothing if standard error is not a terminal.

@@ -30,8 +30,8 @@ bool dip_session_place_fault(const DipSession *session, const DipConfigFile *fil
 
 // --- the ini -----------------------------------------------------------------------------------
 
-// Finds the ini that comes with Diptych: beside the folders of the build, or in the share folder
-// where the program is installed.
+// Finds the ini that comes with Diptych. For a program in a build folder, the ini is in the source
+// tree. For an installed program, the ini is in the installation's share folder.
 static bool find_shipped_config(char *file, size_t size_bytes) {
     static const char *const places[] = {"../../config/courtyard.ini",
                                          "../share/diptych/config/courtyard.ini"};
@@ -114,8 +114,8 @@ static DipQuality pane_quality(const DipSession *session, int pane) {
     return quality;
 }
 
-// Makes what the panes' settings need before the first frame, so that the frame does not take
-// longer than those after it.
+// Compresses the textures if a pane's settings need it. This is done before the first frame, so
+// that the first frame takes no longer than the later ones.
 static bool prepare_scene(DipSession *session, DipErrorList *faults) {
     bool compresses = false;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
@@ -178,8 +178,8 @@ static bool make_pool(DipSession *session, DipErrorList *faults) {
 
 // --- opening and closing -------------------------------------------------------------------------
 
-// Loads the scene and the paths even if the first of them fails, so that one run shows the faults
-// of both.
+// Loads the scene and the camera paths. Loads the paths even if the scene fails, so that one run
+// shows the faults of both.
 static bool load_what_is_drawn(DipSession *session, bool keep_model, DipErrorList *faults) {
     const bool scene = dip_session_load_scene(session, keep_model, faults);
     const int64_t begin_ns = dip_clock_ns();
@@ -233,7 +233,7 @@ void dip_session_close(DipSession *session) {
 
 // --- drawing -------------------------------------------------------------------------------------
 
-// A copy shares the pixels and has no work and no times of its own.
+// Returns a frame that shares the pixels of *frame. Its counters and times are 0.
 static DipFrame copy_of(const DipFrame *frame) {
     DipFrame copy = *frame;
     copy.counters = (DipCounters){0};
@@ -241,7 +241,7 @@ static DipFrame copy_of(const DipFrame *frame) {
     return copy;
 }
 
-// Draws the current pane and shows it as the requested one, too.
+// Draws the current pane. The requested pane becomes a copy of the current pane.
 static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_ns,
                         DipSessionFrame *frame, DipError *err) {
     DipFrame *pane = &frame->panes[DIP_PANE_CURRENT];

@@ -1,4 +1,5 @@
-// What a command that draws works with: the ini, the scene, the camera track, both renderers.
+// A session: everything that a command needs to draw. It holds the settings of the ini file, the
+// scene, the camera track and both renderers.
 #ifndef DIP_APP_SESSION_H
 #define DIP_APP_SESSION_H
 
@@ -16,11 +17,11 @@ extern const char *const dip_pane_names[DIP_PANE_COUNT]; // "current", "requeste
 // What a session loads. The ini and the pool of threads are always there.
 typedef struct DipSessionDef {
     const DipSessionOptions *options; // Borrowed until the session is closed.
-    const char *log;  // File that --log has opened; it replaces the ini's. NULL: there is none.
-    bool scene;       // Load the models and the camera paths.
-    bool renderers;   // Make a renderer for each pane. This needs the scene.
-    bool keep_model;  // Keep what the models hold, which the reference renderer reads.
-    int64_t begin_ns; // When the program started, by dip_clock_ns.
+    const char *log;                  // File of --log, which replaces the ini's log file, or NULL.
+    bool scene;                       // Load the models and the camera paths.
+    bool renderers;                   // Make a renderer for each pane. This needs the scene.
+    bool keep_model;                  // Keep the models' data, which the reference renderer reads.
+    int64_t begin_ns;                 // When the program started, by dip_clock_ns.
 } DipSessionDef;
 
 typedef struct DipSession {
@@ -28,28 +29,29 @@ typedef struct DipSession {
     DipConfig config;
     DipPool *pool;
     DipIsa isa;
-    DipConfigSize pane_size; // Pixels, by --size or by the ini.
+    DipConfigSize pane_size; // Size of one pane in pixels, from --size or the ini.
     DipScene *scene;
-    DipReflectionDef
-        reflection; // The ini's. The water level is the model's, unless the ini gives it.
+    // From the ini. The water level is the scene's with --model, and if the ini does not give it.
+    DipReflectionDef reflection;
     bool force_all_effects;
-    DipModel *model;       // Kept for commands that use the reference renderer, else NULL.
-    DipSceneDef scene_def; // The model's scene with the ini's surroundings. Needs the model.
-    DipCamTrack track;     // One path per category of the ini.
+    DipModel *model;       // NULL unless the session keeps it for the reference renderer.
+    DipSceneDef scene_def; // The model's scene with its background and sky. Points into `model`.
+    DipCamTrack track;     // The camera path of each category of the ini.
     DipCamPath **paths;    // The loaded paths; a file that two categories name is loaded once.
     int path_count;
     DipRenderer *renderers[DIP_PANE_COUNT]; // NULL unless the def asks for renderers.
     DipStartTimes times;
-    bool orbiting; // The camera orbits the model, since no path was given for it.
+    bool orbiting; // The camera orbits the model, because no camera path was given.
 } DipSession;
 
 // Loads everything that the def asks for. Adds every fault, with its file and line, and every
-// warning to *faults. Returns false if one of them is an error; then the session is empty.
+// warning to *faults. Returns false if any of these faults is an error; the session is empty in
+// that case.
 bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorList *faults);
 void dip_session_close(DipSession *session);
 
-// Loads `model` and `scene_def`, which the reference renderer reads, unless they are kept already.
-// They are not kept from the start since their pictures take tens of megabytes.
+// Loads `model` and `scene_def` for the reference renderer, unless the session has them already. A
+// session does not keep them by default, because their pictures take tens of megabytes.
 bool dip_session_keep_model(DipSession *session, DipError *err);
 
 // File of the first model, from the command line or the ini; "" if there is none.
@@ -58,10 +60,11 @@ const char *dip_session_scene_file(const DipSession *session);
 // Name of a category of the ini's camera paths: "DEFAULT", "AA", ...
 const char *dip_session_category(int category);
 
-// What the panes show of one frame.
+// One frame of both panes.
 typedef struct DipSessionFrame {
     DipFrame panes[DIP_PANE_COUNT];
-    double ms; // Wall-clock time of both panes. It is less than their sum where they share work.
+    // Wall-clock time of both panes. It is less than the sum of their times if they share work.
+    double ms;
     // The requested pane is a copy of the current one, since both have the same settings. The copy
     // took no time and no work, and shares the pixels. Never set when all effects are forced.
     bool copied;
@@ -72,7 +75,7 @@ typedef struct DipSessionFrame {
 bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err);
 
-// Draws both panes from the pose that the active path has at a time, and returns that pose.
+// Draws both panes from the active camera path's pose at a time. Stores this pose in *pose.
 bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index, DipPose *pose,
                       DipSessionFrame *frame, DipError *err);
 

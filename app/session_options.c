@@ -42,8 +42,8 @@ static bool read_isa(void *fields, const DipOptionRow *row, const char *value, D
 static const DipOptionRow scene_rows[] = {
     {.name = "--config",
      .argument = "FILE",
-     .text = "Read this ini file. Without the option, Diptych reads the ini of the courtyard that "
-             "it comes with.",
+     .text = "Read this ini file. Without the option, Diptych reads the ini of the courtyard, the "
+             "scene that comes with Diptych.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(config)},
     {.name = "--model",
@@ -74,8 +74,8 @@ static const DipOptionRow path_rows[] = {
 static const DipOptionRow category_rows[] = {
     {.name = "--category",
      .argument = "NAME",
-     .text = "Fly this one of the ini's camera paths: DEFAULT, AA, AF, AAA, MIPLOD, WATER, ... "
-             "The ini names each of them in a key CAMPATH_NAME.",
+     .text = "Fly this camera path of the ini: DEFAULT, AA, AF, AAA, MIPLOD, WATER, ... The ini "
+             "gives the file of the path NAME in its key CAMPATH_NAME.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(category)},
 };
@@ -94,8 +94,8 @@ static const DipOptionRow pane_rows[] = {
      .field = FIELD(requested),
      .given = FIELD(has_requested)},
     {.name = "--timing",
-     .text = "At the end, print how long the start and the end took and how much memory was in use "
-             "at most.",
+     .text = "At the end, print how long starting and ending took, and the greatest amount of "
+             "memory that was in use.",
      .kind = DIP_OPTION_FLAG,
      .field = FIELD(timing)},
 };
@@ -103,7 +103,8 @@ static const DipOptionRow pane_rows[] = {
 static const DipOptionRow size_rows[] = {
     {.name = "--size",
      .argument = "WxH",
-     .text = "Pixels of one pane, such as 640x480. Without the option, the ini's RES decides.",
+     .text =
+         "Size of one pane in pixels, such as 640x480. Without the option, the ini's RES decides.",
      .kind = DIP_OPTION_SIZE,
      .field = FIELD(size),
      .given = FIELD(has_size)},

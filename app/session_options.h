@@ -10,8 +10,8 @@
 
 enum { DIP_MAX_MODELS = 64 };
 
-// Texts are borrowed from argv. A NULL text or a false has_... means that the option is not given;
-// then the ini decides.
+// Texts are borrowed from argv. A NULL text or a false has_... means that the option is not given.
+// In that case, the ini decides.
 typedef struct DipSessionOptions {
     const char *config;
     const char *models[DIP_MAX_MODELS];
@@ -24,15 +24,15 @@ typedef struct DipSessionOptions {
     bool has_requested;
     DipQuality requested;
     bool has_size;
-    DipOptionSize size; // Of one pane.
+    DipOptionSize size; // Size of one pane.
     bool has_threads;
     int threads; // 0: all processors.
     bool has_isa;
     DipIsa isa;
-    bool timing; // Say at the end how long start and end took.
+    bool timing; // At the end, print how long starting and ending took.
 } DipSessionOptions;
 
-// Tables of this struct. A command takes those that make sense for it.
+// Tables of the options in this struct. Each command takes the tables that make sense for it.
 extern const DipOptionTable dip_scene_option_table;    // --config --model --force-all-effects
 extern const DipOptionTable dip_path_option_table;     // --path
 extern const DipOptionTable dip_category_option_table; // --category

@@ -1,4 +1,5 @@
-// The camera paths of a session: the ini's, one of the user's, or an orbit around the user's model.
+// The camera paths of a session: the paths of the ini, the path of --path, or an orbit around the
+// model.
 #include "app/session_private.h"
 
 #include <math.h>
@@ -6,7 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
-// Takes ownership of a path and plays it for a category.
+// Takes ownership of a path and makes it the path of a category.
 static void keep_path(DipSession *session, DipCamPath *path, int category, double fov_y_deg) {
     session->paths[session->path_count++] = path;
     dip_camtrack_set(&session->track, category, path, fov_y_deg);
@@ -32,7 +33,9 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
     DipError err;
     if (!dip_campath_load(camera->file.path, &path, &err)) {
         if (err.line) {
-            return dip_session_add_fault(faults, &err); // The line in the path file says more.
+            // The fault already gives a line of the path file, which tells more than the ini's
+            // line.
+            return dip_session_add_fault(faults, &err);
         }
         return dip_session_place_fault(session, &camera->file, faults, &err);
     }
@@ -50,9 +53,9 @@ static bool load_own_path(DipSession *session, DipErrorList *faults) {
     return true;
 }
 
-// Refuses a model that is so small that the camera, which frames it, would stand nearer than
-// DIP_MIN_W (renderer/pipeline/geometry/project.h), where nothing is drawn. A single point passes,
-// since the orbit frames it as if it had a size.
+// Refuses a model that is too small to be drawn. To fill the picture with such a model, the camera
+// would come nearer than DIP_MIN_W (renderer/pipeline/geometry/project.h), and nothing is drawn
+// that near. A single point passes, because the orbit keeps a distance as if the point had a size.
 static bool check_extent(const float low[3], const float high[3], const char *file,
                          DipErrorList *faults) {
     const double least = 5e-6;
@@ -65,7 +68,7 @@ static bool check_extent(const float low[3], const float high[3], const char *fi
     }
     DipError err;
     dip_error_set(&err, DIP_ERROR_RANGE, file, 0, "box",
-                  "the model is %.3g large, but Diptych draws models from %g on; scale it up",
+                  "the model's size is %.3g, but Diptych needs at least %g; scale the model up",
                   extent, least);
     return dip_session_add_fault(faults, &err);
 }

@@ -14,7 +14,7 @@ bool dip_session_place_fault(const DipSession *session, const DipConfigFile *fil
 // session_scene.c: loads the models and makes the scene.
 bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *faults);
 
-// session_paths.c: loads the camera paths, or makes an orbit around the user's model.
+// session_paths.c: loads the camera paths, or makes an orbit around the model.
 bool dip_session_load_paths(DipSession *session, DipErrorList *faults);
 
 #endif

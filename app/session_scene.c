@@ -42,8 +42,9 @@ static bool has_sky(const DipSceneDef *def) {
     return found;
 }
 
-// Sets what lies around the model: background and sky. A model of the user's brings its own. If
-// that has a sky, the horizon's colour fills the gaps beside it.
+// Sets the background, the sky and the near plane. For the ini's models, they come from the ini. A
+// model given with --model keeps its own; if it has a sky, the colour of the sky's horizon becomes
+// the background and fills the gaps beside the sky.
 static void set_surroundings(const DipSession *session, DipSceneDef *def) {
     if (session->options->model_count) {
         if (has_sky(def)) {
@@ -83,7 +84,7 @@ const char *dip_session_scene_file(const DipSession *session) {
 
 bool dip_session_keep_model(DipSession *session, DipError *err) {
     if (!session->model) {
-        DipErrorList warnings = {0}; // The first load has told them already.
+        DipErrorList warnings = {0}; // The first load has already reported these warnings.
         session->model = load_model(session, &warnings, &session->scene_def, err);
         dip_error_list_free(&warnings);
     }

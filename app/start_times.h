@@ -14,20 +14,21 @@
     X(meshes, "splitting meshes into chunks")                                                      \
     X(paths, "reading camera paths")                                                               \
     X(renderers, "making the renderers of both panes")                                             \
-    X(first_frame, "from there to the first complete frame")                                       \
+    X(first_frame, "from the loaded session to the first complete frame")                          \
     X(total, "from the start of the program to the first frame")
 
-// Durations are in milliseconds; a part that did not run is 0.
+// Durations are in milliseconds; the duration of a part that did not run is 0. The last three
+// fields are times by dip_clock_ns.
 typedef struct DipStartTimes {
 #define DIP_START_TIME_FIELD(name, text) double name##_ms;
     DIP_START_TIME_LIST(DIP_START_TIME_FIELD)
 #undef DIP_START_TIME_FIELD
-    int64_t begin_ns;  // The program started.
-    int64_t opened_ns; // Everything was loaded.
-    int64_t ended_ns;  // The command had done its work and began to free what it holds.
+    int64_t begin_ns;  // When the program started.
+    int64_t opened_ns; // When everything was loaded.
+    int64_t ended_ns;  // When the command had done its work and began to free its memory.
 } DipStartTimes;
 
-// Returns the milliseconds since a time of dip_clock_ns.
+// Returns the milliseconds that have passed since begin_ns, a time by dip_clock_ns.
 double dip_start_times_since_ms(int64_t begin_ns);
 
 // Call it after every frame. The first call fills in first_frame and total.

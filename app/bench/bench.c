@@ -105,8 +105,8 @@ static bool run(DipSession *session, const void *all_arguments, DipError *err) {
     return done;
 }
 
-// Asks for no renderers, since the bench makes its own, and for the scene only if this process
-// draws it. A grid needs none, and with --vs the programs that the bench starts load theirs.
+// Asks for no renderers, because the bench makes its own. Asks for the scene only if this process
+// draws it: --grid replaces the scene, and with --vs each started program loads the scene itself.
 static void describe_session(const void *all_arguments, DipSessionDef *def) {
     const DipBenchArguments *arguments = all_arguments;
     const DipBenchOptions *bench = &arguments->bench;
@@ -115,24 +115,25 @@ static void describe_session(const void *all_arguments, DipSessionDef *def) {
 }
 
 static const DipExample examples[] = {
-    {"diptych bench", "measures six settings in the ini's scene"},
+    {"diptych bench", "measures six sets of settings in the ini's scene"},
     {"diptych bench --sets \"aa=none;aa=4;aa=4,af=16\" --threads 1,2 --isa avx2,avx512",
      "measures twelve combinations"},
     {"diptych bench --size 320x240,640x480,1280x960 --svg plots --csv frames.csv",
-     "plots the time against the number of pixels and keeps every single time"},
+     "plots the time against the number of pixels, and writes the time of every frame to a file"},
     {"diptych bench --grid 1000,10000,100000 --sets aa=none --grid-out-of-view",
      "measures what triangles outside the view cost"},
     {"diptych bench --vs ../before/build/release/diptych --threads 1 --rounds 40",
-     "compares with the build of another branch"},
+     "compares this program with the build of another branch"},
 };
 
 const DipCommand dip_bench_command = {
     .name = "bench",
     .summary = "measure how long frames take: settings, threads, sizes, ...",
     .usage = "[OPTION]...",
-    .text = "Bench measures how long frames take and how much work they are. It measures every "
-            "combination of the values in the lists, in rounds, in an order that changes from "
-            "round to round, so that a slow moment of the machine hits all combinations alike.\n\n"
+    .text = "Bench measures how long frames take and counts their work (triangles, fragments, "
+            "texels, ...). It measures every combination of the values in the lists. Each round "
+            "measures all combinations in a new random order, so that a slow moment of the machine "
+            "favours no combination.\n\n"
             "Times are wall-clock milliseconds per frame. docs/bench.md explains how to read them.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),

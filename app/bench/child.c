@@ -27,8 +27,8 @@ struct DipBenchChild {
 
 // --- starting ----------------------------------------------------------------------------------
 
-// This program's command line with PROGRAM as its name and --serve at the end. Texts are borrowed;
-// free the array.
+// Returns this program's command line with `program` as argv[0] and --serve at the end. The texts
+// are borrowed; the caller frees the array.
 static char **child_arguments(const char *program, const DipBenchOptions *options) {
     char **arguments = calloc((size_t)options->argc + 2, sizeof *arguments);
     if (arguments) {
@@ -39,8 +39,8 @@ static char **child_arguments(const char *program, const DipBenchOptions *option
     return arguments;
 }
 
-// Starts the child with `in` as its standard input and `out` as its standard output. No other end
-// of a pipe stays open in it. Returns 0 or an errno.
+// Starts the child with `in` as its standard input and `out` as its standard output. The child does
+// not inherit the other ends of the pipes, because they are close-on-exec. Returns 0 or an errno.
 static int spawn(DipBenchChild *child, const DipBenchOptions *options, int in, int out) {
     char **arguments = child_arguments(child->program, options);
     posix_spawn_file_actions_t actions;
@@ -97,12 +97,15 @@ static bool check_greeting(DipBenchChild *child, const DipBenchPlan *plan, DipEr
         return false;
     }
     if (sscanf(line, "diptych-bench 1 %d %d", &count, &frames) != 2) {
-        return dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--vs",
-                                     "%s is no diptych with this bench", child->program);
+        return dip_error_set_runtime(
+            err, DIP_ERROR_FORMAT, NULL, 0, "--vs",
+            "%s did not answer as diptych's bench does; is it a diptych of another version?",
+            child->program);
     }
     return (count == plan->count && frames == plan->options.frames) ||
            dip_error_set_runtime(err, DIP_ERROR_CONFLICT, NULL, 0, "--vs",
-                                 "%s has %d combinations of %d frames, this program has %d of %d",
+                                 "%s has %d combinations of %d frames, but this program has %d "
+                                 "combinations of %d frames",
                                  child->program, count, frames, plan->count, plan->options.frames);
 }
 
@@ -113,7 +116,8 @@ DipBenchChild *dip_bench_child_start(const char *program, const DipBenchPlan *pl
         return NULL;
     }
     child->program = program;
-    signal(SIGPIPE, SIG_IGN); // a child that has ended then shows as an end of file
+    // Without SIGPIPE, writing to an ended child fails silently, and reading finds the end of file.
+    signal(SIGPIPE, SIG_IGN);
     if (!start(child, &plan->options, err) || !check_greeting(child, plan, err)) {
         dip_bench_child_stop(&child);
     }
@@ -140,7 +144,7 @@ void dip_bench_child_stop(DipBenchChild **child_pointer) {
 
 // --- asking ------------------------------------------------------------------------------------
 
-// Stores one NAME=VALUE of an answer; ignores a name that is not known.
+// Stores one NAME=VALUE of an answer. Ignores an unknown name.
 static void store_word(const char *word, DipBenchSample *sample) {
     const char *equals = strchr(word, '=');
     const size_t length = equals ? (size_t)(equals - word) : 0;
@@ -207,8 +211,9 @@ bool dip_bench_serve(const DipBenchPlan *plan, const DipBenchSource *source, Dip
         if (sscanf(line, "draw %d %d %d", &combination, &frame, &hash) != 3 || combination < 0 ||
             combination >= plan->count || frame < 0 || frame >= plan->options.frames) {
             line[strcspn(line, "\n")] = '\0';
-            return dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--serve",
-                                         "'%.60s', accepted draw COMBINATION FRAME 0|1", line);
+            return dip_error_set_runtime(
+                err, DIP_ERROR_FORMAT, NULL, 0, "--serve",
+                "'%.60s' is not a request; give draw COMBINATION FRAME 0|1", line);
         }
         if (!source->draw(source->context, combination, frame, hash != 0, &sample, err)) {
             return false;

@@ -1,9 +1,9 @@
 // Measuring another build of this program: `PROGRAM bench ... --serve`, driven through two pipes.
 //
-// The protocol is lines of text. The child begins with "diptych-bench 1 COMBINATIONS FRAMES". For
-// each request "draw COMBINATION FRAME HASH" (HASH is 0 or 1) it answers
-// "total_ms=1.5 geometry_ms=... hash=...", or writes an error to standard error and ends. Either
-// side ignores names that it does not know, so that builds with other stages can be compared.
+// The protocol is lines of text. The child first sends the greeting "diptych-bench 1 COMBINATIONS
+// FRAMES". For each request "draw COMBINATION FRAME HASH" (HASH is 0 or 1) it answers "total_ms=1.5
+// geometry_ms=... hash=...", or writes an error to standard error and ends. Unknown names are
+// ignored, so that builds with different stages can be compared.
 #ifndef DIP_APP_BENCH_CHILD_H
 #define DIP_APP_BENCH_CHILD_H
 
@@ -11,8 +11,9 @@
 
 typedef struct DipBenchChild DipBenchChild;
 
-// Starts a program with the plan's command line and --serve. Fails if it cannot be started, does
-// not begin with the greeting, or has other numbers of combinations or frames.
+// Starts a program with the plan's command line and --serve. Fails if the program cannot be started
+// or does not send the greeting. Also fails if its number of combinations or of frames is not the
+// plan's.
 DipBenchChild *dip_bench_child_start(const char *program, const DipBenchPlan *plan, DipError *err);
 
 // Closes the child's standard input and waits until it has ended.
@@ -22,7 +23,7 @@ void dip_bench_child_stop(DipBenchChild **child);
 bool dip_bench_child_draw(void *context, int combination, int frame, bool hash,
                           DipBenchSample *sample, DipError *err);
 
-// Runs in the child: answers requests on standard input until it is closed.
+// Runs in the child: answers requests on standard input until standard input is closed.
 bool dip_bench_serve(const DipBenchPlan *plan, const DipBenchSource *source, DipError *err);
 
 #endif

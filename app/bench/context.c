@@ -9,12 +9,12 @@
 // A scene with the camera path through it.
 typedef struct View {
     const DipScene *scene;
-    DipScene *own; // the scene if it is not the session's, else NULL
+    DipScene *own; // the same scene if the view owns it; NULL if it is the session's
     const DipCamPath *path;
     DipCamPath *own_path;
     double fov_y_deg;
-    int triangles; // of a grid, as the option names it
-    double aspect;
+    int triangles; // number of triangles given to --grid; 0 for the session's scene
+    double aspect; // width / height of the picture that a grid fills; 0 for the session's scene
 } View;
 
 struct DipBenchContext {
@@ -56,8 +56,9 @@ static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSessio
     return view->own != NULL;
 }
 
-// Finds the view of a grid. Grids fill the picture, so each number of triangles and each aspect
-// ratio has its own.
+// Finds the view of a grid by its number of triangles and its aspect ratio. Returns -1 if there is
+// no such view yet. A grid (a relief, synthetic.h) is made to fill a picture of one aspect ratio,
+// so combinations of other shapes need other views.
 static int find_view(const DipBenchContext *bench, int triangles, double aspect) {
     for (int i = 0; i < bench->view_count; i++) {
         if (bench->views[i].triangles == triangles && bench->views[i].aspect == aspect) {

@@ -1,4 +1,5 @@
-// What the bench draws with: thread pools, scenes, and a renderer for each combination.
+// The bench context: the thread pools and scenes that the bench draws with, and a renderer for each
+// combination.
 #ifndef DIP_APP_BENCH_RIG_H
 #define DIP_APP_BENCH_RIG_H
 
@@ -11,8 +12,8 @@ DipBenchContext *dip_bench_context_create(const DipBenchPlan *plan, const DipSes
                                           DipError *err);
 void dip_bench_context_destroy(DipBenchContext **bench);
 
-// Draws a combination's frame 0..frames - 1; frames divide the camera path evenly. *picture is
-// valid until the combination draws again.
+// Draws a frame (0..frames - 1) of a combination. The frames divide the camera path evenly.
+// *picture is valid until the combination draws again.
 bool dip_bench_context_draw(DipBenchContext *bench, int combination, int frame, DipFrame *picture,
                             DipError *err);
 

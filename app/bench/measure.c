@@ -7,9 +7,9 @@
 typedef struct BenchTiming {
     const DipBenchSource *sources;
     DipBenchResult *results;
-    DipBenchSample sample; // of the latest run
+    DipBenchSample sample; // the sample of the latest run
     DipProgress progress;
-    int64_t drawn; // frames of all sources
+    int64_t drawn; // frames drawn so far by all sources
 } BenchTiming;
 
 static bool draw(void *context, const DipTimingTurn *turn, DipError *err) {
@@ -19,7 +19,8 @@ static bool draw(void *context, const DipTimingTurn *turn, DipError *err) {
     return source->draw(source->context, turn->subject, turn->frame, hash, &t->sample, err);
 }
 
-// Keeps the sample. Its times are the source's own, by stage; `ms` also has the way to a child.
+// Keeps the sample. Its times are those that the source measured for each stage. `ms` is not used,
+// because it also includes the communication with a child.
 static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
     (void)ms;
     (void)err;

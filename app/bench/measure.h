@@ -4,19 +4,22 @@
 
 #include "app/bench/result.h"
 
-// Draws a frame of a combination and reports its times: this program, or a child process. `hash`
-// asks for the hash of the pixels too.
+// A program that is measured: this process or a child process. draw() draws a frame of a
+// combination and stores its times and counters in *sample, and with `hash` also the hash of its
+// pixels.
 typedef struct DipBenchSource {
     bool (*draw)(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
                  DipError *err);
     void *context;
 } DipBenchSource;
 
-// Fills one result per source; there are 1 or 2 sources, and the results are already initialised.
+// Fills one result for each source. There are 1 or 2 sources. The results must be initialised
+// before.
 //
-// The warm-up gives the results' `first` samples, with hashes and counters. Two sources take turns
-// at every frame, with a millisecond of rest before each run in which the other's threads go to
-// sleep. Progress goes to standard error.
+// Before any time is taken, each frame is drawn once (the warm-up). These samples, with hashes and
+// counters, become the results' `first` samples. Two sources take turns at every frame. A rest of
+// one millisecond before each run lets the other source's threads go to sleep. Progress goes to
+// standard error.
 bool dip_bench_measure(const DipBenchPlan *plan, const DipBenchSource *sources, int source_count,
                        DipBenchResult *results, DipError *err);
 

@@ -24,7 +24,8 @@ static bool read_set(void *fields, const DipOptionRow *row, const char *value, D
     return dip_quality_parse(value, &set->quality, err);
 }
 
-// A range of whole numbers for dip_option_integer; the row's own range is that of the list.
+// Reads a whole number in the range least..most. The row's own `most` is the greatest length of the
+// list.
 static bool read_count(const DipOptionRow *row, const char *value, int least, int most, int *number,
                        DipError *err) {
     const DipOptionRow range = {.name = row->name, .least = least, .most = most};
@@ -89,8 +90,9 @@ static const DipOptionRow axis_rows[] = {
      .read = read_threads},
     {.name = "--isa",
      .argument = "LIST",
-     .text = "Instruction sets, of auto, scalar, sse2, avx2 and avx512. Without the option, the "
-             "bench uses the ini's, which is the best one of this machine by default.",
+     .text =
+         "Instruction sets, such as sse2,avx2: any of auto, scalar, sse2, avx2 and avx512. Without "
+         "the option, the ini's ISA decides; its default is the best one of this machine.",
      .kind = DIP_OPTION_LIST,
      .count = FIELD(isa_count),
      .most = DIP_BENCH_MAX_VALUES,
@@ -98,15 +100,16 @@ static const DipOptionRow axis_rows[] = {
      .read = read_isa},
     {.name = "--grid",
      .argument = "LIST",
-     .text = "Instead of a scene, draw reliefs of N,N,... triangles that fill the picture.",
+     .text = "Instead of a scene, draw grids of N,N,... triangles. A grid is a wavy surface that "
+             "fills the picture.",
      .kind = DIP_OPTION_LIST,
      .count = FIELD(grid_count),
      .most = DIP_BENCH_MAX_VALUES,
      .separator = ',',
      .read = read_grid},
     {.name = "--grid-out-of-view",
-     .text = "Turn the camera's back to the grid. This measures what triangles cost that nobody "
-             "sees.",
+     .text = "Turn the camera away from the grid. This measures the cost of triangles that are out "
+             "of view.",
      .kind = DIP_OPTION_FLAG,
      .field = FIELD(grid_out_of_view)},
 };
@@ -128,16 +131,16 @@ static const DipOptionRow measure_rows[] = {
      .most = DIP_BENCH_MAX_ROUNDS},
     {.name = "--seed",
      .argument = "N",
-     .text = "Seed of the random order of the combinations in each round. By default the clock "
-             "gives it; the bench prints it.",
+     .text = "Seed of the random order of the combinations in each round. The default comes from "
+             "the clock. The bench prints the seed.",
      .kind = DIP_OPTION_INTEGER,
      .field = FIELD(seed),
      .given = FIELD(has_seed),
      .most = INT32_MAX},
     {.name = "--vs",
      .argument = "PROGRAM",
-     .text = "Compare with another build of diptych: both draw in turn, and the bench prints the "
-             "ratio other / this of their times.",
+     .text = "Compare this program with another build of diptych. The two draw in turn, and the "
+             "bench prints the other program's times divided by this program's times.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(vs)},
     {.name = "--csv",
@@ -147,13 +150,13 @@ static const DipOptionRow measure_rows[] = {
      .field = FIELD(csv)},
     {.name = "--svg",
      .argument = "DIR",
-     .text = "Write plots of the time against pixels, samples, triangles and threads into this "
-             "folder, one for each of them that varies.",
+     .text = "Write plots of the time into this folder: against the number of pixels, samples, "
+             "triangles or threads. Each of these numbers that varies gets a plot.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(svg)},
     {.name = "--serve",
-     .text = "Draw what standard input asks for. --vs starts both programs with this option; it "
-             "is of no use otherwise.",
+     .text = "Draw the frames that standard input asks for. --vs starts both programs with this "
+             "option; it has no other use.",
      .kind = DIP_OPTION_FLAG,
      .field = FIELD(serve)},
 };
@@ -174,7 +177,7 @@ const DipOptionParts dip_bench_option_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
 // --- defaults and checks -------------------------------------------------------------------------
 
-// Stores one of the default settings and counts it.
+// Stores and counts one of the default sets of settings.
 static bool add_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     DipBenchOptions *bench = fields;
     return read_set(fields, row, value, err) && ++bench->set_count;

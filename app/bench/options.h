@@ -1,4 +1,6 @@
-// Options of `diptych bench`: a list of values for each axis. The bench measures every combination.
+// Options of `diptych bench`. An axis is a property that can vary: settings, threads, instruction
+// set, size, grid. Each axis has a list of values, and the bench measures every combination of
+// them.
 #ifndef DIP_APP_BENCH_OPTIONS_H
 #define DIP_APP_BENCH_OPTIONS_H
 
@@ -38,7 +40,7 @@ typedef struct DipBenchOptions {
     int isa_count;
     DipBenchSize sizes[DIP_BENCH_MAX_VALUES];
     int size_count;
-    int grids[DIP_BENCH_MAX_VALUES]; // Triangles.
+    int grids[DIP_BENCH_MAX_VALUES]; // Numbers of triangles.
     int grid_count;
     bool grid_out_of_view;
     int frames;

@@ -1,11 +1,12 @@
-// What is measured: the values on each axis, and every combination of them with its label.
+// The plan of a bench: the values on each axis (options.h), and every combination of them with its
+// label.
 #ifndef DIP_APP_BENCH_PLAN_H
 #define DIP_APP_BENCH_PLAN_H
 
 #include "app/bench/options.h"
 #include "app/session.h"
 
-// X(NAME, name), in the order of the table's rows: the last axis changes fastest.
+// X(NAME, name): the axes. From row to row of the printed table, the last axis changes fastest.
 #define DIP_BENCH_AXIS_LIST(X)                                                                     \
     X(GRID, grid)                                                                                  \
     X(SIZE, size)                                                                                  \
@@ -32,12 +33,12 @@ typedef struct DipBenchPlan {
     int count;
 } DipBenchPlan;
 
-// Makes the plan. The session gives what the options leave open.
+// Makes the plan. The session provides the values of axes without options.
 void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
                          const DipBenchOptions *options);
 
-// Writes a combination's value on an axis: "640x480", "2 threads", "aa=4". Empty for the axis of
-// grids if the ini's scene is drawn.
+// Writes a combination's value on an axis: "640x480", "2 threads", "aa=4". Writes "" for the axis
+// GRID if there are no grids.
 void dip_bench_value_name(const DipBenchPlan *plan, const DipBenchCombination *combination,
                           DipBenchAxis axis, char *name, size_t size_bytes);
 

@@ -1,4 +1,4 @@
-// The four plots, and the series that each one has.
+// Making the four plots. Each line of a plot is a series.
 #include "app/bench/plots.h"
 
 #include "app/machine.h"
@@ -48,7 +48,8 @@ static const struct Kind {
      true},
 };
 
-// The points of one line. All its combinations agree with `like` except on the plot's axis.
+// The points of one series. All combinations of the series agree with `like`, except on the plot's
+// axis.
 typedef struct Series {
     char name[DIP_BENCH_LABEL_SIZE];
     const DipBenchCombination *like;
@@ -65,8 +66,8 @@ static bool same_but_samples(const DipQuality *a, const DipQuality *b) {
     return memcmp(a, &other, sizeof other) == 0;
 }
 
-// True if two combinations differ on the plot's axis alone. Settings may differ in their number of
-// samples alone.
+// True if two combinations belong to the same series: they differ on the plot's axis only. In the
+// plot against samples, their settings differ only in aa, the number of samples.
 static bool belongs(const DipBenchPlan *plan, const struct Kind *kind, const DipBenchCombination *a,
                     const DipBenchCombination *b) {
     for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
@@ -114,8 +115,8 @@ static void name_series(const DipBenchPlan *plan, const struct Kind *kind, Serie
     }
 }
 
-// Adds a point and keeps x ascending. An x that is already there (two sizes of equal area) is
-// ignored.
+// Adds a point and keeps x ascending. Ignores the point if its x is already there, for example for
+// two sizes of equal area.
 static void add_point(Series *series, double x, const double *ms, int count, double *scratch) {
     int at = 0;
     while (at < series->count && series->x[at] < x) {

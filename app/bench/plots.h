@@ -4,8 +4,9 @@
 
 #include "app/bench/result.h"
 
-// Writes time_pixels.svg, time_samples.svg, time_triangles.svg and time_threads.svg to a folder
-// that exists, each only if its axis has more than one value. Names every file on standard error.
+// Writes the plots time_pixels.svg, time_samples.svg, time_triangles.svg and time_threads.svg to a
+// folder that exists. A plot is left out if its axis has only one value. Prints the name of every
+// plot on standard error.
 bool dip_bench_write_plots(const char *folder, const DipBenchResult *result, DipError *err);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "app/bench/plan.h"
 
-// The renderer's stages, then the whole frame.
+// Indices of a frame's times: the renderer's stages, then the total.
 typedef enum DipBenchStage {
 #define DIP_BENCH_STAGE_ENUM(name, text) DIP_BENCH_STAGE_##name,
     DIP_STAGE_LIST(DIP_BENCH_STAGE_ENUM)
@@ -15,11 +15,11 @@ typedef enum DipBenchStage {
 
 extern const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
 
-// The figures of one drawing of a frame.
+// The measurements of a frame that was drawn once.
 typedef struct DipBenchSample {
     double ms[DIP_BENCH_STAGE_COUNT];
     DipCounters counters;
-    char hash[33]; // Of the pixels; empty unless it was asked for.
+    char hash[33]; // Hash of the pixels; empty unless it was asked for.
 } DipBenchSample;
 
 void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash);
@@ -28,13 +28,13 @@ void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool ha
 typedef struct DipBenchResult {
     const DipBenchPlan *plan;
     double *ms;            // [combination][stage][round][frame]
-    DipBenchSample *first; // [combination][frame], from the warm-up
+    DipBenchSample *first; // [combination][frame]: the warm-up's samples
 } DipBenchResult;
 
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
 void dip_bench_result_free(DipBenchResult *result);
 
-// The sample of a frame's first drawing, which has the hash and the counters.
+// Stores the sample of a frame's first drawing, which is the one with the hash and the counters.
 void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
                                 const DipBenchSample *sample);
 

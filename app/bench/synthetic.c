@@ -125,8 +125,8 @@ DipCamPath *dip_synthetic_take_path(DipSynthetic *synthetic) {
 
 // --- the room ----------------------------------------------------------------------------------
 
-// A parallelogram, given by a corner and two edges in metres. It is seen from the side from which
-// edge 0 turns left to edge 1. The texture repeats every four metres.
+// A parallelogram, given by a corner and two edges in metres. Its front is the side from which the
+// turn from edge 0 to edge 1 is counter-clockwise. The texture repeats every four metres.
 typedef struct Wall {
     float corner[3];
     float edge[2][3];
@@ -184,8 +184,8 @@ DipSynthetic *dip_synthetic_room(DipError *err) {
 
 enum { RELIEF_DISTANCE_M = 10 };
 
-// Sets position, normal, texture coordinates and colour of one corner. The waves are 2 % of the
-// distance high.
+// Sets position, normal, texture coordinates and colour of one corner. The waves rise and fall by
+// at most 0.2 m, which is 2 % of the camera's distance.
 static void set_corner(DipSynthetic *s, uint32_t vertex, double x, double y) {
     const double height = 0.1 * dip_sin(3.0 * x) + 0.1 * dip_cos(4.0 * y);
     const double slope[2] = {0.3 * dip_cos(3.0 * x), -0.4 * dip_sin(4.0 * y)};
@@ -230,7 +230,8 @@ DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov
     if (!s) {
         return NULL;
     }
-    // 5 % smaller than the picture, since crests are nearer and the camera sways by 1 %.
+    // The relief is 5 % smaller than the picture, because the crests of its waves are nearer to the
+    // camera and the camera sways by 1 %.
     const double half_height = 0.95 * RELIEF_DISTANCE_M * dip_tan(fov_y_deg * (DIP_PI / 360.0));
     set_relief(s, columns, rows, half_height * aspect, half_height);
     s->material.lit = true;

@@ -1,5 +1,5 @@
-// Scenes made by formula, for which nothing was tuned: a few large triangles, or very many small
-// ones.
+// Scenes made by formula. The renderer was not tuned for them. One has a few large triangles, the
+// other has very many small ones.
 #ifndef DIP_APP_BENCH_SYNTHETIC_H
 #define DIP_APP_BENCH_SYNTHETIC_H
 
@@ -14,13 +14,14 @@ enum { DIP_SYNTHETIC_MAX_TRIANGLES = 20000000 };
 typedef struct DipSynthetic DipSynthetic;
 
 // Makes a room of 12 large triangles with two free-standing screens of 2 triangles each, all
-// textured. The camera inside turns once about itself, and every pixel is covered.
+// textured. The camera stands inside and turns once about itself; the room covers every pixel.
 DipSynthetic *dip_synthetic_room(DipError *err);
 
-// Makes a relief of about triangle_count (2..DIP_SYNTHETIC_MAX_TRIANGLES) triangles of equal size
-// under the fixed light. It fills the picture and stays wholly inside while the camera sways a
-// little. It has a colour texture if `textured`, else vertex colours. turn_deg turns the camera to
-// the left about the vertical, so that less of the relief is in view.
+// Makes a relief: a wavy surface under the fixed light. It has about triangle_count
+// (2..DIP_SYNTHETIC_MAX_TRIANGLES) triangles of equal size. It nearly fills the picture and stays
+// wholly in view while the camera sways a little. It has a colour texture if `textured`, and vertex
+// colours if not. turn_deg turns the camera to the left about the vertical, so that less of the
+// relief is in view.
 DipSynthetic *dip_synthetic_relief(int triangle_count, bool textured, double fov_y_deg,
                                    double aspect, double turn_deg, DipError *err);
 

@@ -123,7 +123,7 @@ static void print_work_line(const char *name, const double *means, int count, FI
 static void print_work_block(const DipBenchResult *result, const int *shown, int count, FILE *out) {
     DipBenchWork work[WORK_COLUMNS];
     double means[WORK_COLUMNS];
-    fprintf(out, "\n%-22s", "mean per frame, row");
+    fprintf(out, "\n%-22s", "row (means per frame)");
     for (int i = 0; i < count; i++) {
         fprintf(out, " %12d", shown[i] + 1);
         work[i] = dip_bench_result_work(result, shown[i]);
@@ -142,7 +142,7 @@ void dip_bench_print_work(const DipBenchResult *result, FILE *out) {
     const DipBenchPlan *plan = result->plan;
     int shown[WORK_COLUMNS];
     int count = 0;
-    fprintf(out, "\nWork is the same for every instruction set and thread count.\n");
+    fprintf(out, "\nThe work is the same with every instruction set and any number of threads.\n");
     for (int c = 0; c < plan->count; c++) {
         const int *at = plan->combinations[c].at;
         if (at[DIP_BENCH_AXIS_ISA] == 0 && at[DIP_BENCH_AXIS_THREADS] == 0) {
@@ -167,7 +167,8 @@ static int different_pictures(const DipBenchResult *here, const DipBenchResult *
     return different;
 }
 
-// Sum over the frames of each frame's fastest round. Noise only ever adds time.
+// Returns the sum over the frames of each frame's fastest round. The fastest round has the least
+// noise, because noise only ever adds time.
 static double fastest_ms(const DipBenchResult *result, int combination) {
     const DipBenchOptions *options = &result->plan->options;
     const double *ms = dip_bench_result_ms(result, combination, DIP_BENCH_STAGE_total);

@@ -15,13 +15,14 @@ bool dip_bench_print_times(const DipBenchResult *result, FILE *out, DipError *er
 // Prints the work counters: means over the frames.
 void dip_bench_print_work(const DipBenchResult *result, FILE *out);
 
-// Prints the ratios of the other program's medians to this one's, with 95 % intervals, and whether
-// the pictures are the same.
+// Prints for each combination the other program's median time divided by this program's median
+// time, the 95 % interval of this ratio, and whether the pictures are the same.
 bool dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out,
                             DipError *err);
 
-// Writes one line for each combination, round and frame of `count` programs, 1 or 2. Two programs
-// are told apart by a first column. The file is written whole or not at all.
+// Writes a CSV line for each program, combination, round and frame. `count` is the number of
+// programs, 1 or 2. With 2 programs, the first column names the program. The file is written whole
+// or not at all.
 bool dip_bench_write_csv(const char *file, const DipBenchResult *results, int count, DipError *err);
 
 #endif

@@ -1,4 +1,5 @@
-// For each budget: the combination with the least error whose time, measured again, is within it.
+// Advice for each time budget: the combination with the least error that is within the budget, also
+// when it is timed again.
 #include "app/cost/steps.h"
 
 #include "app/progress.h"
@@ -8,7 +9,8 @@
 static bool advise(DipCostContext *cost, double budget_ms, double *latest_ms, DipError *err) {
     DipCostReport *report = cost->report;
     DipCostAdvice advice = {.budget_ms = budget_ms, .row = -1};
-    // A row that turns out slower when timed again keeps its new time, and the next best is tried.
+    // If a row exceeds the budget when it is timed again, it keeps its new time, and the next best
+    // row is tried.
     for (int row; (row = dip_cost_choose(report, latest_ms, budget_ms)) >= 0;) {
         DipStatsEstimate time;
         if (!dip_cost_time_row_again(cost, row, &time, err)) {

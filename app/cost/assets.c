@@ -1,4 +1,4 @@
-// `diptych cost assets`: size, deflated size and load time of the forms that assets can take.
+// `diptych cost assets`: size, zipped size and load time of the assets in several formats.
 #include "app/cost/cost.h"
 
 #include "app/files/png.h"
@@ -86,7 +86,7 @@ static void print_head(const char *title) {
 
 // --- meshes ------------------------------------------------------------------------------------
 
-// The median time of loading in milliseconds; -1 if the model cannot be loaded.
+// Returns the median time of loading a model, in milliseconds, or -1 if it cannot be loaded.
 static double time_model(const char *file, DipPool *pool) {
     double ms[LOADS];
     double scratch[LOADS];
@@ -104,7 +104,8 @@ static double time_model(const char *file, DipPool *pool) {
     return dip_stats_quantile(ms, LOADS, 0.5, scratch);
 }
 
-// Writes the mesh to an empty folder, without its pictures, so that only the mesh is loaded.
+// Writes the mesh in one format to an empty folder, loads it and prints its row. The folder has no
+// pictures, so that only the mesh is loaded.
 static void measure_mesh(const struct aiScene *scene, const char *format, const char *ending,
                          const char *name, const char *folder, DipPool *pool) {
     char file[PATH_MAX];
@@ -138,7 +139,8 @@ static void measure_meshes(const char *model, const char *folder, DipPool *pool)
 // --- pictures ----------------------------------------------------------------------------------
 
 static const uint8_t *texel_at(const DipTextureDef *texture, int level, int x, int y) {
-    // The nearest texel of level 0 replaces the mean, since only sizes are needed.
+    // A real mip level holds means of texels. Here the nearest texel of level 0 is enough, because
+    // only the compressed size is needed.
     const int sx = (x << level) < texture->width ? x << level : texture->width - 1;
     const int sy = (y << level) < texture->height ? y << level : texture->height - 1;
     return texture->rgba8 + 4 * ((size_t)sy * (size_t)texture->width + (size_t)sx);
@@ -149,7 +151,7 @@ static size_t blocks_of(int size, int level) {
     return (size_t)(levels + 3) / 4;
 }
 
-// Appends a level's blocks and returns the position after them.
+// Writes a level's compressed blocks to `to` and returns the position after them.
 static uint8_t *compress_level(const DipTextureDef *texture, int level, uint8_t *to) {
     const size_t across = blocks_of(texture->width, level);
     const size_t down = blocks_of(texture->height, level);
@@ -174,13 +176,14 @@ static int level_count(const DipTextureDef *texture) {
     return count;
 }
 
-// Sizes of all colour pictures as BC1 with `levels` stored mip levels; 0 means all of them.
+// Returns the size of all pictures as BC1 with `levels` stored mip levels each. With 0, whole mip
+// chains are stored.
 static Size measure_bc1(const DipSceneDef *def, int levels) {
     Size size = {0};
     for (int t = 0; t < def->texture_count; t++) {
         const DipTextureDef *texture = &def->textures[t];
         const int count = levels ? levels : level_count(texture);
-        // A chain is smaller than 3/2 of its first level plus a block per level.
+        // A mip chain is smaller than 3/2 of its first level plus one block per level.
         const size_t room = blocks_of(texture->width, 0) * blocks_of(texture->height, 0);
         uint8_t *blocks = malloc((room + room / 2 + 64) * BC1_BYTES);
         uint8_t *end = blocks;
@@ -220,13 +223,13 @@ static void add_picture(void *context, const char *file) {
 static void measure_pictures(const DipSession *session, const char *model_folder) {
     Size shipped = {0};
     for_files(model_folder, add_picture, &shipped);
-    print_head("Pictures, all of them");
-    print_row("as shipped (JPEG; PNG where alpha is)", shipped, session->times.pictures_ms);
+    print_head("All pictures");
+    print_row("as shipped (JPEG, or PNG with alpha)", shipped, session->times.pictures_ms);
     print_row("PNG, without alpha", measure_png(&session->scene_def), -1.0);
     print_row("BC1, largest level", measure_bc1(&session->scene_def, 1), -1.0);
     print_row("BC1, stored mip chain", measure_bc1(&session->scene_def, 0), -1.0);
-    printf("  (mip chains are made at load: %.1f ms; load times are those of the files that the "
-           "program reads)\n",
+    printf("  Loading also makes mip chains, in %.1f ms. Only the shipped pictures are loaded and "
+           "timed.\n",
            session->times.textures_ms);
 }
 
@@ -264,7 +267,7 @@ static void measure_paths(const DipSession *session, const char *folder) {
         }
     }
     for_files(folder, remove_each, NULL);
-    print_head("Camera paths, all of them");
+    print_head("All camera paths");
     print_row("text, .pth", sizes[0], ms[0]);
     print_row("binary, .bth", sizes[1], ms[1]);
 }
@@ -281,10 +284,10 @@ static void measure_release(const char *model_folder) {
     print_row("model and pictures, as shipped", assets, -1.0);
 }
 
-// Prints the load time of each part, from the command line on, and the time to free everything.
+// Prints the time of each part of the start (start_times.h), and the time to free everything.
 static void measure_session(DipSession *session) {
     const DipStartTimes times = session->times;
-    printf("Load and shutdown of the whole, ms\n  ");
+    printf("Load and shutdown of the whole program, ms\n  ");
 #define PRINT_PART(name, text)                                                                     \
     if (times.name##_ms > 0.0) {                                                                   \
         printf("%s %.1f, ", #name, times.name##_ms);                                               \

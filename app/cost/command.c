@@ -22,24 +22,25 @@ static bool run_assets(DipSession *session, const void *arguments, DipError *err
 static void describe_cost(const void *arguments, DipSessionDef *def) {
     def->options = &((const DipCostArguments *)arguments)->session;
     def->scene = true;
-    def->keep_model = true; // The converged pictures are drawn from it.
+    def->keep_model = true; // The reference renderer draws the converged pictures from the model.
 }
 
 static void describe_assets(const void *arguments, DipSessionDef *def) {
     def->options = &((const DipCostAssetsArguments *)arguments)->session;
     def->scene = true;
-    def->keep_model = true; // Its pictures are written in other formats.
+    def->keep_model = true; // The model's pictures are written in other formats.
 }
 
 static const DipExample cost_examples[] = {
     {"diptych cost --out report", "measures the courtyard in about eight minutes"},
     {"diptych cost --out report --budget-ms 8,16.6",
-     "also advises what to choose within 8 and 16.6 ms per frame"},
-    {"diptych cost --out report --model scene.glb --size 1280x720", "measures a model of yours"},
-    {"diptych cost --out part0 --places 8 --part 0:4", "measures half of the errors"},
+     "also finds the best settings within 8 ms and within 16.6 ms per frame"},
+    {"diptych cost --out report --model scene.glb --size 1280x720", "measures your own model"},
+    {"diptych cost --out part0 --places 8 --part 0:4",
+     "measures the errors at half of the viewpoints"},
     {"diptych cost --out part1 --places 8 --part 4:8 --errors-only",
-     "measures the other half, on another machine"},
-    {"diptych cost merge --out report part0/cost.json part1/cost.json", "joins the two"},
+     "measures the errors at the other half, on another machine"},
+    {"diptych cost merge --out report part0/cost.json part1/cost.json", "joins the two parts"},
 };
 
 static const DipExample merge_examples[] = {
@@ -48,19 +49,20 @@ static const DipExample merge_examples[] = {
 };
 
 static const DipExample assets_examples[] = {
-    {"diptych cost assets", "weighs the courtyard"},
-    {"diptych cost assets --model scene.glb", "weighs a model of yours"},
+    {"diptych cost assets", "prints the sizes and load times of the courtyard's files"},
+    {"diptych cost assets --model scene.glb",
+     "prints the sizes and load times of your own model's files"},
 };
 
 const DipCommand dip_cost_command = {
     .name = "cost",
     .summary = "report what each setting costs in time and buys in accuracy",
     .usage = "--out DIR [OPTION]...",
-    .text = "Cost changes one setting at a time and measures how much longer a frame takes and how "
-            "much nearer the picture comes to the converged one. It writes a report with tables, "
-            "plots and pictures.\n\n"
-            "A run takes minutes. If it is interrupted, the same command goes on where it ended. "
-            "docs/cost.md defines every figure.",
+    .text = "Cost changes one setting at a time. It measures how much longer a frame takes, and "
+            "how much nearer the picture comes to the converged picture, which has very many "
+            "samples per pixel. It writes a report with tables, plots and pictures.\n\n"
+            "A run takes minutes. To continue an interrupted run, give the same command again. "
+            "docs/cost.md defines every number in the report.",
     .examples = cost_examples,
     .example_count = DIP_ARRAY_COUNT(cost_examples),
     .lists_settings = true,
@@ -76,9 +78,10 @@ const DipCommand dip_cost_merge_command = {
     .name = "cost merge",
     .summary = "join the parts of a report that several machines measured",
     .usage = "--out DIR PART/cost.json...",
-    .text = "Cost merge joins reports that were measured with the same scene, size, settings, "
-            "places and samples, each with a --part of the places. Times come from the first part "
-            "that has times, since times of different machines cannot be mixed.",
+    .text = "Cost merge joins reports that have the same scene, size, settings, viewpoints "
+            "(--places) and samples. Each report has the errors of some of the viewpoints "
+            "(--part). The times come from the first report that has times, because times of "
+            "different machines cannot be mixed.",
     .examples = merge_examples,
     .example_count = DIP_ARRAY_COUNT(merge_examples),
     .parts = &dip_cost_merge_option_parts,
@@ -93,9 +96,9 @@ const DipCommand dip_cost_assets_command = {
     .name = "cost assets",
     .summary = "print the size and load time of the assets in several formats",
     .usage = "[OPTION]...",
-    .text = "Cost assets writes the scene's meshes, pictures and camera paths in several formats "
-            "to a temporary folder and prints how large each one is, how large it is when zipped, "
-            "and how long it takes to load.",
+    .text =
+        "Cost assets writes the scene's meshes, pictures and camera paths in several formats to a "
+        "temporary folder and prints for each format its size, its zipped size and its load time.",
     .examples = assets_examples,
     .example_count = DIP_ARRAY_COUNT(assets_examples),
     .parts = &dip_cost_assets_option_parts,

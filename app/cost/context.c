@@ -1,9 +1,10 @@
-// Opening renderers and reference, drawing rows.
+// Opening the renderers and the reference renderer, and drawing the report's rows.
 #include "app/cost/context.h"
 
 #include "app/interrupt.h"
 
-// Makes compressed textures if a row shows them, before any frame is drawn or timed.
+// Compresses the textures if the settings of any row of the report need it. This is done before any
+// frame is drawn or timed.
 static bool prepare_textures(const DipCostContext *cost, DipError *err) {
     bool compresses = false;
     for (int row = 0; row < cost->report->row_count; row++) {

@@ -1,4 +1,7 @@
-// What the steps of a cost report work with: session, report, journal, reference and renderers.
+// The cost context, with which the steps (steps.h) make a report: the session, the report, the
+// journal, the reference renderer and the renderers. A row of the report (report.h) is one
+// combination: quality settings on a camera path. A truth (app/measure/truth.h) is a converged
+// picture.
 #ifndef DIP_APP_COST_CONTEXT_H
 #define DIP_APP_COST_CONTEXT_H
 
@@ -12,10 +15,11 @@ typedef struct DipCostContext {
     const DipSession *session;
     DipCostReport *report;
     DipCostJournal *journal;
-    const char *cache; // Folder of the truths; NULL for no cache.
+    const char *cache; // Folder of the cached truths; NULL for no cache.
     DipReference *reference;
-    // Indexed by the step of instancing (gi). Renderer [1] draws all settings that share meshes, so
-    // that they use the same memory. Renderer [0] keeps the copies of meshes that gi=off needs.
+    // Indexed by the step of the setting gi (instancing). Renderer [0] draws the rows with gi=off
+    // and keeps the copies of meshes that they need. Renderer [1] draws all other rows, so that
+    // they use the same memory.
     DipRenderer *renderers[2];
 } DipCostContext;
 
@@ -23,19 +27,21 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
                            DipCostJournal *journal, const char *cache, DipError *err);
 void dip_cost_context_close(DipCostContext *cost);
 
-// Draws a row's settings at a time on its path. frame_index selects the pattern of temporal AA.
+// Draws a row's frame at a time on the row's camera path. frame_index selects the sample pattern of
+// temporal AA.
 bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
                    DipError *err);
 
 // Draws the row's timed frame `index`, 0..timed_frames - 1.
 bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *frame, DipError *err);
 
-// Gets the truth of one frame of the burst at a viewpoint of a path.
+// Gets the truth of one frame at a viewpoint of a path. `frame` is the index in the burst: the
+// successive frames that are drawn at each viewpoint.
 bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int frame,
                             DipTruthProgress *progress, void *context, DipTruth *truth,
                             DipError *err);
 
-// True, with *err filled, after Ctrl-C. The journal then keeps what was measured.
+// After Ctrl-C, returns true and fills *err. The journal keeps what was measured before.
 bool dip_cost_interrupted(const DipCostContext *cost, DipError *err);
 
 #endif

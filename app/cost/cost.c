@@ -45,7 +45,8 @@ static bool write_report(DipCostContext *cost, const char *folder, DipError *err
            write_file(cost->report, folder, "cost.json", dip_cost_write_json, err);
 }
 
-// Finds the folder of the truths: the one of --cache, or the user's cache folder, or "" for none.
+// Finds the folder of the cached truths: the folder of --cache if it is given, otherwise the user's
+// cache folder. Writes "" if there is no cache.
 static bool find_cache(const DipCostArguments *arguments, char folder[PATH_MAX], DipError *err) {
     if (arguments->cost.cache) {
         snprintf(folder, PATH_MAX, "%s", arguments->cost.cache);

@@ -5,14 +5,14 @@
 #include "app/cost/options.h"
 #include "app/session.h"
 
-// Measures what settings cost and buy, writes the report and prints its table.
+// Measures the time and the error of each setting, writes the report and prints its table.
 bool dip_cost_run(DipSession *session, const DipCostArguments *arguments, DipError *err);
 
 // Joins the parts of a report that several machines measured.
 bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err);
 
-// Prints how many bytes the forms of the assets take and how long they take to load. Closes the
-// session, since it also measures how long that takes.
+// Prints the sizes and load times of the assets in several formats. Closes the session, in order to
+// measure how long closing takes.
 bool dip_cost_assets_run(DipSession *session, DipError *err);
 
 #endif

@@ -1,4 +1,5 @@
-// Making truths, and judging every row's pictures by them.
+// Making the truths (converged pictures), and judging every row: measuring its pictures' errors
+// against the truths.
 #include "app/cost/steps.h"
 #include "app/interrupt.h"
 #include "app/measure/meter.h"
@@ -14,11 +15,11 @@ static bool out_of_memory(DipError *err) {
 
 // --- truths ------------------------------------------------------------------------------------
 
-enum { STEPS_PER_TRUTH = 1000 }; // of the progress display
+enum { STEPS_PER_TRUTH = 1000 }; // steps of the progress display
 
 typedef struct TruthProgress {
     DipProgress progress;
-    int64_t before; // steps of the truths that are done
+    int64_t before; // progress steps of the truths that are done
 } TruthProgress;
 
 static bool show_truth(void *context, double done) {
@@ -54,7 +55,8 @@ bool dip_cost_make_truths(DipCostContext *cost, DipError *err) {
     const int truths =
         cost->report->path_count * (options->end_place - options->first_place) * options->burst;
     TruthProgress at = {
-        dip_progress_begin("steps of the truths made", (int64_t)truths * STEPS_PER_TRUTH), 0};
+        dip_progress_begin("steps (1000 per converged picture)", (int64_t)truths * STEPS_PER_TRUTH),
+        0};
     bool made = true;
     for (int path = 0; made && path < cost->report->path_count; path++) {
         made = make_path_truths(cost, path, &at, err);
@@ -65,9 +67,9 @@ bool dip_cost_make_truths(DipCostContext *cost, DipError *err) {
 
 // --- judging -----------------------------------------------------------------------------------
 
-// A row's pictures of one burst, and their errors.
+// A row's pictures of one burst (the successive frames at a viewpoint), and their errors.
 typedef struct Burst {
-    uint8_t *rgba8; // owned; frame after frame, rows packed
+    uint8_t *rgba8; // owned; one frame after another, their rows without padding
     int row;
     char key[33]; // hash of the pictures and of their truths
     DipMetricSums sums;
@@ -83,8 +85,8 @@ typedef struct Judge {
     DipFlipAnalysis analyses[DIP_COST_MAX_BURST];
     DipMeter *meters; // one per thread
     int meter_count;
-    Burst *bursts; // that are judged at a time, a few per thread
-    int burst_room;
+    Burst *bursts;  // the bursts that are judged together
+    int burst_room; // greatest number of bursts: two per thread
     int burst_count;
     DipProgress progress;
     int64_t done;
@@ -174,7 +176,7 @@ static bool judge_bursts(Judge *j, DipError *err) {
     return true;
 }
 
-// Draws a row's burst and finds its key.
+// Draws a row's burst and computes its key.
 static bool draw_burst(Judge *j, int row, Burst *drawn, DipError *err) {
     const DipCostReport *report = j->cost->report;
     const size_t row_bytes = (size_t)report->width * 4;

@@ -1,5 +1,6 @@
-// Solving the normal equations by elimination. While a price is negative, the most negative one is
-// dropped and the others are solved again.
+// Solving the normal equations by elimination. A price is the time for one unit of a kind of work
+// (a term). While a price is negative, the term with the most negative price is dropped and the
+// prices of the others are solved again.
 #include "app/cost/fit.h"
 
 #include <math.h>
@@ -33,8 +34,8 @@ typedef struct Equations {
     double right[TERMS];
 } Equations;
 
-// Solves for the terms in use by Gaussian elimination with pivots; the others become 0. A column
-// that depends linearly on others is left out.
+// Solves for the used terms by Gaussian elimination with pivots. The other terms get the price 0. A
+// term whose column depends linearly on other columns gets the price 0, too.
 static void solve(const Equations *equations, const bool used[TERMS], double solution[TERMS]) {
     Equations e = *equations;
     int pivot_of[TERMS];
@@ -74,7 +75,8 @@ static double fitted(const double terms[TERMS], const double solution[TERMS]) {
 }
 
 // Adds a row to the normal equations. Terms are divided by their greatest values, which keeps the
-// equations well conditioned. Errors are relative, so that slow rows count no more than fast ones.
+// equations well conditioned. The fit minimises relative errors, so that slow rows count no more
+// than fast rows.
 static void add_row(Equations *equations, const double terms[TERMS], const double scale[TERMS],
                     double ms) {
     for (int i = 0; i < TERMS; i++) {
@@ -87,7 +89,8 @@ static void add_row(Equations *equations, const double terms[TERMS], const doubl
 
 static void judge_fit(const DipCostReport *report, const double *ms, const double solution[TERMS],
                       DipCostFit *fit) {
-    // R2 compares with the best single time for all rows, by relative errors as in the fit.
+    // R2 compares the fit with the best single time for all rows. Both are judged by relative
+    // errors.
     double sum = 0.0, weight = 0.0, all = 0.0, left = 0.0;
     double *misses = malloc((size_t)report->row_count * sizeof *misses);
     for (int r = 0; r < report->row_count; r++) {

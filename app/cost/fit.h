@@ -1,4 +1,5 @@
-// How well work counters explain time: a linear fit over all timed rows.
+// A linear fit of time to the work counters over all timed rows. It shows how well work explains
+// time, and what each kind of work (a term) costs.
 #ifndef DIP_APP_COST_FIT_H
 #define DIP_APP_COST_FIT_H
 
@@ -8,14 +9,14 @@ enum { DIP_COST_FIT_MAX_TERMS = 8 };
 
 typedef struct DipCostFit {
     const char *names[DIP_COST_FIT_MAX_TERMS]; // The first is "frame", the constant term.
-    double ns[DIP_COST_FIT_MAX_TERMS];         // Price per unit; 0 if it would be negative.
+    double ns[DIP_COST_FIT_MAX_TERMS];         // Time per unit of work; 0 if it would be negative.
     int count;                                 // Number of terms.
-    double r2;                                 // Share of the relative variance that is explained.
-    double median_miss;                        // Median of |fitted / measured - 1|.
-    int rows;                                  // Number of rows fitted; 0 if there are too few.
+    double r2;          // Share of the relative variance that the fit explains.
+    double median_miss; // Median of |fitted / measured - 1|.
+    int rows;           // Number of rows fitted; 0 if there are too few.
 } DipCostFit;
 
-// Least squares of relative errors over the rows' times; no price is negative.
+// Minimises the sum of the squares of the rows' relative errors. No time per unit is negative.
 DipCostFit dip_cost_fit(const DipCostReport *report);
 
 #endif

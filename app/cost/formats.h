@@ -1,4 +1,5 @@
-// A report as JSON, CSV and text. (html.h has the page.) Each file is written whole or not at all.
+// A report as JSON, CSV and text. (html.h writes the page.) Each file is written whole or not at
+// all.
 #ifndef DIP_APP_COST_FORMATS_H
 #define DIP_APP_COST_FORMATS_H
 
@@ -6,12 +7,12 @@
 
 #include <stdio.h>
 
-// Writes everything, with every single time.
+// Writes the whole report, with the time of every frame of every round.
 bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError *err);
 
-// Reads what dip_cost_write_json wrote. Figures that follow from others are computed again. Fails
-// with the file and the part of it that is missing or wrong. On success the caller frees the
-// report.
+// Reads what dip_cost_write_json wrote. Computes derived values again instead of reading them. On
+// failure, *err names the file and the part that is missing or wrong. On success the caller frees
+// the report.
 bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err);
 
 // Writes one line per step of a sweep and one per combination.

@@ -44,14 +44,14 @@ static void write_facts(const DipCostReport *report, FILE *out) {
     dip_markup_text(out, report->scene);
     fprintf(out, "</h1>\n<p>%d&times;%d pixels, on ", report->width, report->height);
     dip_markup_text(out, report->processor);
-    fprintf(
-        out,
-        ", %d thread%s, %s. Times were taken of %d frame%s of each path, in %d rounds of random "
-        "order. Errors were taken at %d viewpoint%s on each path, %d successive frame%s at "
-        "each, against a truth of 2&times;%d samples per pixel. Settings of the baseline: %s.",
-        report->threads, dip_cost_plural(report->threads), report->isa, o->timed_frames,
-        dip_cost_plural(o->timed_frames), report->rounds, o->places, dip_cost_plural(o->places),
-        o->burst, dip_cost_plural(o->burst), o->samples, baseline);
+    fprintf(out,
+            ", %d thread%s, %s. Times were taken of %d frame%s of each path, in %d rounds of "
+            "random order. Errors were taken at %d viewpoint%s on each path, %d successive frame%s "
+            "at each, against a converged picture (the truth) of 2&times;%d samples per pixel. "
+            "Settings of the baseline: %s.",
+            report->threads, dip_cost_plural(report->threads), report->isa, o->timed_frames,
+            dip_cost_plural(o->timed_frames), report->rounds, o->places, dip_cost_plural(o->places),
+            o->burst, dip_cost_plural(o->burst), o->samples, baseline);
     if (dip_cost_is_timed(report, report->same_row)) {
         const DipStatsEstimate same = dip_cost_ratio(report, report->same_row, 0);
         fprintf(
@@ -82,16 +82,17 @@ static void write_advice(const DipCostReport *report, FILE *out) {
     if (report->advice_count == 0) {
         return;
     }
-    fprintf(out,
-            "<h2>Best settings for a time budget</h2>\n<p>For each budget, the one of %d "
-            "combinations on path %s that has the least FLIP within it. Its time was measured "
-            "again. &ldquo;Next better&rdquo; is the fastest combination whose FLIP is at least "
-            "1 %% lower.</p>\n<div class=\"scroll\"><table>\n"
-            "<tr><th>budget, ms</th><th class=\"l\">settings</th><th>time again, ms</th><th>95 %% "
-            "interval</th>"
-            "<th>FLIP</th><th>RMSE, linear</th><th class=\"l\">next better</th>"
-            "<th>change of ms</th><th>change of FLIP</th></tr>\n",
-            report->row_count - report->combined_first, report->paths[0]);
+    fprintf(
+        out,
+        "<h2>Best settings for a time budget</h2>\n"
+        "<p>For each time budget, the table shows the settings with the least FLIP that are within "
+        "the budget, of %d combinations on path %s. Their time was measured again. &ldquo;Next "
+        "better&rdquo; is the fastest combination whose FLIP is at least 1 %% lower.</p>\n"
+        "<div class=\"scroll\"><table>\n"
+        "<tr><th>budget, ms</th><th class=\"l\">settings</th><th>time again, ms</th><th>95 %% "
+        "interval</th><th>FLIP</th><th>RMSE, linear</th><th class=\"l\">next better</th><th>change "
+        "of ms</th><th>change of FLIP</th></tr>\n",
+        report->row_count - report->combined_first, report->paths[0]);
     for (int i = 0; i < report->advice_count; i++) {
         const DipCostAdvice *advice = &report->advice[i];
         fprintf(out, "<tr><td>%g</td><td class=\"l\">", advice->budget_ms);
@@ -203,9 +204,10 @@ static void write_pareto_front(const DipCostReport *report, FILE *out) {
             report, front, dip_cost_pareto_front(report, rows, count, front));
         Points all = {values, values + room, NULL, NULL};
         Points best = {values + 2 * room, values + 3 * room, labels, label_texts};
-        fprintf(out, "<h2>Time against error</h2>\n<p>Both axes are logarithmic. The Pareto front "
-                     "holds the combinations that no other beats in both time and error. Numbers "
-                     "mark those that lower FLIP by at least 1 %% below the one before.</p>\n");
+        fprintf(out, "<h2>Time against error</h2>\n"
+                     "<p>Both axes are logarithmic. The Pareto front holds the combinations that "
+                     "no other beats in both time and error. The numbered combinations lower FLIP "
+                     "by at least 1 %% from number to number.</p>\n");
         write_scatter(report, rows, count, front, kept, &all, &best, out);
         write_pareto_table(report, front, kept, out);
     }
@@ -223,8 +225,8 @@ static void write_fit(const DipCostReport *report, FILE *out) {
         return;
     }
     fprintf(out,
-            "<p>Time explained by work, a linear fit to %d rows: R&sup2; is %.3f, the median error "
-            "is %.1f %%. Prices in nanoseconds: ",
+            "<p>A linear fit explains the times of %d rows by their work counters: R&sup2; is "
+            "%.3f, the median error is %.1f %%. Times per unit of work, in nanoseconds: ",
             fit.rows, fit.r2, 100.0 * fit.median_miss);
     bool first = true;
     for (int i = 0; i < fit.count; i++) {
@@ -258,23 +260,26 @@ static void write_foot(const DipCostReport *report, FILE *out) {
     }
     fprintf(
         out,
-        "<h2>What the words mean</h2>\n<dl>\n"
-        "<dt>ratio</dt><dd>The step's time divided by the baseline's in the same round: the median "
-        "over rounds and frames. The interval is a bootstrap over rounds.</dd>\n"
+        "<h2>What the words mean</h2>\n"
+        "<dl>\n"
+        "<dt>ratio</dt><dd>The step's time divided by the baseline's time in the same round: the "
+        "median of this quotient over rounds and frames. The 95 %% interval comes from a bootstrap "
+        "over the rounds.</dd>\n"
         "<dt>truth</dt><dd>The converged picture: jittered supersampling in linear light. Every "
-        "sample is shaded at its own position, and textures are read from their largest level. "
-        "The truth is the mean of two independent halves. Half of their difference is its noise "
-        "floor; an error below three times the floor is &ldquo;at floor&rdquo;, since it cannot "
-        "be told from the truth's own noise.</dd>\n"
+        "sample is shaded at its own position, and textures are read from their largest level. The "
+        "truth is the mean of two independent halves. Half of their difference is its noise floor; "
+        "an error below three times the floor is &ldquo;at floor&rdquo;, since it cannot be told "
+        "from the truth's own noise.</dd>\n"
         "<dt>RMSE</dt><dd>Root mean square error in linear light, 0 to 1.</dd>\n"
-        "<dt>PSNR</dt><dd>Peak signal-to-noise ratio on 8-bit sRGB codes, in decibels.</dd>\n"
-        "<dt>SSIM</dt><dd>Structural similarity of luma, at most 1, on 8-bit sRGB codes.</dd>\n"
+        "<dt>PSNR</dt><dd>Peak signal-to-noise ratio on 8-bit sRGB values, in decibels.</dd>\n"
+        "<dt>SSIM</dt><dd>Structural similarity of luma, at most 1, on 8-bit sRGB values.</dd>\n"
         "<dt>FLIP</dt><dd>How different two pictures look when one alternates between them, 0 to "
-        "1, on 8-bit sRGB codes at %g pixels per degree.</dd>\n"
+        "1, on 8-bit sRGB values at %g pixels per degree.</dd>\n"
         "<dt>flicker</dt><dd>The part of the error that changes from frame to frame: root mean "
         "square of its deviation over time, in linear light.</dd>\n"
         "<dt>two-frame mean</dt><dd>Root mean square error of the mean of two successive "
-        "frames.</dd>\n</dl>\n",
+        "frames.</dd>\n"
+        "</dl>\n",
         report->options.pixels_per_degree);
 }
 

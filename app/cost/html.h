@@ -5,7 +5,7 @@
 #include "app/cost/report.h"
 #include "app/cost/report_pictures.h"
 
-// Writes the file whole or not at all. `pictures` may be NULL: then the page has none.
+// Writes the file whole or not at all. If `pictures` is NULL, the page has no pictures.
 bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pictures,
                          const char *file, DipError *err);
 

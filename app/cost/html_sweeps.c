@@ -1,4 +1,5 @@
-// Writing the page's sweeps: bars and tables as SVG and HTML, pictures as data URIs.
+// Writing the page's sweeps. A sweep is the steps of one setting. Its bars are SVG, its tables are
+// HTML, its pictures are data URIs.
 #include "app/cost/html_sweeps.h"
 
 #include "app/cost/order.h"
@@ -12,7 +13,7 @@
 enum {
     BAR_WIDTH = 760,
     BAR_LEFT = 130,
-    BAR_ROOM = 230, // width of a full bar and the number behind it
+    BAR_ROOM = 230, // width of the longest bar and its number
     BAR_SECOND = 500,
     BAR_LINE = 26,
     BAR_TOP = 34
@@ -26,7 +27,7 @@ static void write_bar(FILE *out, double x, double y, double width, const char *c
             x, y, width, colour, x + width + 6.0, y + 13.0, number);
 }
 
-// The greatest values of a sweep, which have the longest bars.
+// The greatest values of a sweep. They get the longest bars.
 typedef struct Scale {
     double most_ratio;
     double most_flip;
@@ -142,11 +143,11 @@ static void write_crops(const DipCostReport *report, const DipCostSweep *sweep,
 static void write_all_sweeps(const DipCostReport *report, const DipCostPictures *pictures,
                              FILE *out) {
     fprintf(out, "<h2>Each setting, on the path made for it</h2>\n"
-                 "<p class=\"note\">Black lines are 95 %% intervals. Errors compare with the "
-                 "converged picture. Lower is better; for PSNR and SSIM, higher is better. The "
-                 "pictures show the part in which the steps differ most, pixel for pixel. Below "
-                 "each is its FLIP map: black means no visible difference, yellow the greatest "
-                 "possible.</p>\n");
+                 "<p class=\"note\">Black lines are 95 %% intervals. Errors are measured against "
+                 "the converged picture. Lower is better; for PSNR and SSIM, higher is better. The "
+                 "pictures show, pixel for pixel, the part in which the steps differ most. Below "
+                 "each picture is its FLIP map: black means no visible difference, yellow means "
+                 "the greatest possible difference.</p>\n");
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
         fprintf(out, "<h3>%s <span class=\"note\">(path %s)</span></h3>\n", sweep->title,
@@ -174,10 +175,11 @@ static void write_all_sweeps(const DipCostReport *report, const DipCostPictures 
 // --- regions, counters -------------------------------------------------------------------------
 
 static void write_regions(const DipCostReport *report, FILE *out) {
-    fprintf(out,
-            "<h2>Where the errors are</h2>\n<p class=\"note\">Mean FLIP over the pixels of each "
-            "class; in brackets, the share of all pixels that belong to it.</p>\n"
-            "<div class=\"scroll\"><table>\n<tr><th>setting</th><th class=\"l\">step</th>");
+    fprintf(out, "<h2>Where the errors are</h2>\n"
+                 "<p class=\"note\">Mean FLIP over the pixels of each class. The number in "
+                 "brackets is the share of all pixels that belong to the class.</p>\n"
+                 "<div class=\"scroll\"><table>\n"
+                 "<tr><th>setting</th><th class=\"l\">step</th>");
     for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
         fprintf(out, "<th>%s</th>", dip_metric_region_names[r]);
     }
@@ -206,11 +208,12 @@ static void write_regions(const DipCostReport *report, FILE *out) {
 }
 
 static void write_counters(const DipCostReport *report, FILE *out) {
-    fprintf(out,
-            "<h2>Work</h2>\n<p class=\"note\">Work counters, in thousands per frame: means over "
-            "the timed frames. They are exact, and the same on every machine and for any "
-            "number of threads.</p>\n"
-            "<div class=\"scroll\"><table>\n<tr><th>setting</th><th class=\"l\">step</th>");
+    fprintf(out, "<h2>Work</h2>\n"
+                 "<p class=\"note\">Work counters, in thousands per frame: means over the timed "
+                 "frames. The counters are exact. They are the same on every machine and with any "
+                 "number of threads.</p>\n"
+                 "<div class=\"scroll\"><table>\n"
+                 "<tr><th>setting</th><th class=\"l\">step</th>");
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         fprintf(out, "<th>");
         for (const char *name = dip_cost_counter_names[c]; *name; name++) {

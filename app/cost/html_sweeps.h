@@ -1,5 +1,5 @@
-// The part of the page that shows the sweeps: a section for each, then tables of all their errors
-// by region and of their work.
+// The part of the page that shows the sweeps (the steps of one setting each): a section for each
+// sweep, then a table of all sweeps' errors by region and a table of their work.
 #ifndef DIP_APP_COST_HTML_SWEEPS_H
 #define DIP_APP_COST_HTML_SWEEPS_H
 
@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-// `pictures` may be NULL: then there are none.
+// If `pictures` is NULL, the sections have no pictures.
 void dip_cost_write_html_sweeps(const DipCostReport *report, const DipCostPictures *pictures,
                                 FILE *out);
 

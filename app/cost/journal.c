@@ -1,4 +1,5 @@
-// A text file. Each line has a kind, a key, numbers in exact hexadecimal notation, and a check.
+// The journal is a text file. Each line has a kind, a key, numbers in exact hexadecimal notation,
+// and a checksum.
 #include "app/cost/journal.h"
 
 #include "renderer/base/hash.h"
@@ -54,7 +55,7 @@ static void check_of(const char *text, size_t length, char check[33]) {
     dip_hash_hex(&hash, check);
 }
 
-// Reads the numbers in from..end, separated by spaces. Returns NULL if anything else is there.
+// Reads the text from..end as numbers separated by spaces. Returns NULL if it is anything else.
 static double *read_values(const char *from, const char *end, int *count) {
     int room = 1;
     for (const char *c = from; c < end; c++) {
@@ -75,8 +76,8 @@ static double *read_values(const char *from, const char *end, int *count) {
     return values;
 }
 
-// Keeps one line, "errors KEY v v ... CHECK" or "round PLAN v v ... CHECK", without its line break.
-// Ignores a line that does not match its check.
+// Reads and keeps one line without its line break: "errors KEY v v ... CHECK" or "round PLAN v v
+// ... CHECK". Ignores a line whose checksum CHECK is wrong.
 static void read_line(DipCostJournal *journal, char *line, size_t length) {
     Entry entry = {.is_round = strncmp(line, "round ", 6) == 0};
     const size_t head = entry.is_round ? 6 : 7;
@@ -98,7 +99,7 @@ static void read_line(DipCostJournal *journal, char *line, size_t length) {
     }
 }
 
-// Reads all complete lines and cuts off an incomplete one at the end of the file.
+// Reads all complete lines. Cuts an incomplete line off the end of the file.
 static bool read_file(DipCostJournal *journal) {
     FILE *in = fopen(journal->file, "r");
     if (!in) {

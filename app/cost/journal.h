@@ -1,6 +1,7 @@
-// The journal of an unfinished report: a file in the report's folder with every measurement made so
-// far, from which the next run continues. Each line holds one measurement and a check of its own,
-// so the program may be ended at any time; a line that was cut short is dropped.
+// The journal of an unfinished report: a file in the report's folder that holds every measurement
+// made so far. The next run continues from the journal. Each line holds one measurement and its
+// checksum. The program may therefore be ended at any time: the next run drops a line that was cut
+// short.
 #ifndef DIP_APP_COST_JOURNAL_H
 #define DIP_APP_COST_JOURNAL_H
 
@@ -12,20 +13,21 @@
 // Not thread-safe.
 typedef struct DipCostJournal DipCostJournal;
 
-// Opens folder/cost.state, or creates it. `plan` is the name of what times belong to
-// (dip_cost_plan_hash); rounds of other plans are ignored.
+// Opens folder/cost.state, or creates it. `plan` is the hash of everything that times depend on
+// (dip_cost_plan_hash). Rounds of other plans are ignored.
 DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipError *err);
 
-// Closes the journal. If the report is finished, the file is removed.
+// Closes the journal. Removes its file if the report is finished.
 void dip_cost_journal_close(DipCostJournal **journal, bool finished);
 
-// Finds or adds errors by their key, a hash of the pictures and truths that they were measured on.
+// Find and add the errors of one burst. The key is a hash of the burst's pictures and truths.
 bool dip_cost_journal_find(const DipCostJournal *journal, const char *key, DipMetricSums *sums);
 bool dip_cost_journal_add(DipCostJournal *journal, const char *key, const DipMetricSums *sums,
                           DipError *err);
 
-// The plan's round with this number, counted in the order in which rounds were added, if it has
-// `count` times; else NULL. The times are borrowed until the journal is closed.
+// Returns the times of the plan's round with this number, or NULL if there is no such round. Rounds
+// are numbered from 0 in the order in which they were added; rounds that do not have `count` times
+// are skipped. The times are borrowed until the journal is closed.
 const double *dip_cost_journal_round(const DipCostJournal *journal, int round, int count);
 bool dip_cost_journal_add_round(DipCostJournal *journal, const double *ms, int count,
                                 DipError *err);

@@ -1,11 +1,12 @@
-// Fields of the JSON report that are written and read under their names in the structs.
+// Fields that have the same name in the JSON report as in the structs.
 #ifndef DIP_APP_COST_JSON_FIELDS_H
 #define DIP_APP_COST_JSON_FIELDS_H
 
-// X(field): texts of DipCostReport.
+// X(field): the texts of DipCostReport.
 #define DIP_COST_HEADER_TEXTS(X) X(version) X(scene) X(scene_hash) X(processor) X(isa)
 
-// X(field, greatest value): whole numbers from 0 of DipCostReport and of its options.
+// X(field, greatest value): numbers of DipCostReport (HEADER) and of its options (OPTION). They are
+// whole numbers from 0 on.
 #define DIP_COST_HEADER_NUMBERS(X)                                                                 \
     X(threads, 256)                                                                                \
     X(width, 8192)                                                                                 \

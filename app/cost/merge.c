@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// True if two reports are parts of one: rows, pictures and truths are the same. Machines and times
-// may differ.
+// True if two reports are parts of the same report: their scene, size, rows and truths are the
+// same. Their machines and times may differ.
 static bool belong(const DipCostReport *a, const DipCostReport *b) {
     bool same = strcmp(a->scene_hash, b->scene_hash) == 0 && a->width == b->width &&
                 a->height == b->height && a->row_count == b->row_count &&
@@ -42,8 +42,8 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
     }
 }
 
-// Reads all parts and joins them in one report. It gets its times, its advice and the machine's
-// name from the first part that has times, since times of several machines cannot be mixed.
+// Reads all parts and joins them in one report. The report's times, advice and machine come from
+// the first part that has times, because times of several machines cannot be mixed.
 static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *report,
                        DipError *err) {
     if (!dip_cost_read_json(report, arguments->parts[0], err)) {
@@ -86,7 +86,7 @@ bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err) {
     const char *const folder = arguments->out;
     bool done = dip_folder_make(folder, "--out", err) && read_parts(arguments, &report, err);
     if (done && count_missing(&report) > 0) {
-        printf("%d of %d viewpoints are in none of the parts\n", count_missing(&report),
+        printf("%d of %d viewpoints are missing: no part has them\n", count_missing(&report),
                report.options.places);
     }
     if (done && strlen(folder) + 16 > sizeof file) {

@@ -75,8 +75,8 @@ static bool read_budget(void *fields, const DipOptionRow *row, const char *value
 static const DipOptionRow out_rows[] = {
     {.name = "--out",
      .argument = "DIR",
-     .text = "Write cost.json, cost.csv and cost.html into this folder. If a run there was "
-             "interrupted, the same command goes on with it.",
+     .text = "Write cost.json, cost.csv and cost.html into this folder. To continue an interrupted "
+             "run, give the same command again.",
      .kind = DIP_OPTION_TEXT,
      .field = offsetof(DipCostArguments, out)},
 };
@@ -92,21 +92,22 @@ static const DipOptionRow merge_rows[] = {
 static const DipOptionRow choice_rows[] = {
     {.name = "--baseline",
      .argument = "SET",
-     .text = "Change one setting at a time from these settings, and compare with them. The default "
-             "is every setting's default.",
+     .text = "The settings to start from. Cost changes one of them at a time and compares the "
+             "result with the baseline. By default, every setting has its default.",
      .kind = DIP_OPTION_SETTINGS,
      .field = FIELD(baseline)},
     {.name = "--combine",
      .argument = "LIST",
-     .text = "Also measure every combination of the steps of these settings. The default is "
-             "aa,af; none measures no combination.",
+     .text = "Also measure every combination of the steps of these settings. The default is aa,af. "
+             "The word none switches this off.",
      .kind = DIP_OPTION_CUSTOM,
      .given = FIELD(has_combined),
      .read = read_combined},
     {.name = "--budget-ms",
      .argument = "LIST",
-     .text = "Advise the settings with the least error within so many milliseconds per frame, such "
-             "as 8,16.6. This combines aa,aaa,asd,af,aaf.",
+     .text =
+         "Find the settings with the least error for each of these budgets in milliseconds per "
+         "frame, such as 8,16.6. With this option, the default of --combine is aa,aaa,asd,af,aaf.",
      .kind = DIP_OPTION_LIST,
      .count = FIELD(budget_count),
      .most = DIP_COST_MAX_BUDGETS,
@@ -117,14 +118,14 @@ static const DipOptionRow choice_rows[] = {
 static const DipOptionRow error_rows[] = {
     {.name = "--places",
      .argument = "N",
-     .text = "Measure errors at this many positions on each path. The default is 3.",
+     .text = "Measure errors at this many viewpoints on each camera path. The default is 3.",
      .kind = DIP_OPTION_INTEGER,
      .field = FIELD(places),
      .least = 1,
      .most = DIP_COST_MAX_PLACES},
     {.name = "--burst",
      .argument = "N",
-     .text = "Draw this many successive frames at each position, to measure flicker. The default "
+     .text = "Draw this many successive frames at each viewpoint, to measure flicker. The default "
              "is 2.",
      .kind = DIP_OPTION_INTEGER,
      .field = FIELD(burst),
@@ -132,36 +133,35 @@ static const DipOptionRow error_rows[] = {
      .most = DIP_COST_MAX_BURST},
     {.name = "--samples",
      .argument = "N",
-     .text =
-         "Samples per pixel in each half of the converged picture: a square number. The default "
-         "is 64.",
+     .text = "Draw the converged picture in two halves with this many samples per pixel each. The "
+             "number must be a square. The default is 64.",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_samples},
     {.name = "--pixels-per-degree",
      .argument = "X",
-     .text = "Pixels per degree of the viewer's field of view, for FLIP. The default 67.02 is that "
-             "of 3840 pixels on 0.7 m seen from 0.7 m.",
+     .text = "Pixels per degree of the viewer's field of view, for FLIP. The default 67.02 is for "
+             "a display that is 0.7 m wide, has 3840 pixels in a row and is seen from 0.7 m.",
      .kind = DIP_OPTION_NUMBER,
      .field = FIELD(pixels_per_degree),
      .least = DIP_FLIP_MIN_PIXELS_PER_DEGREE,
      .most = DIP_FLIP_MAX_PIXELS_PER_DEGREE},
     {.name = "--part",
      .argument = "A:B",
-     .text = "Measure errors only at the positions from A up to, but not including, B. This is one "
-             "machine's share; `diptych cost merge` joins the shares.",
+     .text = "Measure errors only at the viewpoints A to B - 1; the first viewpoint is 0. This "
+             "lets several machines share the work. `diptych cost merge` joins their reports.",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_part},
     {.name = "--cache",
      .argument = "DIR",
-     .text = "Keep the converged pictures in this folder. The default is $XDG_CACHE_HOME/diptych, "
-             "or else ~/.cache/diptych.",
+     .text = "Keep the converged pictures in this folder. The default is $XDG_CACHE_HOME/diptych. "
+             "If XDG_CACHE_HOME is not set, it is ~/.cache/diptych.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(cache)},
 };
 
 static const DipOptionRow time_rows[] = {
     {.name = "--errors-only",
-     .text = "Measure no times.",
+     .text = "Measure only errors, and no times.",
      .kind = DIP_OPTION_FLAG,
      .field = FIELD(errors_only)},
     {.name = "--rounds",
@@ -180,7 +180,8 @@ static const DipOptionRow time_rows[] = {
      .most = 100},
     {.name = "--seed",
      .argument = "N",
-     .text = "Seed of the random order in the rounds. By default the clock gives it.",
+     .text = "Seed of the random order of measurements in each round. The default comes from the "
+             "clock.",
      .kind = DIP_OPTION_INTEGER,
      .field = FIELD(seed),
      .given = FIELD(has_seed),
@@ -246,9 +247,10 @@ bool dip_cost_options_check(const void *arguments, DipError *err) {
         return false;
     }
     if (cost->end_place > cost->places) {
-        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--part",
-                             "ends at %d of %d places; give an end up to %d, or a greater --places",
-                             cost->end_place, cost->places, cost->places);
+        return dip_error_set(
+            err, DIP_ERROR_RANGE, NULL, 0, "--part",
+            "ends at %d of %d viewpoints; give an end up to %d, or a greater --places",
+            cost->end_place, cost->places, cost->places);
     }
     if (cost->errors_only && cost->budget_count) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--budget-ms",

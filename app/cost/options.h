@@ -1,4 +1,4 @@
-// Options of `diptych cost` and `diptych cost merge`.
+// Options of `diptych cost`, `diptych cost merge` and `diptych cost assets`.
 #ifndef DIP_APP_COST_OPTIONS_H
 #define DIP_APP_COST_OPTIONS_H
 
@@ -18,11 +18,11 @@ enum {
 // What to measure. Texts are borrowed from argv.
 typedef struct DipCostOptions {
     DipQuality baseline;
-    int places; // Positions on each path where errors are measured.
-    int burst;  // Successive frames at each position.
-    int first_place;
-    int end_place; // End of the positions of this run; 0: all of them.
-    int samples;   // Samples per pixel in each half of the truth: a square number.
+    int places;      // Number of viewpoints on each path, where errors are measured.
+    int burst;       // Number of successive frames that are drawn at each viewpoint.
+    int first_place; // First viewpoint of this run (--part).
+    int end_place;   // The viewpoint after this run's last one; 0: this run has all viewpoints.
+    int samples;     // Samples per pixel in each half of the converged picture; a square.
     double pixels_per_degree;
     int rounds;
     int timed_frames;
@@ -30,10 +30,10 @@ typedef struct DipCostOptions {
     bool has_seed;
     int seed;
     bool has_combined;
-    unsigned combined; // Bit s: combine every step of setting s with those of the other set bits.
+    unsigned combined; // Bit s: setting s takes part in the combinations.
     double budgets_ms[DIP_COST_MAX_BUDGETS];
     int budget_count;
-    const char *cache; // Folder of the truths; NULL: the user's cache folder.
+    const char *cache; // Folder of the cached truths; NULL: the user's cache folder.
 } DipCostOptions;
 
 // The whole command line of `diptych cost`.

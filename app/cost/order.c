@@ -1,26 +1,25 @@
-// What theory says about each setting, and whether the report agrees.
+// What theory says about each setting, and checking whether the report agrees.
 #include "app/cost/order.h"
 
 #include "app/cost/formats.h"
 
 #include <stdio.h>
 
-// How a figure changes from one step to the next. Steps are in the order of DIP_SETTING_LIST; those
-// of adaptive AA go from few groups of samples to many.
+// How a value changes from one step of a setting to the next. FREE: theory says nothing. The steps
+// are in the order of DIP_SETTING_LIST; the steps of adaptive AA go from few sample groups to many.
 typedef enum Trend { FREE, FALLS, RISES, STAYS } Trend;
 
 typedef struct Theory {
     DipSetting setting;
     Trend error;
-    bool of_two_frames; // error is that of the mean of two frames instead of FLIP
-    Trend work;         // of `counter`; equal work counts as following the trend
+    bool of_two_frames; // the error is that of the mean of two frames, not FLIP
+    Trend work;         // trend of `counter`; equal work also follows the trend
     int counter;
-    const char *why; // the likely reason when a step does not follow
+    const char *why; // the likely reason if a step does not follow the trend
 } Theory;
 
 #define FEW_VIEWPOINTS                                                                             \
-    "Differences this small may come from the few viewpoints that were judged; --places takes "    \
-    "more"
+    "So small a difference may be due to the small number of viewpoints; --places N takes more"
 
 static const Theory theories[] = {
     {DIP_SETTING_AA, FALLS, false, RISES, DIP_COST_COUNTER_samples_shown, FEW_VIEWPOINTS},
@@ -29,12 +28,11 @@ static const Theory theories[] = {
      "Where the camera moves far between two frames, their mean is blurred"},
     {DIP_SETTING_AF, FALLS, false, RISES, DIP_COST_COUNTER_texture_probes, FEW_VIEWPOINTS},
     {DIP_SETTING_AAF, FALLS, false, FREE, 0,
-     "Surfaces tilted by nearly a multiple of 45 degrees get as many probes without it"},
+     "Surfaces that are tilted by nearly a multiple of 45 degrees get as many probes without aaf"},
     {DIP_SETTING_OPT, RISES, false, FALLS, DIP_COST_COUNTER_texels_fetched, FEW_VIEWPOINTS},
     {DIP_SETTING_MIPLOD, FALLS, false, RISES, DIP_COST_COUNTER_texels_fetched,
-     "A bias reads smaller mip levels but just as many texels, and a magnified surface that read "
-     "one "
-     "level may now lie between two"},
+     "With a bias, most reads take as many texels, only from smaller mip levels; on a magnified "
+     "surface, a read may even take two levels instead of one"},
     {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COST_COUNTER_geometry_bytes, FEW_VIEWPOINTS},
 };
 
@@ -62,7 +60,7 @@ static double error_of(const DipCostReport *report, const Theory *theory, int ro
                                  : dip_metrics_of(&sums, 0).flip;
 }
 
-// Finds the first step that does not follow theory; sweep->row_count if all do.
+// Returns the first step that does not follow theory, or sweep->row_count if all steps do.
 static int first_departure(const DipCostReport *report, const DipCostSweep *sweep,
                            const Theory *theory, bool by_work, bool *judged) {
     for (int i = 1; i < sweep->row_count; i++) {
@@ -81,7 +79,7 @@ static int first_departure(const DipCostReport *report, const DipCostSweep *swee
 }
 
 static bool is_counted(const DipCostReport *report, const DipCostSweep *sweep) {
-    bool timed = true; // counters belong to the timed frames
+    bool timed = true; // only timed frames have counters
     for (int i = 0; i < sweep->row_count; i++) {
         timed = timed && dip_cost_is_timed(report, sweep->rows[i]);
     }

@@ -7,8 +7,9 @@
 
 #include <stddef.h>
 
-// Writes a sentence: what falls or rises with the steps, or which step departs from theory and what
-// the reason may be. Returns false if the steps are not judged or theory says nothing about them.
+// Writes a sentence. If the steps follow theory, it says what falls or rises with them. Otherwise
+// it says which step departs from theory, and a likely reason. Returns false if the steps' errors
+// are unknown or theory says nothing about the setting.
 bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep, char *text,
                          size_t size_bytes);
 

@@ -1,4 +1,4 @@
-// Making rows and sweeps.
+// Making the rows and the sweeps of a report.
 #include "app/cost/plan.h"
 
 #include "app/cost/scene_hash.h"
@@ -9,10 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The path made for a setting, and another setting that must be on for its steps to differ.
+// For each setting: the camera path that was made for it, and another setting that must be on. If
+// the other setting is off, the steps of the setting do not differ.
 typedef struct SettingPlan {
     DipCategory category;
-    DipSetting needs; // the setting itself if it needs no other
+    DipSetting needs; // the other setting; the setting itself if it needs none
     int needed_step;
 } SettingPlan;
 
@@ -35,8 +36,8 @@ static int slot_of(const DipSession *session, int category) {
     return session->track.categories[category].path ? category : 0;
 }
 
-// Adds the path of a category. Categories with the same path and field of view share one entry,
-// which has the name of the first.
+// Adds the camera path of a category and returns its index. Categories with the same path and field
+// of view share one entry, which has the name of the first of these categories.
 static int add_path(DipCostReport *report, const DipSession *session, int category) {
     const DipCamCategory *slot = &session->track.categories[slot_of(session, category)];
     for (int p = 0; p < report->path_count; p++) {
@@ -122,7 +123,8 @@ static void add_to_sweep(DipCostSweep *sweep, int row) {
     }
 }
 
-// Writes the settings other than the swept one that differ from the defaults; "" if none does.
+// Writes the settings that differ from their defaults, without the setting of the sweep. Writes ""
+// if there are none.
 static void context_text(const DipQuality *quality, DipSetting setting, char text[DIP_COST_TEXT]) {
     DipQuality context = *quality;
     context.step[setting] = (uint8_t)dip_setting_info(setting)->default_step;
@@ -165,8 +167,8 @@ static void plan_setting(DipCostReport *report, const DipSession *session, DipSe
     }
 }
 
-// Adds a sweep of adaptive AA for each number of samples, since its group sizes depend on that
-// number. Steps go from few sample groups to many.
+// Adds a sweep of adaptive AA for each number of samples, because the possible group sizes depend
+// on the number of samples. The steps go from few sample groups to many.
 static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     const DipSettingInfo *group_size = dip_setting_info(DIP_SETTING_ASD);
     for (int aa = 1; aa < dip_setting_info(DIP_SETTING_AA)->step_count; aa++) {
@@ -216,9 +218,10 @@ static bool add_combinations(DipCostReport *report, DipQuality quality, int sett
             return true;
         }
         if (report->row_count == DIP_COST_MAX_ROWS) {
-            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--combine",
-                                 "more than %d combinations, accepted fewer settings",
-                                 DIP_COST_MAX_ROWS);
+            return dip_error_set(
+                err, DIP_ERROR_RANGE, NULL, 0, "--combine",
+                "these settings make more than %d combinations; give fewer settings",
+                DIP_COST_MAX_ROWS);
         }
         report->rows[report->row_count++] = (DipCostRow){.quality = quality, .path = 0};
         return true;
@@ -251,8 +254,9 @@ static void describe(DipCostReport *report, const DipSession *session) {
     report->height = session->pane_size.height;
 }
 
-// The settings that are combined by default: two are enough for a plot of the Pareto front, advice
-// needs those that are worth choosing in scenes of any kind.
+// Returns the settings that are combined by default. Two settings are enough for a plot of the
+// Pareto front. Advice (--budget-ms) also needs the other settings that are worth choosing in any
+// scene.
 static unsigned default_combined(const DipCostOptions *options) {
     const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
     return options->budget_count

@@ -15,13 +15,13 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
 // Writes the file name of the first model, without its folder.
 void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]);
 
-// The length of one of the report's paths, and the pose at a time on it.
+// The duration of a camera path of the report, and the pose at a time on that path.
 int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession *session, int path);
 DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, int path,
                       int64_t time_ns);
 
-// The time of one frame of the burst at a viewpoint. Viewpoints lie in the middles of equal parts
-// of the path; frames of a burst are 1/30 s apart.
+// Returns the time of a frame of the burst at a viewpoint. The path is divided into equal parts,
+// and each viewpoint is the middle of a part. The frames of a burst are 1/30 s apart.
 int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession *session, int path,
                                    int viewpoint, int frame);
 

@@ -19,7 +19,7 @@ static bool missing(const char *file, const char *what, DipError *err) {
 
 // --- fields ------------------------------------------------------------------------------------
 
-// Reads a whole number in least..most. Otherwise sets *ok to false and returns -1.
+// Reads a whole number in least..most. Sets *ok to false and returns -1 if there is none.
 static int integer(const cJSON *object, const char *name, int least, int most, bool *ok) {
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
     const bool good = cJSON_IsNumber(item) && item->valuedouble >= least &&

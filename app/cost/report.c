@@ -1,4 +1,4 @@
-// Memory of a report, and figures from what was measured.
+// The memory of a report, and the values that follow from its measurements.
 #include "app/cost/report.h"
 
 #include "app/measure/truth.h"

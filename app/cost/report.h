@@ -1,4 +1,6 @@
-// A cost report: what was measured, and the figures that follow from it.
+// A cost report: its measurements, and the values that follow from them. Errors are measured
+// against truths (converged pictures, app/measure/truth.h), at a few viewpoints of each camera
+// path.
 #ifndef DIP_APP_COST_REPORT_H
 #define DIP_APP_COST_REPORT_H
 
@@ -35,17 +37,17 @@ typedef struct DipCostRow {
     DipQuality quality;
     int path;                                // Index of the report's path.
     DipMetricSums *viewpoints;               // Errors per viewpoint of the path. Owned.
-    bool *judged;                            // Per viewpoint: its errors are known. Owned.
+    bool *judged;                            // True for a viewpoint with errors. Owned.
     double *ms;                              // [round * timed_frames + frame]. Owned.
     double counters[DIP_COST_COUNTER_COUNT]; // Mean per timed frame.
 } DipCostRow;
 
-// All steps of one setting on one path, with every other setting held constant.
+// A sweep: all steps of one setting on one path, with every other setting held constant.
 typedef struct DipCostSweep {
     char title[DIP_COST_TEXT]; // "Adaptive AA with aa=4"
     DipSetting setting;
     int path;
-    int base; // Row that times are compared with: the baseline's step.
+    int base; // Row of the baseline's step, with which times are compared.
     int rows[DIP_COST_MAX_SWEEP_ROWS];
     int row_count;
 } DipCostSweep;
@@ -53,7 +55,7 @@ typedef struct DipCostSweep {
 // The row to choose for one time budget.
 typedef struct DipCostAdvice {
     double budget_ms;
-    int row;            // -1 if no combination holds the budget.
+    int row;            // -1 if no combination is within the budget.
     double checked_ms;  // Time of the row, measured again.
     double checked_low; // 95 % interval of checked_ms.
     double checked_high;
@@ -79,15 +81,16 @@ typedef struct DipCostReport {
     int sweep_count;
     char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // Steps that were left out, with reasons.
     int refused_count;
-    int rounds; // Timed so far.
-    DipMetricSums
-        *floors;     // Noise floors of the truths, [path * options.places + viewpoint]. Owned.
-    bool *has_floor; // Same indices: the floor is known. Owned.
+    int rounds; // Number of rounds timed so far.
+    // Noise floors of the truths, [path * options.places + viewpoint]. Both arrays are owned.
+    DipMetricSums *floors;
+    bool *has_floor; // True if the floor with this index is known.
     DipCostAdvice advice[DIP_COST_MAX_BUDGETS];
     int advice_count;
 } DipCostReport;
 
-// Allocates what the rows need; rows, paths and options are already filled in.
+// Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in
+// before.
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err);
 void dip_cost_report_free(DipCostReport *report);
 
@@ -106,21 +109,22 @@ static inline const char *dip_cost_plural(int count) {
 void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
                         char text[DIP_COST_TEXT]);
 
-// "at floor" if dip_cost_at_floor, else "".
+// Returns "at floor" if dip_cost_at_floor is true for the row, otherwise "".
 const char *dip_cost_floor_mark(const DipCostReport *report, int row);
 
 // --- errors ------------------------------------------------------------------------------------
 
-// The sum over all judged viewpoints of a row. *viewpoints receives their number.
+// Returns the sum of a row's errors over all viewpoints that were judged. Sets *viewpoints to their
+// number.
 DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints);
 
-// The figures of a row over all judged viewpoints, in one region (0 is the whole picture).
+// Returns the metrics of a row over all judged viewpoints, in one region (0: the whole picture).
 DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region);
 
-// The sum of the floors of a path's truths.
+// Returns the sum of the noise floors of a path's truths.
 DipMetricSums dip_cost_floor(const DipCostReport *report, int path);
 
-// The error of a path's truths: root mean square in linear light. See dip_truth_floor_rmse.
+// Returns the RMS error of a path's truths in linear light. See dip_truth_floor_rmse.
 double dip_cost_floor_rmse(const DipCostReport *report, int path, int region);
 
 // True if a row's error is too small to tell from the truth's own noise.
@@ -130,32 +134,35 @@ bool dip_cost_at_floor(const DipCostReport *report, int row);
 
 bool dip_cost_is_timed(const DipCostReport *report, int row);
 
-// Milliseconds of a frame: the mean over the frames of their medians over the rounds. dip_cost_ms
-// finds the value alone, dip_cost_time its 95 % interval too, which takes far longer.
+// The time of a row's frame in milliseconds: each frame's median over the rounds, then the mean
+// over the frames. dip_cost_ms returns this value only. dip_cost_time also returns its 95 %
+// interval, which takes far longer to compute.
 double dip_cost_ms(const DipCostReport *report, int row);
 DipStatsEstimate dip_cost_time(const DipCostReport *report, int row);
 
-// The median over rounds and frames of the row's time divided by the base's in the same round.
-// dip_cost_median_ratio finds the value alone.
+// The ratio of two rows: the row's time divided by the base row's time in the same round, as the
+// median over rounds and frames. dip_cost_median_ratio returns this value only. dip_cost_ratio also
+// returns its 95 % interval.
 double dip_cost_median_ratio(const DipCostReport *report, int row, int base);
 DipStatsEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
 
 // --- choosing ----------------------------------------------------------------------------------
 
-// Finds the Pareto front of some rows in time and FLIP: rows such that no other row is at least as
-// good in both. Writes them to `front` in order of time and returns their number. Rows without
-// times or errors are left out.
+// Finds the Pareto front of some rows in time and FLIP. A row is in the front if no other row is at
+// least as good in both. Writes them to `front` in order of time and returns their number. Rows
+// without times or errors are left out.
 int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *front);
 
 // Thins a Pareto front: keeps the first row and every row that lowers FLIP by at least 1 % below
 // the last kept one. Returns the number of rows kept.
 int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int count);
 
-// The fastest combination whose FLIP is at least 1 % lower than a row's; -1 if there is none.
+// Returns the fastest combination whose FLIP is at least 1 % lower than the row's FLIP, or -1 if
+// there is none.
 int dip_cost_step_up(const DipCostReport *report, int row);
 
-// The combination with the least FLIP among those whose latest_ms, indexed by row, is within the
-// budget; -1 if there is none.
+// Returns the combination with the least FLIP whose time is within the budget, or -1 if there is
+// none. latest_ms[row] is the time of a row.
 int dip_cost_choose(const DipCostReport *report, const double *latest_ms, double budget_ms);
 
 #endif

@@ -1,4 +1,5 @@
-// Drawing the steps once more, finding where they differ, cutting out the crops.
+// Drawing the steps of each sweep once more, finding the crop in which they differ most, and
+// cutting it out.
 #include "app/cost/report_pictures.h"
 
 #include "app/files/png.h"
@@ -16,7 +17,7 @@ typedef struct Cropper {
     DipFlipAnalysis side;
     float *maps;       // [step][pixel]
     uint8_t *pictures; // [step][pixel], rgba8
-    uint8_t *colours;  // crop of a map in colours, rgba8
+    uint8_t *colours;  // crop of a FLIP map in colours, rgba8
     DipProgress progress;
     int64_t done;
 } Cropper;
@@ -98,8 +99,9 @@ static int crop_height(const Cropper *c) {
     return height < DIP_COST_CROP_HEIGHT ? height : DIP_COST_CROP_HEIGHT;
 }
 
-// Finds the crop in which the steps' errors differ most: on a grid of positions, the one with the
-// greatest sum of the range of errors per pixel.
+// Finds the crop in which the steps' errors differ most. At a pixel, the errors differ by the
+// greatest error of any step minus the least error. Of the crops on a grid of positions, takes the
+// one with the greatest sum of these differences.
 static void find_crop(const Cropper *c, int steps, DipCostCrops *crops) {
     const int width = c->cost->report->width, height = c->cost->report->height;
     double most = -1.0;

@@ -1,4 +1,5 @@
-// Pictures for the page: for each sweep, the part of the picture in which its steps differ most.
+// Pictures for the page: for each sweep, the part of the picture (the crop) in which the sweep's
+// steps differ most.
 #ifndef DIP_APP_COST_REPORT_PICTURES_H
 #define DIP_APP_COST_REPORT_PICTURES_H
 
@@ -6,11 +7,11 @@
 
 enum { DIP_COST_CROP_WIDTH = 200, DIP_COST_CROP_HEIGHT = 150 }; // Pixels, at most.
 
-// The crops of one sweep: PNG files in base64, NULL where there is none. Owned.
+// The crops of one sweep: PNG files in base64, or NULL. Owned.
 typedef struct DipCostCrops {
     char *truth;
     char *steps[DIP_COST_MAX_SWEEP_ROWS];
-    char *maps[DIP_COST_MAX_SWEEP_ROWS]; // FLIP maps against the truth.
+    char *maps[DIP_COST_MAX_SWEEP_ROWS]; // FLIP maps of the steps against the truth.
     int x;                               // Upper left corner of the crop, pixels.
     int y;
     int viewpoint;

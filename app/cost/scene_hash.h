@@ -1,4 +1,5 @@
-// A hash of a scene's content, under which its truths are kept in the cache.
+// A hash of a scene's content. The cache of truths (converged pictures) finds a scene's truths by
+// it.
 #ifndef DIP_APP_COST_SCENE_HASH_H
 #define DIP_APP_COST_SCENE_HASH_H
 

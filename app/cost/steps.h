@@ -5,16 +5,17 @@
 
 #include "app/cost/context.h"
 
-// Makes the truths that are not in the cache, and fills in the floors.
+// Makes the truths (converged pictures) that are not in the cache, and fills in their noise floors.
 bool dip_cost_make_truths(DipCostContext *cost, DipError *err);
 
-// Draws every row at every viewpoint of this run's part and judges the pictures.
+// Draws every row at every viewpoint of this run's part and judges the pictures: measures their
+// errors against the truths.
 bool dip_cost_judge(DipCostContext *cost, DipError *err);
 
-// Times every row in interleaved rounds, and counts its work.
+// Times every row in interleaved rounds (app/measure/timing.h), and counts its work.
 bool dip_cost_time_rows(DipCostContext *cost, DipError *err);
 
-// Times one row alone, in as many rounds as the others had.
+// Times one row alone, in as many rounds as dip_cost_time_rows.
 bool dip_cost_time_row_again(DipCostContext *cost, int row, DipStatsEstimate *time, DipError *err);
 
 // Chooses a row for each budget, times it again and fills in the advice.

@@ -14,11 +14,12 @@ static void print_heading(const DipCostReport *report, FILE *out) {
     fprintf(out, "scene    %s, %dx%d pixels\n", report->scene, report->width, report->height);
     fprintf(out, "machine  %s, %d thread%s, %s\n", report->processor, report->threads,
             dip_cost_plural(report->threads), report->isa);
-    fprintf(out, "times    %d frame%s of each path in %d rounds; ratios are to the baseline\n",
+    fprintf(out,
+            "times    %d frame%s of each path in %d rounds; ratio = time / the baseline's time\n",
             o->timed_frames, dip_cost_plural(o->timed_frames), report->rounds);
     fprintf(out,
-            "errors   %d viewpoint%s on each path, %d frame%s at each, against a truth of 2 x %d "
-            "samples per pixel\n",
+            "errors   %d viewpoint%s on each path, %d frame%s at each, against a converged picture "
+            "(truth) of 2 x %d samples per pixel\n",
             o->places, dip_cost_plural(o->places), o->burst, dip_cost_plural(o->burst), o->samples);
     fprintf(out, "baseline %s\n", baseline);
 }
@@ -76,10 +77,13 @@ static void print_front(const DipCostReport *report, FILE *out) {
     }
     const int kept = dip_cost_pareto_front_thin(report, front,
                                                 dip_cost_pareto_front(report, rows, count, front));
-    fprintf(out,
-            "\nPareto front of %d combinations on path %s: no other combination has less time and "
-            "less FLIP.\nOnly rows that lower FLIP by at least 1 %% are listed.\n",
-            count, report->paths[0]);
+    fprintf(
+        out,
+        "\n"
+        "Pareto front of %d combinations on path %s: no other combination has less time and less "
+        "FLIP.\n"
+        "A combination is listed only if its FLIP is at least 1 %% below that of the line above.\n",
+        count, report->paths[0]);
     for (int i = 0; i < kept; i++) {
         int viewpoints;
         char text[DIP_COST_TEXT];
@@ -96,10 +100,11 @@ static void print_fit(const DipCostReport *report, FILE *out) {
     if (fit.rows == 0) {
         return;
     }
-    fprintf(
-        out,
-        "\nTime explained by work (linear fit to %d rows, R2 %.3f, median error %.1f %%), ns:\n",
-        fit.rows, fit.r2, 100.0 * fit.median_miss);
+    fprintf(out,
+            "\n"
+            "Linear fit of time to work (%d rows, R2 %.3f, median error %.1f %%), ns per unit of "
+            "work:\n",
+            fit.rows, fit.r2, 100.0 * fit.median_miss);
     for (int i = 0; i < fit.count; i++) {
         if (fit.ns[i] > 0.0) {
             fprintf(out, "  %10.3g per %s\n", fit.ns[i], fit.names[i]);

@@ -1,4 +1,4 @@
-// Times of every row in interleaved rounds, and the work of every row from the warm-up.
+// Timing every row in interleaved rounds. The work counters of a row come from the warm-up.
 #include "app/cost/steps.h"
 #include "app/measure/timing.h"
 #include "app/progress.h"
@@ -7,7 +7,7 @@
 
 typedef struct RowTiming {
     DipCostContext *cost;
-    DipFrame frame; // of the latest run
+    DipFrame frame; // the frame of the latest run
     DipProgress progress;
     int64_t drawn;
 } RowTiming;
@@ -32,7 +32,8 @@ static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipE
         add_counters(&report->rows[turn->subject], &t->frame.counters,
                      1.0 / report->options.timed_frames);
     }
-    // Nobody knows how often settling draws, so it is no part of the progress.
+    // Before the first round, frames are drawn until their time is steady (settling). Their number
+    // is unknown, so these frames do not count as progress.
     t->drawn += turn->phase != DIP_TIMING_SETTLE;
     dip_progress_show(&t->progress, t->drawn);
     return !dip_cost_interrupted(t->cost, err);

@@ -127,7 +127,7 @@ static const DipExample examples[] = {
     {"diptych dump --hash --frames 0:1200:10 --requested aa=8,af=16 --isa avx2",
      "prints the hashes of every tenth frame, to compare machines or instruction sets"},
     {"diptych dump --out out --category AF --current af=none --requested af=16",
-     "shows on the path made for it what anisotropic filtering does"},
+     "shows what anisotropic filtering does, on the camera path made for it"},
     {"diptych dump --json - | python3 -m json.tool", "reads the record of one frame"},
 };
 

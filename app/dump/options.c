@@ -26,13 +26,14 @@ static bool read_frames(void *fields, const DipOptionRow *row, const char *value
 static const DipOptionRow rows[] = {
     {.name = "--frames",
      .argument = "A:B[:S]",
-     .text = "Draw the frames from A up to, but not including, B, and of these every S-th. The "
-             "default 0:1 is the first frame alone.",
+     .text = "Draw the frames A, A + S, A + 2 S, ... that come before B. Without :S, S is 1. The "
+             "default 0:1 draws the first frame only.",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_frames},
     {.name = "--fps",
      .argument = "N",
-     .text = "Show the time n / N seconds in frame n. The default is 30 frames per second.",
+     .text =
+         "Frame n shows the scene at the time n / N seconds. The default is 30 frames per second.",
      .kind = DIP_OPTION_NUMBER,
      .field = FIELD(fps),
      .least = 0.001,

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// The frames first, first + step, ... below end.
+// The frames first, first + step, first + 2 step, ... that come before end.
 typedef struct DipFrameRange {
     int first;
     int end;

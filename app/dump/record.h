@@ -1,13 +1,13 @@
-// The record of drawn frames as JSON: what each pane drew, what it cost and which effects ran.
+// The record of drawn frames as JSON: each pane's settings, hash, times, work counters and effects.
 //
 // {"frames":[{"index":0,"time_s":0,"pose":{"position":[x,y,z],"orientation":[x,y,z,w],
 // "fov_y_deg":45},"ms":2.9,"current":{"settings":"aa=..","hash":"..","copied":false,"ms":1.5,
 // "stages_ms":{..},"counters":{..},"effects":{"light_map":{"run":true,"why":".."},..}},"requested":{..}},..],
 // "load_ms":{"ini":0.3,..},"peak_rss_bytes":123456}
 //
-// A pane that is copied from the one before it has 0 for all its times and counters, since it took
-// no time and no work. The frame's own "ms" is the wall-clock time of both panes. The sum of the
-// panes' times can exceed it, since geometry that both panes share counts in each of them.
+// All times and counters of a copied pane are 0, because copying takes no time and no work. A
+// frame's "ms" is the wall-clock time of both panes together. The sum of the panes' times can
+// exceed the frame's "ms", because the time of geometry that both panes share is included in both.
 #ifndef DIP_APP_DUMP_RECORD_H
 #define DIP_APP_DUMP_RECORD_H
 
@@ -37,14 +37,14 @@ void dip_record_destroy(DipRecord **record);
 bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *pose, double ms,
                     const DipRecordPane panes[2], DipError *err);
 
-// Adds how long the start took by part, and the most memory that was in use.
+// Adds the time of each part of the start, and the greatest amount of memory that was in use.
 bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t peak_rss_bytes,
                           DipError *err);
 
 // Writes the file as a whole or not at all.
 bool dip_record_write(const DipRecord *record, const char *file, DipError *err);
 
-// Prints the same text and a newline. The caller checks whether `out` took it.
+// Prints the record and a newline. The caller checks `out` for a write error.
 bool dip_record_print(const DipRecord *record, FILE *out, DipError *err);
 
 #endif

@@ -12,7 +12,7 @@
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 
-// Gathers the pieces in which stb may hand over the file.
+// The bytes of the file so far. stb_image_write may deliver the file in several pieces.
 typedef struct Buffer {
     unsigned char *bytes;
     size_t size;
@@ -31,7 +31,7 @@ static void append(void *context, void *data, int size) {
     buffer->size += (size_t)size;
 }
 
-// The pixels without alpha, rows packed. Alpha would be 255 everywhere.
+// Copies the pixels without their alpha, which is 255 everywhere. The copy's rows have no padding.
 static uint8_t *packed_rgb(const uint8_t *rgba8, size_t stride_bytes, int width, int height) {
     uint8_t *rgb = malloc((size_t)width * (size_t)height * 3);
     for (int y = 0; rgb && y < height; y++) {

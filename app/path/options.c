@@ -1,4 +1,5 @@
-// The options of the path commands: their files.
+// The path commands take files, but no options of their own. Checks the number and the names of the
+// files.
 #include "app/path/options.h"
 
 #include "renderer/base/assert.h"

@@ -18,7 +18,7 @@ static bool run_info(DipSession *session, const void *options, DipError *err) {
     const DipCamPathInfo info = dip_campath_info(path);
     printf("file       %s\n", file);
     printf("keys       %zu, %.9g s apart\n", info.key_count, 1e-9 * (double)info.period_ns);
-    printf("duration   %.9g s, then again from the beginning\n", 1e-9 * (double)info.duration_ns);
+    printf("duration   %.9g s; then the path begins again\n", 1e-9 * (double)info.duration_ns);
     printf("length     %.6g m\n", info.length_m);
     printf("box        %.6g %.6g %.6g to %.6g %.6g %.6g m\n", info.min_world[0], info.min_world[1],
            info.min_world[2], info.max_world[0], info.max_world[1], info.max_world[2]);
@@ -44,12 +44,15 @@ static bool run_convert(DipSession *session, const void *options, DipError *err)
 }
 
 static const DipExample info_examples[] = {
-    {"diptych path info campaths/ambient.pth", "prints what the courtyard's default path holds"},
+    {"diptych path info campaths/ambient.pth",
+     "prints the duration, length and speeds of the courtyard's default path"},
 };
 
 static const DipExample convert_examples[] = {
-    {"diptych path convert campaths/ambient.pth ambient.bth", "makes a binary file of a text"},
-    {"diptych path convert ambient.bth ambient.pth", "makes it a text again, for an editor"},
+    {"diptych path convert campaths/ambient.pth ambient.bth",
+     "makes a binary file from a text file"},
+    {"diptych path convert ambient.bth ambient.pth",
+     "turns the binary file back into text, for an editor"},
 };
 
 #define PATH_OPERANDS(number)                                                                      \
@@ -57,7 +60,7 @@ static const DipExample convert_examples[] = {
 
 const DipCommand dip_path_info_command = {
     .name = "path info",
-    .summary = "say what is in a camera path",
+    .summary = "print the keys, duration, length and speeds of a camera path",
     .usage = "FILE",
     .text = "Path info reads a camera path and prints its keys, its duration and length, the box "
             "that holds it and its greatest speeds.",
@@ -75,8 +78,8 @@ const DipCommand dip_path_convert_command = {
     .summary = "rewrite a camera path as .pth (text) or .bth (binary)",
     .usage = "IN OUT.pth|OUT.bth",
     .text = "Path convert reads a camera path of either format and writes it in the format that "
-            "the second name ends in. A text can be edited; a binary file is smaller. Both hold "
-            "the same path to the bit.",
+            "the second name ends in. A text file can be edited; a binary file is smaller. Both "
+            "hold exactly the same path.",
     .examples = convert_examples,
     .example_count = DIP_ARRAY_COUNT(convert_examples),
     .parts = &dip_path_option_parts,

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Pixels.
+// The layout, in pixels.
 enum {
     WIDTH = 760,
     LEFT = 78,
@@ -17,20 +17,20 @@ enum {
     BOTTOM = 404,
     LEGEND_TOP = 476,
     LEGEND_LINE = 20,
-    LEGEND_WIDTH = 340, // width of a column
-    MOST_BARRED = 4,    // series that may have bars
+    LEGEND_WIDTH = 340, // width of a column of the legend
+    MOST_BARRED = 4,    // most series of a plot with bars
     MAX_TICKS = 16,
     TICK_ROOM = 46 // least distance between two labels of the x axis
 };
 
-// The palette of Okabe and Ito without its yellow, which colour-blind readers can tell apart. After
-// the last colour, lines begin again with the first and are dashed.
+// The palette of Okabe and Ito without its yellow. Colour-blind readers can tell these colours
+// apart. Lines after the sixth use the colours again and are dashed.
 static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73",
                                       "#cc79a7", "#56b4e9", "#000000"};
 enum { COLOUR_COUNT = sizeof colours / sizeof *colours };
 
 typedef struct Axis {
-    double least; // range in axis units: the logarithm on a logarithmic axis
+    double least; // range in axis units: logarithms on a logarithmic axis
     double most;
     double from; // range in pixels
     double to;
@@ -39,7 +39,7 @@ typedef struct Axis {
     int tick_count;
 } Axis;
 
-// A value in axis units.
+// Converts a value to axis units.
 static double scaled(const Axis *axis, double value) {
     return axis->logarithmic ? log10(value) : value;
 }
@@ -60,7 +60,7 @@ static void widen(Axis *axis, double value) {
     axis->most = fmax(axis->most, scaled(axis, value));
 }
 
-// Adds room around the values, and makes a range of one value wider than 0.
+// Adds room around the values. A range that holds a single value gets a width above 0.
 static void add_margin(Axis *axis, bool from_zero) {
     double room = 0.06 * (axis->most - axis->least);
     if (!(room > 0.0)) {
@@ -77,8 +77,8 @@ static void add_tick(Axis *axis, double value) {
     }
 }
 
-// Ticks at 1, 2 and 5 times the powers of ten; at the powers alone over a wide range, and at every
-// digit over a narrow one.
+// Puts ticks at 1, 2 and 5 times each power of ten. A wide range has ticks at the powers of ten
+// only; a narrow range has ticks at every digit.
 static void tick_logarithmic(Axis *axis) {
     const double decades = axis->most - axis->least;
     const int step = decades > 4.0 ? 9 : decades < 0.7 ? 1 : 0;
@@ -104,8 +104,8 @@ static void tick_linear(Axis *axis) {
     }
 }
 
-// If there are at most eight different x values, puts a tick at each. Returns false if there are
-// more.
+// If there are at most eight different x values, puts a tick at each value. Otherwise returns false
+// and leaves no ticks.
 static bool tick_values(Axis *axis, const DipPlot *plot) {
     for (int s = 0; s < shown_series(plot); s++) {
         for (int i = 0; i < plot->series[s].count; i++) {
@@ -237,7 +237,7 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, bool
     }
 }
 
-// Entries fill two columns, row by row.
+// Writes an entry of the legend. The entries fill two columns, row by row.
 static void write_legend_entry(FILE *out, const DipPlotSeries *series, int index) {
     const char *colour = colours[index % COLOUR_COUNT];
     const double x = LEFT + LEGEND_WIDTH * (index % 2);

@@ -1,4 +1,4 @@
-// Line plots as self-contained SVG. They bring a white background, so they are legible on light and
+// Line plots as self-contained SVG. Their background is white, so they are legible on light and
 // dark pages.
 #ifndef DIP_APP_PLOT_PLOT_H
 #define DIP_APP_PLOT_PLOT_H
@@ -10,8 +10,8 @@
 
 enum { DIP_PLOT_MAX_SERIES = 12 };
 
-// One line with a mark at each point. Everything is borrowed. With more than four series, bars are
-// left out, since they would hide each other.
+// A line of the plot with a mark at each point, and a vertical bar from low to high. Everything is
+// borrowed. A plot of more than four series has no bars, because the bars would hide each other.
 typedef struct DipPlotSeries {
     const char *name; // For the legend.
     const double *x;  // Ascending.
@@ -19,8 +19,8 @@ typedef struct DipPlotSeries {
     const double *low; // Lower ends of the bars; NULL for none.
     const double *high;
     int count;
-    bool marks_only;           // Draw no line between the points.
-    const char *const *labels; // Below and left of each point; NULL for none.
+    bool marks_only;           // Draws no line between the points.
+    const char *const *labels; // Texts below and left of the points; NULL for none.
 } DipPlotSeries;
 
 // All texts are borrowed. Values on a logarithmic axis must be above 0. A linear y axis begins at
@@ -28,12 +28,12 @@ typedef struct DipPlotSeries {
 typedef struct DipPlot {
     const char *title;
     const char *subtitle; // What is shown, and how often it was measured.
-    const char *x_title;  // With the unit.
+    const char *x_title;  // Title of the x axis, with its unit.
     const char *y_title;
     bool log_x;
     bool log_y;
-    const DipPlotSeries
-        *series;      // The first DIP_PLOT_MAX_SERIES are drawn; the plot says if not all.
+    // Only the first DIP_PLOT_MAX_SERIES are drawn; the legend says how many are left out.
+    const DipPlotSeries *series;
     int series_count; // At least 1. Each series has at least one point.
 } DipPlot;
 

@@ -128,7 +128,7 @@ expect 2 'none.glb: ' "$diptych" dump --hash --model none.glb
 expect 2 'none.pth: ' "$diptych" dump --hash --path none.pth
 expect 2 'none.pth: ' "$diptych" path info none.pth
 printf 'v 0 0 0\nv 1e-7 0 0\nv 0 1e-7 0\nf 1 2 3\n' >tiny.obj
-expect 2 'tiny.obj: \[box\] the model is 1e-07 large' "$diptych" dump --hash --model tiny.obj
+expect 2 "tiny.obj: \[box\] the model's size is 1e-07" "$diptych" dump --hash --model tiny.obj
 expect 2 'tiny.obj:1: .* not a camera path, .*; load a model with --model$' \
     "$diptych" path convert tiny.obj tiny.pth
 sed 's/1e-7/1e12/' tiny.obj >huge.obj
@@ -257,7 +257,7 @@ expect 0 '' "$diptych" bench $quick --size 32x24 --sets "aa=none;aa=2" --vs "$di
 check "against itself: the same pictures" test "$(grep -cE '^aa=.* same$' out.txt)" = 2
 check "CSV of both programs" test "$(grep -c '^other,' vs.csv)" = 8
 expect 1 "\[--vs\] .*true has ended" "$diptych" bench $quick --vs /bin/true
-expect 1 "\[--vs\] .*echo is no diptych" "$diptych" bench $quick --vs /bin/echo
+expect 1 "\[--vs\] .*echo did not answer as diptych's bench does" "$diptych" bench $quick --vs /bin/echo
 expect 1 'none/a.csv' "$diptych" bench $quick --size 8x8 --csv none/a.csv
 printf 'draw 0 0 1\ndraw 9 0 0\n' >asked.txt
 serve() { "$diptych" bench $quick --size 32x24 --sets aa=none --serve <asked.txt; }
@@ -291,7 +291,7 @@ expect 1 'none/x.bth: ' "$diptych" path convert aa.pth none/x.bth
 expect 2 "\[--out\] there is no folder for the report; give one with --out DIR" "$diptych" cost
 expect 2 "\[--samples\] '50' is not a square number from 1 to 4096" "$diptych" cost --out x --samples 50
 expect 2 "\[--part\] '3:2' is not A:B" "$diptych" cost --out x --part 3:2
-expect 2 "\[--part\] ends at 4 of 3 places" "$diptych" cost --out x --part 0:4
+expect 2 "\[--part\] ends at 4 of 3 viewpoints" "$diptych" cost --out x --part 0:4
 expect 2 "\[--budget-ms\] 'x' is not a number of milliseconds" "$diptych" cost --out x --budget-ms 8,x
 expect 2 "\[--budget-ms\] advice needs times" "$diptych" cost --out x --budget-ms 8 --errors-only
 expect 2 "\[--combine\] 'ab' is not a setting; give none, or some of aa, taa" "$diptych" cost --out x --combine aa,ab
