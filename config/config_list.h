@@ -23,9 +23,9 @@
     KEY(FOUNTAIN_WATER_LEVEL, fountain_water_level, NUMBER, "", -1e9, 1e9,                         \
         "height (y) of the water that reflects, metres; if left out: height of the lowest water")  \
     KEY(DEBUG_SHOW_REFLECTION, debug_show_reflection, FLAG, "false", 0, 0,                         \
-        "show the reflection's texture in the picture's corner")                                   \
+        "true: a corner of the picture shows the reflection's texture")                            \
     KEY(WATER_SCHLICK, water_schlick, FLAG, "false", 0, 0,                                         \
-        "water reflects by Schlick's approximation instead of Fresnel's equations")                \
+        "true: water uses Schlick's approximation instead of Fresnel's equations")                 \
     KEY(XFILE, xfile, FILES, DIP_CONFIG_REQUIRED, 0, 0,                                            \
         "model file; repeat the key to load several, which share one origin")                      \
     KEY(CAMPATH_RESET_ON_SWITCH, campath_reset_on_switch, FLAG, "true", 0, 0,                      \
@@ -42,7 +42,7 @@
     CAMERA(GI, "55", "for geometry instancing")                                                    \
     CAMERA(WATER, "55", "over the fountain's water")                                               \
     KEY(MIPDEBUG, mipdebug, FLAG, "false", 0, 0,                                                   \
-        "both panes start with every mip level shown as a flat colour")                            \
+        "true: both panes start with every mip level shown as a flat colour")                      \
     PICTURE(MIPDEBUGBASE1024, 1024, "1024 and larger")                                             \
     PICTURE(MIPDEBUG512, 512, "512")                                                               \
     PICTURE(MIPDEBUG256, 256, "256")                                                               \
@@ -78,7 +78,7 @@
     KEY(SKY_DENSE, sky_dense, NUMBER, "1", 0, 1,                                                   \
         "blue of the sky's texture where cloud is densest; more than SKY_CLEAR")                   \
     KEY(SKY_BLEND, sky_blend, NUMBER, "0.4", 0, 1,                                                 \
-        "share of the second layer of clouds; 0: the first alone, 1: the second alone")            \
+        "share of the second layer of clouds; 0: only the first layer, 1: only the second")        \
     KEY(SKY_PERTURBATION_SCALE, sky_perturbation_scale, NUMBER, "1", 0.001, 1000,                  \
         "repeats of the displacement (red and green) per unit of texture coordinates")             \
     KEY(SKY_LAYER1_SCALE, sky_layer1_scale, NUMBER, "1", 0.001, 1000,                              \
