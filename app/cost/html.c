@@ -137,22 +137,22 @@ static void fill_points(const DipCostReport *report, const int *rows, int count,
     }
 }
 
-static void write_pareto_table(const DipCostReport *report, const int *front, int count,
+static void write_pareto_table(const DipCostReport *report, const int *pareto, int count,
                                FILE *out) {
     fprintf(out,
             "<div class=\"scroll\"><table>\n<tr><th>#</th><th class=\"l\">settings</th><th>ms</th>"
             "<th>FLIP</th><th>RMSE, linear</th><th>change of ms</th>"
             "<th>change of FLIP</th></tr>\n");
     for (int i = 0; i < count; i++) {
-        const DipMetrics f = dip_cost_row_metrics(report, front[i], 0);
-        const double ms = dip_cost_ms(report, front[i]);
+        const DipMetrics f = dip_cost_row_metrics(report, pareto[i], 0);
+        const double ms = dip_cost_ms(report, pareto[i]);
         fprintf(out, "<tr><td>%d</td><td class=\"l\">", i + 1);
-        write_row_text(report, front[i], out);
+        write_row_text(report, pareto[i], out);
         fprintf(out, "</td><td>%.2f</td><td>%.4f</td><td>%.5f</td>", ms, f.flip, f.rmse_lin);
         if (i > 0) {
             fprintf(out, "<td>%+.2f</td><td>%+.4f</td></tr>\n",
-                    ms - dip_cost_ms(report, front[i - 1]),
-                    f.flip - dip_cost_row_metrics(report, front[i - 1], 0).flip);
+                    ms - dip_cost_ms(report, pareto[i - 1]),
+                    f.flip - dip_cost_row_metrics(report, pareto[i - 1], 0).flip);
         } else {
             fprintf(out, "<td></td><td></td></tr>\n");
         }
@@ -160,11 +160,11 @@ static void write_pareto_table(const DipCostReport *report, const int *front, in
     fprintf(out, "</table></div>\n");
 }
 
-static void write_scatter(const DipCostReport *report, const int *rows, int count, const int *front,
-                          int kept, Points *all, Points *best, FILE *out) {
+static void write_scatter(const DipCostReport *report, const int *rows, int count,
+                          const int *pareto, int kept, Points *all, Points *best, FILE *out) {
     char subtitle[DIP_COST_TEXT];
     fill_points(report, rows, count, all);
-    fill_points(report, front, kept, best);
+    fill_points(report, pareto, kept, best);
     for (int i = 0; i < kept; i++) {
         snprintf(best->label_texts[i], sizeof best->label_texts[i], "%d", i + 1);
         best->labels[i] = best->label_texts[i];
@@ -199,17 +199,17 @@ static void write_pareto_front(const DipCostReport *report, FILE *out) {
     char(*label_texts)[12] = malloc(room * sizeof *label_texts);
     const int count = rows ? list_combinations(report, rows) : 0;
     if (rows && values && labels && label_texts && count > 1) {
-        int *front = rows + room;
+        int *pareto = rows + room;
         const int kept = dip_cost_pareto_front_thin(
-            report, front, dip_cost_pareto_front(report, rows, count, front));
+            report, pareto, dip_cost_pareto_front(report, rows, count, pareto));
         Points all = {values, values + room, NULL, NULL};
         Points best = {values + 2 * room, values + 3 * room, labels, label_texts};
         fprintf(out, "<h2>Time against error</h2>\n"
                      "<p>Both axes are logarithmic. The Pareto front holds the combinations that "
                      "no other beats in both time and error. The numbered combinations lower FLIP "
                      "by at least 1 %% from number to number.</p>\n");
-        write_scatter(report, rows, count, front, kept, &all, &best, out);
-        write_pareto_table(report, front, kept, out);
+        write_scatter(report, rows, count, pareto, kept, &all, &best, out);
+        write_pareto_table(report, pareto, kept, out);
     }
     free(rows);
     free(values);

@@ -156,7 +156,7 @@ static int compare_candidates(const void *a, const void *b) {
     return by_time ? by_time : (x->error > y->error) - (x->error < y->error);
 }
 
-int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *front) {
+int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *pareto) {
     Candidate *candidates = malloc(((size_t)count + 1) * sizeof *candidates);
     int found = 0, kept = 0;
     for (int i = 0; candidates && i < count; i++) {
@@ -174,19 +174,19 @@ int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int coun
     for (int i = 0; i < found; i++) {
         if (candidates[i].error < least) {
             least = candidates[i].error;
-            front[kept++] = candidates[i].row;
+            pareto[kept++] = candidates[i].row;
         }
     }
     free(candidates);
     return kept;
 }
 
-int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int count) {
+int dip_cost_pareto_front_thin(const DipCostReport *report, int *pareto, int count) {
     int kept = 0;
     for (int i = 0; i < count; i++) {
-        if (i == 0 || dip_cost_row_metrics(report, front[i], 0).flip <=
-                          0.99 * dip_cost_row_metrics(report, front[kept - 1], 0).flip) {
-            front[kept++] = front[i];
+        if (i == 0 || dip_cost_row_metrics(report, pareto[i], 0).flip <=
+                          0.99 * dip_cost_row_metrics(report, pareto[kept - 1], 0).flip) {
+            pareto[kept++] = pareto[i];
         }
     }
     return kept;
