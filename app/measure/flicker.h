@@ -1,8 +1,9 @@
-// Error over time, split into a part that stands still and a part that flickers.
+// Error over time, split into a part that stays constant and a part that flickers.
 //
-// Let e = test - truth at one instant, per pixel and channel, in linear light. Over a burst of
-// successive frames the mean of e^2 equals the square of the mean of e plus the variance of e. Over
-// the whole picture the first term is the static error and the second is flicker:
+// Let e = test - truth at one instant, per pixel and channel, in linear light. Over a burst (a few
+// successive frames), the mean of e^2 equals the square of the mean of e plus the variance of e.
+// Averaged over the whole picture, the first term is the squared static error and the second term
+// is the squared flicker:
 //     rms^2 = static^2 + flicker^2.
 #ifndef DIP_APP_MEASURE_FLICKER_H
 #define DIP_APP_MEASURE_FLICKER_H
@@ -22,11 +23,12 @@ typedef struct DipFlicker {
     size_t value_count;
     int frame_count;
     double squares;      // Sum of e^2 over all values and frames.
-    double step_squares; // Sum of (e - previous e)^2 over all values and steps.
-    double pair_squares; // Sum of ((e + previous e) / 2)^2 over all values and steps.
+    double step_squares; // Sum of (e - previous e)^2 over all values and pairs of frames.
+    double pair_squares; // Sum of ((e + previous e) / 2)^2 over all values and pairs of frames.
 } DipFlicker;
 
-// value_count is pixels times channels. Returns false when memory runs out; then nothing is held.
+// value_count is the number of pixels times the number of channels. Returns false when memory runs
+// out; *flicker then owns nothing.
 bool dip_flicker_init(DipFlicker *flicker, size_t value_count);
 void dip_flicker_free(DipFlicker *flicker);
 
@@ -36,14 +38,15 @@ void dip_flicker_restart(DipFlicker *flicker);
 // Adds the next frame: value_count differences as dip_difference_lin writes them.
 void dip_flicker_add(DipFlicker *flicker, const float *error_lin);
 
-// Mean squares over all values of the burst. A single frame has no step and no pair: these are 0.
+// Mean squares over all values of the burst. A single frame has no previous frame, so its
+// squared_step and squared_two_mean are 0.
 typedef struct DipFlickerResult {
-    double squared;         // Mean of e^2.
+    double squared;         // e^2.
     double squared_static;  // Square of the mean of e over time.
     double squared_flicker; // Variance of e over time.
     double squared_step;    // Squared change of e from one frame to the next.
-    double
-        squared_two_mean; // Squared mean of two successive frames' e, as a fast display shows it.
+    // Square of the mean of two successive frames' e. On a fast display one sees this mean.
+    double squared_two_mean;
 } DipFlickerResult;
 
 DipFlickerResult dip_flicker_result(const DipFlicker *flicker);

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// D65 in XYZ: the reference white of the opponent colours and of CIELab.
+// White point D65 in XYZ, the reference white of both the opponent colours and CIELab.
 static const float white[3] = {0.950428545f, 1.0f, 1.088900371f};
 
 // Planes of a DipFlipAnalysis.
@@ -73,8 +73,8 @@ void dip_flip_analysis_free(DipFlipAnalysis *analysis) {
 
 // --- analysing a picture -----------------------------------------------------------------------
 
-// Linear sRGB to the opponent colours Y, Cx, Cz. The matrix is that of sRGB's primaries and D65, as
-// exact fractions.
+// Converts linear sRGB to the opponent colours Y, Cx, Cz. The matrix follows from sRGB's primaries
+// and D65; its entries are exact fractions.
 static void to_opponent(const float rgb[3], float *luma, float *red_green, float *blue) {
     static const float m[3][3] = {{(float)(10135552.0 / 24577794.0),
                                    (float)(8788810.0 / 24577794.0),
@@ -98,8 +98,9 @@ static float lightness(float x) {
     return x > limit * limit * limit ? cbrtf(x) : x / (3.0f * limit * limit) + 4.0f / 29.0f;
 }
 
-// Filtered opponent colours to CIELab, by way of linear light that is clamped to what a screen
-// shows. Chroma is scaled by lightness, since dark colours look less colourful (Hunt's effect).
+// Converts filtered opponent colours to CIELab. In between, linear light is clamped to 0..1, since
+// a screen shows no other values. Chroma is scaled by lightness, since dark colours look less
+// colourful (Hunt's effect).
 static void to_lab(float luma, float red_green, float blue, float lab[3]) {
     static const float to_rgb[3][3] = {{3.241003275f, -1.537398934f, -0.498615861f},
                                        {-0.969224334f, 1.875930071f, 0.041554224f},
@@ -204,7 +205,8 @@ void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnaly
 static const float colour_exponent = 0.7f;
 static const float feature_exponent = 0.5f;
 
-// The greatest possible distance, from green to blue, raised to colour_exponent.
+// Returns the greatest possible colour distance, which is that of green and blue, raised to
+// colour_exponent.
 static float greatest_distance(void) {
     const float primaries[2][3] = {{0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
     float lab[2][3];
@@ -221,7 +223,8 @@ static float length(float x, float y) {
     return sqrtf(x * x + y * y);
 }
 
-// Maps distances to 0..1: those up to `share` of the greatest take up `used` of the range.
+// Maps the colour distance of a pixel to 0..1. Distances up to `share` times the greatest one map
+// to 0..used, larger ones to used..1.
 static float colour_error(const DipFlipAnalysis *a, const DipFlipAnalysis *b, size_t i,
                           float greatest) {
     const float share = 0.4f, used = 0.95f;

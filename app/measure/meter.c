@@ -1,4 +1,4 @@
-// Every metric over every region.
+// Computes every metric over every region of a picture.
 #include "app/measure/meter.h"
 
 #include "app/measure/difference.h"

@@ -1,4 +1,5 @@
-// A meter judges pictures by every metric at once. Use one meter per thread.
+// A meter computes every metric of a picture at once, by comparing it with another picture (the
+// standard). Use one meter per thread.
 #ifndef DIP_APP_MEASURE_METER_H
 #define DIP_APP_MEASURE_METER_H
 
@@ -13,13 +14,13 @@ extern "C" {
 // Scratch memory for pictures of one size. Owns everything it points to.
 typedef struct DipMeter {
     DipFlip flip;
-    DipFlipAnalysis analysis; // Of the picture being judged.
+    DipFlipAnalysis analysis; // Analysis of the picture being judged.
     DipFlicker flicker;
     float *map;       // One value per pixel.
     float *error_lin; // Three values per pixel.
 } DipMeter;
 
-// Returns false when memory runs out; then nothing is held.
+// Returns false when memory runs out; *meter then owns nothing.
 bool dip_meter_init(DipMeter *meter, int width, int height, double pixels_per_degree);
 void dip_meter_free(DipMeter *meter);
 
@@ -31,11 +32,12 @@ typedef struct DipMeterStandard {
     const uint8_t *classes;          // What each pixel shows (DipSeen).
 } DipMeterStandard;
 
-// Begins a burst of successive frames.
+// Begins a burst, a series of successive frames (flicker.h).
 void dip_meter_begin_burst(DipMeter *meter);
 
-// Judges the next picture of the burst and adds to *sums. test_lin is the picture in linear light
-// if that is known more exactly than by its codes, else NULL. Returns false when memory runs out.
+// Judges the next picture of the burst and adds its sums to *sums. test_lin is the picture in
+// linear light, for a caller that knows more exact values than the codes of `test`; NULL computes
+// linear light from the codes. Returns false when memory runs out.
 bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
                    const DipMeterStandard *standard, DipMetricSums *sums);
 

@@ -1,4 +1,4 @@
-// Figures from sums.
+// Computes metrics from sums.
 #include "app/measure/metrics.h"
 
 #include "app/measure/difference.h"

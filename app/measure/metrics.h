@@ -1,6 +1,6 @@
-// The figures by which a picture is judged, and the sums that they are computed from.
+// The metrics by which a picture is judged, and the sums that they are computed from.
 //
-// Sums of several pictures, of several bursts or of several machines can be added; the figures of
+// Sums of several pictures, of several bursts or of several machines can be added. The metrics of
 // the total are then means over all pixels of all pictures. All functions are thread-safe.
 #ifndef DIP_APP_MEASURE_METRICS_H
 #define DIP_APP_MEASURE_METRICS_H
@@ -19,18 +19,19 @@ extern const char *const dip_metric_region_names[DIP_METRIC_REGION_COUNT]; // "a
 // Sums over the pixels of one region.
 typedef struct DipMetricRegionSums {
     double pixels;        // Number of pixels.
-    double squared_lin;   // Squared difference in linear light, mean over the channels.
-    double squared_codes; // Squared difference of sRGB codes, mean over the channels.
-    double ssim;          // Structural similarity.
+    double squared_lin;   // Squared differences in linear light, each a mean over the channels.
+    double squared_codes; // Squared differences of sRGB codes, each a mean over the channels.
+    double ssim;          // Structural similarities.
     double ssim_pixels;   // Number of pixels that have an SSIM value.
-    double flip;          // FLIP.
+    double flip;          // FLIP values.
 } DipMetricRegionSums;
 
 // Holds doubles only, so that it can be added, written and read as an array of
 // DIP_METRIC_SUM_COUNT numbers.
 typedef struct DipMetricSums {
     DipMetricRegionSums regions[DIP_METRIC_REGION_COUNT];
-    // Number of bursts, and sums over them of the mean squares of DipFlickerResult.
+    // Number of bursts. The fields after it are sums over the bursts of the mean squares that
+    // DipFlickerResult names.
     double bursts;
     double squared_static;
     double squared_flicker;
@@ -42,7 +43,7 @@ enum { DIP_METRIC_SUM_COUNT = sizeof(DipMetricSums) / sizeof(double) };
 
 void dip_metric_sums_add(DipMetricSums *to, const DipMetricSums *sums);
 
-// Figures of one region. A region without pixels has rmse_lin 0, flip 0, ssim 1 and an infinite
+// Metrics of one region. A region without pixels has rmse_lin 0, flip 0, ssim 1 and an infinite
 // psnr_db.
 typedef struct DipMetrics {
     double rmse_lin; // Root mean square error in linear light, 0..1.
@@ -53,7 +54,7 @@ typedef struct DipMetrics {
 
 DipMetrics dip_metrics_of(const DipMetricSums *sums, int region);
 
-// Root mean squares in linear light over all bursts; see flicker.h.
+// Flicker metrics: root mean squares in linear light over all bursts; see flicker.h.
 typedef struct DipFlickerMetrics {
     double steady;   // Error that does not change within a burst.
     double flicker;  // Deviation of the error over time.

@@ -1,4 +1,4 @@
-// The pictures that metrics compare, and the pixels that a figure is taken over.
+// The pictures that metrics compare, and selections of the pixels that a metric covers.
 #ifndef DIP_APP_MEASURE_PICTURE_H
 #define DIP_APP_MEASURE_PICTURE_H
 
@@ -9,8 +9,9 @@
 extern "C" {
 #endif
 
-// A view of 8-bit sRGB codes, four bytes per pixel: red, green, blue, and a fourth byte that no
-// metric reads. The top row comes first, as in a DipFrame. The bytes are borrowed.
+// A view of a picture in 8-bit sRGB. A code is the 8-bit value of one channel. A pixel has four
+// bytes: the codes of red, green and blue, and a fourth byte that no metric reads. The top row
+// comes first, as in a DipFrame. The bytes are borrowed.
 typedef struct DipSrgbPicture {
     const uint8_t *rgba8;
     size_t stride_bytes; // Bytes from one row to the next, at least 4 * width.
@@ -18,8 +19,8 @@ typedef struct DipSrgbPicture {
     int height;          // Pixels.
 } DipSrgbPicture;
 
-// A selection of pixels: those whose class equals `wanted`. If `classes` is NULL, all pixels are
-// selected. `classes` holds one byte per pixel, rows packed, and is borrowed.
+// Selects the pixels whose class equals `wanted`, or all pixels if `classes` is NULL. `classes`
+// holds one byte per pixel, rows packed, and is borrowed.
 typedef struct DipPixelMask {
     const uint8_t *classes;
     uint8_t wanted;

@@ -1,4 +1,4 @@
-// Means, variances and the covariance of every window, by separable filters.
+// Computes means, variances and the covariance of every window with separable filters.
 #include "app/measure/ssim.h"
 
 #include "app/measure/internal/convolve.h"
@@ -23,8 +23,8 @@ static DipKernel1D window(void) {
     return kernel;
 }
 
-// Luma minus the middle of its range. Variances are differences of squares and lose fewer digits
-// when the values are near zero.
+// Returns luma minus the middle of its range. A variance is computed as a difference of squares,
+// which loses fewer digits if the values are near zero.
 static float centred_luma(const uint8_t *rgb) {
     return (0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2]) - 127.5f;
 }

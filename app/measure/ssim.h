@@ -3,7 +3,7 @@
 //
 // Windows are Gaussian, 11x11, with a standard deviation of 1.5; K1 = 0.01, K2 = 0.03, L = 255;
 // luma is 0.299 R + 0.587 G + 0.114 B, not rounded. As in the authors' implementation, only windows
-// that lie within the picture count.
+// that lie wholly within the picture count.
 #ifndef DIP_APP_MEASURE_SSIM_H
 #define DIP_APP_MEASURE_SSIM_H
 
@@ -17,9 +17,9 @@ extern "C" {
 
 enum { DIP_SSIM_RADIUS = 5 }; // Pixels.
 
-// Writes the similarity of the two windows around each pixel, at most 1, and not-a-number within
-// DIP_SSIM_RADIUS of the border. Both pictures must have one size. Returns false when memory runs
-// out. Thread-safe.
+// Writes for each pixel the similarity of the two windows around the pixel, at most 1. Pixels
+// within DIP_SSIM_RADIUS of the border get not-a-number. Both pictures must have the same size.
+// Returns false when memory runs out. Thread-safe.
 bool dip_ssim_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map);
 
 #ifdef __cplusplus

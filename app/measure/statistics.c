@@ -24,7 +24,8 @@ double dip_stats_quantile(const double *values, int count, double share, double 
     return scratch[below] + (position - below) * (scratch[above] - scratch[below]);
 }
 
-// The value that sorting would put at values[index], by Hoare's selection. Reorders the values.
+// Returns the value that sorting would put at values[index]. Uses Hoare's selection, which reorders
+// the values.
 static double select_value(double *values, int count, int index) {
     int low = 0, high = count - 1;
     while (low < high) {
@@ -70,7 +71,8 @@ typedef struct Times {
     int rounds;
 } Times;
 
-// An estimate from the rounds listed in `drawn`. scratch has room for frames * rounds values.
+// Computes an estimate from the rounds listed in `drawn`. scratch has room for frames * rounds
+// values.
 typedef double Estimator(const Times *times, const int *drawn, double *scratch);
 
 static double mean_of_frame_medians(const Times *times, const int *drawn, double *scratch) {
@@ -95,8 +97,9 @@ static double median_of_ratios(const Times *times, const int *drawn, double *scr
     return dip_stats_median(scratch, count);
 }
 
-// The estimate from all rounds once, and the 95 % interval of `resamples` drawings of as many
-// rounds with replacement. Without resamples the interval is 0.
+// Computes the estimate from all rounds, and its 95 % interval. For the interval, the estimate is
+// repeated `resamples` times, each time from as many rounds drawn with replacement. If `resamples`
+// is 0, the interval's ends are 0.
 static DipStatsEstimate estimate(const Times *times, Estimator *estimator, int resamples) {
     const int count = times->rounds;
     double *scratch = malloc((size_t)count * (size_t)times->frames * sizeof *scratch);
@@ -156,7 +159,7 @@ DipStatsInterval dip_stats_ratio_interval(const double *a, const double *b, int 
     uint64_t random = 1;
     for (int r = 0; r < DIP_STATS_RESAMPLES; r++) {
         for (int i = 0; i < count; i++) {
-            // Both come from one round, since they were measured next to each other.
+            // a and b come from the same round, since their runs took turns within a round.
             const int from = dip_random_below(&random, rounds) * frames + i % frames;
             drawn_a[i] = a[from];
             drawn_b[i] = b[from];

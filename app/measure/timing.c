@@ -1,4 +1,4 @@
-// Warming up, shuffling, visiting.
+// Runs the phases: warm-up, settling, and rounds of visits in shuffled order.
 #include "app/measure/timing.h"
 
 #include "app/measure/internal/random.h"
@@ -71,7 +71,7 @@ static bool settle(Timing *t, DipError *err) {
 
 // --- rounds ------------------------------------------------------------------------------------
 
-// Fisher and Yates' shuffle of the previous round's order.
+// Shuffles the previous round's order (Fisher and Yates).
 static void shuffle(Timing *t) {
     for (int i = t->def->subject_count - 1; i > 0; i--) {
         const int other = dip_random_below(&t->random, i + 1);
@@ -132,8 +132,8 @@ static void keep_round(const DipTimingDef *def, int round, const double *round_m
     }
 }
 
-// Shuffles even if the round is known, so that the rounds after it have the order they would have
-// had.
+// Shuffles even if the round is known, so that later rounds have the same order as if this round
+// had been run.
 static bool run_round(Timing *t, int round, double *ms, DipError *err) {
     const DipTimingCalls *calls = t->calls;
     const double *known = calls->known_round ? calls->known_round(calls->context, round) : NULL;

@@ -1,4 +1,5 @@
-// Drawing two halves on the pool, their mean and difference, and the file in the cache.
+// Draws the two halves on the pool, computes their mean and difference, and reads and writes the
+// cache.
 #include "app/measure/truth.h"
 
 #include "app/files/folder.h"
@@ -23,7 +24,8 @@ static bool out_of_memory(DipError *err) {
 
 // --- the key -----------------------------------------------------------------------------------
 
-// Hashes everything that the truth depends on, and a version of how it is made.
+// Hashes everything that the truth depends on, including a version number of the code that makes
+// it.
 static void find_key(const DipTruthDef *def, char key[33]) {
     DipHash hash = dip_hash_begin(0);
     dip_hash_text(&hash, "diptych truth 1");
@@ -39,7 +41,7 @@ static void find_key(const DipTruthDef *def, char key[33]) {
     dip_hash_integer(&hash, def->width);
     dip_hash_integer(&hash, def->height);
     dip_hash_integer(&hash, def->samples);
-    dip_hash_number(&hash, def->pixels_per_degree); // the floor depends on it
+    dip_hash_number(&hash, def->pixels_per_degree); // the floor's FLIP depends on it
     dip_hash_hex(&hash, key);
 }
 
@@ -50,9 +52,9 @@ typedef struct Half {
     const DipTruthDef *def;
     const DipConvergence *convergence;
     double *rgb_lin;
-    uint8_t *classes; // what pixels show, filled by the first half; NULL for the second
+    uint8_t *classes; // what pixels show; only the first half fills it, the second has NULL
     uint32_t seed;
-    int first_tile; // tiles of the current batch begin here
+    int first_tile; // index of the current batch's first tile
     atomic_bool failed;
 } Half;
 
@@ -186,7 +188,7 @@ bool dip_truth_default_folder(char *folder, size_t size_bytes) {
 }
 
 // A file holds the truth's arrays one after the other, as they lie in memory, and then 32 digits of
-// their hash. Byte order and layout are those of the machine that wrote it.
+// their hash. Byte order and layout are those of the machine that wrote the file.
 static size_t file_size(const DipTruth *truth) {
     const size_t pixels = (size_t)truth->width * (size_t)truth->height;
     return pixels * (3 * sizeof(float) + 4 + 1) + sizeof(DipMetricSums) + 32;
@@ -287,7 +289,7 @@ bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache, D
 }
 
 double dip_truth_floor_rmse(const DipMetricSums *floor, int region) {
-    // The mean of two independent halves errs by half of their difference.
+    // The error of the mean of two independent halves is half of their difference.
     return dip_metrics_of(floor, region).rmse_lin / 2.0;
 }
 

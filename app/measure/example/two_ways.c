@@ -1,5 +1,5 @@
-// The smallest client of app/measure/: compares two ways to fill a picture, in time and in error.
-// It links dip_measure alone and knows nothing of Diptych's commands.
+// The smallest client of app/measure/. It compares the time and the error of two ways to fill a
+// picture. It links only dip_measure and uses none of Diptych's commands.
 #include "app/measure/flip.h"
 #include "app/measure/metrics.h"
 #include "app/measure/statistics.h"
@@ -10,7 +10,7 @@
 
 enum { WIDTH = 128, HEIGHT = 96, FRAMES = 2, ROUNDS = 12 };
 
-// Subject 1 is subject 0 under another index (A/A): their ratio shows the machine's noise.
+// FULL_AGAIN is FULL under another index (A/A): the ratio of their times shows the machine's noise.
 enum { FULL, FULL_AGAIN, EVERY_OTHER, SUBJECTS };
 
 static uint8_t pictures[SUBJECTS][WIDTH * HEIGHT * 4];
@@ -19,7 +19,7 @@ static uint8_t shade(int x, int y, int frame) {
     return (uint8_t)(127.5 + 127.0 * sin(0.001 * x * y + 0.1 * frame));
 }
 
-// FULL computes every pixel; EVERY_OTHER computes one of two and repeats it.
+// FULL computes every pixel. EVERY_OTHER computes every second pixel and repeats it.
 static bool fill(void *context, const DipTimingTurn *turn, DipError *err) {
     (void)context;
     (void)err;

@@ -1,10 +1,11 @@
-// Adds tap by tap over whole rows, in loops that the compiler turns into vector code.
+// Adds one kernel tap after the other over whole rows, in loops that the compiler turns into vector
+// code.
 #include "app/measure/internal/convolve.h"
 
 #include <string.h>
 
-// Adds weights[k] * rows[k] to out for every k, in order. Four taps at a time keep sums in
-// registers.
+// Adds weights[k] * rows[k] to out for every k, in order. Handles four taps at a time, so that sums
+// stay in registers.
 static void add_taps(const float *const *rows, const float *weights, int count, int width,
                      float *restrict out) {
     int k = 0;

@@ -16,7 +16,7 @@ static void fill_gaussian(DipKernel1D *kernel, int radius, double ppd, double fa
     }
 }
 
-// The sum of the same kernel's weights.
+// Returns the sum of the weights that fill_gaussian would write.
 static double sum_gaussian(int radius, double ppd, double factor, double b) {
     double sum = 0.0;
     for (int i = -radius; i <= radius; i++) {
@@ -34,8 +34,9 @@ static void make_sensitivity(DipFlipKernels *kernels, double ppd) {
                   luma_b);
     fill_gaussian(&kernels->red_green, radius, ppd,
                   1.0 / sum_gaussian(radius, ppd, 1.0, red_green_b), red_green_b);
-    // The filter of Cz is the sum of two Gaussians in two dimensions. Each is separable, so its
-    // weights add up to the square of a one-dimensional sum. Both together are normalised to 1.
+    // The filter of Cz is the sum of two Gaussians in two dimensions. Each Gaussian is separable,
+    // so its weights add up to the square of a one-dimensional sum. The weights of both together
+    // are scaled to add up to 1.
     double factors[2], squares = 0.0;
     for (int i = 0; i < 2; i++) {
         factors[i] = sqrt(blue_a[i] * sqrt(pi / blue_b[i]));
@@ -47,7 +48,8 @@ static void make_sensitivity(DipFlipKernels *kernels, double ppd) {
     }
 }
 
-// Scales positive and negative weights separately, so that each group adds up to 1 in magnitude.
+// Scales positive and negative weights separately, so that the positive ones add up to 1 and the
+// negative ones to -1.
 static void normalise_lobes(const double *weights, DipKernel1D *kernel) {
     double positive = 0.0, negative = 0.0;
     for (int i = 0; i <= 2 * kernel->radius; i++) {
@@ -75,7 +77,7 @@ static void make_features(DipFlipKernels *kernels, double ppd) {
     normalise_lobes(gauss, &kernels->gauss);
     normalise_lobes(edge, &kernels->edge);
     normalise_lobes(point, &kernels->point);
-    kernels->edge.weights[radius] = 0.0f; // the middle belongs to neither group
+    kernels->edge.weights[radius] = 0.0f; // the middle weight of a first derivative is 0
 }
 
 DipFlipKernels dip_flip_kernels(double pixels_per_degree) {

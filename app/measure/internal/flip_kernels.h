@@ -4,15 +4,15 @@
 
 #include "app/measure/internal/convolve.h"
 
-// All filters are applied along x and along y. Sources: sections 4.1.1 (contrast sensitivity) and
-// 4.2 (features) of the paper that flip.h names.
+// All filters are applied along x and along y. They are defined in sections 4.1.1 (contrast
+// sensitivity) and 4.2 (features) of the paper that flip.h names.
 typedef struct DipFlipKernels {
     DipKernel1D luma;      // Contrast sensitivity of Y.
     DipKernel1D red_green; // Contrast sensitivity of Cx.
     DipKernel1D blue[2];   // Contrast sensitivity of Cz: the sum of two Gaussians.
-    DipKernel1D gauss;     // Smooths across a feature.
-    DipKernel1D edge;      // First derivative, finds edges.
-    DipKernel1D point;     // Second derivative, finds points and lines.
+    DipKernel1D gauss;     // Gaussian, applied across the derivative's axis.
+    DipKernel1D edge;      // First derivative, which finds edges.
+    DipKernel1D point;     // Second derivative, which finds points and lines.
 } DipFlipKernels;
 
 DipFlipKernels dip_flip_kernels(double pixels_per_degree);

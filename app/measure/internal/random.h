@@ -4,13 +4,14 @@
 
 #include <stdint.h>
 
-// Knuth's 64-bit linear congruential generator (MMIX); the upper 31 bits of the new state.
+// Returns the upper 31 bits of the new state of Knuth's 64-bit linear congruential generator
+// (MMIX).
 static inline uint32_t dip_random_next(uint64_t *state) {
     *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
     return (uint32_t)(*state >> 33);
 }
 
-// Uniform in 0..count - 1. The bias is below count / 2^31.
+// Returns a number that is uniform in 0..count - 1, with a bias below count / 2^31.
 static inline int dip_random_below(uint64_t *state, int count) {
     return (int)(dip_random_next(state) % (uint32_t)count);
 }
