@@ -1,4 +1,4 @@
-// Drawing into memory. Blending works on sRGB codes, as desktops blend their windows.
+// Draws into memory. Blending works on 8-bit sRGB values, as desktops blend their windows.
 #include "app/canvas/canvas.h"
 
 #include <stdlib.h>
@@ -35,7 +35,7 @@ static uint8_t *pixel_at(const DipCanvas *canvas, int x, int y) {
     return canvas->rgba8 + 4 * ((size_t)y * (size_t)canvas->width + (size_t)x);
 }
 
-// The exact rounded value of a product of two bytes divided by 255.
+// Returns the exact rounded value of product / 255, where `product` is a product of two bytes.
 static unsigned divide_by_255(unsigned product) {
     return (product + 128 + ((product + 128) >> 8)) >> 8;
 }
@@ -49,8 +49,9 @@ static void blend_pixel(uint8_t *pixel, DipColour colour, unsigned alpha) {
 
 enum { BLOCK_BYTES = 16 };
 
-// Blends bytes with their own share of the colour, blocks of four pixels at a time: a loop that
-// compilers turn into 16-bit vectors. No sum is above 65407.
+// Blends blocks of four pixels. Each byte becomes (byte * rest + share) / 255. `share` is the
+// colour's part and includes 128 for rounding. Compilers turn the loop into 16-bit vector code. No
+// sum is above 65407.
 static void blend_blocks(uint8_t *restrict bytes, size_t block_count,
                          const uint16_t share[BLOCK_BYTES], uint16_t rest) {
     for (size_t i = 0; i < block_count; ++i) {
@@ -62,7 +63,7 @@ static void blend_blocks(uint8_t *restrict bytes, size_t block_count,
     }
 }
 
-// Alpha is blended with 255 and so stays 255.
+// Blends a colour over a row of pixels. The pixels' alpha is blended with 255, so it stays 255.
 static void blend_row(uint8_t *row, int count, DipColour colour) {
     const unsigned bytes[4] = {colour.red, colour.green, colour.blue, 255};
     const size_t block_count = (size_t)count / (BLOCK_BYTES / 4);
@@ -86,7 +87,7 @@ void dip_canvas_fill(DipCanvas *canvas, DipRect rect, DipColour colour) {
     }
 }
 
-// Scales by repeating or leaving out whole pixels.
+// Scales a row by repeating or leaving out whole pixels.
 static void copy_scaled_row(uint8_t *to, const uint8_t *from, int first, int count, int to_width,
                             int from_width) {
     for (int i = 0; i < count; ++i) {

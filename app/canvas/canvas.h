@@ -1,7 +1,7 @@
-// A picture in memory that can be drawn into: fills, blends, pictures, masks.
+// A picture in memory, and functions that draw into it: fills, blends, pictures, masks.
 //
-// The canvas has a folder of its own beside app/display/, because neither side needs the other: a
-// display shows finished pixels and draws nothing, and the preview draws the same pixels for every
+// The canvas has a folder of its own beside app/display/, because neither needs the other. A
+// display shows finished pixels and draws nothing. The preview draws the same pixels for every
 // display, for a screenshot and for a test.
 #ifndef DIP_APP_CANVAS_CANVAS_H
 #define DIP_APP_CANVAS_CANVAS_H
@@ -22,17 +22,17 @@ typedef struct DipCanvas {
 bool dip_canvas_resize(DipCanvas *canvas, int width, int height, DipError *err);
 void dip_canvas_free(DipCanvas *canvas);
 
-// Limits drawing to a rectangle; parts of it outside the canvas count for nothing.
+// Limits drawing to the part of a rectangle that lies within the canvas.
 void dip_canvas_set_clip(DipCanvas *canvas, DipRect clip);
 
-// The canvas as a picture. It is valid until the canvas is resized or freed.
+// Returns the canvas as a picture, which is valid until the canvas is resized or freed.
 DipPixels dip_canvas_pixels(const DipCanvas *canvas);
 
 // Blends a colour over a rectangle by the colour's alpha.
 void dip_canvas_fill(DipCanvas *canvas, DipRect rect, DipColour colour);
 
-// Copies a picture into a rectangle; its alpha is ignored. If the sizes differ, the picture is
-// scaled to the rectangle: each pixel shows the nearest pixel of the picture.
+// Copies a picture into a rectangle; the picture's alpha is ignored. If the sizes differ, the
+// picture is scaled to the rectangle: each pixel shows the nearest pixel of the picture.
 void dip_canvas_copy(DipCanvas *canvas, DipRect rect, const DipPixels *picture);
 
 // Blends a colour through a mask whose top left pixel lies at x, y. Each byte of the mask is a

@@ -13,12 +13,12 @@ typedef struct Command {
     CommandKind kind;
     DipRect box; // No pixel outside this rectangle changes.
     DipColour colour;
-    uint64_t version;  // Of a picture.
+    uint64_t version;  // Version of the picture, for COMMAND_PICTURE.
     DipPixels picture; // Not compared: the version stands for the pixels.
-    int size;          // Of text, as are the three fields below.
+    int size;          // Em size of the text; this and the fields below are for COMMAND_TEXT.
     int x;
     int y;
-    size_t text; // Offset in the frame's texts.
+    size_t text; // Offset of the line in the frame's texts.
 } Command;
 
 typedef struct Frame {
@@ -30,7 +30,7 @@ typedef struct Frame {
     size_t text_capacity;
     int width;
     int height;
-    bool complete; // Memory did not run out.
+    bool complete; // False if memory ran out while the frame was recorded.
 } Frame;
 
 struct DipDrawList {
@@ -45,7 +45,7 @@ static int64_t area(DipRect rect) {
     return (int64_t)rect.width * rect.height;
 }
 
-// The rectangle that grows least when it takes the other one in.
+// Returns the index of the rectangle whose area grows least when `rect` is united with it.
 static int cheapest_to_unite(const DipDamage *damage, DipRect rect) {
     int best = 0;
     int64_t least = INT64_MAX;
@@ -130,7 +130,7 @@ void dip_draw_list_begin(DipDrawList *list, int width, int height) {
     frame->complete = true;
 }
 
-// Makes room for more items behind those that are in use, at least twice as many as before.
+// Makes room for `more` items behind the `used` ones. If the array must grow, it at least doubles.
 static bool reserve(void **items, size_t *capacity, size_t used, size_t more, size_t item_bytes) {
     if (used + more <= *capacity) {
         return true;
@@ -208,8 +208,8 @@ static bool same_command(const Frame *a, const Frame *b, size_t index) {
            (p->kind != COMMAND_TEXT || strcmp(a->texts + p->text, b->texts + q->text) == 0);
 }
 
-// Commands are compared in pairs by their position in the lists. Outside the boxes of all pairs
-// that differ, both lists draw the same commands in the same order.
+// Compares commands in pairs: those with the same index in both lists. Outside the boxes of all
+// pairs that differ, both lists draw the same commands in the same order.
 static void find_damage(const Frame *before, const Frame *now, DipDamage *damage) {
     const DipRect whole = {0, 0, now->width, now->height};
     const size_t count = before->count > now->count ? before->count : now->count;

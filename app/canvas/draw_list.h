@@ -1,9 +1,10 @@
-// A frame as a list of drawing commands, which finds out by itself what changed.
+// A list of the drawing commands of a frame, which finds out by itself what has changed since the
+// previous frame.
 //
 // The caller records the whole frame anew each time, from the back to the front. Painting compares
-// the new list with the one painted before and draws only inside the rectangles of commands that
-// differ. So code that draws never has to say what it changed, and a frame in which only a figure
-// changes costs no more than that figure.
+// the new list with the list painted before, and draws only inside the rectangles of commands that
+// differ. Therefore code that draws never has to say what it changed. A frame in which only one
+// number changes costs no more than drawing that number.
 #ifndef DIP_APP_CANVAS_DRAW_LIST_H
 #define DIP_APP_CANVAS_DRAW_LIST_H
 
@@ -12,7 +13,7 @@
 
 typedef struct DipDrawList DipDrawList;
 
-// Which point of a line x names.
+// Which point of a line of text lies at the coordinate x: its left end, right end or centre.
 typedef enum DipAlign { DIP_ALIGN_LEFT, DIP_ALIGN_RIGHT, DIP_ALIGN_CENTRE } DipAlign;
 
 enum { DIP_MAX_DAMAGE = 8 };
@@ -23,7 +24,8 @@ typedef struct DipDamage {
     int count;
 } DipDamage;
 
-// Adds a rectangle; rectangles that overlap, and those there is no room for, are united.
+// Adds a rectangle. Rectangles that overlap are united. If the array is full, the new rectangle is
+// united with one in the array.
 void dip_damage_add(DipDamage *damage, DipRect rect);
 
 // The font is borrowed and must outlive the list.
@@ -38,13 +40,13 @@ void dip_draw_list_begin(DipDrawList *list, int width, int height);
 int dip_draw_list_width(const DipDrawList *list);
 int dip_draw_list_height(const DipDrawList *list);
 
-// Each records one command. A command that memory runs out for is left out of the frame, and
-// dip_draw_list_paint fails.
+// Each of the next three functions records one command. If memory runs out, the command is left out
+// of the frame, and dip_draw_list_paint fails.
 
 void dip_draw_list_fill(DipDrawList *list, DipRect rect, DipColour colour);
 
 // Shows a picture, scaled to the rectangle. The pixels are borrowed until the next frame begins.
-// The version is the caller's: pixels of the same version are taken to be the same.
+// The caller numbers the picture's contents with `version`: equal versions mean equal pixels.
 void dip_draw_list_picture(DipDrawList *list, DipRect rect, const DipPixels *picture,
                            uint64_t version);
 
@@ -52,9 +54,10 @@ void dip_draw_list_picture(DipDrawList *list, DipRect rect, const DipPixels *pic
 void dip_draw_list_text(DipDrawList *list, int size, DipColour colour, DipAlign align, int x, int y,
                         int max_width, const char *line);
 
-// Ends the frame: resizes the canvas if need be, draws what differs from the frame painted before
-// and says where that is. The first command should cover the whole frame, since a pixel that no
-// command covers is undefined. Fails with MEMORY; the next frame is then painted as a whole.
+// Ends the frame: resizes the canvas if needed, draws what differs from the frame painted before,
+// and returns the changed rectangles in *damage. The first command should cover the whole frame,
+// since a pixel that no command covers is undefined. Fails with MEMORY; the next call then paints
+// the whole frame.
 bool dip_draw_list_paint(DipDrawList *list, DipCanvas *canvas, DipDamage *damage, DipError *err);
 
 #endif

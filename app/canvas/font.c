@@ -1,4 +1,4 @@
-// Fonts through fontconfig and FreeType, and the cache of drawn glyphs.
+// Finds the font with fontconfig, draws glyphs with FreeType, and keeps drawn glyphs in a cache.
 #include "app/canvas/font.h"
 
 #include <fontconfig/fontconfig.h>
@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The cache is a hash table with open addressing. It is emptied when it is three quarters full,
-// which bounds its memory however often the window changes its size.
+// The cache is a hash table with open addressing. It is emptied when it is three quarters full.
+// This bounds its memory even if the window's size changes often.
 enum { GLYPH_SLOTS = 4096, MAX_GLYPHS = GLYPH_SLOTS / 4 * 3 };
 
 static const char ellipsis[] = "\xe2\x80\xa6";
@@ -29,9 +29,9 @@ typedef struct Glyph {
 struct DipFont {
     FT_Library library;
     FT_Face face;
-    int face_size; // The size that the face is set to; 0: none yet.
+    int face_size; // The size that the face is set to; 0: no size was set yet.
     int ascent[DIP_FONT_MAX_SIZE + 1];
-    int line_height[DIP_FONT_MAX_SIZE + 1]; // 0: not asked for yet.
+    int line_height[DIP_FONT_MAX_SIZE + 1]; // 0: not computed yet.
     Glyph glyphs[GLYPH_SLOTS];
     int glyph_count;
 };
@@ -125,7 +125,7 @@ static int clamp_size(int size) {
                                       : size;
 }
 
-// FreeType counts in 1/64 pixel.
+// Converts a FreeType length, in 1/64 pixel, to whole pixels, rounded up.
 static int pixels_up(FT_Pos position) {
     return (int)((position + 63) >> 6);
 }
@@ -151,7 +151,7 @@ int dip_font_line_height(DipFont *font, int size) {
 
 // --- glyphs ------------------------------------------------------------------------------------
 
-// A glyph whose mask does not fit in memory is drawn as a gap of its width.
+// If memory runs out for a glyph's mask, the glyph is drawn as a gap of the same width.
 static void draw_glyph(DipFont *font, int size, uint32_t code_point, Glyph *glyph) {
     set_face_size(font, size);
     if (FT_Load_Char(font->face, code_point, FT_LOAD_RENDER | FT_LOAD_TARGET_NORMAL) != 0) {
@@ -197,7 +197,7 @@ static const Glyph *find_glyph(DipFont *font, int size, uint32_t code_point) {
 
 // --- lines -------------------------------------------------------------------------------------
 
-// Reads one character and moves on. Invalid bytes are read one at a time.
+// Reads one character and moves *line behind it. Invalid bytes are read one at a time.
 static uint32_t next_code_point(const char **line) {
     const unsigned char *bytes = (const unsigned char *)*line;
     const int more = bytes[0] < 0x80                        ? 0
@@ -230,7 +230,8 @@ int dip_font_width(DipFont *font, int size, const char *line) {
     return width;
 }
 
-// Finds where the line has to end so that it and the ellipsis fit; -1 if not even that fits.
+// Returns how many bytes of the line fit into `room`, the width that an ellipsis leaves free; -1 if
+// not even the ellipsis fits.
 static ptrdiff_t fitting_bytes(DipFont *font, int size, int room, const char *line) {
     const char *at = line;
     ptrdiff_t bytes = room >= 0 ? 0 : -1;

@@ -1,4 +1,4 @@
-// Arithmetic on rectangles.
+// Computes with rectangles.
 #include "app/canvas/pixels.h"
 
 static int smaller(int a, int b) {

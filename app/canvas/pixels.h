@@ -1,4 +1,4 @@
-// Rectangles, colours and read-only pictures: what drawing and displays have in common.
+// Rectangles, colours and read-only pictures, which both the canvas and displays use.
 #ifndef DIP_APP_CANVAS_PIXELS_H
 #define DIP_APP_CANVAS_PIXELS_H
 
@@ -15,7 +15,7 @@ typedef struct DipRect {
     int height;
 } DipRect;
 
-// A colour in sRGB codes. Alpha 255 is opaque; the colour is not multiplied by alpha.
+// A colour in 8-bit sRGB. Alpha 255 is opaque; red, green and blue are not multiplied by alpha.
 typedef struct DipColour {
     uint8_t red;
     uint8_t green;
@@ -23,19 +23,19 @@ typedef struct DipColour {
     uint8_t alpha;
 } DipColour;
 
-// A picture that somebody else owns: sRGB, four bytes per pixel (red, green, blue, alpha), the top
-// row first.
+// A borrowed picture: 8-bit sRGB, four bytes per pixel (red, green, blue, alpha), the top row
+// first.
 typedef struct DipPixels {
     const uint8_t *rgba8;
-    size_t stride_bytes; // From one row to the next.
+    size_t stride_bytes; // Bytes from one row to the next.
     int width;
     int height;
 } DipPixels;
 
-// Returns the pixels that both rectangles hold; the result may be empty.
+// Returns the rectangle of the pixels that lie in both rectangles; it may be empty.
 DipRect dip_rect_intersect(DipRect a, DipRect b);
 
-// Returns the smallest rectangle that holds both. An empty rectangle adds nothing.
+// Returns the smallest rectangle that holds both rectangles. If one is empty, returns the other.
 DipRect dip_rect_unite(DipRect a, DipRect b);
 
 bool dip_rect_is_empty(DipRect rect);
