@@ -1,8 +1,8 @@
-// The seam between the preview and whatever shows it: pixels go out, events come in.
+// The interface between the preview and the display that shows it: pixels go out, events come in.
 //
-// A display is a struct of functions and a context. A back end (a folder beside this file) fills it
-// in; the preview knows no other part of a back end. All functions of one display must be called
-// on one thread. They take the context as their first argument:
+// A display is a struct of functions and a context. A back end (a folder beside this file) fills in
+// the struct; the preview uses nothing else of a back end. All functions of one display must be
+// called on one thread. Their first argument is the context:
 //
 //     display.present(display.context, &picture, rects, 1, err);
 #ifndef DIP_APP_DISPLAY_DISPLAY_H
@@ -64,9 +64,9 @@ typedef enum DipMouseButton {
 } DipMouseButton;
 
 typedef enum DipEventKind {
-    DIP_EVENT_NONE, // Something happened that no other kind stands for. The preview ignores it.
+    DIP_EVENT_NONE, // Anything that has no kind below. The preview ignores it.
     DIP_EVENT_KEY_DOWN,
-    DIP_EVENT_KEY_UP, // A display that loses the keyboard sends it for every key that is held.
+    DIP_EVENT_KEY_UP, // Also sent for every held key when the display loses the keyboard focus.
     DIP_EVENT_TEXT,
     DIP_EVENT_MOUSE_MOVE,
     DIP_EVENT_MOUSE_DOWN,
@@ -78,14 +78,14 @@ typedef enum DipEventKind {
     DIP_EVENT_QUIT    // The user or the system closes the display.
 } DipEventKind;
 
-// One event. Fields that a kind does not name are zero.
+// One event. Fields that do not belong to the event's kind are zero.
 typedef struct DipEvent {
     DipEventKind kind;
-    unsigned modifiers; // DIP_MODIFIER_... bits. Of key and mouse events.
+    unsigned modifiers; // Key and mouse events: DIP_MODIFIER_... bits.
 
     // KEY_DOWN and KEY_UP.
-    DipKeycode key;      // By the user's keyboard layout.
-    DipKeycode position; // The key that a US keyboard has at this place.
+    DipKeycode key;      // The key's code in the user's keyboard layout.
+    DipKeycode position; // The code of the key at the same place on a US keyboard.
     bool repeat;         // KEY_DOWN: the key is held and repeats itself.
 
     // Mouse events: where the pointer is, in pixels of the picture.
@@ -105,28 +105,30 @@ typedef struct DipDisplay {
 
     // Shows a picture. Only the pixels inside the damage rectangles differ from the picture shown
     // before; after a RESIZE or EXPOSE event the damage must cover the whole picture. The picture
-    // should have the display's size; of any other only the common part shows. Keeps no pointer.
-    // Fails with RUNTIME.
+    // should have the display's size; if the sizes differ, only the part that fits both shows.
+    // Keeps no pointer to the picture. Fails with RUNTIME.
     bool (*present)(void *context, const DipPixels *picture, const DipRect *damage, int count,
                     DipError *err);
 
-    // Fills in the next event, for which it waits at most timeout_ms milliseconds; 0 does not wait.
-    // Returns false if there is none.
+    // Fills in the next event. Waits at most timeout_ms milliseconds for one; 0 does not wait.
+    // Returns false if there is no event.
     bool (*next_event)(void *context, int timeout_ms, DipEvent *event);
 
-    // Size of the picture to present, in pixels, at least 1x1.
+    // Gets the size of the picture to present, in pixels, at least 1x1.
     void (*size)(void *context, int *width, int *height);
 
-    // Pixels per unit of text and controls: 1 on a plain screen, 2 on one with small pixels.
+    // Returns the factor by which text and controls are enlarged: 1 on a plain screen, 2 on a
+    // screen with pixels half as large.
     double (*scale)(void *context);
 
-    // Pictures per second that the display can show.
+    // Returns the number of pictures per second that the display can show.
     double (*refresh_hz)(void *context);
 
-    // The display's clock, nanoseconds from some point on. It goes on while next_event waits.
+    // Returns the time in nanoseconds since an arbitrary moment. The clock advances while
+    // next_event waits.
     int64_t (*now_ns)(void *context);
 
-    // Covers the whole screen, or ends that. NULL: the display cannot.
+    // Turns full-screen mode on or off. NULL if the display has no such mode.
     void (*set_full_screen)(void *context, bool on);
 
     // Closes the display and frees the context.

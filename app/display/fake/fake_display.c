@@ -9,7 +9,7 @@
 static const double fake_refresh_hz = 60.0;
 
 struct DipFakeDisplay {
-    DipEvent events[DIP_FAKE_MAX_EVENTS]; // A ring.
+    DipEvent events[DIP_FAKE_MAX_EVENTS]; // A ring buffer.
     int first;
     int count;
     DipCanvas shown;

@@ -1,8 +1,8 @@
-// A display for tests: events come from a queue, and the picture it shows can be looked at.
+// A display for tests: events come from a queue, and the test can read the shown picture.
 //
-// Its clock stands still except while it waits for an event that does not come, so that a test
-// decides what time it is. Of a presented picture it takes over the damage rectangles alone, as a
-// window does: a caller that forgets damage is found out.
+// The display's clock advances only while the display waits in vain for an event, or when the test
+// advances it. So the test controls the time. The display copies only the damage rectangles of a
+// presented picture, as a window does; a test therefore notices forgotten damage.
 #ifndef DIP_APP_DISPLAY_FAKE_FAKE_DISPLAY_H
 #define DIP_APP_DISPLAY_FAKE_FAKE_DISPLAY_H
 
@@ -16,7 +16,7 @@ enum { DIP_FAKE_MAX_EVENTS = 256 };
 // close function frees it.
 DipFakeDisplay *dip_fake_display_open(DipDisplay *display, int width, int height);
 
-// Appends an event. A test that appends more than DIP_FAKE_MAX_EVENTS at once is wrong.
+// Appends an event. The queue must not hold more than DIP_FAKE_MAX_EVENTS events.
 void dip_fake_display_push(DipFakeDisplay *fake, const DipEvent *event);
 
 // Appends a press and a release of a key.
@@ -31,13 +31,14 @@ bool dip_fake_display_resize(DipFakeDisplay *fake, int width, int height);
 // Changes the scale, which is 1 at first, and appends a RESIZE event.
 void dip_fake_display_rescale(DipFakeDisplay *fake, double scale);
 
-// Lets time go by.
+// Advances the clock.
 void dip_fake_display_advance(DipFakeDisplay *fake, int64_t elapsed_ns);
 
-// What the display shows. Valid until the next change of its size.
+// Returns the shown picture, which is valid until the display's size changes.
 DipPixels dip_fake_display_picture(const DipFakeDisplay *fake);
 
-// Number of pictures presented so far, and the pixels in the last one's damage rectangles.
+// Return the number of pictures presented so far, and the number of pixels in the damage rectangles
+// of the last one.
 int dip_fake_display_present_count(const DipFakeDisplay *fake);
 int64_t dip_fake_display_damaged_pixels(const DipFakeDisplay *fake);
 

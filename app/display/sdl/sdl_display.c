@@ -1,4 +1,4 @@
-// The window: opening it, its size, and pixels on their way to the screen.
+// The window: opens and closes it, gives its size, and copies pixels to the screen.
 #include "app/display/sdl/sdl_display.h"
 
 #include "app/display/sdl/sdl_event.h"
@@ -13,12 +13,13 @@ enum {
     MIN_WINDOW_WIDTH = 320,
     MIN_WINDOW_HEIGHT = 160,
     MAX_RECTS = 16,
-    MIN_BITS_PER_PIXEL = 15 // Below, a screen has a palette, which SDL draws no pictures into.
+    // A screen with fewer bits per pixel has a palette, and SDL cannot draw pictures on it.
+    MIN_BITS_PER_PIXEL = 15
 };
 
 typedef struct SdlDisplay {
     SDL_Window *window;
-    char *dropped_file; // Lent to the last event; NULL if that was no DROP.
+    char *dropped_file; // File name of the last event, if that was a DROP; else NULL.
     bool sdl_open;
 } SdlDisplay;
 
@@ -31,7 +32,8 @@ static bool sdl_failed(DipError *err) {
 
 // --- opening and closing -----------------------------------------------------------------------
 
-// SDL falls back to drivers that show nothing; they count only if the user asked for one.
+// Without a display, SDL falls back to a driver that shows nothing. Such a driver counts as a
+// display only if the user chose a driver with SDL_VIDEODRIVER.
 static bool has_display(void) {
     const char *driver = SDL_GetCurrentVideoDriver();
     const bool shows_nothing =
@@ -49,8 +51,9 @@ static bool open_sdl(SdlDisplay *sdl, DipError *err) {
         SDL_SetError("neither DISPLAY nor WAYLAND_DISPLAY leads to one");
         return sdl_failed(err);
     }
-    // X takes pixels from shared memory as they are. SDL's other way, through OpenGL, costs memory
-    // and, without a graphics card, a third of the frames. Other systems have only that way.
+    // An X server takes pixels directly from shared memory. SDL can also present pixels through
+    // OpenGL, but that costs memory and, without a graphics card, a third of the frame rate. On
+    // systems other than X, OpenGL is SDL's only way.
     if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0) {
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     }
@@ -60,7 +63,7 @@ static bool open_sdl(SdlDisplay *sdl, DipError *err) {
 static bool has_enough_colours(DipError *err) {
     SDL_DisplayMode mode;
     if (SDL_GetCurrentDisplayMode(0, &mode) != 0) {
-        return true; // Opening the window says what is wrong.
+        return true; // The attempt to open the window will report the error.
     }
     return SDL_BITSPERPIXEL(mode.format) >= MIN_BITS_PER_PIXEL ||
            dip_error_set(
@@ -99,7 +102,7 @@ static void close_display(void *context) {
 
 // --- pixels ------------------------------------------------------------------------------------
 
-// Copies pixels while it swaps red and blue, which is all that most screens need.
+// Copies pixels with red and blue swapped. Most screens need no other conversion.
 static void copy_swapped(uint8_t *restrict to, const uint8_t *restrict from, int count) {
     for (int i = 0; i < count; ++i) {
         uint32_t pixel;
@@ -132,7 +135,8 @@ static bool copy_rect(SDL_Surface *surface, const DipPixels *picture, DipRect re
     return true;
 }
 
-// Copies the damage, and has SDL send up to MAX_RECTS rectangles to the screen at once.
+// Copies at most MAX_RECTS damage rectangles to the window's surface and has SDL send them to the
+// screen.
 static bool show_rects(SDL_Window *window, SDL_Surface *surface, const DipPixels *picture,
                        const DipRect *damage, int count) {
     const DipRect both = dip_rect_intersect((DipRect){0, 0, surface->w, surface->h},
@@ -152,7 +156,7 @@ static bool show_rects(SDL_Window *window, SDL_Surface *surface, const DipPixels
     return rect_count == 0 || SDL_UpdateWindowSurfaceRects(window, rects, rect_count) == 0;
 }
 
-// The surface changes with the window's size, hence it is asked for each time.
+// Gets the surface anew each time, since it changes with the window's size.
 static bool present(void *context, const DipPixels *picture, const DipRect *damage, int count,
                     DipError *err) {
     SdlDisplay *sdl = context;
@@ -166,7 +170,7 @@ static bool present(void *context, const DipPixels *picture, const DipRect *dama
     return shown || dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "preview", "%s", SDL_GetError());
 }
 
-// --- the rest of the seam ----------------------------------------------------------------------
+// --- the display's other functions --------------------------------------------------------------
 
 static bool next_event(void *context, int timeout_ms, DipEvent *event) {
     SdlDisplay *sdl = context;
@@ -192,7 +196,8 @@ static void size(void *context, int *width, int *height) {
     *height = *height > 1 ? *height : 1;
 }
 
-// More than 1 only where the system itself scales windows: pixels per unit of the window's size.
+// Returns the number of pixels per unit of the window's size. It is 1 unless the system scales
+// windows.
 static double scale(void *context) {
     const SdlDisplay *sdl = context;
     int width = 0, height = 0, units = 0;

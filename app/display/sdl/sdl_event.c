@@ -1,4 +1,4 @@
-// Names of keys and buttons, and what an event says.
+// Translates keys, buttons and the fields of events.
 #include "app/display/sdl/sdl_event.h"
 
 #include <stdio.h>
@@ -33,7 +33,8 @@ static bool in_range(SDL_Keycode sdl, SDL_Keycode first, SDL_Keycode last) {
     return sdl >= first && sdl <= last;
 }
 
-// SDL's keys that type a character have that character's value too.
+// If a key types a character, SDL's code of the key is that character's code point, as in
+// DipKeycode.
 static DipKeycode key_of(SDL_Keycode sdl) {
     for (size_t i = 0; i < sizeof key_names / sizeof key_names[0]; ++i) {
         if (key_names[i].sdl == sdl) {
@@ -49,7 +50,8 @@ static DipKeycode key_of(SDL_Keycode sdl) {
     return in_range(sdl, ' ', 0x10ffff) ? (DipKeycode)sdl : DIP_KEYCODE_NONE;
 }
 
-// The letters and digits of a US keyboard; the other keys have their place in every layout.
+// Returns the code of the letter or digit at the key's place on a US keyboard. Other keys are at
+// the same place in every layout, so their code is returned.
 static DipKeycode position_of(SDL_Scancode code, DipKeycode key) {
     if (code >= SDL_SCANCODE_A && code <= SDL_SCANCODE_Z) {
         return (DipKeycode)('a' + (int)(code - SDL_SCANCODE_A));

@@ -1,4 +1,4 @@
-// SDL's events as the seam's events. Private to this folder.
+// Translates SDL's events to those of display.h. Private to this folder.
 #ifndef DIP_APP_DISPLAY_SDL_SDL_EVENT_H
 #define DIP_APP_DISPLAY_SDL_SDL_EVENT_H
 
@@ -6,8 +6,8 @@
 
 #include <SDL2/SDL.h>
 
-// Translates an event; what the seam has no event for becomes DIP_EVENT_NONE. A DROP borrows the
-// name of the file from the SDL event, which the caller frees.
+// Translates an event. An event that display.h has no kind for becomes DIP_EVENT_NONE. A DROP
+// borrows the file's name from the SDL event; the caller must free that name.
 DipEvent dip_sdl_event_translate(const SDL_Event *sdl);
 
 #endif
