@@ -1,12 +1,12 @@
-// The camera that the user flies: moving and turning a pose.
+// Moves and turns the pose of the camera that the user flies.
 #include "app/preview/camera.h"
 
 #include <math.h>
 
 static const double turn_deg_per_s = 50.0;
 
-// Multiplies quaternions (x, y, z, w): a * b turns by b first, then by a. The product is
-// normalised.
+// Writes the normalised product of two quaternions (x, y, z, w). The product turns by b first, then
+// by a.
 static void multiply(const double a[4], const double b[4], double to[4]) {
     const double product[4] = {
         a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
@@ -23,7 +23,7 @@ static void multiply(const double a[4], const double b[4], double to[4]) {
     }
 }
 
-// Turns a vector: v + 2 q x (q x v + w v).
+// Turns a vector by a quaternion: v + 2 q x (q x v + w v).
 static void rotate(const double q[4], const double v[3], double to[3]) {
     const double t[3] = {q[1] * v[2] - q[2] * v[1] + q[3] * v[0],
                          q[2] * v[0] - q[0] * v[2] + q[3] * v[1],

@@ -6,17 +6,17 @@
 
 #include <stdbool.h>
 
-// Directions that the user steers in, -1..1 each.
+// How far the user steers in each direction, -1..1.
 typedef struct DipCameraKeys {
-    double right;   // Keys D and A.
-    double up;      // Keys Q and E.
-    double forward; // Keys W and S.
+    double right;   // Key D is 1, A is -1.
+    double up;      // Key Q is 1, E is -1.
+    double forward; // Key W is 1, S is -1.
     bool turn;      // Shift: the camera turns instead of moving.
 } DipCameraKeys;
 
-// Moves the camera along its own axes by speed * seconds, or turns it. Left and right turn about
-// the world's vertical axis, forward and back about the camera's right axis, up and down about its
-// line of sight. Returns whether the pose changed.
+// Moves the camera along its own axes by speed_m_per_s * seconds, or turns the camera if `turn` is
+// set. Left and right turn it about the world's vertical axis, forward and back about the camera's
+// right axis, up and down about the line of sight. Returns whether the pose changed.
 bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_per_s,
                      double seconds);
 

@@ -1,4 +1,4 @@
-// `diptych preview` as a command: its help and its session.
+// The command `diptych preview`: its help, and the session that it opens.
 #include "app/preview/command.h"
 
 #include "app/preview/options.h"

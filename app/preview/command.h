@@ -1,4 +1,4 @@
-// `diptych preview` as a command.
+// The command `diptych preview`.
 #ifndef DIP_APP_PREVIEW_COMMAND_H
 #define DIP_APP_PREVIEW_COMMAND_H
 

@@ -1,4 +1,4 @@
-// What each step of each setting costs, as a table; and the sheet itself.
+// Draws the sheet with the table of what each step of each setting costs, and empty sheets.
 #include "app/preview/sheet.h"
 #include "app/preview/style.h"
 #include "renderer/base/assert.h"
@@ -6,7 +6,7 @@
 enum { LARGEST_LETTERS = 15, TOP_EDGE_PX = 2 };
 
 static const char costs_note[] =
-    "Times are ratios to the step at 1x; FLIP is that step's, or the change from it";
+    "1x: the baseline and its FLIP. Other steps: relative time and change of FLIP";
 static const char *const costs_missing[] = {
     "There is no cost report yet. This makes one in some minutes:", "    diptych cost --out DIR",
     "Then start the preview with it:", "    diptych --cost DIR/cost.json"};
@@ -15,7 +15,7 @@ typedef struct CostsLayout {
     int size;
     int line;
     int title_width;
-    int name_width[DIP_COST_MAX_SWEEP_ROWS]; // Of each column of steps.
+    int name_width[DIP_COST_MAX_SWEEP_ROWS]; // Width of the longest name in each column of steps.
     int column_width[DIP_COST_MAX_SWEEP_ROWS];
     int width;
     int height;
@@ -43,7 +43,8 @@ static void measure_titles(CostsLayout *l, DipFont *font, const DipCosts *costs,
     }
 }
 
-// Width of a column of steps: names one below the other, then figures.
+// Returns the width of a column of steps. The column shows the steps' names one below the other,
+// and their figures to the right of the names.
 static int measure_column(const CostsLayout *l, DipFont *font, const DipCosts *costs, int step,
                           int gap) {
     int width = 0;

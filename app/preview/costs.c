@@ -1,4 +1,4 @@
-// Turns a report's figures into text.
+// Turns a report's times and errors into text.
 #include "app/preview/costs.h"
 
 #include "app/cost/formats.h"
@@ -10,7 +10,7 @@
 
 static const double default_budget_ms = 16.6;
 
-// Writes a FLIP without the zero before the point, or a change with its sign.
+// Writes a FLIP value, or a change of FLIP with its sign. Omits the zero before the decimal point.
 static void format_flip(double flip, bool change, char text[24]) {
     char digits[16];
     snprintf(digits, sizeof digits, "%.4f", fabs(flip));
@@ -56,8 +56,9 @@ static void make_row(DipCostsRow *row, const DipCostReport *report, const DipCos
     }
 }
 
-// Returns the figures of a measured combination. ms: its time if it was measured again, else 0;
-// then the report's time of the combination counts.
+// Makes advice from row `row` of the report, a measured combination; a negative row means that none
+// was found. ms: the combination's time if it was measured again. If ms is 0, the report's time of
+// the row is used.
 static DipCostsAdvice advice_of(const DipCostReport *report, double budget_ms, int row, double ms) {
     if (row < 0) {
         return (DipCostsAdvice){.budget_ms = budget_ms};
@@ -111,9 +112,10 @@ bool dip_costs_load(DipCosts *costs, const char *file, const char *scene, DipErr
     if (!dip_cost_read_json(&report, file, err)) {
         return false;
     }
-    const bool fits = strcmp(report.scene, scene) == 0 ||
-                      dip_error_set(err, DIP_ERROR_CONFLICT, file, 0, "--cost",
-                                    "is a report of %s, accepted one of %s", report.scene, scene);
+    const bool fits =
+        strcmp(report.scene, scene) == 0 ||
+        dip_error_set(err, DIP_ERROR_CONFLICT, file, 0, "--cost",
+                      "is a report of %s, accepted a report of %s", report.scene, scene);
     if (fits) {
         dip_costs_make(costs, &report);
     }
@@ -137,7 +139,8 @@ void dip_costs_describe(const DipCosts *costs, int index, char *text, size_t siz
              flip, base);
 }
 
-// Adaptive AA's steps are measured for one number of samples, so that number has to be the same.
+// The report measures the steps of adaptive AA with one number of samples, so the pane must have
+// the same number of samples.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality) {
     const DipQuality *at = &row->steps[step].quality;
     const bool adaptive = row->setting == DIP_SETTING_AAA || row->setting == DIP_SETTING_ASD;

@@ -1,4 +1,4 @@
-// The figures and the advice of a cost report, as text for the window.
+// The times, errors and advice of a cost report (`diptych cost`), as text for the window.
 #ifndef DIP_APP_PREVIEW_COSTS_H
 #define DIP_APP_PREVIEW_COSTS_H
 
@@ -8,11 +8,12 @@
 
 typedef struct DipCostsStep {
     DipQuality quality;
-    char name[24];    // "4".
-    char figures[32]; // Ratio of its time to the baseline's, and change of FLIP: "1.56x -.0107".
+    char name[24];    // Name of the step: "4".
+    char figures[32]; // Time relative to the baseline, and change of FLIP: "1.56x -.0107".
 } DipCostsStep;
 
-// One setting's steps. The baseline's step reads "1x" with its own FLIP.
+// One setting's steps. One of them is the baseline that the others are compared with; its text is
+// "1x" and its own FLIP.
 typedef struct DipCostsRow {
     char title[48]; // "Antialiasing".
     DipSetting setting;
@@ -22,7 +23,7 @@ typedef struct DipCostsRow {
 
 typedef struct DipCostsAdvice {
     double budget_ms;
-    bool found; // Some measured combination is that fast.
+    bool found; // True if some measured combination keeps within the budget.
     DipQuality quality;
     double ms;
     double flip;
@@ -32,21 +33,24 @@ typedef struct DipCosts {
     char heading[256]; // Scene, size, threads and instruction set.
     DipCostsRow rows[DIP_COST_MAX_SWEEPS];
     int row_count;
-    DipCostsAdvice
-        advice[DIP_COST_MAX_BUDGETS]; // For the report's budgets, or for 16.6 ms if it has none.
+    DipCostsAdvice advice[DIP_COST_MAX_BUDGETS]; // One for each budget of the report; if there is
+                                                 // none, one for 16.6 ms.
     int advice_count;
-    DipCostsAdvice baseline; // Found only if the report measured it as a combination.
+    DipCostsAdvice baseline; // Time and FLIP of the baseline's settings; found only if the report
+                             // has them as a combination.
 } DipCosts;
 
 void dip_costs_make(DipCosts *costs, const DipCostReport *report);
 
-// Reads a cost.json. Fails with CONFLICT if the report is of another scene than the one named.
+// Reads a cost report from the JSON file that `diptych cost` wrote. Fails with CONFLICT if the
+// report's scene is not `scene`.
 bool dip_costs_load(DipCosts *costs, const char *file, const char *scene, DipError *err);
 
-// Says one advice in a line: "Within 16.6 ms: 11.2 ms, FLIP .0451; baseline 6.5 ms, .0773".
+// Formats one piece of advice as a line: "Within 16.6 ms: 11.2 ms, FLIP .0451; baseline 6.5 ms,
+// .0773".
 void dip_costs_describe(const DipCosts *costs, int advice, char *text, size_t size_bytes);
 
-// Returns whether a pane's settings are at a step of a row.
+// Returns whether a pane's settings include the given step of the row's setting.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality);
 
 #endif

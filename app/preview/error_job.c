@@ -1,4 +1,5 @@
-// Draws the truth level by level, tile by tile, and measures errors block by block.
+// Draws the truth level by level and tile by tile, and measures errors in bands and blocks of the
+// picture.
 #include "app/preview/error_job.h"
 
 #include "app/measure/difference.h"
@@ -12,7 +13,7 @@
 
 enum {
     HALVES = 2,              // A level of the truth is the mean of two halves.
-    FINISH_PIXELS = 1 << 14, // Pixels whose mean one step takes.
+    FINISH_PIXELS = 1 << 14, // Pixels for which one step computes the mean of the halves.
     BAND_PIXELS = 1 << 15,   // Pixels whose RMSE and PSNR one step sums up.
     BLOCK = 96,              // Side of the block whose FLIP one step measures, pixels.
 };
@@ -35,22 +36,22 @@ typedef struct PaneSums {
 struct DipErrorJob {
     DipReference *reference;
     DipSrgbEncodeTable encode;
-    int flip_margin; // FLIP of a block depends on this many pixels around it.
+    int flip_margin; // FLIP of a block depends on this many pixels around the block.
     DipStill still;
     bool has_still;
     size_t pixels; // Size of the buffers below.
     double *halves[HALVES];
-    float *rgb_lin; // Mean of the halves of the last finished level.
-    uint8_t *rgba8; // The same as sRGB codes.
+    float *rgb_lin; // Mean of the halves, for the last finished level.
+    uint8_t *rgba8; // The same picture in 8-bit sRGB.
     float *map;     // Errors: 3 values per pixel of a band, or of a block with its margin.
     DipConvergence *convergence; // NULL before the first tile.
     int level;                   // The level that is being drawn.
-    int drawn;                   // Tiles drawn of that level, both halves counted.
-    size_t finished;             // Pixels whose mean is taken, once all tiles are drawn.
-    double half_squares;         // Sum of squared differences of the halves over these pixels.
+    int drawn;                   // Tiles of that level drawn so far, in both halves together.
+    size_t finished;             // Number of that level's pixels whose mean was computed.
+    double half_squares;         // Sum over these pixels of the halves' squared differences.
     double floor_rmse;           // Noise of the last finished level.
-    int truth_level;             // The last finished level; -1: none.
-    int measured;                // Bands and blocks measured so far; -1: all of them.
+    int truth_level;             // The last finished level; -1: no level is finished.
+    int measured;                // Bands and blocks measured so far; -1: all are measured.
     PaneSums sums[DIP_PANE_COUNT];
     DipErrorJobResult result;
 };
@@ -110,7 +111,7 @@ void dip_error_job_destroy(DipErrorJob **job) {
     *job = NULL;
 }
 
-// Rows of a band, at least one.
+// Returns the number of rows of a band, at least one.
 static int band_rows(const DipErrorJob *job) {
     return larger(1, BAND_PIXELS / job->still.width);
 }
@@ -157,8 +158,8 @@ bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err)
 
 // --- the truth ---------------------------------------------------------------------------------
 
-// Draws a tile of one half. The halves have the seeds that the cost report gives them, so that the
-// last level is the cost report's truth.
+// Draws a tile of one half. The halves have the same random seeds as in the cost report, so that
+// the last level equals the cost report's truth.
 static bool draw_next_tile(DipErrorJob *job, DipError *err) {
     const int tiles = dip_convergence_tile_count(job->convergence);
     const int half = job->drawn / tiles;
@@ -176,7 +177,8 @@ static bool is_drawn(const DipErrorJob *job) {
     return job->convergence && job->drawn == HALVES * dip_convergence_tile_count(job->convergence);
 }
 
-// Takes the mean of the halves of some pixels, and sums up their squared differences.
+// Computes the mean of the two halves for the next pixels, and adds up the halves' squared
+// differences.
 static void finish_pixels(DipErrorJob *job) {
     const size_t left = pixel_count(job) - job->finished;
     const size_t count = left < FINISH_PIXELS ? left : FINISH_PIXELS;
@@ -236,7 +238,7 @@ static void measure_band(DipErrorJob *job, int pane, int band) {
 }
 
 // Measures FLIP of a block. The cut-out has a margin as wide as FLIP's filters, so that the block's
-// own pixels come out as in the whole picture.
+// own pixels get the same values as in the whole picture.
 static bool measure_block(DipErrorJob *job, int pane, int block) {
     const int across = (job->still.width + BLOCK - 1) / BLOCK;
     const int x = block % across * BLOCK, y = block / across * BLOCK;

@@ -1,8 +1,8 @@
-// Measures the errors of both panes' pictures against the converged picture of their pose.
+// Measures the errors of both panes' pictures against the converged picture from the same pose.
 //
-// The converged picture, the truth, is refined in levels of rising sample counts; each level gives
-// a better result. The work is cut into small steps, so that the caller can drop it between any
-// two.
+// The converged picture (the truth) is refined in levels of rising sample counts; each level gives
+// a better result. The work is cut into small steps, so that the caller can drop the work between
+// any two steps.
 #ifndef DIP_APP_PREVIEW_ERROR_JOB_H
 #define DIP_APP_PREVIEW_ERROR_JOB_H
 
@@ -14,8 +14,9 @@
 
 enum { DIP_ERROR_JOB_LEVELS = 3 };
 
-// Samples per pixel of each level. A level is made of two halves with as many samples each; their
-// difference tells the truth's own noise. The last level is the default of `diptych cost`.
+// Samples per pixel of each half of each level. A level is the mean of two halves with independent
+// samples; the difference of the halves tells the truth's own noise. The last level has the default
+// number of samples of `diptych cost`.
 extern const int dip_error_job_samples[DIP_ERROR_JOB_LEVELS];
 
 // The panes' pictures of one pose, time and size.
@@ -25,10 +26,10 @@ typedef struct DipStill {
     int width;
     int height;
     size_t stride_bytes;
-    const uint8_t *rgba8[DIP_PANE_COUNT]; // Requested NULL: the same picture as current.
+    const uint8_t *rgba8[DIP_PANE_COUNT]; // Requested is NULL if both panes have the same picture.
 } DipStill;
 
-// Returns whether two stills have the same truth.
+// Returns whether two stills are compared with the same truth.
 bool dip_still_has_same_truth(const DipStill *a, const DipStill *b);
 
 // One pane's errors, as docs/cost.md defines them.
@@ -40,19 +41,20 @@ typedef struct DipPaneError {
 } DipPaneError;
 
 typedef struct DipErrorJobResult {
-    int samples; // Of the truth, per pixel, both halves together. 0: there is no result yet.
-    bool last;   // No further level refines the truth.
+    int samples; // Samples per pixel of the truth's two halves together; 0: no result yet.
+    bool last;   // True if no further level will refine the truth.
     DipPaneError panes[DIP_PANE_COUNT];
 } DipErrorJobResult;
 
 typedef struct DipErrorJob DipErrorJob;
 
-// The reference is borrowed. The job sets it to the time of each still.
+// The reference renderer is borrowed. The job sets the renderer's time to that of each still.
 DipErrorJob *dip_error_job_create(DipReference *reference, DipError *err);
 void dip_error_job_destroy(DipErrorJob **job);
 
-// Measures a still from now on. Its pictures are borrowed until the next still begins. The truth
-// made so far is kept if the still has the same. On failure there is nothing to measure.
+// Begins to measure a still, in place of the previous still. The new still's pictures are borrowed
+// until the next call of this function. If both stills have the same truth, the job keeps what it
+// has drawn of the truth. After a failure the job has no still.
 bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err);
 
 typedef enum DipErrorJobStep {

@@ -1,4 +1,4 @@
-// The thread, the stills it gets and the results it gives.
+// The thread, the stills that it receives and the results that it gives.
 #define _GNU_SOURCE // SCHED_IDLE
 
 #include "app/preview/error_thread.h"
@@ -19,19 +19,19 @@ typedef struct Still {
 struct DipErrorThread {
     const DipSceneDef *scene;
     DipReflectionDef reflection;
-    Still staged; // Filled by the caller without the lock.
+    Still staged; // The next still, which the caller fills without the lock.
     unsigned picture_number;
     bool shown;
     pthread_t thread;
     bool running;
     atomic_bool stop;
 
-    // The lock guards everything below. Each side holds it only to copy a few bytes, since the
-    // thread may lose the processor for long while it holds the lock.
+    // The lock guards everything below. The caller and the thread hold it only to copy a few bytes,
+    // since the thread may lose the processor for a long time while it holds the lock.
     pthread_mutex_t lock;
     pthread_cond_t changed;
     Still asked;
-    unsigned asked_number; // Number of the still in `asked`; results of an older one are dropped.
+    unsigned asked_number; // Number of the last still; results of older stills are dropped.
     bool resting;
     DipErrorReading reading;
     bool news;
@@ -73,8 +73,8 @@ static void answer(Worker *worker, DipErrorStatus status) {
     worker->idle = status != DIP_ERROR_STATUS_WORKING;
 }
 
-// Waits while there is nothing to do. Returns false if the thread has to end. *fresh: there is a
-// new still.
+// Waits while there is nothing to do. Sets *fresh if there is a new still. Returns false if the
+// thread has to end.
 static bool wait_for_still(Worker *worker, bool *fresh) {
     DipErrorThread *owner = worker->owner;
     pthread_mutex_lock(&owner->lock);
@@ -172,7 +172,7 @@ void dip_error_thread_destroy(DipErrorThread **owner_pointer) {
         atomic_store(&owner->stop, true);
         pthread_cond_signal(&owner->changed);
         pthread_mutex_unlock(&owner->lock);
-        yield_to_all(owner->thread, false); // The caller waits for its end.
+        yield_to_all(owner->thread, false); // It should end soon: the caller waits for it.
         pthread_join(owner->thread, NULL);
     }
     pthread_cond_destroy(&owner->changed);

@@ -1,7 +1,8 @@
 // Measures the errors of both panes' pictures on a thread of its own while the camera rests.
 //
-// The thread runs when nothing else wants the processor. Its work is a DipErrorJob, which it drops
-// between two steps of a few milliseconds when the pictures change.
+// The thread runs only when no other thread needs the processor. Its work is a DipErrorJob, in
+// steps of a few milliseconds. When the pictures change, the thread drops the work after the
+// current step.
 #ifndef DIP_APP_PREVIEW_ERROR_THREAD_H
 #define DIP_APP_PREVIEW_ERROR_THREAD_H
 
@@ -9,20 +10,20 @@
 
 typedef struct DipErrorThread DipErrorThread;
 
-// The scene is borrowed. The thread starts, and takes memory, with the first measurement.
+// The scene is borrowed. The thread starts, and allocates memory, with the first measurement.
 DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
                                         const DipReflectionDef *reflection, DipError *err);
 
-// Ends the thread; waits for no more than the step that it is in.
+// Ends the thread. Waits until the thread has finished its current step.
 void dip_error_thread_destroy(DipErrorThread **thread);
 
-// Measures a still from now on and forgets the one before. The still's pictures are copied. A call
-// with the picture number of the call before does nothing: the caller changes the number whenever
-// the pictures change.
+// Begins to measure a still and forgets the previous still. The still's pictures are copied. The
+// caller must change the picture number whenever the pictures change: a call with the same number
+// as the previous call does nothing.
 void dip_error_thread_measure(DipErrorThread *thread, const DipStill *still,
                               unsigned picture_number);
 
-// Stops measuring and forgets all results: the camera moves.
+// Stops measuring and forgets all results. Call it while the camera moves.
 void dip_error_thread_pause(DipErrorThread *thread);
 
 typedef enum DipErrorStatus {
@@ -37,7 +38,7 @@ typedef struct DipErrorReading {
     DipErrorJobResult result;
 } DipErrorReading;
 
-// Reads the result for the last still. Returns whether it differs from the reading before.
+// Reads the result for the last still. Returns whether the result is new since the previous call.
 bool dip_error_thread_read(DipErrorThread *thread, DipErrorReading *reading);
 
 #endif

@@ -1,4 +1,4 @@
-// Medians of frame times, four times a second.
+// Computes medians of frame times, four times a second.
 #include "app/preview/figures.h"
 
 static const int64_t period_ns = 250000000; // Figures that change faster cannot be read.

@@ -1,4 +1,4 @@
-// Collects the panes' frame times and turns them into figures slow enough to be read.
+// Collects the panes' frame times and turns them into figures that change slowly enough to be read.
 #ifndef DIP_APP_PREVIEW_FIGURES_H
 #define DIP_APP_PREVIEW_FIGURES_H
 
@@ -10,22 +10,23 @@ typedef struct DipFigures {
     DipTiming total[DIP_PANE_COUNT];
     DipTiming stages[DIP_PANE_COUNT][DIP_STAGE_COUNT];
     DipTiming presented;
-    int64_t updated_ns;                   // When the shown times were taken.
-    bool outdated;                        // The shown times are of other settings.
+    int64_t updated_ns; // When the shown times were updated.
+    bool outdated;      // True if settings have changed since the shown times were measured.
     DipPaneFigures shown[DIP_PANE_COUNT]; // What the window shows.
 } DipFigures;
 
-// Forgets a pane's times: its settings have changed.
+// Forgets a pane's times. Call it when the pane's settings change.
 void dip_figures_forget(DipFigures *figures, int pane);
 
-// Adds a frame. Its effects and counters show at once, its times with dip_figures_update.
+// Adds a frame. The frame's effects and counters show at once; its times show after
+// dip_figures_update.
 void dip_figures_add(DipFigures *figures, const DipSessionFrame *frame, int64_t now_ns);
 
 // Counts a presented picture.
 void dip_figures_count_presented(DipFigures *figures, int64_t now_ns);
 
-// Updates the shown times, four times a second. moving: frames follow each other steadily, so that
-// a frame rate has a meaning.
+// Updates the shown times if they are outdated or a quarter of a second old. moving: frames follow
+// each other without pauses, so that a frame rate makes sense.
 void dip_figures_update(DipFigures *figures, bool moving, int64_t now_ns);
 
 #endif

@@ -1,4 +1,4 @@
-// The help: the table of keys in columns.
+// Draws the help: the table of keys in columns.
 #include "app/preview/keys.h"
 #include "app/preview/sheet.h"
 #include "app/preview/style.h"
@@ -70,7 +70,8 @@ static HelpLayout measure_help(DipFont *font, const HelpRow *rows, int count, in
     return l;
 }
 
-// Narrows the texts until the sheet fits into the window; they end in an ellipsis then.
+// Narrows the texts until the sheet fits into the window. Texts that are too long then end in an
+// ellipsis.
 static HelpLayout squeeze(HelpLayout l, int room) {
     const int excess = l.width - room;
     for (int c = 0; excess > 0 && c < l.columns; ++c) {
@@ -80,8 +81,8 @@ static HelpLayout squeeze(HelpLayout l, int room) {
     return l;
 }
 
-// Finds the largest letters at which everything fits, with as few columns as that takes. In a
-// window too small for any, the smallest letters are squeezed into it.
+// Finds the largest letters at which the whole help fits, and the fewest columns for these letters.
+// If the window is too small even for the smallest letters, squeezes the texts.
 static HelpLayout choose_layout(const DipDrawList *list, const HelpRow *rows, int count,
                                 double scale) {
     DipFont *font = dip_draw_list_font(list);

@@ -75,7 +75,7 @@ bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_n
     if (event->modifiers & command_modifiers) {
         return press_with_modifier(state, event, now_ns);
     }
-    // Escape leaves what covers the panes before it leaves the program.
+    // If a sheet covers the panes, Escape closes the sheet; otherwise it quits the program.
     if (event->key == DIP_KEYCODE_ESCAPE && (state->help || state->show_costs)) {
         state->help = state->show_costs = false;
         return true;

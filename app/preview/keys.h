@@ -1,4 +1,4 @@
-// Which key does what. One table gives both the actions and the help.
+// The keys and their actions. One table defines both what a key does and what the help says.
 #ifndef DIP_APP_PREVIEW_KEYS_H
 #define DIP_APP_PREVIEW_KEYS_H
 
@@ -7,7 +7,7 @@
 #include "app/preview/state.h"
 
 typedef struct DipKeyRow {
-    int key;   // A DipKeycode. DIP_KEYCODE_NONE: the row is for the help only.
+    int key;   // A DipKeycode. DIP_KEYCODE_NONE: only the help uses the row.
     int other; // A second key that does the same, or DIP_KEYCODE_NONE.
     DipAction action;
     int argument;
@@ -19,19 +19,20 @@ typedef struct DipKeyRow {
 extern const DipKeyRow dip_key_rows[];
 extern const int dip_key_row_count;
 
-// Does what a KEY_DOWN event stands for. Returns whether the key has a meaning.
+// Carries out the action of the key in a KEY_DOWN event. Returns whether the key has an action.
 bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_ns);
 
-// The keys that are held, of those that fly the camera. Zero-initialise.
+// The letters and modifiers that are held. They fly the camera. Zero-initialise.
 typedef struct DipHeldKeys {
-    bool letters[26]; // By position on the keyboard, 'a' first.
+    bool letters[26]; // By the key's position on a US keyboard, 'a' first.
     unsigned modifiers;
 } DipHeldKeys;
 
-// Follows KEY_DOWN and KEY_UP events.
+// Updates the held keys from a KEY_DOWN or KEY_UP event.
 void dip_keys_hold(DipHeldKeys *held, const DipEvent *event);
 
-// Where the held keys fly the camera. Nowhere while Ctrl, Alt or Super is held.
+// Returns the directions in which the held keys fly the camera. All are 0 while Ctrl, Alt or Super
+// is held.
 DipCameraKeys dip_keys_camera(const DipHeldKeys *held);
 
 #endif

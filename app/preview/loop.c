@@ -1,4 +1,4 @@
-// Turns of the preview.
+// Runs the turns of the preview.
 #include "app/preview/loop.h"
 
 #include "app/preview/camera.h"
@@ -11,11 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int64_t longest_step_ns = 250000000; // A stall does not make the camera jump.
+// After a stall, the camera moves on by at most this time, so that it does not jump.
+static const int64_t longest_step_ns = 250000000;
 static const int64_t ns_per_ms = 1000000;
 enum { IDLE_WAIT_MS = 30 };
 
-// Everything that decides what the pictures show, but for the turns of temporal antialiasing.
+// Everything that decides what the pictures show, except for which sample pattern temporal
+// antialiasing uses in this frame.
 typedef struct Drawn {
     DipPose pose;
     int64_t play_ns;
@@ -30,22 +32,22 @@ struct DipPreview {
     DipView *view;
     DipFigures figures;
     DipPrefetch prefetch;
-    DipErrorThread *errors; // NULL until errors are first asked for.
+    DipErrorThread *errors; // NULL until the user first asks for errors.
     DipHeldKeys held;
     int64_t turn_ns; // When the last turn began.
     int64_t refresh_ns;
     bool full_screen;
-    bool resized;          // The panes may have another size.
-    bool redraw;           // Something may show that is not in the panes' pictures.
-    bool exposed;          // The display lost its picture.
+    bool resized;          // The panes' size may have changed.
+    bool redraw;           // The overlay may have changed.
+    bool exposed;          // The display lost its picture, so all of it must be presented.
     bool flying;           // The user moved the camera in this turn.
-    DipPose pose;          // Of the frame.
-    DipSessionFrame frame; // The last one drawn.
+    DipPose pose;          // Pose of the frame.
+    DipSessionFrame frame; // The frame that was drawn last.
     uint64_t frame_index;
-    unsigned drawn_changes;                   // state.scene_changes at the last frame.
-    DipQuality drawn_quality[DIP_PANE_COUNT]; // What the renderers are set to.
+    unsigned drawn_changes;                   // Value of state.scene_changes at the last frame.
+    DipQuality drawn_quality[DIP_PANE_COUNT]; // Settings of the renderers.
     Drawn drawn;
-    unsigned picture_number; // Changes with `drawn`.
+    unsigned picture_number; // Grows when `drawn` changes.
 };
 
 static int64_t clock_ns(const DipPreview *preview) {
@@ -165,7 +167,7 @@ static void fly(DipPreview *preview, int64_t elapsed_ns) {
 
 // --- pictures ----------------------------------------------------------------------------------
 
-// Sets the renderers to the settings, and forgets times of other settings.
+// Sets the renderers to the panes' settings. If a pane's settings change, forgets the pane's times.
 static bool follow_settings(DipPreview *preview, DipError *err) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipQuality *wanted = &preview->state.quality[p];
@@ -181,8 +183,8 @@ static bool follow_settings(DipPreview *preview, DipError *err) {
     return true;
 }
 
-// Sets the renderers to the panes' size. A display may be larger than a frame may be; the view
-// then scales the frame up.
+// Sets the renderers to the panes' size. A frame's size is limited; if the display is larger, the
+// view scales the frame up.
 static bool follow_size(DipPreview *preview, DipError *err) {
     const DipDisplay *display = &preview->def.display;
     DipRect panes[DIP_PANE_COUNT];
@@ -201,7 +203,7 @@ static bool follow_size(DipPreview *preview, DipError *err) {
 
 static void number_picture(DipPreview *preview) {
     Drawn drawn;
-    memset(&drawn, 0, sizeof drawn); // Compared with its padding.
+    memset(&drawn, 0, sizeof drawn); // memcmp below also compares the padding.
     drawn.pose = preview->pose;
     drawn.play_ns = preview->state.play_ns;
     drawn.width = preview->frame.panes[0].width;
@@ -237,7 +239,8 @@ static bool draw_panes(DipPreview *preview, DipError *err) {
     return true;
 }
 
-// Returns whether a pane's picture changes from frame to frame although nothing moves.
+// Returns whether temporal antialiasing changes a pane's picture from frame to frame even if
+// nothing moves.
 static bool alternates(const DipPreview *preview) {
     bool found = false;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
@@ -281,8 +284,8 @@ static DipStill still_of(const DipPreview *preview) {
     };
 }
 
-// Measures errors while the panel shows and the camera rests. Returns whether there is something
-// new to show.
+// Measures errors while the panel shows and the camera rests. Returns whether there are new errors
+// to show.
 static bool measure_errors(DipPreview *preview, int64_t now_ns) {
     const bool measures =
         preview->state.panel && dip_preview_rests(&preview->state, preview->flying);
@@ -343,7 +346,7 @@ static bool show(DipPreview *preview, int64_t now_ns, DipError *err) {
     }
     if (preview->state.screenshot) {
         save_picture(preview, now_ns);
-        if (!draw_view(preview, err)) { // With the notice.
+        if (!draw_view(preview, err)) { // Adds the notice that names the file.
             return false;
         }
     }
@@ -368,7 +371,7 @@ static void follow_full_screen(DipPreview *preview) {
     }
 }
 
-// Draws and presents what has changed. *shown: whether something has.
+// Draws and presents the picture if something has changed. Sets *shown to whether it did.
 static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
     DipPreviewState *state = &preview->state;
     const bool had_notice = state->notice[0] != '\0';
@@ -392,7 +395,8 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     return !*shown || show(preview, now_ns, err);
 }
 
-// Waits until the display can show the next picture, or, if nothing moves, until something happens.
+// After a picture was shown, waits for the display's next refresh. Otherwise waits up to
+// IDLE_WAIT_MS for an event.
 static void wait_for_turn(DipPreview *preview, bool shown) {
     if (!shown) {
         take_event(preview, IDLE_WAIT_MS);
@@ -410,7 +414,7 @@ bool dip_preview_turn(DipPreview *preview, DipError *err) {
     while (!preview->state.quit && take_event(preview, 0)) {
     }
     if (preview->state.quit) {
-        return true; // Without another frame.
+        return true; // The user has quit: draws no further frame.
     }
     if (!draw_turn(preview, clock_ns(preview), &shown, err)) {
         return false;

@@ -1,8 +1,8 @@
-// The preview on any display: events, time, drawing, presenting.
+// The preview on any display: handles events, lets time pass, draws and presents.
 //
-// The owner calls dip_preview_turn until dip_preview_has_quit. A turn handles the events that are
-// there, draws and presents at most one frame, and then waits: for the display's next refresh, or,
-// when nothing moves, a short while for an event.
+// The owner calls dip_preview_turn until dip_preview_has_quit. A turn handles the events that have
+// arrived, and draws and presents at most one frame. Then it waits: for the display's next refresh
+// if it presented a frame, otherwise for an event, but only for a short time.
 #ifndef DIP_APP_PREVIEW_LOOP_H
 #define DIP_APP_PREVIEW_LOOP_H
 
@@ -16,11 +16,11 @@ typedef struct DipPreview DipPreview;
 typedef struct DipPreviewDef {
     DipSession *session;         // Borrowed.
     DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
-    const DipCosts *costs;       // Borrowed; NULL: there is no cost report.
-    double flying_speed_m_per_s; // Of the free camera.
+    const DipCosts *costs;       // Borrowed; NULL if there is no cost report.
+    double flying_speed_m_per_s; // Speed of the free camera.
 
-    // Loads session->scene_def, which measuring errors needs. Called when errors are first asked
-    // for, since the load takes time and memory.
+    // Loads session->scene_def, which is needed to measure errors. Called when the user first asks
+    // for errors, since the load takes time and memory.
     bool (*load_scene_def)(void *context, DipError *err);
     void *context;
 } DipPreviewDef;
@@ -29,7 +29,7 @@ typedef struct DipPreviewDef {
 DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err);
 void dip_preview_destroy(DipPreview **preview);
 
-// Fails if drawing or presenting fails.
+// Runs one turn. Fails if drawing or presenting fails.
 bool dip_preview_turn(DipPreview *preview, DipError *err);
 
 // Returns whether the user has left the preview.
@@ -37,7 +37,7 @@ bool dip_preview_has_quit(const DipPreview *preview);
 
 const DipPreviewState *dip_preview_state(const DipPreview *preview);
 
-// The picture that was drawn last, the size of the display.
+// Returns the picture that was drawn last. It has the display's size.
 DipPixels dip_preview_picture(const DipPreview *preview);
 
 #endif

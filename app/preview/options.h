@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-// Models can be given as arguments, too; they join those of --model.
+// Models given as arguments are added to those of --model.
 typedef struct DipPreviewOptions {
     DipProgramOptions program;
     DipSessionOptions session;

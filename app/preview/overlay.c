@@ -9,7 +9,7 @@
 
 enum { PANEL_GAP = 4, EDITED_BAR_PX = 3 };
 
-// Em size of labels. It grows with the pane, within what reads well.
+// Returns the em size of labels. It grows with the pane, within limits that keep it legible.
 static int label_size(DipRect pane, double scale) {
     const int fitting = dip_style_min(pane.width / 32, pane.height / 16);
     return dip_style_max(dip_style_scaled(10, scale),
@@ -18,7 +18,7 @@ static int label_size(DipRect pane, double scale) {
 
 // --- labels ------------------------------------------------------------------------------------
 
-// Takes over a longer text if it fits.
+// Replaces the line by a longer text if the longer text fits.
 static void prefer(DipFont *font, int size, int room, const char *longer, char *line,
                    size_t size_bytes) {
     if (dip_font_width(font, size, longer) <= room) {
@@ -26,7 +26,7 @@ static void prefer(DipFont *font, int size, int room, const char *longer, char *
     }
 }
 
-// The figures, with fewer words where there is little room.
+// Formats the frame time and rate, with fewer words if there is little room.
 static void format_figures(DipFont *font, int size, int room, const DipPaneFigures *figures,
                            char *line, size_t size_bytes) {
     char longer[64];
@@ -90,7 +90,7 @@ static void format_settings(DipFont *font, int size, int room, const DipQuality 
     }
 }
 
-// The label's first line: whose pane it is and how fast it draws.
+// Draws the label's first line: the pane's name, its frame time and its frame rate.
 static void draw_title(DipDrawList *list, int pane, bool edited, int size, DipRect line,
                        const DipPaneFigures *figures) {
     static const char *const titles[DIP_PANE_COUNT] = {"Current", "Requested"};
@@ -105,7 +105,8 @@ static void draw_title(DipDrawList *list, int pane, bool edited, int size, DipRe
                        room, text);
 }
 
-// Draws three lines in a dark strip: title, settings, effects. Returns where the strip ends.
+// Draws three lines in a dark strip: title, settings, effects. Returns the y coordinate of the
+// strip's lower end.
 static int draw_label(DipDrawList *list, const DipPreviewState *state, int pane, DipRect rect,
                       const DipPaneFigures *figures, double scale) {
     DipFont *font = dip_draw_list_font(list);
@@ -151,7 +152,8 @@ static int panel_width(DipFont *font, int size, const DipPanelLine *lines, int c
     return dip_style_max(width, name_width + value_width + 3 * size);
 }
 
-// Draws the lines that fit between the strips, in the largest letters that leave out the least.
+// Draws the panel's lines between the pane's label and the status line, in the largest letters at
+// which all lines fit. If the smallest letters are still too large, leaves out the last lines.
 static void draw_panel(DipDrawList *list, const DipPanelLine *lines, int count, DipRect room,
                        double scale) {
     DipFont *font = dip_draw_list_font(list);
@@ -195,8 +197,9 @@ static void format_place(const DipPreviewState *state, char *text, size_t size_b
              state->paused ? "   paused" : "");
 }
 
-// Draws one line along the window's lower edge: the path and its time, the notice, how to get help.
-// A notice that finds no room in the middle takes the path's place. Returns where the line begins.
+// Draws one line along the window's lower edge: the path and its time on the left, the notice in
+// the middle, the key for help on the right. If the notice is too wide for the middle, it replaces
+// the path. Returns the y coordinate of the line's upper edge.
 static int draw_status(DipDrawList *list, const DipPreviewState *state, int size) {
     static const char help[] = "F1: help";
     DipFont *font = dip_draw_list_font(list);

@@ -1,4 +1,4 @@
-// Lines of times, errors and work.
+// Formats the panel's lines of times, errors and work.
 #include "app/preview/panel.h"
 
 #include "renderer/base/assert.h"
@@ -52,7 +52,8 @@ static void add_error(Lines *lines, const DipErrorReading *errors, int pane) {
         add(lines, true, "Error", "measuring");
         return;
     }
-    const int all_samples = 2 * dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1]; // Both halves.
+    // The truth has two halves.
+    const int all_samples = 2 * dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1];
     if (result->last) {
         add(lines, true, "Error", "%d samples", result->samples);
     } else {

@@ -1,4 +1,4 @@
-// A pane's figures, and the lines of text that say them.
+// A pane's figures, and the lines of text that show them.
 #ifndef DIP_APP_PREVIEW_PANEL_H
 #define DIP_APP_PREVIEW_PANEL_H
 
@@ -18,7 +18,7 @@ enum {
 typedef struct DipPaneFigures {
     double ms; // Median frame time.
     double stage_ms[DIP_STAGE_COUNT];
-    int fps; // Pictures shown in the last second; 0: no rate is shown.
+    int fps; // Pictures shown in the last second; 0 if no rate is shown.
     DipEffects effects;
     DipCounters counters;
     bool copied; // The pane shows the other pane's picture, since the settings are the same.
@@ -33,8 +33,8 @@ typedef struct DipPanelLine {
 
 enum { DIP_PANEL_MAX_LINES = 20 };
 
-// Fills in the lines, the most important first, so that the last can be left out where there is
-// little room. Returns their number.
+// Fills in the panel's lines, the most important first, so that a caller with little room can leave
+// out the last lines. Returns the number of lines.
 int dip_panel_lines(const DipPaneFigures *figures, int pane,
                     DipPanelLine lines[DIP_PANEL_MAX_LINES]);
 

@@ -3,7 +3,7 @@
 
 static void *run_prefetch(void *context) {
     const DipPrefetch *prefetch = context;
-    // If memory runs out here, the frame that needs the textures tries again and reports it.
+    // If memory runs out here, the frame that needs the textures tries again and reports the error.
     DipError err;
     (void)dip_scene_compress_textures(prefetch->scene, NULL, &err);
     return NULL;

@@ -1,8 +1,8 @@
-// Prepares on a thread of its own what a change of a setting would otherwise have to wait for.
+// Makes compressed textures on a thread of its own, before a change of settings needs them.
 //
-// The next key may ask for any setting. Once the first picture shows, this thread makes the
-// compressed textures of opt=standard and opt=advanced beside the frames, so that the change costs
-// no frame. A frame that needs them earlier waits for them.
+// The settings opt=standard and opt=advanced need compressed textures. This thread makes the
+// textures after the first picture shows, while further frames are drawn, so that a change to these
+// settings delays no frame. A frame that needs the textures earlier waits for them.
 #ifndef DIP_APP_PREVIEW_PREFETCH_H
 #define DIP_APP_PREVIEW_PREFETCH_H
 

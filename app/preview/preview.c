@@ -13,7 +13,8 @@
 static const double courtyard_speed_m_per_s = 3.0;
 static const double seconds_across_model = 4.0;
 
-// The camera crosses a model of the user's own in four seconds, whatever the model's unit is.
+// Returns the speed of the free camera. The camera crosses a model given by the user in four
+// seconds, whatever the model's unit is.
 static double flying_speed(const DipSession *session) {
     if (session->options->model_count == 0) {
         return courtyard_speed_m_per_s;
@@ -31,7 +32,7 @@ static bool load_scene_def(void *context, DipError *err) {
     return dip_session_keep_model(context, err);
 }
 
-// Loads the cost report if the options name one; else *costs stays NULL.
+// Loads the cost report if `file` is not NULL; otherwise *costs stays NULL.
 static bool load_costs(const DipSession *session, const char *file, DipCosts **costs,
                        DipError *err) {
     char scene[DIP_COST_TEXT];

@@ -1,4 +1,4 @@
-// What keys do to the preview.
+// Carries out the user's actions.
 #include "app/preview/state.h"
 
 #include "config/config.h"
@@ -72,9 +72,9 @@ int dip_preview_category_of(DipSetting setting) {
     }
 }
 
-// Goes on to the next step that fits the other settings. If a number of samples does not fit the
-// group size of adaptive AA, the group size goes back to its default. Returns false if no other
-// step fits.
+// Sets a setting to its next step that is valid with the other settings. If a new number of samples
+// does not fit the group size of adaptive AA, resets the group size to its default. Returns false
+// if no other step is valid.
 static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     const DipSettingInfo *info = dip_setting_info(setting);
     DipQuality candidate;
@@ -134,7 +134,8 @@ static void choose_path(DipPreviewState *state, int category, int64_t now_ns) {
     ++state->scene_changes;
 }
 
-// Chooses the nearest category onwards that has another path: several categories may share a file.
+// Chooses the next category, in the given direction, whose path is not the current one. Several
+// categories may share a path.
 static void next_path(DipPreviewState *state, int direction, int64_t now_ns) {
     const int from = state->track->active;
     const DipCamPath *playing = state->track->categories[from].path;
@@ -156,7 +157,8 @@ static void step_time(DipPreviewState *state, int direction, int64_t now_ns) {
     ++state->scene_changes;
 }
 
-// Keys change the requested pane, then the current pane, then both, and so on.
+// Chooses the panes that the keys change. The order is the requested pane, the current pane, both,
+// and then the requested pane again.
 static void choose_pane(DipPreviewState *state, int64_t now_ns) {
     bool *edited = state->edited;
     const bool both = edited[DIP_PANE_CURRENT] && edited[DIP_PANE_REQUESTED];
@@ -175,8 +177,8 @@ static void apply(DipPreviewState *state, int64_t now_ns) {
     ++state->scene_changes;
 }
 
-// Gives the requested pane the settings of least error within a time budget. Each press goes on to
-// the report's next budget.
+// Gives the requested pane the settings with the least error within a time budget. Each press of
+// the key uses the report's next budget.
 static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
     const DipCosts *costs = state->costs;
     if (!costs) {
@@ -189,7 +191,7 @@ static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
     char text[DIP_NOTICE_SIZE];
     dip_costs_describe(costs, index, text, sizeof text);
     dip_preview_notice(state, now_ns, "%s", text);
-    state->notice_end_ns = now_ns + 2 * notice_ns; // It is longer than other notices.
+    state->notice_end_ns = now_ns + 2 * notice_ns; // This text is longer than other notices.
     state->next_advice = (index + 1) % count;
     if (advice->found) {
         state->quality[DIP_PANE_REQUESTED] = advice->quality;
@@ -273,8 +275,8 @@ void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now
     }
 }
 
-// How a setting reads where there is little room; %s stands for the step. A setting that is on or
-// off reads as its name alone, with "no" before it if it is off.
+// Returns the short form of a setting, in which %s stands for the step. A setting that is either on
+// or off has a short form without a step; if the setting is off, "no" precedes the short form.
 static const char *brief_form(DipSetting setting) {
     switch (setting) {
     case DIP_SETTING_AA:
@@ -300,7 +302,7 @@ static const char *brief_form(DipSetting setting) {
     }
 }
 
-// "AA 4x", "no instancing".
+// Writes a setting in its short form: "AA 4x", "no instancing".
 static void describe_briefly(DipSetting setting, const char *step, char *text, size_t size_bytes) {
     const char *form = brief_form(setting);
     const char *mark = strstr(form, "%s");
@@ -311,7 +313,7 @@ static void describe_briefly(DipSetting setting, const char *step, char *text, s
     }
 }
 
-// "Antialiasing 4x", "Geometry instancing off", "Adaptive AA".
+// Writes a setting in full: "Antialiasing 4x", "Geometry instancing off", "Adaptive AA".
 static void describe_fully(DipSetting setting, const char *step, char *text, size_t size_bytes) {
     const bool on = strcmp(step, "on") == 0;
     const bool times = setting == DIP_SETTING_AA || setting == DIP_SETTING_AF;

@@ -1,5 +1,5 @@
-// What the preview shows, and what the user's actions change in it. Knows neither pixels nor
-// displays.
+// The state of the preview, and how the user's actions change it. This part of the preview knows
+// neither pixels nor displays.
 #ifndef DIP_APP_PREVIEW_STATE_H
 #define DIP_APP_PREVIEW_STATE_H
 
@@ -11,7 +11,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// What a key can ask for. SETTING takes a setting as its argument, PATH a category of paths.
+// What a key can ask for. The argument of SETTING is a DipSetting; the argument of PATH is a
+// category of camera paths.
 typedef enum DipAction {
     DIP_ACTION_SETTING,
     DIP_ACTION_NEXT_PANE,
@@ -39,23 +40,24 @@ typedef struct DipPreviewState {
     bool edited[DIP_PANE_COUNT]; // The panes whose settings the keys change.
     DipCamTrack *track;          // Borrowed.
     int64_t play_ns;             // Time on the path, never below 0.
-    int64_t step_ns;             // Length of a single step in time.
+    int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
     bool manual;           // The user flies the camera; time stands still.
     bool help;             // The help shows.
     bool panel;            // Each pane shows its times, errors and work.
-    const DipCosts *costs; // Borrowed; NULL: there is no cost report.
+    const DipCosts *costs; // Borrowed; NULL if there is no cost report.
     bool show_costs;       // The table of costs shows.
     int next_advice;       // Index in costs->advice of the next advice to give.
     bool quit;
     bool full_screen;
-    bool screenshot;              // The user asked for a screenshot. Who takes it clears this.
+    bool screenshot;              // The user asked for a screenshot. Cleared when it is saved.
     char notice[DIP_NOTICE_SIZE]; // What just happened, for the status line; may be empty.
     int64_t notice_end_ns;        // When the notice goes away, on the clock of `now_ns`.
     unsigned scene_changes;       // Grows whenever the panes' pictures have to change.
 } DipPreviewState;
 
-// The keys change the requested pane at first. The track must outlive the state.
+// Makes the initial state, in which the keys change the requested pane. The track must outlive the
+// state.
 DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
                                        DipCamTrack *track);
 
@@ -63,28 +65,29 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns);
 
-// Returns whether nothing moves the camera or the scene. flying: the user moves the free camera.
+// Returns whether camera and scene stand still. flying: the user is moving the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);
 
-// Lets time go by: moves on along the path unless it is paused, and drops an old notice.
+// Lets time pass. Moves on along the path unless the preview is paused or the user flies the
+// camera. Removes a notice that has ended.
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);
 
 // Shows a notice for a few seconds.
 void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// The ini's name of a category of paths: "DEFAULT", "AA", ...
+// Returns the name that the ini gives to a category of paths: "DEFAULT", "AA", ...
 const char *dip_preview_category_name(int category);
 
-// The plain name of a category of paths: "Default", or the title of the setting that the path shows
-// best.
+// Returns the name of a category of paths for display: "Default", or the title of the setting that
+// its path shows best.
 const char *dip_preview_category_title(int category);
 
-// The category whose path shows a setting best, or -1 if no path is made for it.
+// Returns the category whose path shows a setting best, or -1 if the setting has no such path.
 int dip_preview_category_of(DipSetting setting);
 
 // Names the settings that differ from their defaults, in full ("Antialiasing 4x, Adaptive AA") or
-// briefly ("AA 4x, adaptive AA"). The text is cut at the size.
+// briefly ("AA 4x, adaptive AA"). The text is cut if it does not fit.
 void dip_preview_describe(const DipQuality *quality, bool brief, char *text, size_t size_bytes);
 
 #endif

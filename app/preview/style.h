@@ -5,14 +5,14 @@
 #include "app/canvas/pixels.h"
 
 static const DipColour dip_style_background = {10, 11, 14, 255};
-static const DipColour dip_style_white = {255, 255, 255, 255}; // Values.
-static const DipColour dip_style_soft = {196, 202, 210, 255};  // Words.
-static const DipColour dip_style_accent = {255, 190, 92, 255}; // The pane that keys change.
-static const DipColour dip_style_strip = {12, 14, 18, 168};    // Behind labels.
-static const DipColour dip_style_status = {12, 14, 18, 150};   // Behind the status line.
-static const DipColour dip_style_panel = {12, 14, 18, 190};    // Behind the panel.
-static const DipColour dip_style_sheet = {14, 16, 21, 236};    // Behind help and costs.
-static const DipColour dip_style_shade = {0, 0, 0, 90};        // Around help and costs.
+static const DipColour dip_style_white = {255, 255, 255, 255}; // Text: titles and values.
+static const DipColour dip_style_soft = {196, 202, 210, 255};  // Text: names and notes.
+static const DipColour dip_style_accent = {255, 190, 92, 255}; // Highlights and the edited pane.
+static const DipColour dip_style_strip = {12, 14, 18, 168};    // Background of labels.
+static const DipColour dip_style_status = {12, 14, 18, 150};   // Background of the status line.
+static const DipColour dip_style_panel = {12, 14, 18, 190};    // Background of the panel.
+static const DipColour dip_style_sheet = {14, 16, 21, 236};    // Background of the sheets.
+static const DipColour dip_style_shade = {0, 0, 0, 90};        // Darkens the window around a sheet.
 
 static inline int dip_style_min(int a, int b) {
     return a < b ? a : b;
@@ -22,7 +22,8 @@ static inline int dip_style_max(int a, int b) {
     return a > b ? a : b;
 }
 
-// A length of a screen of scale 1 on a screen of another scale, in whole pixels.
+// Converts a length in pixels of a display with scale 1 to whole pixels of a display with the given
+// scale.
 static inline int dip_style_scaled(int length, double scale) {
     return (int)(scale * length + 0.5);
 }

@@ -1,4 +1,4 @@
-// A ring of frame times.
+// A ring buffer of frame times.
 #include "app/preview/timing.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-// Panes and overlay become one picture.
+// Joins the panes and the overlay into one picture.
 #include "app/preview/view.h"
 
 #include "app/files/png.h"
@@ -15,9 +15,9 @@ struct DipView {
     DipFont *font;
     DipDrawList *list;
     DipCanvas canvas;
-    DipDamage damage; // Since it was taken last.
+    DipDamage damage; // Changes since dip_view_take_damage was last called.
     DipPixels frames[DIP_PANE_COUNT];
-    uint64_t frame_count; // Frames set so far; numbers the pictures.
+    uint64_t frame_count; // Number of frames set so far; gives each frame its version.
     uint64_t versions[DIP_PANE_COUNT];
 };
 
