@@ -1,6 +1,6 @@
 #!/bin/sh
-# The manual page: it names every option of every command, and the tools that read it find no fault.
-# Usage: manual.sh DIPTYCH PAGE
+# Tests that the manual page names every option of every command, and that man and groff read it
+# without a warning. Usage: manual.sh DIPTYCH PAGE
 set -u
 diptych=$1
 page=$2
@@ -15,15 +15,15 @@ fail() {
 plain=$(sed 's/\\-/-/g' "$page")
 options=0
 for command in preview dump bench cost "cost merge" "cost assets" "path info" "path convert"; do
-    printf '%s\n' "$plain" | grep -qx ".SS diptych $command" || fail "no section on $command"
+    printf '%s\n' "$plain" | grep -qx ".SS diptych $command" || fail "there is no section for $command"
     for option in $("$diptych" $command --help | grep -oE '^  --[a-z-]+'); do
         options=$((options + 1))
-        printf '%s\n' "$plain" | grep -qE "^\.B $option( |\$)" || fail "no $option of $command"
+        printf '%s\n' "$plain" | grep -qE "^\.B $option( |\$)" || fail "the section of $command does not name $option"
     done
 done
-[ "$options" -ge 70 ] || fail "the help names only $options options"
+[ "$options" -ge 70 ] || fail "the help names only $options options, expected 70 or more"
 for section in NAME SYNOPSIS DESCRIPTION SETTINGS EXAMPLES "EXIT STATUS"; do
-    grep -qx ".SH $section" "$page" || fail "no section $section"
+    grep -qx ".SH $section" "$page" || fail "there is no section $section"
 done
 
 checked=no

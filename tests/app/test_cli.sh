@@ -57,13 +57,13 @@ for word in preview dump bench cost "cost merge" "cost assets" "path info" "path
 done
 expect 0 '' "$diptych" bench --help
 check "help on bench gives examples" grep -q 'bench --vs' out.txt
-check "and the lists' own texts" grep -q -- '--threads LIST' out.txt
+check "help on bench explains lists" grep -q -- '--threads LIST' out.txt
 expect 0 '' "$diptych" path --help
-check "help on path tells both" grep -q 'path convert .*rewrite' out.txt
+check "help on path names both commands" grep -q 'path convert .*rewrite' out.txt
 expect 0 '' "$diptych" --version
 check "the version is one line" grep -qE '^diptych [0-9]+\.[0-9]+\.[0-9]+$' out.txt
 
-# --- bad command lines: one line, exit 2, nothing written
+# --- bad command lines: one line of error, exit code 2, nothing written
 expect 2 'diptych: \[dump\] nothing to do; give one of --out DIR, --json FILE, --hash$' "$diptych" dump
 expect 2 '\[--frmes\] is not an option of .diptych dump.; did you mean --frames\?$' "$diptych" dump --hash --frmes 0:1
 expect 2 "\[--frames\] '5:2' is not FIRST:END" "$diptych" dump --hash --frames 5:2
@@ -139,7 +139,7 @@ expect 2 'nan.pth:4: ' "$diptych" dump --hash --path nan.pth
 sed 's#\.\./#'"$source"'/#' "$source/config/courtyard.ini" >good.ini
 sed 's/^RES:.*/RES: 640/; s/^MIPDEBUG:.*/MIPDEBUG: maybe/' good.ini >bad.ini
 most_lines=2 expect 2 'bad.ini:[0-9]+: \[RES\] ' "$diptych" dump --hash --config bad.ini
-check "all faults of a file in one run" grep -qE 'bad.ini:[0-9]+: \[MIPDEBUG\] ' err.txt
+check "one run reports all faults of a file" grep -qE 'bad.ini:[0-9]+: \[MIPDEBUG\] ' err.txt
 sed 's/court.gltf/none.gltf/' good.ini >missing.ini
 expect 2 'missing.ini:[0-9]+: \[XFILE\] .*none.gltf' "$diptych" dump --hash --config missing.ini
 sed 's/aa.pth/none.pth/' good.ini >missing.ini
@@ -147,7 +147,7 @@ most_lines=3 expect 2 'missing.ini:[0-9]+: \[CAMPATH_AA\] .*none.pth' "$diptych"
     --config missing.ini
 printf 'XFILE: %s/assets/courtyard/court.gltf\nRES: 32x24\n' "$source" >minimal.ini
 expect 0 '' "$diptych" dump --hash --config minimal.ini --frames 0:1
-check "an ini with a model and a resolution alone gives no warning" test ! -s err.txt
+check "an ini with only a model and a resolution gives no warning" test ! -s err.txt
 check "nothing was written so far" test -z "$(find . -name '*.png' -o -name '*.json' -o -name '*.tmp')"
 
 sed 's/^ISA:.*/ISA: neon/' good.ini >isa.ini
@@ -158,20 +158,20 @@ sed 's/^RES:/LOG: faults.log\nRES:/; s/court.gltf/none.gltf/' good.ini >log.ini
 expect 2 'none.gltf' "$diptych" dump --hash --config log.ini
 check "the ini's log file gets the errors too" grep -q 'none.gltf' faults.log
 
-# --- what dump makes
+# --- what dump writes
 small="--size 64x48"
 expect 0 '' "$diptych" dump $small --hash --out a/b --json c.json --frames 0:5:2 --requested aa=4
 cp out.txt hashes.txt
-check "a line per frame and pane" test "$(grep -cE '^000[024] (current|requested) [0-9a-f]{32}$' out.txt)" = 6
-check "and no other line" test "$(wc -l <out.txt)" = 6
+check "dump --hash prints a line per frame and pane" test "$(grep -cE '^000[024] (current|requested) [0-9a-f]{32}$' out.txt)" = 6
+check "dump --hash prints no other line" test "$(wc -l <out.txt)" = 6
 for n in 0000 0002 0004; do
     for pane in current requested; do
-        check "${pane}_$n.png is a picture of the size" \
+        check "${pane}_$n.png is a picture of the right size" \
             test "$(identify -format '%wx%h %m' "a/b/${pane}_$n.png")" = '64x48 PNG'
     done
 done
-check "six pictures" test "$(find a -name '*.png' | wc -l)" = 6
-check "the record is in both places" cmp a/b/frames.json c.json
+check "dump writes six pictures" test "$(find a -name '*.png' | wc -l)" = 6
+check "both files hold the same record" cmp a/b/frames.json c.json
 check "no temporary file is left" test -z "$(find . -name '*.tmp')"
 for word in '"index"' '"time_s"' '"pose"' '"settings":	"aa=4,' '"stages_ms"' '"counters"' \
     '"texels_fetched"' '"effects"' '"light_map"' '"why"'; do
@@ -183,10 +183,10 @@ check "the record's hashes are those printed" \
 # --- the record on standard output
 expect 0 '' "$diptych" dump $small --json - --frames 0:5:2 --requested aa=4
 check "standard output is the record and nothing else" python3 -m json.tool out.txt
-check "it has the same hash" grep -q "$(sed -n '1s/.* //p' hashes.txt)" out.txt
+check "the record on standard output has the same hash" grep -q "$(sed -n '1s/.* //p' hashes.txt)" out.txt
 check "no file is called -" test ! -e ./-
 
-# --- standard output on a full disk: one line, exit 1
+# --- standard output on a full disk: one line of error, exit code 1
 full() { "$@" >/dev/full; }
 if [ -c /dev/full ]; then
     for arguments in --help --version "dump --help" "dump $small --hash" "dump $small --json -" \
@@ -214,14 +214,14 @@ check "settings change the picture" test \
 equal="dump $small --hash --frames 4:6 --current aa=4,taa=on --requested aa=4,taa=on"
 expect 0 '' "$diptych" $equal --json copied.json
 cp out.txt copied.txt
-check "the requested pane is the current one's picture" \
+check "the requested pane shows the current pane's picture" \
     test "$(sed -n '1s/.* //p' out.txt)" = "$(sed -n '2s/.* //p' out.txt)"
 check "the record says that it is copied" test "$(grep -c '"copied":	true' copied.json)" = 2
-check "and took no time" test "$(grep -c '"ms":	0,' copied.json)" = 2
-check "panes with settings of their own are not" sh -c '! grep -q "\"copied\":	true" c.json'
+check "the record says that the copy took no time" test "$(grep -c '"ms":	0,' copied.json)" = 2
+check "panes with different settings are not copied" sh -c '! grep -q "\"copied\":	true" c.json'
 expect 0 '' "$diptych" $equal --json forced.json --force-all-effects
-check "the same pictures with both drawn" cmp out.txt copied.txt
-check "as the record says" sh -c '! grep -q "\"copied\":	true" forced.json'
+check "drawing both panes gives the same pictures" cmp out.txt copied.txt
+check "the record says that no pane is copied" sh -c '! grep -q "\"copied\":	true" forced.json'
 
 expect 0 '' "$diptych" dump $small --hash --fps 15 --frames 0:3
 check "frame 1 at 15 per second is frame 2 at 30" test \
@@ -229,49 +229,49 @@ check "frame 1 at 15 per second is frame 2 at 30" test \
 
 expect 0 'start, ms: ini [0-9.]+ import .* total [0-9.]+; shutdown [0-9.]+ ms; peak [0-9.]+ MiB' \
     "$diptych" dump $small --hash --timing
-check "the record tells how the start went" grep -q '"load_ms"' c.json
-check "and the memory" grep -q '"peak_rss_bytes"' c.json
+check "the record has the load times" grep -q '"load_ms"' c.json
+check "the record has the peak memory" grep -q '"peak_rss_bytes"' c.json
 
 # --- the bench: what it prints and writes; no times are judged
 quick="--frames 2 --rounds 2"
 expect 0 'plot written: plots/time_samples.svg' "$diptych" bench $quick --size 32x24,64x48 \
     --sets "aa=none;aa=4" --threads 1,2 --seed 7 --csv all.csv --svg plots
 check "the heading tells the seed" grep -q 'order by seed 7$' out.txt
-check "a row per combination" test "$(grep -cE '^ +[1-8]  .*median' out.txt)" = 8
-check "each with its p95 and least" test "$(grep -cE '^ +(p95|min) ' out.txt)" = 16
-check "and its work" test "$(awk '$1 == "fragments_shaded" { all = $2 }
+check "the table has a row per combination" test "$(grep -cE '^ +[1-8]  .*median' out.txt)" = 8
+check "each row has its p95 and its minimum" test "$(grep -cE '^ +(p95|min) ' out.txt)" = 16
+check "the table has the work counters" test "$(awk '$1 == "fragments_shaded" { all = $2 }
     $1 == "fragments_mirrored" { print all - $2 }' out.txt)" = 768
-check "a line of CSV per combination, round and frame" test "$(wc -l <all.csv)" = 33
-check "units in its names" grep -q '^settings,width_px,.*,total_ms,.*_count' all.csv
+check "the CSV has a line per combination, round and frame" test "$(wc -l <all.csv)" = 33
+check "the names of the CSV's columns have units" grep -q '^settings,width_px,.*,total_ms,.*_count' all.csv
 for axis in pixels samples threads; do
     check "time_$axis.svg is whole" grep -q '^</svg>$' "plots/time_$axis.svg"
 done
-check "and no other file" test "$(find plots -type f | wc -l)" = 3
+check "bench writes no other file" test "$(find plots -type f | wc -l)" = 3
 expect 0 'time_triangles.svg' "$diptych" bench $quick --size 32x24 --grid 10,200 \
     --sets aa=none --svg plots
-check "triangles in view" test "$(awk '$1 == "triangles_drawn" { print ($2 > 4) }' out.txt)" = 1
+check "triangles in view are drawn" test "$(awk '$1 == "triangles_drawn" { print ($2 > 4) }' out.txt)" = 1
 expect 0 '' "$diptych" bench $quick --size 32x24 --sets aa=none --grid 200 \
     --grid-out-of-view
-check "triangles out of view" test "$(awk '$1 == "triangles_drawn" { print $2 }' out.txt)" = 0
+check "triangles out of view are not drawn" test "$(awk '$1 == "triangles_drawn" { print $2 }' out.txt)" = 0
 expect 0 '' "$diptych" bench $quick --size 32x24 --sets "aa=none;aa=2" --vs "$diptych" --csv vs.csv
-check "against itself: the same pictures" test "$(grep -cE '^aa=.* same$' out.txt)" = 2
-check "CSV of both programs" test "$(grep -c '^other,' vs.csv)" = 8
+check "a comparison with itself finds the same pictures" test "$(grep -cE '^aa=.* same$' out.txt)" = 2
+check "the CSV has the rows of both programs" test "$(grep -c '^other,' vs.csv)" = 8
 expect 1 "\[--vs\] .*true has ended" "$diptych" bench $quick --vs /bin/true
 expect 1 "\[--vs\] .*echo did not answer as diptych's bench does" "$diptych" bench $quick --vs /bin/echo
 expect 1 'none/a.csv' "$diptych" bench $quick --size 8x8 --csv none/a.csv
 printf 'draw 0 0 1\ndraw 9 0 0\n' >asked.txt
 serve() { "$diptych" bench $quick --size 32x24 --sets aa=none --serve <asked.txt; }
 expect 1 "\[--serve\] 'draw 9 0 0'" serve
-check "a greeting and an answer" test "$(grep -cE '^diptych-bench 1 1 2$|total_ms=.*hash=[0-9a-f]{32}$' out.txt)" = 2
+check "the child greets and answers" test "$(grep -cE '^diptych-bench 1 1 2$|total_ms=.*hash=[0-9a-f]{32}$' out.txt)" = 2
 
 # --- a model given on the command line, with an orbit made for it
 expect 0 '' "$diptych" dump $small --hash --model "$source/tests/assets/data/square.gltf"
 
-# --- failing while running
+# --- failures at run time
 expect 1 'c.json/x' "$diptych" dump $small --json c.json/x
 expect 1 '\[--out\] ' "$diptych" dump $small --out c.json
 
-# --- faults of input and failures of the run are told apart where they are made
+# --- wrong input and failures at run time have different exit codes
 expect 2 'none.json: ' "$diptych" --cost none.json
 expect 1 'none/x.png: |\[--out\] ' "$diptych" dump $small --out c.json/x
 
@@ -279,15 +279,15 @@ expect 1 'none/x.png: |\[--out\] ' "$diptych" dump $small --out c.json/x
 expect 0 '' "$diptych" path convert "$source/campaths/aa.pth" aa.bth
 expect 0 '' "$diptych" path convert aa.bth aa.pth
 expect 0 '' "$diptych" path convert aa.pth again.bth
-check "conversion there and back changes no byte" cmp aa.bth again.bth
+check "conversion to .pth and back changes no byte" cmp aa.bth again.bth
 expect 0 '' "$diptych" path info aa.bth
-check "info says how long it is" grep -q '^duration   24 s' out.txt
+check "path info prints the duration" grep -q '^duration   24 s' out.txt
 expect 2 "'aa.txt' names no format; write to a file that ends in .pth" "$diptych" path convert aa.bth aa.txt
 head -c 100 aa.bth >cut.bth
 expect 2 'cut.bth: ' "$diptych" path info cut.bth
 expect 1 'none/x.bth: ' "$diptych" path convert aa.pth none/x.bth
 
-# --- what cost makes
+# --- what cost writes
 expect 2 "\[--out\] there is no folder for the report; give one with --out DIR" "$diptych" cost
 expect 2 "\[--samples\] '50' is not a square number from 1 to 4096" "$diptych" cost --out x --samples 50
 expect 2 "\[--part\] '3:2' is not A:B" "$diptych" cost --out x --part 3:2
@@ -306,10 +306,10 @@ check "help on cost gives examples" grep -q 'cost merge --out report' out.txt
 cost="$diptych cost --size 48x32 --places 2 --samples 4 --timed 1 --cache truths"
 expect 0 '' $cost --out whole --rounds 3 --combine aa --budget-ms 0.01,1000
 check "the report is there" test -s whole/cost.html -a -s whole/cost.csv -a -s whole/cost.json
-check "its state is not" test ! -e whole/cost.state
-check "nothing is as fast as the least budget" grep -q '0.01 ms: no measured combination' out.txt
-check "everything is as fast as the greatest" grep -qE '1000 ms: .*aa=' out.txt
-check "the page's pictures are in it" grep -q 'data:image/png;base64' whole/cost.html
+check "the finished report leaves no cost.state" test ! -e whole/cost.state
+check "no combination is within the smallest budget" grep -q '0.01 ms: no measured combination' out.txt
+check "some combination is within the largest budget" grep -qE '1000 ms: .*aa=' out.txt
+check "the page contains its pictures" grep -q 'data:image/png;base64' whole/cost.html
 # The other checks use a scene that loads quickly.
 cost="$cost --model $source/tests/assets/data/square.gltf"
 expect 0 '' $cost --out part0 --part 0:1 --rounds 2 --combine aa
@@ -321,8 +321,8 @@ sums_of() {
 expect 0 '' $cost --out once --rounds 2 --combine aa
 sums_of once >once.txt
 sums_of merged >merged.txt
-check "errors are there" test "$(wc -l <once.txt)" -gt 50
-check "parts make the whole" cmp once.txt merged.txt
+check "the report has errors" test "$(wc -l <once.txt)" -gt 50
+check "merged parts have the same errors as one run" cmp once.txt merged.txt
 expect 0 '' $cost --out one-thread --errors-only --combine aa --threads 1 --isa scalar
 sums_of one-thread >other.txt
 check "errors are the same on one thread, without vectors" cmp once.txt other.txt
@@ -331,15 +331,15 @@ expect 2 'else.json: is no part of the same report' \
     "$diptych" cost merge --out x part0/cost.json else.json
 
 expect 0 '' "$diptych" cost assets --model "$source/tests/assets/data/square.gltf"
-check "forms of a mesh" grep -qE 'glTF, one binary file +[0-9.]+ +[0-9.]+ +[0-9.]+$' out.txt
-check "shutdown is timed" grep -qE 'shutdown [0-9.]+$' out.txt
+check "cost assets prints the forms of a mesh" grep -qE 'glTF, one binary file +[0-9.]+ +[0-9.]+ +[0-9.]+$' out.txt
+check "cost assets prints the time of the shutdown" grep -qE 'shutdown [0-9.]+$' out.txt
 
-# --- cost, ended at any time
+# --- cost, interrupted while it runs
 for wait in 0.4 0.8 1.2; do
     timeout -s KILL $wait $cost --out killed --rounds 8 >out.txt 2>err.txt
-    check "no half report after $wait s" test ! -e killed/cost.json -o -s killed/cost.html
+    check "there is no incomplete report after $wait s" test ! -e killed/cost.json -o -s killed/cost.html
 done
-# It catches signals from its start on, and writes its first line after that.
+# The program catches signals from its start, before it writes its first line.
 $cost --out stopped --rounds 5000 >out.txt 2>err.txt &
 for tenth in $(seq 600); do
     [ -s stopped/cost.state ] && break
@@ -347,12 +347,12 @@ for tenth in $(seq 600); do
 done
 kill -INT $!
 wait $!
-check "Ctrl-C says that it goes on" grep -q 'interrupted; the same command goes on' err.txt
-check "what is measured stays" test -s stopped/cost.state
+check "after Ctrl-C, cost says that the same command continues" grep -q 'interrupted; the same command goes on' err.txt
+check "the measurements are kept" test -s stopped/cost.state
 expect 0 '' $cost --out stopped --rounds 4
-check "and is gone on from" test -s stopped/cost.html -a ! -e stopped/cost.state
+check "the same command finishes the report" test -s stopped/cost.html -a ! -e stopped/cost.state
 expect 0 '' $cost --out killed --rounds 8
-check "the report after it is whole" test -s killed/cost.html -a ! -e killed/cost.state
+check "the killed run is finished, too" test -s killed/cost.html -a ! -e killed/cost.state
 
 echo "$checks checks, $failures failed"
 [ "$failures" = 0 ]

@@ -1,4 +1,4 @@
-// Fills in plans and results by formula.
+// Fills in bench plans and results by formula.
 #include "tests/app/bench/made_result.h"
 
 #include <stdlib.h>

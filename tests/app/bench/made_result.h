@@ -1,4 +1,4 @@
-// Plans and results with made-up figures, for tests of the bench's arithmetic.
+// Bench plans and results with made-up numbers, for tests of the bench's arithmetic.
 #ifndef DIP_TESTS_APP_BENCH_MADE_RESULT_H
 #define DIP_TESTS_APP_BENCH_MADE_RESULT_H
 

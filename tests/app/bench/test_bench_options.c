@@ -1,5 +1,5 @@
-// Tests of the options of `diptych bench`: its lists, their limits, and options that exclude each
-// other.
+// Tests of the options of `diptych bench`: options that take a list, the limits of the lists, and
+// options that exclude each other.
 #include "app/bench/bench.h"
 #include "app/bench/options.h"
 #include "app/command_line.h"
@@ -24,7 +24,7 @@ static const DipCommandList list = {only_bench, 1};
 
 static char *argv[MAX_WORDS] = {(char *)"diptych", (char *)"bench"};
 
-// Parses "bench" and the given arguments, up to a NULL.
+// Parses "bench" and the given arguments, which end with a NULL.
 static bool parse(DipCommandLine *line, DipError *err, const char *const words[]) {
     int argc = 2;
     for (; words[argc - 2]; argc++) {
@@ -42,7 +42,7 @@ static void assert_refused(DipErrorCode code, const char *key, const char *const
     assert_string_equal(err.key, key);
 }
 
-// Parses and returns the options; the caller frees the line.
+// Parses the arguments and returns the options. The caller frees the line.
 static const DipBenchOptions *options_of(DipCommandLine *line, const char *const words[]) {
     DipError err = {0};
     assert_true(parse(line, &err, words));
@@ -127,7 +127,7 @@ static void too_many_combinations_are_refused(void **state) {
     (void)state;
     assert_refused(DIP_ERROR_RANGE, "bench",
                    WORDS("--threads", "1,2,3,4,5,6,7,8,9,10", "--size",
-                         "1x1,2x1,3x1,4x1,5x1,6x1,7x1,8x1,9x1")); // with 6 sets: 540
+                         "1x1,2x1,3x1,4x1,5x1,6x1,7x1,8x1,9x1")); // times 6 sets: 540 combinations
 }
 
 static void a_grid_excludes_a_scene(void **state) {

@@ -1,4 +1,5 @@
-// A plan holds every combination of the axes' values, in order, with its label.
+// Tests that a plan holds every combination of the axes' values, in order, and labels each
+// combination.
 #include "tests/app/bench/made_result.h"
 
 #include <setjmp.h>
@@ -12,7 +13,8 @@ static DipBenchPlan plan;
 
 static void the_last_axis_changes_fastest(void **state) {
     (void)state;
-    // Indices of size, set and number of threads; there is one instruction set and no grid.
+    // Each row holds the indices of size, set of settings and number of threads. There is one
+    // instruction set and no grid.
     static const int expected[8][3] = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, 1, 1},
                                        {1, 0, 0}, {1, 0, 1}, {1, 1, 0}, {1, 1, 1}};
     dip_made_plan(&plan, 3, 2);
@@ -39,7 +41,7 @@ static void labels_name_what_varies(void **state) {
     assert_string_equal(label, "scalar");
     dip_made_single_plan(&plan, 3, 2);
     dip_bench_label(&plan, &plan.combinations[0], DIP_BENCH_AXIS_COUNT, label);
-    assert_string_equal(label, "aa=none"); // nothing varies
+    assert_string_equal(label, "aa=none"); // no axis varies
     dip_bench_fixed_label(&plan, label);
     assert_string_equal(label, "64x48, aa=none, scalar, 1 thread");
 }
@@ -56,7 +58,7 @@ static void the_session_gives_what_options_leave_open(void **state) {
     assert_int_equal(plan.count, 1);
     assert_int_equal(plan.options.sizes[0].width, 320);
     assert_int_equal(plan.options.sizes[0].height, 200);
-    assert_true(plan.options.threads[0] >= 1); // 0 stands for all processors
+    assert_true(plan.options.threads[0] >= 1); // the default 0 means all processors
     assert_true(plan.options.seed >= 0);
 }
 

@@ -1,4 +1,4 @@
-// Results, tables, comparison and CSV, with figures computed by hand.
+// Tests of results, tables, comparison and CSV. The expected numbers were computed by hand.
 #include "app/bench/measure.h"
 #include "app/bench/table.h"
 #include "tests/app/bench/made_result.h"
@@ -29,7 +29,8 @@ static bool print_ratios(void *context, FILE *out) {
     return dip_bench_print_ratios(&results[0], &results[1], out, NULL);
 }
 
-// Reads the numbers that follow `name` on its line of `text`. Returns how many there are.
+// Finds `name` in `text` and reads the numbers behind it on the same line. Returns how many there
+// are.
 static int numbers_after(const char *text, const char *name, double *numbers, int room) {
     const char *at = strstr(text, name);
     assert_non_null(at);
@@ -124,9 +125,9 @@ static void quantiles_are_over_frames_and_rounds(void **state) {
     dip_bench_result_free(&result);
 }
 
-// Two frames in three rounds. This program takes {2, 4}, {2, 4} and {3, 4} ms, and the median is
-// (3 + 4) / 2 = 3.5. The other program takes twice as long in each frame. Its fastest frames take 4
-// and 8 ms, together 12 against 6.
+// There are two frames and three rounds. This program takes {2, 4}, {2, 4} and {3, 4} ms; the
+// median is (3 + 4) / 2 = 3.5. The other program takes twice as long for each frame. Its fastest
+// frames take 4 + 8 = 12 ms, those of this program 2 + 4 = 6 ms.
 static void a_ratio_is_the_other_program_over_this_one(void **state) {
     (void)state;
     const double here_ms[6] = {2, 4, 2, 4, 3, 4};
@@ -161,7 +162,8 @@ static void a_ratio_is_the_other_program_over_this_one(void **state) {
     dip_bench_result_free(&results[1]);
 }
 
-// One slow round in three moves the interval of the median but not the fastest rounds.
+// One slow round of three widens the interval of the median ratio, but does not change the ratio of
+// the fastest rounds.
 static void the_fastest_rounds_ignore_noise(void **state) {
     (void)state;
     const double here_ms[3] = {1, 1, 1};
@@ -173,7 +175,7 @@ static void the_fastest_rounds_ignore_noise(void **state) {
     dip_made_result(&results[1], &plan, other_ms);
     char *text = dip_printed(print_ratios, results);
     assert_int_equal(numbers_after(text, " to ", numbers, 2), 2);
-    expect_near(numbers[0], 50.0); // two of three draws are the slow round in 26 % of cases
+    expect_near(numbers[0], 50.0); // 26 % of resamples draw the slow round at least twice
     expect_near(numbers[1], 1.0);
     free(text);
     dip_bench_result_free(&results[0]);
@@ -225,8 +227,8 @@ static void csv_has_a_line_per_program_round_and_frame(void **state) {
 
 typedef struct FakeProgram {
     double factor;
-    int hashed; // draws with a hash
-    int drawn;  // all draws
+    int hashed; // number of draws with a hash
+    int drawn;  // number of all draws
 } FakeProgram;
 
 static bool fake_draw(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
@@ -257,7 +259,7 @@ static void each_source_fills_its_result(void **state) {
         assert_true(dip_bench_measure(&plan, sources, count, results, NULL));
         for (int p = 0; p < count; p++) {
             assert_int_equal(programs[p].hashed, 8 * 3);
-            // If it is measured alone, each visit begins with an untimed frame.
+            // If one program is measured alone, each visit begins with one untimed frame.
             assert_int_equal(programs[p].drawn, 8 * 3 + 2 * 8 * (count == 1 ? 4 : 3));
             for (int c = 0; c < plan.count; c++) {
                 const double *ms = dip_bench_result_ms(&results[p], c, DIP_BENCH_STAGE_total);

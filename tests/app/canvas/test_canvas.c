@@ -1,4 +1,4 @@
-// Drawing into memory: exact blends, clipping, scaling and lines of text.
+// Tests of drawing into memory: exact blends, clipping, scaling and lines of text.
 #include "app/canvas/canvas.h"
 #include "app/canvas/font.h"
 
@@ -26,8 +26,8 @@ static void clear(int width, int height, uint8_t code) {
     dip_canvas_fill(&canvas, canvas.clip, (DipColour){code, code, code, 255});
 }
 
-// For every background and alpha, and for some colours, a blend gives the code that is nearest to
-// the exact blend.
+// For every background and alpha, and for some colours, a blend gives the 8-bit value that is
+// nearest to the exact result.
 static void a_fill_blends_exactly(void **state) {
     (void)state;
     for (int alpha = 0; alpha < 256; ++alpha) {
@@ -58,7 +58,7 @@ static void a_mask_is_a_fill_by_coverage(void **state) {
     assert_int_equal(pixel(3, 0)[1], 33);  // 10 * 191 / 255 + 100 * 64 / 255 = 32.6
 }
 
-// Returns how many pixels differ from the given code.
+// Returns how many pixels differ from the given 8-bit grey value.
 static int changed_pixels(uint8_t code) {
     int count = 0;
     for (int i = 0; i < canvas.width * canvas.height; ++i) {
@@ -92,8 +92,8 @@ static void nothing_is_drawn_outside_the_clip(void **state) {
     }
 }
 
-// The rectangle is twice as wide and half as high as the picture, so pixels repeat and one of two
-// rows is left out.
+// The rectangle is twice as wide and half as high as the picture, so each pixel is repeated and
+// every second row is left out.
 static void a_picture_is_scaled_to_its_rectangle(void **state) {
     (void)state;
     uint8_t source[4 * 3 * 4];
@@ -109,7 +109,8 @@ static void a_picture_is_scaled_to_its_rectangle(void **state) {
     }
 }
 
-// Returns the box around all pixels that are not white, and sums up their darkness.
+// Returns the box around all pixels that are not white. *sum receives the sum of their darkness
+// (255 - red).
 static DipRect ink(int *sum) {
     DipRect box = {0};
     *sum = 0;
@@ -174,7 +175,7 @@ static void a_long_line_ends_in_an_ellipsis(void **state) {
     }
 }
 
-// A broken byte shows as one replacement character and harms nothing after it.
+// An invalid byte shows as one replacement character, and the characters after it show correctly.
 static void bytes_that_are_not_utf8_show_too(void **state) {
     (void)state;
     const int mark = dip_font_width(font, 12, "\xef\xbf\xbd");
@@ -186,7 +187,8 @@ static void bytes_that_are_not_utf8_show_too(void **state) {
     assert_int_equal(dip_font_width(font, 12, "\xc3"), mark);
 }
 
-// After more glyphs than the cache holds, at many sizes, the same line gives the same picture.
+// A line gives the same picture again after more glyphs than the cache holds were drawn, at many
+// sizes.
 static void the_cache_forgets_without_harm(void **state) {
     (void)state;
     int before = 0, after = 0;

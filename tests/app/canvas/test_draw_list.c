@@ -1,5 +1,5 @@
-// Lists of drawing commands: only what changed is painted again, and the picture is the same as
-// that of a list painted on an empty canvas.
+// Tests of lists of drawing commands. Only what has changed is painted again, and the picture
+// equals that of the same list painted on an empty canvas.
 #include "app/canvas/draw_list.h"
 
 #include <setjmp.h>
@@ -30,7 +30,7 @@ static DipColour random_colour(void) {
 static const DipRect whole = {0, 0, WIDTH, HEIGHT};
 static const DipColour opaque_black = {0, 0, 0, 255};
 
-// Records a fill that covers the canvas, and commands that depend on `seed` alone.
+// Records a fill that covers the canvas, and random commands that depend only on `seed`.
 static void record(DipDrawList *list, uint32_t seed, int width, int height) {
     static uint8_t texels[4 * 16 * 16];
     random_state = seed;
@@ -62,7 +62,7 @@ static void paint(DipDrawList *list, DipCanvas *canvas, DipDamage *damage) {
     assert_true(dip_draw_list_paint(list, canvas, damage, NULL));
 }
 
-// Draws frames of random commands in some sizes. Painting over the frame before gives the same
+// Draws frames of random commands at several sizes. Painting over the previous frame gives the same
 // picture as painting on an empty canvas, and no pixel outside the damage changes.
 static void painting_over_equals_painting_anew(void **state) {
     (void)state;
@@ -119,7 +119,7 @@ static void only_what_changed_is_damaged(void **state) {
     dip_draw_list_destroy(&list);
 }
 
-// However many rectangles are added, every one of them lies inside the damage.
+// Every rectangle that was added lies inside the damage, even if many rectangles were added.
 static void damage_covers_what_was_added(void **state) {
     (void)state;
     for (int round = 0; round < 100; ++round) {

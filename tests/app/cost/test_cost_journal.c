@@ -1,4 +1,4 @@
-// The journal keeps an unfinished report, whenever the program ends.
+// Tests of the journal, which keeps an unfinished report no matter when the program ends.
 #include "app/cost/journal.h"
 
 #include <setjmp.h>
@@ -63,7 +63,7 @@ static void what_is_measured_is_found_again(void **state) {
     dip_cost_journal_close(&again, false);
 }
 
-// Errors belong to pictures, times belong to a plan.
+// Errors are kept if the plan changes, since they belong to pictures. Times belong to a plan.
 static void times_of_another_plan_are_passed_over(void **state) {
     (void)state;
     write_some();
@@ -83,8 +83,8 @@ static size_t file_size(void) {
     return size;
 }
 
-// The file is cut after every byte in turn. Whole lines are found, the rest is cut off, and more
-// can be added.
+// Cuts the file at many lengths in turn. Whole lines are read, an incomplete last line is removed,
+// and new lines can be added.
 static void a_torn_line_is_dropped(void **state) {
     (void)state;
     write_some();

@@ -1,4 +1,5 @@
-// Figures from sums and times, the Pareto front, the fit, and a report through JSON and back.
+// Tests of the cost report: metrics and times, the Pareto front, the fit of prices, and a report
+// written to JSON and read back.
 #include "app/cost/fit.h"
 #include "app/cost/html.h"
 #include "app/cost/order.h"
@@ -42,7 +43,7 @@ static void figures_are_means(void **state) {
     sums.squared_flicker = 0.5;
     DipMetricSums twice = sums;
     dip_metric_sums_add(&twice, &sums);
-    for (int i = 0; i < 2; i++) { // twice the same has the same means
+    for (int i = 0; i < 2; i++) { // adding the same sums twice leaves the means unchanged
         const DipMetrics f = dip_metrics_of(i ? &twice : &sums, 0);
         expect_near(f.rmse_lin, 0.2, 1e-15);
         expect_near(f.psnr_db, 20.0 * log10(255.0 / 5.0), 1e-12);
@@ -62,7 +63,8 @@ static void errors_below_three_floors_say_nothing(void **state) {
         report.has_floor[p] = p == 0;
         report.rows[0].judged[p] = p == 0;
     }
-    report.floors[0].regions[0].squared_lin = 10.0 * 0.02 * 0.02; // halves differ by 0.02
+    // The truth's halves differ by 0.02.
+    report.floors[0].regions[0].squared_lin = 10.0 * 0.02 * 0.02;
     expect_near(dip_cost_floor_rmse(&report, 0, 0), 0.01, 1e-15);
     report.rows[0].viewpoints[0].regions[0].squared_lin = 10.0 * 0.0299 * 0.0299;
     assert_true(dip_cost_at_floor(&report, 0));
@@ -90,7 +92,7 @@ static void steps_out_of_order_are_named(void **state) {
     double *counters = report.rows[3].counters;
     counters[DIP_COST_COUNTER_samples_shown] =
         report.rows[2].counters[DIP_COST_COUNTER_samples_shown];
-    expect_order(&report, "As theory says"); // equal work follows theory
+    expect_order(&report, "As theory says"); // equal work does not contradict theory
     counters[DIP_COST_COUNTER_samples_shown] -= 1.0;
     expect_order(&report, "at step \"4\", the counter samples_shown should rise but does not.");
     report.rows[2].viewpoints[0].regions[0].flip = 100.0;
@@ -107,8 +109,8 @@ static void steps_out_of_order_are_named(void **state) {
 
 enum { ROUNDS = 40 };
 
-// Frames differ tenfold, and drift slows all rows down alike. Row 2 takes 1.5 times as long as row
-// 0.
+// The times of frames differ up to tenfold, and drift slows all rows down alike. Row 2 takes 1.5
+// times as long as row 0.
 static void ratios_see_past_drift_and_frames(void **state) {
     (void)state;
     DipCostReport report;
@@ -166,18 +168,19 @@ static void no_other_row_beats_the_pareto_front(void **state) {
     assert_int_equal(front[0], 3);
     assert_int_equal(front[1], 1);
     assert_int_equal(front[2], 0);
-    set_viewpoint(&report, 1, 2.0, 0.101); // row 0 lowers FLIP by less than 1 % below this
+    set_viewpoint(&report, 1, 2.0, 0.101); // row 0 is then less than 1 % better
     assert_int_equal(dip_cost_pareto_front_thin(&report, front, 3), 2);
     assert_int_equal(front[1], 1);
     report.combined_first = 0;
     assert_int_equal(dip_cost_step_up(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
     assert_int_equal(dip_cost_step_up(&report, 1), -1);
-    report.rounds = 0; // without times there is no front
+    report.rounds = 0; // without times there is no Pareto front
     assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 0);
     dip_cost_report_free(&report);
 }
 
-// Times are computed from work with 1 % of noise; the fit finds the prices of the work again.
+// Times are computed from work counters and prices, with 1 % of noise. The fit finds the prices
+// again.
 static void the_fit_finds_what_work_costs(void **state) {
     (void)state;
     enum { ROWS = 60 };
@@ -210,7 +213,7 @@ static void the_fit_finds_what_work_costs(void **state) {
 
 // --- files -------------------------------------------------------------------------------------
 
-// The JSON library may round the last bit.
+// Compares arrays of numbers. The JSON library may round the last bit.
 static void check_values(const void *a, const void *b, size_t size) {
     const double *x = a;
     const double *y = b;
@@ -276,7 +279,8 @@ static void write_whole(const char *text, size_t size) {
     fclose(out);
 }
 
-// A file that is cut short anywhere, or lacks a field, is refused with the file's name.
+// A file that is cut short anywhere, or that lacks a field, is refused, and the error names the
+// file.
 static void broken_json_is_refused(void **state) {
     (void)state;
     static const char *const fields[] = {"\"width\"",   "\"rows\"", "\"sums\"",    "\"all_ms\"",
@@ -308,7 +312,8 @@ static void broken_json_is_refused(void **state) {
     assert_int_equal(err.code, DIP_ERROR_MISSING);
 }
 
-// Lines of CSV have as many fields as the header. The page has its parts and names no other file.
+// All lines of the CSV have as many fields as its header. The HTML page has all its parts and
+// refers to no other file.
 static void csv_and_page_are_whole(void **state) {
     (void)state;
     DipCostReport report;

@@ -7,7 +7,8 @@ sdl_library=$2
 preview_test=$3
 shift 3
 
-# nm has to find SDL where it is, or else the check below would find it nowhere.
+# If nm does not find SDL's functions in the library that calls them, the check below proves
+# nothing.
 nm -u "$sdl_library" | grep -q ' SDL_' || { echo "nm finds no call of SDL in $sdl_library"; exit 1; }
 for library in "$@"; do
     if nm -u "$library" | grep -E ' (SDL|TTF)_'; then

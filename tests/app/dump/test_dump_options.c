@@ -20,7 +20,7 @@ enum { MAX_WORDS = 12 };
 static const DipCommand *const only_dump[] = {&dip_dump_command};
 static const DipCommandList list = {only_dump, 1};
 
-// Parses "dump" and the given arguments, up to a NULL.
+// Parses "dump" and the given arguments, which end with a NULL.
 static bool parse(DipCommandLine *line, DipError *err, const char *const words[]) {
     char *argv[MAX_WORDS] = {(char *)"diptych", (char *)"dump"};
     int argc = 2;
@@ -139,7 +139,7 @@ static void printed_record_is_the_written_one(void **state) {
     assert_true(fread(written, 1, sizeof written - 1, in) > 100);
     fclose(in);
     remove(file);
-    strcat(written, "\n"); // A terminal needs the end of the line.
+    strcat(written, "\n"); // On standard output, a line feed follows the record.
     assert_string_equal(printed, written);
     dip_record_destroy(&record);
 }

@@ -11,7 +11,7 @@ typedef struct DipPattern {
     DipSrgbPicture picture; // the first `width` columns of the first `height` rows
 } DipPattern;
 
-// Returns the code of channel c at (x, y).
+// Returns the code (8-bit sRGB value) of channel c at (x, y).
 typedef int DipPatternCode(int x, int y, int c);
 
 static inline void dip_pattern_fill(DipPattern *pattern, int width, int height,
@@ -29,7 +29,7 @@ static inline void dip_pattern_fill(DipPattern *pattern, int width, int height,
     }
 }
 
-// Codes without any pattern. Channels 3..5 give another picture than channels 0..2.
+// Returns codes without any pattern. Channels 3..5 give another picture than channels 0..2.
 static inline int dip_pattern_hash(int x, int y, int c) {
     uint32_t h = (uint32_t)x * 374761393u + (uint32_t)y * 668265263u + (uint32_t)c * 2246822519u;
     h = (h ^ h >> 13) * 1274126177u;

@@ -1,4 +1,4 @@
-// RMSE, PSNR and SSIM against closed forms, and the identity of static error and flicker.
+// Tests of RMSE, PSNR and SSIM against closed forms, and of rms^2 = static^2 + flicker^2.
 #include "app/measure/difference.h"
 #include "app/measure/flicker.h"
 #include "app/measure/ssim.h"
@@ -64,10 +64,10 @@ static double psnr(DipPatternCode *a, DipPatternCode *b) {
 static void psnr_of_known_errors(void **state) {
     (void)state;
     base = 50;
-    // First 50 codes in every channel, then 3 codes in one of three channels.
+    // The pictures differ by 50 codes in every channel, then by 3 codes in one of three channels.
     expect_near("psnr", psnr(fifty, hundred), 20.0 * log10(255.0 / 50.0), 1e-6);
     expect_near("psnr", psnr(fifty, one_channel_more), 10.0 * log10(255.0 * 255.0 / 3.0), 1e-6);
-    // Values that another program found.
+    // The expected values come from another program.
     expect_near("psnr", psnr(dip_pattern_gradient, dip_pattern_coarse_gradient), 38.1308036, 1e-4);
     expect_near("psnr", psnr(dip_pattern_hash, dip_pattern_other_hash), 7.6738610, 1e-4);
     assert_true(isinf(psnr(dip_pattern_hash, dip_pattern_hash)));
@@ -81,7 +81,7 @@ static void fill_truth_lin(double value) {
 
 static void rms_in_linear_light(void **state) {
     (void)state;
-    base = 188; // light 0.50289
+    base = 188; // 0.50289 in linear light
     dip_pattern_fill(&test, 20, 10, fifty);
     fill_truth_lin(0.25);
     dip_difference_lin(&test.picture, truth_lin, error_lin);
@@ -93,7 +93,7 @@ static void rms_in_linear_light(void **state) {
     expect_near("rms of the same", sqrt(mean(200)), 0.0, 1e-7);
 }
 
-// Sums over the regions add up to the sum over all.
+// The sums over the regions add up to the sum over the whole picture.
 static void regions_part_the_picture(void **state) {
     (void)state;
     static uint8_t classes[64 * 48];
@@ -141,8 +141,8 @@ static void ssim_of_flat_pictures_is_that_of_their_means(void **state) {
 }
 
 // Columns alternate between 90 and 110; the other picture is flat 100. The covariance with a flat
-// picture is 0, so SSIM is (2 m 100 + C1) / (m^2 + 100^2 + C1) times C2 / (variance + C2), with the
-// window's mean m and variance.
+// picture is 0. So SSIM is (2 m 100 + C1) / (m^2 + 100^2 + C1) times C2 / (variance + C2), where m
+// and variance are those of the window.
 static int stripes(int x, int y, int c) {
     (void)y;
     (void)c;
@@ -222,8 +222,8 @@ static void static_and_flicker_make_the_whole(void **state) {
     }
 }
 
-// Errors alternate between m + d and m - d. The static error is m, flicker d, each step 2d, and the
-// mean of two frames m.
+// Errors alternate between m + d and m - d. So the static error is m, the flicker is d, each step
+// is 2d, and the mean of two frames is m.
 static void alternating_errors(void **state) {
     (void)state;
     const double m = 0.25, d = 0.125;

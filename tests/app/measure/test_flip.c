@@ -1,4 +1,4 @@
-// FLIP against the values that its authors' implementation gives for the same pictures.
+// Tests FLIP against the values that its authors' implementation gives for the same pictures.
 #include "app/measure/difference.h"
 #include "app/measure/flip.h"
 #include "app/measure/internal/flip_kernels.h"
@@ -24,7 +24,7 @@ static void expect(const char *what, double found, double expected) {
     }
 }
 
-// Fills map and returns its mean.
+// Compares two patterns with FLIP, fills `map` and returns its mean.
 static double compare(int width, int height, double pixels_per_degree, DipPatternCode *a,
                       DipPatternCode *b) {
     DipFlip flip;
@@ -62,7 +62,7 @@ static float most(int count) {
 // --- pictures ----------------------------------------------------------------------------------
 
 static int constant;
-static int channels; // bit c: channel c has the constant; the others are 0
+static int channels; // bit c is set: channel c has the constant; other channels are 0
 
 static int first_constant;
 static int first_channels;
@@ -189,7 +189,8 @@ static void identical_pictures_are_0(void **state) {
     assert_true(most(64 * 48) == 0.0f);
 }
 
-// The lowest and highest resolution that is allowed, on a picture smaller than the filters.
+// Tests the lowest and the highest number of pixels per degree, on a picture smaller than the
+// filters.
 static void extreme_resolutions(void **state) {
     (void)state;
     const double limits[] = {DIP_FLIP_MIN_PIXELS_PER_DEGREE, DIP_FLIP_MAX_PIXELS_PER_DEGREE};

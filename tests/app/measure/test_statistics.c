@@ -1,4 +1,4 @@
-// Quantiles, estimates and intervals of values whose statistics are known.
+// Tests of quantiles, estimates and intervals with values whose statistics are known.
 #include "app/measure/statistics.h"
 
 #include <setjmp.h>
@@ -27,8 +27,8 @@ static void quantiles_lie_between_neighbours(void **state) {
     assert_true(fabs(dip_stats_quantile(hundred, 101, 0.95, scratch) - 95.0) < 1e-9);
 }
 
-// Frames differ a hundredfold but rounds do not, so the ratio of the medians, 300 to 100, is
-// certain.
+// Frames differ a hundredfold, but all rounds are equal. So the ratio of the medians, 300 to 100,
+// is certain: its interval has no width.
 static void frames_that_differ_are_no_spread(void **state) {
     (void)state;
     static const double by_frame[2][5] = {{600, 300, 200, 900, 30}, {1, 50, 100, 150, 200}};
@@ -42,7 +42,7 @@ static void frames_that_differ_are_no_spread(void **state) {
     assert_true(interval.low == 3.0 && interval.high == 3.0);
 }
 
-// One frame in 20 rounds. The ratio of medians is 2, and b is noisy by +-10 %.
+// There is one frame, in 20 rounds. The ratio of the medians is 2, and b has noise of +-10 %.
 static void rounds_that_differ_are_spread(void **state) {
     (void)state;
     double a[20];
@@ -76,7 +76,8 @@ static void the_median_of_any_order(void **state) {
     }
 }
 
-// Frames take 10 and 20 ms, but 100 ms more in one of five rounds. The medians ignore that round.
+// Frames take 10 and 20 ms, but in one of five rounds they take 100 ms more. The medians ignore
+// this round.
 static void a_time_is_the_mean_of_medians(void **state) {
     (void)state;
     double ms[10];
@@ -86,11 +87,13 @@ static void a_time_is_the_mean_of_medians(void **state) {
     assert_true(dip_stats_time(ms, 2, 5) == 15.0);
     const DipStatsEstimate estimate = dip_stats_time_estimate(ms, 2, 5);
     assert_true(estimate.value == 15.0 && estimate.low == 15.0);
-    // Three or more of five draws take that round with a probability of 5.8 %, more than 2.5 %.
+    // A resample draws the slow round at least three times out of five with a probability of 5.8 %.
+    // This is more than 2.5 %, so the interval reaches the slow round.
     assert_true(estimate.high == 115.0);
 }
 
-// Both are slow in the same rounds, so the ratio is certain although the times are not.
+// Both subjects are slow in the same rounds. So their ratio is certain, although their times are
+// not.
 static void a_paired_ratio_takes_both_from_one_round(void **state) {
     (void)state;
     double a[12], b[12];

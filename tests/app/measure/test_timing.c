@@ -1,4 +1,5 @@
-// Interleaved timing on a fake clock: which subject runs when, what is timed, and what is kept.
+// Tests of interleaved timing on a fake clock: when each subject runs, what is timed, and which
+// times are kept.
 #include "app/measure/statistics.h"
 #include "app/measure/timing.h"
 
@@ -18,7 +19,7 @@ enum { MAX_TURNS = 4096, MAX_SUBJECTS = 8 };
 typedef struct Fake {
     int64_t now_ns;
     DipTimingTurn turns[MAX_TURNS];
-    double ms[MAX_TURNS]; // as after_run received them
+    double ms[MAX_TURNS]; // the times that after_run received
     int count;
     int fail_at; // index of the run that fails; -1 for none
     double slow; // factor by which odd rounds take longer
@@ -28,7 +29,7 @@ typedef struct Fake {
     double last_round[64];
 } Fake;
 
-// Subject s takes (s + 1) * (frame + 1) milliseconds, version 1 twice as long.
+// Subject s takes (s + 1) * (frame + 1) milliseconds in version 0 and twice as long in version 1.
 static double cost_ms(const DipTimingTurn *turn) {
     return (turn->subject + 1.0) * (turn->frame + 1.0) * (turn->version + 1.0);
 }
@@ -119,7 +120,7 @@ static void everything_is_warmed_up_in_order(void **state) {
     }
 }
 
-// Writes each round's order of subjects; returns the number of visits.
+// Writes the subjects of all visits, in the order of the visits. Returns the number of visits.
 static int list_visits(const Fake *fake, int *subjects) {
     int count = 0;
     for (int i = 0; i < fake->count; i++) {
@@ -270,7 +271,7 @@ static void a_failure_ends_the_measurement(void **state) {
 
 // --- ratios ------------------------------------------------------------------------------------
 
-// The machine is three times slower in every other round. The ratio is still certain.
+// In every second round the machine is three times as slow. The ratio is still certain.
 static void ratios_cancel_what_slows_everything(void **state) {
     (void)state;
     static Fake fake;

@@ -1,4 +1,5 @@
-// Truths: their cache, their noise floor, and judging pictures by them.
+// Tests of truths (converged pictures): their cache, their noise floor, and errors of pictures
+// against them.
 #include "app/measure/meter.h"
 #include "app/measure/truth.h"
 #include "renderer/reference/reference.h"
@@ -23,7 +24,7 @@ enum { WIDTH = 48, HEIGHT = 40, PIXELS = WIDTH * HEIGHT };
 static DipTestScene scene;
 static DipReference *reference;
 static DipPool *pool;
-static int calls; // calls of the progress function
+static int calls; // number of calls of the progress function
 static int last_call = 1000000;
 
 static bool count_call(void *context, double done) {
@@ -83,7 +84,7 @@ static void the_cache_gives_the_same(void **state) {
     assert_true(calls > 0);
     check_same(&made, &without);
     dip_truth_free(&found);
-    empty_folder(true); // a file that does not match its hash is made anew
+    empty_folder(true); // damages the file; it is made anew, since its hash does not match
     assert_true(get(&found, &def, "."));
     assert_true(calls > 0);
     check_same(&made, &found);
@@ -93,7 +94,7 @@ static void the_cache_gives_the_same(void **state) {
     dip_truth_free(&without);
 }
 
-// Changing anything that the picture depends on changes its key.
+// If anything that the truth depends on changes, the truth's key changes.
 static void other_pictures_have_other_names(void **state) {
     (void)state;
     DipTruthDef defs[6];
@@ -117,7 +118,8 @@ static void other_pictures_have_other_names(void **state) {
     }
 }
 
-// Half of the halves' difference is about the truth's distance from a much better truth.
+// Half of the difference of a truth's halves is about the truth's difference from a much better
+// truth.
 static void the_floor_estimates_the_truths_own_error(void **state) {
     (void)state;
     const DipTruthDef def = make_def(16);
@@ -152,7 +154,7 @@ static void an_interruption_leaves_nothing(void **state) {
     empty_folder(false);
 }
 
-// A truth that is judged by itself has only the error of its rounding to codes.
+// If a truth is compared with itself, the only error is that of rounding to 8-bit codes.
 static void the_truth_judged_by_itself_has_no_error(void **state) {
     (void)state;
     const DipTruthDef def = make_def(16);

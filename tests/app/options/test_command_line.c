@@ -1,5 +1,5 @@
-// Tests of the commands' tables as a whole: every option of every command is read, refused and
-// explained.
+// Tests of the tables of all commands: every option of every command is read, is refused if its
+// value is wrong, and is explained in the help.
 #include "app/command_line.h"
 #include "app/command_list.h"
 #include "app/help.h"
@@ -26,10 +26,11 @@ static const char *const complete[] = {
     "path info x",  "path convert x y.pth",
 };
 
-// Parses words that are separated by blanks, and perhaps two more arguments.
+// Parses `words`, which are separated by blanks, and then the arguments `more` and `last` if they
+// are not NULL.
 static bool parse(const char *words, const char *more, const char *last, DipCommandLine *line,
                   DipError *err) {
-    static char copy[512]; // Options borrow their texts.
+    static char copy[512]; // Static, since options borrow their texts.
     char *argv[MAX_WORDS] = {(char *)"diptych"};
     int argc = 1;
     snprintf(copy, sizeof copy, "%s", words);
@@ -70,7 +71,7 @@ static char *read_back(FILE *file) {
     return text;
 }
 
-// Calls for every option of every command.
+// Calls `check` for every option of every command.
 static void for_each_row(void (*check)(size_t command, const DipOptionRow *row)) {
     for (size_t c = 0; c < dip_command_list.count; c++) {
         const DipOptionParts *parts = dip_command_list.commands[c]->parts;
@@ -152,7 +153,7 @@ static void check_words(size_t command, const DipOptionRow *row) {
     assert_true(strncmp(row->name, "--", 2) == 0);
     assert_true(length > 8 && isupper((unsigned char)row->text[0]) && row->text[length - 1] == '.');
     assert_int_equal(row->argument == NULL, row->kind == DIP_OPTION_FLAG);
-    // The first row of a name is the only one.
+    // No two rows have the same name, so a search finds this row.
     assert_ptr_equal(dip_option_find(parts, row->name), row);
 }
 
@@ -190,7 +191,8 @@ static void help_fits_a_terminal_of_80_columns(void **state) {
         char *text = help_of(c);
         bool is_example = false;
         for (char *at = strtok(text, "\n"); at; at = strtok(NULL, "\n")) {
-            is_example = strncmp(at, "  diptych", 9) == 0; // Must be copied as it is.
+            // An example may be longer, since it must stay on one line to be copied.
+            is_example = strncmp(at, "  diptych", 9) == 0;
             assert_true(is_example || strlen(at) <= 80);
             assert_true(at[strlen(at) - 1] != ' ');
         }

@@ -1,4 +1,4 @@
-// Tests of options.h: a table with one option of each kind, read into a struct of the test's own.
+// Tests of options.h with a table that has one option of each kind and fills a struct of this test.
 #include "app/options.h"
 #include "renderer/base/assert.h"
 #include "renderer/scene/quality.h"
@@ -15,7 +15,7 @@
 enum { MOST_NAMES = 3, MOST_NUMBERS = 4 };
 
 typedef struct Fields {
-    int guard; // Offset 0 stands for "no such field" in a row.
+    int guard; // Unused: in a row, offset 0 means "no such field".
     bool flag;
     const char *text;
     const char *names[MOST_NAMES];
@@ -31,7 +31,7 @@ typedef struct Fields {
 } Fields;
 
 typedef struct All {
-    double other; // The options' fields are not the first of the struct.
+    double other; // Keeps the options' fields from starting at offset 0.
     Fields fields;
 } All;
 
@@ -95,8 +95,8 @@ static const DipOptionPart part_items[] = {{&first_table, offsetof(All, fields)}
                                            {&second_table, offsetof(All, fields)}};
 static const DipOptionParts parts = {part_items, 2};
 
-// Parses one option with one value; a NULL value leaves it out. Returns the number of arguments
-// used, 0 after a failure.
+// Parses one option with one value; if `value` is NULL, there is no value. Returns the number of
+// arguments used; 0 after a failure.
 static int parse(const char *name, const char *value, All *all, DipError *err) {
     char *const argv[] = {(char *)"diptych", (char *)name, (char *)value};
     int index = 1;

@@ -1,4 +1,4 @@
-// Plots: what the file must contain, whatever its layout.
+// Tests of plots: what the file must contain in any layout.
 #include "app/plot/plot.h"
 
 #include <setjmp.h>
@@ -57,7 +57,8 @@ static void names_and_marks_are_there(void **state) {
     assert_int_equal(count_of("nan") + count_of("inf"), 0);
 }
 
-// A series of marks alone has no line, not in the legend either; each mark has its label.
+// A series that has only marks has no line, neither in the plot nor in the legend. Each mark has
+// its label.
 static void marks_alone_have_labels(void **state) {
     (void)state;
     const double x[] = {1, 2, 4};
@@ -72,7 +73,7 @@ static void marks_alone_have_labels(void **state) {
     assert_int_equal(count_of(">p<") + count_of(">&lt;q&gt;<") + count_of(">r<"), 3);
 }
 
-// On logarithmic axes equal factors are equal distances, so these three points lie on one line.
+// On logarithmic axes, equal factors give equal distances. So these three points lie on one line.
 static void powers_lie_on_a_line(void **state) {
     (void)state;
     const double x[] = {10, 100, 1000};

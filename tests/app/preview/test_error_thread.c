@@ -1,5 +1,5 @@
-// Errors measured while the camera rests: the job's results are compared with the cost report's
-// truth and meter, and the thread with the job.
+// Tests of the errors that are measured while the camera rests. The job's results are compared with
+// the truth and the meter of the cost report, and the thread's results with those of the job.
 #include "app/measure/meter.h"
 #include "app/measure/truth.h"
 #include "app/preview/error_thread.h"
@@ -16,7 +16,8 @@
 
 #include <cmocka.h>
 
-// The picture has several blocks and bands each way, and its last ones are cut off.
+// The picture has several bands, and several blocks in each direction. The picture's size is not a
+// multiple of the size of bands or blocks, so the last bands and blocks are cut off.
 enum { WIDTH = 211, HEIGHT = 163, PIXELS = WIDTH * HEIGHT, STRIDE = 4 * WIDTH + 12 };
 
 static DipTestScene scene;
@@ -37,7 +38,7 @@ static DipTruth truth_of(const DipPose *pose, int samples) {
     return truth;
 }
 
-// Fills in the truth's codes with noise of up to so many codes, in rows that are not packed.
+// Fills in the truth's 8-bit values plus noise of up to `noise`. The rows are not packed.
 static void fill_picture(const DipTruth *truth, int noise, uint8_t *picture) {
     uint32_t random = 1;
     for (int y = 0; y < HEIGHT; y++) {
@@ -60,7 +61,7 @@ static DipStill make_still(bool copied) {
     };
 }
 
-// The figures that the cost report would give.
+// Returns the metrics that the cost report would give.
 static DipMetrics measured_whole(const DipTruth *truth, const uint8_t *picture) {
     DipMeter meter;
     DipFlipAnalysis side;
@@ -93,7 +94,7 @@ static DipErrorJobStep step_to_news(DipErrorJob *job, int *steps) {
     return step;
 }
 
-// At every level the figures equal those of the cost report with the same number of samples.
+// At every level, the errors equal those of the cost report with the same number of samples.
 static void errors_are_the_cost_reports(void **state) {
     (void)state;
     DipErrorJob *job = dip_error_job_create(reference, NULL);
@@ -125,8 +126,8 @@ static void errors_are_the_cost_reports(void **state) {
     dip_error_job_destroy(&job);
 }
 
-// Other pictures of the same pose are compared with the truth that is there; another pose needs a
-// new truth.
+// Other pictures from the same pose are compared with the truth that the job already has. Another
+// pose needs a new truth.
 static void a_truth_is_kept_while_its_pose_is(void **state) {
     (void)state;
     DipErrorJob *job = dip_error_job_create(reference, NULL);
@@ -198,7 +199,7 @@ static void the_thread_answers_once_per_still(void **state) {
     assert_null(thread);
 }
 
-// New stills arrive at every stage of the work; the result for the last one is right.
+// New stills arrive at every stage of the work. The result for the last still is right.
 static void the_thread_drops_stills_that_are_replaced(void **state) {
     (void)state;
     DipErrorThread *thread = make_thread();

@@ -1,4 +1,5 @@
-// The panel's lines of times, errors and work, and the costs and advice of a report.
+// Tests of the panel's lines of times, errors and work, and of the costs and advice that come from
+// a cost report.
 #include "app/cost/formats.h"
 #include "app/preview/panel.h"
 #include "app/preview/state.h"
@@ -77,7 +78,7 @@ static void errors_show_at_rest(void **state) {
     assert_string_equal(value_of(1, "Error"), "not enough memory");
 }
 
-// A copied pane has errors, but neither times nor work of its own.
+// A pane that shows a copy has errors, but neither times nor work.
 static void a_copy_has_errors_only(void **state) {
     (void)state;
     figures.copied = true;
@@ -190,7 +191,8 @@ static void there_is_a_budget_by_default(void **state) {
     dip_costs_make(&costs, &report);
     assert_int_equal(costs.advice_count, 1);
     assert_true(costs.advice[0].budget_ms == 16.6 && costs.advice[0].found);
-    assert_true(costs.advice[0].ms == 4.0); // Of the two combinations, the one with less error.
+    // Both combinations are fast enough; the one of 4 ms has less error.
+    assert_true(costs.advice[0].ms == 4.0);
     char text[160];
     dip_costs_describe(&costs, 0, text, sizeof text);
     assert_non_null(strstr(text, "; baseline 3.0 ms, "));

@@ -1,4 +1,5 @@
-// The preview on a fake display: keys and mouse go in, pixels come out, and no SDL is linked.
+// Tests of the preview on a fake display: keys and mouse events go in, pixels come out. No SDL is
+// linked.
 #include "app/display/fake/fake_display.h"
 #include "app/files/png.h"
 #include "app/preview/loop.h"
@@ -18,7 +19,8 @@
 
 #include <cmocka.h>
 
-// Rows that no label and no status line covers, at every size that is used here.
+// The rows FIRST_ROW..LAST_ROW are covered neither by a label nor by the status line, at every size
+// used here.
 enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 80, LAST_ROW = 270 };
 
 static DipTestScene scene;
@@ -37,7 +39,7 @@ static bool load_scene_def(void *context, DipError *err) {
     return true;
 }
 
-// A path of ten seconds, past the chequers of the scene and back.
+// Makes a path of ten seconds, past the scene's chequers and back.
 static void make_path(void) {
     DipCamKey keys[2];
     for (int i = 0; i < 2; ++i) {
@@ -88,7 +90,7 @@ static int tear_down(void **state) {
 
 // --- driving and looking -----------------------------------------------------------------------
 
-// The display shows what the preview drew: no damage was forgotten.
+// Asserts that the display shows what the preview drew, so no damage was forgotten.
 static void assert_shown(void) {
     const DipPixels shown = dip_fake_display_picture(fake);
     const DipPixels drawn = dip_preview_picture(preview);
@@ -208,7 +210,7 @@ static void a_setting_changes_the_requested_pane(void **state) {
     press('x');
     assert_false(panes_are_same());
     assert_true(pane_is(DIP_PANE_CURRENT, before));
-    press(DIP_KEYCODE_F2); // The other key of the same setting.
+    press(DIP_KEYCODE_F2); // The second key of the same setting.
     assert_int_equal(dip_preview_state(preview)->quality[DIP_PANE_REQUESTED].step[DIP_SETTING_AA],
                      2);
 }
@@ -229,7 +231,7 @@ static void click(int x, int clicks) {
     turn();
 }
 
-// A setting follows the pane that Tab or a click chose.
+// A setting's key changes the pane that Tab or a click has chosen.
 static void tab_and_clicks_choose_the_pane(void **state) {
     (void)state;
     rest();
@@ -276,7 +278,7 @@ static void sheets_cover_and_leave(void **state) {
     }
 }
 
-// The widths are even, odd and tiny, and one is beyond the size that a frame may have.
+// The sizes have even, odd and tiny widths. One is larger than a frame may be.
 static void the_panes_follow_the_display(void **state) {
     (void)state;
     static const int sizes[][2] = {{640, 300}, {321, 290}, {402, 480}, {3, 1}, {1, 1}};
@@ -335,7 +337,8 @@ static void only_changes_are_presented(void **state) {
     assert_int_equal(dip_fake_display_damaged_pixels(fake), WIDTH * HEIGHT);
 }
 
-// The panel measures errors while the picture rests: new figures show without an event.
+// While the camera rests and the panel shows, errors are measured. The errors show although no
+// event arrives.
 static void errors_appear_while_it_rests(void **state) {
     (void)state;
     rest();
@@ -395,7 +398,7 @@ static void a_screenshot_is_the_picture(void **state) {
     assert_true(remove("diptych-0001.png") == 0 && chdir(before) == 0 && rmdir(folder) == 0);
 }
 
-// Whatever the events, the display shows what was drawn (turn checks it) and nothing breaks.
+// After any events, the display shows what was drawn (turn() checks this), and nothing fails.
 static void random_events_do_no_harm(void **state) {
     (void)state;
     uint32_t random = 1;

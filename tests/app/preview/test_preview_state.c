@@ -1,4 +1,5 @@
-// What actions change in the preview's state, the free camera, and the median of frame times.
+// Tests of the actions that change the preview's state, of the free camera, and of the median of
+// frame times.
 #include "app/preview/camera.h"
 #include "app/preview/state.h"
 #include "app/preview/timing.h"
@@ -24,7 +25,7 @@ static DipQuality parse(const char *text) {
     return quality;
 }
 
-// Two paths of 10 s, DEFAULT and AF. The category AA has none.
+// Makes two paths of 10 s for the categories DEFAULT and AF. The category AA has no path.
 static int set_up(void **state) {
     static Fixture fixture;
     fixture = (Fixture){.track = dip_camtrack_make(true)};
@@ -68,23 +69,24 @@ static void settings_cycle(void **state) {
     assert_int_equal(f->state.scene_changes, 6);
 }
 
-// A group size of 4 fits 8 samples only; with another number of samples it goes back to its
-// default.
+// A group size of 4 is valid with 8 samples only. With another number of samples, the group size is
+// reset to its default.
 static void samples_take_the_group_size_along(void **state) {
     Fixture *f = *state;
     f->state.quality[DIP_PANE_REQUESTED] = parse("aa=8,aaa=on,asd=2");
     press(f, DIP_ACTION_SETTING, DIP_SETTING_ASD, false);
-    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD),
-                     3); // 3 does not fit and is skipped
+    // Group size 3 is not valid and is skipped.
+    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD), 3);
     press(f, DIP_ACTION_SETTING, DIP_SETTING_AA, true);
     assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_AA), 3);
     assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD), 0);
     press(f, DIP_ACTION_SETTING, DIP_SETTING_ASD, false);
     press(f, DIP_ACTION_SETTING, DIP_SETTING_AA, false);
-    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD), 1); // 2 fits 8 too
+    // Group size 2 is valid with 8 samples, too.
+    assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_ASD), 1);
 }
 
-// Every setting comes round to its first step, and all settings on the way are valid.
+// Every setting returns to its first step, and all settings on the way are valid.
 static void every_setting_comes_round(void **state) {
     Fixture *f = *state;
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
@@ -100,15 +102,15 @@ static void every_setting_comes_round(void **state) {
 
 static void panes_and_apply(void **state) {
     Fixture *f = *state;
-    press(f, DIP_ACTION_NEXT_PANE, 0, false); // current
+    press(f, DIP_ACTION_NEXT_PANE, 0, false); // now the current pane
     press(f, DIP_ACTION_SETTING, DIP_SETTING_AF, false);
     assert_int_equal(step_of(f, DIP_PANE_CURRENT, DIP_SETTING_AF), 1);
     assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_AF), 0);
-    press(f, DIP_ACTION_NEXT_PANE, 0, false); // both
+    press(f, DIP_ACTION_NEXT_PANE, 0, false); // now both panes
     press(f, DIP_ACTION_SETTING, DIP_SETTING_MIPDEBUG, false);
     assert_int_equal(step_of(f, DIP_PANE_CURRENT, DIP_SETTING_MIPDEBUG), 1);
     assert_int_equal(step_of(f, DIP_PANE_REQUESTED, DIP_SETTING_MIPDEBUG), 1);
-    press(f, DIP_ACTION_NEXT_PANE, 0, false); // requested again
+    press(f, DIP_ACTION_NEXT_PANE, 0, false); // now the requested pane again
     assert_true(f->state.edited[DIP_PANE_REQUESTED] && !f->state.edited[DIP_PANE_CURRENT]);
     press(f, DIP_ACTION_APPLY, 0, false);
     assert_memory_equal(&f->state.quality[0], &f->state.quality[1], sizeof f->state.quality[0]);
@@ -197,7 +199,7 @@ static void camera_flies(void **state) {
     const DipCameraKeys still = {0};
     assert_false(dip_camera_move(&pose, &still, 2.0, 1.0));
     const DipCameraKeys forward = {.forward = 1};
-    assert_true(dip_camera_move(&pose, &forward, 2.0, 1.5)); // looks along -Z
+    assert_true(dip_camera_move(&pose, &forward, 2.0, 1.5)); // the camera looks along -Z
     assert_at(&pose, 0, 0, -3);
     const DipCameraKeys up = {.up = 1};
     dip_camera_move(&pose, &up, 2.0, 0.5);

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Tests the window as a user meets it: presses keys and compares screenshots. Runs inside xvfb-run
+# Tests the window as a user sees it: presses keys and compares screenshots. Runs inside xvfb-run
 # with a screen of 1282x480. Usage: window.sh DIPTYCH
 set -u
 diptych=$1
@@ -17,7 +17,7 @@ fail() {
     exit 1
 }
 
-# await DESCRIPTION COMMAND...: tries for 20 seconds.
+# await DESCRIPTION COMMAND...: repeats the command until it succeeds, for at most 20 seconds.
 await() {
     what=$1
     shift
@@ -30,18 +30,19 @@ await() {
     done
 }
 
-# Both panes without the strips above and below, as left.png and right.png.
+# Takes a screenshot and writes both panes, without the labels and the status line, to left.png and
+# right.png.
 shoot() {
     import -window root screen.png
     convert screen.png -crop 640x360+0+70 +repage left.png
     convert screen.png -crop 640x360+642+70 +repage right.png
 }
 
-differing() { # pixels that differ between two pictures
+differing() { # prints the number of pixels that differ between two pictures
     compare -metric AE "$1" "$2" null: 2>&1
 }
 
-deviation() { # spread of grey values, 0 for a flat picture
+deviation() { # prints the spread of grey values; 0 for a picture of one colour
     convert "$1" -colorspace Gray -format '%[fx:int(1000*standard_deviation)]' info:
 }
 
@@ -71,7 +72,7 @@ await "the window opens" found
 xdotool windowfocus "$window" 2>/dev/null
 await "both panes show the scene" both_show_something
 
-# It moves by itself, stands still when paused, and equal settings give equal pictures.
+# The picture moves by itself and stands still when paused. Equal settings give equal pictures.
 cp left.png before.png
 await "the picture moves" left_changed before.png
 xdotool key space
@@ -81,7 +82,7 @@ cp left.png before.png
 xdotool key period period period
 await "stepping moves the picture" left_changed before.png
 
-# A setting changes the pane it acts on at once; Apply takes it over.
+# A setting changes its pane at once. Apply copies the setting to the other pane.
 xdotool key f
 await "anisotropic filtering changes the requested pane" panes_differ 2000
 xdotool key Return
@@ -90,7 +91,7 @@ cp left.png before.png
 xdotool key m
 await "mip colours show" panes_differ 100000
 shoot
-left_same before.png || fail "the current pane changed with the requested one's setting"
+left_same before.png || fail "a setting of the requested pane changed the current pane"
 xdotool key Tab m
 await "Tab makes the keys act on the current pane" panes_equal
 
@@ -111,12 +112,12 @@ await "the panel shows" left_changed before.png
 xdotool key r
 await "the panel goes away" left_same before.png
 xdotool key u
-await "the costs show how to get them" left_changed before.png
+await "the costs sheet says how to make a report" left_changed before.png
 xdotool key u
 await "the costs go away" left_same before.png
 xdotool key F12
 await "a screenshot is written" screenshot_there
-[ "$(identify -format '%wx%h' diptych-0001.png)" = 1282x480 ] || fail "screenshot of a wrong size"
+[ "$(identify -format '%wx%h' diptych-0001.png)" = 1282x480 ] || fail "the screenshot has the wrong size"
 
 # The panes follow the window.
 xdotool windowsize "$window" 800 300
@@ -129,19 +130,19 @@ resized_panes_show() {
 }
 await "both panes show in the smaller window" resized_panes_show
 
-# It ends while the errors are being measured.
+# The program ends while it measures errors.
 xdotool key r
 sleep 0.3
 xdotool key Escape
 wait "$pid"
 code=$?
 pid=
-[ $code = 0 ] || fail "quitting gave exit code $code: $(cat errors.txt)"
-[ ! -s errors.txt ] || fail "said something unasked: $(cat errors.txt)"
+[ $code = 0 ] || fail "quitting gave exit code $code, expected 0: $(cat errors.txt)"
+[ ! -s errors.txt ] || fail "the program printed a message: $(cat errors.txt)"
 
-# Without a display: one line that names the way out, exit code 1.
+# Without a display, the program ends with exit code 1 and a line that names `diptych dump`.
 env -u DISPLAY -u WAYLAND_DISPLAY -u SDL_VIDEODRIVER "$diptych" 2>errors.txt
 code=$?
 [ $code = 1 ] || fail "exit code $code without a display, expected 1"
-grep -q 'diptych dump' errors.txt || fail "no word of dump without a display: $(cat errors.txt)"
+grep -q 'diptych dump' errors.txt || fail "the message without a display does not name dump: $(cat errors.txt)"
 echo "window: done"

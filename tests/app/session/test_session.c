@@ -1,6 +1,6 @@
 // Tests of session.h: what a session loads, that it reports every fault, and that neither a failed
-// nor a closed session keeps memory. The linker sends the libraries' allocations here (--wrap).
-// Usage: test_session SOURCE_FOLDER
+// nor a closed session keeps memory. The linker's option --wrap sends the libraries' allocations to
+// the functions here. Usage: test_session SOURCE_FOLDER
 #include "app/session.h"
 
 #include <setjmp.h>
@@ -70,7 +70,8 @@ static char model[512];    // A square with a texture.
 static char path[512];
 static char shipped[512]; // The ini of the courtyard.
 
-// Writes the shipped ini with absolute names to a temporary file, with the lines of `key` replaced.
+// Writes the shipped ini to a temporary file, with absolute file names. `line` replaces the lines
+// of `key`.
 static void write_ini(char file[64], const char *key, const char *line) {
     char text[512];
     snprintf(file, 64, "/tmp/test_session.%d.ini", (int)getpid());
@@ -102,7 +103,7 @@ static DipSessionOptions small_options(void) {
                                .threads = 2};
 }
 
-// Opens a session that must fail. Checks that it is empty and that it keeps no memory. Returns the
+// Opens a session that must fail. Checks that the session is empty and keeps no memory. Returns the
 // faults; the caller frees them.
 static DipErrorList open_badly(const DipSessionOptions *options) {
     const DipSessionDef def = {.options = options, .scene = true, .renderers = true};
@@ -117,11 +118,11 @@ static DipErrorList open_badly(const DipSessionOptions *options) {
     assert_null(session.renderers[0]);
     assert_null(session.renderers[1]);
     assert_true(faults.error_count > 0);
-    assert_int_equal(atomic_load(&live_blocks), before + 1); // The list of faults.
+    assert_int_equal(atomic_load(&live_blocks), before + 1); // The one block is the list of faults.
     return faults;
 }
 
-// True if one of the faults has this code and key, and names this file.
+// Returns whether one of the faults has this code and key, and names this file.
 static bool has_fault(const DipErrorList *faults, DipErrorCode code, const char *key,
                       const char *file) {
     for (size_t i = 0; i < faults->count; i++) {
