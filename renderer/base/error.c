@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Copies a text. If the text is too long, only its end is copied, because the ends of paths differ.
+// Copies a text. If the text is too long, only its end is copied, because different paths mostly
+// differ at the end.
 static void copy_tail(char *to, size_t size_bytes, const char *from) {
     const size_t length = from ? strlen(from) : 0;
     const size_t skip = length >= size_bytes ? length - size_bytes + 1 : 0;

@@ -21,15 +21,15 @@ extern "C" {
 #define DIP_ERROR_LIST(X)                                                                          \
     X(NONE, "no error")                                                                            \
     X(IO, "a file cannot be opened, read or written")                                              \
-    X(FORMAT, "a file is not of the format it should have")                                        \
+    X(FORMAT, "a file does not have the expected format")                                          \
     X(TRUNCATED, "a file ends too early")                                                          \
     X(OVERSIZED, "a file or line is longer than is accepted")                                      \
     X(RANGE, "a number is outside its range, or not finite")                                       \
-    X(TYPE, "a value is not of the type its key has")                                              \
-    X(UNKNOWN, "a key, setting or name that is not known")                                         \
+    X(TYPE, "a value does not have the type of its key")                                           \
+    X(UNKNOWN, "a key, setting or name is not known")                                              \
     X(MISSING, "a key, value or file that is required is missing")                                 \
-    X(CONFLICT, "two values that cannot hold together")                                            \
-    X(UNSUPPORTED, "understood, but not in this version")                                          \
+    X(CONFLICT, "two values contradict each other")                                                \
+    X(UNSUPPORTED, "a feature that this version does not support")                                 \
     X(MEMORY, "out of memory")                                                                     \
     X(RUNTIME, "a failure while running")
 
@@ -66,14 +66,14 @@ DIP_API bool dip_error_set(DipError *err, DipErrorCode code, const char *file, i
                            const char *key, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-// Does the same, but sets the origin RUNTIME for every code. Examples: a file cannot be written,
-// another program broke off.
+// Does the same as dip_error_set, but sets the origin RUNTIME for every code. Use it, for example,
+// if a file cannot be written or another program broke off.
 DIP_API bool dip_error_set_runtime(DipError *err, DipErrorCode code, const char *file, int line,
                                    const char *key, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
 // Writes "file:line: [key] message", without the parts that the error does not have. Returns the
-// length of the whole text, even if the buffer is too small for it, as snprintf does.
+// length of the whole text, as snprintf does, even if the buffer is too small for the text.
 DIP_API size_t dip_error_format(const DipError *err, char *buffer, size_t size_bytes);
 
 // Returns the name of a code: "IO", "RANGE", ...

@@ -10,9 +10,9 @@
 extern "C" {
 #endif
 
-// Allocates at least size_bytes, aligned to a cache line. The caller frees them with free().
-// Returns NULL if memory runs out. Blocks of 1 MiB and more get huge pages if the system has free
-// ones, which saves TLB misses. Thread-safe.
+// Allocates at least size_bytes bytes, aligned to a cache line. The caller frees the block with
+// free(). Returns NULL if memory runs out. Blocks of 1 MiB and more get huge pages if the system
+// has free ones, which saves TLB misses. Thread-safe.
 DIP_API void *dip_pages_alloc(size_t size_bytes);
 
 #ifdef __cplusplus

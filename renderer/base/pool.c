@@ -12,7 +12,7 @@
 
 // Time in nanoseconds that an idle worker looks for work before it sleeps. This is about as long as
 // the pause between two panes or between the stages of a frame. Waking a sleeping thread would take
-// about as long as a good part of a geometry stage.
+// about as long as a large part of a frame's geometry stage.
 #define SPIN_NS 300000
 
 enum { CHECKS_PER_CLOCK_READ = 64 }; // number of checks for work between two reads of the clock
@@ -33,7 +33,7 @@ struct DipPool {
     int thread_count;
     Worker *workers; // thread_count - 1 workers; the caller of dip_pool_run is worker 0
     int started;     // number of workers whose threads have been started
-    bool spins;      // waiting threads spin: true if there is a processor for each thread
+    bool spins;      // whether waiting threads spin: only if there is a processor for each thread
 
     // The current run. The caller writes these while no run is open and no worker is inside.
     DipTask task;
@@ -110,7 +110,7 @@ static void *worker_main(void *argument) {
             work(pool, self->index);
             atomic_fetch_sub_explicit(&pool->state, 1, memory_order_release);
         } else if (atomic_load_explicit(&pool->stop, memory_order_acquire)) {
-            return NULL; // the worker missed a run, perhaps the last one, which stops the pool
+            return NULL; // the pool is being stopped, and this worker woke too late for a run
         }
     }
 }

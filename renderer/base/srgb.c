@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-// Returns x^(1/5) for 0 < x <= 1.2, by Newton's method. It starts above the root, from where it
-// converges monotonically.
+// Returns x^(1/5) for 0 < x <= 1.2, by Newton's method. The iteration starts above the root and
+// falls monotonically to the root.
 static double fifth_root(double x) {
     double y = 1.1;
     for (int i = 0; i < 200; i++) {
@@ -34,8 +34,8 @@ void dip_srgb_decode_table(DipSrgbDecodeTable *table) {
 }
 
 void dip_srgb_encode_table(DipSrgbEncodeTable *table) {
-    // Code c begins at the first entry i whose light, i / 65535, is at least that of the sRGB value
-    // (c - 1/2) / 255.
+    // Entry i belongs to the linear light i / 65535. The first entry with code c is the first whose
+    // light is at least the light of the sRGB value (c - 1/2) / 255.
     int code = 0;
     double end = dip_srgb_decode(0.5 / 255.0);
     for (int i = 0; i <= DIP_LINEAR16_MAX; i++) {

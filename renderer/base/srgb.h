@@ -1,8 +1,8 @@
-// Conversion between sRGB and linear light: an exact function for preparations, and tables for
-// pixels.
+// Conversion between sRGB and linear light: a slow, precise function for use at set-up, and fast
+// tables for use per pixel.
 //
-// The formulas are those of IEC 61966-2-1. The functions use only + - * /, so the tables are the
-// same on every machine. A code is an 8-bit encoded value, 0..255. All functions are thread-safe.
+// The formulas follow IEC 61966-2-1. The functions use only + - * /, so the tables are the same on
+// every machine. A code is an 8-bit encoded value, 0..255. All functions are thread-safe.
 #ifndef DIP_RENDERER_BASE_SRGB_H
 #define DIP_RENDERER_BASE_SRGB_H
 

@@ -51,7 +51,7 @@ static double cos_series(double x) {
     sum = sum * s + 1.0 / 40320.0;
     sum = sum * s - 1.0 / 720.0;
     sum = sum * s + 1.0 / 24.0;
-    // 1 - s/2 + s^2 sum, corrected by the rounding error of 1 - s/2.
+    // The result is 1 - s/2 + s^2 * sum. The rounding error of 1 - s/2 is added back.
     const double half = 0.5 * s;
     const double head = 1.0 - half;
     return head + (((1.0 - head) - half) + s * s * sum);
