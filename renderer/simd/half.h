@@ -7,10 +7,10 @@
 
 // --- half vectors ------------------------------------------------------------------------------
 
-// A half vector has as many lanes as doubles fit into a vector of vec.h. Vd and Vl have lanes of 64
-// bits; Hf, Hi and Hu have the same number of lanes of 32 bits. If a half vector has two lanes, the
-// 32-bit types have two further lanes, which loads set to 0 and no code uses. A condition is a
-// vector with 0 (false) or -1 (true) per lane; comparisons return it.
+// The number of lanes of a half vector is the number of doubles that fit into a vector of vec.h. Vd
+// and Vl have lanes of 64 bits; Hf, Hi and Hu have the same number of lanes of 32 bits. If a half
+// vector has two lanes, the 32-bit types have two further lanes, which loads set to 0 and no code
+// uses. A condition is a vector with 0 (false) or -1 (true) per lane; comparisons return it.
 enum { DIP_HALF_LANES = DIP_LANES > 1 ? DIP_LANES / 2 : 1 };
 
 #define VEC_HALF_BYTES (DIP_LANES == 4 ? 16 : 4 * (DIP_LANES > 1 ? DIP_LANES / 2 : 1))
@@ -252,8 +252,8 @@ VEC_INLINE void vl_store_rows(void *out, size_t stride_bytes, const Vl row[4]) {
                              _mm512_unpacklo_epi64((__m512i)row[2], (__m512i)row[3])};
     const __m512i odd[2] = {_mm512_unpackhi_epi64((__m512i)row[0], (__m512i)row[1]),
                             _mm512_unpackhi_epi64((__m512i)row[2], (__m512i)row[3])};
-    // lanes[i] holds the four words of lane i in its lower half, and those of lane i + 4 in its
-    // upper half.
+    // The lower half of lanes[i] holds the four words of lane i. The upper half holds the four
+    // words of lane i + 4.
     const __m512i lanes[4] = {_mm512_permutex2var_epi64(even[0], first, even[1]),
                               _mm512_permutex2var_epi64(odd[0], first, odd[1]),
                               _mm512_permutex2var_epi64(even[0], second, even[1]),

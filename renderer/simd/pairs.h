@@ -42,7 +42,7 @@ VEC_INLINE Vu vu_dot16(Vu a, uint32_t b) {
 #endif
 }
 
-// Brings lanes into pair order, which vu_gather_pairs expects of its indices.
+// Brings lanes into pair order. vu_gather_pairs expects its indices in this order.
 VEC_INLINE Vi vi_pair_order(Vi v) {
 #if VEC_AVX512
     const __m512i order = _mm512_set_epi32(15, 14, 11, 10, 7, 6, 3, 2, 13, 12, 9, 8, 5, 4, 1, 0);
@@ -98,8 +98,8 @@ VEC_INLINE VuPair vu_pair_same(Vu v) {
 #endif
 }
 
-// Returns pairs in which the left and the right value are equal. Each 16-bit half of them is 256
-// times the lane's lowest byte.
+// Returns pairs in which the left and the right value are equal. Each 16-bit half of these values
+// is 256 times the lane's lowest byte.
 VEC_INLINE VuPair vu_pair_both(Vi v) {
 #if VEC_AVX512 || VEC_AVX2
     const __m128i spread_a = _mm_set_epi8(4, -1, 4, -1, 4, -1, 4, -1, 0, -1, 0, -1, 0, -1, 0, -1);

@@ -345,8 +345,8 @@ VEC_INLINE Vi vi_load_bytes(const uint8_t *p) {
 #endif
 }
 
-// Stores to p the lanes of v that are set in m. `old` must be what p holds, because the other lanes
-// may be overwritten with it.
+// Stores to p the lanes of v that are set in m. `old` must be the vector that is in memory at p,
+// because the other lanes may be overwritten with the lanes of `old`.
 VEC_INLINE void vf_store_lanes(float *p, Mask m, Vf v, Vf old) {
 #if VEC_AVX512
     (void)old;
@@ -394,7 +394,7 @@ VEC_INLINE Vf vf_lookup16(const float table[16], Vi index) {
 }
 
 // Returns in lane i the four bytes that start at base[index[i]], read as a little-endian number.
-// They need no alignment.
+// The bytes need no alignment.
 VEC_INLINE Vu vu_gather_bytes(const uint8_t *base, Vi index) {
 #if VEC_AVX512
     return (Vu)_mm512_i32gather_epi32((__m512i)index, base, 1);
@@ -418,7 +418,8 @@ VEC_INLINE int vu_compress(uint32_t *out, unsigned bits, Vu v) {
     _mm512_storeu_si512(out, packed);
     return __builtin_popcount(bits);
 #elif VEC_AVX2
-    // These words have one byte per lane. The numbers of the lanes that stay are moved together.
+    // Each of these words has one byte per lane. In `stay`, the bytes of the lanes to store are
+    // 255. `order` gets the numbers of these lanes, without gaps.
     const uint64_t stay = _pdep_u64(bits, 0x0101010101010101u) * 255;
     const uint64_t order = _pext_u64(0x0706050403020100u, stay);
     const __m256i lane = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order));
