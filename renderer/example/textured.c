@@ -1,6 +1,6 @@
 // Draws a textured cube that is sunk into a textured floor. The example shows how a caller makes
-// its own projection with a near and a far plane. It also shows hidden surfaces, mip chains and
-// anisotropic filtering.
+// its own projection with a near and a far plane. It also shows how near surfaces hide far ones,
+// and how to use mip chains and anisotropic filtering.
 //
 // Usage: textured FILE.ppm
 #include "renderer/pipeline/pipeline.h"
