@@ -60,7 +60,7 @@ DIP_API void dip_bc1_light_fill(DipBc1Light *light);
 DIP_API void dip_bc1_palette(const DipBc1Light *light, const uint8_t block[DIP_BC1_BYTES],
                              uint32_t texels[4]);
 
-// Returns which of the four colours, 0..3, texel i = 4 y + x of the block shows.
+// Returns the index, 0..3, of the colour that texel i = 4 y + x of the block has.
 static inline int dip_bc1_choice(const uint8_t block[DIP_BC1_BYTES], int i) {
     return block[4 + (i >> 2)] >> 2 * (i & 3) & 3;
 }

@@ -8,8 +8,11 @@
 extern "C" {
 #endif
 
-// Work done, as X(name, "what it counts"). The counts are exact: they are the same for any thread
-// count, SIMD width and machine.
+// Work done, as X(name, "what it counts"). A sample group is a set of samples of one pixel that
+// adaptive antialiasing clips and shades together (pattern.h). A patch is a small group of
+// triangles that join smoothly (patch.h). A probe is one bilinear read of a mip level.
+// The counts are exact: they are the same for any thread count, SIMD
+// width and machine.
 #define DIP_PIPELINE_COUNTER_LIST(X)                                                               \
     X(passes, "render passes drawn")                                                               \
     X(tiles_drawn, "64x64-pixel tiles drawn in these passes")                                      \
@@ -24,7 +27,7 @@ extern "C" {
     X(fragments_shaded, "fragments shaded: one per pixel and visible patch")                       \
     X(samples_shown, "samples that show a surface: covered, nearest, kept by its clip map")        \
     X(pixels_resolved, "pixels whose samples show more than one fragment")                         \
-    X(texture_probes, "texture probes, without those of the coarser of two levels")                \
+    X(texture_probes, "texture probes in the finer mip level of each read")                        \
     X(texels_fetched, "texels read for all probes, in both levels")                                \
     X(target_bytes, "bytes of colour written to targets")
 

@@ -18,7 +18,7 @@ enum { DIP_VIEW_PLANES = 6, DIP_MAX_CULL_PLANES = DIP_VIEW_PLANES + DIP_MAX_CLIP
 // planes. The other planes of the array are padding; every point is inside them.
 typedef struct DipCullPlanes {
     int count;
-    // [coordinate][plane], so that a vector can hold one coordinate of several planes.
+    // The index is [coordinate][plane], so that a vector can hold one coordinate of several planes.
     float normal[4][DIP_MAX_CULL_PLANES];
 } DipCullPlanes;
 
@@ -33,8 +33,8 @@ DIP_API DipCullPlanes dip_cull_view_planes(const double world_to_clip[16]);
 // Returns whether a box lies wholly outside one of the planes.
 DIP_API bool dip_cull_outside(const DipCullPlanes *planes, const DipBox *box);
 
-// Returns a box in world space that holds the transformed box. A margin covers the rounding of the
-// shader that transforms the vertices. transform: rows of a 3x4 matrix.
+// Returns a box in world space that contains the transformed box. A margin covers the rounding of
+// the shader that transforms the vertices. transform: rows of a 3x4 matrix.
 DIP_API DipBox dip_cull_transform_box(const float transform[12], const DipBox *box);
 
 #ifdef __cplusplus

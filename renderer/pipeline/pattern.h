@@ -33,8 +33,9 @@ typedef struct DipSamplePattern {
     uint8_t x[DIP_SAMPLE_ROOM];
     uint8_t y[DIP_SAMPLE_ROOM];
     // sharing[n][g]: the samples of group g, one bit per sample, when the pattern is divided into
-    // groups of n >= 2 samples. It is 0 if the pattern cannot be divided into several groups of n.
-    // The groups' centroids, taken as a pattern, have the least error over all edge orientations.
+    // groups of n >= 2 samples. The entry is 0 if the pattern cannot be divided into several groups
+    // of n. The groups' centroids, taken as a pattern, have the least error over all edge
+    // orientations.
     uint8_t sharing[DIP_MAX_SHARING + 1][DIP_MAX_SAMPLES];
 } DipSamplePattern;
 

@@ -57,9 +57,10 @@ typedef struct DipPass {
     int sample_count; // 1, 2, 4, 6 or 8 samples per pixel
     DipPatternKind pattern;
     // Adaptive antialiasing of alpha-clipped draws (draws with a clip shader). A pixel's samples
-    // are divided into groups of this many. Each group is clipped and shaded by itself, at the
-    // centroid of its covered samples. dip_sample_groups_exist (pattern.h) must return true for
-    // sample_count and this number. 0 or sample_count: no division, shading as for any other draw.
+    // are divided into groups of this number of samples. Each group is clipped and shaded by
+    // itself, at the centroid of its covered samples. dip_sample_groups_exist (pattern.h) must
+    // return true for sample_count and this number. If the number is 0 or sample_count, the samples
+    // are not divided, and these draws are shaded like any other draw.
     int samples_per_group;
     float clear_lin[3]; // linear light, clamped to 0..1
     // User clip planes in clip space. A surface is kept where dot(plane, clip position) >= 0.

@@ -51,12 +51,13 @@ typedef struct DipShaderWork {
 typedef struct DipFragmentBatch DipFragmentBatch;
 
 // Reads a texture at the coordinates u and v, which are varyings u_varying and u_varying + 1. The
-// derivatives of u and v give the footprint. Writes linear light, 0..1, to out[0..2][i].
+// derivatives of u and v determine the footprint: the area of the texture that a pixel covers.
+// Writes linear light, 0..1, to out[0..2][i].
 typedef void DipSampleColour(DipFragmentBatch *batch, const DipSampler *sampler, int u_varying,
                              float (*out)[DIP_FRAGMENT_BATCH]);
 
-// Samples two textures at the same coordinates. It costs less than two calls if both textures have
-// the same size and sampler settings.
+// Samples two textures at the same coordinates. One such call costs less than two calls of
+// DipSampleColour if both textures have the same size and sampler settings.
 typedef void DipSampleColours(DipFragmentBatch *batch, const DipSampler *const samplers[2],
                               int u_varying, float (*const out[2])[DIP_FRAGMENT_BATCH]);
 

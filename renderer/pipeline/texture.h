@@ -82,17 +82,21 @@ DIP_API void dip_texture_level_size(const DipTexture *texture, int level, int *w
 DIP_API uint64_t dip_texture_colour_bytes(const DipTexture *texture);
 DIP_API uint64_t dip_texture_alpha_bytes(const DipTexture *texture);
 
-// How a shader reads a texture. Levels of detail are in units of 1/256 level.
+// How a shader reads a texture. A footprint is the area of the texture that a pixel covers. A read
+// takes probes (bilinear reads) along the footprint's long axis. Levels of detail are in units of
+// 1/256 level.
 typedef struct DipSampler {
     const DipTexture *texture;
     int max_anisotropy; // most probes along a footprint's long axis: 1 (trilinear) .. 16
-    // True: the long axis is that of the footprint's exact ellipse. False: the long axis is
-    // estimated from the screen derivatives, so the level of detail depends on the surface's angle
-    // on the screen.
+    // True: the long axis is the major axis of the footprint's exact ellipse. False: the long axis
+    // is estimated from the screen derivatives, so the level of detail depends on the surface's
+    // angle on the screen.
     bool exact_footprint;
     int32_t bias_lod8; // added to the level of detail
     int32_t min_lod8;  // smallest level of detail
-    bool cheap; // blends levels over a quarter of the way only, and takes half as many probes
+    // True saves time: two levels are blended only in the middle quarter of the way from one to the
+    // other, and a footprint gets half the number of probes, rounded up.
+    bool cheap;
     // Mip debugging: where a shader reads level l of `texture`, it gets level shown_level[l] of
     // `shown`. If `shown` is NULL, it gets `texture` itself.
     const DipTexture *shown;

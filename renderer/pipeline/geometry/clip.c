@@ -39,8 +39,8 @@ static double distance_to(int32_t code, const DipScreenMapping *map, const float
 
 static void intersect(const DipClipVertex *inside, const DipClipVertex *outside, double from,
                       double to, int varying_count, DipClipVertex *out) {
-    // keep_one_run may have treated an inside vertex as outside. Both vertices are then on the same
-    // side, and the result is the outside vertex itself.
+    // keep_one_run may have treated an inside vertex as outside. Both vertices are then inside the
+    // plane, t is 1, and the result is the vertex `outside` itself.
     const double at = from / (from - to);
     const double t = at >= 0.0 && at <= 1.0 ? at : 1.0;
     for (int i = 0; i < 4; i++) {

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-// Adds a clip-space plane, transformed back to the space from which matrix m goes to clip space.
-// Row r of m yields clip coordinate r, so the new plane is a weighted sum of the rows.
+// Adds a clip-space plane, transformed back to the space that matrix m maps to clip space. Row r of
+// m yields clip coordinate r, so the new plane is a weighted sum of the rows.
 static void transform_plane(const float *m, const float clip[4], DipCullPlanes *planes) {
     const int p = planes->count++;
     for (int c = 0; c < 4; c++) {
@@ -127,7 +127,7 @@ static bool any(Ints mask) {
     return halves[0] | halves[1];
 }
 
-// On which sides of planes 4 v .. 4 v + 3 a box lies.
+// The position of a box relative to planes 4 v .. 4 v + 3, one lane per plane.
 typedef struct Sides {
     Ints outside; // the box is wholly outside the plane
     Ints crossed; // the box is not wholly inside the plane

@@ -13,10 +13,11 @@
 enum {
     TRIANGLE_RUN = 1024, // number of triangles for which a job takes space at a time
     BLOCK_RUN = 32,      // number of bin blocks that a job takes at a time
-    // A run is the space that a job takes at a time. At most this many triangles of it stay unused.
+    // A run is the space that a job takes at a time. At most this much of its space, counted in
+    // triangles, stays unused.
     TRIANGLE_RUN_WASTE = DIP_SETUP_BATCH + DIP_SETUP_EXCESS,
-    LEAST_SLACK = 4096, // triangles
-    MEAN_BIN_TILES = 2, // tiles per triangle for which a pass with very many triangles has space
+    LEAST_SLACK = 4096, // smallest slack (DipGeometry.slack), in triangles
+    MEAN_BIN_TILES = 2, // bin entries per triangle, if there are very many triangles
 };
 
 // Margin around the region, so that rounding in the clipper never rejects a visible triangle.
@@ -206,9 +207,9 @@ static bool is_needed(const DipGeometry *geometry, size_t tile) {
     return !parts || parts[tile].x1;
 }
 
-// Threads take tiles in the order of geometry->tiles, which goes by groups of 2x2 tiles. Threads
-// then work on neighbouring tiles for longer than if the order went along rows. Neighbouring tiles
-// read much the same texels and triangles.
+// Threads take tiles in the order of geometry->tiles: one group of 2x2 tiles after the other.
+// Compared with an order along rows, threads work on neighbouring tiles for longer. Neighbouring
+// tiles read much the same texels and triangles.
 enum { TILE_GROUP = 2 };
 
 static void list_group(DipGeometry *geometry, int x0, int y0) {
@@ -457,7 +458,8 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
 
 // --- one job -----------------------------------------------------------------------------------
 
-// A triangle is invisible if all its vertices lie outside the same plane, one of these.
+// The clip codes that reject triangles. A triangle is invisible if one of these codes is set for
+// all its vertices.
 enum {
     REJECT = DIP_CLIP_PICTURE | DIP_CLIP_NEAR | DIP_CLIP_FAR | DIP_CLIP_W | DIP_CLIP_ALL_USER,
 };

@@ -1,4 +1,5 @@
-// The geometry stage: turns meshes into set-up triangles and bins them to tiles.
+// The geometry stage: turns meshes into set-up triangles and sorts them into bins, which are
+// lists per tile.
 //
 // The chunks of a pass that may be in view are divided into jobs. The number of jobs does not
 // depend on the number of threads. A job takes space for its triangles from shared arrays without

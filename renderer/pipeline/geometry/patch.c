@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The squared cosine of 20 degrees, the greatest angle to the first triangle's normal.
+// The squared cosine of 20 degrees: the greatest angle between a triangle's normal and the normal
+// of the patch's first triangle.
 static const double least_cosine2 = 0.883;
 
 #define FREE UINT32_MAX // the triangle has no patch yet
@@ -14,7 +15,7 @@ typedef struct Grower {
     size_t stride;
     const uint32_t *indices;
     uint32_t *patches;
-    uint32_t *first; // triangles[first[v]] .. triangles[first[v + 1] - 1] are those of vertex v
+    uint32_t *first; // vertex v has triangles[first[v]] .. triangles[first[v + 1] - 1]
     uint32_t *triangles;
     uint32_t queue[DIP_PATCH_TRIANGLES]; // triangles of the patch that is growing
     uint32_t queued;
@@ -67,7 +68,7 @@ static uint32_t fan_size(const Grower *grower, uint32_t vertex) {
 
 // Adds the free triangles across edge a-b to the patch, as long as the patch has space. The
 // function searches the triangles of vertex a or b, whichever has fewer. If both vertices have more
-// than DIP_PATCH_FAN triangles, it searches none, so that no mesh takes long.
+// than DIP_PATCH_FAN triangles, it searches none. This limits the time for any mesh.
 static void add_neighbours(Grower *grower, uint32_t a, uint32_t b, uint32_t patch) {
     const uint32_t end = fan_size(grower, b) < fan_size(grower, a) ? b : a;
     if (fan_size(grower, end) > DIP_PATCH_FAN) {

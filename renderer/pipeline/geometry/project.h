@@ -12,12 +12,13 @@ enum {
     DIP_CLIP_NEAR = 1 << 0, // z > w
     DIP_CLIP_FAR = 1 << 1,  // z < 0
     DIP_CLIP_W = 1 << 2,    // w below DIP_MIN_W
-    // Beyond the drawn part of the picture. These four planes only reject triangles.
+    // The vertex lies beyond the drawn part of the picture. These four planes only reject
+    // triangles.
     DIP_CLIP_LEFT = 1 << 3,
     DIP_CLIP_RIGHT = 1 << 4,
     DIP_CLIP_TOP = 1 << 5,
     DIP_CLIP_BOTTOM = 1 << 6,
-    // Beyond the guard band. These four planes clip triangles.
+    // The vertex lies beyond the guard band. These four planes clip triangles.
     DIP_CLIP_GUARD_LEFT = 1 << 7,
     DIP_CLIP_GUARD_RIGHT = 1 << 8,
     DIP_CLIP_GUARD_TOP = 1 << 9,

@@ -11,7 +11,7 @@
 
 enum {
     DIP_SETUP_BATCH = 128, // most triangles of a batch
-    // Set-up may overwrite the space of this many triangles after those that it keeps.
+    // Set-up may overwrite the space of this many triangles after the triangles that it keeps.
     DIP_SETUP_EXCESS = 8,
 };
 

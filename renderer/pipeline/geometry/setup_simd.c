@@ -1,10 +1,11 @@
-// Triangle set-up, compiled once per instruction set. Set-up first rejects triangles of a batch.
-// Then it computes the edges, the depth and the shading planes of the remaining triangles.
+// Triangle set-up, compiled once per instruction set. Set-up first rejects the triangles of a batch
+// that are certainly not drawn. Then it computes the edges, the depth and the shading planes of the
+// remaining triangles.
 //
 // Planes are computed in double precision, so that slivers keep their precision. They are stored as
-// floats relative to an anchor (triangle.h). In 1/256 pixel, the magnitudes of rounded positions
-// are below 2^22 and those of edges below 2^23. Areas and edge constants are therefore whole
-// numbers that doubles hold exactly.
+// floats relative to an anchor (triangle.h). Counted in 1/256 pixel, rounded positions are below
+// 2^22 in magnitude, and edges are below 2^23. Areas and edge constants are therefore whole numbers
+// that doubles hold exactly.
 #include "renderer/pipeline/geometry/setup.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/half.h"

@@ -227,7 +227,7 @@ VEC_INLINE int touch_sub_block(DipTile *tile, const Region *region, int n, int s
     return block * sample_count * DIP_BLOCK_PIXELS + quarter * DIP_SUB_BLOCK_PIXELS;
 }
 
-// One vector of edge values: those at sample 0 of DIP_LANES pixels of a sub-block.
+// One vector of edge values at sample 0 of DIP_LANES pixels of a sub-block.
 typedef struct PixelEdges {
     Vi at[3];
 } PixelEdges;

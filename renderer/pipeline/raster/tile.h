@@ -1,10 +1,10 @@
 // The visibility buffer of a tile: for each sample, the nearest depth and the triangle with this
 // depth.
 //
-// A tile has 64x64 pixels. It consists of 8x8 blocks. A block consists of 2x2 sub-blocks, and a
-// sub-block of 4x4 pixels; all are in row order. The values of sample s in a block are a run of 64,
-// one per pixel. A vector of 1, 4, 8 or 16 lanes therefore always lies within a sub-block, and no
-// result depends on the vector's width.
+// A tile has 64x64 pixels. It consists of 64 blocks of 8x8 pixels. A block consists of four
+// sub-blocks of 4x4 pixels. Blocks, sub-blocks and pixels are in row order. The values of sample s
+// in a block are a run of 64, one per pixel. A vector of 1, 4, 8 or 16 lanes therefore always lies
+// within a sub-block, and no result depends on the vector's width.
 #ifndef DIP_RENDERER_PIPELINE_RASTER_TILE_H
 #define DIP_RENDERER_PIPELINE_RASTER_TILE_H
 
@@ -45,7 +45,7 @@ typedef struct DipTile {
     int bottom;
     const DipSamplePattern *pattern;
     uint64_t touched; // bit b: block b has been cleared and may hold samples
-    // Bit b: an alpha-clipped triangle has drawn samples of block b in sample groups.
+    // Bit b: an alpha-clipped triangle has drawn samples of block b in sample groups (pattern.h).
     uint64_t grouped;
     float *depth; // [block][sample][64]; 0 is infinitely far
     uint32_t *id; // [block][sample][64]; triangle index + 1, or 0 for none

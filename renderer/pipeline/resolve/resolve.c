@@ -1,5 +1,5 @@
-// Stores single fragments and averages several. All sums are integers, so the order of fragments
-// does not matter.
+// Stores the fragment of each pixel that has only one fragment, and averages the fragments of the
+// other pixels. All sums are integers, so the order of fragments does not matter.
 #include "renderer/pipeline/resolve/resolve.h"
 
 #include <string.h>

@@ -9,7 +9,7 @@
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/pipeline/shading/tile_shading.h"
 
-// The timed parts of a tile's work.
+// The parts of a tile's work whose times are measured.
 typedef enum DipTileStage {
     DIP_TILE_STAGE_RASTER,
     DIP_TILE_STAGE_SHADING,
@@ -31,12 +31,12 @@ typedef struct DipTileWork {
     int64_t stage_ns[DIP_TILE_STAGE_COUNT];
 } DipTileWork;
 
-// Data that all tiles of a pass share. They do not change while tiles are drawn.
+// Data that all tiles of a pass share. The data do not change while tiles are drawn.
 typedef struct DipTilePass {
     const DipKernels *kernels;
     const DipPass *pass;
     const DipSamplePattern *pattern;
-    const DipGeometry *geometry; // of this pipeline, or of another one that shares its geometry
+    const DipGeometry *geometry; // of this pipeline or of another pipeline that shares its geometry
     DipSampleGroups groups_room;
     // &groups_room, or NULL if alpha-clipped draws have one sample group.
     const DipSampleGroups *groups;

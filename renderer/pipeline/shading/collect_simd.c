@@ -1,8 +1,7 @@
 // Collects the fragments of a tile. Each distinct patch (pipeline/patch.h) that a pixel shows
-// becomes a fragment in the list of the patch's draw. The 16 pixels of a sub-block are handled as a
-// mask of 16 bits. Pixels whose samples all show one patch are added together with all others of
-// the same draw. Pixels that show several patches are added together with all others that show the
-// same patch.
+// becomes a fragment in the list of the patch's draw. The 16 pixels of a sub-block (4x4 pixels) are
+// handled as a mask of 16 bits. Within a sub-block, pixels whose samples all show one patch are
+// added draw by draw. Pixels that show several patches are added patch by patch.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/vec.h"
 
@@ -19,7 +18,7 @@ static const int32_t pixel_position[16] = {
 // The sub-block whose fragments are being collected.
 typedef struct SubBlock {
     DipTileShading *shading;
-    // Triangle ids at sample 0. Those at sample s are DIP_BLOCK_PIXELS * s elements later.
+    // Triangle ids at sample 0. The ids at sample s are DIP_BLOCK_PIXELS * s elements later.
     const uint32_t *ids;
     int sample_count;
     int x0, y0; // column and row, in the tile, of the sub-block's first pixel
@@ -60,7 +59,7 @@ static void find_patches(SubBlock *sub) {
 }
 
 // Returns the pixels, one bit each, whose samples have different numbers. numbers: triangle ids or
-// patches. stride: distance from the numbers of one sample to those of the next.
+// patches. stride: distance from the numbers of one sample to the numbers of the next.
 VEC_INLINE unsigned multi_fragment_pixels(const uint32_t *numbers, int sample_count, int stride) {
     unsigned same = 0;
     for (int v = 0; v < VECTORS; v++) {
@@ -79,7 +78,7 @@ static inline uint32_t draw_of(const DipTileShading *shading, uint32_t triangle)
     return shading->input.triangles[triangle].draw;
 }
 
-// Adds a draw to the active draws: those whose lists this tile uses.
+// Adds a draw to the active draws: the draws whose lists this tile uses.
 static inline void activate(DipTileShading *shading, uint32_t draw) {
     if (!shading->is_active[draw]) {
         shading->is_active[draw] = 1;
@@ -203,9 +202,9 @@ VEC_INLINE void push_multi_fragment_patch(const SubBlock *sub, unsigned *left, i
     push(sub, draw, pixels, ids, samples, positions, false);
 }
 
-// Starts the sums of multi-fragment pixels. Uncovered samples add the background; most pixels have
-// no uncovered sample. empty[s]: the pixels whose sample s is uncovered. any_empty: the pixels that
-// have an uncovered sample.
+// Starts the sums of multi-fragment pixels (pixels with several fragments). Uncovered samples add
+// the background; most pixels have no uncovered sample. empty[s]: the pixels whose sample s is
+// uncovered. any_empty: the pixels that have an uncovered sample.
 VEC_INLINE void begin_sums(const SubBlock *sub, unsigned multi_fragment,
                            const unsigned empty[DIP_MAX_SAMPLES], unsigned any_empty) {
     DipTileShading *shading = sub->shading;

@@ -3,7 +3,7 @@
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/pairs.h"
 
-// If the fragments of a vector have at most this many triangles, the planes are read triangle by
+// If the fragments of a vector lie on at most this many triangles, the planes are read triangle by
 // triangle. Otherwise they are gathered lane by lane.
 enum { FEW_TRIANGLES = 4 };
 
@@ -29,7 +29,7 @@ VEC_INLINE const float *planes_of(const DipShadingInput *input, uint32_t triangl
 
 // Reads the planes of a vector with several triangles. If there are few triangles, the floats of
 // each triangle are blended into its lanes, which costs less than one gather per float. left: the
-// lanes whose triangle differs from that of the first lane.
+// lanes whose triangle differs from the first lane's triangle.
 VEC_INLINE void read_rows(const DipShadingInput *input, const uint32_t *triangle, unsigned left,
                           int count, Vf *rows) {
     const Vi ids = vi_load((const int32_t *)triangle);
@@ -128,7 +128,7 @@ void DIP_KERNEL(dip_kernel_encode)(const DipFragmentBatch *batch, const uint8_t 
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         Vu rgba8 = vu_splat(0xff000000u);
         for (int c = 0; c < 3; c++) {
-            // max comes first, so that a NaN becomes 0.
+            // vf_max is called before vf_min, so that a NaN becomes 0.
             const Vf colour = vf_max(vf_load(batch->colour[c] + i), vf_splat(0.0f));
             const Vf scaled = vf_min(colour, vf_splat(1.0f)) * 65535.0f + 0.5f;
             const Vi linear16 = vi_from_float(scaled);

@@ -1,5 +1,5 @@
-// Shading of a tile: the lists and buffers in which a worker turns the visibility buffer into
-// pixels.
+// Shading of a tile: the lists and buffers in which a worker turns the visibility buffer
+// (raster/tile.h) into pixels.
 //
 // A patch is a small group of triangles that join smoothly (pipeline/patch.h). Each distinct patch
 // that a pixel shows becomes one fragment. Fragments are collected per draw and shaded 64 at a

@@ -1,10 +1,11 @@
 // Compressed textures: encodes the colours of every level as BC1 and decodes them again, on many
 // threads.
 //
-// The result has the same layout as any other texture. If the kernels read BC1 blocks instead, each
-// texel would take a selection, a palette and a decoding curve instead of one load. A CPU has no
-// hardware for this decoding. So BC1 changes the picture here as it does on a graphics card, but it
-// saves neither time nor memory.
+// The result has the same layout as any other texture. A texel therefore costs one load. If the
+// kernels read BC1 blocks, each read of a texel would have to compute the block's four colours,
+// select one by the texel's index, and decode it from sRGB. A CPU has no hardware for this
+// decoding. So BC1 changes the picture here as it does on a graphics card, but it saves neither
+// time nor memory.
 #include "renderer/pipeline/texture/texture_layout.h"
 
 #include "renderer/pipeline/bc1.h"
@@ -101,7 +102,7 @@ static DipTexture *begin_texture(const DipTexture *from) {
         *texture = *from;
         texture->alpha = NULL;
         texture->shares_alpha = true;
-        // The 8 spare texels keep reads that run past the last texel inside the array.
+        // Reads may run past the last texel; the 8 spare texels keep them inside the array.
         texture->texels = calloc(from->texel_count + 8, sizeof *texture->texels);
         if (!texture->texels) {
             dip_texture_destroy(&texture);

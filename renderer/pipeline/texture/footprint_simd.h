@@ -1,5 +1,6 @@
-// Footprints of fragments in a texture: the level of detail and the number and positions of probes,
-// for sample_simd.c. docs/picture.md (Textures) defines them.
+// Footprints: the areas of a texture that fragments cover. This file finds a footprint's level of
+// detail and its probes (the bilinear reads along its long axis) for sample_simd.c. docs/picture.md
+// (Textures) has the definitions.
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_FOOTPRINT_SIMD_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_FOOTPRINT_SIMD_H
 
@@ -61,8 +62,9 @@ typedef struct Axis {
 
 // Plain anisotropic filtering (AF). It measures the footprint along the screen's axes and along
 // axes turned by 45 degrees, and uses the pair of axes with the greater ratio of lengths. For the
-// turned axes, the ratio is capped at half the maximum, so the level of detail depends on the
-// angle. The turned derivatives are (dX + dY) / sqrt 2 and (dY - dX) / sqrt 2. Their squared
+// turned axes, the ratio is capped at half of max_anisotropy. A long footprint along a diagonal of
+// the screen may therefore get a coarser level of detail than the same footprint along the screen's
+// x or y. The turned derivatives are (dX + dY) / sqrt 2 and (dY - dX) / sqrt 2. Their squared
 // lengths are (|dX|^2 + |dY|^2) / 2 plus and minus the dot product of dX and dY. Squared ratios are
 // compared by cross multiplication, without division.
 VEC_INLINE Axis two_frame_axis(Jacobian j, int max_anisotropy) {
@@ -168,7 +170,7 @@ VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
 // Returns the number of probes of an anisotropic footprint in the finer of its two levels. The
 // distance between probes is never less than a texel of the finest level that may be read, since
 // more probes would read the same texels again.
-// halve: if 1, returns half as many, rounded up; if 0, returns all.
+// halve: 1 for half of this number, rounded up; 0 for the number itself.
 VEC_INLINE Vi count_probes(const DipSampler *sampler, const Axis *axis, int halve) {
     const int last = sampler->texture->level_count - 1;
     const int min = sampler->min_lod8 >> 8 < last ? sampler->min_lod8 >> 8 : last;
@@ -180,16 +182,16 @@ VEC_INLINE Vi count_probes(const DipSampler *sampler, const Axis *axis, int halv
 }
 
 // Returns the number of probes in the coarser level if the finer level has near_count probes.
-// Texels of the coarser level are twice as large, so half as many probes are enough while its
-// weight is small. As its weight grows, the number rises to near_count. fraction: the coarser
-// level's weight in 1/256.
+// Texels of the coarser level are twice as large, so half of near_count is enough while the coarser
+// level's weight is small. As this weight grows, the number rises to near_count. fraction: the
+// coarser level's weight in 1/256.
 VEC_INLINE Vi count_far_probes(Vi near_count, Vi fraction) {
     return (near_count * vi_max(fraction, vi_splat(128)) + 255) >> 8;
 }
 
 // Half of the step between neighbouring probes, in texture coordinates. The N probes have equal
-// weight. Probe k lies at (k + 1/2) / N - 1/2 of the major axis from its middle, so the first probe
-// is N - 1 half steps before the middle.
+// weight. The offset of probe k from the footprint's middle is ((k + 1/2) / N - 1/2) times the
+// major axis. The first probe (k = 0) is therefore N - 1 half steps before the middle.
 typedef struct HalfStep {
     Vf u, v;
 } HalfStep;

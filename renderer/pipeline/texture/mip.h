@@ -1,5 +1,5 @@
-// Mip chains: the area-weighted box filter that computes each level from the level before. It is
-// exact for odd sizes too.
+// Mip chains: the area-weighted box filter that computes each level from the level before. The
+// filter is exact for odd sizes too.
 //
 // While a level is being built, each of its rows consists of four runs of floats: red, green and
 // blue in linear light, then alpha. Loops therefore run along contiguous floats.

@@ -61,8 +61,9 @@ VEC_INLINE Vu step32(Vf step) {
     return (Vu)vi_from_float(bounded * 4294967296.0f);
 }
 
-// Sets the first probe and the step of vector n as 32-bit fractions. The step is computed from its
-// half, and not the half from the step: half of a step that has wrapped could be off by 1/2.
+// Sets the first probe and the step of vector n as 32-bit fractions. The step is computed as twice
+// the half step. The half step cannot be computed from the step, because half of a step that has
+// wrapped could be off by 1/2.
 VEC_INLINE void set_line32(const HalfStep *half, Vu u, Vu v, Line *line, int n) {
     const Vu gaps = (Vu)line->count[n] - 1u;
     const Vu half_u = step32(half->u);
@@ -201,7 +202,7 @@ VEC_INLINE Vi address(Vf coordinate, DipWrap wrap, Vi size) {
 // A walk along the probes of one vector in a level.
 typedef struct Walk {
     Level level;
-    Vu u, v; // if in_bits: half a texel less, so that texel centres are at whole texels
+    Vu u, v; // if in_bits, minus half a texel: texel centres are at whole texels
     Vu step_u, step_v;
     int probe;
     int count; // largest number of probes of any lane

@@ -135,7 +135,7 @@ static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
 }
 
 // Returns the column (or row) of a level from which column (or row) i takes its texels. This is i
-// itself, except in the padding (i == size), which repeats the first or the last one.
+// itself, except in the padding (i == size), which repeats the first or the last column (or row).
 static int padding_source(int i, int size, DipWrap wrap) {
     return i < size ? i : wrap == DIP_WRAP_REPEAT ? 0 : size - 1;
 }
