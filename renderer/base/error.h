@@ -53,7 +53,7 @@ typedef struct DipError {
     DipErrorCode code;
     DipOrigin origin;
     DipSeverity severity;
-    char file[256];    // Name as the user wrote it; only the end of a name that is too long.
+    char file[256];    // File name as the user wrote it; if it is too long, the end of the name.
     int line;          // Line in the file, from 1; 0 when the fault has no line.
     char key[64];      // Key, setting or argument at fault.
     char message[320]; // What was found and what is accepted, without a full stop.

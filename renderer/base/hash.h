@@ -31,8 +31,8 @@ DIP_API DipHash dip_hash_begin(uint64_t variant);
 // Adds size_bytes bytes to the hash.
 DIP_API void dip_hash_bytes(DipHash *hash, const void *bytes, size_t size_bytes);
 
-// Adds a text and its length. Adding "ab" and then "c" therefore gives another hash than adding "a"
-// and then "bc". NULL counts as "".
+// Adds a text and its length. Adding "ab" and then "c" therefore results in another hash than
+// adding "a" and then "bc". NULL counts as "".
 DIP_API void dip_hash_text(DipHash *hash, const char *text);
 
 // Adds the eight bytes of a number, the lowest byte first on every machine.
