@@ -1,12 +1,12 @@
 // Sample patterns: the positions of a pixel's samples, and the groups into which adaptive
 // antialiasing divides the samples. Positions are in 1/256 pixel from the pixel's top left corner.
 //
-// The standard patterns of 1, 2, 4 and 8 samples are those of Direct3D and Vulkan. In an n-rooks
-// pattern, each of n columns and each of n rows has exactly one sample. The pattern of 6 samples is
-// a six-rooks lattice: the one with the least error over all edge orientations. Its samples are
-// sorted by distance from the centre. Temporal antialiasing alternates between two patterns of n
-// samples. Each of them is an n-rooks pattern whose mean is the pixel's centre. Together they form
-// a 2n-rooks pattern. All functions are thread-safe.
+// The standard patterns of 1, 2, 4 and 8 samples are the standard patterns of Direct3D and Vulkan.
+// In an n-rooks pattern, each of n columns and each of n rows has exactly one sample. The pattern
+// of 6 samples is a six-rooks lattice: the one with the least error over all edge orientations. Its
+// samples are sorted by distance from the centre. Temporal antialiasing alternates between two
+// patterns of n samples. Each of them is an n-rooks pattern whose mean is the pixel's centre.
+// Together they form a 2n-rooks pattern. All functions are thread-safe.
 #ifndef DIP_RENDERER_PIPELINE_PATTERN_H
 #define DIP_RENDERER_PIPELINE_PATTERN_H
 

@@ -77,8 +77,8 @@ DIP_API int dip_texture_level_count(const DipTexture *texture);
 // Size of a level in texels; level 0 is the largest. level: 0..dip_texture_level_count - 1.
 DIP_API void dip_texture_level_size(const DipTexture *texture, int level, int *width, int *height);
 
-// Returns the bytes of the texture's colours, plus those of its alpha plane unless the plane
-// belongs to another texture. Returns 0 for NULL.
+// Returns the bytes of the texture's colours. If the texture has an alpha plane of its own, the
+// plane's bytes are added. Returns 0 for NULL.
 DIP_API uint64_t dip_texture_colour_bytes(const DipTexture *texture);
 DIP_API uint64_t dip_texture_alpha_bytes(const DipTexture *texture);
 

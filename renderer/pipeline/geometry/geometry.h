@@ -90,7 +90,8 @@ typedef struct DipGeometry {
     // because clipping adds triangles. The slack becomes larger after an overflow. The space for
     // bin blocks grows with the slack.
     uint32_t slack;
-    uint32_t *first_patch; // the number of patch 0 of each draw's mesh
+    // For each draw: the number of its mesh's patch 0 among the patches of all draws.
+    uint32_t *first_patch;
     DipVisibleChunk *visible;
     DipTriangle *triangles;
     float *planes;

@@ -44,7 +44,7 @@ enum {
 
 // How clip space maps to the target.
 typedef struct DipScreenMapping {
-    float half_width; // pixels
+    float half_width; // half of the target's width, in pixels
     float half_height;
     // Bounds of x / w and y / w. A triangle that lies wholly beyond one of them cannot reach the
     // pass's region.

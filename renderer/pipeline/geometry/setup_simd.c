@@ -84,8 +84,8 @@ VEC_INLINE Hi covers_pixel(const DipSamplePositions *samples, const Hi x[3], con
     return covers;
 }
 
-// Tests one vector of triangles and appends those that are kept to the `count` candidates. Returns
-// the new count.
+// Tests one vector of triangles, and appends the triangles that pass to the `count` candidates.
+// Returns the new count.
 VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch *batch, int at,
                                int count, Candidates *out) {
     Hi corner[3];

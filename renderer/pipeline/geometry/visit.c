@@ -47,7 +47,7 @@ static uint32_t next_of(const DipGeometry *geometry, BinWalk *walk) {
 }
 
 // Walks along the triangles of one job that may lie in the tile: the tile's bin and the wide
-// triangles.
+// triangles (triangles that touch more than DIP_MAX_BIN_TILES tiles).
 typedef struct JobWalks {
     BinWalk bin;
     BinWalk wide;
@@ -83,7 +83,7 @@ static void prefetch_first(const DipGeometry *geometry, const BinWalk *walk) {
 // A tile, and the function to call for its triangles.
 typedef struct Visit {
     const DipGeometry *geometry;
-    int x0, y0; // the tile's first pixel
+    int x0, y0; // column and row, in the target, of the tile's first pixel
     DipVisitTriangle *triangle;
     void *context;
 } Visit;
@@ -93,8 +93,8 @@ static bool in_tile(const Visit *visit, const DipTriangle *triangle) {
            triangle->y0 < visit->y0 + DIP_TILE && triangle->y1 >= visit->y0;
 }
 
-// Visits one job's triangles in the tile. It merges the tile's bin and the wide triangles by index,
-// which gives submission order.
+// Visits one job's triangles in the tile. The function merges the tile's bin and the wide triangles
+// by index. The triangles are therefore visited in submission order.
 static void visit_job(const Visit *visit, JobWalks *job) {
     const DipGeometry *geometry = visit->geometry;
     uint32_t next = next_of(geometry, &job->bin);

@@ -56,9 +56,10 @@ static bool check_samples(const DipPass *pass, DipError *err) {
     }
     return !pass->samples_per_group || pass->samples_per_group == count ||
            dip_sample_groups_exist(count, pass->samples_per_group) ||
-           dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "samples_per_group",
-                         "%d of %d samples, accepted pairs that dip_sample_groups_exist accepts",
-                         pass->samples_per_group, count);
+           dip_error_set(
+               err, DIP_ERROR_CONFLICT, NULL, 0, "samples_per_group",
+               "groups of %d out of %d samples, accepted if dip_sample_groups_exist is true",
+               pass->samples_per_group, count);
 }
 
 static bool check_draw(const DipDraw *draw, DipError *err) {

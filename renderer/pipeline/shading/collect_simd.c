@@ -111,7 +111,7 @@ static void push_whole(const SubBlock *sub, uint32_t draw) {
 }
 
 // Adds pixels as fragments of a draw. Triangle ids, samples and positions are given as vectors.
-// uniform: all fragments hold the same samples.
+// uniform: whether all fragments hold the same samples.
 VEC_INLINE void push(const SubBlock *sub, uint32_t draw, unsigned pixels, const Vu *ids,
                      const Vu *samples, const Vu *positions, bool uniform) {
     DipTileShading *shading = sub->shading;
@@ -287,9 +287,9 @@ static void find_draws(const SubBlock *sub, uint32_t draws[DIP_SUB_BLOCK_PIXELS]
 }
 
 // Collects a sub-block in the general case: its pixels may show several triangles, or draws with
-// sample groups. several: the samples of some pixel hold different triangles. grouped: the
-// sub-block may hold triangles that were drawn in sample groups. inside: the pixels that lie in the
-// target.
+// sample groups. several: whether the samples of some pixel hold different triangles. grouped:
+// whether the sub-block may hold triangles that were drawn in sample groups. inside: the pixels
+// that lie in the target.
 static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned inside) {
     uint32_t draws[DIP_SUB_BLOCK_PIXELS]; // the draw that sample 0 of each pixel shows
     find_draws(sub, draws);

@@ -91,8 +91,8 @@ struct DipTileShading {
     uint8_t *is_active; // one per draw: whether it is in `active`
     int width;          // width of the part of the tile that lies in the target
     int height;
-    uint32_t *pixels; // the tile's first pixel in the target
-    size_t stride;    // pixels from one row of the target to the next
+    uint32_t *pixels; // points to the tile's first pixel in the target
+    size_t stride;    // distance from one row of the target to the next, in pixels
     uint32_t clear_rgba8;
     int32_t clear_linear16[3];
     int32_t (*sum)[4];        // each pixel's sums of 16-bit linear light

@@ -35,8 +35,8 @@ typedef struct DipMipLevel {
     float *rows;
 } DipMipLevel;
 
-// Computes the next level. The caller sets the size of `to` to that of the next level, and gives it
-// space for 4 * width * height floats.
+// Computes the next level. Before the call, the caller sets the width and height of `to` to the
+// next level's size, and allocates 4 * width * height floats for its rows.
 void dip_mip_halve(const DipMipLevel *from, DipMipLevel *to);
 
 #endif

@@ -161,7 +161,7 @@ typedef struct Level {
     Vi offset;
     Vi stride;
     Vi stride_pairs; // stride, in pair order
-    Vi width;        // width in texels; its log2 if the mode is in_bits
+    Vi width;        // width in texels, or log2 of the width if the mode is in_bits
     Vi height;
 } Level;
 
@@ -279,7 +279,7 @@ typedef struct PairSum {
 
 // Sums of several PairSums, with 32 bits per channel.
 typedef struct WideSum {
-    VuPair red_green; // packed sums modulo 2^32; subtracting red << 16 gives green
+    VuPair red_green; // packed sums modulo 2^32; green is this minus red << 16
     VuPair red;
     VuPair blue;
 } WideSum;
