@@ -74,13 +74,13 @@
     KEY(SKY_TINT, sky_tint, COLOR, "255,255,255", 0, 255,                                          \
         "colour that multiplies the whole sky, sRGB")                                              \
     KEY(SKY_CLEAR, sky_clear, NUMBER, "0.75", 0, 1,                                                \
-        "blue of the sky's texture where there is no cloud, as a fraction of 255")                 \
+        "value of the sky texture's blue channel that means no cloud; 1 stands for 255")           \
     KEY(SKY_DENSE, sky_dense, NUMBER, "1", 0, 1,                                                   \
-        "blue of the sky's texture where cloud is densest; more than SKY_CLEAR")                   \
+        "value of the blue channel that means the densest cloud; more than SKY_CLEAR")             \
     KEY(SKY_BLEND, sky_blend, NUMBER, "0.4", 0, 1,                                                 \
         "share of the second layer of clouds; 0: only the first layer, 1: only the second")        \
     KEY(SKY_PERTURBATION_SCALE, sky_perturbation_scale, NUMBER, "1", 0.001, 1000,                  \
-        "repeats of the displacement (red and green) per unit of texture coordinates")             \
+        "repeats of the clouds' displacement (red and green) per unit of texture coordinates")     \
     KEY(SKY_LAYER1_SCALE, sky_layer1_scale, NUMBER, "1", 0.001, 1000,                              \
         "repeats of the first layer of clouds per unit of texture coordinates")                    \
     KEY(SKY_LAYER1_SPEED, sky_layer1_speed, NUMBER, "0.3", -600, 600,                              \

@@ -159,7 +159,7 @@ static const char *default_in_words(DipConfigKey key) {
         return info->fallback;
     }
     if (info->type == DIP_TYPE_SETTINGS) {
-        return "each setting's own";
+        return "the default of each setting";
     }
     if (key == DIP_KEY_CAMPATH_DEFAULT) {
         return "an orbit";
