@@ -24,8 +24,8 @@ static bool read_set(void *fields, const DipOptionRow *row, const char *value, D
     return dip_quality_parse(value, &set->quality, err);
 }
 
-// Reads a whole number in the range least..most. The row's own `most` is the greatest length of the
-// list.
+// Reads a whole number in the range least..most. (The field `most` of the option's row is the
+// greatest length of the list.)
 static bool read_count(const DipOptionRow *row, const char *value, int least, int most, int *number,
                        DipError *err) {
     const DipOptionRow range = {.name = row->name, .least = least, .most = most};

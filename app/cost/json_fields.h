@@ -1,4 +1,4 @@
-// Fields that have the same name in the JSON report as in the structs.
+// Lists of the fields that have the same name in the JSON report as in the C structs.
 #ifndef DIP_APP_COST_JSON_FIELDS_H
 #define DIP_APP_COST_JSON_FIELDS_H
 

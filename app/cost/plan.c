@@ -1,4 +1,5 @@
-// Making the rows and the sweeps of a report.
+// Making the rows and the sweeps of a report. A row is one combination of settings on a camera
+// path; a sweep is the rows of all steps of one setting.
 #include "app/cost/plan.h"
 
 #include "app/cost/scene_hash.h"
@@ -9,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// For each setting: the camera path that was made for it, and another setting that must be on. If
-// the other setting is off, the steps of the setting do not differ.
+// For each setting: the camera path that was made for it, and the other setting that it needs.
+// While the other setting is off, all steps of this setting draw the same picture.
 typedef struct SettingPlan {
     DipCategory category;
-    DipSetting needs; // the other setting; the setting itself if it needs none
+    DipSetting needs; // the other setting, or this setting itself if it needs no other
     int needed_step;
 } SettingPlan;
 
@@ -37,7 +38,7 @@ static int slot_of(const DipSession *session, int category) {
 }
 
 // Adds the camera path of a category and returns its index. Categories with the same path and field
-// of view share one entry, which has the name of the first of these categories.
+// of view share one entry. The entry has the name of the first of these categories.
 static int add_path(DipCostReport *report, const DipSession *session, int category) {
     const DipCamCategory *slot = &session->track.categories[slot_of(session, category)];
     for (int p = 0; p < report->path_count; p++) {

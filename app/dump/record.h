@@ -7,7 +7,7 @@
 //
 // All times and counters of a copied pane are 0, because copying takes no time and no work. A
 // frame's "ms" is the wall-clock time of both panes together. The sum of the panes' times can
-// exceed the frame's "ms", because the time of geometry that both panes share is included in both.
+// exceed the frame's "ms", because the time of shared geometry is included in both panes' times.
 #ifndef DIP_APP_DUMP_RECORD_H
 #define DIP_APP_DUMP_RECORD_H
 
