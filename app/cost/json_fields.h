@@ -2,7 +2,7 @@
 #ifndef DIP_APP_COST_JSON_FIELDS_H
 #define DIP_APP_COST_JSON_FIELDS_H
 
-// X(field): the texts of DipCostReport.
+// X(field): the texts in DipCostReport.
 #define DIP_COST_HEADER_TEXTS(X) X(version) X(scene) X(scene_hash) X(processor) X(isa)
 
 // X(field, greatest value): numbers of DipCostReport (HEADER) and of its options (OPTION). They are

@@ -124,7 +124,7 @@ static void add_to_sweep(DipCostSweep *sweep, int row) {
     }
 }
 
-// Writes the settings that differ from their defaults, without the setting of the sweep. Writes ""
+// Writes the settings that differ from their defaults, except the setting of the sweep. Writes ""
 // if there are none.
 static void context_text(const DipQuality *quality, DipSetting setting, char text[DIP_COST_TEXT]) {
     DipQuality context = *quality;
@@ -255,9 +255,8 @@ static void describe(DipCostReport *report, const DipSession *session) {
     report->height = session->pane_size.height;
 }
 
-// Returns the settings that are combined by default. Two settings are enough for a plot of the
-// Pareto front. Advice (--budget-ms) also needs the other settings that are worth choosing in any
-// scene.
+// Returns the settings that are combined by default. A plot of the Pareto front needs two settings.
+// Advice (--budget-ms) needs three more, which are worth choosing in any scene.
 static unsigned default_combined(const DipCostOptions *options) {
     const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
     return options->budget_count

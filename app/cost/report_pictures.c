@@ -1,5 +1,5 @@
-// Drawing the steps of each sweep once more, finding the crop in which they differ most, and
-// cutting it out.
+// Drawing the steps of each sweep once more, finding the crop (the part of the picture) in which
+// the steps differ most, and cutting this crop out.
 #include "app/cost/report_pictures.h"
 
 #include "app/files/png.h"
@@ -15,8 +15,8 @@ typedef struct Cropper {
     DipFlip flip;
     DipFlipAnalysis truth_side;
     DipFlipAnalysis side;
-    float *maps;       // [step][pixel]
-    uint8_t *pictures; // [step][pixel], rgba8
+    float *maps;       // FLIP maps, [step][pixel]
+    uint8_t *pictures; // frames, [step][pixel], rgba8
     uint8_t *colours;  // crop of a FLIP map in colours, rgba8
     DipProgress progress;
     int64_t done;

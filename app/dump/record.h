@@ -41,7 +41,7 @@ bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *
 bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t peak_rss_bytes,
                           DipError *err);
 
-// Writes the file as a whole or not at all.
+// Writes the record to a file, whole or not at all.
 bool dip_record_write(const DipRecord *record, const char *file, DipError *err);
 
 // Prints the record and a newline. The caller checks `out` for a write error.

@@ -37,7 +37,7 @@ typedef struct DipPlot {
     int series_count; // At least 1. Each series has at least one point.
 } DipPlot;
 
-// Prints the <svg> element alone, to be part of a page.
+// Prints only the <svg> element, for use in an HTML page.
 void dip_plot_print(FILE *out, const DipPlot *plot);
 
 // Writes the file whole or not at all.
