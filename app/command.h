@@ -19,14 +19,14 @@ extern const DipOptionTable dip_program_option_table;
 // an array of `const char *`.
 typedef struct DipOperands {
     size_t field; // Offset of the array in the command's struct of options.
-    size_t count; // Offset of the int that holds their number.
+    size_t count; // Offset of the int that holds the number of operands.
     int most;     // Greatest number of operands; 0: the command takes none.
 } DipOperands;
 
 // An example in the help of a command.
 typedef struct DipExample {
     const char *typed; // The command line: "diptych dump --out out".
-    const char *does;  // What it does, beginning with a verb: "draws one frame".
+    const char *does;  // What the command does, beginning with a verb: "draws one frame".
 } DipExample;
 
 typedef struct DipCommand {

@@ -145,7 +145,7 @@ static void print_all(const DipCommandList *list, FILE *out) {
     for (size_t c = 0; c < list->count; c++) {
         print_summary(list->commands[c], out);
     }
-    fprintf(out, "\nThe options that follow are those of %s.\n", first->name);
+    fprintf(out, "\nThe following options belong to %s.\n", first->name);
     print_options(first->parts, out);
     print_settings(out);
     print_examples(first, out);

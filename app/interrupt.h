@@ -1,4 +1,4 @@
-// Ctrl-C: lets a command finish the frame or measurement that it has begun.
+// Handling Ctrl-C: a command first finishes the frame or measurement that it has begun.
 #ifndef DIP_APP_INTERRUPT_H
 #define DIP_APP_INTERRUPT_H
 

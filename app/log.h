@@ -14,7 +14,7 @@ void dip_log_close(void);
 void dip_log_error(const DipError *err);
 void dip_log_errors(const DipErrorList *list);
 
-// Prints one line "diptych: ..." that is a note rather than an error.
+// Prints a note (not an error) as one line "diptych: ...".
 void dip_log_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 #endif

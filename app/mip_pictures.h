@@ -5,7 +5,8 @@
 #include "app/session.h"
 
 // Reads the pictures that the ini names and gives them to the renderers of both panes. Does nothing
-// if the ini names no pictures. A fault gives the ini's line that names the picture.
+// if the ini names no pictures. If a picture cannot be read, the error has the line of the ini that
+// names this picture.
 bool dip_mip_pictures_load(DipSession *session, DipErrorList *faults);
 
 #endif

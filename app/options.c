@@ -1,4 +1,4 @@
-// Parsing options by their tables.
+// Parsing options as their tables describe them.
 #include "app/options.h"
 
 #include "renderer/base/assert.h"

@@ -44,8 +44,8 @@ struct DipOptionRow {
     size_t count; // TEXTS and LIST: offset of an int that holds the number of values.
     double least; // INTEGER and NUMBER: the least value.
     double most;  // INTEGER and NUMBER: the greatest value. TEXTS and LIST: most values.
-    // What a value must be, for the message "'value' is not accepted". NULL: the message follows
-    // from the kind.
+    // What a value must be, for the message "'value' is not accepted". NULL: the kind of the
+    // option decides the message.
     const char *accepted;
     char separator;        // LIST: the character between two values.
     DipOptionReader *read; // LIST and CUSTOM: the function that stores a value.
@@ -58,7 +58,7 @@ typedef struct DipOptionTable {
     size_t count;
 } DipOptionTable;
 
-// A table as a part of a command. Several commands can share a table.
+// A table of options as a part of a command's options. Several commands can share a table.
 typedef struct DipOptionPart {
     const DipOptionTable *table;
     size_t offset; // Offset of the table's struct in the command's struct of options.

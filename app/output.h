@@ -1,4 +1,5 @@
-// Checking that standard output took all that was printed. It may be a file on a full disk.
+// Checking that everything printed has been written to standard output. The output may be a file on
+// a full disk.
 #ifndef DIP_APP_OUTPUT_H
 #define DIP_APP_OUTPUT_H
 

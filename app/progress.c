@@ -1,4 +1,4 @@
-// Counting, and estimating the time left from the rate so far.
+// Counting what is done, and estimating the time left from the rate so far.
 #include "app/progress.h"
 
 #include "renderer/base/clock.h"

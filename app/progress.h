@@ -15,9 +15,9 @@ typedef struct DipProgress {
 
 DipProgress dip_progress_begin(const char *things, int64_t total);
 
-// Shows "7 of 12 frames, 3 s left". On a terminal this is one line, which is overwritten up to ten
-// times a second. If standard error is not a terminal, it is a new line every ten seconds, so that
-// a short command prints none.
+// Shows "7 of 12 frames, 3 s left". On a terminal, one line is overwritten up to ten times a
+// second. If standard error is not a terminal, a new line is printed every ten seconds, so a short
+// command prints nothing.
 void dip_progress_show(DipProgress *progress, int64_t done);
 
 // Shows the last state and ends the line. Prints nothing if standard error is not a terminal.

@@ -14,7 +14,7 @@ enum { DIP_PANE_CURRENT, DIP_PANE_REQUESTED, DIP_PANE_COUNT };
 
 extern const char *const dip_pane_names[DIP_PANE_COUNT]; // "current", "requested"
 
-// What a session loads. The ini and the pool of threads are always there.
+// What a session loads. Every session has the ini and the pool of threads.
 typedef struct DipSessionDef {
     const DipSessionOptions *options; // Borrowed until the session is closed.
     const char *log;                  // File of --log, which replaces the ini's log file, or NULL.
@@ -31,7 +31,8 @@ typedef struct DipSession {
     DipIsa isa;
     DipConfigSize pane_size; // Size of one pane in pixels, from --size or the ini.
     DipScene *scene;
-    // From the ini. The water level is the scene's with --model, and if the ini does not give it.
+    // The reflection in the water, from the ini. The water level comes from the scene instead if
+    // --model is given or if the ini has no level.
     DipReflectionDef reflection;
     bool force_all_effects;
     DipModel *model;       // NULL unless the session keeps it for the reference renderer.
@@ -44,9 +45,8 @@ typedef struct DipSession {
     bool orbiting; // The camera orbits the model, because no camera path was given.
 } DipSession;
 
-// Loads everything that the def asks for. Adds every fault, with its file and line, and every
-// warning to *faults. Returns false if any of these faults is an error; the session is empty in
-// that case.
+// Loads everything that the def asks for. Adds every error and warning to *faults, with its file
+// and line. If there is at least one error, returns false and leaves the session empty.
 bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorList *faults);
 void dip_session_close(DipSession *session);
 
@@ -65,8 +65,9 @@ typedef struct DipSessionFrame {
     DipFrame panes[DIP_PANE_COUNT];
     // Wall-clock time of both panes. It is less than the sum of their times if they share work.
     double ms;
-    // The requested pane is a copy of the current one, since both have the same settings. The copy
-    // took no time and no work, and shares the pixels. Never set when all effects are forced.
+    // The requested pane is a copy of the current one, because both have the same settings. The
+    // copy took no time and no work, and shares the pixels. With --force-all-effects, both panes
+    // are drawn and this is false.
     bool copied;
 } DipSessionFrame;
 

@@ -33,8 +33,8 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
     DipError err;
     if (!dip_campath_load(camera->file.path, &path, &err)) {
         if (err.line) {
-            // The fault already gives a line of the path file, which tells more than the ini's
-            // line.
+            // The error already names a line of the path file, which is more useful than the line
+            // of the ini.
             return dip_session_add_fault(faults, &err);
         }
         return dip_session_place_fault(session, &camera->file, faults, &err);
@@ -53,9 +53,9 @@ static bool load_own_path(DipSession *session, DipErrorList *faults) {
     return true;
 }
 
-// Refuses a model that is too small to be drawn. To fill the picture with such a model, the camera
-// would come nearer than DIP_MIN_W (renderer/pipeline/geometry/project.h), and nothing is drawn
-// that near. A single point passes, because the orbit keeps a distance as if the point had a size.
+// Refuses a model that is too small to be drawn. The orbit fills the picture with the model, so the
+// camera would come nearer than DIP_MIN_W (renderer/pipeline/geometry/project.h). Nothing that near
+// is drawn. A model that is a single point is accepted: the orbit treats it as if it had a size.
 static bool check_extent(const float low[3], const float high[3], const char *file,
                          DipErrorList *faults) {
     const double least = 5e-6;

@@ -42,9 +42,9 @@ static bool has_sky(const DipSceneDef *def) {
     return found;
 }
 
-// Sets the background, the sky and the near plane. For the ini's models, they come from the ini. A
-// model given with --model keeps its own; if it has a sky, the colour of the sky's horizon becomes
-// the background and fills the gaps beside the sky.
+// Sets the background, the sky and the near plane. For the ini's models, all three come from the
+// ini. A model given with --model keeps its own. If this model has a sky, the colour of the sky's
+// horizon becomes the background and fills the gaps beside the sky.
 static void set_surroundings(const DipSession *session, DipSceneDef *def) {
     if (session->options->model_count) {
         if (has_sky(def)) {

@@ -1,4 +1,4 @@
-// How long each part of the start takes.
+// Measures how long each part of the program's start takes.
 #ifndef DIP_APP_START_TIMES_H
 #define DIP_APP_START_TIMES_H
 
@@ -31,7 +31,7 @@ typedef struct DipStartTimes {
 // Returns the milliseconds that have passed since begin_ns, a time by dip_clock_ns.
 double dip_start_times_since_ms(int64_t begin_ns);
 
-// Call it after every frame. The first call fills in first_frame and total.
+// Call this function after every frame. Its first call fills in first_frame and total.
 void dip_start_times_frame(DipStartTimes *times);
 
 // Formats the parts as "start, ms: ini 0.4 import 21.3 ...", for --timing.

@@ -121,7 +121,7 @@ static const DipExample examples[] = {
     {"diptych bench --size 320x240,640x480,1280x960 --svg plots --csv frames.csv",
      "plots the time against the number of pixels, and writes the time of every frame to a file"},
     {"diptych bench --grid 1000,10000,100000 --sets aa=none --grid-out-of-view",
-     "measures what triangles outside the view cost"},
+     "measures the time that triangles outside the view take"},
     {"diptych bench --vs ../before/build/release/diptych --threads 1 --rounds 40",
      "compares this program with the build of another branch"},
 };

@@ -40,7 +40,8 @@ static char **child_arguments(const char *program, const DipBenchOptions *option
 }
 
 // Starts the child with `in` as its standard input and `out` as its standard output. The child does
-// not inherit the other ends of the pipes, because they are close-on-exec. Returns 0 or an errno.
+// not inherit the other ends of the pipes, because these ends are close-on-exec. Returns 0 or an
+// errno.
 static int spawn(DipBenchChild *child, const DipBenchOptions *options, int in, int out) {
     char **arguments = child_arguments(child->program, options);
     posix_spawn_file_actions_t actions;
@@ -116,7 +117,8 @@ DipBenchChild *dip_bench_child_start(const char *program, const DipBenchPlan *pl
         return NULL;
     }
     child->program = program;
-    // Without SIGPIPE, writing to an ended child fails silently, and reading finds the end of file.
+    // With SIGPIPE ignored, writing to a child that has ended does not end this program. The next
+    // read finds the end of the file, which is then reported.
     signal(SIGPIPE, SIG_IGN);
     if (!start(child, &plan->options, err) || !check_greeting(child, plan, err)) {
         dip_bench_child_stop(&child);

@@ -9,7 +9,7 @@
 // A scene with the camera path through it.
 typedef struct View {
     const DipScene *scene;
-    DipScene *own; // the same scene if the view owns it; NULL if it is the session's
+    DipScene *own; // the same scene if the view owns it; NULL if the session owns it
     const DipCamPath *path;
     DipCamPath *own_path;
     double fov_y_deg;
@@ -57,8 +57,8 @@ static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSessio
 }
 
 // Finds the view of a grid by its number of triangles and its aspect ratio. Returns -1 if there is
-// no such view yet. A grid (a relief, synthetic.h) is made to fill a picture of one aspect ratio,
-// so combinations of other shapes need other views.
+// no such view yet. A grid is a relief, that is, a wavy surface (synthetic.h). It is made to fill a
+// picture of one aspect ratio, so each aspect ratio needs its own view.
 static int find_view(const DipBenchContext *bench, int triangles, double aspect) {
     for (int i = 0; i < bench->view_count; i++) {
         if (bench->views[i].triangles == triangles && bench->views[i].aspect == aspect) {

@@ -1,5 +1,5 @@
 // The bench context: the thread pools and scenes that the bench draws with, and a renderer for each
-// combination.
+// combination of values (settings, threads, size, ...; plan.h).
 #ifndef DIP_APP_BENCH_RIG_H
 #define DIP_APP_BENCH_RIG_H
 

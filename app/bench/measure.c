@@ -1,4 +1,4 @@
-// Interleaving combinations and programs.
+// Measuring the combinations and programs in turn.
 #include "app/bench/measure.h"
 
 #include "app/measure/timing.h"
@@ -19,8 +19,8 @@ static bool draw(void *context, const DipTimingTurn *turn, DipError *err) {
     return source->draw(source->context, turn->subject, turn->frame, hash, &t->sample, err);
 }
 
-// Keeps the sample. Its times are those that the source measured for each stage. `ms` is not used,
-// because it also includes the communication with a child.
+// Stores the sample, which has the times that the source itself measured for each stage. `ms` is
+// not used, because it also includes the communication with a child process.
 static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
     (void)ms;
     (void)err;

@@ -24,8 +24,8 @@ static bool read_set(void *fields, const DipOptionRow *row, const char *value, D
     return dip_quality_parse(value, &set->quality, err);
 }
 
-// Reads a whole number in the range least..most. The row's own `most` is the greatest length of the
-// list.
+// Reads a whole number in the range least..most. (The field `most` of the option's row is the
+// greatest length of the list.)
 static bool read_count(const DipOptionRow *row, const char *value, int least, int most, int *number,
                        DipError *err) {
     const DipOptionRow range = {.name = row->name, .least = least, .most = most};
@@ -100,8 +100,9 @@ static const DipOptionRow axis_rows[] = {
      .read = read_isa},
     {.name = "--grid",
      .argument = "LIST",
-     .text = "Instead of a scene, draw grids of N,N,... triangles. A grid is a wavy surface that "
-             "fills the picture.",
+     .text =
+         "Instead of a scene, draw grids with these numbers of triangles. A grid is a wavy surface "
+         "that fills the picture.",
      .kind = DIP_OPTION_LIST,
      .count = FIELD(grid_count),
      .most = DIP_BENCH_MAX_VALUES,
@@ -124,7 +125,7 @@ static const DipOptionRow measure_rows[] = {
      .most = DIP_BENCH_MAX_FRAMES},
     {.name = "--rounds",
      .argument = "N",
-     .text = "Let each combination draw its frames this many times. The default is 10.",
+     .text = "Draw the frames of each combination this many times. The default is 10.",
      .kind = DIP_OPTION_INTEGER,
      .field = FIELD(rounds),
      .least = 1,
@@ -150,13 +151,14 @@ static const DipOptionRow measure_rows[] = {
      .field = FIELD(csv)},
     {.name = "--svg",
      .argument = "DIR",
-     .text = "Write plots of the time into this folder: against the number of pixels, samples, "
-             "triangles or threads. Each of these numbers that varies gets a plot.",
+     .text =
+         "Write plots into this folder. They show the time against the number of pixels, samples, "
+         "triangles or threads. There is one plot for each of these numbers that varies.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(svg)},
     {.name = "--serve",
-     .text = "Draw the frames that standard input asks for. --vs starts both programs with this "
-             "option; it has no other use.",
+     .text = "Draw the frames that standard input asks for. This option is only for --vs, which "
+             "starts both programs with it.",
      .kind = DIP_OPTION_FLAG,
      .field = FIELD(serve)},
 };

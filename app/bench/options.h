@@ -29,8 +29,8 @@ typedef struct DipBenchSize {
     int height;
 } DipBenchSize;
 
-// What to measure. Texts are borrowed from argv. An empty list stands for one value, which the ini
-// or the machine gives. Without grids, the bench draws the scene.
+// What to measure. Texts are borrowed from argv. An empty list stands for one value, which comes
+// from the ini or the machine. Without grids, the bench draws the scene.
 typedef struct DipBenchOptions {
     DipBenchSet sets[DIP_BENCH_MAX_VALUES];
     int set_count;
@@ -51,7 +51,7 @@ typedef struct DipBenchOptions {
     const char *svg;
     const char *vs;
     bool serve;
-    int argc; // The whole command line, which --vs hands on to the programs that it starts.
+    int argc; // The whole command line. With --vs, the started programs get it, too.
     char *const *argv;
 } DipBenchOptions;
 

@@ -1,4 +1,4 @@
-// Combining the values of all axes.
+// Making every combination of the values of all axes.
 #include "app/bench/plan.h"
 
 #include "app/machine.h"

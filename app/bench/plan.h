@@ -1,5 +1,5 @@
-// The plan of a bench: the values on each axis (options.h), and every combination of them with its
-// label.
+// The plan of a bench. An axis is a property that can vary, such as the picture's size (options.h).
+// The plan has the values on each axis, and every combination of these values with its label.
 #ifndef DIP_APP_BENCH_PLAN_H
 #define DIP_APP_BENCH_PLAN_H
 
@@ -33,7 +33,8 @@ typedef struct DipBenchPlan {
     int count;
 } DipBenchPlan;
 
-// Makes the plan. The session provides the values of axes without options.
+// Makes the plan. For an axis without an option on the command line, the session provides the
+// value.
 void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
                          const DipBenchOptions *options);
 

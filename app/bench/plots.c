@@ -48,8 +48,8 @@ static const struct Kind {
      true},
 };
 
-// The points of one series. All combinations of the series agree with `like`, except on the plot's
-// axis.
+// The points of one series. All combinations of the series have the values of `like`, except on the
+// plot's axis.
 typedef struct Series {
     char name[DIP_BENCH_LABEL_SIZE];
     const DipBenchCombination *like;

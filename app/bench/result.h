@@ -1,4 +1,5 @@
-// The bench's results: the times of every frame in every round, and the work of every frame.
+// The bench's results: the times of every frame in every round, and the work of every frame. Each
+// round draws every frame of every combination of the plan (plan.h) once.
 #ifndef DIP_APP_BENCH_RESULT_H
 #define DIP_APP_BENCH_RESULT_H
 
@@ -15,20 +16,21 @@ typedef enum DipBenchStage {
 
 extern const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
 
-// The measurements of a frame that was drawn once.
+// The measurements of one drawing of a frame.
 typedef struct DipBenchSample {
     double ms[DIP_BENCH_STAGE_COUNT];
     DipCounters counters;
-    char hash[33]; // Hash of the pixels; empty unless it was asked for.
+    char hash[33]; // Hash of the pixels, or "" if no hash was requested.
 } DipBenchSample;
 
 void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash);
 
-// The results of one program. Owns its arrays, borrows the plan.
+// The results of one program. The bench measures one program, or two with --vs. Owns its arrays,
+// borrows the plan.
 typedef struct DipBenchResult {
     const DipBenchPlan *plan;
-    double *ms;            // [combination][stage][round][frame]
-    DipBenchSample *first; // [combination][frame]: the warm-up's samples
+    double *ms;            // times, [combination][stage][round][frame]
+    DipBenchSample *first; // samples of the warm-up, [combination][frame]
 } DipBenchResult;
 
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
@@ -41,7 +43,7 @@ void dip_bench_result_set_first(DipBenchResult *result, int combination, int fra
 void dip_bench_result_add(DipBenchResult *result, int combination, int round, int frame,
                           const DipBenchSample *sample);
 
-// The times of a stage: rounds * frames values, [round * frames + frame].
+// Returns the times of a stage: rounds * frames values, [round * frames + frame].
 const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
                                   DipBenchStage stage);
 const DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination,

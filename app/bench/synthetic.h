@@ -1,5 +1,5 @@
-// Scenes made by formula. The renderer was not tuned for them. One has a few large triangles, the
-// other has very many small ones.
+// Two scenes that are computed by formulas. The renderer was not optimised for them. The room has a
+// few large triangles, the relief has very many small triangles.
 #ifndef DIP_APP_BENCH_SYNTHETIC_H
 #define DIP_APP_BENCH_SYNTHETIC_H
 

@@ -228,9 +228,10 @@ bool dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *ot
     if (!scratch) {
         return out_of_memory(err);
     }
-    fprintf(out,
-            "Medians in ms per frame. A ratio is the other program's time divided by this one's:\n"
-            "above 1, this program is faster.\n");
+    fprintf(
+        out,
+        "Medians in ms per frame. A ratio is the other program's time divided by this program's\n"
+        "time. If the ratio is above 1, this program is faster.\n");
     fprintf(out, "%-*s %8s %8s  %6s  %14s  %7s ", width, "", "other", "this", "ratio",
             "95 % interval", "fastest");
     for (int stage = 0; stage < DIP_BENCH_STAGE_total; stage++) {

@@ -1,4 +1,4 @@
-// The bench's results as text and CSV.
+// Writing the bench's results as text and CSV.
 #ifndef DIP_APP_BENCH_TABLE_H
 #define DIP_APP_BENCH_TABLE_H
 
@@ -6,7 +6,8 @@
 
 #include <stdio.h>
 
-// Prints what was measured: scene, machine, values that do not vary, frames, rounds, seed.
+// Prints what was measured: scene, machine, values that are the same in all combinations, frames,
+// rounds, seed.
 void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session, FILE *out);
 
 // Prints milliseconds by stage: median, 95th percentile and minimum of each combination.

@@ -1,5 +1,5 @@
-// Advice for each time budget: the combination with the least error that is within the budget, also
-// when it is timed again.
+// Advice for each time budget: the combination with the least error whose time is within the
+// budget. Its time is measured again, and the new time must be within the budget, too.
 #include "app/cost/steps.h"
 
 #include "app/progress.h"
@@ -9,8 +9,8 @@
 static bool advise(DipCostContext *cost, double budget_ms, double *latest_ms, DipError *err) {
     DipCostReport *report = cost->report;
     DipCostAdvice advice = {.budget_ms = budget_ms, .row = -1};
-    // If a row exceeds the budget when it is timed again, it keeps its new time, and the next best
-    // row is tried.
+    // The row is timed again, and the new time replaces the old one. If the new time exceeds the
+    // budget, the next best row is tried.
     for (int row; (row = dip_cost_choose(report, latest_ms, budget_ms)) >= 0;) {
         DipStatsEstimate time;
         if (!dip_cost_time_row_again(cost, row, &time, err)) {

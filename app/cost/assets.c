@@ -139,8 +139,8 @@ static void measure_meshes(const char *model, const char *folder, DipPool *pool)
 // --- pictures ----------------------------------------------------------------------------------
 
 static const uint8_t *texel_at(const DipTextureDef *texture, int level, int x, int y) {
-    // A real mip level holds means of texels. Here the nearest texel of level 0 is enough, because
-    // only the compressed size is needed.
+    // A real mip level consists of means of texels. This one copies the nearest texels of level 0,
+    // because only the compressed size is needed.
     const int sx = (x << level) < texture->width ? x << level : texture->width - 1;
     const int sy = (y << level) < texture->height ? y << level : texture->height - 1;
     return texture->rgba8 + 4 * ((size_t)sy * (size_t)texture->width + (size_t)sx);
@@ -176,8 +176,8 @@ static int level_count(const DipTextureDef *texture) {
     return count;
 }
 
-// Returns the size of all pictures as BC1 with `levels` stored mip levels each. With 0, whole mip
-// chains are stored.
+// Returns the size of all pictures as BC1 with `levels` stored mip levels each. 0 stands for whole
+// mip chains.
 static Size measure_bc1(const DipSceneDef *def, int levels) {
     Size size = {0};
     for (int t = 0; t < def->texture_count; t++) {

@@ -59,7 +59,7 @@ const DipCommand dip_cost_command = {
     .summary = "report what each setting costs in time and buys in accuracy",
     .usage = "--out DIR [OPTION]...",
     .text = "Cost changes one setting at a time. It measures how much longer a frame takes, and "
-            "how much nearer the picture comes to the converged picture, which has very many "
+            "how much closer the picture comes to the converged picture, which has very many "
             "samples per pixel. It writes a report with tables, plots and pictures.\n\n"
             "A run takes minutes. To continue an interrupted run, give the same command again. "
             "docs/cost.md defines every number in the report.",
@@ -78,10 +78,10 @@ const DipCommand dip_cost_merge_command = {
     .name = "cost merge",
     .summary = "join the parts of a report that several machines measured",
     .usage = "--out DIR PART/cost.json...",
-    .text = "Cost merge joins reports that have the same scene, size, settings, viewpoints "
-            "(--places) and samples. Each report has the errors of some of the viewpoints "
-            "(--part). The times come from the first report that has times, because times of "
-            "different machines cannot be mixed.",
+    .text = "Cost merge joins reports that have the same scene, size, settings, number of "
+            "viewpoints (--places) and samples. Each report has the errors of some of the "
+            "viewpoints (--part). The times come from the first report that has times, because "
+            "times of different machines cannot be mixed.",
     .examples = merge_examples,
     .example_count = DIP_ARRAY_COUNT(merge_examples),
     .parts = &dip_cost_merge_option_parts,

@@ -1,4 +1,4 @@
-// `diptych cost`, `diptych cost merge` and `diptych cost assets` as commands.
+// The commands `diptych cost`, `diptych cost merge` and `diptych cost assets`.
 #ifndef DIP_APP_COST_COMMAND_H
 #define DIP_APP_COST_COMMAND_H
 

@@ -1,4 +1,5 @@
-// Opening the renderers and the reference renderer, and drawing the report's rows.
+// Opens the renderers and the reference renderer, and draws the frames of the report's rows. A row
+// is one combination of settings on a camera path.
 #include "app/cost/context.h"
 
 #include "app/interrupt.h"
@@ -87,6 +88,7 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
 
 bool dip_cost_interrupted(const DipCostContext *cost, DipError *err) {
     (void)cost;
-    return dip_interrupted() && !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "cost",
-                                               "interrupted; the same command goes on from here");
+    return dip_interrupted() &&
+           !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "cost",
+                          "interrupted; run the same command again to continue");
 }

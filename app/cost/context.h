@@ -1,5 +1,5 @@
-// The cost context, with which the steps (steps.h) make a report: the session, the report, the
-// journal, the reference renderer and the renderers. A row of the report (report.h) is one
+// The cost context: the session, the report, the journal, the reference renderer and the renderers.
+// The steps that make a report (steps.h) use it. A row of the report (report.h) is one
 // combination: quality settings on a camera path. A truth (app/measure/truth.h) is a converged
 // picture.
 #ifndef DIP_APP_COST_CONTEXT_H
@@ -18,8 +18,8 @@ typedef struct DipCostContext {
     const char *cache; // Folder of the cached truths; NULL for no cache.
     DipReference *reference;
     // Indexed by the step of the setting gi (instancing). Renderer [0] draws the rows with gi=off
-    // and keeps the copies of meshes that they need. Renderer [1] draws all other rows, so that
-    // they use the same memory.
+    // and keeps the copies of meshes that these rows need. Renderer [1] draws all other rows, so
+    // that all of these use the same memory.
     DipRenderer *renderers[2];
 } DipCostContext;
 
@@ -35,13 +35,14 @@ bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_ind
 // Draws the row's timed frame `index`, 0..timed_frames - 1.
 bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *frame, DipError *err);
 
-// Gets the truth of one frame at a viewpoint of a path. `frame` is the index in the burst: the
-// successive frames that are drawn at each viewpoint.
+// Gets the truth of one frame at a viewpoint of a path. A burst is the successive frames that are
+// drawn at a viewpoint. `frame` is the index of the frame in its burst.
 bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int frame,
                             DipTruthProgress *progress, void *context, DipTruth *truth,
                             DipError *err);
 
-// After Ctrl-C, returns true and fills *err. The journal keeps what was measured before.
+// Returns true and fills *err if the user has pressed Ctrl-C. All measurements made before remain
+// in the journal (journal.h).
 bool dip_cost_interrupted(const DipCostContext *cost, DipError *err);
 
 #endif

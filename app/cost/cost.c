@@ -1,4 +1,5 @@
-// `diptych cost`: drawing the truths, measuring errors and times, writing the report.
+// `diptych cost`: drawing the truths (converged pictures), measuring errors and times, writing the
+// report.
 #include "app/cost/cost.h"
 
 #include "app/cost/formats.h"

@@ -1,4 +1,4 @@
-// A report as comma-separated values.
+// Writing a report as comma-separated values.
 #include "app/cost/formats.h"
 
 #include "app/files/whole_file.h"

@@ -19,7 +19,7 @@ enum { STEPS_PER_TRUTH = 1000 }; // steps of the progress display
 
 typedef struct TruthProgress {
     DipProgress progress;
-    int64_t before; // progress steps of the truths that are done
+    int64_t before; // progress steps of the truths that are complete
 } TruthProgress;
 
 static bool show_truth(void *context, double done) {
@@ -69,7 +69,7 @@ bool dip_cost_make_truths(DipCostContext *cost, DipError *err) {
 
 // A row's pictures of one burst (the successive frames at a viewpoint), and their errors.
 typedef struct Burst {
-    uint8_t *rgba8; // owned; one frame after another, their rows without padding
+    uint8_t *rgba8; // owned; one frame after another, without padding between lines
     int row;
     char key[33]; // hash of the pictures and of their truths
     DipMetricSums sums;

@@ -1,6 +1,6 @@
-// Solving the normal equations by elimination. A price is the time for one unit of a kind of work
-// (a term). While a price is negative, the term with the most negative price is dropped and the
-// prices of the others are solved again.
+// The linear fit of time to work, by the normal equations of least squares. A term is a kind of
+// work; its price is the time for one unit. While a price is negative, the term with the most
+// negative price is dropped, and the equations are solved again for the other terms.
 #include "app/cost/fit.h"
 
 #include <math.h>
@@ -75,8 +75,8 @@ static double fitted(const double terms[TERMS], const double solution[TERMS]) {
 }
 
 // Adds a row to the normal equations. Terms are divided by their greatest values, which keeps the
-// equations well conditioned. The fit minimises relative errors, so that slow rows count no more
-// than fast rows.
+// equations well conditioned. The fit minimises relative errors, so that slow rows have no
+// more weight than fast rows.
 static void add_row(Equations *equations, const double terms[TERMS], const double scale[TERMS],
                     double ms) {
     for (int i = 0; i < TERMS; i++) {
@@ -89,8 +89,8 @@ static void add_row(Equations *equations, const double terms[TERMS], const doubl
 
 static void judge_fit(const DipCostReport *report, const double *ms, const double solution[TERMS],
                       DipCostFit *fit) {
-    // R2 compares the fit with the best single time for all rows. Both are judged by relative
-    // errors.
+    // R2 compares the fit with a constant: the one time that fits all rows best. The errors of
+    // both are relative errors.
     double sum = 0.0, weight = 0.0, all = 0.0, left = 0.0;
     double *misses = malloc((size_t)report->row_count * sizeof *misses);
     for (int r = 0; r < report->row_count; r++) {

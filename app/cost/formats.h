@@ -1,5 +1,5 @@
-// A report as JSON, CSV and text. (html.h writes the page.) Each file is written whole or not at
-// all.
+// Writing a report as JSON, CSV and text, and reading it from JSON. (html.h writes the HTML page.)
+// Each file is written whole or not at all.
 #ifndef DIP_APP_COST_FORMATS_H
 #define DIP_APP_COST_FORMATS_H
 
@@ -15,7 +15,7 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
 // the report.
 bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err);
 
-// Writes one line per step of a sweep and one per combination.
+// Writes one line per step of each sweep (the steps of one setting) and one per combination.
 bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError *err);
 
 // Prints the tables for a terminal.

@@ -1,5 +1,5 @@
-// Writing the page: facts, advice, the plot of time against error, explanations. Plots are SVG;
-// there is no script.
+// Writing the HTML page: facts, advice, the plot of time against error, explanations. Plots are
+// SVG. The page has no script.
 #include "app/cost/html.h"
 
 #include "app/cost/fit.h"
@@ -57,7 +57,7 @@ static void write_facts(const DipCostReport *report, FILE *out) {
         fprintf(
             out,
             " <b>A/A:</b> the baseline was timed twice, as if it were two settings. The ratio of "
-            "the two is %.3f (95 %% interval %.3f to %.3f); smaller differences are noise.",
+            "the two times is %.3f (95 %% interval %.3f to %.3f); smaller differences are noise.",
             same.value, same.low, same.high);
     }
     fprintf(out, "</p>\n");
@@ -86,8 +86,9 @@ static void write_advice(const DipCostReport *report, FILE *out) {
         out,
         "<h2>Best settings for a time budget</h2>\n"
         "<p>For each time budget, the table shows the settings with the least FLIP that are within "
-        "the budget, of %d combinations on path %s. Their time was measured again. &ldquo;Next "
-        "better&rdquo; is the fastest combination whose FLIP is at least 1 %% lower.</p>\n"
+        "the budget. It chooses from %d combinations on path %s. The time of the chosen settings "
+        "was measured again. &ldquo;Next better&rdquo; is the fastest combination whose FLIP is at "
+        "least 1 %% below that of the chosen settings.</p>\n"
         "<div class=\"scroll\"><table>\n"
         "<tr><th>budget, ms</th><th class=\"l\">settings</th><th>time again, ms</th><th>95 %% "
         "interval</th><th>FLIP</th><th>RMSE, linear</th><th class=\"l\">next better</th><th>change "
@@ -205,9 +206,10 @@ static void write_pareto_front(const DipCostReport *report, FILE *out) {
         Points all = {values, values + room, NULL, NULL};
         Points best = {values + 2 * room, values + 3 * room, labels, label_texts};
         fprintf(out, "<h2>Time against error</h2>\n"
-                     "<p>Both axes are logarithmic. The Pareto front holds the combinations that "
-                     "no other beats in both time and error. The numbered combinations lower FLIP "
-                     "by at least 1 %% from number to number.</p>\n");
+                     "<p>Both axes are logarithmic. The Pareto front consists of the combinations "
+                     "that no other combination beats in both time and error. The FLIP of each "
+                     "numbered combination is at least 1 %% below that of the combination with "
+                     "the number before.</p>\n");
         write_scatter(report, rows, count, pareto, kept, &all, &best, out);
         write_pareto_table(report, pareto, kept, out);
     }
@@ -217,7 +219,7 @@ static void write_pareto_front(const DipCostReport *report, FILE *out) {
     free(label_texts);
 }
 
-// --- fit, floors, words ------------------------------------------------------------------------
+// --- fit, noise floors, words ------------------------------------------------------------------
 
 static void write_fit(const DipCostReport *report, FILE *out) {
     const DipCostFit fit = dip_cost_fit(report);

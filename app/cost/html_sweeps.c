@@ -1,5 +1,5 @@
-// Writing the page's sweeps. A sweep is the steps of one setting. Its bars are SVG, its tables are
-// HTML, its pictures are data URIs.
+// Writing the sweeps of the HTML page. A sweep is all steps of one setting. The bars are SVG, the
+// tables are HTML, the pictures are data URIs.
 #include "app/cost/html_sweeps.h"
 
 #include "app/cost/order.h"

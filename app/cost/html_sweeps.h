@@ -1,5 +1,5 @@
-// The part of the page that shows the sweeps (the steps of one setting each): a section for each
-// sweep, then a table of all sweeps' errors by region and a table of their work.
+// The part of the HTML page that shows the sweeps. A sweep is all steps of one setting. Each sweep
+// has a section. A table of the errors of all sweeps by region and a table of their work follow.
 #ifndef DIP_APP_COST_HTML_SWEEPS_H
 #define DIP_APP_COST_HTML_SWEEPS_H
 

@@ -55,7 +55,8 @@ static void check_of(const char *text, size_t length, char check[33]) {
     dip_hash_hex(&hash, check);
 }
 
-// Reads the text from..end as numbers separated by spaces. Returns NULL if it is anything else.
+// Reads the text from..end as numbers separated by spaces. Returns NULL if the text has another
+// form.
 static double *read_values(const char *from, const char *end, int *count) {
     int room = 1;
     for (const char *c = from; c < end; c++) {

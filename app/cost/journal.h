@@ -1,7 +1,9 @@
-// The journal of an unfinished report: a file in the report's folder that holds every measurement
-// made so far. The next run continues from the journal. Each line holds one measurement and its
-// checksum. The program may therefore be ended at any time: the next run drops a line that was cut
-// short.
+// The journal of an unfinished report: a file in the report's folder with every measurement made so
+// far. The next run continues from the journal. A measurement is either the errors of one burst or
+// the times of one round. A burst is the successive frames that are drawn at a viewpoint; its
+// errors are measured against truths (converged pictures). A round times every frame of every row
+// once. Each line of the file is one measurement and its checksum. The program may be ended at any
+// time, because the next run drops a line that was cut short.
 #ifndef DIP_APP_COST_JOURNAL_H
 #define DIP_APP_COST_JOURNAL_H
 
@@ -14,20 +16,23 @@
 typedef struct DipCostJournal DipCostJournal;
 
 // Opens folder/cost.state, or creates it. `plan` is the hash of everything that times depend on
-// (dip_cost_plan_hash). Rounds of other plans are ignored.
+// (dip_cost_plan_hash). Rounds that were stored with another hash are ignored.
 DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipError *err);
 
 // Closes the journal. Removes its file if the report is finished.
 void dip_cost_journal_close(DipCostJournal **journal, bool finished);
 
-// Find and add the errors of one burst. The key is a hash of the burst's pictures and truths.
+// dip_cost_journal_find looks up the errors of a burst and returns false if the journal does not
+// have them. dip_cost_journal_add stores them. The key is a hash of the burst's pictures and
+// truths.
 bool dip_cost_journal_find(const DipCostJournal *journal, const char *key, DipMetricSums *sums);
 bool dip_cost_journal_add(DipCostJournal *journal, const char *key, const DipMetricSums *sums,
                           DipError *err);
 
-// Returns the times of the plan's round with this number, or NULL if there is no such round. Rounds
-// are numbered from 0 in the order in which they were added; rounds that do not have `count` times
-// are skipped. The times are borrowed until the journal is closed.
+// Returns the times of the round with this number, or NULL if there is no such round. The rounds
+// that were stored with the journal's plan hash are numbered from 0, in the order in which they
+// were added. Rounds that do not have `count` times are skipped. The times are borrowed until the
+// journal is closed.
 const double *dip_cost_journal_round(const DipCostJournal *journal, int round, int count);
 bool dip_cost_journal_add_round(DipCostJournal *journal, const double *ms, int count,
                                 DipError *err);

@@ -1,8 +1,8 @@
-// Fields that have the same name in the JSON report as in the structs.
+// Lists of the fields that have the same name in the JSON report as in the C structs.
 #ifndef DIP_APP_COST_JSON_FIELDS_H
 #define DIP_APP_COST_JSON_FIELDS_H
 
-// X(field): the texts of DipCostReport.
+// X(field): the texts in DipCostReport.
 #define DIP_COST_HEADER_TEXTS(X) X(version) X(scene) X(scene_hash) X(processor) X(isa)
 
 // X(field, greatest value): numbers of DipCostReport (HEADER) and of its options (OPTION). They are

@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// True if two reports are parts of the same report: their scene, size, rows and truths are the
-// same. Their machines and times may differ.
+// True if two reports are parts of the same report: if they have the same scene, size, rows and
+// truths (converged pictures). Their machines and times may differ.
 static bool belong(const DipCostReport *a, const DipCostReport *b) {
     bool same = strcmp(a->scene_hash, b->scene_hash) == 0 && a->width == b->width &&
                 a->height == b->height && a->row_count == b->row_count &&
@@ -57,7 +57,7 @@ static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *re
         if (!belong(report, &part)) {
             dip_cost_report_free(&part);
             return dip_error_set(err, DIP_ERROR_CONFLICT, arguments->parts[i], 0, NULL,
-                                 "is no part of the same report as %s (scene, size, settings, "
+                                 "is not a part of the same report as %s (scene, size, settings, "
                                  "viewpoints or samples differ)",
                                  arguments->parts[0]);
         }

@@ -99,15 +99,16 @@ static const DipOptionRow choice_rows[] = {
     {.name = "--combine",
      .argument = "LIST",
      .text = "Also measure every combination of the steps of these settings. The default is aa,af. "
-             "The word none switches this off.",
+             "With the word none, no combinations are measured.",
      .kind = DIP_OPTION_CUSTOM,
      .given = FIELD(has_combined),
      .read = read_combined},
     {.name = "--budget-ms",
      .argument = "LIST",
      .text =
-         "Find the settings with the least error for each of these budgets in milliseconds per "
-         "frame, such as 8,16.6. With this option, the default of --combine is aa,aaa,asd,af,aaf.",
+         "For each of these time budgets, find the settings with the least error. A budget is in "
+         "milliseconds per frame, such as 8,16.6. With this option, the default of --combine is "
+         "aa,aaa,asd,af,aaf.",
      .kind = DIP_OPTION_LIST,
      .count = FIELD(budget_count),
      .most = DIP_COST_MAX_BUDGETS,

@@ -20,9 +20,10 @@ typedef struct DipCostOptions {
     DipQuality baseline;
     int places;      // Number of viewpoints on each path, where errors are measured.
     int burst;       // Number of successive frames that are drawn at each viewpoint.
-    int first_place; // First viewpoint of this run (--part).
-    int end_place;   // The viewpoint after this run's last one; 0: this run has all viewpoints.
-    int samples;     // Samples per pixel in each half of the converged picture; a square.
+    int first_place; // Index of the first viewpoint of this run (--part).
+    int end_place;   // Index of the viewpoint after the run's last one; 0: the run has all
+                     // viewpoints.
+    int samples;     // Samples per pixel in each half of the converged picture; a square number.
     double pixels_per_degree;
     int rounds;
     int timed_frames;

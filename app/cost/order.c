@@ -1,25 +1,27 @@
-// What theory says about each setting, and checking whether the report agrees.
+// A table of what theory says about each setting, and the check whether the report agrees.
 #include "app/cost/order.h"
 
 #include "app/cost/formats.h"
 
 #include <stdio.h>
 
-// How a value changes from one step of a setting to the next. FREE: theory says nothing. The steps
-// are in the order of DIP_SETTING_LIST; the steps of adaptive AA go from few sample groups to many.
+// How a value changes from one step of a setting to the next. FREE means that theory says nothing.
+// The steps have the order of DIP_SETTING_LIST, but the steps of adaptive AA go from few sample
+// groups to many.
 typedef enum Trend { FREE, FALLS, RISES, STAYS } Trend;
 
 typedef struct Theory {
     DipSetting setting;
     Trend error;
-    bool of_two_frames; // the error is that of the mean of two frames, not FLIP
-    Trend work;         // trend of `counter`; equal work also follows the trend
+    bool of_two_frames; // true: the error is the RMSE of the mean of two frames; false: it is FLIP
+    Trend work;         // trend of `counter`; a step with equal work also follows the trend
     int counter;
     const char *why; // the likely reason if a step does not follow the trend
 } Theory;
 
 #define FEW_VIEWPOINTS                                                                             \
-    "So small a difference may be due to the small number of viewpoints; --places N takes more"
+    "So small a difference may be due to the small number of viewpoints; --places N measures at "  \
+    "more of them"
 
 static const Theory theories[] = {
     {DIP_SETTING_AA, FALLS, false, RISES, DIP_COST_COUNTER_samples_shown, FEW_VIEWPOINTS},
@@ -28,11 +30,12 @@ static const Theory theories[] = {
      "Where the camera moves far between two frames, their mean is blurred"},
     {DIP_SETTING_AF, FALLS, false, RISES, DIP_COST_COUNTER_texture_probes, FEW_VIEWPOINTS},
     {DIP_SETTING_AAF, FALLS, false, FREE, 0,
-     "Surfaces that are tilted by nearly a multiple of 45 degrees get as many probes without aaf"},
+     "Surfaces that tilt away at nearly a multiple of 45 degrees on the screen get as many probes "
+     "without aaf as with it"},
     {DIP_SETTING_OPT, RISES, false, FALLS, DIP_COST_COUNTER_texels_fetched, FEW_VIEWPOINTS},
     {DIP_SETTING_MIPLOD, FALLS, false, RISES, DIP_COST_COUNTER_texels_fetched,
-     "With a bias, most reads take as many texels, only from smaller mip levels; on a magnified "
-     "surface, a read may even take two levels instead of one"},
+     "With a bias, most reads take as many texels as without it, but from smaller mip levels; on a "
+     "magnified surface, a read may even take two levels instead of one"},
     {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COST_COUNTER_geometry_bytes, FEW_VIEWPOINTS},
 };
 

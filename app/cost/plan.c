@@ -1,4 +1,5 @@
-// Making the rows and the sweeps of a report.
+// Making the rows and the sweeps of a report. A row is one combination of settings on a camera
+// path; a sweep is the rows of all steps of one setting.
 #include "app/cost/plan.h"
 
 #include "app/cost/scene_hash.h"
@@ -9,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// For each setting: the camera path that was made for it, and another setting that must be on. If
-// the other setting is off, the steps of the setting do not differ.
+// For each setting: the camera path that was made for it, and the other setting that it needs.
+// While the other setting is off, all steps of this setting draw the same picture.
 typedef struct SettingPlan {
     DipCategory category;
-    DipSetting needs; // the other setting; the setting itself if it needs none
+    DipSetting needs; // the other setting, or this setting itself if it needs no other
     int needed_step;
 } SettingPlan;
 
@@ -37,7 +38,7 @@ static int slot_of(const DipSession *session, int category) {
 }
 
 // Adds the camera path of a category and returns its index. Categories with the same path and field
-// of view share one entry, which has the name of the first of these categories.
+// of view share one entry. The entry has the name of the first of these categories.
 static int add_path(DipCostReport *report, const DipSession *session, int category) {
     const DipCamCategory *slot = &session->track.categories[slot_of(session, category)];
     for (int p = 0; p < report->path_count; p++) {
@@ -123,7 +124,7 @@ static void add_to_sweep(DipCostSweep *sweep, int row) {
     }
 }
 
-// Writes the settings that differ from their defaults, without the setting of the sweep. Writes ""
+// Writes the settings that differ from their defaults, except the setting of the sweep. Writes ""
 // if there are none.
 static void context_text(const DipQuality *quality, DipSetting setting, char text[DIP_COST_TEXT]) {
     DipQuality context = *quality;
@@ -254,9 +255,8 @@ static void describe(DipCostReport *report, const DipSession *session) {
     report->height = session->pane_size.height;
 }
 
-// Returns the settings that are combined by default. Two settings are enough for a plot of the
-// Pareto front. Advice (--budget-ms) also needs the other settings that are worth choosing in any
-// scene.
+// Returns the settings that are combined by default. A plot of the Pareto front needs two settings.
+// Advice (--budget-ms) needs three more, which are worth choosing in any scene.
 static unsigned default_combined(const DipCostOptions *options) {
     const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
     return options->budget_count

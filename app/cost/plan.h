@@ -1,5 +1,6 @@
-// The rows of a report: every step of every setting, on the camera path made for that setting, and
-// the combinations.
+// Planning the rows of a report. A row is one combination of settings on a camera path. There is a
+// row for every step of every setting, on the camera path made for this setting, and a row for
+// every combination that --combine asks for.
 #ifndef DIP_APP_COST_PLAN_H
 #define DIP_APP_COST_PLAN_H
 
@@ -7,8 +8,9 @@
 #include "app/cost/report.h"
 #include "app/session.h"
 
-// Fills in the rows and sweeps of an empty report and allocates its memory. Steps that the renderer
-// refuses are left out and listed with the reason. Free the report even after a failure.
+// A sweep is all steps of one setting. Fills in the rows and sweeps of an empty report and
+// allocates its memory. Steps that the renderer refuses are left out and listed with the reason.
+// Free the report even after a failure.
 bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCostOptions *options,
                    DipError *err);
 
@@ -20,12 +22,14 @@ int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession 
 DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, int path,
                       int64_t time_ns);
 
-// Returns the time of a frame of the burst at a viewpoint. The path is divided into equal parts,
-// and each viewpoint is the middle of a part. The frames of a burst are 1/30 s apart.
+// Returns the time of a frame at a viewpoint. The path is divided into equal parts, and each
+// viewpoint is the middle of a part. At each viewpoint, a burst of successive frames is drawn.
+// These frames are 1/30 s apart, and `frame` is the index in the burst.
 int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession *session, int path,
                                    int viewpoint, int frame);
 
-// Writes the hash of everything that times depend on: rows, size, scene, machine, version.
+// Writes the plan hash, which covers everything that times depend on: rows, size, scene, machine,
+// version.
 void dip_cost_plan_hash(const DipCostReport *report, char hex[33]);
 
 #endif

@@ -1,4 +1,4 @@
-// The memory of a report, and the values that follow from its measurements.
+// Allocating the memory of a report, and computing values from its measurements.
 #include "app/cost/report.h"
 
 #include "app/measure/truth.h"

@@ -1,6 +1,6 @@
-// A cost report: its measurements, and the values that follow from them. Errors are measured
-// against truths (converged pictures, app/measure/truth.h), at a few viewpoints of each camera
-// path.
+// A cost report: its measurements, and the values computed from them. Errors are measured against
+// truths (converged pictures, app/measure/truth.h), at a few viewpoints of each camera path. Times
+// are measured in rounds: each round times every frame of every row once.
 #ifndef DIP_APP_COST_REPORT_H
 #define DIP_APP_COST_REPORT_H
 
@@ -35,11 +35,11 @@ enum {
 // One measured combination: quality settings on a camera path.
 typedef struct DipCostRow {
     DipQuality quality;
-    int path;                                // Index of the report's path.
+    int path;                                // Index of the camera path in the report.
     DipMetricSums *viewpoints;               // Errors per viewpoint of the path. Owned.
-    bool *judged;                            // True for a viewpoint with errors. Owned.
-    double *ms;                              // [round * timed_frames + frame]. Owned.
-    double counters[DIP_COST_COUNTER_COUNT]; // Mean per timed frame.
+    bool *judged;                            // [viewpoint]: its errors are known. Owned.
+    double *ms;                              // Times, [round * timed_frames + frame]. Owned.
+    double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
 } DipCostRow;
 
 // A sweep: all steps of one setting on one path, with every other setting held constant.
@@ -99,7 +99,7 @@ void dip_cost_report_free(DipCostReport *report);
 // Writes the settings that differ from the defaults, "aa=4,af=16", or "defaults".
 void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]);
 
-// The plural ending of a noun after a number: "" or "s".
+// Returns the plural ending of a noun after a number: "" or "s".
 static inline const char *dip_cost_plural(int count) {
     return count == 1 ? "" : "s";
 }
@@ -114,8 +114,8 @@ const char *dip_cost_floor_mark(const DipCostReport *report, int row);
 
 // --- errors ------------------------------------------------------------------------------------
 
-// Returns the sum of a row's errors over all viewpoints that were judged. Sets *viewpoints to their
-// number.
+// Returns the sum of a row's errors over all judged viewpoints (those whose errors are known). Sets
+// *viewpoints to the number of these viewpoints.
 DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints);
 
 // Returns the metrics of a row over all judged viewpoints, in one region (0: the whole picture).
@@ -134,9 +134,9 @@ bool dip_cost_at_floor(const DipCostReport *report, int row);
 
 bool dip_cost_is_timed(const DipCostReport *report, int row);
 
-// The time of a row's frame in milliseconds: each frame's median over the rounds, then the mean
-// over the frames. dip_cost_ms returns this value only. dip_cost_time also returns its 95 %
-// interval, which takes far longer to compute.
+// The time of a row in milliseconds per frame: the median over the rounds for each frame, then the
+// mean of these medians over the frames. dip_cost_ms returns this value only. dip_cost_time also
+// returns its 95 % interval, which takes far longer to compute.
 double dip_cost_ms(const DipCostReport *report, int row);
 DipStatsEstimate dip_cost_time(const DipCostReport *report, int row);
 
@@ -149,12 +149,12 @@ DipStatsEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
 // --- choosing ----------------------------------------------------------------------------------
 
 // Finds the Pareto front of some rows in time and FLIP. A row is in the front if no other row is at
-// least as good in both. Writes them to `front` in order of time and returns their number. Rows
-// without times or errors are left out.
+// least as good in both. Writes the rows of the front to `front` in order of time and returns their
+// number. Rows without times or errors are left out.
 int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *front);
 
-// Thins a Pareto front: keeps the first row and every row that lowers FLIP by at least 1 % below
-// the last kept one. Returns the number of rows kept.
+// Thins a Pareto front: keeps the first row and every row whose FLIP is at least 1 % below the FLIP
+// of the row kept before. Returns the number of rows kept.
 int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int count);
 
 // Returns the fastest combination whose FLIP is at least 1 % lower than the row's FLIP, or -1 if

@@ -1,5 +1,5 @@
-// Drawing the steps of each sweep once more, finding the crop in which they differ most, and
-// cutting it out.
+// Drawing the steps of each sweep once more, finding the crop (the part of the picture) in which
+// the steps differ most, and cutting this crop out.
 #include "app/cost/report_pictures.h"
 
 #include "app/files/png.h"
@@ -15,8 +15,8 @@ typedef struct Cropper {
     DipFlip flip;
     DipFlipAnalysis truth_side;
     DipFlipAnalysis side;
-    float *maps;       // [step][pixel]
-    uint8_t *pictures; // [step][pixel], rgba8
+    float *maps;       // FLIP maps, [step][pixel]
+    uint8_t *pictures; // frames, [step][pixel], rgba8
     uint8_t *colours;  // crop of a FLIP map in colours, rgba8
     DipProgress progress;
     int64_t done;
@@ -99,9 +99,9 @@ static int crop_height(const Cropper *c) {
     return height < DIP_COST_CROP_HEIGHT ? height : DIP_COST_CROP_HEIGHT;
 }
 
-// Finds the crop in which the steps' errors differ most. At a pixel, the errors differ by the
-// greatest error of any step minus the least error. Of the crops on a grid of positions, takes the
-// one with the greatest sum of these differences.
+// Finds the crop in which the steps' errors differ most. The difference at a pixel is the greatest
+// error of any step minus the least error of any step. Among the crops at a grid of positions,
+// takes the crop with the greatest sum of the differences of its pixels.
 static void find_crop(const Cropper *c, int steps, DipCostCrops *crops) {
     const int width = c->cost->report->width, height = c->cost->report->height;
     double most = -1.0;
@@ -172,7 +172,7 @@ static bool go_on(void *context, double done) {
 
 static bool cut_sweep(Cropper *c, const DipCostSweep *sweep, DipCostCrops *crops, DipError *err) {
     const DipCostReport *report = c->cost->report;
-    // The middle one of the viewpoints that were judged.
+    // Use the middle one of the viewpoints whose errors are known.
     crops->viewpoint = (report->options.first_place + report->options.end_place - 1) / 2;
     const int64_t time_ns =
         dip_cost_viewpoint_time_ns(report, c->cost->session, sweep->path, crops->viewpoint, 0);

@@ -1,5 +1,5 @@
-// Pictures for the page: for each sweep, the part of the picture (the crop) in which the sweep's
-// steps differ most.
+// Pictures for the HTML page. Each sweep (all steps of one setting) is shown by a crop: the part of
+// the picture in which the steps differ most.
 #ifndef DIP_APP_COST_REPORT_PICTURES_H
 #define DIP_APP_COST_REPORT_PICTURES_H
 

@@ -1,4 +1,4 @@
-// A report as tables for a terminal.
+// Printing a report as tables for a terminal.
 #include "app/cost/formats.h"
 
 #include "app/cost/fit.h"
@@ -82,7 +82,8 @@ static void print_front(const DipCostReport *report, FILE *out) {
         "\n"
         "Pareto front of %d combinations on path %s: no other combination has less time and less "
         "FLIP.\n"
-        "A combination is listed only if its FLIP is at least 1 %% below that of the line above.\n",
+        "A combination is listed only if its FLIP is at least 1 %% below the FLIP of the line "
+        "above.\n",
         count, report->paths[0]);
     for (int i = 0; i < kept; i++) {
         int viewpoints;

@@ -1,4 +1,5 @@
-// Timing every row in interleaved rounds. The work counters of a row come from the warm-up.
+// Timing every row in interleaved rounds: each round draws every frame of every row once. The work
+// counters of a row come from the warm-up, which draws each frame before any time is taken.
 #include "app/cost/steps.h"
 #include "app/measure/timing.h"
 #include "app/progress.h"
@@ -32,8 +33,8 @@ static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipE
         add_counters(&report->rows[turn->subject], &t->frame.counters,
                      1.0 / report->options.timed_frames);
     }
-    // Before the first round, frames are drawn until their time is steady (settling). Their number
-    // is unknown, so these frames do not count as progress.
+    // Settling: before the first round, frames are drawn until their time is steady. The number of
+    // these frames is not known in advance, so the progress does not include them.
     t->drawn += turn->phase != DIP_TIMING_SETTLE;
     dip_progress_show(&t->progress, t->drawn);
     return !dip_cost_interrupted(t->cost, err);

@@ -7,7 +7,7 @@
 //
 // All times and counters of a copied pane are 0, because copying takes no time and no work. A
 // frame's "ms" is the wall-clock time of both panes together. The sum of the panes' times can
-// exceed the frame's "ms", because the time of geometry that both panes share is included in both.
+// exceed the frame's "ms", because the time of shared geometry is included in both panes' times.
 #ifndef DIP_APP_DUMP_RECORD_H
 #define DIP_APP_DUMP_RECORD_H
 
@@ -41,7 +41,7 @@ bool dip_record_add(DipRecord *record, int index, double time_s, const DipPose *
 bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t peak_rss_bytes,
                           DipError *err);
 
-// Writes the file as a whole or not at all.
+// Writes the record to a file, whole or not at all.
 bool dip_record_write(const DipRecord *record, const char *file, DipError *err);
 
 // Prints the record and a newline. The caller checks `out` for a write error.

@@ -1,4 +1,4 @@
-// Making a folder part by part.
+// Making each missing folder of a path, from the outermost inwards.
 #include "app/files/folder.h"
 
 #include <errno.h>

@@ -1,4 +1,4 @@
-// PNG and deflate through stb_image_write, in memory.
+// Encoding PNG and compressing with deflate in memory, both by stb_image_write.
 #include "app/files/png.h"
 
 #include "app/files/whole_file.h"

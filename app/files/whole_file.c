@@ -1,4 +1,4 @@
-// Writing under a temporary name, then renaming.
+// Writing a file under a temporary name, then renaming it.
 #include "app/files/whole_file.h"
 
 #include <errno.h>

@@ -18,7 +18,7 @@ enum {
     LEGEND_TOP = 476,
     LEGEND_LINE = 20,
     LEGEND_WIDTH = 340, // width of a column of the legend
-    MOST_BARRED = 4,    // most series of a plot with bars
+    MOST_BARRED = 4,    // a plot with more series has no bars
     MAX_TICKS = 16,
     TICK_ROOM = 46 // least distance between two labels of the x axis
 };
@@ -60,7 +60,7 @@ static void widen(Axis *axis, double value) {
     axis->most = fmax(axis->most, scaled(axis, value));
 }
 
-// Adds room around the values. A range that holds a single value gets a width above 0.
+// Adds a margin on both sides of the values. A range of a single value gets a width above 0.
 static void add_margin(Axis *axis, bool from_zero) {
     double room = 0.06 * (axis->most - axis->least);
     if (!(room > 0.0)) {

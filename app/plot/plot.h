@@ -10,16 +10,16 @@
 
 enum { DIP_PLOT_MAX_SERIES = 12 };
 
-// A line of the plot with a mark at each point, and a vertical bar from low to high. Everything is
+// A line of the plot. Each point has a mark and a vertical bar from low to high. Everything is
 // borrowed. A plot of more than four series has no bars, because the bars would hide each other.
 typedef struct DipPlotSeries {
-    const char *name; // For the legend.
-    const double *x;  // Ascending.
+    const char *name; // Name of the line in the legend.
+    const double *x;  // Values in ascending order.
     const double *y;
     const double *low; // Lower ends of the bars; NULL for none.
     const double *high;
     int count;
-    bool marks_only;           // Draws no line between the points.
+    bool marks_only;           // True: no line connects the points.
     const char *const *labels; // Texts below and left of the points; NULL for none.
 } DipPlotSeries;
 
@@ -27,7 +27,7 @@ typedef struct DipPlotSeries {
 // 0.
 typedef struct DipPlot {
     const char *title;
-    const char *subtitle; // What is shown, and how often it was measured.
+    const char *subtitle; // Says what is shown and how often it was measured.
     const char *x_title;  // Title of the x axis, with its unit.
     const char *y_title;
     bool log_x;
@@ -37,7 +37,7 @@ typedef struct DipPlot {
     int series_count; // At least 1. Each series has at least one point.
 } DipPlot;
 
-// Prints the <svg> element alone, to be part of a page.
+// Prints only the <svg> element, for use in an HTML page.
 void dip_plot_print(FILE *out, const DipPlot *plot);
 
 // Writes the file whole or not at all.

@@ -327,7 +327,7 @@ expect 0 '' $cost --out one-thread --errors-only --combine aa --threads 1 --isa 
 sums_of one-thread >other.txt
 check "errors are the same on one thread, without vectors" cmp once.txt other.txt
 sed 's/"samples":4,/"samples":9,/' part1/cost.json >else.json
-expect 2 'else.json: is no part of the same report' \
+expect 2 'else.json: is not a part of the same report' \
     "$diptych" cost merge --out x part0/cost.json else.json
 
 expect 0 '' "$diptych" cost assets --model "$source/tests/assets/data/square.gltf"
@@ -347,7 +347,7 @@ for tenth in $(seq 600); do
 done
 kill -INT $!
 wait $!
-check "after Ctrl-C, cost says that the same command continues" grep -q 'interrupted; the same command goes on' err.txt
+check "after Ctrl-C, cost says that the same command continues the report" grep -q 'interrupted; run the same command again' err.txt
 check "the measurements are kept" test -s stopped/cost.state
 expect 0 '' $cost --out stopped --rounds 4
 check "the same command finishes the report" test -s stopped/cost.html -a ! -e stopped/cost.state
