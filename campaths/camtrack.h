@@ -42,7 +42,7 @@ void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path, 
 
 // Makes a category active at a play time. If this changes the path and reset_on_switch is set, the
 // new path starts at its beginning. Otherwise it continues at the time that the old path had
-// reached, so that a change there and back leaves no trace.
+// reached, so that a change to another path and back does not affect the time.
 void dip_camtrack_switch(DipCamTrack *track, int category, int64_t play_ns);
 
 // Returns the active path to its beginning.
