@@ -1,5 +1,6 @@
 // Decides which camera path plays. Each category of settings has a path and a field of view; the
-// track knows the active category and keeps the time on the path when the category changes.
+// track knows the active category and keeps the time on the path when the category changes. Play
+// time is the caller's clock, in nanoseconds; a change of path does not affect this clock.
 //
 // Threads: a track is plain data without locks. Functions that change it need exclusive access; any
 // number of threads may read it otherwise.
