@@ -17,11 +17,11 @@
 #include <sys/stat.h>
 
 // aiProcess_JoinIdenticalVertices is left out. It merges vertices that differ only in their second
-// texture coordinates, and so it tears light maps. mesh.c compares all attributes instead.
+// texture coordinates, which would tear light maps. mesh.c compares all attributes instead.
 static const unsigned process_flags =
     aiProcess_Triangulate | aiProcess_FlipUVs | aiProcess_SortByPType;
 
-// This is address space; memory is used as needed.
+// The stack reserves address space; memory is used only as needed.
 static const size_t import_stack_bytes = (size_t)256 << 20;
 
 enum {
@@ -162,7 +162,6 @@ static void close_gaps(struct aiNode *node) {
 //   file). Such meshes are marked as points, so that the steps skip them.
 // - Scenes flagged as sharing vertices between faces (files that assimp wrote). The flag is
 //   removed; scenes of other formats share vertices without the flag and are processed.
-//   share vertices without the flag and are processed.
 static void mend_scene(const struct aiScene *checked) {
     struct aiScene *scene = (struct aiScene *)checked; // assimp allocated it writable.
     scene->mFlags &= ~(unsigned)AI_SCENE_FLAGS_NON_VERBOSE_FORMAT;

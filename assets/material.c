@@ -14,7 +14,7 @@ static const float default_roughness = 0.6f;
 static const float light_map_scale = 2.0f; // Light maps marked by `lightmapped` store light / 2.
 
 float dip_model_colour_to_linear(float value, bool linear) {
-    const double x = value > 0.0f ? (value < 1.0f ? (double)value : 1.0) : 0.0; // NaN: 0
+    const double x = value > 0.0f ? (value < 1.0f ? (double)value : 1.0) : 0.0; // NaN becomes 0
     if (linear) {
         return (float)x;
     }
@@ -42,8 +42,8 @@ static void warn_of_transform(DipModel *model, const char *path, const char *nam
     }
 }
 
-// Tries the given types of picture in order. Returns the use of the first picture that the material
-// has and that the mesh has texture coordinates for.
+// Tries the given types of picture in order. Returns how the material uses the first picture for
+// which the mesh has texture coordinates.
 static DipTextureUse texture_use(DipModel *model, int file, const char *name,
                                  const struct aiMesh *mesh, const enum aiTextureType *types,
                                  size_t type_count) {

@@ -1,5 +1,5 @@
-// Loads a model: turns the nodes of the files into objects, has the pictures decoded and completes
-// the scene description.
+// Loads a model: turns the nodes of the files into objects, lets pictures.c decode the pictures,
+// and completes the scene description.
 #include "assets/model.h"
 
 #include "assets/model_parts.h"
@@ -250,8 +250,8 @@ static void extend_bounds(double low[3], double high[3], const DipMeshDef *mesh,
     }
 }
 
-// Computes the distance of the near plane from the size of the model. The sky does not count,
-// because it may be as large as its author likes.
+// Computes the distance of the near plane from the size of the model. The sky is left out, because
+// its size says nothing about the model's size.
 static float near_distance(const DipModel *model) {
     double low[3] = {INFINITY, INFINITY, INFINITY};
     double high[3] = {-INFINITY, -INFINITY, -INFINITY};

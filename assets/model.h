@@ -11,13 +11,14 @@
 // - Outside glTF, a black base colour with a colour texture counts as white, because many exporters
 //   write black for "none".
 // - In glTF, MASK keeps its cutoff, and BLEND is drawn as MASK with a cutoff of 0.5 and a warning.
-//   In other formats an opacity picture clips at 0.5. A surface whose texture is opaque throughout
-//   is an opaque surface.
-// - A surface is double-sided if the file says so, and always in formats that cannot say.
-// - A node takes its metadata (glTF: extras) from itself or from the nearest node above it that has
-//   some. `surface` is solid, mask, glass, water or sky. `lightmapped` is 1 if the material's
-//   occlusion picture is a light map that stores light / 2. Light maps of other formats store the
-//   light itself.
+//   In other formats a surface with an opacity picture is clipped where the opacity is below 0.5. A
+//   surface whose texture is opaque throughout is an opaque surface.
+// - A surface is double-sided if the file says so. In formats that cannot say so, every surface is
+//   double-sided.
+// - Two keys of a node's metadata (glTF: extras) are read. A node that lacks a key takes its value
+//   from the nearest node above that has the key. `surface` is solid, mask, glass, water or sky.
+//   `lightmapped` is 1 if the material's occlusion picture is a light map that stores light / 2.
+//   Light maps of other formats store the light itself.
 // - The renderer's fixed light lights solid and mask surfaces without a light map.
 // - Roughness comes from glTF, or is 0.6 if the file has none.
 // - A sky's texture is data (DipSkyDef), not colour, and is read as linear.
@@ -41,9 +42,9 @@ enum { DIP_MAX_MODEL_FILES = 256 };
 
 // Loads 1..DIP_MAX_MODEL_FILES files into one description. The caller owns the model and destroys
 // it with dip_model_destroy. If any file fails, returns NULL and fills *err (may be NULL) with the
-// file and the reason. Faults that leave a usable model, such as a missing picture (its surface is
-// drawn in its base colour), are added to *warnings (may be NULL). The pool (may be NULL) reads and
-// decodes pictures in parallel; no other thread may use it meanwhile.
+// file and the reason. Some faults leave a usable model and are only added to *warnings (may be
+// NULL). For example, a surface whose picture is missing is drawn in its base colour. The pool (may
+// be NULL) reads and decodes pictures in parallel; no other thread may use the pool meanwhile.
 //
 // Codes: MISSING (no such file, or no triangle), IO, TRUNCATED, FORMAT (not a supported format, or
 // malformed), UNSUPPORTED (a required glTF extension), RANGE (an index out of range; a position or
@@ -52,7 +53,7 @@ enum { DIP_MAX_MODEL_FILES = 256 };
 //
 // Threads: different models may be loaded at the same time on different threads.
 //
-// Normal maps are not loaded: the materials have none.
+// This function loads no normal maps, so the materials have none.
 DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
                          DipErrorList *warnings, DipError *err);
 

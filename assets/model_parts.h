@@ -51,8 +51,8 @@ typedef struct DipTextureUse {
     DipWrap wrap_v;
 } DipTextureUse;
 
-// One per DipMaterialDef: what distinguishes the material from other materials, and what is needed
-// once the pictures are decoded.
+// Describes one DipMaterialDef: the values that distinguish it from other materials, and the values
+// that are needed after the pictures are decoded.
 typedef struct DipMaterialPlan {
     int file;             // index of the model file
     unsigned source;      // index of the material in that file
@@ -68,14 +68,14 @@ typedef struct DipMaterialPlan {
     DipTextureUse normal;
 } DipMaterialPlan;
 
-// One per DipTextureDef: what distinguishes the texture from other textures.
+// Describes one DipTextureDef: the values that distinguish it from other textures.
 typedef struct DipTextureKey {
     int picture;
     int opacity_picture;
     bool has_alpha;
 } DipTextureKey;
 
-// One per DipMeshDef: what distinguishes the mesh from other meshes.
+// Describes one DipMeshDef: the values that distinguish it from other meshes.
 typedef struct DipMeshKey {
     int file;        // index of the model file
     unsigned source; // index of the mesh in that file
@@ -134,7 +134,7 @@ float dip_model_colour_to_linear(float value, bool linear);
 bool dip_mesh_is_triangles(const struct aiMesh *mesh);
 
 // precheck.c: refuses files that would make assimp run out of stack, memory or time, and glTF files
-// that need an extension that cannot be decoded.
+// that require an extension Diptych cannot decode.
 bool dip_model_precheck(DipModel *model, const char *path, DipError *err);
 
 // import.c: imports and checks a file, and sets file->scene.

@@ -1,8 +1,8 @@
 // Makes normals for meshes that have none.
 //
 // assimp's own step writes a face's normal to the face's vertices and then averages vertices at the
-// same position. That works only if no two faces share a vertex, but faces in glTF and PLY files
-// do.
+// same position. That works only if no two faces share a vertex, but in glTF and PLY files faces
+// share vertices.
 #include "assets/model_parts.h"
 
 #include <assimp/mesh.h>
@@ -14,7 +14,7 @@
 // long.
 enum { MAX_FACES_AT_A_POINT = 1024 };
 
-static const double smoothing_cosine = 0.5; // cos 60 degrees; faces that meet at more keep an edge
+static const double smoothing_cosine = 0.5; // cos 60 degrees; at greater angles the edge stays hard
 static const uint32_t free_slot = UINT32_MAX;
 
 // The corners of all faces, three per face. Corners at the same position form a linked list.
@@ -23,7 +23,7 @@ typedef struct Corners {
     uint32_t count;
     double (*face_normal)[3]; // per face; its length is twice the face's area
     uint32_t *next;           // per corner: the next corner of its list
-    uint32_t *length;         // per corner: length of the list that begins with it
+    uint32_t *length;         // per corner: length of the list that begins with this corner
     uint32_t *table;          // hash table by position, open addressing: first corner of a list
     size_t slots;             // size of the hash table, a power of two
 } Corners;

@@ -21,8 +21,8 @@
 
 static const size_t max_file_bytes = (size_t)512 << 20;
 
-// stb_image reads zeros beyond the end of TGA, BMP and JPEG data, so passed_end records that it has
-// read past the end.
+// stb_image reads zeros beyond the end of TGA, BMP and JPEG data, so passed_end records whether
+// stb_image has read past the end.
 typedef struct Source {
     const uint8_t *bytes;
     size_t size_bytes;
@@ -30,7 +30,9 @@ typedef struct Source {
     bool passed_end;
 } Source;
 
-// Size of stb_image's own buffer. Only reads of this size may be cut short.
+// Size of stb_image's own buffer. A read of this size fills the buffer. At the end of the data it
+// may return fewer bytes, but at least one. If a read of another size returns fewer bytes than
+// wanted, the data is truncated.
 enum { STB_REFILL_BYTES = 128 };
 
 static int source_read(void *user, char *data, int size) {

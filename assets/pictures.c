@@ -64,10 +64,11 @@ static void decode_percent(char *path) {
     *to = '\0';
 }
 
-// Finds a picture file: at its path relative to the model's folder, or under the path's last part
-// in that folder, because some models hold absolute paths of another machine. Each of the two is
-// tried as written and then with percent-encoding decoded. Returns the path, or the first path
-// tried if there is no file; the caller frees it. Returns NULL when memory runs out.
+// Finds a picture file. Two names are tried in the model's folder: the path that the model gives,
+// and only the last part of this path, because some models contain absolute paths of another
+// machine. Each name is tried as written and then with percent-encoding decoded. Returns the path
+// of the file, or the first path tried if there is no file. The caller frees the path. Returns NULL
+// when memory runs out.
 static char *find_file(const char *model_path, const char *picture_path) {
     const size_t folder_length = (size_t)(base_name(model_path) - model_path);
     const size_t size_bytes = folder_length + strlen(picture_path) + 1;

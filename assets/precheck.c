@@ -1,5 +1,5 @@
 // Checks of model files before assimp reads them. They refuse files that would make assimp run out
-// of stack, memory or time, and glTF files that need an extension Diptych cannot decode.
+// of stack, memory or time, and glTF files that require an extension Diptych cannot decode.
 #include "assets/model_parts.h"
 
 #include <stdio.h>
@@ -9,8 +9,8 @@
 
 enum {
     MAX_JSON_DEPTH = 512,
-    // Also limits how deep nodes nest, because every node with children has an array. For each
-    // level of nodes assimp uses some 600 bytes of stack.
+    // This number also limits how deep nodes nest, because every node with children has an array.
+    // For each level of nodes assimp uses some 600 bytes of stack.
     MAX_JSON_ARRAYS = 400000,
     MAX_EXTENSION_NAME = 64,
 };
@@ -20,7 +20,7 @@ typedef struct JsonScan {
     const char *path;
     bool in_string;
     bool escaped; // the character before was an unescaped backslash
-    int depth;    // of nested objects and arrays
+    int depth;    // number of objects and arrays that are open
     int max_depth;
     long array_count;
     char text[MAX_EXTENSION_NAME];    // the string being read; a longer one is cut

@@ -126,8 +126,8 @@ DipCamKey dip_campath_key(const DipCamPath *path, size_t index) {
     return path->keys[index];
 }
 
-// Finds the orientation at the end of the step that starts at key `index`. It lies on the
-// hemisphere of that key.
+// Finds the orientation at the end of the step that starts at key `index`. An orientation has two
+// quaternions, q and -q. Returns the one on the hemisphere of that key (dot product >= 0).
 static void step_target(const DipCamPath *path, size_t index, double q[4]) {
     const size_t next = index + 1 < path->key_count ? index + 1 : 0;
     const double sign = next == 0 ? path->closing_sign : 1.0;

@@ -15,10 +15,10 @@
 //
 // Numbers are decimal and finite, with '.' in every locale. The period is rounded to nanoseconds.
 // Quaternions may have any length from 1e-6 to 1e6. Loading normalises a quaternion unless its
-// squared length is within DIP_CAMPATH_UNIT_TOLERANCE of 1, and negates it if it lies on the other
-// hemisphere than the quaternion before it. Loading does not change keys that were loaded before.
-// So a path keeps every bit when it is loaded, saved and converted any number of times, in either
-// format.
+// squared length is within DIP_CAMPATH_UNIT_TOLERANCE of 1, and negates it if its dot product with
+// the quaternion before it is negative. If a path was loaded and saved before, loading it again
+// changes no key. So a path keeps every bit when it is loaded, saved and converted any number of
+// times, in either format.
 //
 // Binary format, `.bth`. All numbers are little-endian on every host:
 //
@@ -109,9 +109,9 @@ bool dip_campath_save_bth(const DipCamPath *path, const char *file, DipError *er
 DipCamPathInfo dip_campath_info(const DipCamPath *path);
 DipCamKey dip_campath_key(const DipCamPath *path, size_t index); // index < key_count
 
-// Sets the pose's position and orientation to those at a time, which may be negative, and leaves
-// fov_y_deg unchanged. The time is an integer and is taken modulo the duration, so times one
-// duration apart give the same bits.
+// Sets the pose's position and orientation to the path's at a given time. Leaves fov_y_deg
+// unchanged. The time may be negative. It is an integer and is taken modulo the duration, so times
+// one duration apart give the same bits.
 void dip_campath_sample(const DipCamPath *path, int64_t time_ns, DipPose *pose);
 
 // An orbit about a model's bounding box: one full turn at constant speed, from +Z over +X. The

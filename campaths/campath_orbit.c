@@ -5,11 +5,13 @@
 
 #include <math.h>
 
-// Each step is 3.6 degrees. The middle of its chord is 0.05 % nearer to the box than the circle.
+// Between keys the camera moves along chords of a circle. Each chord spans 3.6 degrees. Its middle
+// is 0.05 % nearer to the box than the circle is.
 enum { ORBIT_KEYS = 100 };
 
 static const double ELEVATION_RAD = 15.0 * DIP_PI / 180.0;
-// Factor on the distance. It leaves a border and allows for the chords.
+// The camera's distance is multiplied by this factor. It leaves a border around the box and allows
+// for the chords.
 static const double MARGIN = 1.05;
 // Half the size of the box that is framed around a model of a single point.
 static const double MIN_RADIUS_M = 0.5;

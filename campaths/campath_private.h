@@ -29,7 +29,7 @@ DipCamPath *dip_campath_allocate(size_t key_count, int64_t period_ns, const char
 // binary format.
 void dip_campath_finish(DipCamPath *path);
 
-// Returns component 0..6 of a key, in the order of the files.
+// Returns component 0..6 of a key. The order is x, y, z, qx, qy, qz, qw, as in the files.
 double dip_campath_component(const DipCamKey *key, int index);
 
 // True if the squared length is within DIP_CAMPATH_UNIT_TOLERANCE of 1.

@@ -13,15 +13,15 @@ typedef struct Token {
     size_t length;
 } Token;
 
-enum { MAX_TOKENS = 8 }; // One more than a key has, so that a line with too many is noticed.
+enum { MAX_TOKENS = 8 }; // One more than a key has, so that a line with too many tokens is noticed.
 
 typedef struct TextReader {
     const char *name; // the file, in messages
     const char *at;   // next byte to read
     const char *end;
-    int line; // of the last line read, 1-based
+    int line; // number of the last line that was read, 1-based
     bool has_header;
-    int64_t period_ns; // 0 until it is read
+    int64_t period_ns; // 0 until the period is read
     DipCamPath *path;  // the keys so far; reallocated as they grow
     size_t capacity;   // keys that path has room for
     size_t count;      // keys read so far
@@ -34,8 +34,8 @@ static bool fault(const TextReader *reader, DipErrorCode code, const char *key,
 }
 
 // Reports a file that is not a camera path at all. `found` says what the file has instead of a
-// header. A file whose name is that of a model gets a hint, because the two are easily confused on
-// the command line.
+// header. If the file's name ends like that of a model, the message adds a hint, because model
+// files and path files are easily confused on the command line.
 static bool not_a_path(const TextReader *reader, const char *found) {
     static const char *const model_endings[] = {".gltf", ".glb", ".obj", ".ply", ".stl", ".x",
                                                 ".dae",  ".fbx", ".3ds", ".md2", ".off"};

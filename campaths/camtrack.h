@@ -1,5 +1,6 @@
 // Decides which camera path plays. Each category of settings has a path and a field of view; the
-// track knows the active category and keeps the time on the path when the category changes.
+// track knows the active category and keeps the time on the path when the category changes. Play
+// time is the caller's clock, in nanoseconds; a change of path does not affect this clock.
 //
 // Threads: a track is plain data without locks. Functions that change it need exclusive access; any
 // number of threads may read it otherwise.
@@ -42,7 +43,7 @@ void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path, 
 
 // Makes a category active at a play time. If this changes the path and reset_on_switch is set, the
 // new path starts at its beginning. Otherwise it continues at the time that the old path had
-// reached, so that a change there and back leaves no trace.
+// reached, so that a change to another path and back does not affect the time.
 void dip_camtrack_switch(DipCamTrack *track, int category, int64_t play_ns);
 
 // Returns the active path to its beginning.

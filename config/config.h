@@ -113,8 +113,8 @@ typedef struct DipConfig {
 // Reads the whole file and adds every fault to *faults: unknown keys with the key they resemble,
 // bad values with what is accepted, lines without a value, and required keys that are missing.
 // Returns true if there was no error; the caller then owns *config and frees it with
-// dip_config_free. On failure *config is zeroed. A repeated key is only a warning, and its later
-// value counts.
+// dip_config_free. On failure *config is zeroed. A repeated key gives only a warning, and its last
+// value is used.
 //
 // A CAMPATH_*_FOV that is left out takes the field of view of another category with the same path
 // file. If there is none, the key has its default. Categories with the same path file must have the
@@ -122,8 +122,8 @@ typedef struct DipConfig {
 //
 // Codes: IO, FORMAT (a line without a value, a section, a NUL byte), OVERSIZED, UNKNOWN, TYPE,
 // RANGE, MISSING, CONFLICT (two fields of view for one path; as a warning: a repeated key), MEMORY.
-// This function opens no file but the ini. Code that opens a file named there reports its faults
-// with dip_config_file_fault.
+// This function opens no file but the ini. Code that opens a file named in the ini reports that
+// file's faults with dip_config_file_fault.
 bool dip_config_load(const char *file, DipConfig *config, DipErrorList *faults);
 
 // Frees what the config owns and zeroes it. Accepts a zeroed config.

@@ -3,7 +3,7 @@
 #ifndef DIP_CONFIG_CONFIG_LIST_H
 #define DIP_CONFIG_CONFIG_LIST_H
 
-// In place of a default: the ini must give this key.
+// Stands in place of a default if the ini must give the key.
 #define DIP_CONFIG_REQUIRED NULL
 
 // KEY(NAME, field, TYPE, default text or DIP_CONFIG_REQUIRED, lowest, highest, "meaning")

@@ -23,7 +23,7 @@ typedef struct DipConfigKeyInfo {
     const char *name;
     DipConfigType type;
     const char *fallback; // default as text; NULL: the key is required
-    double low;           // lowest accepted number, of types that have a range
+    double low;           // lowest accepted number, for types that have a range
     double high;          // highest accepted number
     const char *text;     // meaning, for messages and documentation
     size_t offset;        // byte offset of the key's field in DipConfig
@@ -46,8 +46,9 @@ void dip_config_describe(DipConfigKey key, char *buffer, size_t size_bytes);
 bool dip_config_set_value(DipConfig *config, DipConfigKey key, const char *text, int line,
                           DipError *err);
 
-// Passes lines of the ini to ini_parse_stream, but only clean ones. inih alone would split long
-// lines, join an indented line to the line above it, and ignore lines without a value.
+// Passes lines of the ini to inih's ini_parse_stream, but only lines that inih reads correctly.
+// inih alone would split long lines, join an indented line to the line above it, and ignore lines
+// without a value.
 typedef struct DipConfigReader {
     FILE *stream;
     const char *file;
@@ -60,8 +61,8 @@ typedef struct DipConfigReader {
 // The ini_reader callback of inih, which has the signature of fgets. context is a DipConfigReader.
 char *dip_config_read_line(char *to, int room, void *context);
 
-// Appends a fault of the reader's file to its list. line is 0 if the fault is in no line, and key
-// is NULL if it concerns no key.
+// Appends a fault of the ini to the reader's list. line is 0 if the fault belongs to no line. key
+// is NULL if the fault concerns no key.
 void dip_config_add_fault(DipConfigReader *reader, DipErrorCode code, DipSeverity severity,
                           int line, const char *key, const char *format, ...)
     __attribute__((format(printf, 6, 7)));

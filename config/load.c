@@ -170,8 +170,8 @@ static void settle_fov(Loader *loader, int category) {
     set_default(loader, fov_key(category));
 }
 
-// Compares a category only with the first category that has the same path, so that one odd value is
-// one fault.
+// Compares a category only with the first category that has the same path, so that one odd value
+// causes only one fault.
 static void compare_fov(Loader *loader, int category) {
     DipConfig *config = loader->config;
     const DipConfigCamera *camera = &config->camera[category];

@@ -1,4 +1,4 @@
-// BC1 by its definition: encodes the blocks of every level and decodes their colours.
+// Encodes the BC1 blocks of every mip level, and decodes their colours as BC1 is defined.
 #include "renderer/reference/internal/texture.h"
 
 #include "renderer/pipeline/bc1.h"
@@ -82,6 +82,6 @@ void dip_reference_compressed_texel(const DipRefTexture *texture, int level, int
                                     double rgba[4]) {
     const size_t across = blocks_across(texture->widths[level]);
     const size_t index = (size_t)(y / 4) * across + (size_t)(x / 4);
-    dip_reference_texel(texture, level, x, y, rgba); // alpha stays the texture's own
+    dip_reference_texel(texture, level, x, y, rgba); // keeps the texture's own alpha
     dip_reference_block_colour(texture->blocks[level] + index * DIP_BC1_BYTES, x % 4, y % 4, rgba);
 }

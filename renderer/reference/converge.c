@@ -1,5 +1,5 @@
-// Draws the converged picture as the mean of planes. A plane holds one jittered sample of every
-// pixel and is drawn as a whole.
+// Draws the converged picture, in which each pixel is the mean of many jittered samples. The
+// picture is the mean of planes. A plane has one sample of every pixel and is drawn as a whole.
 #include "renderer/reference/internal/internal.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-// Draws the converged picture in tiles, from the triangles that reach each tile. The arithmetic on
-// samples is the same as in converge.c; this file only skips what cannot be visible.
+// Draws the converged picture (the mean of many samples per pixel) tile by tile. Each tile is drawn
+// only from the triangles that reach the tile. The arithmetic on samples is the same as in
+// converge.c; this file only skips what cannot be visible.
 #include "renderer/reference/convergence.h"
 
 #include "renderer/reference/internal/internal.h"
@@ -197,8 +198,9 @@ static void place_samples(Samples *samples, int side, uint32_t seed) {
 
 // --- triangles ---------------------------------------------------------------------------------
 
-// An edge function, a * (y - y0) - b * (x - x0). Rounding keeps it monotone in x and in y, so its
-// greatest value within a box is its value at a corner, to the bit.
+// An edge function, a * (y - y0) - b * (x - x0). Even after rounding, the function is monotone in x
+// and in y. So the function's greatest value within a box is exactly the value at one of the
+// corners.
 typedef struct Edge {
     double a;
     double b;
@@ -333,8 +335,8 @@ static void shade_pixel(const Samples *samples, size_t first, double share, doub
     }
 }
 
-// Returns how far the plane of triangle a lies in front of that of triangle b at a position, as a
-// difference of depths.
+// Returns how far the plane of triangle a lies in front of the plane of triangle b at a position,
+// as a difference of depths.
 static double depth_between(const Samples *samples, const DipRefTriangle *a,
                             const DipRefTriangle *b, double x, double y) {
     const double near_m = samples->convergence->reference->def->near_m;
@@ -343,10 +345,10 @@ static double depth_between(const Samples *samples, const DipRefTriangle *a,
     return dip_reference_depth(&at_a, near_m) - dip_reference_depth(&at_b, near_m);
 }
 
-// Returns true if sample i shows a continuation of the surface that the first sample shows. It does
-// if both have the same material and lie on planes that meet within a pixel. Depths are linear on
-// the screen, and so is their difference. A corner between two walls counts as a continuation; an
-// edge with something behind it does not.
+// Returns true if sample i shows a continuation of the surface that the first sample shows. This is
+// so if both samples show the same material and lie on planes that meet within a pixel. Depths are
+// linear on the screen, so their difference is linear too. A corner between two walls counts as a
+// continuation; an edge with something behind it does not.
 static bool goes_on(const Samples *samples, size_t first, size_t i) {
     const DipConvergence *c = samples->convergence;
     if (samples->triangles[i] == samples->triangles[first]) {

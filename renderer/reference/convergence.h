@@ -1,6 +1,6 @@
-// Draws the same picture as dip_reference_converge, to the bit, but tile by tile. Several threads
-// may draw tiles at the same time. The functions here can also classify each pixel by what is
-// visible in it.
+// Draws the converged picture (the mean of many samples per pixel) tile by tile. The result has the
+// same bits as the picture of dip_reference_converge. Several threads may draw tiles at the same
+// time. The functions here can also classify each pixel by what is visible in it.
 #ifndef DIP_RENDERER_REFERENCE_CONVERGENCE_H
 #define DIP_RENDERER_REFERENCE_CONVERGENCE_H
 

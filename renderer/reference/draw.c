@@ -1,5 +1,5 @@
-// Draws the picture that the settings define. Coverage is exact, depth is tested per sample, and a
-// patch is shaded once per pixel.
+// Draws the picture that the settings define. Coverage is exact and depth is tested per sample.
+// Each patch (a piece of a surface, docs/picture.md) is shaded once per pixel.
 #include "renderer/reference/internal/internal.h"
 
 #include "renderer/pipeline/pattern.h"
@@ -40,9 +40,9 @@ static Int128 find_edge(const DipRefVertex *from, const DipRefVertex *to, int64_
            (Int128)((int64_t)to->y - from_y) * (x - from_x);
 }
 
-// Returns true if samples on this edge belong to the triangle. They do if the edge is exactly
-// horizontal and the rest of the triangle lies below it, or if the rest lies to its right. The
-// corners are clockwise to the eye.
+// Returns true if samples on this edge belong to the triangle. They do if the rest of the triangle
+// lies to the right of the edge. Samples on an exactly horizontal edge belong to the triangle if
+// its rest lies below. The corners are clockwise to the eye.
 static bool is_top_left(const DipRefVertex *from, const DipRefVertex *to) {
     return to->y < from->y || (to->y == from->y && to->x > from->x);
 }
@@ -82,8 +82,8 @@ static DipRefPosition place_at_sample(const Drawing *drawing, const DipRefTriang
 }
 
 // Finds the position at which a surface is shaded in a pixel. mask has a bit for each sample that
-// the surface holds. The position is the centre if the surface holds all samples, otherwise the
-// sample with the lowest index.
+// shows the surface. If all samples show the surface, the position is the pixel's centre. Otherwise
+// it is the position of the first sample in mask.
 static DipRefPosition place_to_shade(const Drawing *drawing, const DipRefTriangle *triangle, int x,
                                      int y, unsigned mask) {
     if (mask == (1u << drawing->pattern->count) - 1u) {
@@ -178,7 +178,8 @@ static void draw_triangles(Drawing *drawing) {
     }
 }
 
-// Shades a surface at the samples in mask, which belong to one pixel or to one sample group of it.
+// Shades a surface at the samples in mask, which belong to one pixel or to one sample group of a
+// pixel.
 static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigned mask,
                   double colour[3]) {
     const DipRefTriangle *triangle = &drawing->triangles.items[surface];
@@ -267,7 +268,8 @@ static bool sees_water(const Drawing *drawing) {
     return false;
 }
 
-// Draws the picture of a shot. Its triangles must have been built.
+// Draws the picture of a shot (a view that is drawn to one picture). The caller must have built the
+// shot's triangles.
 static bool draw_built(Drawing *drawing, double *rgb_lin, DipError *err) {
     const bool made = make_samples(drawing, err);
     if (made) {

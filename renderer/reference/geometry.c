@@ -12,7 +12,8 @@ typedef struct ClipVertex {
     double x; // in clip space
     double y;
     double w;     // distance along the view axis, in metres
-    double above; // signed height above the cut; the parts below the cut are removed
+    double above; // signed height above the plane that cuts a mirrored scene; what lies below is
+                  // removed
     double varyings[DIP_REF_VARYINGS];
 } ClipVertex;
 
@@ -99,7 +100,7 @@ static void turn_normal(const Turn *turn, const float normal[3], double turned[3
     }
 }
 
-// Transforms one vertex. lit: light it by its normal.
+// Transforms one vertex. If lit is true, the vertex is lit by its normal.
 static ClipVertex transform_vertex(const Camera *camera, const float m[12], const DipMeshDef *mesh,
                                    const Turn *turn, bool lit, uint32_t index) {
     const float *p = mesh->positions + 3 * (size_t)index;
@@ -244,8 +245,8 @@ static bool append(DipRefTriangles *triangles, const DipRefTriangle *triangle) {
     return true;
 }
 
-// Adds a piece of a triangle if it may be visible. *like holds what all triangles of the mesh have
-// in common.
+// Adds a piece of a triangle if the piece may be visible. *like contains the values that all
+// triangles of the mesh share.
 static bool add_piece(const Camera *camera, const ClipVertex *a, const ClipVertex *b,
                       const ClipVertex *c, const DipRefTriangle *like, DipRefTriangles *triangles) {
     DipRefTriangle piece = *like;
@@ -293,8 +294,8 @@ static int clip_below(int count, ClipVertex polygon[MAX_CORNERS]) {
     return kept >= 3 ? kept : 0;
 }
 
-// Adds the triangles of a mesh. *like holds what these triangles have in common, and the number of
-// the mesh's first patch.
+// Adds the triangles of a mesh. *like contains the values that these triangles share and the number
+// of the mesh's first patch (a piece of a surface that is shaded as a whole).
 static bool add_mesh(const DipReference *reference, const Camera *camera, int mesh_index,
                      const ClipVertex *vertices, const DipRefTriangle *like,
                      DipRefTriangles *triangles) {
@@ -324,7 +325,7 @@ static bool add_mesh(const DipReference *reference, const Camera *camera, int me
     return true;
 }
 
-// Returns what all triangles of a mesh have in common.
+// Returns the values that all triangles of a mesh share.
 static DipRefTriangle describe_mesh(const DipReference *reference, const DipMeshDef *mesh) {
     const DipMaterialDef *material = &reference->def->materials[mesh->material];
     DipRefTriangle like = {.material = material};
@@ -347,7 +348,7 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
 }
 
 // Adds the triangles of an object. Its patches are numbered from first_patch on. The 2^32 numbers
-// from there on belong to this object alone.
+// from first_patch on belong to this object alone.
 static bool add_object(const DipReference *reference, const Camera *camera,
                        const DipObjectDef *object, uint64_t first_patch,
                        DipRefTriangles *triangles) {

@@ -31,8 +31,8 @@ typedef struct DipReference DipReference;
 DIP_API DipReference *dip_reference_create(const DipSceneDef *def, DipError *err);
 
 // Creates a reference that draws converged pictures only. It has neither smaller mip levels nor
-// compressed textures. This function, and the creation of a convergence with the reference, fail
-// soon after *stop becomes true. stop is borrowed until destroy; NULL never stops.
+// compressed textures. This function and dip_convergence_create with this reference fail soon after
+// *stop becomes true. If stop is NULL, they never stop early. stop is borrowed until destroy.
 DIP_API DipReference *dip_reference_create_for_truth(const DipSceneDef *def,
                                                      const DipCancelFlag *stop, DipError *err);
 DIP_API void dip_reference_destroy(DipReference **reference);

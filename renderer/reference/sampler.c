@@ -137,7 +137,8 @@ static int find_min_level(const DipRefTexture *texture, const DipRefFilter *filt
     return dropped < texture->level_count ? dropped : texture->level_count - 1;
 }
 
-// Limits the blend of two levels to the middle quarter of the way from one to the next.
+// Narrows the blend of two levels to the middle quarter of the distance between them. Outside this
+// quarter, only the nearer level is read.
 static double narrow_blend(double level) {
     const double finer = floor(level);
     return finer + fmin(fmax((level - finer - 0.375) * 4.0, 0.0), 1.0);

@@ -2,7 +2,7 @@
 #ifndef DIP_RENDERER_REFERENCE_SEEN_H
 #define DIP_RENDERER_REFERENCE_SEEN_H
 
-// The classes of pixels. A pixel belongs to the first class whose condition holds.
+// The classes of pixels. A pixel belongs to the first class whose condition is true.
 // X(NAME, "name", "condition")
 #define DIP_SEEN_LIST(X)                                                                           \
     X(WATER, "reflection", "a sample sees water")                                                  \

@@ -60,7 +60,7 @@ void dip_reference_read_mirrored(const DipReference *reference, const double *mi
     const int size[2] = {reference->reflection.width, reference->reflection.height};
     const double at[2] = {place->x / (256.0 * width) * size[0] - 0.5,
                           place->y / (256.0 * height) * size[1] - 0.5};
-    size_t texel[2][2]; // for each axis, the two texels around the position
+    size_t texel[2][2]; // for each axis, the indices of the two texels around the position
     double share[2];
     for (int axis = 0; axis < 2; axis++) {
         const double within = fmin(fmax(at[axis], 0.0), size[axis] - 1.0);

@@ -41,7 +41,8 @@ typedef struct DipCounters {
 #undef DIP_COUNTER_FIELD
 } DipCounters;
 
-// The effects, in the order in which the plan (renderer/scene/plan/) decides them.
+// The effects: features, such as the reflection, that a frame can skip if they are not visible.
+// They have the order in which the plan (renderer/scene/plan/) decides about them.
 // X(name, "title")
 #define DIP_EFFECT_LIST(X)                                                                         \
     X(reflection, "reflection")                                                                    \
@@ -51,7 +52,7 @@ typedef struct DipCounters {
     X(normal_map, "normal maps")                                                                   \
     X(sky, "clouds")
 
-// States whether an effect ran in a frame, and gives the reason in words.
+// Tells whether an effect ran in a frame, and why or why not.
 typedef struct DipEffect {
     bool run;
     const char *why; // the reason; static storage

@@ -123,8 +123,8 @@ size_t dip_quality_format(const DipQuality *quality, char *buffer, size_t size_b
     return length;
 }
 
-// Refuses a group size (asd) into which the samples of aa cannot be divided, even if adaptive AA is
-// off.
+// Refuses a sample group size (asd) that does not exist for aa's number of samples. This is checked
+// even if adaptive AA is off.
 static bool check_groups(const DipQuality *quality, DipError *err) {
     const DipSettingInfo *aa = &infos[DIP_SETTING_AA];
     const DipSettingInfo *asd = &infos[DIP_SETTING_ASD];

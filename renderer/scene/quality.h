@@ -1,4 +1,5 @@
-// The image-quality settings of one pane, and the one list that defines them.
+// The image-quality settings of one pane (one of the two pictures that the preview compares), and
+// the one list that defines them.
 //
 // DIP_SETTING_LIST yields the enumerators, the struct, the parser, the help, the panel and the
 // reports, so a setting or a step is added here and nowhere else. The value of a setting is the

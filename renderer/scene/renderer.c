@@ -1,4 +1,4 @@
-// Renderers: creating, changing and destroying them, and the resources they keep for a scene.
+// Creates, changes and destroys renderers and the resources that they keep for a scene.
 #include "renderer/scene/renderer.h"
 
 #include "renderer/scene/draw/renderer_parts.h"

@@ -1,4 +1,5 @@
-// A renderer: draws a scene from a pose with one pane's settings into a frame that it owns.
+// A renderer: draws a scene from a pose, with one set of image-quality settings, into a frame that
+// the renderer owns.
 //
 // Several renderers may share a scene and a pool, but a pool may work on one frame at a time only.
 // Two threads must not use the same renderer at once.
@@ -81,9 +82,9 @@ enum { DIP_MAX_FRAMES_AT_ONCE = 4 };
 // if dip_renderer_draw drew it with renderers[i]. Drawing the frames together takes less time,
 // because each worker draws the same tile of every frame in turn. If the renderers differ only in
 // samples and shading (in any setting but gi), the geometry stage also runs once for all frames.
-// Its time and counters are then part of every frame. count is 1..DIP_MAX_FRAMES_AT_ONCE. The
-// renderers must be distinct and on one pool. Errors are those of dip_renderer_draw; RANGE also
-// means a bad count.
+// The geometry stage's time and counters are then part of every frame. count is
+// 1..DIP_MAX_FRAMES_AT_ONCE. The renderers must be distinct and on one pool. Errors are those of
+// dip_renderer_draw. A count out of range also fails with RANGE.
 DIP_API bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count,
                                       const DipScene *scene, const DipPose *pose, int64_t time_ns,
                                       DipFrame *const *frames, DipError *err);

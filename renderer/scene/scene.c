@@ -92,8 +92,8 @@ static int add_source(VertexLayout *layout, const float *source, int size) {
     return first;
 }
 
-// Whether a material's normal map is drawn: only on opaque and clipped surfaces, and only if they
-// have a light that it can change. Water and sky have shaders of their own.
+// Whether a material's normal map is drawn: only on opaque and clipped surfaces, and only if the
+// surface has a light that the normal map can change. Water and sky have shaders of their own.
 static bool draws_normal_map(const DipMaterialDef *material) {
     const bool solid =
         material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;

@@ -91,10 +91,10 @@ typedef struct DipSkyLayer {
 // its blue is the density of the clouds. The texture should repeat and have linear encoding.
 typedef struct DipSkyDef {
     DipSkyLayer layers[2];
-    float perturbation_scale; // repeats of the displacement per unit of texture coordinates
+    float perturbation_scale; // repeats of the displacing texture per unit of texture coordinates
     float blend;              // share of the second layer, 0..1
-    float clear;              // value of blue that means no cloud
-    float dense;              // value of blue that means the densest cloud; greater than clear
+    float clear;              // value of the texture's blue that means no cloud
+    float dense;              // value of the texture's blue that means the densest cloud; > clear
     float overcast;           // 0: no clouds, 1: nothing but clouds
     float zenith_lin[3];
     float horizon_lin[3];
@@ -130,9 +130,10 @@ DIP_API void dip_scene_destroy(DipScene **scene);
 
 // Compresses the textures that opt=standard and opt=advanced show, unless they are compressed
 // already. If a program does not call this function, the first frame that shows the compressed
-// textures makes them. They stay until the scene is destroyed. During the call other threads may
-// draw the scene with a pool of their own; a frame that needs the compressed textures waits for
-// them. If pool is NULL, the caller's thread does all the work. Fails with DIP_ERROR_MEMORY.
+// textures makes them. The compressed textures stay until the scene is destroyed. During the call,
+// other threads may draw the scene with a pool of their own; a frame that needs the compressed
+// textures waits for them. If pool is NULL, the caller's thread does all the work. Fails with
+// DIP_ERROR_MEMORY.
 DIP_API bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError *err);
 
 // Durations of the parts of dip_scene_create, in milliseconds.
@@ -144,7 +145,7 @@ DIP_API DipSceneTimes dip_scene_times(const DipScene *scene);
 
 // Axis-aligned bounds in world space of all objects that are not sky, so that a camera placed by
 // these bounds does not look at a sky dome from outside. If the scene has nothing but sky, these
-// are the sky's bounds; if it has no triangles, both are 0.
+// are the sky's bounds; if it has no triangles, all coordinates are 0.
 DIP_API void dip_scene_bounds(const DipScene *scene, float min_world[3], float max_world[3]);
 
 // Height (world y) of the scene's lowest water. Returns false if the scene has no water.

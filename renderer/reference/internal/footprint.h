@@ -1,5 +1,6 @@
 // Private to the reference renderer and its tests: the level of detail and anisotropy of a
-// footprint.
+// footprint. A footprint is the ellipse of texels that a pixel covers. Its probes are the
+// positions, along its major axis, at which the texture is read.
 #ifndef DIP_RENDERER_REFERENCE_INTERNAL_FOOTPRINT_H
 #define DIP_RENDERER_REFERENCE_INTERNAL_FOOTPRINT_H
 

@@ -13,7 +13,7 @@ struct DipReference {
     int64_t time_ns;
     DipReflectionDef reflection;
     const atomic_bool *stop; // NULL: the work never stops early
-    bool for_truth;          // textures have level 0 only
+    bool for_truth;          // true: draws converged pictures only, so textures have level 0 only
     uint32_t **patches;      // for each mesh, the patch of each of its triangles; NULL if for_truth
     // Textures, with the same indices as in the description. A texture that no surface shows has no
     // levels.
@@ -30,7 +30,7 @@ enum {
     DIP_REF_X, // position relative to the eye, along the world's axes, in metres
     DIP_REF_Y,
     DIP_REF_Z,
-    DIP_REF_NORMAL_X, // of length 1 at the vertices; used by normal-mapped surfaces
+    DIP_REF_NORMAL_X, // normal, of length 1 at the vertices; only for normal-mapped surfaces
     DIP_REF_NORMAL_Y,
     DIP_REF_NORMAL_Z,
     DIP_REF_RED, // vertex colour times vertex light
@@ -39,7 +39,7 @@ enum {
     DIP_REF_VARYINGS
 };
 
-enum { DIP_REF_DERIVED = 7 }; // this many varyings, the first ones, have derivatives
+enum { DIP_REF_DERIVED = 7 }; // number of varyings with derivatives: the first ones
 
 typedef struct DipRefVertex {
     double x; // on the screen, to the right, in 1/256 pixel
@@ -137,7 +137,7 @@ void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryi
 // sky.c: shades a sky surface. If filter is NULL, the texture is read bilinearly from level 0.
 void dip_reference_shade_sky(const DipRefTriangle *triangle, const DipRefFilter *filter,
                              const DipRefVaryings *varyings, double rgb[3]);
-// Returns true if water shows the mirrored scene. It does so only if the eye is above the water
+// Returns true if water shows the mirrored scene. Water does so only if the eye is above the water
 // level.
 bool dip_reference_reflects(const DipReference *reference, const DipPose *pose);
 

@@ -24,13 +24,13 @@ typedef struct DipRefTexture {
     int level_count;
 } DipRefTexture;
 
-// How a texture is filtered. The settings are those of docs/picture.md, "Textures".
+// How a texture is filtered. docs/picture.md, "Textures", explains the settings.
 typedef struct DipRefFilter {
     int max_anisotropy; // 1: trilinear
     bool exact_footprint;
     double bias;
     bool drop_levels; // leave out the largest levels, by the texture's size
-    bool mip_colours; // show each level in one colour, not the texels' own
+    bool mip_colours; // show each level in one colour instead of the texels' colours
     bool compressed;  // show the colours of the texture's BC1 blocks
     bool cheap;       // use a narrow blend of levels and half the probes
 } DipRefFilter;

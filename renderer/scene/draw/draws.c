@@ -52,9 +52,10 @@ static DipSampler colour_sampler(const DipQuality *quality, const DipTexture *sh
     return sampler;
 }
 
-// Level-of-detail bias of a clipped surface, in 1/256 level: -log2(sqrt(groups)). Each sample group
-// covers only a part of the pixel, so it reads finer levels. They still hold the thin parts of clip
-// maps, which coarser levels average away.
+// Level-of-detail bias of a clipped surface, in 1/256 level: -log2(sqrt(groups)). A sample group
+// (samples of a pixel that are clipped and shaded together) covers only a part of the pixel, so it
+// reads finer levels than a whole pixel would. Finer levels still show the thin parts of clip maps;
+// coarser levels average these parts away.
 static int32_t group_bias_lod8(const DipQuality *quality) {
     static const int32_t bias_lod8[DIP_MAX_SAMPLES + 1] = {
         [2] = -128, [3] = -203, [4] = -256, [6] = -331, [8] = -384};
@@ -94,7 +95,8 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
 // --- objects -----------------------------------------------------------------------------------
 
 // Computes the cofactors of the transform's 3x3 part: the inverse transpose times the determinant.
-// They turn normals in the same way, but change the length and, if the transform mirrors, the sign.
+// The cofactors turn a normal to the same direction as the inverse transpose does, but change its
+// length. If the transform mirrors, they also reverse the direction.
 static void cofactors(const float t[12], double n[9]) {
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) {
@@ -112,8 +114,9 @@ static bool mirrors(const float t[12]) {
     return (t[0] * n[0] + t[1] * n[1]) + t[2] * n[2] < 0.0;
 }
 
-// Computes the matrix that turns normals to world space. Its greatest element is scaled to +-1, so
-// that the shader can normalise the turned normals of very small and very large objects too.
+// Computes the matrix that turns normals to world space. The matrix is scaled until its greatest
+// element is +-1. This lets the shader normalise turned normals even if the object is very small or
+// very large.
 static void normal_matrix(const float t[12], float out[9]) {
     double n[9];
     cofactors(t, n);
@@ -150,8 +153,9 @@ static DipViewRays view_rays(const double m[16], int width, int height) {
     return rays;
 }
 
-// Gives a draw the shaders of its mesh's effect: normal map or clouds. With mip colours, a sky
-// keeps the plain shader, so that the levels of its texture can be seen.
+// If the mesh of a draw has an effect (normal map or clouds), sets the effect's shaders. If mip
+// colours are on, a sky keeps the plain shader, so that the colours of its texture's levels can be
+// seen.
 static void set_effect(const DipDrawInput *input, const DipDrawSet *set, const DipSceneMesh *mesh,
                        DipSurfaceUniforms *uniforms, DipDraw *draw) {
     const DipMaterialKernels *kernels = input->kernels;

@@ -1,5 +1,5 @@
-// The draws of a render pass: the objects of a scene that one view can see, with the shaders that
-// their materials and the settings ask for. Private to the renderer.
+// Makes the draws of a render pass. A draw is one object that the view can see, with the shaders
+// that its material and the settings need. Private to the renderer.
 #ifndef DIP_RENDERER_SCENE_DRAW_DRAWS_H
 #define DIP_RENDERER_SCENE_DRAW_DRAWS_H
 
@@ -57,8 +57,9 @@ void dip_draw_set_free(DipDrawSet *set);
 // Replaces the set's draws by the draws of a pass. Allocates nothing.
 void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDrawView *pass);
 
-// Sets how the textures of each material are sampled. If mip colours are on, the levels of `shown`
-// (dip_mip_debug_create) replace the levels of colour textures.
+// Sets how the textures of each material are sampled. If mip colours are on (each mip level is
+// shown as a flat colour or a picture), the levels of `shown` (dip_mip_debug_create) replace the
+// levels of colour textures.
 void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const DipTexture *shown,
                       DipMaterialSamplers *samplers);
 

@@ -1,4 +1,5 @@
-// Drawing frames: a scene, a pose and settings become one or two render passes per frame.
+// Draws frames: turns a scene, a pose and settings into the render passes of a frame. These are the
+// main pass and, if water reflects, a pass that draws the mirrored scene.
 #include "renderer/scene/renderer.h"
 
 #include "renderer/pipeline/pipeline.h"
@@ -39,8 +40,8 @@ static bool check_pose(const DipPose *pose, DipError *err) {
 
 // --- passes ------------------------------------------------------------------------------------
 
-// Begins a pass: sets what follows from the settings and the scene. The caller adds the target and
-// the draws.
+// Begins a pass: sets the values that depend only on the settings and the scene. The caller adds
+// the target and the draws.
 static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
                           const DipFramePlan *plan) {
     DipPass pass = {
@@ -53,7 +54,8 @@ static DipPass begin_pass(const DipRenderer *renderer, const DipScene *scene,
     return pass;
 }
 
-// Fills a set with the draws of the objects that a pass may show, and gives it to the pass.
+// Fills a set with the draws of the objects that a pass may show, and stores these draws in the
+// pass.
 static void set_draws(const DipRenderer *renderer, const DipScene *scene, DipDrawView view,
                       DipDrawSet *set, DipPass *pass) {
     const DipDrawInput input = dip_renderer_draw_input(renderer, scene);
@@ -89,8 +91,8 @@ static DipTarget target_of(const DipRenderer *renderer) {
 }
 
 // Makes the pass that draws the mirrored scene above the water. The pass also draws a margin below
-// the water, two texels of the mirrored picture high. Without the margin, background would be read
-// between a shore and its reflection.
+// the water, two texels of the mirrored picture high. Without the margin, a gap of background would
+// show between a shore and its reflection.
 static void make_mirrored_pass(FrameSetup *setup) {
     const DipRenderer *renderer = setup->renderer;
     const DipView *mirrored = &setup->mirrored;

@@ -1,4 +1,4 @@
-// Copies a thinned-out picture to the corner of another picture.
+// Copies every n-th pixel of every n-th row of a picture to the corner of another picture.
 #include "renderer/scene/draw/inset.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 // The shaders of the scene's materials, one table per instruction set
-// (renderer/simd/kernel_table.h). To the pipeline they are ordinary shaders of a caller.
+// (renderer/simd/kernel_table.h). The pipeline treats them as it treats any caller's shaders.
 #ifndef DIP_RENDERER_SCENE_MATERIALS_MATERIAL_KERNELS_H
 #define DIP_RENDERER_SCENE_MATERIALS_MATERIAL_KERNELS_H
 

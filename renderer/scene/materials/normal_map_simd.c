@@ -10,8 +10,9 @@
 // Bounds of the factor by which a mapped normal changes the light map.
 #define LEAST_RATIO    0.25f
 #define GREATEST_RATIO 2.5f
-// Least component of a mapped normal along the mesh's normal. Where the normals of a footprint
-// cancel out, this bound keeps rounding errors from deciding the direction.
+// Least component of a mapped normal along the mesh's normal. A footprint is the area of the map
+// that a pixel covers. If the map's normals in this area cancel out, their mean has an accidental
+// direction; this bound then keeps the mapped normal close to the mesh's normal.
 #define LEAST_RISE 0.125f
 // Reflectance of a dielectric seen along its normal, and the least width (GGX alpha) of its
 // highlight.
@@ -58,8 +59,8 @@ VEC_INLINE Vf3 cross(Vf3 a, Vf3 b) {
 }
 
 // Unit tangents that point along growing u and falling v. They are perpendicular to each other and
-// to the normal. They are valid where `there` is set. It is not set where the texture coordinates
-// have no area or u grows along the normal.
+// to the normal. `there` is set where the tangents are valid. They are invalid where the texture
+// coordinates have no area or u grows along the normal.
 typedef struct Tangents {
     Vf3 u, v;
     Mask there;
@@ -142,7 +143,7 @@ VEC_INLINE Fraction highlight(const Facing *facing, Vf3 ray, Vf sun, Vf met, flo
     const Vf to_eye = vf_splat(0.0f) - inverse_length(vf3_dot(ray, ray));
     const Vf c1 = vf_max(vf3_dot_sun(ray) * to_eye + 1.0f, vf_splat(1e-6f));
     const Vf n_h = vf_max(sun + vf3_dot(facing->mapped, ray) * to_eye, vf_splat(0.0f));
-    // The base of GGX's denominator, times 2 (1 + c).
+    // The value that is squared in GGX's denominator, times 2 (1 + c).
     const Vf d = n_h * n_h * (alpha2 - 1.0f) + c1 * 2.0f;
     const Vf above = (alpha2 * met) * ((c1 * c1) * (4.0f * REFLECTANCE * LIGHT_SUN));
     const Vf width = vf_sqrt(alpha2) * 4.0f + 2.0f;

@@ -1,11 +1,12 @@
-// Computes the sky at a given time. The time is a whole number of nanoseconds, so layers repeat
-// exactly.
+// Computes the sky at a given time. Times and the periods of the layers are whole numbers of
+// nanoseconds, so the layers of clouds repeat exactly.
 #include "renderer/scene/materials/sky.h"
 
 #include <string.h>
 
 static const double minute_ns = 60e9;
-// Slower layers stand still. A layer of this speed has a period of 2 years.
+// A layer that is slower than this stands still. A layer of this speed has a period of about 2
+// years.
 static const double least_speed_per_min = 1e-6;
 
 DipSkyDef dip_sky_default(void) {

@@ -1,12 +1,12 @@
-// Uniforms of the shaders that draw the scene's surfaces. To the pipeline these shaders are
-// ordinary shaders of a caller.
+// Uniforms of the shaders that draw the scene's surfaces. The pipeline treats these shaders as it
+// treats any caller's shaders.
 #ifndef DIP_RENDERER_SCENE_MATERIALS_SURFACE_H
 #define DIP_RENDERER_SCENE_MATERIALS_SURFACE_H
 
 #include <stdbool.h>
 
-// What the materials' shaders count, as indices into DipShaderWork.counts: fragments that have a
-// normal map, that show sky with clouds, and that show reflecting water.
+// The materials' shaders count fragments that have a normal map, fragments of sky with clouds and
+// fragments of reflecting water. These are the indices of the counts in DipShaderWork.counts.
 enum {
     DIP_SHADER_COUNT_NORMAL_MAPPED,
     DIP_SHADER_COUNT_SKY,

@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-// All water is treated as horizontal, so a fragment's view ray determines how much the water
+// All water is treated as horizontal, so a fragment's view ray alone determines how much the water
 // reflects.
 typedef struct DipWaterUniforms {
     // Must be first: the surface shader reads it to compute the water's own colour.

@@ -1,4 +1,4 @@
-// Projects shapes and finds the rectangle that they can touch.
+// Projects shapes and finds the rectangle of the picture that they can touch.
 #include "renderer/scene/plan/extent.h"
 
 DipExtent dip_extent_none(void) {
@@ -91,8 +91,8 @@ void dip_extent_box_corners(const float transform[12], const DipBox *box, double
 }
 
 // Converts a range of device coordinates within -1..1 to whole pixels, *first to *end - 1. The
-// range gets `margin` more pixels on each side, but stays within 0..size - 1. -1 is the edge of
-// pixel 0. Returns false if the range holds no pixel.
+// range gets `margin` more pixels on each side, but stays within 0..size - 1. Coordinate -1 is the
+// outer edge of pixel 0. Returns false if no pixel is in the range.
 static bool to_pixels(double min, double max, int size, int margin, int *first, int *end) {
     const double from = (min + 1.0) * 0.5 * size - margin;
     const double to = (max + 1.0) * 0.5 * size + margin;

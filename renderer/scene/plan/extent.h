@@ -20,9 +20,9 @@ DipExtent dip_extent_none(void); // the empty extent
 // Projects a world point to clip space: x, y and w.
 void dip_extent_project(const DipView *view, const double world[3], double clip[3]);
 
-// Each function extends the rectangle to hold the part of a shape that lies beyond the near plane
-// and within the picture. Corners are in world space. The corners of a box have the order of
-// dip_extent_box_corners.
+// Each function extends the rectangle until it contains the part of a shape that lies beyond the
+// near plane and within the picture. Corners are in world space. The corners of a box have the
+// order of dip_extent_box_corners.
 void dip_extent_add_box(DipExtent *extent, const DipView *view, const double corners[8][3]);
 void dip_extent_add_triangle(DipExtent *extent, const DipView *view, const double corners[3][3]);
 

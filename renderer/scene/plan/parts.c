@@ -1,4 +1,5 @@
-// Cuts projected shapes at the borders of tiles and bounds the piece in each tile.
+// Finds each tile's part: the rectangle of the tile that must be drawn. Projected shapes are cut at
+// the borders of tiles, and the part must contain the piece of each shape in the tile.
 #include "renderer/scene/plan/parts.h"
 
 #include "renderer/scene/plan/extent.h"
@@ -60,7 +61,7 @@ static double within(double value, double low, double high) {
 }
 
 // Finds the first and the last of `count` cells of `size` pixels that a range touches. If the range
-// touches no cell, the last is less than the first.
+// touches no cell, *last is less than *first.
 static void cells(double min, double max, int size, int count, int *first, int *last) {
     *first = (int)within(min / size, 0.0, count);
     *last = max < 0.0 ? -1 : (int)within(max / size, 0.0, count - 1);
@@ -74,7 +75,8 @@ static int greatest(int a, int b) {
     return a > b ? a : b;
 }
 
-// Extends a tile's part by the blocks that the bounds touch. (x, y) is the tile's corner in pixels.
+// Extends a tile's part until it contains all blocks that the bounds touch. (x, y) is the tile's
+// corner in pixels.
 static void join(DipTileRegion *part, const Bounds *bounds, int x, int y) {
     const int corner[2] = {x, y};
     int first[2];
@@ -93,8 +95,8 @@ static void join(DipTileRegion *part, const Bounds *bounds, int x, int y) {
     part->y1 = (uint8_t)greatest(part->y1, (last[1] + 1) * BLOCK);
 }
 
-// Extends a tile's part by a polygon. whole: the polygon touches no other tile, so it need not be
-// cut.
+// Extends a tile's part until it contains a polygon's piece in the tile. If whole is true, the
+// polygon touches no other tile and need not be cut.
 static void add_to_tile(const DipParts *parts, Polygon polygon, int x, int y, bool whole,
                         DipTileRegion *part) {
     const double reach = DIP_TARGET_TILE + parts->margin;

@@ -1,4 +1,5 @@
-// The part of each tile of a picture that triangles and boxes in the world can touch.
+// Finds each tile's part: the rectangle of the tile that triangles and boxes in the world can
+// touch. Only this rectangle must be drawn.
 #ifndef DIP_RENDERER_SCENE_PLAN_PARTS_H
 #define DIP_RENDERER_SCENE_PLAN_PARTS_H
 
@@ -12,11 +13,11 @@ typedef struct DipParts {
     int margin;           // pixels by which each shape is enlarged on every side
 } DipParts;
 
-// Empties all tiles.
+// Makes the parts of all tiles empty.
 void dip_parts_clear(const DipParts *parts);
 
 // Each function extends the parts by all blocks of 8x8 pixels that a shape can touch beyond the
-// near plane. The part of each tile remains one rectangle. Corners are in world space.
+// near plane. Each tile's part remains one rectangle. Corners are in world space.
 void dip_parts_add_triangle(const DipParts *parts, const DipView *view, const double corners[3][3]);
 void dip_parts_add_box(const DipParts *parts, const DipView *view, const double corners[8][3]);
 

@@ -118,8 +118,7 @@ static void add_chunk_triangles(DipExtent *extent, const DipPlanInput *input,
 // boxes of its chunks.
 enum { FEW_CHUNKS = 8 };
 
-// Returns the extent of the water that the eye looks down on, and adds this water to the input's
-// parts.
+// Returns the extent of the water that the eye looks down on, and adds this water to input->parts.
 static DipExtent water_extent(const DipPlanInput *input) {
     DipExtent extent = dip_extent_none();
     for (int i = 0; i < input->scene->object_count; i++) {
@@ -221,7 +220,8 @@ static DipEffect plan_normal_map(const DipPlanInput *input, DipFramePlan *plan) 
                : skip("no normal-mapped surface is in view");
 }
 
-// Covered sky needs no test here: the visibility buffer keeps it from being shaded.
+// This function need not find out what covers the sky: the visibility buffer keeps covered sky from
+// being shaded.
 static DipEffect plan_sky(const DipPlanInput *input, DipFramePlan *plan) {
     if (!input->scene->has_sky) {
         return skip("the scene has no sky with clouds");

@@ -1,7 +1,7 @@
-// The plan of a frame: the passes that it needs, the parts of their targets that are drawn, and the
-// effects that run. For every effect the plan gives the reason why it runs or not. The plan is made
-// before anything is drawn, from the scene, the views, the settings and the bounding boxes that are
-// in view.
+// The plan of a frame: the render passes of the frame, the parts of their targets that are drawn,
+// and the effects (features such as the reflection) that run. For every effect the plan gives the
+// reason why it runs or not. The plan is made before anything is drawn, from the scene, the views,
+// the settings and the bounding boxes that are in view.
 //
 // Every row of DIP_EFFECT_LIST (renderer/scene/frame.h) has one function in plan.c that decides it.
 // An effect that the plan skips could not change the picture.
@@ -25,7 +25,8 @@ typedef struct DipPlanInput {
     const DipView *mirrored;            // the view of the mirrored scene
     const DipCullPlanes *seen;          // the planes around what `view` sees
     const DipCullPlanes *seen_mirrored; // the planes around what `mirrored` sees
-    // Receives the parts of the mirrored picture if the plan sets mirrored_parts.
+    // Receives, for each tile of the mirrored picture, the rectangle that must be drawn (parts.h).
+    // Valid only if the plan sets mirrored_parts.
     const DipParts *parts;
     const DipReflectionDef *reflection;
     const DipQuality *quality;
@@ -38,8 +39,8 @@ typedef struct DipFramePlan {
     // True if water shows the mirrored scene: the reflection is on and the eye is above the mirror
     // plane. This does not depend on what is in view.
     bool water_reflects;
-    DipTargetRegion mirrored_region; // the part of its target that the mirrored pass draws
-    bool mirrored_parts;             // true: within this region, only the input's parts are drawn
+    DipTargetRegion mirrored_region; // the part of the mirrored pass's target that is drawn
+    bool mirrored_parts;             // true: a tile draws only its part (DipPlanInput.parts)
     int samples_per_group;           // samples per sample group of alpha-clipped surfaces
 } DipFramePlan;
 

@@ -8,7 +8,7 @@
 struct DipLateTextures {
     pthread_mutex_t mutex;
     atomic_bool made;      // true: the members below do not change any more
-    DipTexture **textures; // one per texture of the scene; NULL for a texture that was not wanted
+    DipTexture **textures; // one per texture of the scene; NULL if the texture was not wanted
     int count;
 };
 

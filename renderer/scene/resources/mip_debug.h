@@ -12,9 +12,10 @@
 DipTexture *dip_mip_debug_create(const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
                                  DipError *err);
 
-// For each level of a texture, finds the debug level that replaces it. This is the largest debug
-// level that is not larger than the longer side of the texture's level. If there is none, it is the
-// last debug level.
+// For each level of a texture, finds the debug level that replaces it. (Debug levels are the levels
+// of the texture that dip_mip_debug_create returns.) The replacement is the largest debug level
+// that is not larger than the longer side of the texture's level. If there is none, it is the last
+// debug level.
 void dip_mip_debug_levels(const DipTexture *texture, int32_t shown_level[DIP_LEVEL_TABLE]);
 
 #endif
