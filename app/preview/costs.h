@@ -22,7 +22,7 @@ typedef struct DipCostsRow {
     int step_count;
 } DipCostsRow;
 
-// The settings with the least error among those that keep within a time budget.
+// The settings with the least error among all measured settings within a time budget.
 typedef struct DipCostsAdvice {
     double budget_ms;
     bool found; // True if a measured combination keeps within the budget.

@@ -74,7 +74,7 @@ static void answer(Worker *worker, DipErrorStatus status) {
 }
 
 // Waits while there is nothing to do. Sets *fresh if there is a new still. Returns false if the
-// thread has to end.
+// thread must end.
 static bool wait_for_still(Worker *worker, bool *fresh) {
     DipErrorThread *owner = worker->owner;
     pthread_mutex_lock(&owner->lock);

@@ -312,8 +312,8 @@ static void broken_json_is_refused(void **state) {
     assert_int_equal(err.code, DIP_ERROR_MISSING);
 }
 
-// All lines of the CSV have as many fields as its header. The HTML page has all its parts and
-// refers to no other file.
+// Each line of the CSV has the same number of fields as the header. The HTML page has all its parts
+// and refers to no other file.
 static void csv_and_page_are_complete(void **state) {
     (void)state;
     DipCostReport report;
