@@ -9,7 +9,8 @@
 #include "app/canvas/pixels.h"
 #include "renderer/base/error.h"
 
-// Rows are packed. Every pixel is opaque. Zero-initialise; dip_canvas_resize allocates.
+// Rows are packed. Every pixel is opaque. Zero-initialise a canvas; dip_canvas_resize allocates its
+// memory.
 typedef struct DipCanvas {
     uint8_t *rgba8; // Owned.
     int width;

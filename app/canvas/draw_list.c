@@ -11,7 +11,7 @@ typedef enum CommandKind { COMMAND_FILL, COMMAND_PICTURE, COMMAND_TEXT } Command
 
 typedef struct Command {
     CommandKind kind;
-    DipRect box; // No pixel outside this rectangle changes.
+    DipRect box; // The command changes no pixel outside this rectangle.
     DipColour colour;
     uint64_t version;  // Version of the picture, for COMMAND_PICTURE.
     DipPixels picture; // Not compared: the version stands for the pixels.

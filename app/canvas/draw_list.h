@@ -2,9 +2,9 @@
 // previous frame.
 //
 // The caller records the whole frame anew each time, from the back to the front. Painting compares
-// the new list with the list painted before, and draws only inside the rectangles of commands that
-// differ. Therefore code that draws never has to say what it changed. A frame in which only one
-// number changes costs no more than drawing that number.
+// the new list with the list that was painted last, and draws only inside the rectangles of
+// commands that differ. Therefore code that draws never has to say what it changed. A frame in
+// which only one number changes costs no more than drawing that number.
 #ifndef DIP_APP_CANVAS_DRAW_LIST_H
 #define DIP_APP_CANVAS_DRAW_LIST_H
 
@@ -54,10 +54,10 @@ void dip_draw_list_picture(DipDrawList *list, DipRect rect, const DipPixels *pic
 void dip_draw_list_text(DipDrawList *list, int size, DipColour colour, DipAlign align, int x, int y,
                         int max_width, const char *line);
 
-// Ends the frame: resizes the canvas if needed, draws what differs from the frame painted before,
-// and returns the changed rectangles in *damage. The first command should cover the whole frame,
-// since a pixel that no command covers is undefined. Fails with MEMORY; the next call then paints
-// the whole frame.
+// Ends the frame: resizes the canvas if needed, draws what differs from the frame that was painted
+// last, and returns the changed rectangles in *damage. The first command should cover the whole
+// frame, since a pixel that no command covers is undefined. Fails with MEMORY; the next call then
+// paints the whole frame.
 bool dip_draw_list_paint(DipDrawList *list, DipCanvas *canvas, DipDamage *damage, DipError *err);
 
 #endif

@@ -88,7 +88,7 @@ DipFont *dip_font_create(DipError *err) {
     }
     if (!open_face(font)) {
         dip_error_set_runtime(err, DIP_ERROR_MISSING, NULL, 0, "font",
-                              "no sans-serif font was found, install one, such as Debian's "
+                              "no sans-serif font was found; install one, such as Debian's "
                               "fonts-dejavu-core");
         dip_font_destroy(&font);
     }

@@ -14,9 +14,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Keys. A key that types a character has that character's Unicode code point, in lower case and
-// without modifiers: 'a', '1', '.'. The other keys have the values below, beyond all code points.
-// The keypad's digits, signs and Enter count as the keys of the same meaning.
+// Codes of keys. If a key types a character, its code is that character's Unicode code point, in
+// lower case and without modifiers: 'a', '1', '.'. The other keys have the values below, beyond all
+// code points. The keypad's digits, signs and Enter have the same codes as the main keyboard's.
 typedef enum DipKeycode {
     DIP_KEYCODE_NONE = 0,
     DIP_KEYCODE_SPACE = ' ',
@@ -64,7 +64,7 @@ typedef enum DipMouseButton {
 } DipMouseButton;
 
 typedef enum DipEventKind {
-    DIP_EVENT_NONE, // Anything that has no kind below. The preview ignores it.
+    DIP_EVENT_NONE, // An event of no other kind. The preview ignores it.
     DIP_EVENT_KEY_DOWN,
     DIP_EVENT_KEY_UP, // Also sent for every held key when the display loses the keyboard focus.
     DIP_EVENT_TEXT,
@@ -72,7 +72,7 @@ typedef enum DipEventKind {
     DIP_EVENT_MOUSE_DOWN,
     DIP_EVENT_MOUSE_UP,
     DIP_EVENT_MOUSE_WHEEL,
-    DIP_EVENT_RESIZE, // The size or the scale changed.
+    DIP_EVENT_RESIZE, // The display's size or scale changed.
     DIP_EVENT_EXPOSE, // The display lost what it showed.
     DIP_EVENT_DROP,   // The user dropped a file.
     DIP_EVENT_QUIT    // The user or the system closes the display.
@@ -105,8 +105,8 @@ typedef struct DipDisplay {
 
     // Shows a picture. Only the pixels inside the damage rectangles differ from the picture shown
     // before; after a RESIZE or EXPOSE event the damage must cover the whole picture. The picture
-    // should have the display's size; if the sizes differ, only the part that fits both shows.
-    // Keeps no pointer to the picture. Fails with RUNTIME.
+    // should have the display's size; if the sizes differ, only the part that fits both shows. The
+    // display keeps no pointer to the picture. Fails with RUNTIME.
     bool (*present)(void *context, const DipPixels *picture, const DipRect *damage, int count,
                     DipError *err);
 

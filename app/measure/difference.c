@@ -1,4 +1,4 @@
-// Squared differences and their means.
+// Computes squared differences of pictures, and means of these differences.
 #include "app/measure/difference.h"
 
 #include "renderer/base/srgb.h"

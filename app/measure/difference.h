@@ -1,6 +1,7 @@
 // Differences of two pictures pixel by pixel, and the metrics computed from their means: the root
-// mean square error in linear light and the peak signal-to-noise ratio on sRGB codes. `test` is the
-// picture that is judged; `truth` is the picture that it is compared with.
+// mean square error in linear light and the peak signal-to-noise ratio on sRGB codes (the 8-bit
+// values of the channels). `test` is the picture that is judged; `truth` is the picture that it is
+// compared with.
 //
 // A map has one value per pixel: width * height values with rows packed. Sums are computed in
 // double precision and in pixel order, so the same map always gives the same sum. All functions are

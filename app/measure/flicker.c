@@ -1,4 +1,4 @@
-// Running means and deviations of errors over frames.
+// Computes running means and deviations of errors over successive frames.
 #include "app/measure/flicker.h"
 
 #include <stdlib.h>

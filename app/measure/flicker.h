@@ -1,9 +1,10 @@
 // Error over time, split into a part that stays constant and a part that flickers.
 //
-// Let e = test - truth at one instant, per pixel and channel, in linear light. Over a burst (a few
-// successive frames), the mean of e^2 equals the square of the mean of e plus the variance of e.
-// Averaged over the whole picture, the first term is the squared static error and the second term
-// is the squared flicker:
+// Let e = test - truth be the difference of a tested picture from the converged picture (the truth)
+// of the same instant, per pixel and channel, in linear light. Over a burst (a few successive
+// frames), the mean of e^2 equals the square of the mean of e plus the variance of e. Averaged over
+// the whole picture, the first term is the squared static error and the second term is the squared
+// flicker:
 //     rms^2 = static^2 + flicker^2.
 #ifndef DIP_APP_MEASURE_FLICKER_H
 #define DIP_APP_MEASURE_FLICKER_H
@@ -45,7 +46,7 @@ typedef struct DipFlickerResult {
     double squared_static;  // Square of the mean of e over time.
     double squared_flicker; // Variance of e over time.
     double squared_step;    // Squared change of e from one frame to the next.
-    // Square of the mean of two successive frames' e. On a fast display one sees this mean.
+    // Square of the mean of two successive frames' e. A viewer of a fast display sees this mean.
     double squared_two_mean;
 } DipFlickerResult;
 

@@ -98,8 +98,8 @@ static float lightness(float x) {
     return x > limit * limit * limit ? cbrtf(x) : x / (3.0f * limit * limit) + 4.0f / 29.0f;
 }
 
-// Converts filtered opponent colours to CIELab. In between, linear light is clamped to 0..1, since
-// a screen shows no other values. Chroma is scaled by lightness, since dark colours look less
+// Converts filtered opponent colours to CIELab. The linear light of the colours is clamped to 0..1,
+// since a screen shows no other values. Chroma is scaled by lightness, since dark colours look less
 // colourful (Hunt's effect).
 static void to_lab(float luma, float red_green, float blue, float lab[3]) {
     static const float to_rgb[3][3] = {{3.241003275f, -1.537398934f, -0.498615861f},
@@ -205,8 +205,8 @@ void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnaly
 static const float colour_exponent = 0.7f;
 static const float feature_exponent = 0.5f;
 
-// Returns the greatest possible colour distance, which is that of green and blue, raised to
-// colour_exponent.
+// Returns the colour distance between green and blue, raised to colour_exponent. No two colours
+// have a greater distance.
 static float greatest_distance(void) {
     const float primaries[2][3] = {{0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
     float lab[2][3];
@@ -224,7 +224,7 @@ static float length(float x, float y) {
 }
 
 // Maps the colour distance of a pixel to 0..1. Distances up to `share` times the greatest one map
-// to 0..used, larger ones to used..1.
+// to 0..used, and greater distances to used..1.
 static float colour_error(const DipFlipAnalysis *a, const DipFlipAnalysis *b, size_t i,
                           float greatest) {
     const float share = 0.4f, used = 0.95f;

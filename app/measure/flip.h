@@ -26,7 +26,7 @@ typedef struct DipFlip {
     int width;
     int height;
     float *scratch;   // Owned.
-    float light[256]; // Linear light of each sRGB code.
+    float light[256]; // Linear light of each 8-bit sRGB value.
 } DipFlip;
 
 // The result of analysing a picture. Each plane has width * height values.
@@ -37,7 +37,7 @@ typedef struct DipFlipAnalysis {
 } DipFlipAnalysis;
 
 // pixels_per_degree: DIP_FLIP_MIN_PIXELS_PER_DEGREE..DIP_FLIP_MAX_PIXELS_PER_DEGREE. Both functions
-// return false when memory runs out. Call the function that frees the object in either case.
+// return false when memory runs out. Even then, the caller must free the object.
 bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree);
 bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis);
 void dip_flip_free(DipFlip *flip);

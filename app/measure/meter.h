@@ -35,13 +35,13 @@ typedef struct DipMeterStandard {
 // Begins a burst, a series of successive frames (flicker.h).
 void dip_meter_begin_burst(DipMeter *meter);
 
-// Judges the next picture of the burst and adds its sums to *sums. test_lin is the picture in
-// linear light, for a caller that knows more exact values than the codes of `test`; NULL computes
-// linear light from the codes. Returns false when memory runs out.
+// Judges the next picture of the burst and adds its sums to *sums. If the caller has more precise
+// values than the 8-bit codes of `test`, test_lin is the picture in linear light. If test_lin is
+// NULL, linear light is computed from the codes. Returns false when memory runs out.
 bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
                    const DipMeterStandard *standard, DipMetricSums *sums);
 
-// Ends the burst: adds its flicker to *sums. A single picture is a burst of one.
+// Ends the burst and adds its flicker to *sums. A single picture is a burst of one frame.
 void dip_meter_end_burst(DipMeter *meter, DipMetricSums *sums);
 
 #ifdef __cplusplus

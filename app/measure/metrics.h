@@ -1,7 +1,8 @@
 // The metrics by which a picture is judged, and the sums that they are computed from.
 //
-// Sums of several pictures, of several bursts or of several machines can be added. The metrics of
-// the total are then means over all pixels of all pictures. All functions are thread-safe.
+// A burst is a series of successive frames (flicker.h). Sums can be added, also if they come from
+// several pictures, bursts or machines. The metrics of the total are then means over all pixels of
+// all pictures. All functions are thread-safe.
 #ifndef DIP_APP_MEASURE_METRICS_H
 #define DIP_APP_MEASURE_METRICS_H
 
@@ -11,27 +12,28 @@
 extern "C" {
 #endif
 
-// Region 0 is the whole picture. Region 1 + c holds the pixels that show class c (DipSeen).
+// Region 0 is the whole picture. Region 1 + c holds the pixels of class c (DipSeen: what a pixel
+// shows).
 enum { DIP_METRIC_REGION_COUNT = 1 + DIP_SEEN_COUNT };
 
 extern const char *const dip_metric_region_names[DIP_METRIC_REGION_COUNT]; // "all", "edges", ...
 
-// Sums over the pixels of one region.
+// Sums over the pixels of one region. A squared difference is a mean over the three channels.
 typedef struct DipMetricRegionSums {
     double pixels;        // Number of pixels.
-    double squared_lin;   // Squared differences in linear light, each a mean over the channels.
-    double squared_codes; // Squared differences of sRGB codes, each a mean over the channels.
-    double ssim;          // Structural similarities.
+    double squared_lin;   // Sum of squared differences in linear light.
+    double squared_codes; // Sum of squared differences of sRGB codes.
+    double ssim;          // Sum of structural similarities.
     double ssim_pixels;   // Number of pixels that have an SSIM value.
-    double flip;          // FLIP values.
+    double flip;          // Sum of FLIP values.
 } DipMetricRegionSums;
 
 // Holds doubles only, so that it can be added, written and read as an array of
 // DIP_METRIC_SUM_COUNT numbers.
 typedef struct DipMetricSums {
     DipMetricRegionSums regions[DIP_METRIC_REGION_COUNT];
-    // Number of bursts. The fields after it are sums over the bursts of the mean squares that
-    // DipFlickerResult names.
+    // Number of bursts. Each field below is the sum, over the bursts, of the mean square of the
+    // same name in DipFlickerResult.
     double bursts;
     double squared_static;
     double squared_flicker;

@@ -98,8 +98,8 @@ static double median_of_ratios(const Times *times, const int *drawn, double *scr
 }
 
 // Computes the estimate from all rounds, and its 95 % interval. For the interval, the estimate is
-// repeated `resamples` times, each time from as many rounds drawn with replacement. If `resamples`
-// is 0, the interval's ends are 0.
+// repeated `resamples` times, each time from a new drawing of rounds: as many rounds as were
+// measured, drawn with replacement. If `resamples` is 0, the interval's ends are 0.
 static DipStatsEstimate estimate(const Times *times, Estimator *estimator, int resamples) {
     const int count = times->rounds;
     double *scratch = malloc((size_t)count * (size_t)times->frames * sizeof *scratch);

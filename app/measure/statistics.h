@@ -1,11 +1,12 @@
 // Order statistics of times, estimates from rounds of measurement, and bootstrap intervals of the
 // estimates.
 //
-// The times of one subject are an array of rounds * frames values. The index of a time is round *
-// frames + frame, as in the array that dip_timing_run fills. The bootstrap (Efron 1979, percentile
-// intervals) draws whole rounds with replacement, since the values of one round were measured
-// together and share the machine's state. The bootstrap starts from a fixed seed, so the same times
-// always give the same interval. All functions are thread-safe.
+// A subject is anything that draws frames, and a round times every frame of every subject once
+// (timing.h). The times of one subject are an array of rounds * frames values. The index of a time
+// is round * frames + frame, as in the array that dip_timing_run fills. The bootstrap (Efron 1979,
+// percentile intervals) draws whole rounds with replacement, since the values of one round were
+// measured together and share the machine's state. The bootstrap starts from a fixed seed, so the
+// same times always give the same interval. All functions are thread-safe.
 #ifndef DIP_APP_MEASURE_STATISTICS_H
 #define DIP_APP_MEASURE_STATISTICS_H
 
@@ -34,7 +35,8 @@ typedef struct DipStatsEstimate {
     double high;
 } DipStatsEstimate;
 
-// Returns the mean over the frames of each frame's median over the rounds; 0 when memory runs out.
+// Computes each frame's median over the rounds, and returns the mean of these medians over the
+// frames; 0 when memory runs out.
 double dip_stats_time(const double *ms, int frames, int rounds);
 DipStatsEstimate dip_stats_time_estimate(const double *ms, int frames, int rounds);
 

@@ -132,8 +132,8 @@ static void keep_round(const DipTimingDef *def, int round, const double *round_m
     }
 }
 
-// Shuffles even if the round is known, so that later rounds have the same order as if this round
-// had been run.
+// Shuffles the subjects even if the caller knows the round's times. Later rounds then have the same
+// order as if this round had been run.
 static bool run_round(Timing *t, int round, double *ms, DipError *err) {
     const DipTimingCalls *calls = t->calls;
     const double *known = calls->known_round ? calls->known_round(calls->context, round) : NULL;

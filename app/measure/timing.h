@@ -56,7 +56,7 @@ typedef struct DipTimingCalls {
     bool (*run)(void *context, const DipTimingTurn *turn, DipError *err);
 
     // Called after each run, with the time of the run. Can show progress, interrupt the measurement
-    // or record more about the run. May be NULL.
+    // or record more about the run. The function pointer may be NULL.
     bool (*after_run)(void *context, const DipTimingTurn *turn, double ms, DipError *err);
 
     // Returns the times of a round if an earlier measurement has them, in the layout that
@@ -66,7 +66,7 @@ typedef struct DipTimingCalls {
 
     // Receives the times of a round. The index of a time is
     // (version * subject_count + subject) * frame_count + frame.
-    // known: the times came from known_round. May be NULL.
+    // `known` is true if the times came from known_round. The function pointer may be NULL.
     bool (*after_round)(void *context, int round, const double *ms, bool known, DipError *err);
 
     // The clock, in nanoseconds. NULL means the monotonic clock.
@@ -80,8 +80,8 @@ typedef struct DipTimingDef {
     int frame_count;   // Frames of each subject, at least 1.
     int version_count; // 1 or 2.
     int round_count;   // At least 0.
-    uint64_t seed;     // Seed of the order of runs. The same seed gives the same order.
-    bool settle;       // Run phase 2.
+    uint64_t seed;     // Seed of the order of runs. Equal seeds lead to equal orders.
+    bool settle;       // True to run phase 2.
     int64_t rest_ns;   // Rest before each run in phase 3 if there are two versions.
 } DipTimingDef;
 

@@ -1,5 +1,5 @@
-// Draws the two halves on the pool, computes their mean and difference, and reads and writes the
-// cache.
+// Draws the two halves of a truth (truth.h) on the pool, computes their mean and difference, and
+// reads and writes the cache.
 #include "app/measure/truth.h"
 
 #include "app/files/folder.h"
@@ -41,7 +41,7 @@ static void find_key(const DipTruthDef *def, char key[33]) {
     dip_hash_integer(&hash, def->width);
     dip_hash_integer(&hash, def->height);
     dip_hash_integer(&hash, def->samples);
-    dip_hash_number(&hash, def->pixels_per_degree); // the floor's FLIP depends on it
+    dip_hash_number(&hash, def->pixels_per_degree); // the noise floor's FLIP depends on this number
     dip_hash_hex(&hash, key);
 }
 
@@ -52,7 +52,7 @@ typedef struct Half {
     const DipTruthDef *def;
     const DipConvergence *convergence;
     double *rgb_lin;
-    uint8_t *classes; // what pixels show; only the first half fills it, the second has NULL
+    uint8_t *classes; // what pixels show; only for the first half, NULL for the second half
     uint32_t seed;
     int first_tile; // index of the current batch's first tile
     atomic_bool failed;
@@ -109,7 +109,7 @@ static void round_to_floats(const double *rgb_lin, size_t count, float *out) {
     }
 }
 
-// Judges the first half against the second.
+// Computes the noise floor: the metrics of the first half against the second half.
 static bool measure_floor(DipTruth *truth, const DipTruthDef *def, double *const halves[HALVES],
                           DipError *err) {
     const size_t pixels = (size_t)truth->width * (size_t)truth->height;

@@ -15,8 +15,9 @@ typedef struct DipCameraKeys {
 } DipCameraKeys;
 
 // Moves the camera along its own axes by speed_m_per_s * seconds, or turns the camera if `turn` is
-// set. Left and right turn it about the world's vertical axis, forward and back about the camera's
-// right axis, up and down about the line of sight. Returns whether the pose changed.
+// set. Left and right turn the camera about the world's vertical axis. Forward and back turn the
+// camera about its right axis, and up and down about its line of sight. Returns whether the pose
+// changed.
 bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_per_s,
                      double seconds);
 

@@ -1,4 +1,5 @@
-// Draws the sheet with the table of what each step of each setting costs, and empty sheets.
+// Draws the sheet of costs: a table with the time and the error of each step (value) of each
+// setting. Also draws empty sheets.
 #include "app/preview/sheet.h"
 #include "app/preview/style.h"
 #include "renderer/base/assert.h"

@@ -56,9 +56,9 @@ static void make_row(DipCostsRow *row, const DipCostReport *report, const DipCos
     }
 }
 
-// Makes advice from row `row` of the report, a measured combination; a negative row means that none
-// was found. ms: the combination's time if it was measured again. If ms is 0, the report's time of
-// the row is used.
+// Makes advice from row `row` of the report, a measured combination; a negative row means that no
+// combination was found. If the combination was measured again, `ms` is its new time. If `ms` is 0,
+// the report's time of the row is used.
 static DipCostsAdvice advice_of(const DipCostReport *report, double budget_ms, int row, double ms) {
     if (row < 0) {
         return (DipCostsAdvice){.budget_ms = budget_ms};

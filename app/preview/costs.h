@@ -6,14 +6,15 @@
 
 #include <stdbool.h>
 
+// One step (value) of a setting.
 typedef struct DipCostsStep {
     DipQuality quality;
     char name[24];    // Name of the step: "4".
     char figures[32]; // Time relative to the baseline, and change of FLIP: "1.56x -.0107".
 } DipCostsStep;
 
-// One setting's steps. One of them is the baseline that the others are compared with; its text is
-// "1x" and its own FLIP.
+// One setting's steps. One step is the baseline that the other steps are compared with. The text of
+// the baseline is "1x" and its FLIP.
 typedef struct DipCostsRow {
     char title[48]; // "Antialiasing".
     DipSetting setting;
@@ -21,9 +22,10 @@ typedef struct DipCostsRow {
     int step_count;
 } DipCostsRow;
 
+// The settings with the least error among all measured settings within a time budget.
 typedef struct DipCostsAdvice {
     double budget_ms;
-    bool found; // True if some measured combination keeps within the budget.
+    bool found; // True if a measured combination keeps within the budget.
     DipQuality quality;
     double ms;
     double flip;
@@ -33,11 +35,12 @@ typedef struct DipCosts {
     char heading[256]; // Scene, size, threads and instruction set.
     DipCostsRow rows[DIP_COST_MAX_SWEEPS];
     int row_count;
-    DipCostsAdvice advice[DIP_COST_MAX_BUDGETS]; // One for each budget of the report; if there is
-                                                 // none, one for 16.6 ms.
+    // One piece of advice for each budget of the report. If the report has no budget, one piece of
+    // advice for 16.6 ms.
+    DipCostsAdvice advice[DIP_COST_MAX_BUDGETS];
     int advice_count;
-    DipCostsAdvice baseline; // Time and FLIP of the baseline's settings; found only if the report
-                             // has them as a combination.
+    DipCostsAdvice baseline; // Time and FLIP of the baseline's settings; `found` is true only if
+                             // the report has them as a combination.
 } DipCosts;
 
 void dip_costs_make(DipCosts *costs, const DipCostReport *report);

@@ -1,5 +1,5 @@
-// Draws the truth level by level and tile by tile, and measures errors in bands and blocks of the
-// picture.
+// Draws the truth (the converged picture) level by level and tile by tile, and measures errors in
+// bands and blocks of the picture.
 #include "app/preview/error_job.h"
 
 #include "app/measure/difference.h"
@@ -36,7 +36,7 @@ typedef struct PaneSums {
 struct DipErrorJob {
     DipReference *reference;
     DipSrgbEncodeTable encode;
-    int flip_margin; // FLIP of a block depends on this many pixels around the block.
+    int flip_margin; // Number of pixels around a block that the block's FLIP depends on.
     DipStill still;
     bool has_still;
     size_t pixels; // Size of the buffers below.
@@ -237,8 +237,8 @@ static void measure_band(DipErrorJob *job, int pane, int band) {
     add_sum(&sums->squared_codes, dip_map_sum(job->map, pixels, (DipPixelMask){0}));
 }
 
-// Measures FLIP of a block. The cut-out has a margin as wide as FLIP's filters, so that the block's
-// own pixels get the same values as in the whole picture.
+// Measures the FLIP of a block. The cut-out has a margin as wide as FLIP's filters, so that the
+// block's own pixels get the same values as in the whole picture.
 static bool measure_block(DipErrorJob *job, int pane, int block) {
     const int across = (job->still.width + BLOCK - 1) / BLOCK;
     const int x = block % across * BLOCK, y = block / across * BLOCK;
@@ -285,7 +285,8 @@ static void publish(DipErrorJob *job) {
     }
 }
 
-// Measures the next part: all bands of a pane, all its blocks, then the same for the other pane.
+// Measures the next band or block. First come all bands of the first pane, then all blocks of this
+// pane, then the bands and blocks of the other pane.
 static bool measure_next_part(DipErrorJob *job) {
     const int bands = (job->still.height + band_rows(job) - 1) / band_rows(job);
     const int blocks =

@@ -14,19 +14,20 @@
 
 enum { DIP_ERROR_JOB_LEVELS = 3 };
 
-// Samples per pixel of each half of each level. A level is the mean of two halves with independent
-// samples; the difference of the halves tells the truth's own noise. The last level has the default
-// number of samples of `diptych cost`.
+// Samples per pixel of one half of the truth, for each level. A level is the mean of two halves
+// with independent samples; the difference of the halves shows the truth's own noise. The last
+// level has the default number of samples of `diptych cost`.
 extern const int dip_error_job_samples[DIP_ERROR_JOB_LEVELS];
 
-// The panes' pictures of one pose, time and size.
+// A still: the panes' pictures of one pose, time and size.
 typedef struct DipStill {
     DipPose pose;
     int64_t time_ns;
     int width;
     int height;
     size_t stride_bytes;
-    const uint8_t *rgba8[DIP_PANE_COUNT]; // Requested is NULL if both panes have the same picture.
+    // If both panes show the same picture, the requested pane's pointer is NULL.
+    const uint8_t *rgba8[DIP_PANE_COUNT];
 } DipStill;
 
 // Returns whether two stills are compared with the same truth.
@@ -48,7 +49,7 @@ typedef struct DipErrorJobResult {
 
 typedef struct DipErrorJob DipErrorJob;
 
-// The reference renderer is borrowed. The job sets the renderer's time to that of each still.
+// The reference renderer is borrowed. The job sets the renderer's time to the time of each still.
 DipErrorJob *dip_error_job_create(DipReference *reference, DipError *err);
 void dip_error_job_destroy(DipErrorJob **job);
 

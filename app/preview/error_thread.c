@@ -1,4 +1,4 @@
-// The thread, the stills that it receives and the results that it gives.
+// Runs the thread that measures errors, passes stills (DipStill) to it, and reads its results.
 #define _GNU_SOURCE // SCHED_IDLE
 
 #include "app/preview/error_thread.h"
@@ -19,7 +19,7 @@ typedef struct Still {
 struct DipErrorThread {
     const DipSceneDef *scene;
     DipReflectionDef reflection;
-    Still staged; // The next still, which the caller fills without the lock.
+    Still staged; // The next still, which the caller fills without holding the lock.
     unsigned picture_number;
     bool shown;
     pthread_t thread;
@@ -74,7 +74,7 @@ static void answer(Worker *worker, DipErrorStatus status) {
 }
 
 // Waits while there is nothing to do. Sets *fresh if there is a new still. Returns false if the
-// thread has to end.
+// thread must end.
 static bool wait_for_still(Worker *worker, bool *fresh) {
     DipErrorThread *owner = worker->owner;
     pthread_mutex_lock(&owner->lock);
@@ -172,7 +172,8 @@ void dip_error_thread_destroy(DipErrorThread **owner_pointer) {
         atomic_store(&owner->stop, true);
         pthread_cond_signal(&owner->changed);
         pthread_mutex_unlock(&owner->lock);
-        yield_to_all(owner->thread, false); // It should end soon: the caller waits for it.
+        // The caller waits for the thread, so the thread should end soon.
+        yield_to_all(owner->thread, false);
         pthread_join(owner->thread, NULL);
     }
     pthread_cond_destroy(&owner->changed);

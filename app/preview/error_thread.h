@@ -17,9 +17,9 @@ DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
 // Ends the thread. Waits until the thread has finished its current step.
 void dip_error_thread_destroy(DipErrorThread **thread);
 
-// Begins to measure a still and forgets the previous still. The still's pictures are copied. The
-// caller must change the picture number whenever the pictures change: a call with the same number
-// as the previous call does nothing.
+// Begins to measure a still (both panes' pictures of one pose and time) and forgets the previous
+// still. The still's pictures are copied. The caller must change the picture number whenever the
+// pictures change: a call with the same number as the previous call does nothing.
 void dip_error_thread_measure(DipErrorThread *thread, const DipStill *still,
                               unsigned picture_number);
 

@@ -25,8 +25,8 @@ void dip_figures_add(DipFigures *figures, const DipSessionFrame *frame, int64_t 
 // Counts a presented picture.
 void dip_figures_count_presented(DipFigures *figures, int64_t now_ns);
 
-// Updates the shown times if they are outdated or a quarter of a second old. moving: frames follow
-// each other without pauses, so that a frame rate makes sense.
+// Updates the shown times if they are outdated or a quarter of a second old. `moving` is true if
+// frames follow each other without pauses. Only then is a frame rate shown.
 void dip_figures_update(DipFigures *figures, bool moving, int64_t now_ns);
 
 #endif

@@ -11,9 +11,9 @@ typedef struct DipKeyRow {
     int other; // A second key that does the same, or DIP_KEYCODE_NONE.
     DipAction action;
     int argument;
-    bool repeats;      // The action goes on while the key is held.
+    bool repeats;      // The action is repeated while the key is held.
     const char *label; // The key's name in the help; NULL: the help leaves the row out.
-    const char *text;  // The help's text; NULL for settings, whose title is shown.
+    const char *text;  // The help's text; NULL: the help shows the setting's title.
 } DipKeyRow;
 
 extern const DipKeyRow dip_key_rows[];

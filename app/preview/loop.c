@@ -16,8 +16,8 @@ static const int64_t longest_step_ns = 250000000;
 static const int64_t ns_per_ms = 1000000;
 enum { IDLE_WAIT_MS = 30 };
 
-// Everything that decides what the pictures show, except for which sample pattern temporal
-// antialiasing uses in this frame.
+// Everything that decides what the pictures show. There is one exception: the sample pattern that
+// temporal antialiasing uses in this frame.
 typedef struct Drawn {
     DipPose pose;
     int64_t play_ns;
@@ -47,7 +47,7 @@ struct DipPreview {
     unsigned drawn_changes;                   // Value of state.scene_changes at the last frame.
     DipQuality drawn_quality[DIP_PANE_COUNT]; // Settings of the renderers.
     Drawn drawn;
-    unsigned picture_number; // Grows when `drawn` changes.
+    unsigned picture_number; // Number of the current pictures; grows when `drawn` changes.
 };
 
 static int64_t clock_ns(const DipPreview *preview) {
@@ -203,7 +203,7 @@ static bool follow_size(DipPreview *preview, DipError *err) {
 
 static void number_picture(DipPreview *preview) {
     Drawn drawn;
-    memset(&drawn, 0, sizeof drawn); // memcmp below also compares the padding.
+    memset(&drawn, 0, sizeof drawn); // memcmp compares the padding, too.
     drawn.pose = preview->pose;
     drawn.play_ns = preview->state.play_ns;
     drawn.width = preview->frame.panes[0].width;
@@ -371,7 +371,8 @@ static void follow_full_screen(DipPreview *preview) {
     }
 }
 
-// Draws and presents the picture if something has changed. Sets *shown to whether it did.
+// Draws and presents the picture if something has changed. Sets *shown to whether something has
+// changed.
 static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
     DipPreviewState *state = &preview->state;
     const bool had_notice = state->notice[0] != '\0';
@@ -414,7 +415,7 @@ bool dip_preview_turn(DipPreview *preview, DipError *err) {
     while (!preview->state.quit && take_event(preview, 0)) {
     }
     if (preview->state.quit) {
-        return true; // The user has quit: draws no further frame.
+        return true; // The user has quit, so no further frame is drawn.
     }
     if (!draw_turn(preview, clock_ns(preview), &shown, err)) {
         return false;

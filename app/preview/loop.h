@@ -1,8 +1,8 @@
 // The preview on any display: handles events, lets time pass, draws and presents.
 //
 // The owner calls dip_preview_turn until dip_preview_has_quit. A turn handles the events that have
-// arrived, and draws and presents at most one frame. Then it waits: for the display's next refresh
-// if it presented a frame, otherwise for an event, but only for a short time.
+// arrived, and draws and presents at most one frame. If the turn presented a frame, it then waits
+// for the display's next refresh. Otherwise it waits a short time for an event.
 #ifndef DIP_APP_PREVIEW_LOOP_H
 #define DIP_APP_PREVIEW_LOOP_H
 

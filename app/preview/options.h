@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-// Models given as arguments are added to those of --model.
+// Models that are given as arguments are added to the models of --model.
 typedef struct DipPreviewOptions {
     DipProgramOptions program;
     DipSessionOptions session;

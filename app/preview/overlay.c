@@ -49,7 +49,8 @@ static void append(char *line, size_t size_bytes, const char *between, const cha
     }
 }
 
-// Names the effects that ran, then the effects that did not, with or without the reasons.
+// Names the effects that ran, then the effects that did not run. If `reasons` is set, says why each
+// effect did not run.
 static void list_effects(const DipEffects *effects, bool reasons, char *line, size_t size_bytes) {
     snprintf(line, size_bytes, "Effects");
     const char *between = ": ";

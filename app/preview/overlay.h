@@ -1,5 +1,5 @@
 // The overlay over the panes' pictures: a label and a panel per pane, the status line, and the
-// sheets.
+// sheets (help and costs).
 #ifndef DIP_APP_PREVIEW_OVERLAY_H
 #define DIP_APP_PREVIEW_OVERLAY_H
 

@@ -52,7 +52,7 @@ static void add_error(Lines *lines, const DipErrorReading *errors, int pane) {
         add(lines, true, "Error", "measuring");
         return;
     }
-    // The truth has two halves.
+    // The truth is the mean of two halves with equal numbers of samples.
     const int all_samples = 2 * dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1];
     if (result->last) {
         add(lines, true, "Error", "%d samples", result->samples);

@@ -13,8 +13,8 @@
 static const double courtyard_speed_m_per_s = 3.0;
 static const double seconds_across_model = 4.0;
 
-// Returns the speed of the free camera. The camera crosses a model given by the user in four
-// seconds, whatever the model's unit is.
+// Returns the speed of the free camera. If the user gave models, the camera crosses them in four
+// seconds, whatever their unit of length is.
 static double flying_speed(const DipSession *session) {
     if (session->options->model_count == 0) {
         return courtyard_speed_m_per_s;

@@ -52,7 +52,7 @@ typedef struct DipPreviewState {
     bool full_screen;
     bool screenshot;              // The user asked for a screenshot. Cleared when it is saved.
     char notice[DIP_NOTICE_SIZE]; // What just happened, for the status line; may be empty.
-    int64_t notice_end_ns;        // When the notice goes away, on the clock of `now_ns`.
+    int64_t notice_end_ns;        // Time at which the notice goes away, on the clock of `now_ns`.
     unsigned scene_changes;       // Grows whenever the panes' pictures have to change.
 } DipPreviewState;
 

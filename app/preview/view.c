@@ -17,7 +17,7 @@ struct DipView {
     DipCanvas canvas;
     DipDamage damage; // Changes since dip_view_take_damage was last called.
     DipPixels frames[DIP_PANE_COUNT];
-    uint64_t frame_count; // Number of frames set so far; gives each frame its version.
+    uint64_t frame_count; // Number of frames set so far; also the newest frame's version.
     uint64_t versions[DIP_PANE_COUNT];
 };
 

@@ -1,4 +1,5 @@
-// The preview as one picture: both panes side by side, and the overlay over the panes.
+// The preview as one picture: both panes (the pictures of the current and the requested settings)
+// side by side, and the overlay over the panes.
 #ifndef DIP_APP_PREVIEW_VIEW_H
 #define DIP_APP_PREVIEW_VIEW_H
 

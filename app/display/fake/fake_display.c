@@ -1,4 +1,4 @@
-// A queue of events and a picture.
+// Implements the display for tests with a queue of events and a picture in memory.
 #include "app/display/fake/fake_display.h"
 
 #include "app/canvas/canvas.h"

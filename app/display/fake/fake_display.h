@@ -1,8 +1,9 @@
 // A display for tests: events come from a queue, and the test can read the shown picture.
 //
-// The display's clock advances only while the display waits in vain for an event, or when the test
-// advances it. So the test controls the time. The display copies only the damage rectangles of a
-// presented picture, as a window does; a test therefore notices forgotten damage.
+// The test controls the time. The display's clock advances when the test advances the clock, and
+// when the display waits for an event and none comes. The display copies only the damage rectangles
+// of a presented picture, as a window does; a test therefore notices if the preview forgets to
+// report damage.
 #ifndef DIP_APP_DISPLAY_FAKE_FAKE_DISPLAY_H
 #define DIP_APP_DISPLAY_FAKE_FAKE_DISPLAY_H
 
@@ -16,7 +17,7 @@ enum { DIP_FAKE_MAX_EVENTS = 256 };
 // close function frees it.
 DipFakeDisplay *dip_fake_display_open(DipDisplay *display, int width, int height);
 
-// Appends an event. The queue must not hold more than DIP_FAKE_MAX_EVENTS events.
+// Appends an event to the queue. The queue must not hold more than DIP_FAKE_MAX_EVENTS events.
 void dip_fake_display_push(DipFakeDisplay *fake, const DipEvent *event);
 
 // Appends a press and a release of a key.

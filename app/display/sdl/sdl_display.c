@@ -19,7 +19,7 @@ enum {
 
 typedef struct SdlDisplay {
     SDL_Window *window;
-    char *dropped_file; // File name of the last event, if that was a DROP; else NULL.
+    char *dropped_file; // File name of the last event, if that event was a DROP; otherwise NULL.
     bool sdl_open;
 } SdlDisplay;
 
@@ -33,7 +33,7 @@ static bool sdl_failed(DipError *err) {
 // --- opening and closing -----------------------------------------------------------------------
 
 // Without a display, SDL falls back to a driver that shows nothing. Such a driver counts as a
-// display only if the user chose a driver with SDL_VIDEODRIVER.
+// display only if the user chose the driver with SDL_VIDEODRIVER.
 static bool has_display(void) {
     const char *driver = SDL_GetCurrentVideoDriver();
     const bool shows_nothing =
@@ -53,7 +53,7 @@ static bool open_sdl(SdlDisplay *sdl, DipError *err) {
     }
     // An X server takes pixels directly from shared memory. SDL can also present pixels through
     // OpenGL, but that costs memory and, without a graphics card, a third of the frame rate. On
-    // systems other than X, OpenGL is SDL's only way.
+    // systems other than X, SDL can only use OpenGL.
     if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0) {
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     }
@@ -135,7 +135,7 @@ static bool copy_rect(SDL_Surface *surface, const DipPixels *picture, DipRect re
     return true;
 }
 
-// Copies at most MAX_RECTS damage rectangles to the window's surface and has SDL send them to the
+// Copies at most MAX_RECTS damage rectangles to the window's surface. SDL then sends them to the
 // screen.
 static bool show_rects(SDL_Window *window, SDL_Surface *surface, const DipPixels *picture,
                        const DipRect *damage, int count) {
@@ -196,8 +196,8 @@ static void size(void *context, int *width, int *height) {
     *height = *height > 1 ? *height : 1;
 }
 
-// Returns the number of pixels per unit of the window's size. It is 1 unless the system scales
-// windows.
+// Returns the number of pixels per unit of the window's size. The number is 1 unless the system
+// scales windows.
 static double scale(void *context) {
     const SdlDisplay *sdl = context;
     int width = 0, height = 0, units = 0;

@@ -5,8 +5,8 @@
 #include "app/display/display.h"
 
 // Opens a window with a picture of the given size in pixels, or with a smaller picture if the
-// screen is smaller. Fails with RUNTIME if there is no display or if it has too few colours; the
-// message says which. The caller closes the display.
+// screen is smaller. Fails with RUNTIME if there is no display, or if the display has too few
+// colours; the message says which. The caller closes the display.
 bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *err);
 
 #endif

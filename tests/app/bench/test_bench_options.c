@@ -145,7 +145,7 @@ static void plots_need_an_axis_and_one_program(void **state) {
     assert_refused(DIP_ERROR_IO, "--vs", WORDS("--vs", "./none"));
 }
 
-static void session_is_described_without_a_scene_that_nobody_draws(void **state) {
+static void session_loads_a_scene_only_if_it_is_drawn(void **state) {
     (void)state;
     static const struct {
         const char *words[5];
@@ -178,7 +178,7 @@ int main(void) {
         cmocka_unit_test(too_many_combinations_are_refused),
         cmocka_unit_test(a_grid_excludes_a_scene),
         cmocka_unit_test(plots_need_an_axis_and_one_program),
-        cmocka_unit_test(session_is_described_without_a_scene_that_nobody_draws),
+        cmocka_unit_test(session_loads_a_scene_only_if_it_is_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,7 +46,7 @@ static void labels_name_what_varies(void **state) {
     assert_string_equal(label, "64x48, aa=none, scalar, 1 thread");
 }
 
-static void the_session_gives_what_options_leave_open(void **state) {
+static void the_session_fills_in_what_options_leave_open(void **state) {
     (void)state;
     DipSession session = {.isa = DIP_ISA_SCALAR};
     session.config.res.width = 320;
@@ -83,7 +83,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_last_axis_changes_fastest),
         cmocka_unit_test(labels_name_what_varies),
-        cmocka_unit_test(the_session_gives_what_options_leave_open),
+        cmocka_unit_test(the_session_fills_in_what_options_leave_open),
         cmocka_unit_test(grids_are_named_by_their_triangles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

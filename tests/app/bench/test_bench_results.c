@@ -128,7 +128,7 @@ static void quantiles_are_over_frames_and_rounds(void **state) {
 // There are two frames and three rounds. This program takes {2, 4}, {2, 4} and {3, 4} ms; the
 // median is (3 + 4) / 2 = 3.5. The other program takes twice as long for each frame. Its fastest
 // frames take 4 + 8 = 12 ms, those of this program 2 + 4 = 6 ms.
-static void a_ratio_is_the_other_program_over_this_one(void **state) {
+static void ratios_are_the_other_programs_time_over_this_ones(void **state) {
     (void)state;
     const double here_ms[6] = {2, 4, 2, 4, 3, 4};
     double other_ms[6];
@@ -246,7 +246,7 @@ static bool fake_draw(void *context, int combination, int frame, bool hash, DipB
     return true;
 }
 
-static void each_source_fills_its_result(void **state) {
+static void each_program_fills_its_own_result(void **state) {
     (void)state;
     dip_made_plan(&plan, 3, 2);
     for (int count = 1; count <= 2; count++) {
@@ -280,10 +280,10 @@ int main(void) {
         cmocka_unit_test(samples_are_found_where_they_were_put),
         cmocka_unit_test(work_is_the_mean_over_frames),
         cmocka_unit_test(quantiles_are_over_frames_and_rounds),
-        cmocka_unit_test(a_ratio_is_the_other_program_over_this_one),
+        cmocka_unit_test(ratios_are_the_other_programs_time_over_this_ones),
         cmocka_unit_test(the_fastest_rounds_ignore_noise),
         cmocka_unit_test(csv_has_a_line_per_program_round_and_frame),
-        cmocka_unit_test(each_source_fills_its_result),
+        cmocka_unit_test(each_program_fills_its_own_result),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,7 +47,7 @@ static void a_fill_blends_exactly(void **state) {
     }
 }
 
-static void a_mask_is_a_fill_by_coverage(void **state) {
+static void a_mask_multiplies_alpha_by_coverage(void **state) {
     (void)state;
     const uint8_t mask[4] = {0, 255, 128, 64};
     clear(4, 1, 10);
@@ -130,7 +130,7 @@ static DipRect draw_black(int size, const char *line, int *sum) {
     return ink(sum);
 }
 
-static void text_lies_where_its_measures_say(void **state) {
+static void text_fits_its_width_and_line_height(void **state) {
     (void)state;
     int sum = 0;
     const DipRect box = draw_black(16, "Hxgj", &sum);
@@ -187,9 +187,9 @@ static void bytes_that_are_not_utf8_show_too(void **state) {
     assert_int_equal(dip_font_width(font, 12, "\xc3"), mark);
 }
 
-// A line gives the same picture again after more glyphs than the cache holds were drawn, at many
-// sizes.
-static void the_cache_forgets_without_harm(void **state) {
+// Draws a line, then more glyphs of many sizes than fit into the cache, then the line again. Both
+// pictures of the line are equal.
+static void a_full_cache_changes_no_picture(void **state) {
     (void)state;
     int before = 0, after = 0;
     const DipRect box = draw_black(14, "cache", &before);
@@ -206,14 +206,14 @@ static void the_cache_forgets_without_harm(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_fill_blends_exactly),
-        cmocka_unit_test(a_mask_is_a_fill_by_coverage),
+        cmocka_unit_test(a_mask_multiplies_alpha_by_coverage),
         cmocka_unit_test(nothing_is_drawn_outside_the_clip),
         cmocka_unit_test(a_picture_is_scaled_to_its_rectangle),
-        cmocka_unit_test(text_lies_where_its_measures_say),
+        cmocka_unit_test(text_fits_its_width_and_line_height),
         cmocka_unit_test(letters_are_antialiased),
         cmocka_unit_test(a_long_line_ends_in_an_ellipsis),
         cmocka_unit_test(bytes_that_are_not_utf8_show_too),
-        cmocka_unit_test(the_cache_forgets_without_harm),
+        cmocka_unit_test(a_full_cache_changes_no_picture),
     };
     font = dip_font_create(NULL);
     if (!font) {

@@ -1,5 +1,5 @@
-// Tests of lists of drawing commands. Only what has changed is painted again, and the picture
-// equals that of the same list painted on an empty canvas.
+// Tests of lists of drawing commands. Only what has changed is painted again, and the result is the
+// same picture as if the list were painted on an empty canvas.
 #include "app/canvas/draw_list.h"
 
 #include <setjmp.h>
@@ -95,7 +95,7 @@ static void record_label(DipDrawList *list, const char *figure, uint64_t version
                        figure);
 }
 
-static void only_what_changed_is_damaged(void **state) {
+static void only_changed_commands_are_damaged(void **state) {
     (void)state;
     DipDrawList *list = dip_draw_list_create(font, NULL);
     DipCanvas canvas = {0};
@@ -144,7 +144,7 @@ static void damage_covers_what_was_added(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(painting_over_equals_painting_anew),
-        cmocka_unit_test(only_what_changed_is_damaged),
+        cmocka_unit_test(only_changed_commands_are_damaged),
         cmocka_unit_test(damage_covers_what_was_added),
     };
     font = dip_font_create(NULL);

@@ -9,7 +9,7 @@ enum { ROWS = 4 };
 static void fill_sums(DipMetricSums *sums, int seed) {
     double *values = (double *)sums;
     for (int i = 0; i < DIP_METRIC_SUM_COUNT; i++) {
-        values[i] = 1.0 / (1.0 + i + 100.0 * seed); // has no short decimal form
+        values[i] = 1.0 / (1.0 + i + 100.0 * seed); // a number without a short decimal form
     }
     for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
         sums->regions[r].pixels = 10.0;

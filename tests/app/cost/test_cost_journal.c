@@ -1,4 +1,5 @@
-// Tests of the journal, which keeps an unfinished report no matter when the program ends.
+// Tests of the journal. This file stores the measurements of an unfinished cost report, so that
+// they survive when the program is interrupted.
 #include "app/cost/journal.h"
 
 #include <setjmp.h>
@@ -48,7 +49,7 @@ static int remove_state(void **state) {
     return 0;
 }
 
-static void what_is_measured_is_found_again(void **state) {
+static void stored_measurements_are_found_again(void **state) {
     (void)state;
     write_some();
     DipCostJournal *again = open_journal(plan);
@@ -63,8 +64,9 @@ static void what_is_measured_is_found_again(void **state) {
     dip_cost_journal_close(&again, false);
 }
 
-// Errors are kept if the plan changes, since they belong to pictures. Times belong to a plan.
-static void times_of_another_plan_are_passed_over(void **state) {
+// The plan is a hash of everything that times depend on. A journal that is opened with another plan
+// still finds the errors, which depend only on the pictures, but ignores the times.
+static void times_of_another_plan_are_ignored(void **state) {
     (void)state;
     write_some();
     DipCostJournal *again = open_journal(other_plan);
@@ -85,7 +87,7 @@ static size_t file_size(void) {
 
 // Cuts the file at many lengths in turn. Whole lines are read, an incomplete last line is removed,
 // and new lines can be added.
-static void a_torn_line_is_dropped(void **state) {
+static void an_incomplete_line_is_dropped(void **state) {
     (void)state;
     write_some();
     const size_t size = file_size();
@@ -131,7 +133,7 @@ static void a_changed_byte_drops_its_line(void **state) {
     }
 }
 
-static void a_finished_report_leaves_no_state(void **state) {
+static void a_finished_report_removes_the_journal(void **state) {
     (void)state;
     write_some();
     DipCostJournal *again = open_journal(plan);
@@ -139,7 +141,7 @@ static void a_finished_report_leaves_no_state(void **state) {
     assert_int_not_equal(access("cost.state", F_OK), 0);
 }
 
-static void a_folder_that_is_not_there_is_an_error(void **state) {
+static void a_missing_folder_is_an_error(void **state) {
     (void)state;
     DipError err = {0};
     assert_null(dip_cost_journal_open("./none", plan, &err));
@@ -148,12 +150,12 @@ static void a_folder_that_is_not_there_is_an_error(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(what_is_measured_is_found_again, remove_state),
-        cmocka_unit_test_teardown(times_of_another_plan_are_passed_over, remove_state),
-        cmocka_unit_test_teardown(a_torn_line_is_dropped, remove_state),
+        cmocka_unit_test_teardown(stored_measurements_are_found_again, remove_state),
+        cmocka_unit_test_teardown(times_of_another_plan_are_ignored, remove_state),
+        cmocka_unit_test_teardown(an_incomplete_line_is_dropped, remove_state),
         cmocka_unit_test_teardown(a_changed_byte_drops_its_line, remove_state),
-        cmocka_unit_test_teardown(a_finished_report_leaves_no_state, remove_state),
-        cmocka_unit_test(a_folder_that_is_not_there_is_an_error),
+        cmocka_unit_test_teardown(a_finished_report_removes_the_journal, remove_state),
+        cmocka_unit_test(a_missing_folder_is_an_error),
     };
     char folder[] = "/tmp/test_cost_state.XXXXXX";
     if (!mkdtemp(folder) || chdir(folder) != 0) {

@@ -35,7 +35,7 @@ static void expect_near(double found, double expected, double tolerance) {
 
 // --- errors ------------------------------------------------------------------------------------
 
-static void figures_are_means(void **state) {
+static void metrics_are_means(void **state) {
     (void)state;
     DipMetricSums sums = {0};
     sums.regions[0] = (DipMetricRegionSums){100.0, 4.0, 2500.0, 40.0, 80.0, 25.0};
@@ -43,7 +43,7 @@ static void figures_are_means(void **state) {
     sums.squared_flicker = 0.5;
     DipMetricSums twice = sums;
     dip_metric_sums_add(&twice, &sums);
-    for (int i = 0; i < 2; i++) { // adding the same sums twice leaves the means unchanged
+    for (int i = 0; i < 2; i++) { // the doubled sums have the same means
         const DipMetrics f = dip_metrics_of(i ? &twice : &sums, 0);
         expect_near(f.rmse_lin, 0.2, 1e-15);
         expect_near(f.psnr_db, 20.0 * log10(255.0 / 5.0), 1e-12);
@@ -55,7 +55,7 @@ static void figures_are_means(void **state) {
     assert_true(none.rmse_lin == 0.0 && isinf(none.psnr_db) && none.ssim == 1.0);
 }
 
-static void errors_below_three_floors_say_nothing(void **state) {
+static void errors_below_three_noise_floors_are_marked(void **state) {
     (void)state;
     DipCostReport report;
     dip_made_report(&report, 2);
@@ -97,7 +97,7 @@ static void steps_out_of_order_are_named(void **state) {
     expect_order(&report, "at step \"4\", the counter samples_shown should rise but does not.");
     report.rows[2].viewpoints[0].regions[0].flip = 100.0;
     expect_order(&report, "at step \"2\", FLIP should fall but does not.");
-    report.sweeps[0].setting = DIP_SETTING_OPT; // theory says that its errors rise
+    report.sweeps[0].setting = DIP_SETTING_OPT; // in theory, this setting's errors rise
     expect_order(&report, "at step \"off\", FLIP should rise but does not.");
     report.sweeps[0].setting = DIP_SETTING_MIPDEBUG;
     char text[2 * DIP_COST_TEXT];
@@ -111,7 +111,7 @@ enum { ROUNDS = 40 };
 
 // The times of frames differ up to tenfold, and drift slows all rows down alike. Row 2 takes 1.5
 // times as long as row 0.
-static void ratios_see_past_drift_and_frames(void **state) {
+static void drift_and_uneven_frames_do_not_change_ratios(void **state) {
     (void)state;
     DipCostReport report;
     dip_made_report(&report, ROUNDS);
@@ -154,7 +154,7 @@ static void set_viewpoint(DipCostReport *report, int row, double ms, double flip
     }
 }
 
-static void no_other_row_beats_the_pareto_front(void **state) {
+static void no_row_is_better_than_the_pareto_front(void **state) {
     (void)state;
     DipCostReport report;
     const int rows[4] = {0, 1, 2, 3};
@@ -181,7 +181,7 @@ static void no_other_row_beats_the_pareto_front(void **state) {
 
 // Times are computed from work counters and prices, with 1 % of noise. The fit finds the prices
 // again.
-static void the_fit_finds_what_work_costs(void **state) {
+static void the_fit_finds_the_prices(void **state) {
     (void)state;
     enum { ROWS = 60 };
     DipCostReport report = {.row_count = ROWS, .rounds = 1, .path_count = 1};
@@ -312,9 +312,9 @@ static void broken_json_is_refused(void **state) {
     assert_int_equal(err.code, DIP_ERROR_MISSING);
 }
 
-// All lines of the CSV have as many fields as its header. The HTML page has all its parts and
-// refers to no other file.
-static void csv_and_page_are_whole(void **state) {
+// Each line of the CSV has the same number of fields as the header. The HTML page has all its parts
+// and refers to no other file.
+static void csv_and_page_are_complete(void **state) {
     (void)state;
     DipCostReport report;
     DipError err = {0};
@@ -350,16 +350,16 @@ static void csv_and_page_are_whole(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(figures_are_means),
-        cmocka_unit_test(errors_below_three_floors_say_nothing),
+        cmocka_unit_test(metrics_are_means),
+        cmocka_unit_test(errors_below_three_noise_floors_are_marked),
         cmocka_unit_test(steps_out_of_order_are_named),
-        cmocka_unit_test(ratios_see_past_drift_and_frames),
+        cmocka_unit_test(drift_and_uneven_frames_do_not_change_ratios),
         cmocka_unit_test(times_are_means_of_medians),
-        cmocka_unit_test(no_other_row_beats_the_pareto_front),
-        cmocka_unit_test(the_fit_finds_what_work_costs),
+        cmocka_unit_test(no_row_is_better_than_the_pareto_front),
+        cmocka_unit_test(the_fit_finds_the_prices),
         cmocka_unit_test(json_keeps_everything),
         cmocka_unit_test(broken_json_is_refused),
-        cmocka_unit_test(csv_and_page_are_whole),
+        cmocka_unit_test(csv_and_page_are_complete),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -97,7 +97,7 @@ static void dump_needs_something_to_do(void **state) {
     assert_string_equal(err.message, "nothing to do; give one of --out DIR, --json FILE, --hash");
 }
 
-static void standard_output_takes_one_of_record_and_hashes(void **state) {
+static void standard_output_takes_the_record_or_the_hashes(void **state) {
     (void)state;
     DipCommandLine line;
     DipError err = {0};
@@ -116,7 +116,7 @@ static void category_excludes_another_path(void **state) {
                    WORDS("--hash", "--category", "AF", "--model", "m"));
 }
 
-static void printed_record_is_the_written_one(void **state) {
+static void printed_and_written_records_are_equal(void **state) {
     (void)state;
     DipError err = {0};
     char file[] = "/tmp/test_dump_record.XXXXXX";
@@ -150,9 +150,9 @@ int main(void) {
         cmocka_unit_test(options_reach_their_fields),
         cmocka_unit_test(bad_frames_are_refused),
         cmocka_unit_test(dump_needs_something_to_do),
-        cmocka_unit_test(standard_output_takes_one_of_record_and_hashes),
+        cmocka_unit_test(standard_output_takes_the_record_or_the_hashes),
         cmocka_unit_test(category_excludes_another_path),
-        cmocka_unit_test(printed_record_is_the_written_one),
+        cmocka_unit_test(printed_and_written_records_are_equal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-// Tests of RMSE, PSNR and SSIM against closed forms, and of rms^2 = static^2 + flicker^2.
+// Tests of RMSE, PSNR and SSIM against closed forms, and of the equation rms^2 = static^2 +
+// flicker^2.
 #include "app/measure/difference.h"
 #include "app/measure/flicker.h"
 #include "app/measure/ssim.h"
@@ -94,7 +95,7 @@ static void rms_in_linear_light(void **state) {
 }
 
 // The sums over the regions add up to the sum over the whole picture.
-static void regions_part_the_picture(void **state) {
+static void region_sums_add_up_to_the_whole_picture(void **state) {
     (void)state;
     static uint8_t classes[64 * 48];
     DipMapSum parts = {0};
@@ -131,7 +132,7 @@ static int inverse_hash(int x, int y, int c) {
     return 255 - dip_pattern_hash(x, y, c);
 }
 
-static void ssim_of_flat_pictures_is_that_of_their_means(void **state) {
+static void ssim_of_flat_pictures_follows_from_their_means(void **state) {
     (void)state;
     const double c1 = (0.01 * 255.0) * (0.01 * 255.0);
     for (base = 0; base < 256; base += 85) {
@@ -170,7 +171,7 @@ static void ssim_of_stripes_and_their_mean(void **state) {
     expect_near("ssim", ssim(stripes, hundred), expected, 1e-5);
 }
 
-static void ssim_by_another_program(void **state) {
+static void ssim_agrees_with_another_program(void **state) {
     (void)state;
     expect_near("ssim", ssim(dip_pattern_hash, dip_pattern_other_hash), 0.0076587, 1e-5);
     expect_near("ssim", ssim(dip_pattern_gradient, dip_pattern_coarse_gradient), 0.9814971, 1e-5);
@@ -208,7 +209,7 @@ static DipFlickerResult flicker_of(int frames) {
     return result;
 }
 
-static void static_and_flicker_make_the_whole(void **state) {
+static void static_error_and_flicker_add_up(void **state) {
     (void)state;
     for (int t = 0; t < FRAMES; t++) {
         for (int i = 0; i < VALUES; i++) {
@@ -224,7 +225,7 @@ static void static_and_flicker_make_the_whole(void **state) {
 
 // Errors alternate between m + d and m - d. So the static error is m, the flicker is d, each step
 // is 2d, and the mean of two frames is m.
-static void alternating_errors(void **state) {
+static void static_error_and_flicker_of_alternating_errors(void **state) {
     (void)state;
     const double m = 0.25, d = 0.125;
     for (int t = 0; t < FRAMES; t++) {
@@ -246,13 +247,13 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(psnr_of_known_errors),
         cmocka_unit_test(rms_in_linear_light),
-        cmocka_unit_test(regions_part_the_picture),
-        cmocka_unit_test(ssim_of_flat_pictures_is_that_of_their_means),
+        cmocka_unit_test(region_sums_add_up_to_the_whole_picture),
+        cmocka_unit_test(ssim_of_flat_pictures_follows_from_their_means),
         cmocka_unit_test(ssim_of_stripes_and_their_mean),
-        cmocka_unit_test(ssim_by_another_program),
+        cmocka_unit_test(ssim_agrees_with_another_program),
         cmocka_unit_test(identical_pictures_are_1),
-        cmocka_unit_test(static_and_flicker_make_the_whole),
-        cmocka_unit_test(alternating_errors),
+        cmocka_unit_test(static_error_and_flicker_add_up),
+        cmocka_unit_test(static_error_and_flicker_of_alternating_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

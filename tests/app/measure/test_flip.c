@@ -62,7 +62,7 @@ static float most(int count) {
 // --- pictures ----------------------------------------------------------------------------------
 
 static int constant;
-static int channels; // bit c is set: channel c has the constant; other channels are 0
+static int channels; // bits; if bit c is set, channel c has the constant, otherwise 0
 
 static int first_constant;
 static int first_channels;
@@ -119,7 +119,7 @@ static void flat_pictures(void **state) {
     expect("red 255 and 254", compare_flat(255, RED, 254, RED), 0.039603);
 }
 
-static void weights(void **state) {
+static void filter_weights(void **state) {
     (void)state;
     const DipFlipKernels k = dip_flip_kernels(DIP_FLIP_PIXELS_PER_DEGREE);
     assert_int_equal(k.luma.radius, 10);
@@ -202,7 +202,7 @@ static void extreme_resolutions(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weights),
+        cmocka_unit_test(filter_weights),
         cmocka_unit_test(flat_pictures),
         cmocka_unit_test(gradient),
         cmocka_unit_test(checkers),

@@ -28,8 +28,8 @@ static void quantiles_lie_between_neighbours(void **state) {
 }
 
 // Frames differ a hundredfold, but all rounds are equal. So the ratio of the medians, 300 to 100,
-// is certain: its interval has no width.
-static void frames_that_differ_are_no_spread(void **state) {
+// is certain, and the interval's ends are equal.
+static void different_frames_do_not_widen_the_interval(void **state) {
     (void)state;
     static const double by_frame[2][5] = {{600, 300, 200, 900, 30}, {1, 50, 100, 150, 200}};
     double a[15];
@@ -43,7 +43,7 @@ static void frames_that_differ_are_no_spread(void **state) {
 }
 
 // There is one frame, in 20 rounds. The ratio of the medians is 2, and b has noise of +-10 %.
-static void rounds_that_differ_are_spread(void **state) {
+static void different_rounds_widen_the_interval(void **state) {
     (void)state;
     double a[20];
     double b[20];
@@ -56,7 +56,7 @@ static void rounds_that_differ_are_spread(void **state) {
     assert_true(interval.high > 2.1 && interval.high <= 2.0 / 0.9);
 }
 
-static void the_median_of_any_order(void **state) {
+static void the_median_needs_no_sorted_values(void **state) {
     (void)state;
     double odd[] = {9, 1, 5};
     double even[] = {4, 1, 2, 3};
@@ -94,7 +94,7 @@ static void a_time_is_the_mean_of_medians(void **state) {
 
 // Both subjects are slow in the same rounds. So their ratio is certain, although their times are
 // not.
-static void a_paired_ratio_takes_both_from_one_round(void **state) {
+static void a_paired_ratio_compares_times_of_one_round(void **state) {
     (void)state;
     double a[12], b[12];
     for (int i = 0; i < 12; i++) {
@@ -108,12 +108,12 @@ static void a_paired_ratio_takes_both_from_one_round(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_median_of_any_order),
+        cmocka_unit_test(the_median_needs_no_sorted_values),
         cmocka_unit_test(a_time_is_the_mean_of_medians),
-        cmocka_unit_test(a_paired_ratio_takes_both_from_one_round),
+        cmocka_unit_test(a_paired_ratio_compares_times_of_one_round),
         cmocka_unit_test(quantiles_lie_between_neighbours),
-        cmocka_unit_test(frames_that_differ_are_no_spread),
-        cmocka_unit_test(rounds_that_differ_are_spread),
+        cmocka_unit_test(different_frames_do_not_widen_the_interval),
+        cmocka_unit_test(different_rounds_widen_the_interval),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,7 +76,7 @@ static Fake make_fake(void) {
 
 // --- tests -------------------------------------------------------------------------------------
 
-static void times_are_those_of_the_runs_alone(void **state) {
+static void only_runs_are_timed(void **state) {
     (void)state;
     static Fake fake;
     double ms[3 * 2 * 4];
@@ -95,7 +95,7 @@ static void times_are_those_of_the_runs_alone(void **state) {
     assert_int_equal(fake.count, 3 * 2 + 4 * 3 * (1 + 2));
 }
 
-static void everything_is_warmed_up_in_order(void **state) {
+static void every_subject_is_warmed_up_in_order(void **state) {
     (void)state;
     static Fake fake;
     const DipTimingDef def = {
@@ -131,7 +131,7 @@ static int list_visits(const Fake *fake, int *subjects) {
     return count;
 }
 
-static void every_round_visits_each_subject_in_an_order_of_the_seed(void **state) {
+static void every_round_visits_each_subject_in_seeded_order(void **state) {
     (void)state;
     static Fake fakes[3];
     enum { ROUNDS = 40, SUBJECTS = 5 };
@@ -225,7 +225,7 @@ static bool after_round(void *context, int round, const double *ms, bool known, 
     return true;
 }
 
-static void known_rounds_are_not_run_and_change_no_order(void **state) {
+static void known_rounds_are_skipped_without_changing_the_order(void **state) {
     (void)state;
     static Fake fresh, resumed;
     int fresh_order[9];
@@ -272,7 +272,7 @@ static void a_failure_ends_the_measurement(void **state) {
 // --- ratios ------------------------------------------------------------------------------------
 
 // In every second round the machine is three times as slow. The ratio is still certain.
-static void ratios_cancel_what_slows_everything(void **state) {
+static void ratios_cancel_a_slowdown_of_all_subjects(void **state) {
     (void)state;
     static Fake fake;
     enum { ROUNDS = 16, FRAMES = 2 };
@@ -292,14 +292,14 @@ static void ratios_cancel_what_slows_everything(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(times_are_those_of_the_runs_alone),
-        cmocka_unit_test(everything_is_warmed_up_in_order),
-        cmocka_unit_test(every_round_visits_each_subject_in_an_order_of_the_seed),
+        cmocka_unit_test(only_runs_are_timed),
+        cmocka_unit_test(every_subject_is_warmed_up_in_order),
+        cmocka_unit_test(every_round_visits_each_subject_in_seeded_order),
         cmocka_unit_test(two_versions_alternate_at_every_frame),
         cmocka_unit_test(settling_ends_when_two_medians_agree),
-        cmocka_unit_test(known_rounds_are_not_run_and_change_no_order),
+        cmocka_unit_test(known_rounds_are_skipped_without_changing_the_order),
         cmocka_unit_test(a_failure_ends_the_measurement),
-        cmocka_unit_test(ratios_cancel_what_slows_everything),
+        cmocka_unit_test(ratios_cancel_a_slowdown_of_all_subjects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

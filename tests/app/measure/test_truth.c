@@ -71,7 +71,7 @@ static void empty_folder(bool corrupt) {
     closedir(folder);
 }
 
-static void the_cache_gives_the_same(void **state) {
+static void the_cache_returns_the_truth_that_was_drawn(void **state) {
     (void)state;
     const DipTruthDef def = make_def(4);
     DipTruth made, found, without;
@@ -84,7 +84,8 @@ static void the_cache_gives_the_same(void **state) {
     assert_true(calls > 0);
     check_same(&made, &without);
     dip_truth_free(&found);
-    empty_folder(true); // damages the file; it is made anew, since its hash does not match
+    // If the file is damaged, its hash does not match, so the truth is drawn anew.
+    empty_folder(true);
     assert_true(get(&found, &def, "."));
     assert_true(calls > 0);
     check_same(&made, &found);
@@ -95,7 +96,7 @@ static void the_cache_gives_the_same(void **state) {
 }
 
 // If anything that the truth depends on changes, the truth's key changes.
-static void other_pictures_have_other_names(void **state) {
+static void different_truths_have_different_keys(void **state) {
     (void)state;
     DipTruthDef defs[6];
     char keys[6][33];
@@ -118,8 +119,8 @@ static void other_pictures_have_other_names(void **state) {
     }
 }
 
-// Half of the difference of a truth's halves is about the truth's difference from a much better
-// truth.
+// Half of the difference between a truth's two halves estimates the truth's error. The test
+// compares this estimate with the difference from a much better truth.
 static void the_floor_estimates_the_truths_own_error(void **state) {
     (void)state;
     const DipTruthDef def = make_def(16);
@@ -139,7 +140,7 @@ static void the_floor_estimates_the_truths_own_error(void **state) {
     dip_truth_free(&better);
 }
 
-static void an_interruption_leaves_nothing(void **state) {
+static void an_interrupted_truth_is_empty_and_not_cached(void **state) {
     (void)state;
     const DipTruthDef def = make_def(4);
     DipTruth truth;
@@ -154,8 +155,8 @@ static void an_interruption_leaves_nothing(void **state) {
     empty_folder(false);
 }
 
-// If a truth is compared with itself, the only error is that of rounding to 8-bit codes.
-static void the_truth_judged_by_itself_has_no_error(void **state) {
+// If a truth is compared with itself, the only error comes from rounding to 8-bit codes.
+static void a_truth_compared_with_itself_has_no_error(void **state) {
     (void)state;
     const DipTruthDef def = make_def(16);
     DipTruth truth;
@@ -187,11 +188,11 @@ static void the_truth_judged_by_itself_has_no_error(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_cache_gives_the_same),
-        cmocka_unit_test(other_pictures_have_other_names),
+        cmocka_unit_test(the_cache_returns_the_truth_that_was_drawn),
+        cmocka_unit_test(different_truths_have_different_keys),
         cmocka_unit_test(the_floor_estimates_the_truths_own_error),
-        cmocka_unit_test(an_interruption_leaves_nothing),
-        cmocka_unit_test(the_truth_judged_by_itself_has_no_error),
+        cmocka_unit_test(an_interrupted_truth_is_empty_and_not_cached),
+        cmocka_unit_test(a_truth_compared_with_itself_has_no_error),
     };
     char folder[] = "/tmp/test_truth.XXXXXX";
     DipError err = {0};

@@ -1,5 +1,5 @@
-// Tests of the tables of all commands: every option of every command is read, is refused if its
-// value is wrong, and is explained in the help.
+// Tests of the option tables of all commands. The parser reads every option of every command and
+// refuses wrong values, and the help explains every option.
 #include "app/command_line.h"
 #include "app/command_list.h"
 #include "app/help.h"

@@ -163,7 +163,7 @@ static void repeated_texts_are_all_kept(void **state) {
     assert_int_equal(all.fields.name_count, 3);
 }
 
-static void list_replaces_the_one_before(void **state) {
+static void a_list_replaces_the_previous_list(void **state) {
     (void)state;
     All all = {0};
     DipError err = {0};
@@ -203,7 +203,7 @@ static void missing_and_unwanted_values_are_refused(void **state) {
     assert_refused("--flag=on", NULL, DIP_ERROR_TYPE, "takes no value");
 }
 
-static void unknown_options_are_refused_with_a_likely_one(void **state) {
+static void unknown_options_are_refused_with_a_suggestion(void **state) {
     (void)state;
     assert_refused("--sise", "1x1", DIP_ERROR_UNKNOWN, "did you mean --size?");
     assert_refused("--requested", "aa=2", DIP_ERROR_UNKNOWN, "`diptych test --help` lists");
@@ -226,10 +226,10 @@ int main(void) {
         cmocka_unit_test(each_kind_is_stored_in_its_field),
         cmocka_unit_test(value_can_follow_an_equals_sign),
         cmocka_unit_test(repeated_texts_are_all_kept),
-        cmocka_unit_test(list_replaces_the_one_before),
+        cmocka_unit_test(a_list_replaces_the_previous_list),
         cmocka_unit_test(bad_values_are_refused_with_what_is_accepted),
         cmocka_unit_test(missing_and_unwanted_values_are_refused),
-        cmocka_unit_test(unknown_options_are_refused_with_a_likely_one),
+        cmocka_unit_test(unknown_options_are_refused_with_a_suggestion),
         cmocka_unit_test(options_are_found_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -40,7 +40,7 @@ static DipPlot make(const DipPlotSeries *series, int count, bool logarithmic) {
     return (DipPlot){"Title", "Sub", "pixels", "ms", logarithmic, logarithmic, series, count};
 }
 
-static void names_and_marks_are_there(void **state) {
+static void plots_contain_names_and_marks(void **state) {
     (void)state;
     const double x[] = {1, 2, 4};
     const double y[] = {3, 5, 9};
@@ -59,7 +59,7 @@ static void names_and_marks_are_there(void **state) {
 
 // A series that has only marks has no line, neither in the plot nor in the legend. Each mark has
 // its label.
-static void marks_alone_have_labels(void **state) {
+static void marks_without_a_line_have_labels(void **state) {
     (void)state;
     const double x[] = {1, 2, 4};
     const char *const labels[] = {"p", "<q>", "r"};
@@ -93,7 +93,7 @@ static void powers_lie_on_a_line(void **state) {
     }
 }
 
-static void one_point_and_many_series(void **state) {
+static void many_series_of_one_point_can_be_plotted(void **state) {
     (void)state;
     const double one[] = {5};
     DipPlotSeries series[DIP_PLOT_MAX_SERIES + 2];
@@ -106,7 +106,7 @@ static void one_point_and_many_series(void **state) {
     assert_int_equal(count_of("nan") + count_of("inf"), 0);
 }
 
-static void a_folder_that_is_not_there_is_an_error(void **state) {
+static void a_missing_folder_is_an_error(void **state) {
     (void)state;
     const double one[] = {5};
     const DipPlotSeries series = {.name = "s", .x = one, .y = one, .count = 1};
@@ -119,11 +119,11 @@ static void a_folder_that_is_not_there_is_an_error(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_and_marks_are_there),
-        cmocka_unit_test(marks_alone_have_labels),
+        cmocka_unit_test(plots_contain_names_and_marks),
+        cmocka_unit_test(marks_without_a_line_have_labels),
         cmocka_unit_test(powers_lie_on_a_line),
-        cmocka_unit_test(one_point_and_many_series),
-        cmocka_unit_test(a_folder_that_is_not_there_is_an_error),
+        cmocka_unit_test(many_series_of_one_point_can_be_plotted),
+        cmocka_unit_test(a_missing_folder_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

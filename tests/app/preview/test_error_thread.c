@@ -61,7 +61,7 @@ static DipStill make_still(bool copied) {
     };
 }
 
-// Returns the metrics that the cost report would give.
+// Computes the metrics in the same way as the cost report.
 static DipMetrics measured_whole(const DipTruth *truth, const uint8_t *picture) {
     DipMeter meter;
     DipFlipAnalysis side;
@@ -95,7 +95,7 @@ static DipErrorJobStep step_to_news(DipErrorJob *job, int *steps) {
 }
 
 // At every level, the errors equal those of the cost report with the same number of samples.
-static void errors_are_the_cost_reports(void **state) {
+static void errors_equal_those_of_the_cost_report(void **state) {
     (void)state;
     DipErrorJob *job = dip_error_job_create(reference, NULL);
     const DipStill still = make_still(false);
@@ -128,7 +128,7 @@ static void errors_are_the_cost_reports(void **state) {
 
 // Other pictures from the same pose are compared with the truth that the job already has. Another
 // pose needs a new truth.
-static void a_truth_is_kept_while_its_pose_is(void **state) {
+static void a_truth_is_kept_until_the_pose_changes(void **state) {
     (void)state;
     DipErrorJob *job = dip_error_job_create(reference, NULL);
     DipStill still = make_still(true);
@@ -199,7 +199,8 @@ static void the_thread_answers_once_per_still(void **state) {
     assert_null(thread);
 }
 
-// New stills arrive at every stage of the work. The result for the last still is right.
+// New stills arrive at every stage of the work. The thread still delivers the right result for the
+// last still.
 static void the_thread_drops_stills_that_are_replaced(void **state) {
     (void)state;
     DipErrorThread *thread = make_thread();
@@ -228,7 +229,7 @@ static void the_thread_drops_stills_that_are_replaced(void **state) {
 }
 
 // The thread is told to end before it starts, and while it prepares, draws or measures.
-static void the_thread_ends_when_told(void **state) {
+static void the_thread_ends_at_any_stage(void **state) {
     (void)state;
     const DipStill still = make_still(false);
     for (int i = 0; i < 24; i++) {
@@ -243,11 +244,11 @@ static void the_thread_ends_when_told(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_are_the_cost_reports),
-        cmocka_unit_test(a_truth_is_kept_while_its_pose_is),
+        cmocka_unit_test(errors_equal_those_of_the_cost_report),
+        cmocka_unit_test(a_truth_is_kept_until_the_pose_changes),
         cmocka_unit_test(the_thread_answers_once_per_still),
         cmocka_unit_test(the_thread_drops_stills_that_are_replaced),
-        cmocka_unit_test(the_thread_ends_when_told),
+        cmocka_unit_test(the_thread_ends_at_any_stage),
     };
     atomic_bool never = false;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_fence);

@@ -42,7 +42,7 @@ static int set_up(void **state) {
     return 0;
 }
 
-static void times_and_work(void **state) {
+static void the_panel_shows_times_and_work(void **state) {
     (void)state;
     assert_string_equal(value_of(0, "Frame"), "10.00 ms");
     assert_string_equal(value_of(0, "Geometry"), "1.00 ms  10 %");
@@ -52,7 +52,7 @@ static void times_and_work(void **state) {
     assert_string_equal(value_of(0, "Texels read"), "1.23 M");
 }
 
-static void errors_show_at_rest(void **state) {
+static void the_panel_shows_errors_at_rest(void **state) {
     (void)state;
     DipErrorReading *errors = &figures.errors;
     errors->result.panes[1] = (DipPaneError){.0123, 31.26, .0475, false};
@@ -90,7 +90,7 @@ static void a_copy_has_errors_only(void **state) {
     assert_string_equal(value_of(1, "FLIP"), "0.0000");
 }
 
-static void rest_is_when_nothing_moves(void **state) {
+static void the_preview_rests_when_nothing_moves(void **state) {
     (void)state;
     DipPreviewState preview = {0};
     assert_false(dip_preview_rests(&preview, false));
@@ -109,7 +109,7 @@ static double flip_of(const DipCostReport *report, int row) {
 }
 
 // Row r of the made-up report takes r + 1 ms; its sweep has rows 0, 2 and 3.
-static void steps_tell_cost_and_gain(void **state) {
+static void steps_show_their_time_and_change_of_flip(void **state) {
     (void)state;
     DipCostReport report;
     DipCosts costs;
@@ -180,7 +180,7 @@ static void advice_sets_the_requested_pane(void **state) {
 }
 
 // A report without budgets gives advice for 16.6 ms.
-static void there_is_a_budget_by_default(void **state) {
+static void the_default_budget_is_16_6_ms(void **state) {
     (void)state;
     DipCostReport report;
     DipCosts costs;
@@ -201,14 +201,14 @@ static void there_is_a_budget_by_default(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(times_and_work, set_up),
-        cmocka_unit_test_setup(errors_show_at_rest, set_up),
+        cmocka_unit_test_setup(the_panel_shows_times_and_work, set_up),
+        cmocka_unit_test_setup(the_panel_shows_errors_at_rest, set_up),
         cmocka_unit_test_setup(a_copy_has_errors_only, set_up),
-        cmocka_unit_test(rest_is_when_nothing_moves),
-        cmocka_unit_test(steps_tell_cost_and_gain),
+        cmocka_unit_test(the_preview_rests_when_nothing_moves),
+        cmocka_unit_test(steps_show_their_time_and_change_of_flip),
         cmocka_unit_test(a_report_of_another_scene_is_refused),
         cmocka_unit_test(advice_sets_the_requested_pane),
-        cmocka_unit_test(there_is_a_budget_by_default),
+        cmocka_unit_test(the_default_budget_is_16_6_ms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -182,7 +182,7 @@ static void both_panes_show_the_scene(void **state) {
     assert_true(panes_are_same());
 }
 
-static void it_moves_until_it_is_paused(void **state) {
+static void the_picture_moves_until_it_is_paused(void **state) {
     (void)state;
     turn();
     Pane before = look(DIP_PANE_CURRENT);
@@ -256,7 +256,7 @@ static void tab_and_clicks_choose_the_pane(void **state) {
     assert_false(dip_fake_display_is_full_screen(fake));
 }
 
-static void sheets_cover_and_leave(void **state) {
+static void sheets_cover_the_panes_until_closed(void **state) {
     (void)state;
     static const struct {
         DipKeycode open;
@@ -278,7 +278,7 @@ static void sheets_cover_and_leave(void **state) {
     }
 }
 
-// The sizes have even, odd and tiny widths. One is larger than a frame may be.
+// The sizes have even, odd and tiny widths. One size is larger than a frame may be.
 static void the_panes_follow_the_display(void **state) {
     (void)state;
     static const int sizes[][2] = {{640, 300}, {321, 290}, {402, 480}, {3, 1}, {1, 1}};
@@ -339,7 +339,7 @@ static void only_changes_are_presented(void **state) {
 
 // While the camera rests and the panel shows, errors are measured. The errors show although no
 // event arrives.
-static void errors_appear_while_it_rests(void **state) {
+static void errors_appear_while_the_camera_rests(void **state) {
     (void)state;
     rest();
     press('r');
@@ -374,7 +374,7 @@ static void quitting_ends_without_another_frame(void **state) {
 }
 
 // The file holds the picture that the display showed before the notice of the file.
-static void a_screenshot_is_the_picture(void **state) {
+static void a_screenshot_equals_the_shown_picture(void **state) {
     (void)state;
     char folder[] = "/tmp/test_preview_loop.XXXXXX";
     char before[1024];
@@ -431,18 +431,18 @@ int main(void) {
 #define PREVIEW_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
         PREVIEW_TEST(both_panes_show_the_scene),
-        PREVIEW_TEST(it_moves_until_it_is_paused),
+        PREVIEW_TEST(the_picture_moves_until_it_is_paused),
         PREVIEW_TEST(a_setting_changes_the_requested_pane),
         PREVIEW_TEST(enter_copies_requested_to_current),
         PREVIEW_TEST(tab_and_clicks_choose_the_pane),
-        PREVIEW_TEST(sheets_cover_and_leave),
+        PREVIEW_TEST(sheets_cover_the_panes_until_closed),
         PREVIEW_TEST(the_panes_follow_the_display),
         PREVIEW_TEST(text_follows_the_scale),
         PREVIEW_TEST(the_free_camera_follows_held_keys),
         PREVIEW_TEST(only_changes_are_presented),
-        PREVIEW_TEST(errors_appear_while_it_rests),
+        PREVIEW_TEST(errors_appear_while_the_camera_rests),
         PREVIEW_TEST(quitting_ends_without_another_frame),
-        PREVIEW_TEST(a_screenshot_is_the_picture),
+        PREVIEW_TEST(a_screenshot_equals_the_shown_picture),
         PREVIEW_TEST(random_events_do_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -56,8 +56,9 @@ static int step_of(const Fixture *fixture, int pane, DipSetting setting) {
     return fixture->state.quality[pane].step[setting];
 }
 
-// Antialiasing goes through none 2 4 6 8 none, on the requested pane alone; Shift goes back.
-static void settings_cycle(void **state) {
+// Antialiasing goes through none 2 4 6 8 none, on the requested pane alone. With Shift, it goes
+// through the steps in reverse.
+static void a_setting_cycles_through_its_steps(void **state) {
     Fixture *f = *state;
     for (int i = 1; i <= 5; ++i) {
         press(f, DIP_ACTION_SETTING, DIP_SETTING_AA, false);
@@ -71,7 +72,7 @@ static void settings_cycle(void **state) {
 
 // A group size of 4 is valid with 8 samples only. With another number of samples, the group size is
 // reset to its default.
-static void samples_take_the_group_size_along(void **state) {
+static void changing_samples_resets_an_invalid_group_size(void **state) {
     Fixture *f = *state;
     f->state.quality[DIP_PANE_REQUESTED] = parse("aa=8,aaa=on,asd=2");
     press(f, DIP_ACTION_SETTING, DIP_SETTING_ASD, false);
@@ -87,7 +88,7 @@ static void samples_take_the_group_size_along(void **state) {
 }
 
 // Every setting returns to its first step, and all settings on the way are valid.
-static void every_setting_comes_round(void **state) {
+static void every_setting_returns_to_its_first_step(void **state) {
     Fixture *f = *state;
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
         const DipQuality before = f->state.quality[DIP_PANE_REQUESTED];
@@ -100,7 +101,7 @@ static void every_setting_comes_round(void **state) {
     }
 }
 
-static void panes_and_apply(void **state) {
+static void keys_change_the_chosen_panes_and_apply_copies(void **state) {
     Fixture *f = *state;
     press(f, DIP_ACTION_NEXT_PANE, 0, false); // now the current pane
     press(f, DIP_ACTION_SETTING, DIP_SETTING_AF, false);
@@ -117,7 +118,7 @@ static void panes_and_apply(void **state) {
     assert_int_equal(step_of(f, DIP_PANE_CURRENT, DIP_SETTING_AA), 0);
 }
 
-static void a_setting_brings_its_path(void **state) {
+static void a_setting_chooses_its_path(void **state) {
     Fixture *f = *state;
     dip_preview_advance(&f->state, 3000000000, 0);
     press(f, DIP_ACTION_SETTING, DIP_SETTING_AF, false);
@@ -137,7 +138,7 @@ static void a_setting_brings_its_path(void **state) {
     assert_non_null(strstr(f->state.notice, "WATER"));
 }
 
-static void time_stands_when_paused_or_flying(void **state) {
+static void time_stops_while_paused_or_flying(void **state) {
     Fixture *f = *state;
     dip_preview_advance(&f->state, 1000, 0);
     assert_int_equal(f->state.play_ns, 1000);
@@ -157,7 +158,7 @@ static void time_stands_when_paused_or_flying(void **state) {
     assert_int_equal(f->state.play_ns, 33334333);
 }
 
-static void notices_pass(void **state) {
+static void notices_disappear(void **state) {
     Fixture *f = *state;
     dip_preview_notice(&f->state, 1000, "hello %d", 3);
     dip_preview_advance(&f->state, 0, 1000);
@@ -166,7 +167,7 @@ static void notices_pass(void **state) {
     assert_string_equal(f->state.notice, "");
 }
 
-static void settings_in_words(void **state) {
+static void settings_are_described_in_words(void **state) {
     (void)state;
     char text[64];
     DipQuality quality = dip_quality_default();
@@ -193,7 +194,7 @@ static void assert_at(const DipPose *pose, double x, double y, double z) {
     assert_true(fabs(pose->position_world[2] - z) < 1e-9);
 }
 
-static void camera_flies(void **state) {
+static void the_camera_moves_and_turns(void **state) {
     (void)state;
     DipPose pose = {.orientation = {0, 0, 0, 1}, .fov_y_deg = 50};
     const DipCameraKeys still = {0};
@@ -216,7 +217,7 @@ static void camera_flies(void **state) {
     assert_at(&pose, 2, 3, -3);
 }
 
-static void median_of_the_last_second(void **state) {
+static void the_median_covers_the_last_second(void **state) {
     (void)state;
     DipTiming timing = {0};
     assert_true(dip_timing_median_ms(&timing, 0) == 0.0);
@@ -239,16 +240,18 @@ static void median_of_the_last_second(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(settings_cycle, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(samples_take_the_group_size_along, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(every_setting_comes_round, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(panes_and_apply, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_setting_brings_its_path, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(time_stands_when_paused_or_flying, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(notices_pass, set_up, tear_down),
-        cmocka_unit_test(settings_in_words),
-        cmocka_unit_test(camera_flies),
-        cmocka_unit_test(median_of_the_last_second),
+        cmocka_unit_test_setup_teardown(a_setting_cycles_through_its_steps, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(changing_samples_resets_an_invalid_group_size, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(every_setting_returns_to_its_first_step, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(keys_change_the_chosen_panes_and_apply_copies, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(a_setting_chooses_its_path, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(time_stops_while_paused_or_flying, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(notices_disappear, set_up, tear_down),
+        cmocka_unit_test(settings_are_described_in_words),
+        cmocka_unit_test(the_camera_moves_and_turns),
+        cmocka_unit_test(the_median_covers_the_last_second),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -230,7 +230,7 @@ static void faults_of_scene_and_path_are_both_told(void **state) {
     dip_error_list_free(&faults);
 }
 
-static void good_scene_is_given_back_when_the_path_is_bad(void **state) {
+static void good_scene_is_freed_when_the_path_is_bad(void **state) {
     (void)state;
     DipSessionOptions options = small_options();
     options.path = model;
@@ -239,7 +239,7 @@ static void good_scene_is_given_back_when_the_path_is_bad(void **state) {
     dip_error_list_free(&faults);
 }
 
-static void good_path_is_given_back_when_the_scene_is_bad(void **state) {
+static void good_path_is_freed_when_the_scene_is_bad(void **state) {
     (void)state;
     DipSessionOptions options = small_options();
     options.models[0] = path;
@@ -249,7 +249,7 @@ static void good_path_is_given_back_when_the_scene_is_bad(void **state) {
     dip_error_list_free(&faults);
 }
 
-static void faults_of_files_that_the_ini_names_have_its_line(void **state) {
+static void faults_of_files_name_their_line_in_the_ini(void **state) {
     (void)state;
     static const struct {
         const char *key;
@@ -317,9 +317,9 @@ int main(int argc, char **argv) {
         cmocka_unit_test(session_draws_both_panes),
         cmocka_unit_test(missing_ini_is_a_fault),
         cmocka_unit_test(faults_of_scene_and_path_are_both_told),
-        cmocka_unit_test(good_scene_is_given_back_when_the_path_is_bad),
-        cmocka_unit_test(good_path_is_given_back_when_the_scene_is_bad),
-        cmocka_unit_test(faults_of_files_that_the_ini_names_have_its_line),
+        cmocka_unit_test(good_scene_is_freed_when_the_path_is_bad),
+        cmocka_unit_test(good_path_is_freed_when_the_scene_is_bad),
+        cmocka_unit_test(faults_of_files_name_their_line_in_the_ini),
         cmocka_unit_test(unknown_category_is_a_fault),
         cmocka_unit_test(closing_twice_is_harmless),
     };
