@@ -149,7 +149,7 @@ static const struct {
     {"--scene", "NAME", set_scene, "draw a synthetic scene: large, tiny or grid=N"},
     {"--path", "FILE", set_path, "follow this camera path, not the scene's own (models: an orbit)"},
     {"--fov", "DEG", set_fov, "vertical field of view, in degrees"},
-    {"--turn", "DEG", set_turn, "tiny, grid: turn the camera left; 40 shows half, 180 nothing (0)"},
+    {"--turn", "DEG", set_turn, "tiny, grid: turn the camera left; at 40, half is in view, at 180, nothing (0)"},
     {"--size", "WxH", set_size, "size of the frames in pixels (640x480)"},
     {"--threads", "N", set_threads, "threads of each side (2)"},
     {"--isa", "NAME", set_isa, "Diptych's instruction set (the best of this processor)"},
