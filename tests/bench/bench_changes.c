@@ -46,7 +46,8 @@ static bool open_court(Court *court) {
     dip_model_destroy(&model);
     if (!court->scene ||
         !dip_campath_load(DIP_SOURCE_DIR "/campaths/ambient.pth", &court->path, &err) ||
-        !dip_scene_compress_textures(court->scene, court->pool, &err)) { // as the preview compresses them
+        !dip_scene_compress_textures(court->scene, court->pool,
+                                     &err)) { // as the preview compresses them
         return fail(&err);
     }
     for (int p = 0; p < 2; p++) {

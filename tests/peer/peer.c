@@ -14,7 +14,8 @@ struct DipPeer {
     DipGlScene scene;
     int width;
     int height;
-    DipGlTarget targets[MAX_SAMPLES + 1]; // indexed by sample count; a target is created when its count is first set
+    DipGlTarget targets[MAX_SAMPLES + 1]; // indexed by sample count; a target is created when its
+                                          // count is first set
     int sample_count;
 };
 

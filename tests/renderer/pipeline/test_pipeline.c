@@ -149,7 +149,8 @@ static void visible_samples_are_counted(void **state) {
     for (int samples = 2; samples <= 8; samples += 2) {
         const DipPass pass = pass_of(&draw, 1, samples);
         const DipPipelineCounters counters = run(&pass);
-        uint64_t expected = 0; // sum over all pixels; a pixel's light shows how many of its samples are white
+        uint64_t expected =
+            0; // sum over all pixels; a pixel's light shows how many of its samples are white
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             expected += (uint64_t)lround(samples * dip_srgb_decode(picture[4 * i] / 255.0));
         }
