@@ -398,8 +398,8 @@ static void an_opacity_picture_becomes_alpha(void **state) {
     const DipMaterialDef *material = material_of(def, 0);
     assert_int_equal(material->surface, DIP_SURFACE_CLIPPED);
     assert_true(material->double_sided);
-    assert_true(material->base_colour_lin[0] ==
-                1.0f); // A black base colour under a texture counts as white.
+    // A black base colour under a texture counts as white.
+    assert_true(material->base_colour_lin[0] == 1.0f);
     const uint8_t texel[4] = {100, 100, 100, 0};
     assert_memory_equal(def->textures[material->colour_texture].rgba8, texel, 4);
     assert_int_equal(warnings.count, 0);

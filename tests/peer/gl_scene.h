@@ -32,8 +32,8 @@ typedef struct DipGlScene {
 
 // Uploads the scene. def is borrowed until the scene is freed. On failure *scene is freed.
 bool dip_gl_scene_make(const DipGl *gl, const DipSceneDef *def, DipGlScene *scene, DipError *err);
-void dip_gl_scene_free(
-    DipGlScene *scene); // does not free OpenGL's objects; they belong to the context
+// Frees the scene's memory, but not OpenGL's objects, which belong to the context.
+void dip_gl_scene_free(DipGlScene *scene);
 
 // Sets the anisotropy of colour textures, 1 (trilinear) to 16. Light maps stay trilinear.
 void dip_gl_scene_set_anisotropy(const DipGl *gl, const DipGlScene *scene, int max_anisotropy);

@@ -22,8 +22,8 @@ enum { DIP_PEER_ROW_COUNT = 7 };
 extern const DipPeerRow dip_peer_rows[DIP_PEER_ROW_COUNT];
 
 int dip_peer_row_find(const char *name, size_t length); // returns -1 if there is no such row
-bool dip_peer_row_has_peer(
-    const DipPeerRow *row); // false for rows of more than 4 samples, llvmpipe's limit
+// Returns true if the peer can draw the row. llvmpipe's limit is 4 samples per pixel.
+bool dip_peer_row_has_peer(const DipPeerRow *row);
 // Returns, as a bit mask, the rows whose pictures should be alike: the rows without AF that the
 // peer can draw.
 unsigned dip_peer_rows_alike(void);
@@ -50,7 +50,7 @@ typedef struct DipPeerMeasurement {
     double *ours_ms;       // our times, indexed by round * frames + frame
     double *peer_ms;       // the peer's times, same index; unset if the peer cannot draw the row
     double *first_peer_ms; // times of each frame's first draw, before the rounds; compiles shaders
-    double psnr_db; // of the mean squared error of all frames; NaN if the peer cannot draw the row
+    double psnr_db; // PSNR of all frames' mean squared error; NaN if the peer cannot draw the row
     double worst_psnr_db;
     int worst_frame;
 } DipPeerMeasurement;

@@ -13,8 +13,7 @@ typedef struct DipPeerScene {
     char name[96];
     DipSceneDef def; // points into `model` or `synthetic`
     uint64_t triangle_count;
-    bool all_in_view; // true if all triangles are in view; only then are triangles per second
-                      // meaningful
+    bool all_in_view; // triangles per second make sense only if this is true
     DipCamPath *path;
     double fov_y_deg;
     DipModel *model;

@@ -79,6 +79,7 @@ int dip_test_scene_add_material(DipTestScene *scene, int colour_texture);
 // noise as the data texture of a sky. Both textures have linear encoding.
 int dip_test_scene_add_bumps(DipTestScene *scene, int size);
 int dip_test_scene_add_clouds(DipTestScene *scene, int size);
+// Returns the texels of a texture.
 uint8_t *dip_test_scene_texels(DipTestScene *scene, int texture);
 
 // The arrays of a mesh that is being made. Arrays that the test did not ask for are NULL.

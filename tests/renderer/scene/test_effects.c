@@ -231,9 +231,8 @@ static void hash_at(const Stage *stage, int64_t time_ns, char hex[33]) {
 static void clouds_move_and_repeat_exactly_after_their_period(void **state) {
     (void)state;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_sky);
-    scene.def.sky.layers[0].speed_per_min = 0.5; // repeats after 120 s
-    scene.def.sky.layers[1].speed_per_min =
-        -0.75; // repeats after 80 s; both layers together repeat after 240 s
+    scene.def.sky.layers[0].speed_per_min = 0.5;   // repeats after 120 s
+    scene.def.sky.layers[1].speed_per_min = -0.75; // repeats after 80 s; both after 240 s
     Stage stage = open_stage(false);
     const int64_t period_ns = 240 * second_ns;
     const int64_t long_ns = INT64_C(4166667) * period_ns; // 1e9 s + 80 s
