@@ -6,9 +6,9 @@
 // the panes (the requested pane) changes from the default quality to one step of one setting, and
 // back. The time of a frame includes both panes. For every change, six frames are measured: the
 // last frame before the change and the first five after it. Each time is divided by the median time
-// of the frames with the same settings. "longest" is the greatest of the six ratios. The table has
-// the median and the minimum of "longest" over the rounds. The minimum is useful because noise can
-// only add time.
+// of the frames with the same settings. "longest" is the greatest of the six ratios. The whole
+// measurement is repeated ROUNDS times. The table has the median and the minimum of "longest" over
+// these rounds. The minimum is useful because noise can only add time.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/base/clock.h"

@@ -45,7 +45,7 @@ static const char good[] = "RES: 640x480\n"
 
 typedef struct BadIni {
     const char *promise;
-    const char *without; // the key whose line is blanked out, NULL for none
+    const char *without; // the key whose line is blanked out; NULL keeps all lines
     const char *added;   // lines to add, from line 27 on
     DipErrorCode code;
     int line;

@@ -81,8 +81,8 @@ typedef struct Deviation {
     int count;
 } Deviation;
 
-// Adds up how much the pixels on the edge deviate from the exact area. Checks that all other pixels
-// are exact.
+// Collects the deviations of the pixels on the edge from the exact area: the greatest one and the
+// sum of squares. Checks that all other pixels are exact.
 static void add_deviations(const HalfPlane *half, Deviation *deviation) {
     for (int y = 0; y < DIP_SCREEN; y++) {
         for (int x = 0; x < DIP_SCREEN; x++) {

@@ -172,7 +172,8 @@ static void the_mirrored_picture_shows_the_mirrored_scene(void **state) {
 
 // --- hard cases --------------------------------------------------------------------------------
 
-// Makes a closed grey room that is flooded up to 0.3 m, in front of a background of another colour.
+// Makes a closed grey room that is flooded up to 0.3 m. The background behind the room has another
+// colour.
 static void make_room(DipTestScene *scene) {
     static const float sides[6][9] = {
         {-4, -1, -4, 8, 0, 0, 0, 4, 0}, {4, -1, 4, -8, 0, 0, 0, 4, 0},
