@@ -1,4 +1,4 @@
-// Files for the tests of assets/.
+// Creates files for the tests of assets/.
 #include "tests/assets/fixture.h"
 
 #include <dirent.h>

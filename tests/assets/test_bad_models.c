@@ -1,5 +1,5 @@
-// Tests broken and hostile model files. Each file must be refused with an error that has
-// the file's name, a reason and the right code.
+// Tests broken and hostile model files. Each file must be refused. The error must have the file's
+// name, a reason and the right code.
 #include "assets/model.h"
 #include "tests/assets/fixture.h"
 
@@ -87,7 +87,7 @@ static void bad_files_are_refused(void **state) {
     }
 }
 
-// Writes a chain of nodes, each the child of the one before.
+// Writes a file whose nodes form a chain: each node is the child of the previous node.
 static void write_chain(const char *name, int depth) {
     FILE *file = fopen(fixture_path(name), "w");
     assert_non_null(file);
@@ -156,8 +156,8 @@ static void required_extensions_that_cannot_be_decoded_are_refused(void **state)
                    DIP_ERROR_UNSUPPORTED, "\"a?b\"");
 }
 
-// These files need no extension that cannot be decoded. assimp refuses them only because they have
-// no scene.
+// Every extension that these files require can be decoded. assimp refuses the files only because
+// they have no scene.
 static void other_mentions_of_extensions_are_ignored(void **state) {
     (void)state;
     static const char *const members[] = {
@@ -172,7 +172,7 @@ static void other_mentions_of_extensions_are_ignored(void **state) {
     }
 }
 
-static void a_glb_file_may_require_extensions_too(void **state) {
+static void required_extensions_in_glb_files_are_refused_too(void **state) {
     (void)state;
     static const char json[] = "{\"extensionsRequired\":[\"EXT_meshopt_compression\"]}";
     uint8_t glb[200] = {'g', 'l', 'T', 'F', 2, [12] = sizeof json - 1, [16] = 'J', 'S', 'O', 'N'};
@@ -182,7 +182,7 @@ static void a_glb_file_may_require_extensions_too(void **state) {
     assert_refused(fixture_path("required.glb"), DIP_ERROR_UNSUPPORTED, "EXT_meshopt_compression");
 }
 
-static void compressed_meshes_are_refused_without_the_declaration(void **state) {
+static void draco_meshes_are_refused_even_if_the_extension_is_not_required(void **state) {
     (void)state;
     size_t size_bytes = 0;
     uint8_t *bytes = fixture_read(fixture_data("bad_draco.gltf"), &size_bytes);
@@ -219,8 +219,8 @@ int main(void) {
         cmocka_unit_test(impossible_counts_in_off_files_are_refused),
         cmocka_unit_test(required_extensions_that_cannot_be_decoded_are_refused),
         cmocka_unit_test(other_mentions_of_extensions_are_ignored),
-        cmocka_unit_test(a_glb_file_may_require_extensions_too),
-        cmocka_unit_test(compressed_meshes_are_refused_without_the_declaration),
+        cmocka_unit_test(required_extensions_in_glb_files_are_refused_too),
+        cmocka_unit_test(draco_meshes_are_refused_even_if_the_extension_is_not_required),
         cmocka_unit_test(one_bad_file_fails_the_whole_load),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);

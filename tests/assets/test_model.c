@@ -1,4 +1,4 @@
-// Tests models: compares the scene description with the content of the files.
+// Tests loading models: compares the scene descriptions with the content of the model files.
 #include "assets/model.h"
 #include "renderer/scene/renderer.h"
 #include "tests/assets/fixture.h"
@@ -38,7 +38,7 @@ static int find_object(const DipSceneDef *def, const char *name) {
     return -1;
 }
 
-// Ten of the courtyard's pictures are normal maps.
+// Three of the courtyard's 21 pictures are normal maps. Their files are named *_n.*.
 static void normal_maps_are_loaded_only_on_request(void **state) {
     (void)state;
     DipModel *model = load(DIP_ASSETS_DIR "/courtyard/court.gltf", NULL, NULL);
@@ -53,7 +53,7 @@ static void normal_maps_are_loaded_only_on_request(void **state) {
     dip_model_destroy(&model);
 }
 
-// Computes the world position of a corner of an object.
+// Computes the world position of a corner of one of an object's triangles.
 static void corner_world(const DipSceneDef *def, int object, uint32_t corner, double to[3]) {
     const DipMeshDef *mesh = mesh_of(def, object);
     const float *p = mesh->positions + 3 * (size_t)mesh->indices[corner];
@@ -64,7 +64,8 @@ static void corner_world(const DipSceneDef *def, int object, uint32_t corner, do
     }
 }
 
-// Returns the z of the world normal that the winding of the object's first triangle gives.
+// Returns the z component of the world normal of the object's first triangle. The normal follows
+// from the winding of its corners.
 static double winding_z(const DipSceneDef *def, int object) {
     double a[3], b[3], c[3];
     corner_world(def, object, 0, a);
@@ -292,8 +293,8 @@ static void a_glb_file_with_an_embedded_picture_loads(void **state) {
     dip_model_destroy(&model);
 }
 
-// Two triangles have separate charts on the light map. The corners that they share therefore
-// differ, but only in their second texture coordinates.
+// Two triangles have a common edge but separate areas of the light map. Their vertices at this edge
+// have equal positions and different second texture coordinates, so they must not be merged.
 static void seams_of_light_maps_are_kept(void **state) {
     (void)state;
     static const float uv1[6][2] = {{0.125f, 0.25f}, {0.25f, 0.25f},  {0.25f, 0.125f},
@@ -320,8 +321,8 @@ static void every_node_with_a_mesh_becomes_an_object(void **state) {
     assert_int_equal(def->objects[plain].mesh, def->objects[moved].mesh);
     const float *m = def->objects[moved].transform;
     assert_true(m[3] == 2.0f && m[7] == 3.0f && m[11] == 4.0f);
-    // The mirrored node shares the mesh. glTF says that mirroring reverses its winding in world
-    // space, and the renderer reverses the winding again (docs/picture.md, Coverage).
+    // The mirrored node shares the mesh. glTF says that mirroring reverses the winding in world
+    // space. The renderer reverses the winding again (docs/picture.md, Coverage).
     assert_int_equal(def->objects[mirrored].mesh, def->objects[plain].mesh);
     assert_true(winding_z(def, plain) > 0.0);
     assert_true(winding_z(def, mirrored) < 0.0);
@@ -363,7 +364,7 @@ static void extras_choose_the_kind_of_surface(void **state) {
     dip_model_destroy(&model);
 }
 
-static void a_required_extension_of_surfaces_is_a_warning(void **state) {
+static void a_required_material_extension_gives_a_warning(void **state) {
     (void)state;
     size_t size_bytes = 0;
     uint8_t *bytes = fixture_read(fixture_data("square.gltf"), &size_bytes);
@@ -397,14 +398,15 @@ static void an_opacity_picture_becomes_alpha(void **state) {
     const DipMaterialDef *material = material_of(def, 0);
     assert_int_equal(material->surface, DIP_SURFACE_CLIPPED);
     assert_true(material->double_sided);
-    assert_true(material->base_colour_lin[0] == 1.0f); // Black under a picture counts as white.
+    // A black base colour under a texture counts as white.
+    assert_true(material->base_colour_lin[0] == 1.0f);
     const uint8_t texel[4] = {100, 100, 100, 0};
     assert_memory_equal(def->textures[material->colour_texture].rgba8, texel, 4);
     assert_int_equal(warnings.count, 0);
     dip_model_destroy(&model);
 }
 
-static void a_missing_picture_is_a_warning(void **state) {
+static void a_missing_picture_gives_a_warning(void **state) {
     (void)state;
     DipErrorList warnings = {0};
     DipModel *model = load(fixture_data("square.obj"), NULL, &warnings);
@@ -437,7 +439,7 @@ static void ply_colours_become_linear(void **state) {
     const DipMeshDef *mesh = mesh_of(dip_model_scene_def(model), 0);
     for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
         const float *p = mesh->positions + 3 * i;
-        // 188 / 255 in sRGB is half the light, to three digits (IEC 61966-2-1).
+        // The sRGB value 188 / 255 stands for the light 0.5029 (IEC 61966-2-1).
         const float red = p[0] == 0.0f && p[1] == 1.0f ? 0.5029f : 1.0f;
         assert_true(fabsf(mesh->colours_lin[3 * i] - red) < 1e-3f);
         assert_true(mesh->colours_lin[3 * i + 1] == 0.0f);
@@ -474,9 +476,9 @@ static const char roof_ply[] =
     "0 1 0\n0 1 1\n1 0.63603 0\n1 0.63603 1\n-1 0.63603 0\n-1 0.63603 1\n"
     "4 0 1 3 2\n4 0 4 5 1\n";
 
-// Both files have faces that share vertices, and no normals. The cube keeps its sharp edges; the
-// flat roof becomes smooth.
-static void missing_normals_are_made(void **state) {
+// In both files, faces share vertices, and there are no normals. The cube's edges must stay sharp.
+// The roof is so flat that its ridge must become smooth.
+static void missing_normals_are_computed(void **state) {
     (void)state;
     fixture_write_text("cube.ply", cube_ply);
     DipModel *model = load(fixture_path("cube.ply"), NULL, NULL);
@@ -485,8 +487,8 @@ static void missing_normals_are_made(void **state) {
     for (uint32_t i = 0; i < mesh->index_count; ++i) {
         const uint32_t *face = mesh->indices + i / 3 * 3;
         for (int axis = 0; axis < 3; ++axis) {
-            // The corners of a face have one coordinate in common. The normal points along this
-            // axis, and the common coordinate is its sign.
+            // Each face is perpendicular to one axis. On this axis, its corners have the same
+            // coordinate, -1 or 1, and the normal has the same component.
             const float at = mesh->positions[3 * face[0] + axis];
             const bool own = at == mesh->positions[3 * face[1] + axis] &&
                              at == mesh->positions[3 * face[2] + axis];
@@ -506,9 +508,9 @@ static void missing_normals_are_made(void **state) {
     dip_model_destroy(&model);
 }
 
-// assimp's own processing fails on the scenes of these files: an STL with an empty solid, and a RAW
-// file for which assimp 5.2 makes a root with two children but fills only one.
-static void files_that_assimp_stumbles_over_load(void **state) {
+// assimp reads these files, but its later processing steps fail. The STL file has an empty solid.
+// For the RAW file, assimp 5.2 creates a root node with two children and leaves one child unset.
+static void files_load_even_if_assimp_cannot_process_them(void **state) {
     (void)state;
     fixture_write_text("gap.stl", "solid full\nfacet normal 0 0 1\nouter loop\nvertex 1 1 0\n"
                                   "vertex -1 1 0\nvertex 0 -1 0\nendloop\nendfacet\nendsolid\n"
@@ -535,14 +537,14 @@ int main(void) {
         cmocka_unit_test(seams_of_light_maps_are_kept),
         cmocka_unit_test(every_node_with_a_mesh_becomes_an_object),
         cmocka_unit_test(extras_choose_the_kind_of_surface),
-        cmocka_unit_test(a_required_extension_of_surfaces_is_a_warning),
+        cmocka_unit_test(a_required_material_extension_gives_a_warning),
         cmocka_unit_test(an_opacity_picture_becomes_alpha),
-        cmocka_unit_test(a_missing_picture_is_a_warning),
+        cmocka_unit_test(a_missing_picture_gives_a_warning),
         cmocka_unit_test(points_and_lines_give_a_warning_with_their_number),
         cmocka_unit_test(ply_colours_become_linear),
         cmocka_unit_test(stl_and_x_files_load_together),
-        cmocka_unit_test(files_that_assimp_stumbles_over_load),
-        cmocka_unit_test(missing_normals_are_made),
+        cmocka_unit_test(files_load_even_if_assimp_cannot_process_them),
+        cmocka_unit_test(missing_normals_are_computed),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

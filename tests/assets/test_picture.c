@@ -1,4 +1,5 @@
-// Tests pictures: hand-made files give exactly their texels, and broken files are refused.
+// Tests decoding pictures: hand-made files decode to exactly the expected texels, and broken files
+// are refused.
 #include "assets/picture.h"
 #include "tests/assets/fixture.h"
 

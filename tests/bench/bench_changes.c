@@ -1,13 +1,14 @@
-// Measures how much a change of each setting delays the frames around it.
+// Measures how much a change of each setting delays the frames around the change.
 //
 //   dip_bench_changes [ROUNDS]
 //
-// Two panes of the courtyard at 640x480 fly along the ambient path, as in the preview. The
-// requested pane changes from the default to a step of a setting and back. The time of a frame
-// includes both panes. For every change, six frames are measured: the last frame before the change
-// and the first five after it. Each time is divided by the median time of the frames with the same
-// settings. "longest" is the greatest of the six ratios. The table has its median and its minimum
-// over the rounds; noise only ever adds time.
+// Draws two panes of the courtyard at 640x480 along the ambient path, as the preview does. One of
+// the panes (the requested pane) changes from the default quality to one step of one setting, and
+// back. The time of a frame includes both panes. For every change, six frames are measured: the
+// last frame before the change and the first five after it. Each time is divided by the median time
+// of the frames with the same settings. "longest" is the greatest of the six ratios. The whole
+// measurement is repeated ROUNDS times. The table has the median and the minimum of "longest" over
+// these rounds. The minimum is useful because noise can only add time.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/base/clock.h"
@@ -45,7 +46,8 @@ static bool open_court(Court *court) {
     dip_model_destroy(&model);
     if (!court->scene ||
         !dip_campath_load(DIP_SOURCE_DIR "/campaths/ambient.pth", &court->path, &err) ||
-        !dip_scene_compress_textures(court->scene, court->pool, &err)) { // as the preview does
+        !dip_scene_compress_textures(court->scene, court->pool,
+                                     &err)) { // as the preview compresses them
         return fail(&err);
     }
     for (int p = 0; p < 2; p++) {
@@ -92,7 +94,8 @@ static double median(const double *values, int count) {
     return sorted[count / 2];
 }
 
-// Times of successive frames with one quality. The first frame is the first one with this quality.
+// Times of successive frames with one quality. The first time belongs to the first frame with this
+// quality.
 typedef struct Stretch {
     double ms[WARM + AROUND];
 } Stretch;
@@ -104,8 +107,8 @@ static void play(Court *court, const DipQuality *quality, Stretch *stretch) {
     }
 }
 
-// Returns the time of the longest frame around the change from one stretch to the next. The time is
-// a ratio to the median of the frame's own stretch.
+// Finds the longest frame around the change from one stretch to the next. Each frame's time is
+// divided by the median time of its own stretch. Returns the greatest ratio.
 static double longest_ratio(const Stretch *before, const Stretch *after) {
     double longest = before->ms[WARM + AROUND - 1] / median(before->ms, WARM + AROUND);
     const double middle = median(after->ms, WARM + AROUND);

@@ -3,8 +3,8 @@
 //
 //   dip_bench_kernels [ROW [ISA]]      only rows whose name contains ROW, only one instruction set
 //
-// Cycles are core cycles. A chain of dependent additions, which take one cycle each, gives their
-// length. Every number is from the fastest of many rounds.
+// Cycles are core cycles. Their length is measured with a chain of dependent additions, each of
+// which takes one cycle. Every number is the fastest of many measurements.
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Fails when a file includes a header of a library that it may not use, or a private header of
-# another library. tests/borders/layers.txt says who may use what.
+# another library. tests/borders/layers.txt says which libraries a library may use.
 #
 # Usage: check_includes.sh LAYERS ROOT [LEAST]
 # Also fails when the tree has fewer than LEAST (default 100) includes between libraries.

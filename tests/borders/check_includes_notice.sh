@@ -1,5 +1,6 @@
 #!/bin/sh
-# Fails unless check_includes.sh accepts the tree and refuses small trees with a forbidden include.
+# Tests check_includes.sh: it must accept this tree and refuse small trees that have a forbidden
+# include.
 #
 # Usage: check_includes_notice.sh SOURCE_DIR
 set -eu

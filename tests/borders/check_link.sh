@@ -1,6 +1,6 @@
 #!/bin/sh
-# Fails unless a caller of a public function of the pipeline links and a caller of a private one
-# does not.
+# Tests the names that the pipeline's library exports. A program that calls a public function must
+# link. A program that calls a private function must not link.
 #
 # Usage: check_link.sh COMPILER SOURCE_DIR PIPELINE_LIBRARY BASE_LIBRARY
 set -eu

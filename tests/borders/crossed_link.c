@@ -1,4 +1,4 @@
-// A program that reaches past the pipeline's public headers. It must not link (check_link.sh).
+// A program that calls a private function of the pipeline. It must not link (see check_link.sh).
 extern const void *dip_kernels(int isa);
 
 int main(void) {

@@ -1,5 +1,5 @@
-// Tests camera path files that must be refused, each with its line or byte and the reason. Mutated
-// copies of good files may be refused but must not crash the program.
+// Tests camera path files that must be refused. The error must name the line or byte and the
+// reason. Mutated copies of good files may be refused but must not crash the program.
 #include "campaths/campath.h"
 
 #include <setjmp.h>
@@ -101,7 +101,8 @@ static void check_error(const char *promise, const DipError *err, DipErrorCode c
 
 static void check_refused(const char *promise, const void *bytes, size_t size_bytes,
                           DipErrorCode code, int line, const char *key, const char *said) {
-    // A copy of exactly this size lets the sanitizer see a read past the end.
+    // The copy has exactly the size of the file, so the address sanitizer finds a read past the
+    // end.
     void *exact = malloc(size_bytes ? size_bytes : 1);
     memcpy(exact, bytes, size_bytes);
     DipCamPath *path = (DipCamPath *)exact;
@@ -193,8 +194,8 @@ enum { GOOD_BYTES = 24 + 2 * 56 };
 
 typedef struct BadBinary {
     const char *promise;
-    size_t size_bytes; // size of the file: the good file's, or less (cut), or more (zeros added)
-    size_t offset;     // where bytes are changed
+    size_t size_bytes; // size of the file; less than GOOD_BYTES cuts the file, more adds zeros
+    size_t offset;     // first byte that is changed
     size_t count;
     unsigned char bytes[8];
     DipErrorCode code;
@@ -389,7 +390,7 @@ static size_t mutate(unsigned char *bytes, size_t size_bytes, size_t room) {
     return size_bytes;
 }
 
-// A path that is accepted must give finite poses; a path that is refused must give a message.
+// An accepted path must have finite poses; a refused path must have a message.
 static int parse_mutation(const unsigned char *bytes, size_t size_bytes) {
     unsigned char *exact = malloc(size_bytes);
     memcpy(exact, bytes, size_bytes);
@@ -430,8 +431,8 @@ static void mutations_never_crash(void **context) {
         }
         accepted += parse_mutation(bytes, mutate(bytes, size_bytes, ROOM));
     }
-    // Enough mutations must be accepted and enough refused; otherwise only one of the two is
-    // tested.
+    // At least a few of the mutations must be accepted, and at least a few refused. Otherwise, only
+    // one of the two cases is tested.
     assert_in_range(accepted, RUNS / 20, 2 * RUNS - RUNS / 20);
 }
 

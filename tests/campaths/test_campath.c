@@ -1,5 +1,5 @@
-// Tests camera paths: sampling, compared with closed forms; both file formats; the orbit; the
-// track.
+// Tests camera paths. Compares sampled poses with closed forms. Also tests both file formats, the
+// orbit around a model, and the track, which switches between the paths of the categories.
 #include "campaths/campath.h"
 #include "campaths/camtrack.h"
 #include "renderer/base/hash.h"
@@ -37,7 +37,7 @@ static DipPose sample(const DipCamPath *path, int64_t time_ns) {
     return pose;
 }
 
-// Compares rotations: q and -q are the same rotation.
+// Compares rotations. The quaternions q and -q count as equal because they are the same rotation.
 static void check_orientation(const double q[4], double x, double y, double z, double w,
                               double bound) {
     const double sign = q[0] * x + q[1] * y + q[2] * z + q[3] * w < 0.0 ? -1.0 : 1.0;
@@ -77,7 +77,7 @@ static void positions_move_linearly_and_the_loop_closes(void **context) {
         {2 * SECOND, {10, 4, -2}},
         {3 * SECOND, {10, 6, -1}},
         {4 * SECOND, {10, 8, 0}},
-        {5 * SECOND, {5, 4, 0}}, // the closing step, back to the first key
+        {5 * SECOND, {5, 4, 0}}, // the closing step leads back to the first key
         {6 * SECOND, {0, 0, 0}},
         {-SECOND, {5, 4, 0}},
     };
@@ -94,7 +94,8 @@ static void positions_move_linearly_and_the_loop_closes(void **context) {
     dip_campath_destroy(NULL);
 }
 
-// After a fraction u of a step that turns by `angle` about +Y, the camera has turned by u * angle.
+// In a step between two keys that turns by `angle` about +Y, the camera has turned by u * angle
+// after the fraction u of the step.
 static void orientations_turn_at_constant_speed(void **context) {
     (void)context;
     static const double angles_deg[] = {1e-7, 1e-4, 1.1e-4, 1.2e-4, 0.0115, 0.5, 1.62, 30, 90, 179};
@@ -153,7 +154,7 @@ static void a_half_turn_is_interpolated(void **context) {
     dip_campath_destroy(&path);
 }
 
-static void times_a_duration_apart_give_the_same_bits(void **context) {
+static void a_path_repeats_exactly_after_its_duration(void **context) {
     (void)context;
     DipCamPath *path = parse("diptych-path 1\nperiod 0.333333333\n"
                              "1 2 3 0.1 0.2 0.3 0.9\n4 -5 6 0.3 -0.2 0.1 0.8\n"
@@ -189,7 +190,7 @@ static void a_path_of_one_key_is_a_still_camera(void **context) {
     dip_campath_destroy(&path);
 }
 
-static void info_gives_length_speed_and_box(void **context) {
+static void path_info_has_length_speed_and_bounding_box(void **context) {
     (void)context;
     DipCamPath *path = parse("diptych-path 1\nperiod 0.5\n"
                              "0 0 0 0 0 0 1\n3 4 0 0 0 0 1\n3 4 12 0 0 0 1\n");
@@ -205,7 +206,8 @@ static void info_gives_length_speed_and_box(void **context) {
 
 // ---- Files ----
 
-// Written by hand from the table in the header: one key at (1, -2, 0.5), looking along -Z.
+// A binary path, written by hand from the table in campath.h: one key at (1, -2, 0.5), looking
+// along -Z.
 static const unsigned char one_key_bth[80] = {
     0x89, 'D',  'I',  'P',  'B', 'T', 'H',  0x0A,                               // magic
     1,    0,    0,    0,                                                        // version
@@ -279,8 +281,8 @@ static void check_same_keys(const DipCamPath *a, const DipCamPath *b) {
     }
 }
 
-// Converts random quaternions of any length and sign to .pth, .bth and back. No bit changes after
-// the first load.
+// Loads random quaternions of any length and sign, then converts them to .pth and .bth and back.
+// After the first load, no bit may change.
 static void converting_between_the_formats_keeps_every_bit(void **context) {
     (void)context;
     enum { KEYS = 2000 };
@@ -325,7 +327,7 @@ static void converting_between_the_formats_keeps_every_bit(void **context) {
     }
 }
 
-static void periods_keep_every_nanosecond(void **context) {
+static void loading_a_period_keeps_every_nanosecond(void **context) {
     (void)context;
     for (int i = 0; i < 20000; i++) {
         const int64_t span_ns = i & 1 ? DIP_CAMPATH_MAX_PERIOD_NS : INT64_C(1000000000);
@@ -416,7 +418,8 @@ static void to_camera(const DipPose *pose, const double v_world[3], double v[3])
     }
 }
 
-// Returns the greatest |x| or |y| of the box's corners in the picture; 1 is the picture's edge.
+// Projects the box's corners and returns the greatest |x| or |y| among them. The edges of the
+// picture lie at 1.
 static double reach_of_box(const DipCamOrbitDef *def, const DipPose *pose) {
     const double tan_y = tan(def->fov_y_deg * PI / 360.0);
     double reach = 0.0;
@@ -462,12 +465,12 @@ static void the_orbit_shows_the_whole_box(void **context) {
             widest = fmax(widest, reach_of_box(&def, &pose));
             double v[3];
             to_camera(&pose, middle, v);
-            // Between keys the camera is on a chord, which is up to 0.05 % nearer.
+            // Between keys, the camera moves on a chord of the circle and is up to 0.05 % nearer.
             assert_true(fabs(v[0]) < 2e-4 * -v[2] && fabs(v[1]) < 2e-4 * -v[2]);
             assert_true(pose.position_world[1] > middle[1]);
         }
-        // The orbit fits a long box into the picture when one end is near; elsewhere the border is
-        // wider.
+        // A long box must fit into the picture even when one of its ends is near the camera. In the
+        // rest of the orbit, the border around the box is wider.
         if (!(widest < 1.0 && widest > 0.75)) {
             fail_msg("case %zu: the box reaches to %.3f of the picture", c, widest);
         }
@@ -518,8 +521,8 @@ static void bad_orbits_and_keys_are_refused(void **context) {
     assert_null(path);
 }
 
-// A hash over the bits of 5000 poses. It shows that compilers and processors agree, not that the
-// poses are right.
+// Hashes the bits of 5000 poses. The hash shows that all compilers and processors compute the same
+// poses. Other tests show that the poses are right.
 static void poses_have_the_same_bits_on_every_machine(void **context) {
     (void)context;
     const DipCamOrbitDef def = dip_campath_default_orbit();
@@ -536,7 +539,7 @@ static void poses_have_the_same_bits_on_every_machine(void **context) {
 
 // ---- Track ----
 
-static void a_new_path_starts_anew_or_at_the_old_time(void **context) {
+static void switching_paths_restarts_or_keeps_the_time(void **context) {
     (void)context;
     DipCamPath *a = parse("diptych-path 1\nperiod 1\n0 0 0 0 0 0 1\n10 0 0 0 0 0 1\n");
     DipCamPath *b = parse("diptych-path 1\nperiod 4\n0 5 0 0 0 0 1\n40 5 0 0 0 0 1\n");
@@ -550,7 +553,7 @@ static void a_new_path_starts_anew_or_at_the_old_time(void **context) {
         dip_camtrack_set(&track, 3, b, 45.0);
         assert_true(dip_camtrack_pose(&track, SECOND / 2, &pose));
         assert_true(pose.position_world[0] == 5.0 && pose.fov_y_deg == 55.0);
-        dip_camtrack_switch(&track, 2, SECOND / 2); // The path does not change, so it continues.
+        dip_camtrack_switch(&track, 2, SECOND / 2); // The path is the same, so it continues.
         assert_true(dip_camtrack_pose(&track, SECOND / 2, &pose));
         assert_true(pose.position_world[0] == 5.0 && pose.fov_y_deg == 50.0);
         dip_camtrack_switch(&track, 3, SECOND);
@@ -575,20 +578,20 @@ int main(void) {
         cmocka_unit_test(the_sign_of_a_quaternion_does_not_matter),
         cmocka_unit_test(the_closing_step_of_a_full_turn_is_short),
         cmocka_unit_test(a_half_turn_is_interpolated),
-        cmocka_unit_test(times_a_duration_apart_give_the_same_bits),
+        cmocka_unit_test(a_path_repeats_exactly_after_its_duration),
         cmocka_unit_test(a_path_of_one_key_is_a_still_camera),
-        cmocka_unit_test(info_gives_length_speed_and_box),
+        cmocka_unit_test(path_info_has_length_speed_and_bounding_box),
         cmocka_unit_test(the_binary_layout_is_as_documented),
         cmocka_unit_test(the_text_format_is_as_documented),
         cmocka_unit_test(converting_between_the_formats_keeps_every_bit),
-        cmocka_unit_test(periods_keep_every_nanosecond),
+        cmocka_unit_test(loading_a_period_keeps_every_nanosecond),
         cmocka_unit_test(a_comma_locale_changes_nothing),
         cmocka_unit_test(errors_name_files_that_cannot_be_read_or_written),
         cmocka_unit_test(the_orbit_shows_the_whole_box),
         cmocka_unit_test(the_orbit_begins_in_front_and_turns_over_plus_x),
         cmocka_unit_test(bad_orbits_and_keys_are_refused),
         cmocka_unit_test(poses_have_the_same_bits_on_every_machine),
-        cmocka_unit_test(a_new_path_starts_anew_or_at_the_old_time),
+        cmocka_unit_test(switching_paths_restarts_or_keeps_the_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

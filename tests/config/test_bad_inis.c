@@ -1,6 +1,6 @@
-// Tests ini files that must be refused. Each fault is reported with its line, key and reason, and
-// one run reports all faults. Mutated copies of good files may be refused but must not crash the
-// program.
+// Tests ini files that must be refused. The error must have the line, the key and the reason. All
+// faults of a file must be reported in one run. Mutated copies of good files may be refused but
+// must not crash the program.
 #include "config/config.h"
 
 #include <setjmp.h>
@@ -14,7 +14,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// A good file of 26 lines. A case adds lines below these lines or blanks one of them out.
+// A good file of 26 lines. Each test case adds lines at its end, blanks out one of its lines, or
+// does both.
 static const char good[] = "RES: 640x480\n"
                            "REFLECTION_RES: 320x240\n"
                            "FOUNTAIN_WATER_LEVEL: 0.5\n"
@@ -44,7 +45,7 @@ static const char good[] = "RES: 640x480\n"
 
 typedef struct BadIni {
     const char *promise;
-    const char *without; // the key whose line is blanked out, NULL for none
+    const char *without; // the key whose line is blanked out; NULL keeps all lines
     const char *added;   // lines to add, from line 27 on
     DipErrorCode code;
     int line;
@@ -345,7 +346,7 @@ static void all_faults_are_reported_in_one_run(void **context) {
     remove("bad.ini");
 }
 
-static void faults_stop_at_a_hundred(void **context) {
+static void at_most_a_hundred_faults_are_reported(void **context) {
     (void)context;
     FILE *stream = fopen("bad.ini", "wb");
     for (int i = 0; i < 5000; i++) {
@@ -424,8 +425,8 @@ static void mutations_never_crash(void **context) {
         dip_error_list_free(&faults);
     }
     remove("bad.ini");
-    // Enough mutations must be accepted and enough refused; otherwise only one of the two is
-    // tested.
+    // At least a few of the mutations must be accepted, and at least a few refused. Otherwise, only
+    // one of the two cases is tested.
     assert_in_range(accepted, RUNS / 20, RUNS - RUNS / 20);
 }
 
@@ -438,7 +439,7 @@ int main(void) {
         cmocka_unit_test(files_that_cannot_be_read_are_refused),
         cmocka_unit_test(too_many_models_are_refused),
         cmocka_unit_test(all_faults_are_reported_in_one_run),
-        cmocka_unit_test(faults_stop_at_a_hundred),
+        cmocka_unit_test(at_most_a_hundred_faults_are_reported),
         cmocka_unit_test(mutations_never_crash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

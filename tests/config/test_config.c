@@ -1,6 +1,6 @@
-// Tests good ini files. The ini file of the 2006 ATI Catalyst Control Preview report (its Figure
-// 12) and the shipped ini file load with every value that they give. Missing keys get their
-// defaults. The documentation has every key.
+// Tests good ini files. Two files must load with all their values: the ini file printed in the 2006
+// ATI Catalyst Control Preview report (Figure 12) and the shipped ini file. Missing keys must get
+// their defaults. docs/config.md must describe every key.
 #include "config/config.h"
 
 #include <setjmp.h>
@@ -48,7 +48,7 @@ static void load_text(const char *file, const char *text, DipConfig *config, Dip
     remove(file);
 }
 
-// An ini of 17 lines with another key in each line. Each value is as short as it can be.
+// An ini of 17 lines with one key per line. All values are as short as possible.
 #define SHORT                                                                                      \
     "RES:1x2\nREFLECTION_RES=3x4\nFOUNTAIN_WATER_LEVEL:-.5\nDEBUG_SHOW_REFLECTION=true\n"          \
     "XFILE:a.x\nCAMPATH_RESET_ON_SWITCH:false\nCAMPATH_DEFAULT:p\nCAMPATH_AA:p\nCAMPATH_AF:p\n"    \
@@ -80,7 +80,7 @@ static void the_ini_of_figure_12_loads_as_printed(void **context) {
     };
     for (size_t c = 0; c < sizeof paths / sizeof *paths; c++) {
         assert_string_equal(config.camera[c].file.text, paths[c]);
-        assert_true(config.camera[c].fov_y_deg == 55.0); // AAF takes the value of AF.
+        assert_true(config.camera[c].fov_y_deg == 55.0); // The category AAF takes the value of AF.
     }
     assert_null(config.camera[DIP_CATEGORY_WATER].file.path);
     assert_false(config.mipdebug);
@@ -172,7 +172,7 @@ static void a_model_and_a_resolution_are_enough(void **context) {
     dip_config_free(&config);
 }
 
-static void a_path_without_a_field_of_view_has_the_default(void **context) {
+static void a_path_without_a_field_of_view_gets_the_default(void **context) {
     (void)context;
     DipConfig config;
     DipErrorList faults;
@@ -188,7 +188,7 @@ static void a_path_without_a_field_of_view_has_the_default(void **context) {
     dip_config_free(&config);
 }
 
-static void the_newer_keys_are_read(void **context) {
+static void settings_and_optional_keys_are_read(void **context) {
     (void)context;
     DipConfig config;
     DipErrorList faults;
@@ -318,8 +318,8 @@ int main(void) {
         cmocka_unit_test(the_shipped_ini_loads_without_a_fault),
         cmocka_unit_test(keys_that_are_left_out_have_their_defaults),
         cmocka_unit_test(a_model_and_a_resolution_are_enough),
-        cmocka_unit_test(a_path_without_a_field_of_view_has_the_default),
-        cmocka_unit_test(the_newer_keys_are_read),
+        cmocka_unit_test(a_path_without_a_field_of_view_gets_the_default),
+        cmocka_unit_test(settings_and_optional_keys_are_read),
         cmocka_unit_test(comments_and_white_space_are_ignored),
         cmocka_unit_test(two_names_of_one_file_are_recognised),
         cmocka_unit_test(the_documentation_has_a_row_for_every_key),

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Installs a build into a new folder and uses the copy as one would outside this tree. The program
-# draws. The examples build with the CMake package and with pkg-config, as shared and as static
-# programs. A C++ program calls the libraries.
+# Installs a build into a new folder and uses the installed copy from outside this tree. The
+# installed program must draw. The examples must build with the CMake package and with pkg-config,
+# linked dynamically and statically. A C++ program must be able to call the libraries.
 #
 # Usage: check_install.sh SOURCE_DIR BUILD_DIR COMPILER CXX_COMPILER
 set -eu
@@ -19,7 +19,7 @@ draws() { # PROGRAM FRAGMENTS
     [ "$("$1" "$folder/picture.ppm")" = "$2 fragments shaded" ] || fail "$1 draws something else"
 }
 
-# The program draws. The files that its help and its messages name are installed.
+# The program must draw. The files that its help and its messages name must be installed.
 "$prefix/bin/diptych" dump --hash --frames 0:1 | grep -q '^0000 current ' ||
     fail "the installed program does not draw"
 for file in share/doc/diptych/README.md share/doc/diptych/docs/config.md \

@@ -9,8 +9,8 @@ static bool refuse(DipError *err, const char *what) {
     return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "EGL", "%s", what);
 }
 
-// Sets the variables that Mesa reads when the display is opened. A MESA_SHADER_CACHE_DISABLE that
-// the caller has set stays as it is.
+// Sets the environment variables that Mesa reads when the display is opened. Does not change
+// MESA_SHADER_CACHE_DISABLE if it is already set.
 static void set_environment(int threads) {
     char text[16];
     snprintf(text, sizeof text, "%d", threads);

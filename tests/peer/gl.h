@@ -8,10 +8,11 @@
 #include <EGL/eglext.h>
 #include <GL/glcorearb.h>
 
-// OpenGL 4.6 took this number over from EXT_texture_filter_anisotropic.
+// The extension EXT_texture_filter_anisotropic and OpenGL 4.6 use the same number.
 #define DIP_GL_TEXTURE_MAX_ANISOTROPY 0x84FE
 
-// The functions that the peer calls. X(name without "gl", NAME as in its pointer type)
+// The OpenGL functions that the peer calls. X(name without "gl", NAME in the function's pointer
+// type)
 #define DIP_GL_LIST(X)                                                                             \
     X(ActiveTexture, ACTIVETEXTURE)                                                                \
     X(AttachShader, ATTACHSHADER)                                                                  \
@@ -71,16 +72,16 @@
     X(VertexAttribPointer, VERTEXATTRIBPOINTER)                                                    \
     X(Viewport, VIEWPORT)
 
-// A context, which is current on the thread that opened it. All OpenGL objects belong to it and are
-// freed with it, so no code deletes them one by one.
+// An OpenGL context. It is current on the thread that opened it. All OpenGL objects belong to the
+// context and are freed with it; no code deletes single objects.
 typedef struct DipGl {
 #define DIP_GL_FIELD(name, NAME) PFNGL##NAME##PROC name;
     DIP_GL_LIST(DIP_GL_FIELD)
 #undef DIP_GL_FIELD
     EGLDisplay display;
     EGLContext context;
-    char renderer[128]; // "llvmpipe (LLVM 15.0.6, 256 bits)"
-    char version[128];  // "3.3 (Core Profile) Mesa 22.3.6"
+    char renderer[128]; // for example "llvmpipe (LLVM 15.0.6, 256 bits)"
+    char version[128];  // for example "3.3 (Core Profile) Mesa 22.3.6"
     int max_samples;
 } DipGl;
 

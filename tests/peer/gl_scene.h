@@ -11,18 +11,18 @@ typedef struct DipGlMesh {
     GLuint vertex_array;
     GLsizei index_count;
     int material;
-    int features; // features of the program that draws the mesh
+    int features; // features (gl_program.h) of the program that draws the mesh
     float min[3]; // corners of the bounding box
     float max[3];
 } DipGlMesh;
 
-// One sampler for each pair of address modes.
+// A sampler object for each pair of address modes.
 typedef struct DipGlSamplers {
     GLuint name[2][2]; // [wrap_u][wrap_v]
 } DipGlSamplers;
 
 typedef struct DipGlScene {
-    const DipSceneDef *def; // borrowed
+    const DipSceneDef *def; // the description, borrowed
     DipGlMesh *meshes;      // one per mesh
     GLuint *textures;       // one per texture; 0 if no material uses it
     DipGlProgram programs[DIP_GL_PROGRAM_COUNT];
@@ -32,7 +32,8 @@ typedef struct DipGlScene {
 
 // Uploads the scene. def is borrowed until the scene is freed. On failure *scene is freed.
 bool dip_gl_scene_make(const DipGl *gl, const DipSceneDef *def, DipGlScene *scene, DipError *err);
-void dip_gl_scene_free(DipGlScene *scene); // OpenGL's objects live as long as the context
+// Frees the scene's memory, but not OpenGL's objects, which belong to the context.
+void dip_gl_scene_free(DipGlScene *scene);
 
 // Sets the anisotropy of colour textures, 1 (trilinear) to 16. Light maps stay trilinear.
 void dip_gl_scene_set_anisotropy(const DipGl *gl, const DipGlScene *scene, int max_anisotropy);

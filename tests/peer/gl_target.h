@@ -1,4 +1,5 @@
-// The peer's render target: an sRGB picture, its top row first, with or without multisampling.
+// The render target of the peer (llvmpipe): an sRGB picture, top row first, with or without
+// multisampling.
 #ifndef DIP_TESTS_PEER_GL_TARGET_H
 #define DIP_TESTS_PEER_GL_TARGET_H
 
@@ -23,7 +24,7 @@ bool dip_gl_target_make(const DipGl *gl, int width, int height, int sample_count
 // Binds and clears the target.
 void dip_gl_target_begin(const DipGl *gl, const DipGlTarget *target, const float clear_lin[3]);
 
-// Resolves the samples, if any, and returns when the picture is complete.
+// Resolves the samples of a multisampled target. Returns when the picture is complete.
 void dip_gl_target_finish(const DipGl *gl, const DipGlTarget *target);
 
 // Copies the picture to width * height sRGB pixels R, G, B, A, the top row first.

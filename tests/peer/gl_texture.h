@@ -1,4 +1,4 @@
-// The scene's textures in OpenGL: mip chains of our own with 8 bits per channel.
+// The scene's textures in OpenGL: mip chains that our own code computes, with 8 bits per channel.
 #ifndef DIP_TESTS_PEER_GL_TEXTURE_H
 #define DIP_TESTS_PEER_GL_TEXTURE_H
 

@@ -1,4 +1,4 @@
-// Measures how alike two pictures are.
+// Measures how much two pictures differ.
 #ifndef DIP_TESTS_PEER_LIKENESS_H
 #define DIP_TESTS_PEER_LIKENESS_H
 
@@ -10,8 +10,8 @@
 double dip_likeness_squared_error(const uint8_t *a, size_t a_stride_bytes, const uint8_t *b,
                                   size_t b_stride_bytes, int width, int height);
 
-// Returns the PSNR of a squared error, in decibels relative to full scale (255). It is infinite if
-// the error is 0.
+// Returns the PSNR, in decibels relative to full scale (255), for a mean squared error. The PSNR is
+// infinite if the error is 0.
 double dip_likeness_psnr_db(double squared_error);
 
 #endif

@@ -10,8 +10,8 @@
 
 enum { EXIT_BAD_USE = 2, EXIT_NO_PEER = 77 };
 
-// Below this PSNR, the two sides draw different pictures, and the ratio of their times means
-// nothing.
+// Below this PSNR, the pictures of the two sides count as different, and comparing their times
+// makes no sense.
 static const double LEAST_PSNR_DB = 40.0;
 
 typedef struct Session {

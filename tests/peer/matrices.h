@@ -1,4 +1,5 @@
-// The peer's matrices. They follow docs/picture.md and share no code with the renderer.
+// The matrices of the peer (llvmpipe). They follow docs/picture.md and share no code with our
+// renderer.
 #ifndef DIP_TESTS_PEER_MATRICES_H
 #define DIP_TESTS_PEER_MATRICES_H
 

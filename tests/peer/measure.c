@@ -1,4 +1,4 @@
-// Measures one row.
+// Measures one row of the table: compares the pictures of both sides, then times the frames.
 #include "tests/peer/measure.h"
 
 #include "renderer/base/clock.h"
@@ -62,7 +62,8 @@ static double draw_peer(const DipPeerBench *bench, const DipPose *pose) {
 
 // --- likeness ----------------------------------------------------------------------------------
 
-// Draws a frame on both sides. Returns the squared error between the pictures and the peer's time.
+// Draws a frame on both sides. Outputs the squared error between the two pictures and the time that
+// the peer took.
 static bool compare_frame(const DipPeerBench *bench, const DipPeerRow *row, int index,
                           double *error, double *peer_ms, DipError *err) {
     const DipPose pose = dip_peer_scene_pose(bench->scene, index, bench->frames);
@@ -104,8 +105,9 @@ static bool compare_frames(const DipPeerBench *bench, DipPeerMeasurement *m, Dip
 
 // --- time --------------------------------------------------------------------------------------
 
-// In an animation, every frame follows another. So each side first draws a frame slightly earlier
-// on the path. Then neither side is timed with caches that the other side has filled.
+// Before the timed frame, each side draws, untimed, a frame slightly earlier on the path, as an
+// animation would. This frame fills the caches with the side's own data, since the other side may
+// have drawn last.
 enum { STEPS_PER_FRAME = 64 };
 
 static DipPose pose_before(const DipPeerBench *bench, int index) {
@@ -113,7 +115,7 @@ static DipPose pose_before(const DipPeerBench *bench, int index) {
     return dip_peer_scene_pose(bench->scene, (index * STEPS_PER_FRAME + steps - 1) % steps, steps);
 }
 
-// Pauses, so that the side that has just drawn puts its threads to sleep.
+// Pauses, so that the threads of the side that has just drawn fall asleep.
 static void rest(void) {
     nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
 }
@@ -131,9 +133,9 @@ static bool time_ours(const DipPeerBench *bench, const DipPose *before, const Di
     return drawn;
 }
 
-// Times the peer. If a frame is extremely slow, the time of its first draw is used. Such a frame
-// lies far above the median whatever its exact time, and shader compilation is a small part of that
-// time.
+// Times the peer. If the first draw of a frame was extremely slow, its time is used and the frame
+// is not drawn again. This time includes shader compilation, but only as a small part, and lies far
+// above the median anyway.
 static void time_peer(const DipPeerBench *bench, const DipPose *before, const DipPose *pose,
                       double first_ms, double *ms) {
     if (first_ms > SLOW_FRAME_MS) {

@@ -1,4 +1,5 @@
-// The command line of the peer bench.
+// The command line of the peer bench, which compares Diptych's renderer with Mesa's llvmpipe (the
+// peer).
 #ifndef DIP_TESTS_PEER_OPTIONS_H
 #define DIP_TESTS_PEER_OPTIONS_H
 
@@ -25,17 +26,17 @@ typedef struct DipPeerOptions {
     const char *models[DIP_PEER_MAX_MODELS];
     int model_count;
     const char *path;
-    double fov_y_deg; // vertical; 0: the scene's own
-    double turn_deg;  // turns the camera about the vertical axis; 0: faces the relief, 180: away
-    int width;        // pixels
+    double fov_y_deg; // vertical field of view; 0 means the scene's own
+    double turn_deg;  // turn about the vertical axis; 0 faces the synthetic grid, 180 faces away
+    int width;        // width of the frames, in pixels
     int height;
     int threads;
     DipIsa isa;
     int frames;    // number of frames, spread evenly over the path
     int rounds;    // number of times that each frame is drawn and measured
-    unsigned rows; // bit i: row i of dip_peer_rows (measure.h)
+    unsigned rows; // bit i is set if row i of dip_peer_rows (measure.h) is measured
     const char *csv;
-    const char *pictures; // folder; NULL: write no pictures
+    const char *pictures; // folder for the pictures; NULL writes none
     bool check;
     bool help;
 } DipPeerOptions;

@@ -14,7 +14,7 @@ struct DipPeer {
     DipGlScene scene;
     int width;
     int height;
-    DipGlTarget targets[MAX_SAMPLES + 1]; // by sample count; created when a count is first set
+    DipGlTarget targets[MAX_SAMPLES + 1]; // by sample count; created at first use
     int sample_count;
 };
 

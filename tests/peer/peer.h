@@ -1,5 +1,6 @@
-// The peer: Mesa's llvmpipe, which draws a scene from a pose, with the settings that both sides
-// have.
+// The peer is Mesa's software renderer llvmpipe, with which the peer bench compares Diptych's
+// renderer. It draws a scene from a pose, with the settings that Diptych and llvmpipe have in
+// common.
 #ifndef DIP_TESTS_PEER_PEER_H
 #define DIP_TESTS_PEER_PEER_H
 
@@ -12,16 +13,17 @@
 
 typedef struct DipPeer DipPeer;
 
-// Creates the peer for frames of width x height pixels. def is borrowed as long as the peer exists.
-// threads is the number of llvmpipe's rasteriser threads. A process has at most one peer, which
-// only the thread that created it may use. Fails with UNSUPPORTED if llvmpipe is not installed.
+// Creates the peer for frames of width x height pixels. def must stay valid until the peer is
+// destroyed. threads is the number of llvmpipe's rasteriser threads. A process has at most one
+// peer, which only the thread that created it may use. Fails with UNSUPPORTED if llvmpipe is not
+// installed.
 DipPeer *dip_peer_create(const DipSceneDef *def, int width, int height, int threads, DipError *err);
 void dip_peer_destroy(DipPeer **peer);
 
 const char *dip_peer_renderer(const DipPeer *peer); // valid until the peer is destroyed
 const char *dip_peer_version(const DipPeer *peer);
 
-// Sets the sample count (1 or 4) and the maximum anisotropy (1, which is trilinear, to 16) for the
+// Sets the sample count (1 or 4) and the maximum anisotropy (1 to 16; 1 means trilinear) for the
 // next frames.
 bool dip_peer_set(DipPeer *peer, int sample_count, int max_anisotropy, DipError *err);
 

@@ -18,7 +18,7 @@ static bool load_models(DipPeerScene *scene, const char *const *files, int count
     return scene->model != NULL;
 }
 
-// --- the courtyard, as the shipped ini has it --------------------------------------------------
+// --- the courtyard, with the values of the shipped ini -----------------------------------------
 
 static bool apply_config(DipPeerScene *scene, const DipConfig *config,
                          const DipPeerOptions *options, DipPool *pool, DipError *err) {

@@ -1,4 +1,5 @@
-// What both sides draw: a scene description, a camera path and a field of view.
+// The scene that our renderer and the peer draw: a scene description, a camera path and a field of
+// view.
 #ifndef DIP_TESTS_PEER_SCENE_H
 #define DIP_TESTS_PEER_SCENE_H
 
@@ -10,9 +11,9 @@
 
 typedef struct DipPeerScene {
     char name[96];
-    DipSceneDef def; // borrows from model or synthetic
+    DipSceneDef def; // points into `model` or `synthetic`
     uint64_t triangle_count;
-    bool all_in_view; // true if all triangles are in view, so triangles per second mean something
+    bool all_in_view; // triangles per second make sense only if this is true
     DipCamPath *path;
     double fov_y_deg;
     DipModel *model;

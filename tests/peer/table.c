@@ -28,12 +28,12 @@ void dip_table_print_heading(FILE *out, const DipPeerOptions *options, const Dip
 
 // --- rows --------------------------------------------------------------------------------------
 
-// A frame of the peer counts as pathological if it takes at least this many times the peer's
-// median.
+// A frame of the peer counts as pathological if its time is at least 10 times the peer's median
+// time.
 static const double PATHOLOGICAL = 10.0;
 
-// At 4x with AF, llvmpipe is known to have pathological frames, so these rows are printed below the
-// others.
+// With 4 samples and AF, llvmpipe is known to have pathological (extremely slow) frames. These rows
+// are printed below the others.
 static bool stands_apart(const DipPeerRow *row) {
     return row->sample_count > 1 && row->max_anisotropy > 1 && dip_peer_row_has_peer(row);
 }
@@ -69,8 +69,8 @@ static void print_row(FILE *out, const DipPeerMeasurement *m, double *scratch) {
     print_decibels(out, m);
 }
 
-// Prints a note if single frames of the peer take many times its median, because the mean of such a
-// row says nothing.
+// Prints a note if the peer has pathological frames. They distort its mean, so the note shows the
+// mean and the slowest frame.
 static void print_note(FILE *out, const DipPeerMeasurement *m, double *scratch) {
     const int count = m->frames * m->rounds;
     if (!count || !dip_peer_row_has_peer(m->row)) {

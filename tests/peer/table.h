@@ -1,5 +1,5 @@
-// The output of the bench: a heading with everything that was measured, a line per row, and a CSV
-// file of all frames.
+// The output of the peer bench: a heading that says what was measured, a line per row (combination
+// of settings), and a CSV file with the times of all frames.
 #ifndef DIP_TESTS_PEER_TABLE_H
 #define DIP_TESTS_PEER_TABLE_H
 
@@ -13,11 +13,11 @@
 void dip_table_print_heading(FILE *out, const DipPeerOptions *options, const DipPeerScene *scene,
                              const DipPeer *peer);
 
-// Prints a line per measurement. Rows in which llvmpipe has pathological frames come last.
+// Prints a line per measurement. Rows in which llvmpipe has extremely slow frames come last.
 bool dip_table_print(FILE *out, const DipPeerMeasurement *measurements, int count, DipError *err);
 
-// Prints the millions of triangles per second of each row, for scenes whose triangles are all in
-// view.
+// Prints how many million triangles per second each row draws. This is meaningful only for scenes
+// whose triangles are all in view.
 bool dip_table_print_triangles(FILE *out, const DipPeerMeasurement *measurements, int count,
                                uint64_t triangle_count, DipError *err);
 

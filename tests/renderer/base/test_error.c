@@ -1,5 +1,5 @@
 // Tests error.h and nearest.h: the origin and the text of errors, lists of errors, and the choice
-// of the likely name.
+// of the name that the user probably meant.
 #include "renderer/base/error.h"
 #include "renderer/base/nearest.h"
 
@@ -25,7 +25,7 @@ static void origin_follows_from_the_code(void **state) {
     assert_int_equal(err.origin, DIP_ORIGIN_RUNTIME);
 }
 
-static void origin_runtime_can_be_said(void **state) {
+static void set_runtime_overrides_the_origin(void **state) {
     (void)state;
     DipError err;
     assert_false(dip_error_set_runtime(&err, DIP_ERROR_IO, "a.png", 0, NULL, "%s", "is full"));
@@ -35,7 +35,7 @@ static void origin_runtime_can_be_said(void **state) {
     assert_false(dip_error_set_runtime(NULL, DIP_ERROR_IO, NULL, 0, NULL, "nobody listens"));
 }
 
-static void format_leaves_out_what_is_missing(void **state) {
+static void formatting_leaves_out_missing_fields(void **state) {
     (void)state;
     DipError err;
     char text[128];
@@ -75,7 +75,7 @@ static void list_counts_errors_apart_from_warnings(void **state) {
     dip_error_list_free(&list);
 }
 
-static void likely_name_is_near(void **state) {
+static void only_similar_names_are_likely(void **state) {
     (void)state;
     const char *const names[] = {"--frames", "--fps", "--hash"};
     assert_string_equal(dip_nearest_likely("--frmes", names, 3), "--frames");
@@ -88,11 +88,11 @@ static void likely_name_is_near(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(origin_follows_from_the_code),
-        cmocka_unit_test(origin_runtime_can_be_said),
-        cmocka_unit_test(format_leaves_out_what_is_missing),
+        cmocka_unit_test(set_runtime_overrides_the_origin),
+        cmocka_unit_test(formatting_leaves_out_missing_fields),
         cmocka_unit_test(over_long_names_keep_their_end),
         cmocka_unit_test(list_counts_errors_apart_from_warnings),
-        cmocka_unit_test(likely_name_is_near),
+        cmocka_unit_test(only_similar_names_are_likely),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

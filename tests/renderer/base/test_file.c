@@ -49,11 +49,11 @@ static void refuse(const char *file, size_t max_bytes, DipErrorCode code, const 
     assert_non_null(strstr(err.message, message));
 }
 
-static void what_cannot_be_read_is_named(void **state) {
+static void errors_name_the_file_that_cannot_be_read(void **state) {
     (void)state;
     refuse("none/there", 10, DIP_ERROR_MISSING, "cannot open camera path: ");
     refuse(".", 10, DIP_ERROR_IO, "camera path is not a file");
-    refuse("/dev/zero", 10, DIP_ERROR_IO, "camera path is not a file"); // has no end
+    refuse("/dev/zero", 10, DIP_ERROR_IO, "camera path is not a file"); // an endless file
     write_bytes("12345", 5);
     refuse(name, 4, DIP_ERROR_OVERSIZED, "camera path file has 5 bytes, accepted at most 4");
     remove(name);
@@ -62,7 +62,7 @@ static void what_cannot_be_read_is_named(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_file_is_read_whole_and_terminated),
-        cmocka_unit_test(what_cannot_be_read_is_named),
+        cmocka_unit_test(errors_name_the_file_that_cannot_be_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

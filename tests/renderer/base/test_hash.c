@@ -1,4 +1,5 @@
-// Compares hashes with the published test vectors of FNV-1a, and tests which contents differ.
+// Compares hashes with the published test vectors of FNV-1a, and tests which contents have
+// different hashes. A hash has two lanes of 64 bits.
 #include "renderer/base/hash.h"
 
 #include <setjmp.h>
@@ -25,14 +26,15 @@ static void lane_0_is_fnv_1a(void **state) {
     assert_int_equal(hash_of("foobar").lanes[0], UINT64_C(0x85944171f73967e8));
 }
 
-// Lane 1 is FNV-1a of the inverted bytes. So lane 1 of "a" is lane 0 of the byte 0x9e.
-static void lane_1_takes_bytes_inverted(void **state) {
+// Lane 1 is FNV-1a of the inverted bytes. The inverse of "a" is 0x9e, so lane 1 of "a" equals lane
+// 0 of 0x9e.
+static void lane_1_hashes_inverted_bytes(void **state) {
     (void)state;
     assert_int_equal(hash_of("a").lanes[1], hash_of("\x9e").lanes[0]);
     assert_int_equal(hash_of("foo").lanes[1], hash_of("\x99\x90\x90").lanes[0]);
 }
 
-static void a_variant_changes_lane_1_alone(void **state) {
+static void a_variant_changes_only_lane_1(void **state) {
     (void)state;
     const DipHash plain = dip_hash_begin(0);
     const DipHash other = dip_hash_begin(1);
@@ -40,7 +42,7 @@ static void a_variant_changes_lane_1_alone(void **state) {
     assert_int_not_equal(plain.lanes[1], other.lanes[1]);
 }
 
-static void bytes_may_come_in_pieces(void **state) {
+static void hashing_in_pieces_gives_the_same_hash(void **state) {
     (void)state;
     DipHash pieces = dip_hash_begin(0);
     const DipHash whole = hash_of("diptych");
@@ -50,7 +52,7 @@ static void bytes_may_come_in_pieces(void **state) {
     assert_memory_equal(&pieces, &whole, sizeof whole);
 }
 
-static void texts_carry_their_length(void **state) {
+static void the_length_of_a_text_is_hashed_too(void **state) {
     (void)state;
     DipHash one = dip_hash_begin(0);
     DipHash other = dip_hash_begin(0);
@@ -66,7 +68,7 @@ static void texts_carry_their_length(void **state) {
     assert_memory_equal(&null, &empty, sizeof null);
 }
 
-static void numbers_are_their_bytes_lowest_first(void **state) {
+static void numbers_are_hashed_as_bytes_lowest_first(void **state) {
     (void)state;
     DipHash integer = dip_hash_begin(0);
     DipHash number = dip_hash_begin(0);
@@ -78,7 +80,7 @@ static void numbers_are_their_bytes_lowest_first(void **state) {
     assert_memory_equal(&number, &bytes, sizeof bytes);
 }
 
-static void the_text_is_both_lanes(void **state) {
+static void the_hexadecimal_text_has_both_lanes(void **state) {
     (void)state;
     char hex[DIP_HASH_HEX_SIZE];
     const DipHash hash = {{UINT64_C(0x0123456789abcdef), 10}};
@@ -89,12 +91,12 @@ static void the_text_is_both_lanes(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lane_0_is_fnv_1a),
-        cmocka_unit_test(lane_1_takes_bytes_inverted),
-        cmocka_unit_test(a_variant_changes_lane_1_alone),
-        cmocka_unit_test(bytes_may_come_in_pieces),
-        cmocka_unit_test(texts_carry_their_length),
-        cmocka_unit_test(numbers_are_their_bytes_lowest_first),
-        cmocka_unit_test(the_text_is_both_lanes),
+        cmocka_unit_test(lane_1_hashes_inverted_bytes),
+        cmocka_unit_test(a_variant_changes_only_lane_1),
+        cmocka_unit_test(hashing_in_pieces_gives_the_same_hash),
+        cmocka_unit_test(the_length_of_a_text_is_hashed_too),
+        cmocka_unit_test(numbers_are_hashed_as_bytes_lowest_first),
+        cmocka_unit_test(the_hexadecimal_text_has_both_lanes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

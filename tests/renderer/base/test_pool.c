@@ -1,4 +1,5 @@
-// Tests the worker pool: every index runs exactly once, with any number of threads, run after run.
+// Tests the worker pool. In every run, each index is processed exactly once, with any number of
+// threads.
 #include "renderer/base/pool.h"
 
 #include <setjmp.h>
@@ -78,8 +79,8 @@ static void workers_that_wake_late_join_the_next_run(void **state) {
     dip_pool_destroy(&pool);
 }
 
-// A pool may be destroyed while its workers still look for work of the last run. All workers must
-// end.
+// A pool may be destroyed while its workers still look for work of the last run. All worker threads
+// must then end.
 static void a_pool_can_be_destroyed_right_after_a_run(void **state) {
     (void)state;
     enum { THREADS = 4, POOLS = 4000, RUNS_EACH = 2 };

@@ -50,8 +50,8 @@ static void sin_cos_tan_match_libm(void **context) {
     }
 }
 
-// Next to multiples of pi/4, the argument reduction loses most digits by cancellation. The bound on
-// the error is relative there, so all digits of the small results must be right.
+// Next to multiples of pi/4, cancellation in the argument reduction can lose most digits. This test
+// bounds the relative error, so all digits of the small results must be right.
 static void results_near_multiples_of_quarter_pi_keep_their_digits(void **context) {
     (void)context;
     for (int n = 1; n <= 20000; n++) {
@@ -118,7 +118,7 @@ static void acos_asin_match_libm(void **context) {
     assert_true(isnan(dip_acos(1.0000001)) && isnan(dip_asin(-1.0000001)) && isnan(dip_acos(NAN)));
 }
 
-// One hash over the bits of 60000 values guards determinism across compilers and processors.
+// Hashes the bits of 60000 values. All compilers and processors must give the same hash.
 static void results_have_the_same_bits_everywhere(void **context) {
     (void)context;
     DipHash hash = dip_hash_begin(0);

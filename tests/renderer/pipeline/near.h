@@ -1,5 +1,5 @@
-// assert_near fails the test if a number differs from the expected number by more than a tolerance,
-// and prints both numbers. Include this file after <cmocka.h>.
+// assert_near compares a number with an expected number. If they differ by more than a tolerance,
+// it prints both and fails the test. Include this file after <cmocka.h>.
 #ifndef DIP_TESTS_RENDERER_PIPELINE_NEAR_H
 #define DIP_TESTS_RENDERER_PIPELINE_NEAR_H
 

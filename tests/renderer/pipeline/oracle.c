@@ -1,4 +1,5 @@
-// Computes coverage with exact integers, and creates triangles that are hard to cover.
+// Computes with exact integers which samples a triangle covers, and creates triangles whose
+// coverage is hard to compute correctly.
 #include "tests/renderer/pipeline/oracle.h"
 
 #include <math.h>
@@ -13,8 +14,8 @@ typedef struct Edge {
     bool owns;      // true if samples on the edge belong to the triangle
 } Edge;
 
-// Returns twice the area of the triangle that the edge and the point form. The area is positive if
-// the point lies to the right of the edge as the eye sees it.
+// Returns twice the signed area of the triangle that the edge and the point form. The sign is
+// positive if the point lies to the right of the edge as seen on the screen.
 static Int128 side_of(const Edge *edge, int64_t x, int64_t y) {
     return (Int128)edge->dx * (y - edge->y) - (Int128)edge->dy * (x - edge->x);
 }
@@ -32,7 +33,8 @@ static bool make_edges(const DipOracleTriangle *t, Edge edges[3]) {
         Edge *edge = &edges[i];
         *edge = (Edge){t->x[from], t->y[from], (int64_t)t->x[to] - t->x[from],
                        (int64_t)t->y[to] - t->y[from], false};
-        // In clockwise order, left edges lead up and the upper horizontal edge leads right.
+        // In clockwise order, left edges run upwards, and the upper horizontal edge runs to the
+        // right.
         edge->owns = edge->dy < 0 || (edge->dy == 0 && edge->dx > 0);
     }
     return area != 0;
@@ -62,7 +64,8 @@ uint64_t dip_oracle_cover(const DipOracleTriangle *triangle, const DipSamplePatt
                           const DipOracleRegion *region, uint8_t *masks) {
     Edge edges[3];
     const bool has_area = make_edges(triangle, edges);
-    // Only samples in the box around the pixels that hold the corners can lie inside the triangle.
+    // Only samples in the bounding box of the triangle's corners, extended to whole pixels, can be
+    // inside.
     const int low_x = least(triangle->x) >> 8, high_x = greatest(triangle->x) >> 8;
     const int low_y = least(triangle->y) >> 8, high_y = greatest(triangle->y) >> 8;
     uint64_t count = 0;
@@ -219,7 +222,7 @@ DipOracleTriangle dip_oracle_make(DipOracleKind kind, Random *random,
     makers[kind](&maker, v);
     DipOracleTriangle triangle;
     const int first = random_int(random, 0, 2);
-    const int turn = random_int(random, 1, 2); // starts at any corner and has either winding
+    const int turn = random_int(random, 1, 2); // chooses the first corner and the winding at random
     for (int i = 0; i < 3; i++) {
         triangle.x[i] = clamp(v[(first + i * turn) % 3].x, limit);
         triangle.y[i] = clamp(v[(first + i * turn) % 3].y, limit);
@@ -232,8 +235,8 @@ void dip_oracle_make_fan(Random *random, const DipSamplePattern *pattern,
     const Maker maker = {random, pattern, region, 0};
     const Point hub = random_int(random, 0, 1) ? sample_point(&maker) : any_point(&maker, 0);
     // The rim has one corner in each of DIP_ORACLE_FAN equal sectors around the hub. Neighbouring
-    // corners are less than 90 degrees apart and so far away that the sides between them stay
-    // outside the region.
+    // corners are less than 90 degrees apart. The corners lie so far away that the sides between
+    // them stay outside the region.
     const double radius = 256.0 * 4.0 * (region->width + region->height);
     Point rim[DIP_ORACLE_FAN];
     for (int i = 0; i < DIP_ORACLE_FAN; i++) {
@@ -241,7 +244,7 @@ void dip_oracle_make_fan(Random *random, const DipSamplePattern *pattern,
             (i + random_real(random, 0.0, 0.9)) * (6.283185307179586 / DIP_ORACLE_FAN);
         const double far = radius * random_real(random, 1.0, 3.0);
         rim[i] = (Point){hub.x + llrint(far * cos(angle)), hub.y + llrint(far * sin(angle))};
-        if (random_int(random, 0, 3) == 0) { // edges along samples if the hub is one
+        if (random_int(random, 0, 3) == 0) { // edges run along samples if the hub lies on one
             rim[i].x = i == 2 || i == 6 ? hub.x : rim[i].x;
             rim[i].y = i == 0 || i == 4 ? hub.y : rim[i].y;
         }

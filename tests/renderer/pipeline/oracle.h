@@ -1,6 +1,6 @@
-// The oracle computes coverage with exact integers, one sample at a time. Every rasteriser in
-// Diptych must agree with its result. This file also creates triangles that are hard to cover
-// correctly.
+// The oracle computes with exact integers, one sample at a time, which samples a triangle covers.
+// Every rasteriser in Diptych must agree with this result. This file also creates triangles whose
+// coverage is hard to compute correctly.
 #ifndef DIP_TESTS_RENDERER_PIPELINE_ORACLE_H
 #define DIP_TESTS_RENDERER_PIPELINE_ORACLE_H
 

@@ -1,6 +1,6 @@
 // Creates scenes whose vertices fall on chosen screen positions, for tests of the reference.
 //
-// The picture is DIP_SCREEN pixels wide and high, with a field of view of 90 degrees. The point
+// The picture is DIP_SCREEN (64) pixels wide and high, with a field of view of 90 degrees. A point
 // that appears at the screen position (x, y) and lies at distance w along the view axis is
 // therefore ((x / 32 - 1) w, (1 - y / 32) w, -w). This is exact in float if x and y are multiples
 // of 1/256 pixel and w is a power of two.

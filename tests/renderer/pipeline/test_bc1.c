@@ -1,5 +1,5 @@
-// Compares decoded BC1 blocks with the published definition, which this file computes in whole
-// numbers. Also compares compressed textures with the blocks that they consist of.
+// Compares decoded BC1 blocks (compressed 4x4 texels) with the published definition, which this
+// file computes in whole numbers. Also compares compressed textures with their decoded blocks.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/bc1.h"
 #include "renderer/pipeline/texture/texture_layout.h"
@@ -16,8 +16,8 @@
 
 #include <cmocka.h>
 
-// The rounding error of blue, whose ten bits are the fewest in a packed texel: half a step, as sRGB
-// 0..1, where the sRGB curve is steepest.
+// The greatest rounding error of a packed texel, as an sRGB value 0..1. Blue has this error,
+// because it has the fewest bits (ten): half a step where the sRGB curve is steepest.
 static const double texel_tolerance_srgb = 0.19 / 255.0;
 
 static void light_of_texel(uint32_t texel, double rgb[3]) {
@@ -111,12 +111,12 @@ static void decoders_follow_the_definition(void **state) {
 }
 
 // A packed texel is precise enough: 8-bit values stay the same when packed and unpacked.
-static void packed_texels_give_8_bit_codes_back(void **state) {
+static void packed_texels_keep_8_bit_values(void **state) {
     (void)state;
     static DipRootCodes codes;
     dip_root_codes_fill(&codes);
     for (int i = 0; i < 65536; i++) {
-        const int mix = i * 37; // pairs every value of red with every value of blue
+        const int mix = i * 37; // so every red value meets every blue value
         const uint8_t rgb8[3] = {(uint8_t)i, (uint8_t)(i >> 8), (uint8_t)(mix >> 4)};
         double light[3];
         uint8_t back[3];
@@ -194,7 +194,7 @@ static void expect_texture(const DipTextureDef *def, DipPool *pool) {
 
 // Compares every texel of every level, including padding and alpha. Some sizes are not multiples of
 // 4. Textures are compressed both with and without a pool.
-static void compressed_textures_show_what_their_blocks_decode_to(void **state) {
+static void compressed_textures_equal_their_decoded_blocks(void **state) {
     (void)state;
     static const int sizes[][2] = {{64, 64}, {1, 1}, {7, 5}, {2, 9}, {33, 16}};
     static uint8_t rgba8[64 * 64 * 4];
@@ -216,9 +216,9 @@ static void compressed_textures_show_what_their_blocks_decode_to(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(decoders_follow_the_definition),
-        cmocka_unit_test(packed_texels_give_8_bit_codes_back),
+        cmocka_unit_test(packed_texels_keep_8_bit_values),
         cmocka_unit_test(the_encoder_keeps_colours_that_a_block_can_hold),
-        cmocka_unit_test(compressed_textures_show_what_their_blocks_decode_to),
+        cmocka_unit_test(compressed_textures_equal_their_decoded_blocks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// Compares mip chains with the definition, which this file computes one texel at a time. All bits
-// must be equal for every size, address mode and number of threads.
+// Compares mip chains (all levels of textures) with their definition, which this file computes one
+// texel at a time. All bits must be equal for every size, address mode and number of threads.
 #include "renderer/base/pool.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/bc1.h"
@@ -37,7 +37,7 @@ static Plain decode(const DipTextureDef *def) {
     return level;
 }
 
-// Along one axis, target texel i covers one to three source texels, the first of which is texel 2i.
+// Along one axis, target texel i covers one to three source texels, starting with source texel 2i.
 // Stores the weight of each source texel in `share` and returns their number.
 static int shares(int i, int size, int next, float share[3]) {
     if (size == next) {
@@ -167,8 +167,9 @@ static void chains_are_exact_on_many_threads(void **state) {
     }
 }
 
-// One texture in the middle has an invalid size. The error names it, and no texture is created.
-static void either_all_textures_are_created_or_none(void **state) {
+// Among several textures, one has an invalid size. The error must name this texture, and no texture
+// may be created.
+static void one_bad_texture_prevents_the_creation_of_all(void **state) {
     (void)state;
     const uint8_t codes[4 * 4] = {0};
     const DipTextureDef defs[] = {
@@ -189,7 +190,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(chains_are_exact_on_one_thread),
         cmocka_unit_test(chains_are_exact_on_many_threads),
-        cmocka_unit_test(either_all_textures_are_created_or_none),
+        cmocka_unit_test(one_bad_texture_prevents_the_creation_of_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

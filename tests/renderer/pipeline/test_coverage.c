@@ -1,5 +1,6 @@
-// Compares the fast renderer's coverage with coverage computed in exact integers, for every sample
-// pattern and every instruction set. No difference is allowed.
+// Compares the samples that the fast renderer covers with the oracle's samples, which are computed
+// in exact integers (oracle.h). Tests every sample pattern and every instruction set. No difference
+// is allowed.
 //
 //   test_coverage [--triangles N]
 #include "renderer/base/assert.h"
@@ -19,7 +20,7 @@
 
 enum {
     SEED = 90125,
-    TARGET_WIDTH = 3 * DIP_TILE - 21, // no multiple of the tile size, so the last tiles are cut
+    TARGET_WIDTH = 3 * DIP_TILE - 21, // not a multiple of the tile size, so the last tiles are cut
     TARGET_HEIGHT = 2 * DIP_TILE - 6,
 };
 
@@ -177,7 +178,7 @@ static void coverage_is_exact(void **state) {
     printf("\n");
 }
 
-// Draws large triangles that overlap the target only in the pixel at its corner.
+// Draws large triangles that overlap the target in only one pixel, at the target's corner.
 static void large_triangles_that_meet_one_pixel_are_exact(void **state) {
     (void)state;
     static uint8_t expected[DIP_TILE * DIP_TILE];
@@ -243,8 +244,8 @@ static void fans_cover_every_sample_exactly_once(void **state) {
     }
 }
 
-// The state of a clip test that keeps every second pixel, like a chequerboard, and checks the
-// positions at which the pipeline runs it.
+// The state of a clip test (a shader that decides whether a fragment is kept). This test keeps
+// every second pixel, like a chequerboard, and checks the positions at which the pipeline calls it.
 typedef struct Chequer {
     const Case *c;
     const uint8_t *covered; // the oracle's masks
@@ -268,7 +269,7 @@ static const uint8_t *ask_chequer(void *context, const DipTriangle *triangle) {
         const int x = position & (DIP_TILE - 1);
         const int y = position >> DIP_POSITION_Y & (DIP_TILE - 1);
         if (x >= region->width || y >= region->height) {
-            continue; // outside the target, where the result is not used
+            continue; // outside the target; the pipeline does not use the result there
         }
         const unsigned mask = chequer->covered[y * region->width + x];
         const bool whole = mask == (1u << pattern->count) - 1u;
@@ -286,7 +287,7 @@ static const uint8_t *ask_chequer(void *context, const DipTriangle *triangle) {
 // The pipeline runs the clip test once for every covered pixel, at the pixel's centre or at its
 // first covered sample. If the test keeps the pixel, the covered samples are drawn. The counters do
 // not depend on the vector width.
-static void the_clip_test_is_asked_once_per_pixel_and_obeyed(void **state) {
+static void the_clip_test_runs_once_per_pixel_and_decides_what_is_drawn(void **state) {
     (void)state;
     static uint8_t expected[DIP_TILE * DIP_TILE];
     static uint8_t found[DIP_TILE * DIP_TILE];
@@ -341,8 +342,8 @@ static void patterns_lie_within_their_bounds(void **state) {
     }
 }
 
-// Tests the oracle itself, on a square of 2x2 pixels that is cut along its diagonal. Samples on
-// edges belong only to the triangle to the left or above.
+// Tests the oracle itself, on a square of 2x2 pixels that is cut along its diagonal. A sample on an
+// edge belongs only to the triangle for which this edge is a left or an upper edge.
 static void the_oracle_agrees_with_an_example_worked_by_hand(void **state) {
     (void)state;
     const DipSamplePattern *centre = dip_sample_pattern(1);
@@ -353,8 +354,8 @@ static void the_oracle_agrees_with_an_example_worked_by_hand(void **state) {
     const DipOracleTriangle upper = {{128, 640, 128}, {128, 128, 640}};
     assert_int_equal(dip_oracle_cover(&upper, centre, &region, masks), 3);
     assert_int_equal(masks[0] & masks[1] & masks[4], 1);
-    // The other half of the square. The diagonal is its left edge; samples on its right and lower
-    // edges do not belong to it.
+    // The other half of the square. The diagonal is its left edge, so samples on the diagonal
+    // belong to it. Samples on its right and lower edges do not.
     const DipOracleTriangle lower = {{640, 640, 128}, {128, 640, 640}};
     assert_int_equal(dip_oracle_cover(&lower, centre, &region, masks), 1);
     assert_int_equal(masks[5], 1);
@@ -368,7 +369,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(the_oracle_agrees_with_an_example_worked_by_hand),
         cmocka_unit_test(patterns_lie_within_their_bounds),
         cmocka_unit_test(coverage_is_exact),
-        cmocka_unit_test(the_clip_test_is_asked_once_per_pixel_and_obeyed),
+        cmocka_unit_test(the_clip_test_runs_once_per_pixel_and_decides_what_is_drawn),
         cmocka_unit_test(large_triangles_that_meet_one_pixel_are_exact),
         cmocka_unit_test(fans_cover_every_sample_exactly_once),
     };

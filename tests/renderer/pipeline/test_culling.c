@@ -1,6 +1,6 @@
-// Tests culling by bounding boxes. Culling must not change any picture and must reject objects that
-// are out of view. Also tests that passes are drawn correctly if they need more memory than the
-// pipeline first allocates.
+// Tests culling by bounding boxes. Culling must not change any picture, and it must reject objects
+// that are out of view. Also tests that the pipeline correctly draws passes that need more memory
+// than it first allocates.
 #include "renderer/pipeline/cull.h"
 #include "renderer/pipeline/geometry/chunk_cull.h"
 #include "renderer/pipeline/geometry/mesh_layout.h"
@@ -159,8 +159,8 @@ static void random_camera(Random *random, float m[16]) {
     m[11] = 0.1f; // the near plane
 }
 
-// Makes clusters of triangles of all sizes, one after another, so that each chunk covers a small
-// part of space.
+// Makes clusters of triangles of all sizes, one after another. Each of the mesh's chunks (groups of
+// successive triangles) therefore covers only a small part of space.
 static DipMesh *random_clusters(Random *random) {
     Soup soup = make_soup(CLUSTERS * PER_CLUSTER);
     for (int cluster = 0; cluster < CLUSTERS; cluster++) {
@@ -203,7 +203,7 @@ static void culling_never_changes_a_picture(void **state) {
         read += culled.triangles_in;
         drawn += culled.triangles_drawn;
     }
-    // Some triangles are culled, and some are visible.
+    // Culling must reject some triangles, and some triangles must be visible.
     assert_true(read < all * CAMERAS / 2);
     assert_true(drawn > all * CAMERAS / 100);
     dip_mesh_destroy(&mesh);
@@ -223,7 +223,7 @@ static void assert_same_blocks(const DipTargetRegion *region) {
 
 // With a region, the pipeline may reject every box, chunk and clipped triangle that does not reach
 // the region. Inside the region, the picture must equal the picture without a region.
-static void a_region_holds_what_the_whole_picture_holds_there(void **state) {
+static void a_region_equals_the_same_part_of_the_whole_picture(void **state) {
     (void)state;
     enum { REGIONS = 6 };
     Random random = {42};
@@ -249,7 +249,7 @@ static void a_region_holds_what_the_whole_picture_holds_there(void **state) {
 
 // --- visible parts of objects --------------------------------------------------------------------
 
-enum { PLACED = 40, VIEWS = 400, POINTS = 6 }; // points tested per triangle
+enum { PLACED = 40, VIEWS = 400, POINTS = 6 }; // POINTS: points tested per triangle
 
 // Makes clusters of triangles around the origin, some of them far away from it.
 static DipMesh *random_mesh(Random *random) {
@@ -324,7 +324,7 @@ static DipPass random_part(Random *random, const DipView *view) {
     return pass;
 }
 
-// Returns true if a point of the world lies in the part of the picture that a pass draws.
+// Returns true if a point, in world space, lies in the part of the picture that a pass draws.
 static bool shows(const DipPass *pass, const DipView *view, const double world[3]) {
     double clip[4];
     for (int r = 0; r < 4; r++) {
@@ -438,11 +438,12 @@ static void culling_keeps_everything_visible(void **state) {
     assert_true(kept.objects < VIEWS * PLACED / 2);
 }
 
-// --- parts of tiles ----------------------------------------------------------------------------
+// --- parts of tiles: the rectangle of each tile that a triangle or box may touch ----------------
 
 enum { TILE = 64, TILES_X = WIDTH / TILE, PARTS = TILES_X * (HEIGHT / TILE), MARGIN = 2 };
 
-// Returns true if a point of the world is in the picture. Also computes its position, in pixels.
+// Returns true if a point, in world space, is in the picture. Also computes its position in the
+// picture, in pixels.
 static bool project_point(const DipView *view, const double world[3], double at[2]) {
     const DipPass whole = {.target = {NULL, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
     double clip[4];
@@ -495,8 +496,8 @@ static void random_shape(Random *random, int count, double (*corners)[3]) {
     }
 }
 
-// Picks a point in the convex hull of the shape: a random weighted mean of its corners, in which
-// few corners have most of the weight.
+// Picks a point in the convex hull of the shape: a mean of its corners with random weights. A few
+// corners have most of the weight.
 static void mean_of(Random *random, int count, double (*corners)[3], double world[3]) {
     double sum = 0.0;
     world[0] = world[1] = world[2] = 0.0;
@@ -512,7 +513,7 @@ static void mean_of(Random *random, int count, double (*corners)[3], double worl
     }
 }
 
-static void tile_parts_hold_everything_visible(void **state) {
+static void tile_parts_contain_everything_visible(void **state) {
     (void)state;
     enum { SHAPES = 6000, MEANS = 300 };
     Random random = {99};
@@ -548,7 +549,7 @@ static void tile_parts_hold_everything_visible(void **state) {
     assert_true(area < (uint64_t)SHAPES / 2 * WIDTH * HEIGHT / 10);
 }
 
-// --- more room than expected -------------------------------------------------------------------
+// --- more memory than first allocated ----------------------------------------------------------
 
 static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
@@ -579,8 +580,8 @@ static void clipping_can_double_the_triangles(void **state) {
     }
 }
 
-// The box of each triangle covers all tiles of the picture except one row. So each of 5 x 3 tiles
-// has every triangle in its bin.
+// The bounding box of each triangle covers all tiles of the picture except one row. So every
+// triangle is in the bin (list of triangles) of each of 5 x 3 tiles.
 static void many_triangles_can_lie_in_many_tiles(void **state) {
     (void)state;
     enum { COUNT = 30000, TILES = 5 * 3 };
@@ -603,9 +604,9 @@ static void many_triangles_can_lie_in_many_tiles(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(culling_never_changes_a_picture),
-        cmocka_unit_test(a_region_holds_what_the_whole_picture_holds_there),
+        cmocka_unit_test(a_region_equals_the_same_part_of_the_whole_picture),
         cmocka_unit_test(culling_keeps_everything_visible),
-        cmocka_unit_test(tile_parts_hold_everything_visible),
+        cmocka_unit_test(tile_parts_contain_everything_visible),
         cmocka_unit_test(clipping_can_double_the_triangles),
         cmocka_unit_test(many_triangles_can_lie_in_many_tiles),
     };

@@ -1,9 +1,10 @@
-// Compares the fast renderer's level of detail on a grazing plane with the level that follows from
-// the footprint in closed form. The camera is rolled about its view axis. Tests every step of
-// anisotropic filtering (AF), plain and advanced.
+// Tests the level of detail that the fast renderer chooses on a plane seen at a grazing angle.
+// Compares it with the level that follows from a closed formula for the pixel's footprint (its
+// image in the texture). The camera is rolled about its view axis. Tests every step of anisotropic
+// filtering (AF), plain and advanced.
 //
-// In the middle of the picture, the view axis points 6 degrees down at a plane 1 m below, so the
-// pixel's footprint there is an ellipse with known axes. Mip colours show which level was read.
+// The view axis points 6 degrees down at a plane 1 m below the eye. In the middle of the picture,
+// the footprint is therefore an ellipse with known axes. Mip colours show which level was read.
 #include "renderer/base/srgb.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
@@ -21,7 +22,7 @@ enum { WIDTH = 15, HEIGHT = 961, TEXELS = 256 };
 
 static const double pi = 3.14159265358979323846;
 static const double tolerance_lin =
-    0.012; // per channel; covers 8-bit pixels, rounded positions and lambda in float
+    0.012; // per channel; allows for 8-bit pixels, rounded positions and lambda in float
 
 typedef struct Bench {
     DipTestScene scene;
@@ -67,7 +68,7 @@ static void middle_colour(Bench *bench, int af_step, bool exact_footprint, doubl
     }
 }
 
-// Blends the mip colours that docs/picture.md gives to levels from 256 texels down. The table has
+// Blends the mip colours of docs/picture.md for levels of 256 texels and smaller. The table has
 // 8-bit sRGB values.
 static void colour_of_level(double lambda, double rgb_lin[3]) {
     static const double codes[][3] = {{255, 0, 0}, {255, 128, 0}, {255, 255, 0},
@@ -104,7 +105,7 @@ static double expected_lambda(double roll, int max, bool exact_footprint) {
     if (exact_footprint && max > 1) {
         return log2(major / fmin(major / minor, max));
     }
-    // The lengths of the derivatives dX and dY in the screen's frame and in a frame turned by 45
+    // The lengths of the derivatives dX and dY along the screen's axes and along axes turned by 45
     // degrees.
     const double x = hypot(major * sin(roll), minor * cos(roll));
     const double y = hypot(major * cos(roll), minor * sin(roll));
@@ -122,8 +123,9 @@ static double expected_lambda(double roll, int max, bool exact_footprint) {
 
 static void levels_follow_the_closed_form(bool exact_footprint) {
     for (int degrees = -90; degrees <= 180; degrees += 15) {
-        // The 2 degrees keep the roll off the angles at which the screen's frame and the frame
-        // turned by 45 degrees tie, and off the 22.5 degrees halfway between them.
+        // Plain AF chooses between the screen's axes and axes turned by 45 degrees. The 2 degrees
+        // keep the roll away from the angles at which both choices are equally good, and from 22.5
+        // degrees, halfway between the two kinds of axes.
         const double roll_deg = degrees + 2.0;
         Bench bench;
         open_bench(&bench, roll_deg);

@@ -1,6 +1,5 @@
 // Compares every kernel of every instruction set with the scalar kernel, bit for bit. The random
-// input includes special values that often cause faults: zeros, infinities, NaN, huge and tiny
-// numbers.
+// input includes special values: zeros, infinities, NaN, huge and tiny numbers.
 #include "renderer/base/assert.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/kernels/kernels.h"

@@ -1,5 +1,5 @@
-// Tests two limits that must not overflow: the number of vertices of a clipped polygon in the worst
-// case, and the number of triangles of a pass.
+// Tests two numbers that must stay within their limits: the vertices of a clipped polygon, and the
+// triangles of a pass.
 #include "renderer/pipeline/geometry/clip.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tests/renderer/random.h"
@@ -56,9 +56,10 @@ static void fragment_shader(DipFragmentBatch *batch) {
     (void)batch;
 }
 
-// 2000 draws of one mesh have 262 million triangles but take hardly any memory. A pass accepts
-// about 2^31 / 44, or 48 million, triangles: with 12 varyings, the plane equations of a triangle
-// take 44 floats, and the kernels index these floats with signed 32-bit integers.
+// 2000 draws of one mesh have 262 million triangles but take hardly any memory. The pass must be
+// refused, because it accepts only about 2^31 / 44, or 48 million, triangles. With 12 varyings, the
+// plane equations of a triangle take 44 floats. The kernels index these floats with signed 32-bit
+// integers.
 static void passes_with_too_many_triangles_are_refused(void **state) {
     (void)state;
     const float point[3] = {0};

@@ -1,6 +1,6 @@
-// Tests that the pipeline refuses passes that it cannot draw and names the field at fault, also in
-// release builds. Also tests that passes drawn at once give the same results as passes drawn one by
-// one.
+// Tests that the pipeline refuses passes that it cannot draw, even in release builds. The error
+// must name the field at fault. Also tests that passes drawn in one call have the same results as
+// passes drawn one by one.
 #include "renderer/pipeline/pipeline.h"
 #include "tests/renderer/random.h"
 
@@ -209,7 +209,7 @@ static void make_passes(const Stage *stage, int which, DipPass passes[PASSES]) {
     }
 }
 
-static void passes_drawn_at_once_are_those_drawn_alone(void **state) {
+static void passes_drawn_at_once_equal_passes_drawn_alone(void **state) {
     const Stage *stage = *state;
     DipPass alone[PASSES];
     DipPass together[PASSES];
@@ -261,7 +261,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_passes_are_refused_with_the_field_at_fault),
         cmocka_unit_test(a_good_pass_is_drawn),
-        cmocka_unit_test(passes_drawn_at_once_are_those_drawn_alone),
+        cmocka_unit_test(passes_drawn_at_once_equal_passes_drawn_alone),
         cmocka_unit_test(passes_that_cannot_be_drawn_at_once_are_refused),
     };
     return cmocka_run_group_tests(tests, open_stage, close_stage);

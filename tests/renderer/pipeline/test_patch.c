@@ -1,5 +1,5 @@
-// Tests patches: which triangles may be shaded as one surface, and that pixels are shaded once per
-// patch.
+// Tests patches. A patch is a group of connected triangles that are shaded as one surface. Tests
+// which triangles form a patch, and that pixels are shaded once per patch.
 #include "renderer/pipeline/patch.h"
 #include "renderer/pipeline/pipeline.h"
 
@@ -50,7 +50,7 @@ static double flat(double x, double y) {
 
 static double roof(double x, double y) {
     (void)y;
-    return x < 0.5 ? x : 1.0 - x; // 45 degrees up, then down
+    return x < 0.5 ? x : 1.0 - x; // the slope rises by 45 degrees, then falls by 45 degrees
 }
 
 static double dome(double x, double y) {
@@ -127,7 +127,7 @@ static void patches_are_small_connected_and_smooth(void **state) {
         for (uint32_t p = 0; p < grid.count; p++) {
             check_patch(&grid, p);
         }
-        // On average, a patch holds more than half as many triangles as it could.
+        // On average, a patch has more than half of the triangles that it may have.
         assert_true(grid.count < 2 * TRIANGLES / DIP_PATCH_TRIANGLES);
     }
 }
@@ -144,7 +144,7 @@ static void patches_do_not_cross_a_crease(void **state) {
     }
 }
 
-static void triangles_without_area_or_neighbours_stand_alone(void **state) {
+static void triangles_without_area_or_neighbours_form_their_own_patches(void **state) {
     (void)state;
     const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 5, 5, 5, 6, 5, 5, 5, 6, 5};
     // Four triangles. The second one has no area and shares an edge with the first. The third
@@ -231,8 +231,8 @@ static uint64_t fragments_of(const DipMesh *mesh, int samples) {
     return counters.fragments_shaded;
 }
 
-// Counts the patches that have samples in each pixel, summed over all pixels. The grid's lines are
-// straight, so the triangle of each sample follows from the sample's position.
+// For each pixel, counts the patches that cover samples of the pixel. Returns the sum over all
+// pixels. The grid's lines are straight, so the position of a sample determines its triangle.
 static uint64_t expected_fragments(const Grid *grid, int samples) {
     const DipSamplePattern *pattern = dip_sample_pattern(samples);
     uint64_t fragments = 0;
@@ -266,7 +266,8 @@ static void a_pixel_is_shaded_once_per_patch(void **state) {
         const double found = (double)fragments_of(mesh, samples);
         assert_true(found >= WIDTH * HEIGHT && fabs(found - expected) <= 0.005 * expected);
         assert_true(expected < 1.25 * WIDTH * HEIGHT);
-        // The ramp shows no seams: no pixel is darker than its left neighbour.
+        // The picture is a ramp, which must show no seams: no pixel may be darker than its left
+        // neighbour.
         for (int x = 8; x < WIDTH; x++) {
             assert_true(picture[4 * (40 * WIDTH + x)] >= picture[4 * (40 * WIDTH + x - 1)]);
         }
@@ -278,7 +279,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patches_are_small_connected_and_smooth),
         cmocka_unit_test(patches_do_not_cross_a_crease),
-        cmocka_unit_test(triangles_without_area_or_neighbours_stand_alone),
+        cmocka_unit_test(triangles_without_area_or_neighbours_form_their_own_patches),
         cmocka_unit_test(patches_of_wide_fans_are_found_quickly),
         cmocka_unit_test(a_pixel_is_shaded_once_per_patch),
     };

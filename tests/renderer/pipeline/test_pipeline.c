@@ -1,5 +1,5 @@
-// Tests the pipeline as its callers use it: with their own shaders, culling, user clip planes, clip
-// shaders, the near plane, and input that must draw nothing.
+// Tests the pipeline as its callers use it. Uses shaders of this file, and tests culling, user clip
+// planes, clip shaders, the near plane, and input that must draw nothing.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
 
@@ -41,7 +41,7 @@ static void grey(DipFragmentBatch *batch) {
     }
 }
 
-// Shows the varying as red and its derivatives as green and blue, scaled by the uniforms.
+// Shows the varying as red, and its derivatives, scaled by the uniforms, as green and blue.
 static void varying(DipFragmentBatch *batch) {
     const float scale = *(const float *)batch->uniforms;
     for (int i = 0; i < batch->count; i++) {
@@ -149,7 +149,8 @@ static void visible_samples_are_counted(void **state) {
     for (int samples = 2; samples <= 8; samples += 2) {
         const DipPass pass = pass_of(&draw, 1, samples);
         const DipPipelineCounters counters = run(&pass);
-        uint64_t expected = 0; // a pixel's light tells how many of its samples are white
+        uint64_t expected =
+            0; // sum over all pixels; a pixel's light shows how many of its samples are white
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
             expected += (uint64_t)lround(samples * dip_srgb_decode(picture[4 * i] / 255.0));
         }
@@ -191,7 +192,7 @@ static void user_planes_cut_exactly_where_they_lie(void **state) {
         assert_int_equal(red(first - 1, 9), 0);
         assert_int_equal(red(first, 9), 255);
     }
-    // All six planes together leave the rectangle that they bound.
+    // The six planes together keep only the rectangle between them.
     const float planes[6][4] = {{1, 0, 0, 0.5f},  {-1, 0, 0, 0.5f}, {0, 1, 0, 0.6f},
                                 {0, -1, 0, 0.6f}, {1, 0, 0, 0.9f},  {0, 0, 1, 0}};
     pass.clip_plane_count = 6;
@@ -211,7 +212,7 @@ static void a_clip_shader_removes_fragments_before_depth(void **state) {
     for (int samples = 1; samples <= 8; samples += samples == 1 ? 1 : 2) {
         const DipPass pass = pass_of(draws, 2, samples);
         const DipPipelineCounters counters = run(&pass);
-        // Where the front quad is clipped away, the back one is visible, although it was submitted
+        // Where the front quad is clipped away, the back quad must be visible, although it is drawn
         // later.
         assert_int_equal(lit_pixels(), WIDTH / 2 * HEIGHT);
         assert_true(red(0, 0) > 0 && red(0, 0) < 255);
@@ -272,8 +273,8 @@ static DipMesh *wide(void) {
     return mesh_of(vertices, 4, (const uint32_t[]){0, 1, 2, 0, 2, 3, 1, 3, 0}, 9);
 }
 
-// Blocks inside the region get the same pixels as without a region. The other blocks keep their old
-// pixels.
+// With a region, blocks inside the region get the same pixels as without a region. Blocks outside
+// the region keep their old pixels.
 static void blocks_outside_a_region_are_left_untouched(void **state) {
     (void)state;
     enum { TILE = 64, BLOCK = 8 };
@@ -303,7 +304,7 @@ static void blocks_outside_a_region_are_left_untouched(void **state) {
         const int y1 = (regions[r].y1 - 1) / BLOCK;
         assert_int_equal(counters.tiles_drawn, across * down);
         assert_int_equal(counters.tiles_spared, 4 - counters.tiles_drawn);
-        // The small triangle lies in the last region only.
+        // Only the last region contains the small triangle.
         const bool last = r + 1 == sizeof regions / sizeof *regions;
         assert_int_equal(counters.triangles_in, last ? 4 : 3);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -319,8 +320,9 @@ static void blocks_outside_a_region_are_left_untouched(void **state) {
     dip_mesh_destroy(&bounded);
 }
 
-// Drawing leaves the blocks outside a tile's part untouched. This holds for triangles in bins and
-// for triangles in the list of wide ones.
+// The caller may restrict each tile to a part, which is a rectangle of blocks. Drawing must not
+// touch the blocks outside this part. Tests triangles in the bins of tiles and triangles in the
+// list of wide triangles.
 static void blocks_outside_tile_parts_are_left_untouched(void **state) {
     (void)state;
     enum { TILE = 64, BLOCK = 8, TILES_X = (WIDTH + TILE - 1) / TILE };
@@ -411,7 +413,7 @@ static void a_pass_samples_the_target_of_an_earlier_pass(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// A floor begins behind the eye. Only the part beyond the near plane (z = w) is visible.
+// The drawn floor begins behind the eye. Only its part beyond the near plane (z = w) is visible.
 static void the_near_plane_cuts_exactly(void **state) {
     (void)state;
     // y is -1/2 everywhere, and w runs from -1 (behind the eye) to 3. z is 1 everywhere, so the
@@ -435,7 +437,8 @@ static void the_near_plane_cuts_exactly(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
-// A clip coordinate of the third vertex, and the bad value that replaces it.
+// The index of a clip coordinate of the third vertex, and the bad value that replaces this
+// coordinate.
 typedef struct Bad {
     int coordinate;
     float value;

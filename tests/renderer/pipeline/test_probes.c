@@ -1,6 +1,6 @@
-// Tests anisotropic reads, which take different numbers of probes in the two mip levels. Compares
-// the kernels of every instruction set with closed forms and with the reference in double
-// precision.
+// Tests anisotropic texture reads. A read is the mean of several probes (bilinear samples along the
+// pixel's footprint) and takes fewer probes in the coarser of two mip levels. Compares the kernels
+// of every instruction set with closed forms and with the reference in double precision.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/texture_layout.h"
 #include "renderer/reference/internal/texture.h"
@@ -109,11 +109,11 @@ static void a_ramp_is_read_exactly(void **state) {
     close_bench();
 }
 
-// Stripes of 10 texels each along u, read by a footprint 20 texels long and 1.25 wide: 16 probes in
-// level 0 and, at a fraction of log2 1.25, half as many in level 1. Both numbers are even, so every
-// probe has a partner half a period away that reads the complement. The mean is therefore 1/2
-// wherever the footprint lies. An odd number of probes, or probes in other positions, would give
-// another mean.
+// Reads stripes of 10 texels each along u, with a footprint 20 texels long and 1.25 texels wide.
+// The read takes 16 probes in level 0 and half as many as that in level 1, whose weight is log2
+// 1.25. Both numbers are even, so every probe has a partner half a period away that reads the
+// opposite stripe. The mean is therefore 1/2 wherever the footprint lies. An odd number of probes,
+// or probes in other positions, would give another mean.
 static void a_footprint_of_one_period_reads_the_mean_of_stripes(void **state) {
     (void)state;
     enum { PERIOD = 20, WIDTH = 240 };
@@ -141,7 +141,8 @@ static void a_footprint_of_one_period_reads_the_mean_of_stripes(void **state) {
     dip_texture_destroy(&bench.fast);
 }
 
-// At a fraction f, the coarser level takes ceil(N max(1/2, f)) of the N probes, and none if f is 0.
+// If the coarser level has the weight f, it takes ceil(N max(1/2, f)) of the N probes, or none if f
+// is 0.
 static void the_coarser_level_takes_fewer_probes(void **state) {
     (void)state;
     static const struct {
@@ -164,7 +165,7 @@ static void the_coarser_level_takes_fewer_probes(void **state) {
     close_bench();
 }
 
-// Noise reveals the smallest difference in the positions or the number of probes.
+// A texture of noise reveals even the smallest difference in the positions or the number of probes.
 static void noise_is_read_as_the_reference_reads_it(void **state) {
     (void)state;
     Random noise = {11};
@@ -195,7 +196,8 @@ static void noise_is_read_as_the_reference_reads_it(void **state) {
                 dip_reference_sample(&bench.reference, &filter, uv, dx, dy, rgba);
                 const double off =
                     fmax(fabs(bench.colour[0][i] - rgba[0]), fabs(bench.alpha[i] - rgba[3]));
-                // Rounding may make the two levels of detail differ by 1/256.
+                // Rounding may make the kernel's and the reference's levels of detail differ by
+                // 1/256.
                 far_off += off > 0.01;
                 worst = fmax(worst, off > 0.01 ? 0.0 : off);
             }

@@ -1,4 +1,5 @@
-// Tests the converged picture: its mean is right, and more samples improve it.
+// Tests the converged picture, which the reference draws with many jittered samples per pixel. Its
+// mean must be right, and more samples must improve it.
 #include "renderer/reference/convergence.h"
 #include "tests/renderer/pipeline/screen.h"
 #include "tests/renderer/scene/image.h"
@@ -22,8 +23,8 @@ static double decode(double code) {
     return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
 }
 
-// A texture of 8x8 texels repeats once per pixel. Bilinear weights sum to one over a period, so the
-// mean over a pixel is the mean of the texels, in linear light.
+// A texture of 8x8 texels repeats once per pixel. Over a period, all texels have equal bilinear
+// weight, so the mean over a pixel is the mean of the texels, in linear light.
 static void textures_converge_to_their_mean(void **state) {
     (void)state;
     DipTestScene scene;
@@ -49,8 +50,8 @@ static void textures_converge_to_their_mean(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// On a ramp that rises by 4/255 per pixel, the mean over a pixel is the value at its centre. A
-// jittered sample is off by at most one cell of the jitter grid.
+// On a ramp that rises by 4/255 per pixel, the mean over a pixel is the value at the pixel's
+// centre. Each jittered sample lies somewhere in its cell of the jitter grid.
 static void a_ramp_converges_to_its_value_at_pixel_centres(void **state) {
     (void)state;
     DipTestScene scene;
@@ -108,9 +109,10 @@ static double rms_of_two_seeds(const DipTestScene *scene, int sample_count) {
     return dip_image_rms(&picture[0][0][0], &other[0][0][0], VALUES);
 }
 
-// With four times as many samples, the error falls by a factor of 4^(3/4) at edges, and by 4 where
-// the picture is smooth within a cell. The scene has both.
-static void pictures_of_two_seeds_approach_with_more_samples(void **state) {
+// If the number of samples is four times as great, the error is 4^(3/4) times smaller at edges.
+// Where the picture is smooth within a cell of the jitter grid, it is 4 times smaller. The scene
+// has both kinds of pixels.
+static void pictures_of_two_seeds_differ_less_with_more_samples(void **state) {
     (void)state;
     DipTestScene scene;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_soup);
@@ -152,8 +154,8 @@ static void antialiasing_approaches_the_converged_picture(void **state) {
 
 static uint8_t classes[DIP_SCREEN * DIP_SCREEN];
 
-// Converges a picture and its classes tile by tile, from the last tile to the first. Rows are
-// packed.
+// Converges a picture and the classes of its pixels (such as edges) tile by tile, from the last
+// tile to the first. The arrays' rows have no padding.
 static void converge_tiles(const DipTestScene *scene, int width, int height, int sample_count,
                            DipScreenPicture rgb_lin) {
     DipError err = {0};
@@ -223,8 +225,8 @@ static void pixels_are_classified_by_what_is_visible(void **state) {
     DipTestScene scene;
     make_squares(&scene, DIP_SURFACE_OPAQUE);
     converge_tiles(&scene, DIP_SCREEN, DIP_SCREEN, 16, picture);
-    // Pixels are cut only by the upright sides of the near square. The edge that the square's two
-    // triangles share does not count.
+    // Only the upright sides of the near square cut pixels. The edge between the square's two
+    // triangles does not count.
     assert_int_equal(count_class(DIP_SEEN_EDGE), 2 * 32);
     assert_int_equal(count_class(DIP_SEEN_TEXTURED), 31 * 32);
     assert_int_equal(count_class(DIP_SEEN_PLAIN), DIP_SCREEN * DIP_SCREEN - 33 * 32);
@@ -235,8 +237,8 @@ static void pixels_are_classified_by_what_is_visible(void **state) {
     assert_int_equal(count_class(DIP_SEEN_WATER), 33 * 32);
     dip_test_scene_free(&scene);
 
-    // All pixels of the clipped square count, even if alpha removes the square there. Half of its
-    // texels are transparent.
+    // All pixels of the alpha-clipped square count, even where alpha removes the square. Half of
+    // its texels are transparent.
     make_squares(&scene, DIP_SURFACE_CLIPPED);
     uint8_t *texels = dip_test_scene_texels(&scene, 0);
     for (int i = 0; i < 32; i++) {
@@ -272,7 +274,7 @@ int main(void) {
         cmocka_unit_test(textures_converge_to_their_mean),
         cmocka_unit_test(a_ramp_converges_to_its_value_at_pixel_centres),
         cmocka_unit_test(jitter_is_independent_in_x_and_y),
-        cmocka_unit_test(pictures_of_two_seeds_approach_with_more_samples),
+        cmocka_unit_test(pictures_of_two_seeds_differ_less_with_more_samples),
         cmocka_unit_test(the_same_seed_gives_the_same_picture),
         cmocka_unit_test(antialiasing_approaches_the_converged_picture),
         cmocka_unit_test(tiles_give_the_same_picture_as_the_whole),

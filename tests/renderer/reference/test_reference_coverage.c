@@ -1,4 +1,5 @@
-// Tests what the reference covers: half-planes, closed meshes, facing, depth, and the near plane.
+// Tests which samples the reference covers. The tests draw half-planes, closed meshes, front and
+// back faces, surfaces at several depths, and surfaces at the near plane.
 #include "renderer/base/assert.h"
 #include "renderer/pipeline/pattern.h"
 #include "tests/renderer/pipeline/screen.h"
@@ -53,7 +54,7 @@ static double half_plane_area(const double n[2], double d, int x, int y) {
 
 typedef struct HalfPlane {
     DipTestScene scene;
-    double normal[2]; // of its edge, pointing to the covered side
+    double normal[2]; // normal of the half-plane's edge; points to the covered side
     double distance;
 } HalfPlane;
 
@@ -80,8 +81,8 @@ typedef struct Deviation {
     int count;
 } Deviation;
 
-// Adds up the deviations of the pixels that the edge crosses. Checks that all other pixels are
-// exact.
+// Collects the deviations of the pixels on the edge from the exact area: the greatest one and the
+// sum of squares. Checks that all other pixels are exact.
 static void add_deviations(const HalfPlane *half, Deviation *deviation) {
     for (int y = 0; y < DIP_SCREEN; y++) {
         for (int x = 0; x < DIP_SCREEN; x++) {
@@ -116,7 +117,7 @@ static void coverage_of_half_planes_is_as_exact_as_the_pattern_allows(void **sta
         const double rms = sqrt(deviation.squares / deviation.count);
         assert_true(deviation.greatest <= greatest[i] + 0.002);
         assert_true(deviation.greatest >=
-                    0.8 * greatest[i]); // guards against a test that measures nothing
+                    0.8 * greatest[i]); // fails if the test does not measure anything
         assert_true(rms < last_rms);
         last_rms = rms;
     }
@@ -227,7 +228,7 @@ static void only_front_faces_and_double_sided_surfaces_are_visible(void **state)
         }
         scene.objects[0].transform[0] = mirrored ? -1.0f : 1.0f;
         dip_screen_draw(&scene, "aa=none", picture);
-        // A mesh that faces the eye also faces it when the object mirrors the mesh.
+        // A mesh that faces the eye still faces the eye if its object mirrors the mesh.
         assert_near(picture[32][32][0], double_sided || !clockwise ? 1.0 : 0.0, 0.0);
         dip_test_scene_free(&scene);
     }
@@ -339,7 +340,8 @@ static void a_floor_that_begins_behind_the_eye_is_cut_at_the_near_plane(void **s
                 assert_near(picture[y][x][2], y < 32 || w > 16.0 ? 0.0 : 1.0, 0.0);
                 continue;
             }
-            // The cut corners are rounded to 1/256 pixel, although they lie a thousand pixels away.
+            // The corners that clipping creates lie a thousand pixels away. They are nevertheless
+            // rounded to 1/256 pixel.
             assert_near(picture[y][x][0], ray[0] * w / 32.0 + 0.5, 2e-3);
             assert_near(picture[y][x][1], -w / 32.0 + 0.5, 2e-3);
         }

@@ -1,4 +1,5 @@
-// Compares the reference's level of detail and anisotropy with Jacobians whose axes are known.
+// Tests the level of detail and the anisotropy that the reference computes from a Jacobian (the
+// derivatives of texture coordinates). The axes of the tests' Jacobians are known.
 #include "renderer/reference/internal/footprint.h"
 #include "tests/renderer/random.h"
 
@@ -15,7 +16,7 @@
 static const double pi = 3.14159265358979323846;
 
 // Makes the Jacobian of an ellipse with semi-axes of the given lengths. The major axis points to
-// `direction` in the texture, and the screen is turned by `roll` against the axes.
+// `direction` in the texture, and the screen is rotated by `roll` relative to the axes.
 static void make_jacobian(double major, double minor, double direction, double roll, double dx[2],
                           double dy[2]) {
     const double along[2] = {major * cos(direction), major * sin(direction)};
@@ -54,7 +55,7 @@ static void advanced_af_finds_the_axes_at_any_roll(void **state) {
         if (fabs(probes - rint(probes)) > 1e-8) {
             assert_int_equal(f.probe_count, (int)ceil(probes));
         }
-        if (ratio > 1.01) { // the axis is a line, so either direction is right
+        if (ratio > 1.01) { // both directions along the axis are right
             const double cross =
                 f.major_texels[0] * sin(direction) - f.major_texels[1] * cos(direction);
             assert_near(cross / (minor * ratio), 0.0, 1e-9 / (ratio - 1.0));
@@ -71,7 +72,7 @@ static double plain_eta(double ratio, double roll_deg, int max) {
 }
 
 // Returns the ratio, at least 1, of the lengths of dX and dY. The ellipse has the axes m and 1 and
-// is turned by `roll` against the frame.
+// is rotated by `roll` relative to the frame of dX and dY.
 static double frame_ratio(double m, double roll) {
     const double c = cos(roll) * cos(roll);
     const double s = sin(roll) * sin(roll);
@@ -86,7 +87,7 @@ static void plain_af_loses_anisotropy_with_roll_as_the_cotangent_predicts(void *
     assert_near(plain_eta(16.0, 22.5, 16), 2.39, 0.005);
     assert_near(plain_eta(1e6, 22.5, 16), 1.0 + sqrt(2.0), 1e-6); // the cotangent of 22.5 degrees
     assert_near(plain_eta(16.0, 45.0, 2), 1.0,
-                1e-12); // the cap of the turned frame, half of 2, is 1
+                1e-12); // in the turned frame, the limit is half of 2
     for (double roll_deg = -180.0; roll_deg <= 180.0; roll_deg += 1.0) {
         const double roll = roll_deg * pi / 180.0;
         const double expected = fmax(fmin(frame_ratio(16.0, roll), 16.0),
@@ -95,14 +96,14 @@ static void plain_af_loses_anisotropy_with_roll_as_the_cotangent_predicts(void *
     }
 }
 
-static void plain_af_takes_the_level_of_the_frame_it_uses(void **state) {
+static void plain_af_takes_its_level_from_the_frame_with_the_greater_ratio(void **state) {
     (void)state;
     double dx[2], dy[2];
     make_jacobian(16.0, 1.0, 0.3, 45.0 * pi / 180.0, dx, dy);
     const DipFootprint turned = dip_reference_footprint(dx, dy, 16, false, 0);
     assert_near(turned.lambda, 1.0, 1e-9); // 16 texels divided by 8 probes
     assert_int_equal(turned.probe_count, 8);
-    // The axis that is found is the ellipse's own major axis.
+    // The result must be the major axis of the ellipse.
     assert_near(fabs(turned.major_texels[0]), 16.0 * cos(0.3), 1e-9);
     assert_near(fabs(turned.major_texels[1]), 16.0 * sin(0.3), 1e-9);
 }
@@ -153,8 +154,9 @@ static void degenerate_jacobians_have_defined_footprints(void **state) {
     }
 }
 
-// A footprint of 6 x 0.1 texels has an eta of 16, but six probes are already only one texel apart.
-// If the two largest levels are dropped, a texel is as wide as 4 texels of level 0.
+// A footprint of 6 x 0.1 texels has the capped axis ratio (eta) 16, but the read takes only six
+// probes, because these are already only one texel apart. If the two largest levels are dropped, a
+// texel is as wide as 4 texels of level 0.
 static void probes_are_no_closer_than_texels(void **state) {
     (void)state;
     const double along[2] = {6.0, 0.0};
@@ -186,7 +188,7 @@ int main(void) {
         cmocka_unit_test(trilinear_takes_the_longer_derivative),
         cmocka_unit_test(advanced_af_finds_the_axes_at_any_roll),
         cmocka_unit_test(plain_af_loses_anisotropy_with_roll_as_the_cotangent_predicts),
-        cmocka_unit_test(plain_af_takes_the_level_of_the_frame_it_uses),
+        cmocka_unit_test(plain_af_takes_its_level_from_the_frame_with_the_greater_ratio),
         cmocka_unit_test(the_level_is_finite_for_any_jacobian),
         cmocka_unit_test(degenerate_jacobians_have_defined_footprints),
         cmocka_unit_test(probes_are_no_closer_than_texels),

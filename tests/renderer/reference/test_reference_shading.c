@@ -1,5 +1,6 @@
-// Tests how the reference shades: interpolation against ray casting, level of detail on a plane
-// with a known Jacobian, light, light maps and alpha. Also tests which input it refuses.
+// Tests how the reference shades. Compares interpolation with ray casting, and the level of detail
+// on a plane with a known Jacobian. Also tests light, light maps, alpha, and which input the
+// reference refuses.
 #include "renderer/pipeline/pattern.h"
 #include "tests/renderer/pipeline/screen.h"
 #include "tests/renderer/random.h"
@@ -121,9 +122,9 @@ static void interpolation_agrees_with_ray_casting(void **state) {
     assert_true(told > 40 * DIP_SCREEN * DIP_SCREEN * 99 / 100);
 }
 
-// Makes a ground 1 m below the eye, with x across and w ahead, from w = 1 to w = 16. Its texture
-// coordinates are (x, w), and a unit has 256 texels. On the screen, w = 1 / (y / 32 - 1) and x =
-// (x_px / 32 - 1) w.
+// Makes a ground 1 m below the eye. Its coordinate x points to the right, and w points ahead and
+// runs from 1 to 16. The texture coordinates are (x, w), with 256 texels per unit. On the screen, w
+// = 1 / (y / 32 - 1) and x = (x_px / 32 - 1) w.
 static void make_ground(DipTestScene *scene) {
     dip_screen_begin(scene);
     const int texture = dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 256, 256);
@@ -286,9 +287,9 @@ static void alpha_at_the_cutoff_keeps_the_sample(void **state) {
 }
 
 // Alpha rises from 0 to 1 between u = 1/4 and u = 3/4, over 32 pixels. Alpha reaches the cutoff of
-// 0.375 where column 28 begins, and the cutoff of 0.38 at x = 28.16. Fully covered pixels test
-// alpha at their centre with every step of aa. The converged picture depends on the area that alpha
-// keeps.
+// 0.375 where column 28 begins, and the cutoff of 0.38 at x = 28.16. With every step of aa, fully
+// covered pixels test alpha at their centre. In the converged picture, a pixel depends on the area
+// that alpha keeps.
 static void alpha_is_tested_at_centres_and_converges_to_area(void **state) {
     (void)state;
     static const float cutoffs[] = {0.375f, 0.38f, 0.395f};

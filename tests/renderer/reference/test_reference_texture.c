@@ -150,8 +150,8 @@ static void a_ramp_is_read_exactly(void **state) {
         const double grid[2] = {(floor(column * 256.0) / 256.0 + 0.5) / 256.0, uv[1]};
         read_at(&texture, &trilinear, uv[0], uv[1], 0.0, rgba);
         assert_near(rgba[0] * 255.0, grid[0] * 256.0 - 0.5, 1e-9);
-        // Every level of the ramp is the same ramp. So every blend of levels reads the same value,
-        // but rounds it down by less than 1/256 texel of the coarser level.
+        // Every level of the ramp is the same ramp. So every blend of levels gives the same value,
+        // except that positions are rounded down by less than 1/256 texel of the coarser level.
         const double lambda = random_real(&random, 0.0, 3.0);
         read_at(&texture, &trilinear, uv[0], uv[1], lambda, rgba);
         const double low = column - exp2(floor(lambda) + 1.0) / 256.0;
@@ -167,10 +167,10 @@ static void fill_step(void) {
     }
 }
 
-// 16 probes lie one texel apart, at -7.5..7.5 texels around the read position, on texel centres. If
-// the read position is seven texels left of the step (the left edge of column 32), for example,
-// only the last probe lies right of the step. With another spacing, for example of 16/17 texel, the
-// result would lie in between.
+// The 16 probes of a read lie one texel apart, on texel centres, at -7.5..7.5 texels around the
+// read position. For example, if the read position is seven texels left of the step (the left edge
+// of column 32), only the last probe lies right of the step. With another spacing, for example
+// 16/17 texel, probes would read values between black and white.
 static void probes_lie_at_interval_midpoints(void **state) {
     (void)state;
     fill_step();
@@ -193,7 +193,7 @@ static void probes_lie_at_interval_midpoints(void **state) {
     dip_reference_texture_free(&texture);
 }
 
-static void coordinates_repeat_or_clamp_as_the_address_mode_says(void **state) {
+static void coordinates_repeat_or_clamp_according_to_the_address_mode(void **state) {
     (void)state;
     fill_noise(7, 5);
     DipTextureDef def = make_def(7, 5, DIP_ENCODING_SRGB, DIP_WRAP_REPEAT);
@@ -298,7 +298,7 @@ int main(void) {
         cmocka_unit_test(odd_sizes_are_weighted_by_area),
         cmocka_unit_test(a_ramp_is_read_exactly),
         cmocka_unit_test(probes_lie_at_interval_midpoints),
-        cmocka_unit_test(coordinates_repeat_or_clamp_as_the_address_mode_says),
+        cmocka_unit_test(coordinates_repeat_or_clamp_according_to_the_address_mode),
         cmocka_unit_test(any_coordinate_is_read_from_inside_the_texture),
         cmocka_unit_test(mip_colours_follow_the_level_size),
         cmocka_unit_test(high_performance_drops_levels_by_size),

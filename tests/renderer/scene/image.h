@@ -7,15 +7,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// The error of a frame. Errors are in linear light, 0..1. The error of a pixel is the error of its
-// worst channel.
+// The error of a frame. Errors are in linear light, 0..1. The error of a pixel is the greatest
+// error of its channels.
 typedef struct DipImageError {
     double rms_lin;
     double mean_lin; // mean absolute difference
     double max_lin;
-    double psnr_db;    // from 8-bit sRGB values; infinite if the pictures are equal
+    double psnr_db;    // PSNR of the 8-bit sRGB values; infinite if the pictures are equal
     size_t over_count; // number of pixels whose error is greater than pixel_lin
-    int first_x;       // the first such pixel in reading order; -1 if there is none
+    int first_x; // position of the first of these pixels in reading order; -1 if there is none
     int first_y;
 } DipImageError;
 
@@ -30,13 +30,13 @@ typedef struct DipImageBounds {
     double rms_lin;
     double pixel_lin;    // the bound for the error of a pixel
     double over_share;   // the share of pixels that may exceed pixel_lin
-    double over_max_lin; // the bound for the error of the pixels in over_share
+    double over_max_lin; // greatest allowed error of the pixels that exceed pixel_lin
 } DipImageBounds;
 
-// Returns true if the frame stays within the bounds. Otherwise prints the number of pixels with too
-// great an error, and the first such pixel with its expected and its actual colour. Then also
-// writes <name>_expected.png, <name>_got.png and <name>_difference.png (16 times the absolute
-// difference in linear light) to the working folder.
+// Returns true if the frame's errors stay within the bounds. Otherwise prints the number of pixels
+// whose error exceeds pixel_lin, and the expected and the actual colour of the first of them. In
+// this case, it also writes <name>_expected.png, <name>_got.png and <name>_difference.png (16 times
+// the absolute difference in linear light) to the working folder.
 bool dip_image_check(const char *name, const double *rgb_lin, const DipFrame *frame,
                      const DipImageBounds *bounds);
 

@@ -1,4 +1,5 @@
-// Makes scenes in code: the parts of scenes, and the grazing plane.
+// Makes scenes for tests: the functions that add parts (textures, materials, meshes), and the scene
+// of a plane at a grazing angle.
 #include "tests/renderer/scene/scenes.h"
 
 #include "tests/renderer/random.h"

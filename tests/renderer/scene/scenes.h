@@ -12,7 +12,7 @@
     X(grazing_noise, "a plane to the horizon, 1024-texel noise, rolled by 22.5 degrees")           \
     X(grazing_rolled, "a plane to the horizon, 256-texel checker, rolled by 45 degrees")           \
     X(cube_on_plane, "a closed mesh over a textured plane, and a coplanar decal")                  \
-    X(fence, "alpha-clipped bars, 4 of every 32 texels wide, in front of a plane")                 \
+    X(fence, "alpha-clipped bars, 4 texels wide in every 32, in front of a plane")                 \
     X(soup, "400 random triangles, double-sided, with vertex colours")                             \
     X(slivers, "triangles thinner than a pixel, some thinner than 1/256 pixel")                    \
     X(huge, "triangles that cross the near plane and reach far beyond the guard band")             \
@@ -25,8 +25,7 @@
       "bumps under a light map and the sun; coordinates mirrored, without area, on a sphere")      \
     X(sky, "two layers of cloud over a quad to the horizon")                                       \
     X(water, "pools at two heights that reflect what stands in and around them")                   \
-    X(water_effects,                                                                               \
-      "a pool under clouds by a fence and a bumpy wall: all effects, which the pool mirrors")
+    X(water_effects, "a pool that mirrors clouds, a fence and a bumpy wall: all effects together")
 
 typedef enum DipTestSceneKind {
 #define DIP_TEST_SCENE_ENUM(name, text) DIP_TEST_SCENE_##name,
@@ -71,8 +70,8 @@ void dip_test_scene_begin(DipTestScene *scene);
 // Allocates zeroed memory that the scene owns.
 void *dip_test_scene_alloc(DipTestScene *scene, size_t count, size_t size);
 
-// Each of these functions returns the index of what it added. Texels are opaque; the test may
-// change them afterwards.
+// Each of these functions returns the index of the texture or material that it added. Texels are
+// opaque; the test may change them afterwards.
 int dip_test_scene_add_texture(DipTestScene *scene, DipTestTexture texture, int width, int height);
 int dip_test_scene_add_material(DipTestScene *scene, int colour_texture);
 
@@ -80,6 +79,7 @@ int dip_test_scene_add_material(DipTestScene *scene, int colour_texture);
 // noise as the data texture of a sky. Both textures have linear encoding.
 int dip_test_scene_add_bumps(DipTestScene *scene, int size);
 int dip_test_scene_add_clouds(DipTestScene *scene, int size);
+// Returns the texels of a texture.
 uint8_t *dip_test_scene_texels(DipTestScene *scene, int texture);
 
 // The arrays of a mesh that is being made. Arrays that the test did not ask for are NULL.

@@ -1,5 +1,5 @@
-// Compares the fast renderer with the reference: every step of every setting, on scenes made in
-// code.
+// Compares the pictures of the fast renderer with the pictures of the reference, for every step of
+// every setting, on scenes made in code.
 #include "renderer/reference/reference.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/image.h"
@@ -18,7 +18,7 @@ static const int sizes[][2] = {{160, 120}, {97, 61}};
 
 static const int64_t time_ns = INT64_C(123456789012); // all pictures show this time
 
-// The renderers that both draw one scene: the fast renderer and the reference.
+// A scene in the fast renderer and in the reference.
 typedef struct Pair {
     DipTestScene scene;
     DipReference *reference;
@@ -76,22 +76,24 @@ static void close_pair(Pair *pair) {
 static const DipImageBounds steady = {0.0016, 0.01, 0.0, 0.01};
 
 static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *quality) {
-    // A clipped pixel whose alpha is close to the cutoff may appear or disappear.
+    // Where alpha is close to the cutoff, rounding may decide whether a pixel of a clipped surface
+    // appears.
     static const DipImageBounds fence = {0.004, 0.01, 0.0015, 1.0};
     static const DipImageBounds fence_mips = {0.010, 0.01, 0.0015, 1.0};
     // This scene is bright, so the few pixels that appear or disappear have large errors.
     static const DipImageBounds mirrored_fence = {0.008, 0.01, 0.0015, 1.0};
-    // With sample groups, alpha is tested at more columns of positions. Along the edge of an
-    // upright bar u is constant, so all positions of a column may lie on the edge. Each position
-    // decides only about the samples of one group.
+    // Adaptive AA divides a pixel's samples into groups and tests alpha once per group. So alpha is
+    // tested at more columns of positions. Along the edge of an upright bar, u is constant, so all
+    // positions of a column may lie on the edge. Each position decides about the samples of only
+    // one group.
     static const DipImageBounds fence_passes = {0.004, 0.01, 0.006, 0.5};
     // A vertex position halfway between two steps of 1/256 pixel may be rounded to either step.
     // Slivers show this most.
     static const DipImageBounds slivers = {0.004, 0.01, 0.001, 0.5};
-    // Corners that the guard band cuts are rounded too. On a floor that runs from the eye to the
-    // horizon, an error of 1/512 pixel at such a corner changes 1/w by a tenth at the far edge, and
-    // so changes the level of detail. With AF, the number of probes in the coarser level changes in
-    // steps with the level of detail.
+    // Corners that clipping at the guard band creates are rounded too. On a floor that runs from
+    // the eye to the horizon, an error of 1/512 pixel at such a corner changes 1/w by a tenth at
+    // the far edge, and so changes the level of detail. With AF, the number of probes in the
+    // coarser level changes in steps with the level of detail.
     static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.05};
     static const DipImageBounds huge_af = {0.0025, 0.025, 0.0005, 0.08};
     static const DipImageBounds huge_mips = {0.06, 0.01, 0.03, 1.0};

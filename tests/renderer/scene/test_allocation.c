@@ -1,6 +1,6 @@
-// Tests that a frame allocates nothing. After the first frame of a scene, drawing the scene with
-// any settings and any camera calls no allocator. The linker redirects calls of the allocator to
-// this file (--wrap).
+// Tests that drawing a frame allocates no memory. After the first frame of a scene, drawing the
+// scene with any settings and any camera must not call an allocator. The linker redirects allocator
+// calls to this file (--wrap).
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
 

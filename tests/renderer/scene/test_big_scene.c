@@ -1,5 +1,5 @@
-// Draws a million triangles. Any number of threads gives the same picture, memory depends on the
-// triangles in view, and triangles out of view cost next to nothing.
+// Draws a million triangles. Any number of threads must give the same picture. The memory must
+// depend on the triangles in view. Triangles out of view must cost almost nothing.
 #include "renderer/scene/renderer.h"
 
 #include <setjmp.h>

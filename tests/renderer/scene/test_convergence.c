@@ -31,7 +31,7 @@ typedef struct Bench {
     DipReference *reference;
     DipRenderer *renderer;
     DipSrgbDecodeTable srgb;
-    double *truth; // converged pictures of all frames
+    double *truth; // the converged pictures of all frames, which count as exact
 } Bench;
 
 // A path and a list of settings whose errors must fall from row to row.

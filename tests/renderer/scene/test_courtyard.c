@@ -27,8 +27,8 @@ static const char *const settings[] = {
     "opt=advanced,aa=2,af=16",
 };
 
-// The rounding of positions, and of alpha close to the cutoff, changes single samples of the fence
-// and of small triangles far away. All other pixels are as close as 8 bits allow.
+// Rounding changes single samples: of the fence where alpha is close to the cutoff, and of small
+// triangles far away. All other pixels differ only by the rounding to 8 bits.
 static const DipImageBounds bounds = {0.012, 0.02, 0.002, 1.0};
 
 static const DipReflectionDef reflection = {.width = 80, .height = 60, .level_m = 0.66};

@@ -1,12 +1,11 @@
 // Draws the courtyard along the ambient path, with every step of antialiasing and filtering, every
-// thread count and every instruction set. All pictures must have the hashes of one list, which the
-// gcc and clang builds share. The test fails if a hash is missing or different, or if any work
-// counter differs.
+// thread count and every instruction set. The hashes of all pictures must equal the hashes in a
+// list. The gcc and clang builds share this list. The test fails if a hash is missing or different,
+// or if any work counter differs.
 //
-// Usage: test_determinism LIST [--write] [--every N] [--size WxH]
-// --write creates the list, with the scalar kernels on one thread. --every N draws every N-th frame
-// of the path instead of the list's few frames. It compares the pictures with each other, not with
-// the list.
+// Usage: test_determinism LIST [--write] [--every N] [--size WxH] --write creates the list with the
+// scalar kernels on one thread. --every N draws every N-th frame of the path instead of the list's
+// few frames, and compares the pictures of the runs with each other instead of with the list.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/scene/renderer.h"
@@ -20,7 +19,7 @@ enum { MAX_SETTINGS = 64, FEW = 3, FRAMES_PER_SECOND = 30 };
 typedef struct Options {
     const char *list;
     bool write;
-    int every; // 0: only the list's few frames
+    int every; // value of --every; 0 draws only the frames of the list
     int width;
     int height;
 } Options;

@@ -1,6 +1,6 @@
-// Tests normal maps and the sky's clouds. Compares light with formulas that this file computes,
-// tests that clouds repeat after exact periods, and tests that a scene without these effects spends
-// nothing on them.
+// Tests normal maps and the sky's clouds. Compares light with formulas that this file computes.
+// Tests that clouds repeat after exact periods, and that a scene without these effects takes no
+// work or memory for them.
 #include "renderer/scene/materials/sky.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
@@ -130,7 +130,7 @@ static void check_wall(const int code[3], const float uv0[8], bool from_behind, 
     const DipFrame frame = draw(&stage, 0);
     const Vec m = {(code[0] - 128) / 127.0, (code[1] - 128) / 127.0, (code[2] - 128) / 127.0};
     Vec n = {m[0] * right, m[1] * up, m[2]};
-    if (right == 0.0) { // the coordinates have no area, so the map has no effect
+    if (right == 0.0) { // a triangle without area in texture space: the map has no effect
         n[0] = n[1] = 0.0;
         n[2] = 1.0;
     }
@@ -146,7 +146,7 @@ static void check_wall(const int code[3], const float uv0[8], bool from_behind, 
 
 static const float upright[8] = {0, 2, 2, 2, 2, 0, 0, 0}; // v grows downwards
 
-static void mapped_normals_are_lit_as_the_definition_says(void **state) {
+static void light_on_normal_maps_follows_the_definition(void **state) {
     (void)state;
     static const float mirrored[8] = {2, 2, 0, 2, 0, 0, 2, 0};
     static const float upside_down[8] = {0, 0, 2, 0, 2, 2, 0, 2};
@@ -196,7 +196,7 @@ static void both_sides_of_a_surface_have_the_same_normal(void **state) {
 
 // --- the sky -----------------------------------------------------------------------------------
 
-static void phases_repeat_to_the_bit_and_run_evenly(void **state) {
+static void cloud_phases_repeat_exactly_and_advance_evenly(void **state) {
     (void)state;
     static const double speeds[] = {0.3, -0.2, 1.0, 7.77, -600.0, 0.001};
     for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++) {
@@ -207,8 +207,8 @@ static void phases_repeat_to_the_bit_and_run_evenly(void **state) {
             assert_true(dip_sky_phase(speeds[i], at) ==
                         dip_sky_phase(speeds[i], at + 1000 * period_ns));
         }
-        // In the same interval, clouds must move equally far at time 0 and after 32 years, modulo
-        // one texture width.
+        // In equal intervals, clouds must move equally far (modulo one texture width) at time 0 and
+        // after 32 years.
         const int64_t late = INT64_C(1000000000) * second_ns + 12345;
         for (int frame = 0; frame < 100; frame++) {
             const int64_t dt = frame * INT64_C(16666667);
@@ -228,11 +228,11 @@ static void hash_at(const Stage *stage, int64_t time_ns, char hex[33]) {
     dip_frame_hash(&frame, hex);
 }
 
-static void clouds_repeat_to_the_bit_and_move_between(void **state) {
+static void clouds_move_and_repeat_exactly_after_their_period(void **state) {
     (void)state;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_sky);
     scene.def.sky.layers[0].speed_per_min = 0.5;   // repeats after 120 s
-    scene.def.sky.layers[1].speed_per_min = -0.75; // after 80 s; both together after 240 s
+    scene.def.sky.layers[1].speed_per_min = -0.75; // repeats after 80 s; both after 240 s
     Stage stage = open_stage(false);
     const int64_t period_ns = 240 * second_ns;
     const int64_t long_ns = INT64_C(4166667) * period_ns; // 1e9 s + 80 s
@@ -269,7 +269,7 @@ static void scenes_without_effects_spend_nothing_on_them(void **state) {
     char hash[33], other[33];
     dip_frame_hash(&frame, hash);
     close_stage(&stage);
-    // A normal map on a surface that no light falls on is neither created nor drawn.
+    // If no light falls on a surface, its normal map is neither created nor drawn.
     scene.materials[0].lit = false;
     scene.materials[0].light_map = DIP_NO_TEXTURE;
     stage = open_stage(false);
@@ -298,7 +298,7 @@ static void scenes_without_effects_spend_nothing_on_them(void **state) {
     dip_test_scene_free(&scene);
 }
 
-static void only_effects_of_the_scene_take_memory(void **state) {
+static void only_effects_that_the_scene_has_take_memory(void **state) {
     (void)state;
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
         dip_test_scene_make(&scene, (DipTestSceneKind)kind);
@@ -344,14 +344,14 @@ static void effects_out_of_view_do_not_run(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mapped_normals_are_lit_as_the_definition_says),
+        cmocka_unit_test(light_on_normal_maps_follows_the_definition),
         cmocka_unit_test(normals_that_cancel_out_leave_the_meshs_normal),
         cmocka_unit_test(coordinates_without_area_leave_the_meshs_normal),
         cmocka_unit_test(both_sides_of_a_surface_have_the_same_normal),
-        cmocka_unit_test(phases_repeat_to_the_bit_and_run_evenly),
-        cmocka_unit_test(clouds_repeat_to_the_bit_and_move_between),
+        cmocka_unit_test(cloud_phases_repeat_exactly_and_advance_evenly),
+        cmocka_unit_test(clouds_move_and_repeat_exactly_after_their_period),
         cmocka_unit_test(scenes_without_effects_spend_nothing_on_them),
-        cmocka_unit_test(only_effects_of_the_scene_take_memory),
+        cmocka_unit_test(only_effects_that_the_scene_has_take_memory),
         cmocka_unit_test(effects_out_of_view_do_not_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
-// Draws the courtyard along its paths, once with only the effects that the plan finds necessary,
-// and once with all effects forced. The pictures must be the same, and frames with only the
-// necessary effects must take less work.
+// Tests the plan, which decides per frame which effects are necessary. Draws the courtyard along
+// its paths, once with only these effects, and once with all effects forced. The pictures must be
+// the same, and the planned frames must take less work.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/scene/renderer.h"
@@ -106,7 +106,7 @@ static Sums follow(int path, const char *settings) {
     return sums;
 }
 
-static void planned_frames_equal_forced_frames_at_less_work(void **state) {
+static void planned_frames_equal_forced_frames_and_take_less_work(void **state) {
     (void)state;
     static const char *const settings[] = {"aa=none", "aa=4,taa=on,aaa=on,asd=2,af=8"};
     for (int p = 0; p < PATHS; p++) {
@@ -125,6 +125,6 @@ static void planned_frames_equal_forced_frames_at_less_work(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(planned_frames_equal_forced_frames_at_less_work)};
+        cmocka_unit_test(planned_frames_equal_forced_frames_and_take_less_work)};
     return cmocka_run_group_tests(tests, open_court, close_court);
 }

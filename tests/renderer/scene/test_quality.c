@@ -80,7 +80,7 @@ static void bad_settings_are_refused(void **state) {
 }
 
 // The table in docs/picture.md, Adaptive AA: the number of sample groups, indexed by samples per
-// pixel and samples per group. 0 means that the table does not have the pair.
+// pixel and samples per group. 0 means that the table lacks the pair.
 static void only_pairs_of_aa_and_asd_in_the_table_are_accepted(void **state) {
     (void)state;
     static const char *const aa[] = {"none", "2", "4", "6", "8"};

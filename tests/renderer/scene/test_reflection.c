@@ -1,6 +1,6 @@
 // Compares the reflection in water with the mirrored scene drawn directly, and tests hard cases of
-// reflections. Also tests the plan: effects that the plan leaves out cannot be visible, and a scene
-// without water costs nothing.
+// reflections. Also tests the plan, which decides per frame which effects are drawn: effects that
+// it leaves out must not be visible, and a scene without water must not take work for reflections.
 #include "renderer/reference/reference.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/random.h"
@@ -112,8 +112,8 @@ static void decode_frame(const DipFrame *frame, double *rgb_lin) {
 
 // The first renderer draws water at a random level, random triangles above the water and others
 // below. The second renderer draws only the triangles above, mirrored by their object's transform.
-// The first renderer shows its mirrored picture in a corner for this test. The corner must equal
-// the second renderer's picture.
+// For this test, the first renderer also shows its mirrored picture in a corner of the frame. This
+// corner must equal the second renderer's picture.
 static bool mirrors_at(Random *random, int index, const char *settings) {
     static DipTestScene scene;
     static double expected[MIRRORED_WIDTH * MIRRORED_HEIGHT * 3];
@@ -148,7 +148,7 @@ static bool mirrors_at(Random *random, int index, const char *settings) {
     DipFrame corner = draw(&stage, &pose);
     corner.width = MIRRORED_WIDTH;
     corner.height = MIRRORED_HEIGHT;
-    // A vertex position halfway between two steps may be rounded to either step.
+    // A vertex position halfway between two steps of 1/256 pixel may be rounded to either step.
     static const DipImageBounds bounds = {0.02, 0.02, 0.01, 1.0};
     char name[64];
     snprintf(name, sizeof name, "mirrored_%d", index);
@@ -172,7 +172,8 @@ static void the_mirrored_picture_shows_the_mirrored_scene(void **state) {
 
 // --- hard cases --------------------------------------------------------------------------------
 
-// Makes a closed grey room that is flooded up to 0.3 m, in front of a background of another colour.
+// Makes a closed grey room that is flooded up to 0.3 m. The background behind the room has another
+// colour.
 static void make_room(DipTestScene *scene) {
     static const float sides[6][9] = {
         {-4, -1, -4, 8, 0, 0, 0, 4, 0}, {4, -1, 4, -8, 0, 0, 0, 4, 0},
@@ -233,8 +234,8 @@ static void no_background_shows_at_the_waterline(void **state) {
     dip_test_scene_free(&scene);
 }
 
-// The closer the eye is to the water's plane, the less of the picture the water covers. From above
-// and from below, pictures must converge to the picture of an eye in the plane.
+// When the eye approaches the water's plane, the water covers less and less of the picture. From
+// above and from below, the pictures must converge to the picture that an eye in the plane sees.
 static void pictures_are_continuous_as_the_eye_crosses_the_water(void **state) {
     (void)state;
     static DipTestScene scene;

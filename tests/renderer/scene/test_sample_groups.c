@@ -1,5 +1,6 @@
-// Tests the sample patterns of temporal AA and the sample groups of adaptive AA. Compares them with
-// coverage computed in exact integers and with shading computed in this file.
+// Tests the sample patterns of temporal AA and the sample groups of adaptive AA. (Adaptive AA
+// divides the samples of a pixel into groups and shades clipped surfaces once per group.) Compares
+// pictures with coverage computed in exact integers and with shading computed in this file.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/reference/reference.h"
@@ -23,7 +24,8 @@ enum { SIDE = DIP_SCREEN, PIXELS = SIDE * SIDE }; // one tile
 
 static const DipOracleRegion region = {0, 0, SIDE, SIDE};
 
-// The pairs of the table in docs/picture.md, Adaptive AA: samples per pixel, and samples per group.
+// The allowed pairs of samples per pixel and samples per group, from the table in docs/picture.md,
+// Adaptive AA.
 static const int pairs[][2] = {{1, 1}, {2, 1}, {2, 2}, {4, 1}, {4, 2}, {6, 1},
                                {6, 2}, {6, 3}, {8, 1}, {8, 2}, {8, 4}};
 enum { PAIRS = sizeof pairs / sizeof pairs[0] };
@@ -153,8 +155,8 @@ static void sample_groups_divide_all_samples_and_lie_apart(void **state) {
 
 enum { TRIANGLES = 5 };
 
-// Makes white triangles on black, and counts the samples of the union that they cover in each
-// pixel.
+// Makes white triangles on black. Counts, for each pixel, how many samples of both patterns
+// together the triangles cover.
 static void make_triangles(Random *random, const Union *both, DipTestScene *scene,
                            int covered[PIXELS]) {
     dip_screen_begin(scene);
@@ -271,7 +273,8 @@ static void place_as_colour(DipFragmentBatch *batch) {
     }
 }
 
-// Answers a clip test. The answer depends on every bit of the position, in units of 1/256 pixel.
+// Returns the result of a clip test at a position, in units of 1/256 pixel. The result depends on
+// every bit of the position.
 static bool is_there(int x, int y) {
     return ((uint32_t)(x * 40503 + y * 10007) * 2654435761u) >> 31;
 }
@@ -296,7 +299,7 @@ static DipMesh *mesh_of(const DipOracleTriangle *triangle, float z) {
 typedef struct Expected {
     double rgb[PIXELS][3];
     uint64_t asked;
-    uint64_t whole; // number of covered samples of the clipped triangle
+    uint64_t whole; // number of samples that the clipped triangle covers
 } Expected;
 
 // Computes the mean position of some samples, in units of 1/256 pixel, rounded down.
@@ -387,7 +390,7 @@ static void every_sample_group_is_clipped_and_shaded_at_its_centroid(void **stat
         const DipPatternKind kind = (DipPatternKind)(t / PAIRS % DIP_PATTERN_KINDS);
         const DipSamplePattern *pattern = dip_sample_pattern_of(pair[0], kind);
         if (pair[0] == pair[1]) {
-            continue; // the next test shows that one group equals no groups
+            continue; // the next test shows that one group equals drawing without groups
         }
         DipMesh *meshes[2];
         for (int i = 0; i < 2; i++) {

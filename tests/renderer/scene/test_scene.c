@@ -1,5 +1,4 @@
-// Tests the creation of scenes: bounds, and descriptions that are refused because they are
-// inconsistent.
+// Tests the creation of scenes: computes bounds, and refuses inconsistent descriptions.
 #include "renderer/scene/scene.h"
 #include "tests/renderer/scene/scenes.h"
 

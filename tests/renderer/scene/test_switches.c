@@ -1,6 +1,6 @@
-// Tests settings that change how a picture is made, on the courtyard. Without instancing, the
-// picture has the same bits and takes more memory. With optimised textures, the picture takes less
-// work.
+// Tests settings that change how a picture of the courtyard is computed. Without instancing, the
+// picture must have the same bits and take more memory. With optimised textures, the picture must
+// take less work.
 #include "assets/model.h"
 #include "campaths/campath.h"
 #include "renderer/scene/renderer.h"
@@ -93,7 +93,7 @@ static void counters_show_what_instancing_saves(void **state) {
     assert_int_equal(again.geometry_bytes, shared.geometry_bytes);
 }
 
-static void advanced_optimisation_saves_work(void **state) {
+static void advanced_texture_optimisation_saves_work(void **state) {
     (void)state;
     static const char *const filters[] = {"af=none", "af=4", "af=16", "af=16,aaf=on"};
     for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
@@ -140,7 +140,7 @@ int main(void) {
         cmocka_unit_test(compressed_textures_cost_nothing_unless_shown), // must be the first test
         cmocka_unit_test(pictures_do_not_depend_on_instancing),
         cmocka_unit_test(counters_show_what_instancing_saves),
-        cmocka_unit_test(advanced_optimisation_saves_work),
+        cmocka_unit_test(advanced_texture_optimisation_saves_work),
     };
     return cmocka_run_group_tests(tests, open_court, close_court);
 }

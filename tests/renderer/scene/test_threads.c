@@ -1,5 +1,5 @@
 // Tests that any number of threads draws the same picture and counts the same work. Also tests that
-// drawing again, or at another size, does not change other pictures.
+// drawing a scene again, or at another size, does not change later pictures.
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
 
@@ -124,8 +124,8 @@ static const char *const pairs[][2] = {{"aa=8,af=16", "aa=4,af=16"},
                                        {"opt=standard,miplod=performance", "aa=4,mipdebug=on"},
                                        {"aa=4,gi=off", "aa=8"}};
 
-// Shading must take the same work with and without the other pane. Geometry keeps every triangle
-// that either pane may show.
+// With and without the other pane, shading must take the same work. The geometry stage may take
+// more work for a pair, because it keeps every triangle that one of the panes may show.
 static void compare_work(const DipFrame *alone, const DipFrame *paired) {
     assert_int_equal(paired->counters.fragments_shaded, alone->counters.fragments_shaded);
     assert_int_equal(paired->counters.samples_shown, alone->counters.samples_shown);
