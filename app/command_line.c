@@ -62,8 +62,8 @@ static bool unknown_command(const DipCommandList *list, const char *word, DipErr
                                   word);
 }
 
-// Fails: `first` begins two-word commands, but none of them has this second word. A NULL `second`
-// means that the second word is missing.
+// Reports an error: there are commands of two words that begin with `first`, but `second` is not
+// the second word of any of them. A NULL `second` means that the second word is missing.
 static bool unknown_second_word(const DipCommandList *list, const char *first, const char *second,
                                 DipError *err) {
     char known[256] = "";

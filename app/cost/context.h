@@ -18,8 +18,8 @@ typedef struct DipCostContext {
     const char *cache; // Folder of the cached truths; NULL for no cache.
     DipReference *reference;
     // Indexed by the step of the setting gi (instancing). Renderer [0] draws the rows with gi=off
-    // and keeps the copies of meshes that these rows need. Renderer [1] draws all other rows, so
-    // that all of these use the same memory.
+    // and keeps the copies of meshes that these rows need. Renderer [1] draws all other rows.
+    // They share one renderer so that they are all drawn in the same memory.
     DipRenderer *renderers[2];
 } DipCostContext;
 

@@ -1,4 +1,5 @@
-// Runs the phases: warm-up, settling, and rounds of visits in shuffled order.
+// Runs a measurement: draws everything once (warm-up), waits until times are steady (settling),
+// then runs rounds. In each round, every subject is timed once (a visit), in shuffled order.
 #include "app/measure/timing.h"
 
 #include "app/measure/internal/random.h"
@@ -132,8 +133,9 @@ static void keep_round(const DipTimingDef *def, int round, const double *round_m
     }
 }
 
-// Shuffles the subjects even if the caller knows the round's times. Later rounds then have the same
-// order as if this round had been run.
+// If the caller already has the round's times, from an earlier measurement, no subject is timed.
+// The subjects are shuffled all the same, so that later rounds have the same order as if this round
+// had been run.
 static bool run_round(Timing *t, int round, double *ms, DipError *err) {
     const DipTimingCalls *calls = t->calls;
     const double *known = calls->known_round ? calls->known_round(calls->context, round) : NULL;

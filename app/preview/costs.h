@@ -35,8 +35,8 @@ typedef struct DipCosts {
     char heading[256]; // Scene, size, threads and instruction set.
     DipCostsRow rows[DIP_COST_MAX_SWEEPS];
     int row_count;
-    // One piece of advice for each budget of the report. If the report has no budget, one piece of
-    // advice for 16.6 ms.
+    // One piece of advice for each budget of the report. If the report has no budget, there is
+    // one piece of advice, for 16.6 ms.
     DipCostsAdvice advice[DIP_COST_MAX_BUDGETS];
     int advice_count;
     DipCostsAdvice baseline; // Time and FLIP of the baseline's settings; `found` is true only if
