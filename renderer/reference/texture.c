@@ -43,7 +43,8 @@ static void fill_level(DipRefTexture *texture, int level) {
     double *texel = texture->levels[level];
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++, texel += 4) {
-            // x * n / m is exact where it is a whole number, so even sizes average whole texels.
+            // x * finer_width / width is exact where it is a whole number, so even sizes average
+            // whole texels.
             const double from[2] = {(double)x * finer_width / width,
                                     (double)y * finer_height / height};
             const double to[2] = {(x + 1.0) * finer_width / width,
@@ -59,10 +60,10 @@ bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def
     texture->def = def;
     if (!def->rgba8 || def->width < 1 || def->width > 8192 || def->height < 1 ||
         def->height > 8192) {
-        return dip_error_set(
-            err, DIP_ERROR_RANGE, NULL, 0, def->name,
-            "a texture of %dx%d is invalid: the size must be 1..8192 each, with texels", def->width,
-            def->height);
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, def->name,
+                             "a texture of %dx%d is invalid: it needs texels, and its width and "
+                             "height must be 1..8192",
+                             def->width, def->height);
     }
     for (int i = 0; i < 256; i++) {
         const double code = i / 255.0;

@@ -80,11 +80,11 @@ enum { DIP_MAX_FRAMES_AT_ONCE = 4 };
 
 // Draws one frame with each of several renderers, all from one pose. frames[i] has the same bits as
 // if dip_renderer_draw drew it with renderers[i]. Drawing the frames together takes less time,
-// because each worker draws the same tile of every frame in turn. If the renderers differ only in
-// samples and shading (in any setting but gi), the geometry stage also runs once for all frames.
-// The geometry stage's time and counters are then part of every frame. count is
-// 1..DIP_MAX_FRAMES_AT_ONCE. The renderers must be distinct and on one pool. Errors are those of
-// dip_renderer_draw. A count out of range also fails with RANGE.
+// because each worker draws the same tile of every frame in turn. If the renderers have the same gi
+// and differ in nothing but their other settings, which affect only samples and shading, the
+// geometry stage runs only once for all frames. The geometry stage's time and counters are then
+// part of every frame. count is 1..DIP_MAX_FRAMES_AT_ONCE. The renderers must be distinct and on
+// one pool. Errors are those of dip_renderer_draw. A count out of range also fails with RANGE.
 DIP_API bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count,
                                       const DipScene *scene, const DipPose *pose, int64_t time_ns,
                                       DipFrame *const *frames, DipError *err);

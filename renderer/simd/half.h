@@ -9,8 +9,9 @@
 
 // The number of lanes of a half vector is the number of doubles that fit into a vector of vec.h. Vd
 // and Vl have lanes of 64 bits; Hf, Hi and Hu have the same number of lanes of 32 bits. If a half
-// vector has two lanes, the 32-bit types have two further lanes, which loads set to 0 and no code
-// uses. A condition is a vector with 0 (false) or -1 (true) per lane; comparisons return it.
+// vector has two lanes, the 32-bit types have two further lanes; the load functions set them to 0,
+// and no code uses them. A condition is a vector with 0 (false) or -1 (true) per lane; comparisons
+// return it.
 enum { DIP_HALF_LANES = DIP_LANES > 1 ? DIP_LANES / 2 : 1 };
 
 #define VEC_HALF_BYTES (DIP_LANES == 4 ? 16 : 4 * (DIP_LANES > 1 ? DIP_LANES / 2 : 1))

@@ -13,11 +13,13 @@
 enum {
     TRIANGLE_RUN = 1024, // number of triangles for which a job takes space at a time
     BLOCK_RUN = 32,      // number of bin blocks that a job takes at a time
-    // A run is the space that a job takes at a time. At most this much of its space, counted in
-    // triangles, stays unused.
+    // Greatest number of triangles for which space stays unused at the end of a run. A run is the
+    // space for TRIANGLE_RUN triangles that a job takes at a time.
     TRIANGLE_RUN_WASTE = DIP_SETUP_BATCH + DIP_SETUP_EXCESS,
     LEAST_SLACK = 4096, // smallest slack (DipGeometry.slack), in triangles
-    MEAN_BIN_TILES = 2, // bin entries per triangle, if there are very many triangles
+    // Assumed mean number of bin entries per triangle. It limits the space for entries if the worst
+    // case would need more.
+    MEAN_BIN_TILES = 2,
 };
 
 // Margin around the region, so that rounding in the clipper never rejects a visible triangle.

@@ -36,7 +36,9 @@ typedef struct DipTilePass {
     const DipKernels *kernels;
     const DipPass *pass;
     const DipSamplePattern *pattern;
-    const DipGeometry *geometry; // of this pipeline or of another pipeline that shares its geometry
+    // This pipeline's own geometry, or the geometry of another pipeline if both are drawn together
+    // and share it.
+    const DipGeometry *geometry;
     DipSampleGroups groups_room;
     // &groups_room, or NULL if alpha-clipped draws have one sample group.
     const DipSampleGroups *groups;

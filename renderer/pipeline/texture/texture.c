@@ -21,13 +21,14 @@ static uint32_t quantise(double linear, int max) {
     return (uint32_t)(int32_t)(sqrt(clamped) * max + 0.5);
 }
 
-// Returns the multiple of 32 for which the sum with `low` is closest to code16.
+// The lowest 5 bits of the halves for red and green belong to blue (`low`). Returns the multiple of
+// 32, for the upper 11 bits, that is closest to code16 after `low` is added.
 static uint32_t beside(uint32_t code16, uint32_t low) {
     const uint32_t at = code16 + 16 < low ? 0 : (code16 + 16 - low) & ~31u;
     return at > 65504 ? 65504 : at;
 }
 
-// Packs a texel from 16-bit roots of red and green and a 10-bit root of blue.
+// Packs a texel from square roots of linear light: 16 bits for red and green, 10 bits for blue.
 static uint32_t join_codes(uint32_t red16, uint32_t green16, uint32_t blue10) {
     const uint32_t high = blue10 >> 5;
     const uint32_t low = blue10 & 31;
@@ -113,7 +114,7 @@ static bool allocate_texels(DipTexture *texture, bool with_alpha) {
 }
 
 // Tables for the 256 possible values (codes) of a picture's channel: the linear light or alpha for
-// the mip filter, and the roots for packed texels.
+// the mip filter, and the square roots of linear light for packed texels.
 typedef struct CodeTables {
     float colour[256];
     float alpha[256];
@@ -367,8 +368,8 @@ static bool begin_jobs(ChainJobs *jobs, CodeTables **tables, const DipTextureDef
     return true;
 }
 
-// Makes the bands of one chain and the rest of the chain before it at the same time. Afterwards the
-// function frees the float rows of the earlier chain.
+// Makes the bands of jobs->bands and, at the same time, the levels from 2 on of jobs->rest, which
+// is the previous chain. Afterwards the function frees the float rows of the previous chain.
 static void run_chains(ChainJobs *jobs, DipPool *pool) {
     dip_pool_run(pool, 1 + (jobs->bands ? jobs->bands->band_count : 0), run_chain_task, jobs);
     if (jobs->rest) {
