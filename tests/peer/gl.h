@@ -11,8 +11,8 @@
 // The extension EXT_texture_filter_anisotropic and OpenGL 4.6 use the same number.
 #define DIP_GL_TEXTURE_MAX_ANISOTROPY 0x84FE
 
-// The OpenGL functions that the peer calls. X(name without "gl", NAME in the function's pointer
-// type)
+// The OpenGL functions that the peer (our OpenGL renderer on llvmpipe) calls. X(name, NAME): glname
+// is the function, and PFNGLNAMEPROC is the type of a pointer to it.
 #define DIP_GL_LIST(X)                                                                             \
     X(ActiveTexture, ACTIVETEXTURE)                                                                \
     X(AttachShader, ATTACHSHADER)                                                                  \

@@ -1,6 +1,6 @@
-// Tests how the reference shades. Compares interpolation with ray casting, and the level of detail
-// on a plane with a known Jacobian. Also tests light, light maps, alpha, and which input the
-// reference refuses.
+// Tests how the reference shades. Compares interpolation with ray casting. On a plane whose
+// Jacobian is known, compares the level of detail with the value that follows from the Jacobian.
+// Also tests light, light maps, alpha, and which input the reference refuses.
 #include "renderer/pipeline/pattern.h"
 #include "tests/renderer/pipeline/screen.h"
 #include "tests/renderer/random.h"

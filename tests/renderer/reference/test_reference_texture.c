@@ -278,8 +278,8 @@ static void high_performance_drops_levels_by_size(void **state) {
         DipRefTexture texture;
         open_texture(&texture, &def);
         const int level = sizes[s][2];
-        // This position is closer to the corner than the centre of the first texel. A finer level
-        // would read another texel there.
+        // This position lies between the texture's corner and the centre of the level's first
+        // texel. A finer level would read another texel there.
         double expected[4], got[4];
         dip_reference_texel(&texture, level, 0, 0, expected);
         read_at(&texture, &filter, 0.25 / texture.widths[level], 0.25 / texture.heights[level],

@@ -286,8 +286,9 @@ static void make_light_map(DipTestScene *scene) {
     }
 }
 
-// Adds a quad with all arrays. Its normals point along +z, or along +y if the quad lies on the
-// ground. Texture coordinates follow the order of the positions.
+// Adds a quad that has normals, colours and both sets of texture coordinates. Its normals point
+// along +z, or along +y if the quad lies on the ground. Texture coordinates follow the order of the
+// positions.
 static void add_bumpy_quad(DipTestScene *scene, int material, const float positions[12],
                            const float uv0[8], bool lies) {
     const DipTestMesh mesh = dip_test_scene_add_mesh(
