@@ -138,7 +138,7 @@ static void a_grid_excludes_a_scene(void **state) {
     assert_refused(DIP_ERROR_MISSING, "--grid-out-of-view", WORDS("--grid-out-of-view"));
 }
 
-static void plots_need_an_axis_and_one_program(void **state) {
+static void plots_are_refused_without_an_axis_or_with_two_programs(void **state) {
     (void)state;
     assert_refused(DIP_ERROR_MISSING, "--svg", WORDS("--svg", "s", "--sets", "aa=2;aa=2,af=4"));
     assert_refused(DIP_ERROR_CONFLICT, "--svg", WORDS("--svg", "s", "--vs", "/bin/sh"));
@@ -177,7 +177,7 @@ int main(void) {
         cmocka_unit_test(lists_have_at_most_32_values),
         cmocka_unit_test(too_many_combinations_are_refused),
         cmocka_unit_test(a_grid_excludes_a_scene),
-        cmocka_unit_test(plots_need_an_axis_and_one_program),
+        cmocka_unit_test(plots_are_refused_without_an_axis_or_with_two_programs),
         cmocka_unit_test(session_loads_a_scene_only_if_it_is_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -178,7 +178,7 @@ static void ssim_agrees_with_another_program(void **state) {
     assert_true(ssim(dip_pattern_hash, inverse_hash) < -0.5);
 }
 
-static void identical_pictures_are_1(void **state) {
+static void identical_pictures_have_an_ssim_of_1(void **state) {
     (void)state;
     assert_true(ssim(dip_pattern_hash, dip_pattern_hash) == 1.0);
     base = 255;
@@ -251,7 +251,7 @@ int main(void) {
         cmocka_unit_test(ssim_of_flat_pictures_follows_from_their_means),
         cmocka_unit_test(ssim_of_stripes_and_their_mean),
         cmocka_unit_test(ssim_agrees_with_another_program),
-        cmocka_unit_test(identical_pictures_are_1),
+        cmocka_unit_test(identical_pictures_have_an_ssim_of_1),
         cmocka_unit_test(static_error_and_flicker_add_up),
         cmocka_unit_test(static_error_and_flicker_of_alternating_errors),
     };
