@@ -1,6 +1,7 @@
 // A camera path in memory: the rules for its keys, its statistics, and the pose at a time.
 #include "campaths/campath_private.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/trig.h"
 
@@ -87,6 +88,7 @@ void dip_campath_finish(DipCamPath *path) {
 
 bool dip_campath_create(const DipCamKey *keys, size_t key_count, int64_t period_ns,
                         DipCamPath **path, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     *path = NULL;
     if (key_count < 1 || key_count > DIP_CAMPATH_MAX_KEYS) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "keys", "%zu keys, accepted 1..%d",
@@ -168,6 +170,7 @@ static void slerp(const double a[4], const double b[4], double u, double q[4]) {
 }
 
 void dip_campath_sample(const DipCamPath *path, int64_t time_ns, DipPose *pose) {
+    DIP_FP_MODE_SCOPE();
     int64_t phase_ns = time_ns % path->duration_ns;
     if (phase_ns < 0) {
         phase_ns += path->duration_ns;

@@ -1,6 +1,7 @@
 // Loads and saves camera path files, and recognises their format.
 #include "campaths/campath_private.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/file.h"
 
 #include <errno.h>
@@ -11,6 +12,7 @@
 
 bool dip_campath_parse(const void *bytes, size_t size_bytes, const char *name, DipCamPath **path,
                        DipError *err) {
+    DIP_FP_MODE_SCOPE();
     *path = NULL;
     if (size_bytes == 0) {
         return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL,

@@ -1,6 +1,7 @@
 // Creates an orbit about a bounding box, for models that come without a path.
 #include "campaths/campath_private.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/trig.h"
 
 #include <math.h>
@@ -17,6 +18,7 @@ static const double MARGIN = 1.05;
 static const double MIN_RADIUS_M = 0.5;
 
 DipCamOrbitDef dip_campath_default_orbit(void) {
+    DIP_FP_MODE_SCOPE();
     return (DipCamOrbitDef){
         .min_world = {-0.5, -0.5, -0.5},
         .max_world = {0.5, 0.5, 0.5},
@@ -92,6 +94,7 @@ static bool check(const DipCamOrbitDef *def, DipError *err) {
 }
 
 bool dip_campath_orbit(const DipCamOrbitDef *def, DipCamPath **path, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     *path = NULL;
     if (!check(def, err)) {
         return false;

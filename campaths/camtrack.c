@@ -1,6 +1,7 @@
 // Decides which camera path plays.
 #include "campaths/camtrack.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/assert.h"
 
 DipCamTrack dip_camtrack_make(bool reset_on_switch) {
@@ -37,6 +38,7 @@ int64_t dip_camtrack_time(const DipCamTrack *track, int64_t play_ns) {
 }
 
 bool dip_camtrack_pose(const DipCamTrack *track, int64_t play_ns, DipPose *pose) {
+    DIP_FP_MODE_SCOPE();
     const DipCamCategory *category = playing(track, track->active);
     if (!category->path) {
         return false;

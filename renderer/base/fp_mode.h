@@ -1,29 +1,45 @@
-// The floating-point mode of every thread that draws: round to nearest, subnormals kept.
+// The floating-point mode in which Diptych computes: round to nearest, subnormals kept.
 //
-// A host program may have set flush-to-zero; linking with fast-math start-up code sets it, for
-// example. Pictures must not depend on the host's mode. The pool therefore sets this mode for its
-// own work and restores the caller's mode afterwards.
+// A host program may have chosen another rounding mode, or flush-to-zero; start-up code that
+// -ffast-math links in sets flush-to-zero, for example. Results must not depend on the host's mode.
+// Every public function that computes with floats therefore sets this mode first and restores the
+// caller's mode before it returns. If the mode is set already, both cost a few nanoseconds.
+//
+// Compilers do not know that arithmetic depends on the mode, so they may move it across the change
+// of mode. The functions below keep them from moving loads and stores. A public function whose
+// floating-point parameters or results are values, not memory, must also pin these values with
+// DIP_FP_PIN after the scope begins and before it ends.
 #ifndef DIP_RENDERER_BASE_FP_MODE_H
 #define DIP_RENDERER_BASE_FP_MODE_H
 
-#include <stdint.h>
+#include "renderer/base/platform.h"
 
-#if defined(__x86_64__)
-#include <xmmintrin.h>
-#endif
+#include <stdint.h>
 
 typedef uint64_t DipFpMode;
 
+#if defined(__SSE2__)
+// MXCSR: exceptions masked, round to nearest, neither FTZ nor DAZ. The low six bits are flags of
+// past exceptions, which change nothing.
+enum { DIP_FP_MODE_MXCSR = 0x1f80, DIP_FP_MODE_MXCSR_FLAGS = 0x3f };
+#endif
+
 // Sets the mode of the calling thread. Returns the thread's previous mode.
 static inline DipFpMode dip_fp_mode_set(void) {
-#if defined(__x86_64__)
-    const unsigned before = _mm_getcsr();
-    _mm_setcsr(0x1f80); // exceptions masked, round to nearest, neither FTZ nor DAZ
+#if defined(__SSE2__)
+    uint32_t before;
+    const uint32_t ours = DIP_FP_MODE_MXCSR;
+    __asm__ volatile("stmxcsr %0" : "=m"(before) : : "memory");
+    if ((before & ~(uint32_t)DIP_FP_MODE_MXCSR_FLAGS) != ours) {
+        __asm__ volatile("ldmxcsr %0" : : "m"(ours) : "memory");
+    }
     return before;
 #elif defined(__aarch64__)
     uint64_t before;
-    __asm__ volatile("mrs %0, fpcr" : "=r"(before));
-    __asm__ volatile("msr fpcr, %0" : : "r"((uint64_t)0));
+    __asm__ volatile("mrs %0, fpcr" : "=r"(before) : : "memory");
+    if (before) {
+        __asm__ volatile("msr fpcr, %0" : : "r"((uint64_t)0) : "memory");
+    }
     return before;
 #else
     return 0;
@@ -32,13 +48,37 @@ static inline DipFpMode dip_fp_mode_set(void) {
 
 // Restores a mode that dip_fp_mode_set returned.
 static inline void dip_fp_mode_restore(DipFpMode mode) {
-#if defined(__x86_64__)
-    _mm_setcsr((unsigned)mode);
+#if defined(__SSE2__)
+    const uint32_t before = (uint32_t)mode;
+    if ((before & ~(uint32_t)DIP_FP_MODE_MXCSR_FLAGS) != DIP_FP_MODE_MXCSR) {
+        __asm__ volatile("ldmxcsr %0" : : "m"(before) : "memory");
+    }
 #elif defined(__aarch64__)
-    __asm__ volatile("msr fpcr, %0" : : "r"(mode));
+    if (mode) {
+        __asm__ volatile("msr fpcr, %0" : : "r"(mode) : "memory");
+    }
 #else
     (void)mode;
 #endif
 }
+
+static inline void dip_fp_mode_leave(const DipFpMode *mode) {
+    dip_fp_mode_restore(*mode);
+}
+
+// Sets the mode until the end of the block in which this stands.
+#define DIP_FP_MODE_SCOPE()                                                                        \
+    __attribute__((cleanup(dip_fp_mode_leave))) const DipFpMode dip_fp_mode_before =               \
+        dip_fp_mode_set()
+
+// Makes every computation that uses this variable wait until here, and every computation that
+// assigns it happen before here. The variable is a float or a double.
+#if defined(__SSE2__)
+#define DIP_FP_PIN(variable) __asm__ volatile("" : "+x"(variable) : : "memory")
+#elif defined(__aarch64__)
+#define DIP_FP_PIN(variable) __asm__ volatile("" : "+w"(variable) : : "memory")
+#else
+#define DIP_FP_PIN(variable) __asm__ volatile("" : "+m"(variable) : : "memory")
+#endif
 
 #endif

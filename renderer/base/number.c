@@ -1,6 +1,7 @@
 // Conversion of numbers from and to text.
 #include "renderer/base/number.h"
 
+#include <fenv.h>
 #include <limits.h>
 #include <locale.h>
 #include <math.h>
@@ -8,18 +9,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-// strtod and printf take the decimal point from the thread's locale. glibc's "C" locale object is
-// static, so newlocale allocates no memory there.
-static locale_t enter_c_locale(locale_t *made) {
-    *made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    return uselocale(*made); // if newlocale failed, uselocale((locale_t)0) changes nothing
+// What the caller's thread had set, and what strtod and printf depend on: the decimal point comes
+// from the locale, and the last digit from the rounding mode. (They read the rounding mode of the
+// x87 unit, which DIP_FP_MODE_SCOPE leaves alone.)
+typedef struct CallerState {
+    fenv_t environment;
+    locale_t locale;
+    locale_t made;
+} CallerState;
+
+// glibc's "C" locale object is static, so newlocale allocates no memory there.
+static CallerState enter_c_locale(void) {
+    CallerState caller;
+    fegetenv(&caller.environment);
+    fesetenv(FE_DFL_ENV);
+    caller.made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    caller.locale = uselocale(caller.made); // uselocale((locale_t)0) changes nothing
+    return caller;
 }
 
-static void leave_c_locale(locale_t previous, locale_t made) {
-    uselocale(previous);
-    if (made) {
-        freelocale(made);
+static void return_to_caller(CallerState caller) {
+    uselocale(caller.locale);
+    if (caller.made) {
+        freelocale(caller.made);
     }
+    fesetenv(&caller.environment);
 }
 
 static size_t count_digits(const char *text, const char *end) {
@@ -66,11 +80,10 @@ bool dip_number_parse(const char *text, size_t length, double *value) {
     }
     memcpy(copy, text, length);
     copy[length] = '\0';
-    locale_t made;
-    const locale_t previous = enter_c_locale(&made);
+    const CallerState caller = enter_c_locale();
     char *end;
     const double number = strtod(copy, &end);
-    leave_c_locale(previous, made);
+    return_to_caller(caller);
     if (*end != '\0' || !isfinite(number)) {
         return false;
     }
@@ -96,8 +109,7 @@ bool dip_integer_parse(const char *text, size_t length, int *value) {
 }
 
 size_t dip_number_format(double value, char buffer[DIP_NUMBER_TEXT_SIZE]) {
-    locale_t made;
-    const locale_t previous = enter_c_locale(&made);
+    const CallerState caller = enter_c_locale();
     int length = 0;
     for (int digits = 15; digits <= 17; digits++) {
         length = snprintf(buffer, DIP_NUMBER_TEXT_SIZE, "%.*g", digits, value);
@@ -105,6 +117,6 @@ size_t dip_number_format(double value, char buffer[DIP_NUMBER_TEXT_SIZE]) {
             break;
         }
     }
-    leave_c_locale(previous, made);
+    return_to_caller(caller);
     return (size_t)length;
 }

@@ -1,6 +1,8 @@
 // sRGB transfer functions and tables.
 #include "renderer/base/srgb.h"
 
+#include "renderer/base/fp_mode.h"
+
 #include <math.h>
 
 // Returns x^(1/5) for 0 < x <= 1.2, by Newton's method. The iteration starts above the root and
@@ -18,7 +20,7 @@ static double fifth_root(double x) {
     return y;
 }
 
-double dip_srgb_decode(double encoded) {
+static double decode(double encoded) {
     if (encoded <= 0.04045) {
         return encoded / 12.92;
     }
@@ -27,21 +29,31 @@ double dip_srgb_decode(double encoded) {
     return base * base * root * root; // base^2.4
 }
 
+double dip_srgb_decode(double encoded) {
+    DIP_FP_MODE_SCOPE();
+    DIP_FP_PIN(encoded);
+    double linear = decode(encoded);
+    DIP_FP_PIN(linear);
+    return linear;
+}
+
 void dip_srgb_decode_table(DipSrgbDecodeTable *table) {
+    DIP_FP_MODE_SCOPE();
     for (int i = 0; i < 256; i++) {
-        table->linear[i] = dip_srgb_decode(i / 255.0);
+        table->linear[i] = decode(i / 255.0);
     }
 }
 
 void dip_srgb_encode_table(DipSrgbEncodeTable *table) {
+    DIP_FP_MODE_SCOPE();
     // Entry i belongs to the linear light i / 65535. The first entry with code c is the first whose
     // light is at least the light of the sRGB value (c - 1/2) / 255.
     int code = 0;
-    double end = dip_srgb_decode(0.5 / 255.0);
+    double end = decode(0.5 / 255.0);
     for (int i = 0; i <= DIP_LINEAR16_MAX; i++) {
         while (code < 255 && i / (double)DIP_LINEAR16_MAX >= end) {
             code++;
-            end = dip_srgb_decode((code + 0.5) / 255.0);
+            end = decode((code + 0.5) / 255.0);
         }
         table->code[i] = (uint8_t)code;
     }

@@ -1,6 +1,8 @@
 // Sine, cosine, tangent and arc tangent from IEEE-exact operations.
 #include "renderer/base/trig.h"
 
+#include "renderer/base/fp_mode.h"
+
 #include <math.h>
 #include <stdint.h>
 
@@ -61,7 +63,7 @@ static int is_usable(double angle_rad) {
     return angle_rad >= -MAX_ANGLE_RAD && angle_rad <= MAX_ANGLE_RAD;
 }
 
-double dip_sin(double angle_rad) {
+static double compute_sin(double angle_rad) {
     if (!is_usable(angle_rad)) {
         return NAN;
     }
@@ -71,7 +73,7 @@ double dip_sin(double angle_rad) {
     return quadrant & 2u ? -value : value;
 }
 
-double dip_cos(double angle_rad) {
+static double compute_cos(double angle_rad) {
     if (!is_usable(angle_rad)) {
         return NAN;
     }
@@ -81,7 +83,7 @@ double dip_cos(double angle_rad) {
     return (quadrant + 1u) & 2u ? -value : value;
 }
 
-double dip_tan(double angle_rad) {
+static double compute_tan(double angle_rad) {
     if (!is_usable(angle_rad)) {
         return NAN;
     }
@@ -121,7 +123,7 @@ static double atan_unit(double x) {
     return eighths[k] + (t + t * (s * sum));
 }
 
-double dip_atan2(double y, double x) {
+static double compute_atan2(double y, double x) {
     const double width = fabs(x);
     const double height = fabs(y);
     if (isnan(x) || isnan(y) || (isinf(x) && isinf(y))) {
@@ -139,16 +141,41 @@ double dip_atan2(double y, double x) {
     return y < 0.0 ? -angle : angle;
 }
 
-double dip_acos(double x) {
+static double compute_acos(double x) {
     if (!(x >= -1.0 && x <= 1.0)) {
         return NAN;
     }
-    return dip_atan2(sqrt((1.0 - x) * (1.0 + x)), x);
+    return compute_atan2(sqrt((1.0 - x) * (1.0 + x)), x);
 }
 
-double dip_asin(double x) {
+static double compute_asin(double x) {
     if (!(x >= -1.0 && x <= 1.0)) {
         return NAN;
     }
-    return dip_atan2(x, sqrt((1.0 - x) * (1.0 + x)));
+    return compute_atan2(x, sqrt((1.0 - x) * (1.0 + x)));
+}
+
+// Defines a public function that computes in the mode of fp_mode.h.
+#define DEFINE_IN_FP_MODE(name, argument)                                                          \
+    double dip_##name(double argument) {                                                           \
+        DIP_FP_MODE_SCOPE();                                                                       \
+        DIP_FP_PIN(argument);                                                                      \
+        double result = compute_##name(argument);                                                  \
+        DIP_FP_PIN(result);                                                                        \
+        return result;                                                                             \
+    }
+
+DEFINE_IN_FP_MODE(sin, angle_rad)
+DEFINE_IN_FP_MODE(cos, angle_rad)
+DEFINE_IN_FP_MODE(tan, angle_rad)
+DEFINE_IN_FP_MODE(acos, x)
+DEFINE_IN_FP_MODE(asin, x)
+
+double dip_atan2(double y, double x) {
+    DIP_FP_MODE_SCOPE();
+    DIP_FP_PIN(y);
+    DIP_FP_PIN(x);
+    double angle = compute_atan2(y, x);
+    DIP_FP_PIN(angle);
+    return angle;
 }

@@ -2,6 +2,7 @@
 // up their work and times.
 #include "renderer/pipeline/pipeline.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/geometry/geometry.h"
@@ -66,6 +67,7 @@ static bool make_lists(DipPipeline *pipeline, int draw_count, DipError *err) {
 }
 
 bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     return make_lists(pipeline, pass->draw_count, err) &&
            dip_geometry_reserve(&pipeline->geometry, pass, err);
 }
@@ -263,6 +265,7 @@ static bool check_work(const DipPassWork *works, int index, DipError *err) {
 
 bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geometry,
                               DipError *err) {
+    DIP_FP_MODE_SCOPE();
     if (count < 1 || count > DIP_MAX_PASSES_AT_ONCE) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "count", "%d passes, accepted 1..%d",
                              count, DIP_MAX_PASSES_AT_ONCE);
@@ -324,6 +327,7 @@ static void set_srgb_tables(DipPipeline *pipeline) {
 }
 
 DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     if (width < 1 || height < 1 || width > DIP_MAX_TARGET_SIZE || height > DIP_MAX_TARGET_SIZE) {
         dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "size", "%dx%d pixels, accepted 1x1 to %dx%d",
                       width, height, DIP_MAX_TARGET_SIZE, DIP_MAX_TARGET_SIZE);

@@ -2,6 +2,8 @@
 // picture is the mean of planes. A plane has one sample of every pixel and is drawn as a whole.
 #include "renderer/reference/internal/internal.h"
 
+#include "renderer/base/fp_mode.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -160,6 +162,7 @@ static void finish(Converging *c) {
 bool dip_reference_converge(const DipReference *reference, const DipPose *pose, int width,
                             int height, int sample_count, uint32_t seed, double *rgb_lin,
                             DipError *err) {
+    DIP_FP_MODE_SCOPE();
     int side;
     if (!dip_reference_check_samples(sample_count, &side, err)) {
         return false;

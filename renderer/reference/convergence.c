@@ -3,6 +3,7 @@
 // converge.c; this file only skips what cannot be visible.
 #include "renderer/reference/convergence.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/reference/internal/internal.h"
 
 #include <math.h>
@@ -117,6 +118,7 @@ static DipConvergence *create(const DipReference *reference, const DipRefShot *s
 
 DipConvergence *dip_convergence_create(const DipReference *reference, const DipPose *pose,
                                        int width, int height, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     if (!dip_reference_check_size(width, height, err)) {
         return NULL;
     }
@@ -416,6 +418,7 @@ static bool draw_samples(const DipConvergence *convergence, int tile, int sample
 bool dip_convergence_add_tile(const DipConvergence *convergence, int tile, int sample_count,
                               uint32_t seed, double share, double *rgb_lin, uint8_t *classes,
                               DipError *err) {
+    DIP_FP_MODE_SCOPE();
     int side;
     Samples samples;
     Samples mirrored = {0};

@@ -2,6 +2,7 @@
 // Each patch (a piece of a surface, docs/picture.md) is shaded once per pixel.
 #include "renderer/reference/internal/internal.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/pattern.h"
 
 #include <math.h>
@@ -315,6 +316,7 @@ static double *draw_mirrored(const Drawing *drawing, DipError *err) {
 bool dip_reference_draw(const DipReference *reference, const DipQuality *quality,
                         const DipPose *pose, int width, int height, double *rgb_lin,
                         DipError *err) {
+    DIP_FP_MODE_SCOPE();
     if (!dip_quality_check(quality, err) || !dip_reference_check_size(width, height, err)) {
         return false;
     }

@@ -1,6 +1,7 @@
 // The reference's scene: checks the description and decodes the textures that surfaces show.
 #include "renderer/reference/internal/internal.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/patch.h"
 #include "renderer/scene/renderer.h"
 
@@ -134,11 +135,13 @@ static DipReference *create(const DipSceneDef *def, const atomic_bool *stop, boo
 }
 
 DipReference *dip_reference_create(const DipSceneDef *def, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     return create(def, NULL, false, err);
 }
 
 DipReference *dip_reference_create_for_truth(const DipSceneDef *def, const atomic_bool *stop,
                                              DipError *err) {
+    DIP_FP_MODE_SCOPE();
     return create(def, stop, true, err);
 }
 

@@ -1,6 +1,7 @@
 // Creates, changes and destroys renderers and the resources that they keep for a scene.
 #include "renderer/scene/renderer.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/scene/draw/renderer_parts.h"
 #include "renderer/scene/draw/view.h"
 #include "renderer/scene/resources/mip_debug.h"
@@ -57,6 +58,7 @@ static bool check_reflection(const DipReflectionDef *reflection, DipError *err) 
 }
 
 DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     if (!dip_quality_check(&def->quality, err) || !check_reflection(&def->reflection, err)) {
         return NULL;
     }
@@ -114,6 +116,7 @@ void dip_renderer_destroy(DipRenderer **renderer_pointer) {
 }
 
 bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     if (!dip_quality_check(quality, err)) {
         return false;
     }
@@ -123,6 +126,7 @@ bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality, 
 
 bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *reflection,
                                  DipError *err) {
+    DIP_FP_MODE_SCOPE();
     if (!check_reflection(reflection, err)) {
         return false;
     }
@@ -143,6 +147,7 @@ void dip_renderer_set_frame_index(DipRenderer *renderer, uint64_t frame_index) {
 }
 
 bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     if (width == renderer->width && height == renderer->height) {
         return true;
     }
@@ -167,6 +172,7 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
 bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
                                    const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
                                    DipError *err) {
+    DIP_FP_MODE_SCOPE();
     DipTexture *colours = dip_mip_debug_create(pictures, err);
     if (!colours) {
         return false;

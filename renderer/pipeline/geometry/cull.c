@@ -2,6 +2,7 @@
 // all planes, the smaller boxes within it need no test.
 #include "renderer/pipeline/cull.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/geometry/chunk_cull.h"
 #include "renderer/pipeline/geometry/mesh_layout.h"
 
@@ -88,6 +89,7 @@ static void round_matrix(const double matrix[16], float rounded[16]) {
 }
 
 DipCullPlanes dip_cull_pass_planes(const DipPass *pass, const double world_to_clip[16]) {
+    DIP_FP_MODE_SCOPE();
     const NdcRegion region = ndc_region(pass);
     float m[16];
     round_matrix(world_to_clip, m);
@@ -95,6 +97,7 @@ DipCullPlanes dip_cull_pass_planes(const DipPass *pass, const double world_to_cl
 }
 
 DipCullPlanes dip_cull_view_planes(const double world_to_clip[16]) {
+    DIP_FP_MODE_SCOPE();
     float m[16];
     round_matrix(world_to_clip, m);
     return view_planes(m, &whole);
@@ -162,11 +165,13 @@ static bool outside(const DipCullPlanes *planes, const DipBox *box, bool *crosse
 }
 
 bool dip_cull_outside(const DipCullPlanes *planes, const DipBox *box) {
+    DIP_FP_MODE_SCOPE();
     bool crosses;
     return outside(planes, box, &crosses);
 }
 
 DipBox dip_cull_transform_box(const float transform[12], const DipBox *box) {
+    DIP_FP_MODE_SCOPE();
     DipBox moved;
     for (int axis = 0; axis < 3; axis++) {
         const float *m = transform + 4 * axis;

@@ -1,6 +1,7 @@
 // Makes a mesh: splits its triangles into chunks, computes the chunks' boxes and finds the patches.
 #include "renderer/pipeline/geometry/mesh_layout.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/assert.h"
 #include "renderer/pipeline/patch.h"
 
@@ -220,6 +221,7 @@ static bool allocate_split(Splitter *splitter) {
 }
 
 DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     if (!check_data(data, err)) {
         return NULL;
     }

@@ -1,6 +1,8 @@
 // Grows patches of triangles that join smoothly.
 #include "renderer/pipeline/patch.h"
 
+#include "renderer/base/fp_mode.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -114,6 +116,7 @@ static void list_triangles(Grower *grower, uint32_t vertex_count, uint32_t index
 bool dip_patches_find(const float *positions, size_t stride, uint32_t vertex_count,
                       const uint32_t *indices, uint32_t index_count, uint32_t *patches,
                       uint32_t *count) {
+    DIP_FP_MODE_SCOPE();
     Grower grower = {.positions = positions,
                      .stride = stride,
                      .indices = indices,

@@ -1,6 +1,7 @@
 // BC1 blocks: encodes them with stb_dxt and decodes them to packed texels.
 #include "renderer/pipeline/bc1.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/texture/texture_layout.h"
 
@@ -28,11 +29,13 @@ static void fill_codes(uint8_t *codes, int last) {
 }
 
 void dip_root_codes_fill(DipRootCodes *codes) {
+    DIP_FP_MODE_SCOPE();
     fill_codes(codes->of16, 65535);
     fill_codes(codes->of10, 1023);
 }
 
 void dip_bc1_light_fill(DipBc1Light *light) {
+    DIP_FP_MODE_SCOPE();
     for (int i = 0; i <= 6 * 31; i++) {
         light->of5[i] = dip_srgb_decode(i / (6.0 * 31.0));
     }

@@ -8,6 +8,7 @@
 // time nor memory.
 #include "renderer/pipeline/texture/texture_layout.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/bc1.h"
 
 #include <stdlib.h>
@@ -120,6 +121,7 @@ static void add_levels(Job *job, const DipTexture *from, DipTexture *to) {
 
 bool dip_textures_compress(DipTexture *const *textures, const bool *wanted, int count,
                            DipPool *pool, DipTexture **compressed, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     Job *job = calloc(1, sizeof *job);
     bool made = job != NULL;
     if (made) {

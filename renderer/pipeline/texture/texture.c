@@ -2,6 +2,7 @@
 // levels.
 #include "renderer/pipeline/texture/texture_layout.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/pages.h"
 #include "renderer/base/srgb.h"
@@ -35,9 +36,14 @@ static uint32_t join_codes(uint32_t red16, uint32_t green16, uint32_t blue10) {
     return (beside(red16, high) | high) << 16 | beside(green16, low) | low;
 }
 
-uint32_t dip_texel_pack(const double rgb_lin[3]) {
+static uint32_t pack_texel(const double rgb_lin[3]) {
     return join_codes(quantise(rgb_lin[0], FULL_CODE16), quantise(rgb_lin[1], FULL_CODE16),
                       quantise(rgb_lin[2], FULL_CODE10));
+}
+
+uint32_t dip_texel_pack(const double rgb_lin[3]) {
+    DIP_FP_MODE_SCOPE();
+    return pack_texel(rgb_lin);
 }
 
 static bool check_def(const DipTextureDef *def, DipError *err) {
@@ -170,7 +176,7 @@ static void pack_row(const float *row, int width, uint32_t *restrict texels,
                      uint8_t *restrict alpha) {
     for (int x = 0; x < width; x++) {
         const double rgb[3] = {row[x], row[width + x], row[2 * width + x]};
-        texels[x] = dip_texel_pack(rgb);
+        texels[x] = pack_texel(rgb);
     }
     for (int x = 0; alpha && x < width; x++) {
         alpha[x] = (uint8_t)(row[3 * width + x] * 255.0f + 0.5f);
@@ -381,6 +387,7 @@ static void run_chains(ChainJobs *jobs, DipPool *pool) {
 
 bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool *keep_alpha,
                          int count, DipPool *pool, DipTexture **textures, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     ChainJobs jobs = {NULL, NULL, NULL, 0};
     CodeTables *tables = NULL;
     Chain chains[2];
@@ -422,6 +429,7 @@ DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err) {
 
 DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
                                            DipError *err) {
+    DIP_FP_MODE_SCOPE();
     DIP_ASSERT(level_count >= 1 && level_count <= DIP_MAX_LEVELS);
     DipTexture *texture = calloc(1, sizeof *texture);
     if (!texture) {

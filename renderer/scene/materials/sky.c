@@ -2,6 +2,8 @@
 // nanoseconds, so the layers of clouds repeat exactly.
 #include "renderer/scene/materials/sky.h"
 
+#include "renderer/base/fp_mode.h"
+
 #include <string.h>
 
 static const double minute_ns = 60e9;
@@ -10,6 +12,7 @@ static const double minute_ns = 60e9;
 static const double least_speed_per_min = 1e-6;
 
 DipSkyDef dip_sky_default(void) {
+    DIP_FP_MODE_SCOPE();
     return (DipSkyDef){
         .layers = {{.scale = 1.0f, .speed_per_min = 0.3, .perturbation_widths = 0.03f},
                    {.scale = 1.7f, .speed_per_min = -0.2, .perturbation_widths = 0.05f}},
