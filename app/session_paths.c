@@ -54,11 +54,11 @@ static bool load_own_path(DipSession *session, DipErrorList *faults) {
 }
 
 // Refuses a model that is too small to be drawn. The orbit fills the picture with the model, so the
-// camera would come nearer than DIP_MIN_W (renderer/pipeline/geometry/project.h). Nothing that near
-// is drawn. A model that is a single point is accepted: the orbit treats it as if it had a size.
+// camera would come nearer than the least distance of a near plane (DIP_MIN_NEAR_M). A model that
+// is a single point is accepted: the orbit treats it as if it had a size.
 static bool check_extent(const float low[3], const float high[3], const char *file,
                          DipErrorList *faults) {
-    const double least = 5e-6;
+    const double least = 5e-9;
     double extent = 0.0;
     for (int axis = 0; axis < 3; axis++) {
         extent = fmax(extent, (double)high[axis] - low[axis]);

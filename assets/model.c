@@ -266,7 +266,7 @@ static float near_distance(const DipModel *model) {
         square += (high[axis] - low[axis]) * (high[axis] - low[axis]);
     }
     const double near_m = near_fraction * sqrt(square);
-    return isfinite(near_m) ? (float)fmin(fmax(near_m, 1e-9), 1e9) : 0.01f;
+    return isfinite(near_m) ? (float)fmin(fmax(near_m, (double)DIP_MIN_NEAR_M), (double)DIP_MAX_NEAR_M) : 0.01f;
 }
 
 static void release_scenes(DipModel *model) {

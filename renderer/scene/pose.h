@@ -11,7 +11,9 @@ extern "C" {
 
 typedef struct DipPose {
     double position_world[3];
-    double orientation[4]; // unit quaternion x, y, z, w; rotates camera space to world space
+    // Quaternion x, y, z, w that rotates camera space to world space. Any length but 0 is accepted;
+    // drawing divides the quaternion by its length.
+    double orientation[4];
     double fov_y_deg;      // vertical field of view, 1..170
 } DipPose;
 

@@ -72,7 +72,8 @@ DIP_API bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
 
 // Draws the scene at a time, in nanoseconds since the start of the path. The frame is the same to
 // the bit for any number of threads and any instruction set. Fails with RANGE (a pose that is not
-// finite or whose field of view is out of range), OVERSIZED (see dip_pipeline_draw) or MEMORY.
+// finite, whose orientation is 0 or whose field of view is out of range), OVERSIZED (see
+// dip_pipeline_draw) or MEMORY.
 DIP_API bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                                int64_t time_ns, DipFrame *frame, DipError *err);
 

@@ -1,77 +1,15 @@
-// Creates a scene from its description: checks, textures, vertex layouts and bounds.
+// Creates a scene from its description: textures, vertex layouts and bounds.
 #include "renderer/scene/resources/scene_layout.h"
 
 #include "renderer/base/clock.h"
+#include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/cull.h"
+#include "renderer/scene/resources/scene_check.h"
 
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-
-static bool check_index(int index, int count, const char *owner, const char *key, DipError *err) {
-    return (index >= DIP_NO_TEXTURE && index < count) ||
-           dip_error_set(err, DIP_ERROR_RANGE, owner, 0, key,
-                         "texture %d is out of range, accepted 0..%d, or -1 for none", index,
-                         count - 1);
-}
-
-static bool check_material(const DipSceneDef *def, const DipMaterialDef *material, DipError *err) {
-    return check_index(material->colour_texture, def->texture_count, material->name,
-                       "colour_texture", err) &&
-           check_index(material->light_map, def->texture_count, material->name, "light_map", err) &&
-           check_index(material->normal_map, def->texture_count, material->name, "normal_map", err);
-}
-
-static bool check_sky(const DipSkyDef *sky, DipError *err) {
-    for (int i = 0; i < 2; i++) {
-        const double speed = sky->layers[i].speed_per_min;
-        if (!(speed >= -DIP_MAX_SKY_SPEED && speed <= DIP_MAX_SKY_SPEED)) {
-            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "sky",
-                                 "speed_per_min %g is out of range, accepted -%d..%d", speed,
-                                 DIP_MAX_SKY_SPEED, DIP_MAX_SKY_SPEED);
-        }
-    }
-    return true;
-}
-
-static bool check_def(const DipSceneDef *def, DipError *err) {
-    if (!check_sky(&def->sky, err)) {
-        return false;
-    }
-    if (!(def->near_m > 0.0f) || !isfinite(def->near_m)) {
-        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "near_m",
-                             "%g is out of range, accepted more than 0", (double)def->near_m);
-    }
-    for (int i = 0; i < def->material_count; i++) {
-        if (!check_material(def, &def->materials[i], err)) {
-            return false;
-        }
-    }
-    for (int i = 0; i < def->mesh_count; i++) {
-        const DipMeshDef *mesh = &def->meshes[i];
-        if (mesh->material < 0 || mesh->material >= def->material_count) {
-            return dip_error_set(err, DIP_ERROR_RANGE, mesh->name, 0, "material",
-                                 "%d is out of range, accepted 0..%d", mesh->material,
-                                 def->material_count - 1);
-        }
-    }
-    for (int i = 0; i < def->object_count; i++) {
-        const DipObjectDef *object = &def->objects[i];
-        if (object->mesh < 0 || object->mesh >= def->mesh_count) {
-            return dip_error_set(err, DIP_ERROR_RANGE, object->name, 0, "mesh",
-                                 "%d is out of range, accepted 0..%d", object->mesh,
-                                 def->mesh_count - 1);
-        }
-        for (int k = 0; k < 12; k++) {
-            if (!isfinite(object->transform[k])) {
-                return dip_error_set(err, DIP_ERROR_RANGE, object->name, 0, "transform",
-                                     "element %d is not finite", k);
-            }
-        }
-    }
-    return true;
-}
 
 // --- meshes ------------------------------------------------------------------------------------
 
@@ -413,7 +351,8 @@ static DipScene *allocate_scene(const DipSceneDef *def) {
 }
 
 DipScene *dip_scene_create(const DipSceneDef *def, DipPool *pool, DipError *err) {
-    if (!check_def(def, err)) {
+    DIP_FP_MODE_SCOPE();
+    if (!dip_scene_check(def, err)) {
         return NULL;
     }
     DipScene *scene = allocate_scene(def);
@@ -479,6 +418,7 @@ uint64_t dip_scene_triangle_count(const DipScene *scene) {
 }
 
 bool dip_scene_compress_textures(const DipScene *scene, DipPool *pool, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     return dip_late_textures_make(scene->late, scene->textures, scene->compressible,
                                   scene->texture_count, pool, err);
 }

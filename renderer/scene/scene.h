@@ -54,7 +54,8 @@ typedef struct DipMaterialDef {
 } DipMaterialDef;
 
 // Indexed triangles of one material. All arrays are packed. An array of an attribute that the mesh
-// does not have is NULL; only positions are required.
+// does not have is NULL; only positions are required. All attributes must be finite, except for
+// positions: a triangle with a position that is not finite is not drawn.
 typedef struct DipMeshDef {
     const char *name;
     uint32_t vertex_count;
@@ -106,6 +107,10 @@ typedef struct DipSkyDef {
 // The default sky: blue and half overcast.
 DIP_API DipSkyDef dip_sky_default(void);
 
+// Least and greatest distance of the near plane.
+#define DIP_MIN_NEAR_M 1e-12f
+#define DIP_MAX_NEAR_M 1e12f
+
 typedef struct DipSceneDef {
     const DipTextureDef *textures;
     const DipMaterialDef *materials;
@@ -116,8 +121,9 @@ typedef struct DipSceneDef {
     int mesh_count;
     int object_count;
     float background_lin[3]; // colour of samples that no surface covers
-    float near_m;            // distance of the near plane, > 0; there is no far plane
-    DipSkyDef sky;           // look of all DIP_SURFACE_SKY surfaces
+    float
+        near_m; // distance of the near plane, DIP_MIN_NEAR_M..DIP_MAX_NEAR_M; there is no far plane
+    DipSkyDef sky; // look of all DIP_SURFACE_SKY surfaces
 } DipSceneDef;
 
 typedef struct DipScene DipScene;

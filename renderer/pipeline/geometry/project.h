@@ -36,8 +36,9 @@ enum {
         DIP_CLIP_NEAR | DIP_CLIP_FAR | DIP_CLIP_W | DIP_CLIP_GUARD | DIP_CLIP_ALL_USER,
 };
 
-// The smallest w by which projection divides.
-#define DIP_MIN_W 1e-6f
+// The smallest w by which projection divides. It is smaller than any near plane of a scene
+// (DIP_MIN_NEAR_M), so that rounding at the near plane never cuts a triangle here.
+#define DIP_MIN_W 1e-13f
 // Greatest magnitude of a clip coordinate. A triangle with a greater coordinate or with a NaN is
 // dropped.
 #define DIP_MAX_CLIP_COORDINATE 2.1e37f

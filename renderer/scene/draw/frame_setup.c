@@ -2,6 +2,7 @@
 // main pass and, if water reflects, a pass that draws the mirrored scene.
 #include "renderer/scene/renderer.h"
 
+#include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draw/draws.h"
 #include "renderer/scene/draw/inset.h"
@@ -29,6 +30,11 @@ static bool check_pose(const DipPose *pose, DipError *err) {
     if (!finite) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
                              "a number is not finite, accepted finite numbers");
+    }
+    const double *q = pose->orientation;
+    if (q[0] == 0.0 && q[1] == 0.0 && q[2] == 0.0 && q[3] == 0.0) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
+                             "the orientation is 0, accepted a quaternion of any other length");
     }
     if (pose->fov_y_deg < 1.0 || pose->fov_y_deg > 170.0) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
@@ -257,6 +263,7 @@ static bool same_geometry(const DipRenderer *a, const DipRenderer *b) {
 bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count, const DipScene *scene,
                               const DipPose *pose, int64_t time_ns, DipFrame *const *frames,
                               DipError *err) {
+    DIP_FP_MODE_SCOPE();
     FrameSetup setups[DIP_MAX_FRAMES_AT_ONCE];
     if (count < 1 || count > DIP_MAX_FRAMES_AT_ONCE) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "count", "%d frames, accepted 1..%d",

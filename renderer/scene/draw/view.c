@@ -3,6 +3,8 @@
 
 #include "renderer/base/trig.h"
 
+#include <math.h>
+
 // Computes the rows of world_to_clip from the eye, the axes and the scales.
 static void set_matrix(DipView *view) {
     const double scale[4] = {view->scale[0], view->scale[1], 0.0, -1.0};
@@ -20,19 +22,32 @@ static void set_matrix(DipView *view) {
     m[11] = view->near_m; // clip z is constant: the distance of the near plane
 }
 
+// Copies a quaternion that is not 0, scaled so that its greatest component is between 1 and 2.
+// Squares of the components then neither overflow nor vanish. Scaling by a power of two is exact.
+static void copy_scaled(const double from[4], double to[4]) {
+    const double greatest =
+        fmax(fmax(fabs(from[0]), fabs(from[1])), fmax(fabs(from[2]), fabs(from[3])));
+    int exponent;
+    frexp(greatest, &exponent);
+    for (int i = 0; i < 4; i++) {
+        to[i] = ldexp(from[i], 1 - exponent);
+    }
+}
+
 DipView dip_view_make(const DipPose *pose, double near_m, double aspect) {
-    const double x = pose->orientation[0];
-    const double y = pose->orientation[1];
-    const double z = pose->orientation[2];
-    const double w = pose->orientation[3];
+    double q[4];
+    copy_scaled(pose->orientation, q);
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    // A unit quaternion has s = 2.
+    const double s = 2.0 / ((x * x + y * y) + (z * z + w * w));
     const double half_fov = pose->fov_y_deg * (3.14159265358979323846 / 360.0);
     const double f = dip_cos(half_fov) / dip_sin(half_fov);
     DipView view = {
         .eye = {pose->position_world[0], pose->position_world[1], pose->position_world[2]},
         // The rows of the world-to-camera rotation are the camera's axes in world space.
-        .axis = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-                 {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-                 {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}},
+        .axis = {{1 - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y)},
+                 {s * (x * y - w * z), 1 - s * (x * x + z * z), s * (y * z + w * x)},
+                 {s * (x * z + w * y), s * (y * z - w * x), 1 - s * (x * x + y * y)}},
         .scale = {f / aspect, f},
         .near_m = near_m,
     };
