@@ -1,0 +1,10 @@
+// The list of topics. To add a topic, declare its table and add it here.
+#include "tests/stability/stability.h"
+
+extern const StabilityTopic stability_numbers;
+
+const StabilityTopic *const stability_topics[] = {
+    &stability_numbers,
+};
+
+const size_t stability_topic_count = sizeof stability_topics / sizeof *stability_topics;

@@ -1,0 +1,46 @@
+// Draws scenes for the rows of the catalogue and compares the pictures.
+#ifndef DIP_TESTS_STABILITY_PICTURES_H
+#define DIP_TESTS_STABILITY_PICTURES_H
+
+#include "renderer/reference/reference.h"
+#include "renderer/scene/renderer.h"
+#include "tests/stability/stability.h"
+
+// What to draw. def, pose and reflection are borrowed.
+typedef struct StabilityShot {
+    const DipSceneDef *def;
+    const DipPose *pose;
+    const DipReflectionDef *reflection; // NULL: water does not reflect
+    const char *settings;               // as `--current` takes them, for example "aa=4,af=16"
+    int width;                          // pixels
+    int height;
+    int64_t time_ns;
+    uint64_t frame_index;
+} StabilityShot;
+
+// A picture in linear light, width * height * 3 values, top row first. Its owner frees rgb_lin.
+typedef struct StabilityPicture {
+    int width;
+    int height;
+    double *rgb_lin;
+    char hash[33]; // hash of the 8-bit pixels; empty for pictures of the reference
+} StabilityPicture;
+
+// Draws with the fast renderer, with the run's instruction set and pool. On failure, the run is
+// broken and the picture is empty.
+bool stability_draw(StabilityRun *run, const StabilityShot *shot, StabilityPicture *picture);
+
+// Draws the same with the reference renderer.
+bool stability_draw_reference(StabilityRun *run, const StabilityShot *shot,
+                              StabilityPicture *picture);
+
+void stability_picture_free(StabilityPicture *picture);
+
+// Both pictures have the same size. Returns the root of the mean squared difference of all values,
+// in linear light.
+double stability_rms(const StabilityPicture *a, const StabilityPicture *b);
+
+// Returns the number of pixels in which a value differs by more than `least`.
+double stability_differing(const StabilityPicture *a, const StabilityPicture *b, double least);
+
+#endif

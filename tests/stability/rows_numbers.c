@@ -1,0 +1,325 @@
+// Rows about arithmetic: floating-point modes, and functions that replace those of libm.
+#include "campaths/camtrack.h"
+#include "renderer/base/hash.h"
+#include "renderer/base/number.h"
+#include "renderer/base/srgb.h"
+#include "renderer/base/trig.h"
+#include "renderer/pipeline/cull.h"
+#include "renderer/reference/convergence.h"
+#include "tests/renderer/random.h"
+#include "tests/renderer/scene/scenes.h"
+#include "tests/stability/fp_modes.h"
+#include "tests/stability/pictures.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- the caller's floating-point mode ------------------------------------------------------------
+
+// What the public functions compute from. It is made before the mode changes.
+typedef struct ModeInputs {
+    StabilityRun *run;
+    DipTestScene *scene;
+    DipTestSceneKind kind;
+} ModeInputs;
+
+// Calls public functions and adds their results to a hash.
+typedef void CallEntries(const ModeInputs *inputs, DipHash *hash);
+
+static void hash_doubles(DipHash *hash, const double *values, size_t count) {
+    dip_hash_bytes(hash, values, count * sizeof *values);
+}
+
+static void call_trig(const ModeInputs *inputs, DipHash *hash) {
+    (void)inputs;
+    for (int i = 0; i < 200; i++) {
+        // These values are exact, whatever the mode.
+        const double x = 0.125 + i * 0.375;
+        const double y = -0.9921875 + i * 0.0078125;
+        const double values[] = {dip_sin(x),  dip_cos(x),  dip_tan(x),
+                                 dip_acos(y), dip_asin(y), dip_atan2(y, x)};
+        hash_doubles(hash, values, 6);
+    }
+}
+
+static void call_srgb(const ModeInputs *inputs, DipHash *hash) {
+    (void)inputs;
+    DipSrgbDecodeTable decode;
+    static DipSrgbEncodeTable encode;
+    dip_srgb_decode_table(&decode);
+    dip_srgb_encode_table(&encode);
+    const double one = dip_srgb_decode(0.3);
+    hash_doubles(hash, decode.linear, 256);
+    hash_doubles(hash, &one, 1);
+    dip_hash_bytes(hash, encode.code, sizeof encode.code);
+}
+
+static void call_numbers(const ModeInputs *inputs, DipHash *hash) {
+    (void)inputs;
+    static const char *const texts[] = {"0.1",       "2.2250738585072011e-308", "1e23",
+                                        "-0.3",      "9007199254740993",        "4.9e-324",
+                                        "123456.789"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        double value = 0.0;
+        char text[DIP_NUMBER_TEXT_SIZE];
+        dip_number_parse(texts[i], strlen(texts[i]), &value);
+        dip_number_format(value, text);
+        hash_doubles(hash, &value, 1);
+        dip_hash_text(hash, text);
+    }
+}
+
+static void call_paths(const ModeInputs *inputs, DipHash *hash) {
+    DipError err = {0};
+    DipCamOrbitDef orbit = dip_campath_default_orbit();
+    DipCamPath *path = NULL;
+    if (!dip_campath_orbit(&orbit, &path, &err)) {
+        stability_break(inputs->run, "no orbit: %s", err.message);
+        return;
+    }
+    DipCamTrack track = dip_camtrack_make(true);
+    dip_camtrack_set(&track, 0, path, 45.0);
+    for (int i = 0; i < 50; i++) {
+        DipPose pose = {.fov_y_deg = 45.0};
+        DipPose tracked = {.fov_y_deg = 45.0};
+        dip_campath_sample(path, i * INT64_C(377777777), &pose);
+        dip_camtrack_pose(&track, i * INT64_C(377777777), &tracked);
+        hash_doubles(hash, pose.position_world, 3);
+        hash_doubles(hash, pose.orientation, 4);
+        hash_doubles(hash, tracked.orientation, 4);
+    }
+    dip_campath_destroy(&path);
+}
+
+static void call_path_reader(const ModeInputs *inputs, DipHash *hash) {
+    static const char text[] = "diptych-path 1\n"
+                               "period 0.7\n"
+                               "0.1 0.2 0.3 0 0 0 1\n"
+                               "1.7 0.2 0.3 0.1 0.2 0.3 0.92736185\n"
+                               "0.1 0.2 3.3 0 0.6 0 0.8\n";
+    DipError err = {0};
+    DipCamPath *path = NULL;
+    DipPose pose = {.fov_y_deg = 45.0};
+    if (dip_campath_parse(text, sizeof text - 1, "mode.pth", &path, &err)) {
+        dip_campath_sample(path, 1234567891, &pose);
+        hash_doubles(hash, pose.position_world, 3);
+        hash_doubles(hash, pose.orientation, 4);
+        dip_campath_destroy(&path);
+    } else {
+        stability_break(inputs->run, "no path: %s", err.message);
+    }
+}
+
+static void call_culling(const ModeInputs *inputs, DipHash *hash) {
+    (void)inputs;
+    const double world_to_clip[16] = {1.1, 0.2, 0.3, 0.4,  -0.2, 1.3, 0.1, 0.7,
+                                      0.0, 0.0, 0.0, 0.01, 0.1,  0.2, 1.0, 5.3};
+    const float transform[12] = {0.7f, 0.1f, 0.2f, 3.3f, 0.3f, 1.7f,
+                                 0.1f, 0.9f, 0.2f, 0.3f, 1.1f, 7.7f};
+    const DipBox box = {{-1.1f, -0.3f, -0.7f}, {1.3f, 0.9f, 0.1f}};
+    const DipBox moved = dip_cull_transform_box(transform, &box);
+    const DipCullPlanes planes = dip_cull_view_planes(world_to_clip);
+    dip_hash_bytes(hash, &moved, sizeof moved);
+    dip_hash_bytes(hash, &planes, sizeof planes);
+    dip_hash_integer(hash, dip_cull_outside(&planes, &moved));
+}
+
+static void call_renderer(const ModeInputs *inputs, DipHash *hash) {
+    static const char *const settings[] = {"aa=4,af=16", "aa=8,aaa=on,opt=advanced,mipdebug=on"};
+    for (int i = 0; i < 2; i++) {
+        const StabilityShot shot = {.def = &inputs->scene->def,
+                                    .pose = &inputs->scene->pose,
+                                    .reflection = &inputs->scene->reflection,
+                                    .settings = settings[i],
+                                    .width = 64,
+                                    .height = 48,
+                                    .time_ns = 123456789};
+        StabilityPicture picture;
+        if (stability_draw(inputs->run, &shot, &picture)) {
+            dip_hash_text(hash, picture.hash);
+            stability_picture_free(&picture);
+        }
+    }
+}
+
+static void call_reference(const ModeInputs *inputs, DipHash *hash) {
+    const StabilityShot shot = {.def = &inputs->scene->def,
+                                .pose = &inputs->scene->pose,
+                                .reflection = &inputs->scene->reflection,
+                                .settings = "aa=2,af=4,aaa=on",
+                                .width = 24,
+                                .height = 18,
+                                .time_ns = 123456789};
+    StabilityPicture picture;
+    if (stability_draw_reference(inputs->run, &shot, &picture)) {
+        hash_doubles(hash, picture.rgb_lin, (size_t)24 * 18 * 3);
+        stability_picture_free(&picture);
+    }
+}
+
+static void call_converged(const ModeInputs *inputs, DipHash *hash) {
+    double rgb_lin[16 * 12 * 3];
+    DipError err = {0};
+    DipReference *reference = dip_reference_create_for_truth(&inputs->scene->def, NULL, &err);
+    if (reference &&
+        dip_reference_converge(reference, &inputs->scene->pose, 16, 12, 4, 1, rgb_lin, &err)) {
+        hash_doubles(hash, rgb_lin, sizeof rgb_lin / sizeof *rgb_lin);
+    } else {
+        stability_break(inputs->run, "no converged picture: %s", err.message);
+    }
+    dip_reference_destroy(&reference);
+}
+
+// Adds the tiles of a converged picture one by one, and classifies the pixels.
+static void call_convergence(const ModeInputs *inputs, DipHash *hash) {
+    double rgb_lin[16 * 12 * 3] = {0.0};
+    uint8_t classes[16 * 12];
+    DipError err = {0};
+    DipReference *reference = dip_reference_create(&inputs->scene->def, &err);
+    DipConvergence *convergence =
+        reference ? dip_convergence_create(reference, &inputs->scene->pose, 16, 12, &err) : NULL;
+    bool drawn = convergence != NULL;
+    for (int t = 0; drawn && t < dip_convergence_tile_count(convergence); t++) {
+        drawn = dip_convergence_add_tile(convergence, t, 4, 1, 1.0, rgb_lin, classes, &err);
+    }
+    if (drawn) {
+        hash_doubles(hash, rgb_lin, sizeof rgb_lin / sizeof *rgb_lin);
+        dip_hash_bytes(hash, classes, sizeof classes);
+    } else {
+        stability_break(inputs->run, "no converged picture: %s", err.message);
+    }
+    dip_convergence_destroy(&convergence);
+    dip_reference_destroy(&reference);
+}
+
+typedef struct Entries {
+    const char *name;
+    CallEntries *call;
+    bool per_scene;   // the functions read a scene
+    bool has_kernels; // false: the functions are the same for all instruction sets
+} Entries;
+
+static const Entries entries[] = {
+    {"trigonometry", call_trig, false, false},
+    {"sRGB tables", call_srgb, false, false},
+    {"reading and writing numbers", call_numbers, false, false},
+    {"orbit, sampling and track of a camera path", call_paths, false, false},
+    {"reading a camera path", call_path_reader, false, false},
+    {"culling", call_culling, false, false},
+    {"scene and renderer", call_renderer, true, true},
+    {"reference renderer", call_reference, true, false},
+    {"converged picture", call_converged, true, false},
+    {"tiles of a converged picture", call_convergence, true, false},
+};
+
+// Compares results in a mode with results in the usual mode, and the mode before with the mode
+// after the calls.
+static void compare_mode(const ModeInputs *inputs, const Entries *entry, FpMode mode) {
+    char expected[DIP_HASH_HEX_SIZE];
+    char found[DIP_HASH_HEX_SIZE];
+    DipHash hash = dip_hash_begin(0);
+    entry->call(inputs, &hash);
+    dip_hash_hex(&hash, expected);
+    hash = dip_hash_begin(0);
+    const FpModeState before = fp_mode_enter(mode);
+    entry->call(inputs, &hash);
+    const bool kept = fp_mode_is(mode);
+    fp_mode_return(before);
+    dip_hash_hex(&hash, found);
+    const char *scene = entry->per_scene ? dip_test_scene_name(inputs->kind) : "";
+    stability_expect(inputs->run, strcmp(expected, found) == 0, "%s in mode %s %s", entry->name,
+                     fp_mode_name(mode), scene);
+    stability_expect(inputs->run, kept, "%s left another mode than %s %s", entry->name,
+                     fp_mode_name(mode), scene);
+}
+
+static void compare_modes(StabilityRun *run, const FpMode *modes, int mode_count) {
+    static DipTestScene scene;
+    const int scene_count = stability_count(run, 1, DIP_TEST_SCENE_COUNT, DIP_TEST_SCENE_COUNT);
+    for (int s = 0; s < scene_count; s++) {
+        const DipTestSceneKind kind =
+            (DipTestSceneKind)((DIP_TEST_SCENE_water_effects + s) % DIP_TEST_SCENE_COUNT);
+        dip_test_scene_make(&scene, kind);
+        const ModeInputs inputs = {run, &scene, kind};
+        for (size_t e = 0; e < sizeof entries / sizeof *entries; e++) {
+            const bool wanted = (entries[e].per_scene || s == 0) &&
+                                (entries[e].has_kernels || run->isa == dip_isa_best());
+            for (int m = 0; m < mode_count && wanted; m++) {
+                compare_mode(&inputs, &entries[e], modes[m]);
+            }
+        }
+        dip_test_scene_free(&scene);
+    }
+}
+
+static void measure_flush_to_zero(StabilityRun *run) {
+    static const FpMode modes[] = {FP_MODE_FLUSH_TO_ZERO};
+    compare_modes(run, modes, 1);
+}
+
+static void measure_rounding_modes(StabilityRun *run) {
+    static const FpMode modes[] = {FP_MODE_UPWARD, FP_MODE_DOWNWARD, FP_MODE_TOWARD_ZERO};
+    compare_modes(run, modes, stability_count(run, 1, 3, 3));
+}
+
+// --- trigonometry
+// ----------------------------------------------------------------------------------
+
+static void measure_sine(StabilityRun *run) {
+    Random random = {run->seed};
+    const int count = stability_count(run, 2000, 200000, 20000000);
+    for (int i = 0; i < count; i++) {
+        const double size = ldexp(1.0, random_int(&random, -40, 19));
+        const double x = random_real(&random, -size, size);
+        stability_error(run, (double)((long double)dip_sin(x) - sinl((long double)x)), "sin(%a)",
+                        x);
+        stability_error(run, (double)((long double)dip_cos(x) - cosl((long double)x)), "cos(%a)",
+                        x);
+    }
+}
+
+static void measure_arc_cosine(StabilityRun *run) {
+    Random random = {run->seed};
+    const int count = stability_count(run, 2000, 200000, 20000000);
+    for (int i = 0; i < count; i++) {
+        const double below = ldexp(random_real(&random, 0.5, 1.0), random_int(&random, -52, 0));
+        const double x = i % 2 ? 1.0 - below : below - 1.0;
+        const long double angle = acosl((long double)x);
+        stability_error(run, (double)(((long double)dip_acos(x) - angle) / angle), "acos(%a)", x);
+    }
+}
+
+static const StabilityRow rows[] = {
+    {.id = "N47",
+     .promise = "A caller that flushes subnormal numbers to zero gets the same results, and its "
+                "mode is restored.",
+     .truth = "the results in the usual mode",
+     .unit = "differences",
+     .per_isa = true,
+     .measure = measure_flush_to_zero},
+    {.id = "A1",
+     .promise = "A caller that rounds upwards, downwards or to zero gets the same results, and its "
+                "mode is restored.",
+     .truth = "the results in the usual mode",
+     .unit = "differences",
+     .per_isa = true,
+     .measure = measure_rounding_modes},
+    {.id = "N50",
+     .promise = "Sine and cosine come from Diptych's own series and are exact to the last bit or "
+                "two.",
+     .truth = "the C library's `long double` functions",
+     .unit = "absolute",
+     .bound = 2.5e-16,
+     .measure = measure_sine},
+    {.id = "A2",
+     .promise = "The arc cosine loses no digits near +1 and -1.",
+     .truth = "the C library's `long double` function",
+     .unit = "relative",
+     .bound = 1e-15,
+     .measure = measure_arc_cosine},
+};
+
+const StabilityTopic stability_numbers = {"numbers", "Arithmetic", rows,
+                                          sizeof rows / sizeof *rows};
