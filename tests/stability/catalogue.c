@@ -2,9 +2,11 @@
 #include "tests/stability/stability.h"
 
 extern const StabilityTopic stability_numbers;
+extern const StabilityTopic stability_view;
 
 const StabilityTopic *const stability_topics[] = {
     &stability_numbers,
+    &stability_view,
 };
 
 const size_t stability_topic_count = sizeof stability_topics / sizeof *stability_topics;

@@ -129,3 +129,16 @@ double stability_differing(const StabilityPicture *a, const StabilityPicture *b,
     }
     return differing;
 }
+
+bool stability_shows(StabilityRun *run, const StabilityPicture *picture, int least) {
+    const size_t count = (size_t)picture->width * (size_t)picture->height;
+    int changes = 0;
+    for (size_t i = 1; i < count; i++) {
+        changes +=
+            memcmp(picture->rgb_lin + 3 * i, picture->rgb_lin + 3 * i - 3, 3 * sizeof(double)) != 0;
+    }
+    if (changes < least) {
+        stability_break(run, "a picture is nearly empty: its colour changes %d times", changes);
+    }
+    return changes >= least;
+}

@@ -43,4 +43,9 @@ double stability_rms(const StabilityPicture *a, const StabilityPicture *b);
 // Returns the number of pixels in which a value differs by more than `least`.
 double stability_differing(const StabilityPicture *a, const StabilityPicture *b, double least);
 
+// Breaks the row if a picture shows fewer than `least` changes of colour from one pixel to the
+// next; a row that compares empty pictures would prove nothing. Returns whether the picture shows
+// enough.
+bool stability_shows(StabilityRun *run, const StabilityPicture *picture, int least);
+
 #endif
