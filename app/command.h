@@ -46,7 +46,7 @@ typedef struct DipCommand {
     void (*set_defaults)(void *options, int argc, char *const *argv);
 
     // Returns false and fills *err if options contradict each other or a necessary option is
-    // missing.
+    // missing. NULL: any options may be combined.
     bool (*check)(const void *options, DipError *err);
 
     // Fills in *def with what the session must load. NULL: the command runs without a session.

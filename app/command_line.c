@@ -165,7 +165,8 @@ bool dip_command_line_parse(const DipCommandList *list, int argc, char *const *a
     if (!parse_arguments(argc, argv, 1 + used, line, err)) {
         return false;
     }
-    return program->help || program->version || line->command->check(line->options, err);
+    return program->help || program->version || !line->command->check ||
+           line->command->check(line->options, err);
 }
 
 void dip_command_line_free(DipCommandLine *line) {

@@ -6,12 +6,13 @@
 #include "app/dump/dump.h"
 #include "app/path/path.h"
 #include "app/preview/command.h"
+#include "app/verify/verify.h"
 #include "renderer/base/assert.h"
 
 static const DipCommand *const commands[] = {
     &dip_preview_command,   &dip_dump_command,         &dip_bench_command,
     &dip_cost_command,      &dip_cost_merge_command,   &dip_cost_assets_command,
-    &dip_path_info_command, &dip_path_convert_command,
+    &dip_path_info_command, &dip_path_convert_command, &dip_verify_command,
 };
 
 const DipCommandList dip_command_list = {commands, DIP_ARRAY_COUNT(commands)};

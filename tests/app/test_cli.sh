@@ -49,7 +49,7 @@ check "help lists every command" grep -q 'path convert' out.txt
 check "help lists settings" grep -q 'miplod' out.txt
 expect 0 '' "$diptych" dump --help
 check "help on dump gives an example" grep -q 'dump --out out --frames 0:8' out.txt
-for word in preview dump bench cost "cost merge" "cost assets" "path info" "path convert"; do
+for word in preview dump bench cost "cost merge" "cost assets" "path info" "path convert" verify; do
     expect 0 '' "$diptych" $word --help
     check "help on $word gives its usage and an example" sh -c \
         "grep -q '^Usage: diptych $word' out.txt && grep -q '^  diptych' out.txt"
@@ -127,11 +127,13 @@ expect 2 'none.ini: ' "$diptych" dump --hash --config none.ini
 expect 2 'none.glb: ' "$diptych" dump --hash --model none.glb
 expect 2 'none.pth: ' "$diptych" dump --hash --path none.pth
 expect 2 'none.pth: ' "$diptych" path info none.pth
-printf 'v 0 0 0\nv 1e-7 0 0\nv 0 1e-7 0\nf 1 2 3\n' >tiny.obj
-expect 2 "tiny.obj: \[box\] the model's size is 1e-07" "$diptych" dump --hash --model tiny.obj
+printf 'v 0 0 0\nv 1e-10 0 0\nv 0 1e-10 0\nf 1 2 3\n' >tiny.obj
+expect 2 "tiny.obj: \[box\] the model's size is 1e-10" "$diptych" dump --hash --model tiny.obj
 expect 2 'tiny.obj:1: .* not a camera path, .*; load a model with --model$' \
     "$diptych" path convert tiny.obj tiny.pth
-sed 's/1e-7/1e12/' tiny.obj >huge.obj
+sed 's/1e-10/1e-7/' tiny.obj >small.obj
+expect 0 '' "$diptych" dump --hash --model small.obj
+sed 's/1e-10/1e12/' tiny.obj >huge.obj
 expect 2 'huge.obj: \[box\] 0\.\.9\.9+6e\+11 along axis 0' "$diptych" dump --hash --model huge.obj
 printf 'diptych-path 1\nperiod 1\n0 0 0 0 0 0 1\n0 0 nan 0 0 0 1\n' >nan.pth
 expect 2 'nan.pth:4: ' "$diptych" path info nan.pth

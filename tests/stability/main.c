@@ -1,5 +1,6 @@
 // Measures the catalogue of hard cases and writes docs/stability.md.
 #include "tests/stability/document.h"
+#include "tests/stability/shipped_hashes.h"
 #include "tests/stability/stability.h"
 
 #include <stdio.h>
@@ -21,10 +22,14 @@ static const char *const usage =
     "  --threads N        Threads to draw with. The default is 2.\n"
     "  --document FILE    Also write the catalogue with the errors measured, as Markdown.\n"
     "  --check FILE       Only compare the rows with a file that --document wrote. Fails if a\n"
-    "                     promise, a truth or a bound differs.\n";
+    "                     promise, a truth or a bound differs.\n"
+    "  --print-hashes     Print the table of shipped hashes (shipped_list.inc) as this build "
+    "draws\n"
+    "                     the pictures.\n";
 
 typedef struct Options {
     bool list;
+    bool print_hashes;
     const char *topic;
     const char *row;
     const char *isa;
@@ -79,6 +84,8 @@ static bool parse_options(int argc, char **argv, Options *options) {
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--list") == 0) {
             options->list = true;
+        } else if (strcmp(argv[i], "--print-hashes") == 0) {
+            options->print_hashes = true;
         } else if (strcmp(argv[i], "--help") == 0) {
             fputs(usage, stdout);
             exit(0);
@@ -166,7 +173,9 @@ static int run(const Options *options) {
     DipPool *pool = dip_pool_create(options->threads, &err);
     StabilityErrors *errors = calloc(stability_row_count(), sizeof *errors);
     int failures = 1;
-    if (pool && errors) {
+    if (pool && errors && options->print_hashes) {
+        failures = !stability_print_hashes(pool);
+    } else if (pool && errors) {
         failures = measure_rows(options, pool, errors);
         if (options->document && !stability_document_write(options->document, errors)) {
             fprintf(stderr, "stability: cannot write %s\n", options->document);

@@ -10,6 +10,7 @@
 #include "tests/renderer/scene/scenes.h"
 #include "tests/stability/fp_modes.h"
 #include "tests/stability/pictures.h"
+#include "tests/stability/shipped_hashes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -291,7 +292,21 @@ static void measure_arc_cosine(StabilityRun *run) {
     }
 }
 
+// --- equal bits
+// ------------------------------------------------------------------------------------
+
+static void measure_hashes(StabilityRun *run) {
+    stability_compare_hashes(run, NULL, NULL);
+}
+
 static const StabilityRow rows[] = {
+    {.id = "N48",
+     .promise = "Pictures have the same bits with every instruction set, compiler and platform: no "
+                "approximate reciprocals, no fused operations, no functions of libm.",
+     .truth = "shipped hashes of 64 pictures, which a scalar build drew",
+     .unit = "pictures",
+     .per_isa = true,
+     .measure = measure_hashes},
     {.id = "N47",
      .promise = "A caller that flushes subnormal numbers to zero gets the same results, and its "
                 "mode is restored.",

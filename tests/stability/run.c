@@ -9,6 +9,7 @@ bool stability_measure(const StabilityRow *row, StabilityRun *run) {
     run->worst = 0.0;
     run->worst_at[0] = '\0';
     run->case_count = 0;
+    run->failed_count = 0;
     run->broken = false;
     run->broken_why[0] = '\0';
     row->measure(run);
@@ -20,6 +21,7 @@ bool stability_measure(const StabilityRow *row, StabilityRun *run) {
 
 static void keep_worst(StabilityRun *run, double error, const char *format, va_list arguments) {
     run->case_count++;
+    run->failed_count += error != 0.0;
     const double size = isnan(error) ? INFINITY : fabs(error);
     if (size > run->worst) {
         run->worst = size;

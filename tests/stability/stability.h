@@ -33,10 +33,11 @@ typedef struct StabilityRun {
     StabilityDepth depth; // number of cases to run
     uint64_t seed;        // seed of the random cases
     // The result, which the functions below fill in.
-    double worst;        // greatest error seen, in the row's unit; 0 at first
-    char worst_at[200];  // the case with the greatest error, in words; empty: no error
-    uint64_t case_count; // number of cases that were compared
-    bool broken;         // the row could not be measured
+    double worst;          // greatest error seen, in the row's unit; 0 at first
+    char worst_at[200];    // the case with the greatest error, in words; empty: no error
+    uint64_t case_count;   // number of cases that were compared
+    uint64_t failed_count; // number of cases with an error other than 0
+    bool broken;           // the row could not be measured
     char broken_why[400];
 } StabilityRun;
 

@@ -1,5 +1,6 @@
 // Makes scenes in code. Each kind of scene has its own function.
 #include "tests/renderer/random.h"
+#include "renderer/base/trig.h"
 #include "tests/renderer/scene/scenes_private.h"
 
 #include <math.h>
@@ -62,8 +63,8 @@ static void make_cube_on_plane(DipTestScene *scene) {
     const int decal = dip_test_scene_add_material(scene, DIP_NO_TEXTURE);
     dip_test_scene_add_ground(scene, decal);
     add_cube(scene, sides, (const float[]){0.3f, -0.5f, -3.0f});
-    scene->pose.orientation[0] = sin(-0.1);
-    scene->pose.orientation[3] = cos(-0.1);
+    scene->pose.orientation[0] = dip_sin(-0.1);
+    scene->pose.orientation[3] = dip_cos(-0.1);
 }
 
 static int add_bars(DipTestScene *scene) {
@@ -133,8 +134,8 @@ static void make_slivers(DipTestScene *scene) {
     for (int t = 0; t < TRIANGLES; t++) {
         const double z = random_real(&random, -6.0, -2.0);
         const double angle = random_real(&random, 0.0, 2.0 * pi);
-        const double width = pow(10.0, random_real(&random, -5.0, -1.0));
-        const double along[2] = {cos(angle) * 1.5, sin(angle) * 1.5};
+        const double width = ldexp(random_real(&random, 0.5, 1.0), random_int(&random, -16, -3));
+        const double along[2] = {dip_cos(angle) * 1.5, dip_sin(angle) * 1.5};
         const double from[2] = {random_real(&random, -2.0, 2.0), random_real(&random, -1.5, 1.5)};
         const double ends[3][2] = {{from[0], from[1]},
                                    {from[0] + along[0], from[1] + along[1]},
@@ -218,7 +219,8 @@ static void fill_sphere(const DipTestMesh *mesh) {
             const int v = r * (SECTORS + 1) + s;
             const double theta = pi * r / RINGS;
             const double phi = 2.0 * pi * s / SECTORS;
-            const double n[3] = {sin(theta) * sin(phi), cos(theta), sin(theta) * cos(phi)};
+            const double n[3] = {dip_sin(theta) * dip_sin(phi), dip_cos(theta),
+                                 dip_sin(theta) * dip_cos(phi)};
             for (int k = 0; k < 3; k++) {
                 mesh->positions[3 * v + k] = (float)n[k];
                 mesh->normals[3 * v + k] = (float)n[k];
@@ -377,8 +379,8 @@ static void make_sky(DipTestScene *scene) {
     // The camera is turned around and looks up by 35 degrees, so that the sun is to the right.
     const double up = 35.0 * pi / 360.0;
     scene->pose.orientation[0] = 0.0;
-    scene->pose.orientation[1] = cos(up);
-    scene->pose.orientation[2] = -sin(up);
+    scene->pose.orientation[1] = dip_cos(up);
+    scene->pose.orientation[2] = -dip_sin(up);
     scene->pose.orientation[3] = 0.0;
 }
 
@@ -409,8 +411,8 @@ static void make_water(DipTestScene *scene) {
     scene->materials[high].double_sided = true;
     scene->reflection = (DipReflectionDef){.width = 96, .height = 72, .level_m = -0.8};
     scene->pose.position_world[1] = 0.5;
-    scene->pose.orientation[0] = sin(-0.22);
-    scene->pose.orientation[3] = cos(-0.22);
+    scene->pose.orientation[0] = dip_sin(-0.22);
+    scene->pose.orientation[3] = dip_cos(-0.22);
 }
 
 static void make_water_effects(DipTestScene *scene) {
@@ -426,8 +428,8 @@ static void make_water_effects(DipTestScene *scene) {
     add_pool(scene, DIP_NO_TEXTURE, (const float[]){-4.0f, -0.8f, -1.2f}, 12.0f);
     scene->reflection = (DipReflectionDef){.width = 120, .height = 90, .level_m = -0.8};
     scene->pose.position_world[1] = 0.4;
-    scene->pose.orientation[0] = sin(-0.1);
-    scene->pose.orientation[3] = cos(-0.1);
+    scene->pose.orientation[0] = dip_sin(-0.1);
+    scene->pose.orientation[3] = dip_cos(-0.1);
 }
 
 void dip_test_scene_make(DipTestScene *scene, DipTestSceneKind kind) {

@@ -2,6 +2,7 @@
 // of a plane at a grazing angle.
 #include "tests/renderer/scene/scenes.h"
 
+#include "renderer/base/trig.h"
 #include "tests/renderer/random.h"
 #include "tests/renderer/scene/scenes_private.h"
 
@@ -104,8 +105,8 @@ static uint8_t *add_data(DipTestScene *scene, int size) {
 int dip_test_scene_add_bumps(DipTestScene *scene, int size) {
     uint8_t *rgba8 = add_data(scene, size);
     for (int i = 0; i < size * size; i++) {
-        const double x = 0.5 * sin(8.0 * pi * (i % size + 0.5) / size);
-        const double y = 0.5 * sin(6.0 * pi * (i / size + 0.5) / size);
+        const double x = 0.5 * dip_sin(8.0 * pi * (i % size + 0.5) / size);
+        const double y = 0.5 * dip_sin(6.0 * pi * (i / size + 0.5) / size);
         rgba8[4 * i] = (uint8_t)lround(128.0 + 127.0 * x);
         rgba8[4 * i + 1] = (uint8_t)lround(128.0 + 127.0 * y);
         rgba8[4 * i + 2] = (uint8_t)lround(128.0 + 127.0 * sqrt(1.0 - x * x - y * y));
@@ -121,7 +122,7 @@ int dip_test_scene_add_clouds(DipTestScene *scene, int size) {
         const double y = 2.0 * pi * (i / size) / size;
         for (int c = 0; c < 3; c++) {
             const double wave =
-                sin(x * (1 + c) + c) * sin(y * 2 + 0.7 * c) + sin(x * 3 - y * (c + 1));
+                dip_sin(x * (1 + c) + c) * dip_sin(y * 2 + 0.7 * c) + dip_sin(x * 3 - y * (c + 1));
             rgba8[4 * i + c] = (uint8_t)lround(127.5 + 60.0 * wave);
         }
         rgba8[4 * i + 3] = 255;
@@ -192,10 +193,10 @@ void dip_test_scene_make_grazing(DipTestScene *scene, DipTestTexture texture, in
     // its view axis.
     const double roll = roll_deg * pi / 360.0;
     const double down = -6.0 * pi / 360.0;
-    scene->pose.orientation[0] = sin(down) * cos(roll);
-    scene->pose.orientation[1] = -sin(down) * sin(roll);
-    scene->pose.orientation[2] = cos(down) * sin(roll);
-    scene->pose.orientation[3] = cos(down) * cos(roll);
+    scene->pose.orientation[0] = dip_sin(down) * dip_cos(roll);
+    scene->pose.orientation[1] = -dip_sin(down) * dip_sin(roll);
+    scene->pose.orientation[2] = dip_cos(down) * dip_sin(roll);
+    scene->pose.orientation[3] = dip_cos(down) * dip_cos(roll);
 }
 
 const char *dip_test_scene_name(DipTestSceneKind kind) {
