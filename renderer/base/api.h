@@ -9,4 +9,15 @@
 #define DIP_API
 #endif
 
+// DIP_PRINTF(f, a) lets the compiler check the arguments of a function like printf: parameter f is
+// the format, and the arguments begin with parameter a. Under MinGW, formats follow the C standard
+// (__USE_MINGW_ANSI_STDIO), not Microsoft's C library.
+#if defined(__MINGW32__)
+#define DIP_PRINTF(format_index, first) __attribute__((format(gnu_printf, format_index, first)))
+#elif defined(__GNUC__)
+#define DIP_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
+#else
+#define DIP_PRINTF(format_index, first)
+#endif
+
 #endif

@@ -63,14 +63,12 @@ typedef struct DipError {
 // and key may be NULL. A message that does not fit is cut. The origin is RUNTIME for the codes
 // MEMORY and RUNTIME, and INPUT for all others.
 DIP_API bool dip_error_set(DipError *err, DipErrorCode code, const char *file, int line,
-                           const char *key, const char *format, ...)
-    __attribute__((format(printf, 6, 7)));
+                           const char *key, const char *format, ...) DIP_PRINTF(6, 7);
 
 // Does the same as dip_error_set, but sets the origin RUNTIME for every code. Use it, for example,
 // if a file cannot be written or another program broke off.
 DIP_API bool dip_error_set_runtime(DipError *err, DipErrorCode code, const char *file, int line,
-                                   const char *key, const char *format, ...)
-    __attribute__((format(printf, 6, 7)));
+                                   const char *key, const char *format, ...) DIP_PRINTF(6, 7);
 
 // Writes "file:line: [key] message", without the parts that the error does not have. Returns the
 // length of the whole text, as snprintf does, even if the buffer is too small for the text.

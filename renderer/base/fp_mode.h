@@ -19,20 +19,39 @@
 typedef uint64_t DipFpMode;
 
 #if defined(__SSE2__)
-// MXCSR: exceptions masked, round to nearest, neither FTZ nor DAZ. The low six bits are flags of
-// past exceptions, which change nothing.
-enum { DIP_FP_MODE_MXCSR = 0x1f80, DIP_FP_MODE_MXCSR_FLAGS = 0x3f };
+enum {
+    // MXCSR: exceptions masked, round to nearest, neither FTZ nor DAZ. The low six bits are flags
+    // of past exceptions, which change nothing.
+    DIP_FP_MXCSR = 0x1f80,
+    DIP_FP_MXCSR_FLAGS = 0x3f,
+    // Control word of the x87 unit, which some C libraries use: exceptions masked, 64 bits of
+    // precision, round to nearest.
+    DIP_FP_X87 = 0x037f,
+};
+
+// Loads both modes, unless they are set already. A mode is (x87 control word << 32) | MXCSR.
+static inline void dip_fp_mode_load(DipFpMode from, DipFpMode to) {
+    const uint32_t mxcsr = (uint32_t)to;
+    const uint16_t x87 = (uint16_t)(to >> 32);
+    if (((uint32_t)from ^ mxcsr) & ~(uint32_t)DIP_FP_MXCSR_FLAGS) {
+        __asm__ volatile("ldmxcsr %0" : : "m"(mxcsr) : "memory");
+    }
+    if ((uint16_t)(from >> 32) != x87) {
+        __asm__ volatile("fldcw %0" : : "m"(x87) : "memory");
+    }
+}
+#define DIP_FP_MODE ((DipFpMode)DIP_FP_X87 << 32 | DIP_FP_MXCSR)
 #endif
 
 // Sets the mode of the calling thread. Returns the thread's previous mode.
 static inline DipFpMode dip_fp_mode_set(void) {
 #if defined(__SSE2__)
-    uint32_t before;
-    const uint32_t ours = DIP_FP_MODE_MXCSR;
-    __asm__ volatile("stmxcsr %0" : "=m"(before) : : "memory");
-    if ((before & ~(uint32_t)DIP_FP_MODE_MXCSR_FLAGS) != ours) {
-        __asm__ volatile("ldmxcsr %0" : : "m"(ours) : "memory");
-    }
+    uint32_t mxcsr;
+    uint16_t x87;
+    __asm__ volatile("stmxcsr %0" : "=m"(mxcsr) : : "memory");
+    __asm__ volatile("fnstcw %0" : "=m"(x87) : : "memory");
+    const DipFpMode before = (DipFpMode)x87 << 32 | mxcsr;
+    dip_fp_mode_load(before, DIP_FP_MODE);
     return before;
 #elif defined(__aarch64__)
     uint64_t before;
@@ -49,10 +68,7 @@ static inline DipFpMode dip_fp_mode_set(void) {
 // Restores a mode that dip_fp_mode_set returned.
 static inline void dip_fp_mode_restore(DipFpMode mode) {
 #if defined(__SSE2__)
-    const uint32_t before = (uint32_t)mode;
-    if ((before & ~(uint32_t)DIP_FP_MODE_MXCSR_FLAGS) != DIP_FP_MODE_MXCSR) {
-        __asm__ volatile("ldmxcsr %0" : : "m"(before) : "memory");
-    }
+    dip_fp_mode_load(DIP_FP_MODE, mode);
 #elif defined(__aarch64__)
     if (mode) {
         __asm__ volatile("msr fpcr, %0" : : "r"(mode) : "memory");

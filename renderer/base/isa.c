@@ -38,7 +38,10 @@ bool dip_isa_available(DipIsa isa) {
     switch (isa) {
     case DIP_ISA_SCALAR:
         return true;
-#if defined(__x86_64__)
+#if defined(__i386__)
+    case DIP_ISA_SSE2: // renderer/base/platform.h requires it
+        return true;
+#elif defined(__x86_64__)
     case DIP_ISA_SSE2:
         return true;
     case DIP_ISA_AVX2:

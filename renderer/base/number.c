@@ -1,7 +1,8 @@
 // Conversion of numbers from and to text.
 #include "renderer/base/number.h"
 
-#include <fenv.h>
+#include "renderer/base/fp_mode.h"
+
 #include <limits.h>
 #include <locale.h>
 #include <math.h>
@@ -9,32 +10,40 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What the caller's thread had set, and what strtod and printf depend on: the decimal point comes
-// from the locale, and the last digit from the rounding mode. (They read the rounding mode of the
-// x87 unit, which DIP_FP_MODE_SCOPE leaves alone.)
-typedef struct CallerState {
-    fenv_t environment;
+// strtod and printf take the decimal point from the thread's locale, and the last digit from the
+// rounding mode.
+#ifdef _WIN32
+// Windows has no locale that a thread can save and restore. Programs for Windows start in the "C"
+// locale, and Diptych does not change it.
+typedef int CallerLocale;
+
+static CallerLocale enter_c_locale(void) {
+    return 0;
+}
+
+static void return_to_locale(CallerLocale caller) {
+    (void)caller;
+}
+#else
+typedef struct CallerLocale {
     locale_t locale;
     locale_t made;
-} CallerState;
+} CallerLocale;
 
 // glibc's "C" locale object is static, so newlocale allocates no memory there.
-static CallerState enter_c_locale(void) {
-    CallerState caller;
-    fegetenv(&caller.environment);
-    fesetenv(FE_DFL_ENV);
-    caller.made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+static CallerLocale enter_c_locale(void) {
+    CallerLocale caller = {.made = newlocale(LC_ALL_MASK, "C", (locale_t)0)};
     caller.locale = uselocale(caller.made); // uselocale((locale_t)0) changes nothing
     return caller;
 }
 
-static void return_to_caller(CallerState caller) {
+static void return_to_locale(CallerLocale caller) {
     uselocale(caller.locale);
     if (caller.made) {
         freelocale(caller.made);
     }
-    fesetenv(&caller.environment);
 }
+#endif
 
 static size_t count_digits(const char *text, const char *end) {
     const char *at = text;
@@ -74,16 +83,17 @@ static bool is_decimal(const char *text, size_t length) {
 }
 
 bool dip_number_parse(const char *text, size_t length, double *value) {
+    DIP_FP_MODE_SCOPE();
     char copy[DIP_MAX_NUMBER_LENGTH + 1];
     if (length > DIP_MAX_NUMBER_LENGTH || !is_decimal(text, length)) {
         return false;
     }
     memcpy(copy, text, length);
     copy[length] = '\0';
-    const CallerState caller = enter_c_locale();
+    const CallerLocale caller = enter_c_locale();
     char *end;
     const double number = strtod(copy, &end);
-    return_to_caller(caller);
+    return_to_locale(caller);
     if (*end != '\0' || !isfinite(number)) {
         return false;
     }
@@ -109,7 +119,8 @@ bool dip_integer_parse(const char *text, size_t length, int *value) {
 }
 
 size_t dip_number_format(double value, char buffer[DIP_NUMBER_TEXT_SIZE]) {
-    const CallerState caller = enter_c_locale();
+    DIP_FP_MODE_SCOPE();
+    const CallerLocale caller = enter_c_locale();
     int length = 0;
     for (int digits = 15; digits <= 17; digits++) {
         length = snprintf(buffer, DIP_NUMBER_TEXT_SIZE, "%.*g", digits, value);
@@ -117,6 +128,6 @@ size_t dip_number_format(double value, char buffer[DIP_NUMBER_TEXT_SIZE]) {
             break;
         }
     }
-    return_to_caller(caller);
+    return_to_locale(caller);
     return (size_t)length;
 }

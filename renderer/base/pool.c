@@ -142,7 +142,11 @@ static void end_run(DipPool *pool) {
 }
 
 static int processor_count(void) {
+#ifdef _WIN32
+    const long online = pthread_num_processors_np();
+#else
     const long online = sysconf(_SC_NPROCESSORS_ONLN);
+#endif
     return online < 1 ? 1 : online > DIP_MAX_THREADS ? DIP_MAX_THREADS : (int)online;
 }
 

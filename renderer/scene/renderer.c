@@ -1,6 +1,7 @@
 // Creates, changes and destroys renderers and the resources that they keep for a scene.
 #include "renderer/scene/renderer.h"
 
+#include "renderer/base/pages.h"
 #include "renderer/base/fp_mode.h"
 #include "renderer/scene/draw/renderer_parts.h"
 #include "renderer/scene/draw/view.h"
@@ -10,8 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { PIXEL_ALIGN = 64 };
 
 DipRendererDef dip_renderer_default_def(void) {
     return (DipRendererDef){
@@ -29,8 +28,8 @@ static bool make_target(DipPool *pool, DipIsa isa, int width, int height, DipPip
     if (!*pipeline) {
         return false;
     }
-    *stride_bytes = ((size_t)width * 4 + PIXEL_ALIGN - 1) / PIXEL_ALIGN * PIXEL_ALIGN;
-    *rgba8 = aligned_alloc(PIXEL_ALIGN, *stride_bytes * (size_t)height);
+    *stride_bytes = ((size_t)width * 4 + DIP_CACHE_LINE - 1) / DIP_CACHE_LINE * DIP_CACHE_LINE;
+    *rgba8 = dip_lines_alloc(*stride_bytes * (size_t)height);
     if (!*rgba8) {
         dip_pipeline_destroy(pipeline);
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "size", "no memory for %dx%d pixels",
@@ -86,7 +85,7 @@ DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err) {
 
 static void free_mirror(DipMirror *mirror) {
     dip_pipeline_destroy(&mirror->pipeline);
-    free(mirror->target.rgba8);
+    dip_lines_free(mirror->target.rgba8);
     free(mirror->tile_regions);
     dip_draw_set_free(&mirror->set);
     *mirror = (DipMirror){0};
@@ -109,7 +108,7 @@ void dip_renderer_destroy(DipRenderer **renderer_pointer) {
     }
     dip_pipeline_destroy(&renderer->pipeline);
     dip_texture_destroy(&renderer->mip_colours);
-    free(renderer->rgba8);
+    dip_lines_free(renderer->rgba8);
     forget_scene(renderer);
     free(renderer);
     *renderer_pointer = NULL;
@@ -159,7 +158,7 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
         return false;
     }
     dip_pipeline_destroy(&renderer->pipeline);
-    free(renderer->rgba8);
+    dip_lines_free(renderer->rgba8);
     renderer->pipeline = pipeline;
     renderer->reserved = false;
     renderer->rgba8 = rgba8;

@@ -42,6 +42,12 @@
         [DIP_ISA_AVX2] = {LIST(DIP_KERNEL_ENTRY_AVX2)},                                            \
         [DIP_ISA_AVX512] = {LIST(DIP_KERNEL_ENTRY_AVX512)},                                        \
     }
+#elif defined(__i386__)
+#define DIP_KERNEL_TABLES(LIST)                                                                    \
+    {                                                                                              \
+        [DIP_ISA_SCALAR] = {LIST(DIP_KERNEL_ENTRY_SCALAR)},                                        \
+        [DIP_ISA_SSE2] = {LIST(DIP_KERNEL_ENTRY_SSE2)},                                            \
+    }
 #elif defined(__aarch64__)
 #define DIP_KERNEL_TABLES(LIST)                                                                    \
     {                                                                                              \

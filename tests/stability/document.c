@@ -28,14 +28,6 @@ static const char *const introduction =
     "row with fewer cases. Rows N1 to N56 come from a list of cases that are known to be hard in\n"
     "this field. Rows A1 and up were added after attacks on Diptych.\n";
 
-static void write_bound(FILE *file, const StabilityRow *row) {
-    if (row->bound == 0.0) {
-        fprintf(file, "0 %s", row->unit);
-    } else {
-        fprintf(file, "%.3g %s", row->bound, row->unit);
-    }
-}
-
 static void write_errors(FILE *file, const StabilityErrors *errors) {
     bool same = true;
     int first = -1;
@@ -60,19 +52,19 @@ static void write_errors(FILE *file, const StabilityErrors *errors) {
     }
 }
 
-// Writes the columns that --check compares.
-static void write_row(FILE *file, const StabilityRow *row) {
-    fprintf(file, "| %s | %s | %s | ", row->id, row->promise, row->truth);
-    write_bound(file, row);
-    fputs(" |", file);
+// Formats the columns that --check compares.
+static void format_row(const StabilityRow *row, char line[MAX_LINE]) {
+    snprintf(line, MAX_LINE, "| %s | %s | %s | %.3g %s |", row->id, row->promise, row->truth,
+             row->bound, row->unit);
 }
 
 static void write_topic(FILE *file, const StabilityTopic *topic, const StabilityErrors *errors) {
     fprintf(file, "\n## %s\n\n", topic->title);
     fputs("| row | promise | truth | bound | greatest error |\n|---|---|---|---|---|\n", file);
     for (size_t r = 0; r < topic->row_count; r++) {
-        write_row(file, &topic->rows[r]);
-        fputc(' ', file);
+        char line[MAX_LINE];
+        format_row(&topic->rows[r], line);
+        fprintf(file, "%s ", line);
         write_errors(file, &errors[r]);
         fputs(" |\n", file);
     }
@@ -96,12 +88,7 @@ bool stability_document_write(const char *path, const StabilityErrors *errors) {
 // Returns whether a line of the page begins with the columns of a row.
 static bool line_has_row(const char *line, const StabilityRow *row) {
     char expected[MAX_LINE];
-    FILE *text = fmemopen(expected, sizeof expected, "w");
-    if (!text) {
-        return false;
-    }
-    write_row(text, row);
-    fclose(text);
+    format_row(row, expected);
     return strncmp(line, expected, strlen(expected)) == 0;
 }
 

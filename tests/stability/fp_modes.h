@@ -15,7 +15,8 @@ typedef enum FpMode {
 
 // The mode before fp_mode_enter.
 typedef struct FpModeState {
-    fenv_t environment;
+    int rounding;
+    uint64_t flushing; // the register that holds the bits for flushing
 } FpModeState;
 
 const char *fp_mode_name(FpMode mode);

@@ -11,6 +11,7 @@
 #ifndef DIP_TESTS_STABILITY_STABILITY_H
 #define DIP_TESTS_STABILITY_STABILITY_H
 
+#include "renderer/base/api.h"
 #include "renderer/base/isa.h"
 #include "renderer/base/pool.h"
 
@@ -70,24 +71,16 @@ bool stability_measure(const StabilityRow *row, StabilityRun *run);
 
 // --- for measuring functions ---------------------------------------------------------------------
 
-#if defined(__GNUC__)
-#define STABILITY_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
-#else
-#define STABILITY_PRINTF(format_index, first)
-#endif
-
 // Counts a case and keeps its error if it is the greatest so far. An error that is not a number
 // counts as infinite. The format and its arguments name the case.
-void stability_error(StabilityRun *run, double error, const char *format, ...)
-    STABILITY_PRINTF(3, 4);
+void stability_error(StabilityRun *run, double error, const char *format, ...) DIP_PRINTF(3, 4);
 
 // Counts a case whose promise either holds or is broken: the error is 0 or 1.
-void stability_expect(StabilityRun *run, bool holds, const char *format, ...)
-    STABILITY_PRINTF(3, 4);
+void stability_expect(StabilityRun *run, bool holds, const char *format, ...) DIP_PRINTF(3, 4);
 
 // Says that the row cannot be measured, for example because memory is short. The row then does not
 // hold.
-void stability_break(StabilityRun *run, const char *format, ...) STABILITY_PRINTF(2, 3);
+void stability_break(StabilityRun *run, const char *format, ...) DIP_PRINTF(2, 3);
 
 // Returns the number of random cases for the run's depth.
 int stability_count(const StabilityRun *run, int count_short, int count_full, int count_long);

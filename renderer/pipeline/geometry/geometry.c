@@ -2,6 +2,7 @@
 // triangles.
 #include "renderer/pipeline/geometry/geometry.h"
 
+#include "renderer/base/pages.h"
 #include "renderer/pipeline/geometry/chunk_cull.h"
 #include "renderer/pipeline/geometry/clip.h"
 #include "renderer/pipeline/geometry/mesh_layout.h"
@@ -108,8 +109,8 @@ static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
 // Frees an array and allocates it with a new length. Its content is lost.
 static bool replace(void *pointer_to_array, size_t count, size_t size) {
     void **array = pointer_to_array;
-    free(*array);
-    *array = aligned_alloc(64, (count * size / 64 + 1) * 64);
+    dip_lines_free(*array);
+    *array = dip_lines_alloc(count * size);
     return *array != NULL;
 }
 
@@ -285,13 +286,13 @@ bool dip_geometry_grow_after_overflow(DipGeometry *geometry) {
 }
 
 void dip_geometry_free(DipGeometry *geometry) {
-    free(geometry->first_patch);
-    free(geometry->visible);
-    free(geometry->triangles);
-    free(geometry->planes);
-    free(geometry->blocks);
-    free(geometry->bins);
-    free(geometry->occupied);
+    dip_lines_free(geometry->first_patch);
+    dip_lines_free(geometry->visible);
+    dip_lines_free(geometry->triangles);
+    dip_lines_free(geometry->planes);
+    dip_lines_free(geometry->blocks);
+    dip_lines_free(geometry->bins);
+    dip_lines_free(geometry->occupied);
     memset(geometry, 0, sizeof *geometry);
 }
 

@@ -1,6 +1,7 @@
 // Draws one tile: coverage, then shading, then resolve.
 #include "renderer/pipeline/run/tile_worker.h"
 
+#include "renderer/base/pages.h"
 #include "renderer/base/clock.h"
 #include "renderer/pipeline/geometry/visit.h"
 #include "renderer/pipeline/resolve/resolve.h"
@@ -197,11 +198,8 @@ void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work) {
 
 // --- creating and destroying -------------------------------------------------------------------
 
-enum { CACHE_LINE = 64 };
-
 static void *allocate_aligned(size_t size_bytes) {
-    void *memory =
-        aligned_alloc(CACHE_LINE, (size_bytes + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE);
+    void *memory = dip_lines_alloc(size_bytes);
     if (memory) {
         memset(memory, 0, size_bytes);
     }
@@ -236,12 +234,12 @@ static void free_lists(DipTileShading *shading) {
 void dip_tile_worker_destroy(DipTileWorker **worker_pointer) {
     DipTileWorker *worker = *worker_pointer;
     if (worker) {
-        free(worker->tile.depth);
-        free(worker->tile.id);
-        free(worker->shading.sum);
-        free(worker->shading.multi_fragment);
+        dip_lines_free(worker->tile.depth);
+        dip_lines_free(worker->tile.id);
+        dip_lines_free(worker->shading.sum);
+        dip_lines_free(worker->shading.multi_fragment);
         free_lists(&worker->shading);
-        free(worker);
+        dip_lines_free(worker);
         *worker_pointer = NULL;
     }
 }

@@ -9,6 +9,7 @@
 #include "renderer/pipeline/texture/texture_layout.h"
 
 #include "renderer/base/fp_mode.h"
+#include "renderer/base/pages.h"
 #include "renderer/pipeline/bc1.h"
 
 #include <stdlib.h>
@@ -104,8 +105,11 @@ static DipTexture *begin_texture(const DipTexture *from) {
         texture->alpha = NULL;
         texture->shares_alpha = true;
         // Reads may run past the last texel; the 8 spare texels keep them inside the array.
-        texture->texels = calloc(from->texel_count + 8, sizeof *texture->texels);
-        if (!texture->texels) {
+        const size_t size_bytes = (from->texel_count + 8) * sizeof *texture->texels;
+        texture->texels = dip_pages_alloc(size_bytes);
+        if (texture->texels) {
+            memset(texture->texels, 0, size_bytes);
+        } else {
             dip_texture_destroy(&texture);
         }
     }

@@ -462,7 +462,7 @@ DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int leve
 
 void dip_texture_destroy(DipTexture **texture) {
     if (*texture) {
-        free((*texture)->texels);
+        dip_lines_free((*texture)->texels);
         if (!(*texture)->shares_alpha) {
             free((*texture)->alpha);
         }
