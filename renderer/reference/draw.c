@@ -10,8 +10,6 @@
 
 static const double pi = 3.14159265358979323846;
 
-__extension__ typedef __int128 Int128;
-
 enum { NOTHING = -1 };
 
 // The nearest surface so far at each sample: its depth and the index of its triangle.
@@ -34,11 +32,11 @@ typedef struct Drawing {
     const double *mirrored; // picture of the mirrored scene; NULL if water does not reflect
 } Drawing;
 
-// Returns twice the area of the triangle (from, to, (x, y)), exactly. Positions are in 1/256 pixel.
-static Int128 find_edge(const DipRefVertex *from, const DipRefVertex *to, int64_t x, int64_t y) {
+// Returns twice the area of the triangle (from, to, (x, y)), exactly. Positions are in 1/256
+// pixel. Their magnitude is at most 2^29, because triangles are cut at the guard band.
+static int64_t find_edge(const DipRefVertex *from, const DipRefVertex *to, int64_t x, int64_t y) {
     const int64_t from_x = (int64_t)from->x, from_y = (int64_t)from->y;
-    return (Int128)((int64_t)to->x - from_x) * (y - from_y) -
-           (Int128)((int64_t)to->y - from_y) * (x - from_x);
+    return ((int64_t)to->x - from_x) * (y - from_y) - ((int64_t)to->y - from_y) * (x - from_x);
 }
 
 // Returns true if samples on this edge belong to the triangle. They do if the rest of the triangle
@@ -48,7 +46,7 @@ static bool is_top_left(const DipRefVertex *from, const DipRefVertex *to) {
     return to->y < from->y || (to->y == from->y && to->x > from->x);
 }
 
-static void find_edges(const DipRefTriangle *triangle, int64_t x, int64_t y, Int128 edges[3]) {
+static void find_edges(const DipRefTriangle *triangle, int64_t x, int64_t y, int64_t edges[3]) {
     for (int i = 0; i < 3; i++) {
         edges[i] =
             find_edge(&triangle->vertices[(i + 1) % 3], &triangle->vertices[(i + 2) % 3], x, y);
@@ -56,7 +54,7 @@ static void find_edges(const DipRefTriangle *triangle, int64_t x, int64_t y, Int
 }
 
 static bool covers(const DipRefTriangle *triangle, int64_t x, int64_t y) {
-    Int128 edges[3];
+    int64_t edges[3];
     find_edges(triangle, x, y, edges);
     for (int i = 0; i < 3; i++) {
         const bool kept =
@@ -69,7 +67,7 @@ static bool covers(const DipRefTriangle *triangle, int64_t x, int64_t y) {
 }
 
 static DipRefPosition place_at(const DipRefTriangle *triangle, int64_t x, int64_t y) {
-    Int128 edges[3];
+    int64_t edges[3];
     find_edges(triangle, x, y, edges);
     return (DipRefPosition){
         triangle, {(double)edges[0], (double)edges[1], (double)edges[2]}, (double)x, (double)y};

@@ -1,21 +1,12 @@
-// Converts the scene's meshes to screen triangles: transform, vertex light, near plane, facing.
+// Converts the scene's meshes to screen triangles: transform, vertex light, clipping, facing.
+#include "renderer/reference/internal/clip.h"
 #include "renderer/reference/internal/internal.h"
+#include "renderer/reference/internal/wide.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double pi = 3.14159265358979323846;
-
-// A vertex before the division by w.
-typedef struct ClipVertex {
-    double x; // in clip space
-    double y;
-    double w;     // distance along the view axis, in metres
-    double above; // signed height above the plane that cuts a mirrored scene; what lies below is
-                  // removed
-    double varyings[DIP_REF_VARYINGS];
-} ClipVertex;
 
 typedef struct Camera {
     double position[3];
@@ -24,7 +15,7 @@ typedef struct Camera {
     double scale_y;
     double width_px;
     double height_px;
-    double near_m;
+    DipRefClipPlanes planes;
     bool rounded;
     bool mirrored;
     double level_m;
@@ -47,7 +38,7 @@ static Camera make_camera(const DipReference *reference, const DipRefShot *shot)
         .scale_y = focal,
         .width_px = shot->width,
         .height_px = shot->height,
-        .near_m = reference->def->near_m,
+        .planes = dip_reference_clip_planes(reference->def->near_m, shot),
         .rounded = shot->rounded,
         .mirrored = shot->mirrored,
         .level_m = reference->reflection.level_m,
@@ -100,125 +91,96 @@ static void turn_normal(const Turn *turn, const float normal[3], double turned[3
     }
 }
 
-// Transforms one vertex. If lit is true, the vertex is lit by its normal.
-static ClipVertex transform_vertex(const Camera *camera, const float m[12], const DipMeshDef *mesh,
-                                   const Turn *turn, bool lit, uint32_t index) {
-    const float *p = mesh->positions + 3 * (size_t)index;
-    double world[3];
+// Transforms a point of the mesh into the world. A product of two floats is exact in double.
+static void find_world(const float m[12], const float p[3], DipWide world[3]) {
     for (int i = 0; i < 3; i++) {
-        world[i] = (double)m[4 * i] * p[0] + (double)m[4 * i + 1] * p[1] +
-                   (double)m[4 * i + 2] * p[2] + m[4 * i + 3];
+        const float *row = m + 4 * i;
+        const DipWide sum = dip_wide_sum((double)row[0] * p[0], (double)row[1] * p[1]);
+        world[i] = dip_wide_add_double(dip_wide_add_double(sum, (double)row[2] * p[2]), row[3]);
     }
-    const double above = world[1] - camera->level_m;
+}
+
+static DipWide dot_wide(const double a[3], const DipWide b[3]) {
+    const DipWide sum = dip_wide_add(dip_wide_scale(b[0], a[0]), dip_wide_scale(b[1], a[1]));
+    return dip_wide_add(sum, dip_wide_scale(b[2], a[2]));
+}
+
+// Computes where a point of the mesh appears.
+static void place_vertex(const Camera *camera, const float m[12], const float p[3],
+                         DipRefClipVertex *vertex) {
+    DipWide world[3];
+    DipWide from_camera[3];
+    find_world(m, p, world);
+    const DipWide above = dip_wide_add_double(world[1], -camera->level_m);
     if (camera->mirrored) {
-        world[1] = camera->level_m - above;
+        world[1] = dip_wide_add_double(dip_wide_negate(above), camera->level_m);
     }
-    double from_camera[3];
     for (int i = 0; i < 3; i++) {
-        from_camera[i] = world[i] - camera->position[i];
+        from_camera[i] = dip_wide_add_double(world[i], -camera->position[i]);
+        vertex->varyings[DIP_REF_X + i] = from_camera[i];
     }
-    ClipVertex vertex = {
-        .x = camera->scale_x * dot3(camera->rows[0], from_camera),
-        .y = camera->scale_y * dot3(camera->rows[1], from_camera),
-        .w = -dot3(camera->rows[2], from_camera),
-        .varyings = {0.0},
-    };
-    vertex.above = camera->mirrored ? above + camera->margin * vertex.w : 0.0;
+    vertex->x = dip_wide_scale(dot_wide(camera->rows[0], from_camera), camera->scale_x);
+    vertex->y = dip_wide_scale(dot_wide(camera->rows[1], from_camera), camera->scale_y);
+    vertex->w = dip_wide_negate(dot_wide(camera->rows[2], from_camera));
+    if (camera->mirrored) {
+        vertex->above = dip_wide_add(above, dip_wide_scale(vertex->w, camera->margin));
+        // The surface is lit as if it were not mirrored.
+        vertex->varyings[DIP_REF_Y] = dip_wide_negate(from_camera[1]);
+    }
+}
+
+// Transforms one vertex. If lit is true, the vertex is lit by its normal.
+static DipRefClipVertex transform_vertex(const Camera *camera, const float m[12],
+                                         const DipMeshDef *mesh, const Turn *turn, bool lit,
+                                         uint32_t index) {
+    DipRefClipVertex vertex = {.above = dip_wide(0.0)};
+    place_vertex(camera, m, mesh->positions + 3 * (size_t)index, &vertex);
     for (int i = 0; i < 2; i++) {
-        vertex.varyings[DIP_REF_U0 + i] = mesh->uv0 ? mesh->uv0[2 * (size_t)index + i] : 0.0;
-        vertex.varyings[DIP_REF_U1 + i] = mesh->uv1 ? mesh->uv1[2 * (size_t)index + i] : 0.0;
+        const size_t at = 2 * (size_t)index + (size_t)i;
+        vertex.varyings[DIP_REF_U0 + i] = dip_wide(mesh->uv0 ? mesh->uv0[at] : 0.0);
+        vertex.varyings[DIP_REF_U1 + i] = dip_wide(mesh->uv1 ? mesh->uv1[at] : 0.0);
     }
-    double *normal = vertex.varyings + DIP_REF_NORMAL_X;
+    double normal[3] = {0.0};
     if (mesh->normals) {
         turn_normal(turn, mesh->normals + 3 * (size_t)index, normal);
     }
-    memcpy(vertex.varyings + DIP_REF_X, from_camera, sizeof from_camera);
-    if (camera->mirrored) {
-        vertex.varyings[DIP_REF_Y] =
-            -from_camera[1]; // the surface is lit as if it were not mirrored
-    }
     const double light = lit && mesh->normals ? dip_reference_light(normal, 1.0) : 1.0;
     for (int i = 0; i < 3; i++) {
-        vertex.varyings[DIP_REF_RED + i] =
-            mesh->colours_lin ? light * mesh->colours_lin[3 * (size_t)index + i] : light;
+        const double colour = mesh->colours_lin ? mesh->colours_lin[3 * (size_t)index + i] : 1.0;
+        vertex.varyings[DIP_REF_NORMAL_X + i] = dip_wide(normal[i]);
+        vertex.varyings[DIP_REF_RED + i] = dip_wide(light * colour);
     }
     return vertex;
 }
 
-static bool is_finite(const ClipVertex *vertex) {
-    return isfinite(vertex->x) && isfinite(vertex->y) && isfinite(vertex->w);
+static bool is_finite(const DipRefClipVertex *vertex) {
+    return isfinite(vertex->x.high) && isfinite(vertex->y.high) && isfinite(vertex->w.high);
 }
 
-// Interpolates the point at t on an edge that crosses a plane.
-static ClipVertex cut_edge(const ClipVertex *inside, const ClipVertex *outside, double t) {
-    ClipVertex cut = {.x = inside->x + (outside->x - inside->x) * t,
-                      .y = inside->y + (outside->y - inside->y) * t,
-                      .w = inside->w + (outside->w - inside->w) * t,
-                      .above = inside->above + (outside->above - inside->above) * t};
-    for (int i = 0; i < DIP_REF_VARYINGS; i++) {
-        cut.varyings[i] = inside->varyings[i] + (outside->varyings[i] - inside->varyings[i]) * t;
-    }
-    return cut;
-}
-
-enum { MAX_CORNERS = 5 }; // most corners of a triangle that is cut at two planes
-
-// Returns the point where an edge crosses the near plane.
-static ClipVertex cut_near(const ClipVertex *inside, const ClipVertex *outside, double near_m) {
-    ClipVertex cut = cut_edge(inside, outside, (inside->w - near_m) / (inside->w - outside->w));
-    cut.w = near_m;
-    return cut;
-}
-
-// Keeps the part of a triangle at or beyond the near plane. Returns the number of corners: 0, 3 or
-// 4.
-static int clip_near(const ClipVertex *const corners[3], double near_m,
-                     ClipVertex polygon[MAX_CORNERS]) {
-    int count = 0;
-    for (int i = 0; i < 3; i++) {
-        const ClipVertex *here = corners[i];
-        const ClipVertex *next = corners[(i + 1) % 3];
-        const bool here_inside = here->w >= near_m;
-        const bool next_inside = next->w >= near_m;
-        if (here_inside) {
-            polygon[count++] = *here;
-        }
-        if (here_inside != next_inside) {
-            polygon[count++] =
-                here_inside ? cut_near(here, next, near_m) : cut_near(next, here, near_m);
-        }
-    }
-    return count >= 3 ? count : 0;
-}
-
-// Converts pixels to steps of 1/256 pixel. Positions stay below 2^40 steps, so that the product of
-// two positions fits 128 bits and doubles hold the positions exactly.
+// Converts pixels to steps of 1/256 pixel.
 static double to_steps(double px, bool rounded) {
-    const double steps = fmin(fmax(px * 256.0, -0x1p40), 0x1p40);
+    const double steps = px * 256.0;
     return rounded ? rint(steps) : steps;
 }
 
-static DipRefVertex project(const Camera *camera, const ClipVertex *vertex) {
-    DipRefVertex screen = {
-        .x = to_steps((vertex->x / vertex->w + 1.0) * camera->width_px * 0.5, camera->rounded),
-        .y = to_steps((1.0 - vertex->y / vertex->w) * camera->height_px * 0.5, camera->rounded),
-        .inv_w = 1.0 / vertex->w,
-    };
-    memcpy(screen.varyings, vertex->varyings, sizeof screen.varyings);
-    return screen;
+// Computes where a vertex appears, without its varyings.
+static void project(const Camera *camera, const DipRefClipVertex *vertex, DipRefVertex *screen) {
+    const double x = vertex->x.high / vertex->w.high;
+    const double y = vertex->y.high / vertex->w.high;
+    screen->x = to_steps((x + 1.0) * camera->width_px * 0.5, camera->rounded);
+    screen->y = to_steps((1.0 - y) * camera->height_px * 0.5, camera->rounded);
+    screen->inv_w = 1.0 / vertex->w.high;
 }
 
-__extension__ typedef __int128 Int128;
-
 // Returns twice the area of a triangle, positive if its corners are clockwise to the eye (y points
-// down). The area is exact for rounded positions.
+// down). The sign is exact for rounded positions, which are whole numbers of at most 2^29.
 static double find_area(const DipRefVertex v[3], bool rounded) {
     const double x1 = v[1].x - v[0].x, y1 = v[1].y - v[0].y;
     const double x2 = v[2].x - v[0].x, y2 = v[2].y - v[0].y;
     if (!rounded) {
         return x1 * y2 - y1 * x2;
     }
-    return (double)((Int128)(int64_t)x1 * (int64_t)y2 - (Int128)(int64_t)y1 * (int64_t)x2);
+    return (double)((int64_t)x1 * (int64_t)y2 - (int64_t)y1 * (int64_t)x2);
 }
 
 // Finds the pixels that an interval of positions covers along one axis, cut to the frame. One more
@@ -247,17 +209,28 @@ static bool append(DipRefTriangles *triangles, const DipRefTriangle *triangle) {
 
 // Adds a piece of a triangle if the piece may be visible. *like contains the values that all
 // triangles of the mesh share.
-static bool add_piece(const Camera *camera, const ClipVertex *a, const ClipVertex *b,
-                      const ClipVertex *c, const DipRefTriangle *like, DipRefTriangles *triangles) {
+static bool add_piece(const Camera *camera, const DipRefClipVertex *a, const DipRefClipVertex *b,
+                      const DipRefClipVertex *c, const DipRefTriangle *like,
+                      DipRefTriangles *triangles) {
+    const DipRefClipVertex *corners[3] = {a, b, c};
     DipRefTriangle piece = *like;
     DipRefVertex *v = piece.vertices;
-    v[0] = project(camera, a);
-    v[1] = project(camera, b);
-    v[2] = project(camera, c);
+    for (int i = 0; i < 3; i++) {
+        project(camera, corners[i], &v[i]);
+    }
     piece.area = find_area(v, camera->rounded);
     const bool is_front = (piece.area < 0.0) != like->mirrored;
     if (piece.area == 0.0 || (!is_front && !piece.material->double_sided)) {
         return true;
+    }
+    if (!find_pixels(v[0].x, v[1].x, v[2].x, (int)camera->width_px, &piece.min_x, &piece.max_x) ||
+        !find_pixels(v[0].y, v[1].y, v[2].y, (int)camera->height_px, &piece.min_y, &piece.max_y)) {
+        return true;
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < DIP_REF_VARYINGS; k++) {
+            v[i].varyings[k] = corners[i]->varyings[k].high;
+        }
     }
     if (piece.area < 0.0) {
         const DipRefVertex swapped = v[1];
@@ -265,39 +238,28 @@ static bool add_piece(const Camera *camera, const ClipVertex *a, const ClipVerte
         v[2] = swapped;
         piece.area = -piece.area;
     }
-    if (!find_pixels(v[0].x, v[1].x, v[2].x, (int)camera->width_px, &piece.min_x, &piece.max_x) ||
-        !find_pixels(v[0].y, v[1].y, v[2].y, (int)camera->height_px, &piece.min_y, &piece.max_y)) {
-        return true;
-    }
     return append(triangles, &piece);
 }
 
-// If the scene is mirrored, keeps only the part of a polygon above the mirror's level. Returns the
-// number of corners, at most one more than before.
-static int clip_below(int count, ClipVertex polygon[MAX_CORNERS]) {
-    ClipVertex from[MAX_CORNERS];
-    memcpy(from, polygon, sizeof from);
-    int kept = 0;
-    for (int i = 0; i < count; i++) {
-        const ClipVertex *here = &from[i];
-        const ClipVertex *next = &from[(i + 1) % count];
-        if (here->above >= 0.0) {
-            polygon[kept++] = *here;
-        }
-        if ((here->above >= 0.0) != (next->above >= 0.0)) {
-            const ClipVertex *inside = here->above >= 0.0 ? here : next;
-            const ClipVertex *outside = here->above >= 0.0 ? next : here;
-            polygon[kept++] =
-                cut_edge(inside, outside, inside->above / (inside->above - outside->above));
-        }
+// Adds the pieces of a triangle that clipping leaves.
+static bool add_clipped(const Camera *camera, const DipRefClipVertex *const corners[3],
+                        const DipRefTriangle *like, DipRefTriangles *triangles) {
+    if (!dip_reference_needs_clip(&camera->planes, corners)) {
+        return add_piece(camera, corners[0], corners[1], corners[2], like, triangles);
     }
-    return kept >= 3 ? kept : 0;
+    DipRefClipVertex polygon[DIP_REF_MAX_CORNERS];
+    const int count = dip_reference_clip(&camera->planes, corners, polygon);
+    bool added = true;
+    for (int k = 2; added && k < count; k++) {
+        added = add_piece(camera, &polygon[0], &polygon[k - 1], &polygon[k], like, triangles);
+    }
+    return added;
 }
 
 // Adds the triangles of a mesh. *like contains the values that these triangles share and the number
 // of the mesh's first patch (a piece of a surface that is shaded as a whole).
 static bool add_mesh(const DipReference *reference, const Camera *camera, int mesh_index,
-                     const ClipVertex *vertices, const DipRefTriangle *like,
+                     const DipRefClipVertex *vertices, const DipRefTriangle *like,
                      DipRefTriangles *triangles) {
     const DipMeshDef *mesh = &reference->def->meshes[mesh_index];
     DipRefTriangle triangle = *like;
@@ -305,21 +267,16 @@ static bool add_mesh(const DipReference *reference, const Camera *camera, int me
         if (i / 3 % DIP_REF_STOP_PERIOD == 0 && dip_reference_stopped(reference, NULL)) {
             return false;
         }
-        const ClipVertex *corners[3] = {&vertices[mesh->indices[i]],
-                                        &vertices[mesh->indices[i + 1]],
-                                        &vertices[mesh->indices[i + 2]]};
+        const DipRefClipVertex *corners[3] = {&vertices[mesh->indices[i]],
+                                              &vertices[mesh->indices[i + 1]],
+                                              &vertices[mesh->indices[i + 2]]};
         if (!is_finite(corners[0]) || !is_finite(corners[1]) || !is_finite(corners[2])) {
             continue;
         }
         triangle.patch =
             like->patch + (reference->patches ? reference->patches[mesh_index][i / 3] : i / 3);
-        ClipVertex polygon[MAX_CORNERS];
-        const int count = clip_below(clip_near(corners, camera->near_m, polygon), polygon);
-        for (int k = 2; k < count; k++) {
-            if (!add_piece(camera, &polygon[0], &polygon[k - 1], &polygon[k], &triangle,
-                           triangles)) {
-                return false;
-            }
+        if (!add_clipped(camera, corners, &triangle, triangles)) {
+            return false;
         }
     }
     return true;
@@ -357,7 +314,7 @@ static bool add_object(const DipReference *reference, const Camera *camera,
     DipRefTriangle like = describe_mesh(reference, mesh);
     like.patch = first_patch;
     like.mirrored = turn.mirrored != camera->mirrored;
-    ClipVertex *vertices = malloc(((size_t)mesh->vertex_count + 1) * sizeof *vertices);
+    DipRefClipVertex *vertices = malloc(((size_t)mesh->vertex_count + 1) * sizeof *vertices);
     if (!vertices) {
         return false;
     }

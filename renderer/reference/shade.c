@@ -12,12 +12,12 @@ double dip_reference_depth(const DipRefPosition *place, double near_m) {
     return near_m * sum / triangle->area;
 }
 
-// Interpolates varyings. U = u/w and Q = 1/w are linear on the screen, so u = U/Q and du/dx =
-// (dU/dx - u dQ/dx) / Q. The edge functions are the weights of the vertices, up to a common factor
-// that cancels out. Edge i lies opposite vertex i and runs from vertex i+1 to i+2. It changes by
-// -dy per step in x and by +dx per step in y.
-static void interpolate(const DipRefPosition *place, int first, int count, bool derive,
-                        DipRefVaryings *out) {
+// U = u/w and Q = 1/w are linear on the screen, so u = U/Q and du/dx = (dU/dx - u dQ/dx) / Q. The
+// edge functions are the weights of the vertices, up to a common factor that cancels out. Edge i
+// lies opposite vertex i and runs from vertex i+1 to i+2. It changes by -dy per step in x and by
+// +dx per step in y.
+void dip_reference_interpolate(const DipRefPosition *place, int first, int count, bool derive,
+                               DipRefVaryings *out) {
     const DipRefVertex *v = place->triangle->vertices;
     double weights[3], weights_dx[3], weights_dy[3];
     double q = 0.0, q_dx = 0.0, q_dy = 0.0;
@@ -58,7 +58,7 @@ static void read_texture(const DipRefTexture *texture, const DipRefFilter *filte
 double dip_reference_alpha(const DipRefPosition *place, const DipRefFilter *filter) {
     DipRefVaryings varyings;
     double rgba[4];
-    interpolate(place, DIP_REF_U0, 2, filter != NULL, &varyings);
+    dip_reference_interpolate(place, DIP_REF_U0, 2, filter != NULL, &varyings);
     read_texture(place->triangle->colour, filter, &varyings, DIP_REF_U0, rgba);
     return rgba[3];
 }
@@ -73,7 +73,8 @@ void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter
     const DipRefTriangle *triangle = place->triangle;
     const DipMaterialDef *material = triangle->material;
     DipRefVaryings varyings;
-    interpolate(place, 0, DIP_REF_VARYINGS, filter || triangle->normal_map, &varyings);
+    dip_reference_interpolate(place, 0, DIP_REF_VARYINGS, filter || triangle->normal_map,
+                              &varyings);
     const bool mip_colours = filter && filter->mip_colours && triangle->colour;
     if (triangle->sky && !mip_colours) {
         dip_reference_shade_sky(triangle, filter, &varyings, rgb);

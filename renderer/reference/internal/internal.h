@@ -128,6 +128,11 @@ typedef struct DipRefVaryings {
     double ddy[DIP_REF_DERIVED];
 } DipRefVaryings;
 
+// Interpolates `count` varyings from `first` on, with perspective correction. If derive is true,
+// the derivatives of those that have any are computed too.
+void dip_reference_interpolate(const DipRefPosition *place, int first, int count, bool derive,
+                               DipRefVaryings *out);
+
 // normal_map.c: multiplies a surface's own colour by the light that falls on a normal-mapped
 // surface, and adds the highlight. texel is the normal map's value, 0..1 each. light is the light
 // map's value, or NULL if there is no light map.
