@@ -1,0 +1,89 @@
+# ./test platforms: builds renderer/, campaths/ and their tests for other platforms, and runs them
+# in emulators. ./test sources this file.
+#
+# On every platform: the catalogue of hard cases with its shipped hashes of 64 pictures, in its
+# short form. On aarch64 also all unit tests of renderer/ and campaths/ that are not labelled slow.
+
+PACKAGES_PLATFORMS="gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user musl-tools
+    gcc-mingw-w64-x86-64-posix wine64 gcc-i686-linux-gnu libc6-dev-i386-cross"
+PLATFORMS="musl i686 aarch64 windows"
+
+# fetch_cmocka ARCHITECTURE: unpacks Debian's cmocka for another architecture into
+# build/platforms/ARCHITECTURE, without changing the system's list of architectures.
+fetch_cmocka() {
+    root=$TOP/build/platforms/$1
+    [ ! -f "$root/cmocka.pc" ] || return 0
+    mkdir -p "$root/lists/partial" "$root/cache/archives/partial"
+    foreign="-qq -o APT::Architectures::=amd64 -o APT::Architectures::=$1
+        -o Dir::State::lists=$root/lists -o Dir::Cache=$root/cache"
+    (
+        cd "$root"
+        apt-get $foreign update || true # the index of another architecture may suffice
+        apt-get $foreign download "libcmocka0:$1" "libcmocka-dev:$1"
+        for package in libcmocka*.deb; do
+            dpkg-deb -x "$package" .
+        done
+        library=$(dirname "$(find "$PWD" -name 'libcmocka.so')")
+        printf 'Name: cmocka\nDescription: cmocka\nVersion: 1.1.5\nLibs: -L%s -lcmocka -Wl,-rpath,%s\nCflags: -I%s\n' \
+            "$library" "$library" "$PWD/usr/include" >cmocka.pc
+    ) >"$root.log" 2>&1
+}
+
+# build_platform NAME [CMAKE OPTION]...
+build_platform() {
+    name=$1
+    shift
+    # A folder with nothing but stb: the other headers of /usr/include belong to this machine.
+    mkdir -p build/platforms/headers
+    ln -sfn /usr/include/stb build/platforms/headers/stb
+    cmake -S . -B "build/platform-$name" -G Ninja --toolchain "$TOP/.ci/platforms/$name.cmake" \
+        -DCMAKE_BUILD_TYPE=Release -DDIP_PROGRAM=OFF -DDIP_WERROR=ON -DDIP_ASSERTS=ON \
+        -DSTB_DXT_INCLUDE_DIR="$TOP/build/platforms/headers" "$@" &&
+        cmake --build "build/platform-$name"
+}
+
+# test_platform NAME: builds and runs the tests of a platform.
+test_platform() {
+    case $1 in
+    aarch64)
+        fetch_cmocka arm64 && PKG_CONFIG_LIBDIR="$TOP/build/platforms/arm64" build_platform "$1" &&
+            ctest --test-dir "build/platform-$1" -LE 'long|slow' -j "$(nproc)" \
+                --output-on-failure --no-tests=error
+        ;;
+    *)
+        build_platform "$1" -DBUILD_TESTING=OFF &&
+            emulate "$1" "$(find "build/platform-$1" -name 'stability' -o -name 'stability.exe')" \
+                --depth short
+        ;;
+    esac
+}
+
+# emulate NAME PROGRAM [ARGUMENT]...
+emulate() {
+    name=$1
+    shift
+    case $name in
+    windows) WINEPREFIX="$TOP/build/platforms/wine" WINEDEBUG=-all /usr/lib/wine/wine64 "$@" ;;
+    *) "$@" ;;
+    esac
+}
+
+# Prints a line per platform; the output of a platform is in build/platform-NAME.log.
+test_platforms() {
+    failed=
+    for platform in $PLATFORMS; do
+        begin=$(date +%s)
+        if test_platform "$platform" >"build/platform-$platform.log" 2>&1; then
+            result=passed
+        else
+            result=FAILED
+            failed="$failed $platform"
+        fi
+        echo "$platform: $result in $(($(date +%s) - begin)) s" >&2
+    done
+    for platform in $failed; do
+        echo "== $platform" >&2
+        tail -40 "build/platform-$platform.log" >&2
+    done
+    [ -z "$failed" ]
+}
