@@ -4,6 +4,7 @@
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/cull.h"
+#include "renderer/scene/resources/placement.h"
 #include "renderer/scene/resources/scene_check.h"
 
 #include <math.h>
@@ -275,7 +276,7 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
     for (int i = 0; i < def->object_count; i++) {
         DipSceneObject *object = &scene->objects[i];
         object->mesh = def->objects[i].mesh;
-        memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
+        dip_scene_object_place(object, def->objects[i].transform);
         const DipBox box = dip_mesh_box(scene->meshes[object->mesh].mesh);
         object->bounds = dip_cull_transform_box(object->transform, &box);
         object->first_of_mesh = !placed[object->mesh];

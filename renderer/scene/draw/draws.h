@@ -45,6 +45,7 @@ typedef struct DipDrawSet {
     DipDraw *draws; // one per object that may be visible
     int count;
     DipSurfaceUniforms *uniforms; // one per draw
+    float (*bounds_to_clip)[16];  // one per draw: takes the mesh's own coordinates to clip space
     DipWaterUniforms *water;      // one per draw; NULL if the set has no reflecting water
     DipViewRays rays;
 } DipDrawSet;

@@ -26,6 +26,11 @@ typedef struct DipSceneMesh {
 typedef struct DipSceneObject {
     int mesh;
     float transform[12];
+    float normal_to_world[9]; // gives a normal the right direction, but any length
+    bool mirrors;             // the transform reverses windings
+    // The inverse of the transform's 3x3 part. All elements are 0 if the transform is singular or
+    // one of its columns lies within 14 degrees of the plane of the other two.
+    double world_to_object[9];
     bool first_of_mesh; // no earlier object uses the same mesh
     DipBox bounds;      // in world space, see dip_cull_transform_box
 } DipSceneObject;
