@@ -5,6 +5,7 @@
 #include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/cull.h"
 #include "renderer/scene/resources/placement.h"
+#include "renderer/scene/resources/repeats.h"
 #include "renderer/scene/resources/scene_check.h"
 
 #include <math.h>
@@ -142,6 +143,7 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
     };
     out->mesh = dip_mesh_create(&data, err);
     out->material = mesh->material;
+    out->repeating_varyings = dip_scene_repeating_varyings(def, mesh, out);
     scene->has_normal_map |= out->normal_mapped;
     scene->has_sky |= out->sky;
     free(rows);

@@ -10,7 +10,9 @@ enum { DIP_MAX_CLIP_VERTICES = 3 + 7 + DIP_MAX_CLIP_PLANES };
 
 typedef struct DipClipVertex {
     float position[4];
-    float varying[DIP_MAX_VARYINGS];
+    // Rounded to floats, except large repeating varyings, which are reduced before they are
+    // rounded.
+    double varying[DIP_MAX_VARYINGS];
 } DipClipVertex;
 
 typedef struct DipClipPolygon {
@@ -18,10 +20,15 @@ typedef struct DipClipPolygon {
     DipClipVertex vertex[DIP_MAX_CLIP_VERTICES];
 } DipClipPolygon;
 
+typedef struct DipClipVaryings {
+    int count;
+    uint32_t repeating; // DipDraw.repeating_varyings
+} DipClipVaryings;
+
 // Clips a convex polygon in place by the planes whose bits are set in `codes`. Every new vertex is
 // interpolated from the edge's inside vertex towards its outside vertex. Two triangles that share
 // the edge therefore get the same new vertex.
 void dip_clip_polygon(DipClipPolygon *polygon, int32_t codes, const DipScreenMapping *map,
-                      int varying_count);
+                      const DipClipVaryings *varyings);
 
 #endif

@@ -5,6 +5,7 @@
 #include "renderer/pipeline/geometry/chunk_cull.h"
 #include "renderer/pipeline/geometry/clip.h"
 #include "renderer/pipeline/geometry/mesh_layout.h"
+#include "renderer/pipeline/geometry/repeat.h"
 #include "renderer/pipeline/kernels/kernels.h"
 
 #include <stdlib.h>
@@ -412,6 +413,30 @@ static void add_batch(JobRun *run, const DipSetupBatch *batch) {
     run->job.triangles_drawn += (uint64_t)count;
 }
 
+// Reduces the repeating varyings of a polygon by their nearest multiples of DIP_REPEAT_STEP at one
+// of its vertices.
+static void reduce_repeats(DipClipPolygon *polygon, const DipDraw *draw, int vertex) {
+    for (int s = 0; s < draw->varying_count; s++) {
+        if (draw->repeating_varyings >> s & 1) {
+            const double repeat = dip_nearest_repeat(polygon->vertex[vertex].varying[s]);
+            for (int i = 0; i < polygon->count; i++) {
+                polygon->vertex[i].varying[s] -= repeat;
+            }
+        }
+    }
+}
+
+// Returns the vertex of a polygon with the least w.
+static int nearest_vertex(const DipClipPolygon *polygon) {
+    int nearest = 0;
+    for (int i = 1; i < polygon->count; i++) {
+        if (polygon->vertex[i].position[3] < polygon->vertex[nearest].position[3]) {
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
 // Clips a triangle and sets up the polygon that remains as a fan of triangles.
 static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, int32_t codes) {
     const DipGeometryScratch *scratch = run->scratch;
@@ -425,10 +450,16 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
             polygon.vertex[i].varying[s] = scratch->varying[s][corner[i]];
         }
     }
-    dip_clip_polygon(&polygon, codes, &run->geometry->mapping, varying_count);
+    // The varyings are reduced before they are interpolated, and again where the polygon is nearest
+    // to the eye before they are rounded to floats: a triangle that is cut near the eye may reach
+    // far away.
+    reduce_repeats(&polygon, run->draw, 0);
+    const DipClipVaryings clipped = {varying_count, run->draw->repeating_varyings};
+    dip_clip_polygon(&polygon, codes, &run->geometry->mapping, &clipped);
     if (!polygon.count) {
         return;
     }
+    reduce_repeats(&polygon, run->draw, nearest_vertex(&polygon));
     enum { ROOM = DIP_MAX_CLIP_VERTICES + DIP_BATCH_ALIGN };
     float clip[4][ROOM] = {{0}};
     float varyings[DIP_MAX_VARYINGS][ROOM];
@@ -443,7 +474,7 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
             clip[c][i] = polygon.vertex[i].position[c];
         }
         for (int s = 0; s < varying_count; s++) {
-            varyings[s][i] = polygon.vertex[i].varying[s];
+            varyings[s][i] = (float)polygon.vertex[i].varying[s];
         }
         fan[1][i] = (uint8_t)(i + 1 < polygon.count ? i + 1 : 0);
         fan[2][i] = (uint8_t)(i + 2 < polygon.count ? i + 2 : 0);
@@ -599,6 +630,7 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
         run.target.first_patch = geometry->first_patch[visible.draw];
         run.target.cull = run.draw->cull;
         run.target.varying_count = run.draw->varying_count;
+        run.target.repeating_varyings = run.draw->repeating_varyings;
         const DipChunk *chunk = &run.draw->mesh->chunks[visible.chunk];
         run.job.triangles_in += chunk->triangle_count;
         run_chunk(&run, chunk);

@@ -202,6 +202,7 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
                                         ? 0
                                         : mesh->varying_count - mesh->layout.light_varying,
         .clip_varying_count = clipped ? uniforms->colour_varying + 2 : 0,
+        .repeating_varyings = mesh->repeating_varyings,
         .uniforms = uniforms,
         .samplers = input->samplers[mesh->material],
         .bounds_to_clip = set->bounds_to_clip[set->count - 1],

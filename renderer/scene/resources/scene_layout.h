@@ -20,6 +20,7 @@ typedef struct DipSceneMesh {
     // `layout` and `varying_count` for the normal-mapped shaders; valid if normal_mapped is true.
     DipSurfaceUniforms mapped_layout;
     int mapped_varying_count;
+    uint32_t repeating_varyings; // see DipDraw
     bool sky; // true for a sky that has the texture and the coordinates that moving clouds need
 } DipSceneMesh;
 

@@ -39,7 +39,7 @@ static void coincident_planes_add_one_vertex_each(void **state) {
                 polygon.vertex[v].position[i] = symmetric(&random);
             }
         }
-        dip_clip_polygon(&polygon, DIP_CLIP_ALL_USER, &map, 0);
+        dip_clip_polygon(&polygon, DIP_CLIP_ALL_USER, &map, &(DipClipVaryings){0});
         assert_in_range(polygon.count, 0, 3 + DIP_MAX_CLIP_PLANES);
     }
 }
