@@ -8,7 +8,7 @@
 
 // Returns the signed, scaled distance of p from the plane of a clip code. p is inside if the
 // distance is >= 0.
-static double distance_to(int32_t code, const DipScreenMapping *map, const float p[4]) {
+static double distance_to(int32_t code, const DipScreenMapping *map, const double p[4]) {
     const double x = p[0];
     const double y = p[1];
     const double z = p[2];
@@ -48,11 +48,14 @@ static void intersect(const DipClipVertex *inside, const DipClipVertex *outside,
                       double to, const DipClipVaryings *varyings, DipClipVertex *out) {
     // keep_one_run may have treated an inside vertex as outside. Both vertices are then inside the
     // plane, t is 1, and the result is the vertex `outside` itself.
-    const double at = from / (from - to);
-    const double t = at >= 0.0 && at <= 1.0 ? at : 1.0;
+    const double share = from / (from - to);
+    const double t = share >= 0.0 && share <= 1.0 ? share : 1.0;
+    out->far = inside->far || outside->far;
     for (int i = 0; i < 4; i++) {
         const double a = inside->position[i];
-        out->position[i] = (float)(a + t * ((double)outside->position[i] - a));
+        const double at = a + t * (outside->position[i] - a);
+        out->projected[i] = (float)at;
+        out->position[i] = out->far ? at : (double)out->projected[i];
     }
     for (int i = 0; i < varyings->count; i++) {
         const double a = inside->varying[i];

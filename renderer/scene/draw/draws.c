@@ -11,9 +11,9 @@ bool dip_draw_set_make(DipDrawSet *set, int object_count, bool reflects, DipErro
     const size_t room = (size_t)object_count + 1;
     set->draws = calloc(room, sizeof *set->draws);
     set->uniforms = calloc(room, sizeof *set->uniforms);
-    set->bounds_to_clip = calloc(room, sizeof *set->bounds_to_clip);
+    set->matrices = calloc(room, sizeof *set->matrices);
     set->water = reflects ? calloc(room, sizeof *set->water) : NULL;
-    if (!set->draws || !set->uniforms || !set->bounds_to_clip || (reflects && !set->water)) {
+    if (!set->draws || !set->uniforms || !set->matrices || (reflects && !set->water)) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "no memory for %d objects",
                              object_count);
     }
@@ -23,7 +23,7 @@ bool dip_draw_set_make(DipDrawSet *set, int object_count, bool reflects, DipErro
 void dip_draw_set_free(DipDrawSet *set) {
     free(set->draws);
     free(set->uniforms);
-    free(set->bounds_to_clip);
+    free(set->matrices);
     free(set->water);
     *set = (DipDrawSet){0};
 }
@@ -162,16 +162,27 @@ static DipCull cull_of(const DipSceneMaterial *material, const DipSceneObject *o
     return object->mirrors != mirrored ? DIP_CULL_FRONT : DIP_CULL_BACK;
 }
 
+static void round_matrix(const double matrix[16], float rounded[16]) {
+    for (int i = 0; i < 16; i++) {
+        rounded[i] = (float)matrix[i];
+    }
+}
+
 // Sets the matrices of the draw that was added last.
 static void set_matrices(const DipView *view, const DipSceneObject *object, DipDrawSet *set) {
     static const float no_origin[3] = {0.0f, 0.0f, 0.0f};
     DipSurfaceUniforms *uniforms = &set->uniforms[set->count - 1];
-    float *bounds_to_clip = set->bounds_to_clip[set->count - 1];
-    dip_view_object_origin(view, object->transform, object->world_to_object, uniforms->origin);
-    dip_view_object_to_clip(view, object->transform, uniforms->origin, uniforms->to_clip);
-    memcpy(bounds_to_clip, uniforms->to_clip, sizeof uniforms->to_clip);
-    if (uniforms->origin[0] != 0.0f || uniforms->origin[1] != 0.0f || uniforms->origin[2] != 0.0f) {
+    DipDrawMatrices *matrices = &set->matrices[set->count - 1];
+    DipExactTransform *exact = &matrices->exact_to_clip;
+    dip_view_object_origin(view, object->transform, object->world_to_object, exact->origin);
+    dip_view_object_to_clip(view, object->transform, exact->origin, exact->to_clip);
+    round_matrix(exact->to_clip, uniforms->to_clip);
+    memcpy(uniforms->origin, exact->origin, sizeof uniforms->origin);
+    memcpy(matrices->bounds_to_clip, uniforms->to_clip, sizeof uniforms->to_clip);
+    if (exact->origin[0] != 0.0f || exact->origin[1] != 0.0f || exact->origin[2] != 0.0f) {
+        double bounds_to_clip[16];
         dip_view_object_to_clip(view, object->transform, no_origin, bounds_to_clip);
+        round_matrix(bounds_to_clip, matrices->bounds_to_clip);
     }
     memcpy(uniforms->normal_to_world, object->normal_to_world, sizeof uniforms->normal_to_world);
 }
@@ -205,7 +216,11 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
         .repeating_varyings = mesh->repeating_varyings,
         .uniforms = uniforms,
         .samplers = input->samplers[mesh->material],
-        .bounds_to_clip = set->bounds_to_clip[set->count - 1],
+        .bounds_to_clip = set->matrices[set->count - 1].bounds_to_clip,
+        // A sky is nowhere near the eye, so floats are exact enough for it.
+        .exact_to_clip = material->surface == DIP_SURFACE_SKY
+                             ? NULL
+                             : &set->matrices[set->count - 1].exact_to_clip,
         .cull = cull_of(material, object, pass->mirrored),
     };
     set_effect(input, set, mesh, uniforms, draw);

@@ -108,7 +108,7 @@ void dip_view_object_origin(const DipView *view, const float transform[12],
 }
 
 void dip_view_object_to_clip(const DipView *view, const float transform[12], const float origin[3],
-                             float product[16]) {
+                             double product[16]) {
     const double *m = view->world_to_clip;
     double from_eye[3]; // from the eye to the origin. It is small, and so is its rounding error.
     for (int k = 0; k < 3; k++) {
@@ -124,9 +124,9 @@ void dip_view_object_to_clip(const DipView *view, const float transform[12], con
             for (int k = 0; k < 3; k++) {
                 sum += m[4 * row + k] * (double)transform[4 * k + c];
             }
-            product[4 * row + c] = (float)sum;
+            product[4 * row + c] = sum;
             shift += m[4 * row + c] * from_eye[c];
         }
-        product[4 * row + 3] = (float)shift;
+        product[4 * row + 3] = shift;
     }
 }

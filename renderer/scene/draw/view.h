@@ -41,6 +41,6 @@ void dip_view_object_origin(const DipView *view, const float transform[12],
 // relative to the origin to clip space. The transform is a 3x4 matrix; its fourth row is
 // (0, 0, 0, 1).
 void dip_view_object_to_clip(const DipView *view, const float transform[12], const float origin[3],
-                             float product[16]);
+                             double product[16]);
 
 #endif
