@@ -29,6 +29,12 @@ enum { DIP_MAX_CLIP_PLANES = 6 };
 // The triangles that a draw leaves out. A front face winds counter-clockwise on the screen, +y up.
 typedef enum DipCull { DIP_CULL_NONE, DIP_CULL_BACK, DIP_CULL_FRONT } DipCull;
 
+// Takes mesh positions to clip space: to_clip * (position - origin, 1). The matrix is row-major.
+typedef struct DipExactTransform {
+    double to_clip[16];
+    float origin[3];
+} DipExactTransform;
+
 // A draw: one mesh with its shaders. Everything that its pointers refer to is borrowed for the call
 // that draws it.
 typedef struct DipDraw {
@@ -42,11 +48,20 @@ typedef struct DipDraw {
     // Fragment shaders get the last value_only_varying_count varyings, 0..varying_count, without
     // derivatives, which saves time.
     int value_only_varying_count;
+    // Bit s: the shaders use varying s only modulo 1, as a coordinate along which all their
+    // textures repeat (DIP_WRAP_REPEAT). The pipeline may then add whole numbers to the varying,
+    // the same at all corners of a triangle but different from triangle to triangle, so that large
+    // coordinates keep their precision near the eye. Derivatives do not change.
+    uint32_t repeating_varyings;
     const void *uniforms;
     const DipSampler *samplers; // at most DIP_MAX_SAMPLERS
     // 4x4 matrix, row-major, that takes mesh positions to clip space. The pipeline uses it to cull
     // chunks of the mesh by their boxes. NULL: no chunk is culled.
     const float *bounds_to_clip;
+    // What the vertex shader computes in floats. The pipeline uses it for triangles that have to be
+    // cut and reach far away: floats of the far corners are too coarse for the new corners near the
+    // eye. NULL: new corners are computed from the vertex shader's positions.
+    const DipExactTransform *exact_to_clip;
     DipCull cull;
 } DipDraw;
 

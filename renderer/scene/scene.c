@@ -4,6 +4,8 @@
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/cull.h"
+#include "renderer/scene/resources/placement.h"
+#include "renderer/scene/resources/repeats.h"
 #include "renderer/scene/resources/scene_check.h"
 
 #include <math.h>
@@ -141,6 +143,7 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
     };
     out->mesh = dip_mesh_create(&data, err);
     out->material = mesh->material;
+    out->repeating_varyings = dip_scene_repeating_varyings(def, mesh, out);
     scene->has_normal_map |= out->normal_mapped;
     scene->has_sky |= out->sky;
     free(rows);
@@ -275,7 +278,7 @@ static bool place_objects(const DipSceneDef *def, DipScene *scene, DipError *err
     for (int i = 0; i < def->object_count; i++) {
         DipSceneObject *object = &scene->objects[i];
         object->mesh = def->objects[i].mesh;
-        memcpy(object->transform, def->objects[i].transform, sizeof object->transform);
+        dip_scene_object_place(object, def->objects[i].transform);
         const DipBox box = dip_mesh_box(scene->meshes[object->mesh].mesh);
         object->bounds = dip_cull_transform_box(object->transform, &box);
         object->first_of_mesh = !placed[object->mesh];

@@ -1,12 +1,14 @@
 // Sutherland-Hodgman clipping in homogeneous coordinates.
 #include "renderer/pipeline/geometry/clip.h"
 
+#include "renderer/pipeline/geometry/repeat.h"
+
 #include <stdbool.h>
 #include <string.h>
 
 // Returns the signed, scaled distance of p from the plane of a clip code. p is inside if the
 // distance is >= 0.
-static double distance_to(int32_t code, const DipScreenMapping *map, const float p[4]) {
+static double distance_to(int32_t code, const DipScreenMapping *map, const double p[4]) {
     const double x = p[0];
     const double y = p[1];
     const double z = p[2];
@@ -37,19 +39,29 @@ static double distance_to(int32_t code, const DipScreenMapping *map, const float
     return x * n[0] + y * n[1] + z * n[2] + w * n[3];
 }
 
+// Whether a repeating varying will be reduced, so that more than the precision of a float counts.
+static bool is_large(double value) {
+    return dip_nearest_repeat(value) != 0.0;
+}
+
 static void intersect(const DipClipVertex *inside, const DipClipVertex *outside, double from,
-                      double to, int varying_count, DipClipVertex *out) {
+                      double to, const DipClipVaryings *varyings, DipClipVertex *out) {
     // keep_one_run may have treated an inside vertex as outside. Both vertices are then inside the
     // plane, t is 1, and the result is the vertex `outside` itself.
-    const double at = from / (from - to);
-    const double t = at >= 0.0 && at <= 1.0 ? at : 1.0;
+    const double share = from / (from - to);
+    const double t = share >= 0.0 && share <= 1.0 ? share : 1.0;
+    out->far = inside->far || outside->far;
     for (int i = 0; i < 4; i++) {
         const double a = inside->position[i];
-        out->position[i] = (float)(a + t * ((double)outside->position[i] - a));
+        const double at = a + t * (outside->position[i] - a);
+        out->projected[i] = (float)at;
+        out->position[i] = out->far ? at : (double)out->projected[i];
     }
-    for (int i = 0; i < varying_count; i++) {
+    for (int i = 0; i < varyings->count; i++) {
         const double a = inside->varying[i];
-        out->varying[i] = (float)(a + t * ((double)outside->varying[i] - a));
+        const double value = a + t * (outside->varying[i] - a);
+        const bool repeats = varyings->repeating >> i & 1;
+        out->varying[i] = repeats && is_large(value) ? value : (float)value;
     }
 }
 
@@ -80,7 +92,7 @@ static void keep_one_run(int count, const double *side, bool *inside) {
 }
 
 static void clip_by(DipClipPolygon *polygon, int32_t code, const DipScreenMapping *map,
-                    int varying_count) {
+                    const DipClipVaryings *varyings) {
     const DipClipPolygon in = *polygon;
     double side[DIP_MAX_CLIP_VERTICES];
     for (int i = 0; i < in.count; i++) {
@@ -97,7 +109,7 @@ static void clip_by(DipClipPolygon *polygon, int32_t code, const DipScreenMappin
         if (inside[i] != inside[next]) {
             const int a = inside[i] ? i : next;
             const int b = inside[i] ? next : i;
-            intersect(&in.vertex[a], &in.vertex[b], side[a], side[b], varying_count,
+            intersect(&in.vertex[a], &in.vertex[b], side[a], side[b], varyings,
                       &polygon->vertex[polygon->count++]);
         }
     }
@@ -107,10 +119,10 @@ static void clip_by(DipClipPolygon *polygon, int32_t code, const DipScreenMappin
 }
 
 void dip_clip_polygon(DipClipPolygon *polygon, int32_t codes, const DipScreenMapping *map,
-                      int varying_count) {
+                      const DipClipVaryings *varyings) {
     for (int32_t code = 1; code < DIP_CLIP_INVALID && polygon->count; code <<= 1) {
         if (codes & DIP_CLIP_NEEDED & code) {
-            clip_by(polygon, code, map, varying_count);
+            clip_by(polygon, code, map, varyings);
         }
     }
 }

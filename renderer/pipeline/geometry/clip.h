@@ -4,13 +4,27 @@
 
 #include "renderer/pipeline/geometry/project.h"
 
+#include <stdbool.h>
+
 // Each plane adds at most one vertex to the triangle's 3. There are seven planes (near, far,
 // smallest w, four of the guard band) and the user clip planes.
 enum { DIP_MAX_CLIP_VERTICES = 3 + 7 + DIP_MAX_CLIP_PLANES };
 
+// A vertex whose clip coordinates have a greater magnitude than this is far: the edges that end at
+// it are cut in double precision.
+#define DIP_FAR_COORDINATE 512.0f
+
 typedef struct DipClipVertex {
-    float position[4];
-    float varying[DIP_MAX_VARYINGS];
+    // The clip position by which the polygon is cut. It has the precision of a double if the vertex
+    // is far or lies on an edge that ends at a far vertex, and the precision of a float otherwise.
+    double position[4];
+    bool far;
+    // The position that is projected. For a vertex of the triangle, it is the vertex shader's, so
+    // that triangles that are not cut have the same vertex.
+    float projected[4];
+    // Rounded to floats, except large repeating varyings, which are reduced before they are
+    // rounded.
+    double varying[DIP_MAX_VARYINGS];
 } DipClipVertex;
 
 typedef struct DipClipPolygon {
@@ -18,10 +32,15 @@ typedef struct DipClipPolygon {
     DipClipVertex vertex[DIP_MAX_CLIP_VERTICES];
 } DipClipPolygon;
 
+typedef struct DipClipVaryings {
+    int count;
+    uint32_t repeating; // DipDraw.repeating_varyings
+} DipClipVaryings;
+
 // Clips a convex polygon in place by the planes whose bits are set in `codes`. Every new vertex is
 // interpolated from the edge's inside vertex towards its outside vertex. Two triangles that share
 // the edge therefore get the same new vertex.
 void dip_clip_polygon(DipClipPolygon *polygon, int32_t codes, const DipScreenMapping *map,
-                      int varying_count);
+                      const DipClipVaryings *varyings);
 
 #endif

@@ -6,8 +6,10 @@
 #include "renderer/pipeline/geometry/chunk_cull.h"
 #include "renderer/pipeline/geometry/clip.h"
 #include "renderer/pipeline/geometry/mesh_layout.h"
+#include "renderer/pipeline/geometry/repeat.h"
 #include "renderer/pipeline/kernels/kernels.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -306,7 +308,8 @@ typedef struct JobRun {
     DipTileBin *bins;
     const DipDraw *draw;
     DipSetupTarget target;
-    uint32_t next_triangle; // index of the next free triangle in the job's current run
+    const float *position[3]; // x, y and z of the current chunk's vertices
+    uint32_t next_triangle;   // index of the next free triangle in the job's current run
     uint32_t triangle_end;
     uint32_t next_block; // index of the next free block in the job's current run
     uint32_t block_end;
@@ -413,23 +416,71 @@ static void add_batch(JobRun *run, const DipSetupBatch *batch) {
     run->job.triangles_drawn += (uint64_t)count;
 }
 
+// Reduces the repeating varyings of a polygon by their nearest multiples of DIP_REPEAT_STEP at one
+// of its vertices.
+static void reduce_repeats(DipClipPolygon *polygon, const DipDraw *draw, int vertex) {
+    for (int s = 0; s < draw->varying_count; s++) {
+        if (draw->repeating_varyings >> s & 1) {
+            const double repeat = dip_nearest_repeat(polygon->vertex[vertex].varying[s]);
+            for (int i = 0; i < polygon->count; i++) {
+                polygon->vertex[i].varying[s] -= repeat;
+            }
+        }
+    }
+}
+
+// Returns the vertex of a polygon with the least w.
+static int nearest_vertex(const DipClipPolygon *polygon) {
+    int nearest = 0;
+    for (int i = 1; i < polygon->count; i++) {
+        if (polygon->vertex[i].position[3] < polygon->vertex[nearest].position[3]) {
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+// Sets the clip position of vertex v of the current chunk.
+static void load_position(const JobRun *run, uint8_t v, DipClipVertex *vertex) {
+    const DipExactTransform *exact = run->draw->exact_to_clip;
+    vertex->far = false;
+    for (int c = 0; c < 4; c++) {
+        vertex->projected[c] = run->scratch->clip[c][v];
+        vertex->position[c] = vertex->projected[c];
+        vertex->far |= exact && fabsf(vertex->projected[c]) > DIP_FAR_COORDINATE;
+    }
+    double from_origin[3];
+    for (int k = 0; vertex->far && k < 3; k++) {
+        from_origin[k] = (double)run->position[k][v] - exact->origin[k];
+    }
+    for (int c = 0; vertex->far && c < 4; c++) {
+        const double *m = exact->to_clip + 4 * c;
+        vertex->position[c] =
+            ((m[0] * from_origin[0] + m[1] * from_origin[1]) + m[2] * from_origin[2]) + m[3];
+    }
+}
+
 // Clips a triangle and sets up the polygon that remains as a fan of triangles.
 static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, int32_t codes) {
     const DipGeometryScratch *scratch = run->scratch;
     const int varying_count = run->draw->varying_count;
     DipClipPolygon polygon = {.count = 3};
     for (int i = 0; i < 3; i++) {
-        for (int c = 0; c < 4; c++) {
-            polygon.vertex[i].position[c] = scratch->clip[c][corner[i]];
-        }
+        load_position(run, corner[i], &polygon.vertex[i]);
         for (int s = 0; s < varying_count; s++) {
             polygon.vertex[i].varying[s] = scratch->varying[s][corner[i]];
         }
     }
-    dip_clip_polygon(&polygon, codes, &run->geometry->mapping, varying_count);
+    // The varyings are reduced before they are interpolated, and again where the polygon is nearest
+    // to the eye before they are rounded to floats: a triangle that is cut near the eye may reach
+    // far away.
+    reduce_repeats(&polygon, run->draw, 0);
+    const DipClipVaryings clipped = {varying_count, run->draw->repeating_varyings};
+    dip_clip_polygon(&polygon, codes, &run->geometry->mapping, &clipped);
     if (!polygon.count) {
         return;
     }
+    reduce_repeats(&polygon, run->draw, nearest_vertex(&polygon));
     enum { ROOM = DIP_MAX_CLIP_VERTICES + DIP_BATCH_ALIGN };
     float clip[4][ROOM] = {{0}};
     float varyings[DIP_MAX_VARYINGS][ROOM];
@@ -441,10 +492,10 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
     float *const clip_rows[4] = {clip[0], clip[1], clip[2], clip[3]};
     for (int i = 0; i < polygon.count; i++) {
         for (int c = 0; c < 4; c++) {
-            clip[c][i] = polygon.vertex[i].position[c];
+            clip[c][i] = polygon.vertex[i].projected[c];
         }
         for (int s = 0; s < varying_count; s++) {
-            varyings[s][i] = polygon.vertex[i].varying[s];
+            varyings[s][i] = (float)polygon.vertex[i].varying[s];
         }
         fan[1][i] = (uint8_t)(i + 1 < polygon.count ? i + 1 : 0);
         fan[2][i] = (uint8_t)(i + 2 < polygon.count ? i + 2 : 0);
@@ -547,6 +598,7 @@ static void run_chunk(JobRun *run, const DipChunk *chunk) {
     for (int s = 0; s < DIP_MAX_VARYINGS; s++) {
         varying[s] = scratch->varying[s];
     }
+    memcpy(run->position, in, sizeof run->position);
     const DipVertexBatch batch = {(int)chunk->vertex_count, in, clip, varying, run->draw->uniforms};
     run->draw->vertex_shader(&batch);
     run->kernels->dip_kernel_project(&run->geometry->mapping, (int)chunk->vertex_count, clip,
@@ -600,6 +652,7 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
         run.target.first_patch = geometry->first_patch[visible.draw];
         run.target.cull = run.draw->cull;
         run.target.varying_count = run.draw->varying_count;
+        run.target.repeating_varyings = run.draw->repeating_varyings;
         const DipChunk *chunk = &run.draw->mesh->chunks[visible.chunk];
         run.job.triangles_in += chunk->triangle_count;
         run_chunk(&run, chunk);

@@ -39,7 +39,8 @@ typedef struct DipSetupTarget {
                          // dropped
     int region_last[2];  // x and y of the region's last pixel
     int varying_count;
-    int plane_stride; // floats per triangle, see dip_plane_stride
+    uint32_t repeating_varyings; // see DipDraw
+    int plane_stride;            // floats per triangle, see dip_plane_stride
     uint32_t draw;
     uint32_t first_patch; // number of patch 0 of the draw's mesh
     DipCull cull;

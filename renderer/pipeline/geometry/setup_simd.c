@@ -6,6 +6,7 @@
 // floats relative to an anchor (triangle.h). Counted in 1/256 pixel, rounded positions are below
 // 2^22 in magnitude, and edges are below 2^23. Areas and edge constants are therefore whole numbers
 // that doubles hold exactly.
+#include "renderer/pipeline/geometry/repeat.h"
 #include "renderer/pipeline/geometry/setup.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/half.h"
@@ -295,6 +296,19 @@ VEC_INLINE void set_plane(Hf plane[3], Vd value, const Gradient *g, const Vd to_
     plane[2] = hf_from_double(g->dy);
 }
 
+// Reduces a repeating varying by its nearest multiple of DIP_REPEAT_STEP at the corner that is
+// nearest to the eye. The difference is exact, unless a corner's value is tiny beside the multiple.
+VEC_INLINE void reduce_repeat(const Vd rw[3], Vd value[3]) {
+    const Vl second = rw[1] > rw[0];
+    const Vd nearer = vd_select(second, rw[1], rw[0]);
+    const Vd nearest = vd_select(rw[2] > nearer, value[2], vd_select(second, value[1], value[0]));
+    const Vd steps = nearest * (1.0 / DIP_REPEAT_STEP);
+    const Vd repeat = ((steps + DIP_REPEAT_ROUNDER) - DIP_REPEAT_ROUNDER) * DIP_REPEAT_STEP;
+    for (int k = 0; k < 3; k++) {
+        value[k] -= repeat;
+    }
+}
+
 VEC_INLINE void store_planes(const TriangleVector *tri, const DipSetupTarget *target,
                              const DipSetupBatch *batch, float *out) {
     Hf values[(DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + DIP_PLANES_ALIGN - 1) /
@@ -311,8 +325,14 @@ VEC_INLINE void store_planes(const TriangleVector *tri, const DipSetupTarget *ta
     set_plane(values + DIP_PLANES_RW, rw[0], &q, to_anchor);
     for (int s = 0; s < target->varying_count; s++) {
         gather3(batch->varyings + s * batch->varying_stride, tri->corner, corner);
-        const Vd value[3] = {vd_from_float(corner[0]) * rw[0], vd_from_float(corner[1]) * rw[1],
-                             vd_from_float(corner[2]) * rw[2]};
+        Vd value[3] = {vd_from_float(corner[0]), vd_from_float(corner[1]),
+                       vd_from_float(corner[2])};
+        if (target->repeating_varyings >> s & 1) {
+            reduce_repeat(rw, value);
+        }
+        for (int k = 0; k < 3; k++) {
+            value[k] *= rw[k];
+        }
         const Gradient g = gradient(tri, value);
         set_plane(values + DIP_PLANES_VARYINGS + 3 * s, value[0], &g, to_anchor);
     }

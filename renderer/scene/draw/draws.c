@@ -5,13 +5,15 @@
 #include "renderer/scene/resources/scene_layout.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 bool dip_draw_set_make(DipDrawSet *set, int object_count, bool reflects, DipError *err) {
     const size_t room = (size_t)object_count + 1;
     set->draws = calloc(room, sizeof *set->draws);
     set->uniforms = calloc(room, sizeof *set->uniforms);
+    set->matrices = calloc(room, sizeof *set->matrices);
     set->water = reflects ? calloc(room, sizeof *set->water) : NULL;
-    if (!set->draws || !set->uniforms || (reflects && !set->water)) {
+    if (!set->draws || !set->uniforms || !set->matrices || (reflects && !set->water)) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "no memory for %d objects",
                              object_count);
     }
@@ -21,6 +23,7 @@ bool dip_draw_set_make(DipDrawSet *set, int object_count, bool reflects, DipErro
 void dip_draw_set_free(DipDrawSet *set) {
     free(set->draws);
     free(set->uniforms);
+    free(set->matrices);
     free(set->water);
     *set = (DipDrawSet){0};
 }
@@ -94,43 +97,6 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
 
 // --- objects -----------------------------------------------------------------------------------
 
-// Computes the cofactors of the transform's 3x3 part: the inverse transpose times the determinant.
-// The cofactors turn a normal to the same direction as the inverse transpose does, but change its
-// length. If the transform mirrors, they also reverse the direction.
-static void cofactors(const float t[12], double n[9]) {
-    for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) {
-            const float *a = t + 4 * ((r + 1) % 3);
-            const float *b = t + 4 * ((r + 2) % 3);
-            n[3 * r + c] =
-                (double)a[(c + 1) % 3] * b[(c + 2) % 3] - (double)a[(c + 2) % 3] * b[(c + 1) % 3];
-        }
-    }
-}
-
-static bool mirrors(const float t[12]) {
-    double n[9];
-    cofactors(t, n);
-    return (t[0] * n[0] + t[1] * n[1]) + t[2] * n[2] < 0.0;
-}
-
-// Computes the matrix that turns normals to world space. The matrix is scaled until its greatest
-// element is +-1. This lets the shader normalise turned normals even if the object is very small or
-// very large.
-static void normal_matrix(const float t[12], float out[9]) {
-    double n[9];
-    cofactors(t, n);
-    double greatest = 0.0;
-    for (int i = 0; i < 9; i++) {
-        const double size = n[i] < 0.0 ? -n[i] : n[i];
-        greatest = size > greatest ? size : greatest;
-    }
-    const double scale = greatest > 0.0 ? (mirrors(t) ? -1.0 : 1.0) / greatest : 0.0;
-    for (int i = 0; i < 9; i++) {
-        out[i] = (float)(n[i] * scale);
-    }
-}
-
 // Computes the view rays through the pixels of a target from the world-to-clip matrix. The first
 // three elements of the rows for x, y and w are orthogonal vectors. So a point relative to the eye
 // is a weighted sum of these vectors: the weight of a vector is its clip coordinate divided by the
@@ -193,7 +159,32 @@ static DipCull cull_of(const DipSceneMaterial *material, const DipSceneObject *o
     if (material->double_sided) {
         return DIP_CULL_NONE;
     }
-    return mirrors(object->transform) != mirrored ? DIP_CULL_FRONT : DIP_CULL_BACK;
+    return object->mirrors != mirrored ? DIP_CULL_FRONT : DIP_CULL_BACK;
+}
+
+static void round_matrix(const double matrix[16], float rounded[16]) {
+    for (int i = 0; i < 16; i++) {
+        rounded[i] = (float)matrix[i];
+    }
+}
+
+// Sets the matrices of the draw that was added last.
+static void set_matrices(const DipView *view, const DipSceneObject *object, DipDrawSet *set) {
+    static const float no_origin[3] = {0.0f, 0.0f, 0.0f};
+    DipSurfaceUniforms *uniforms = &set->uniforms[set->count - 1];
+    DipDrawMatrices *matrices = &set->matrices[set->count - 1];
+    DipExactTransform *exact = &matrices->exact_to_clip;
+    dip_view_object_origin(view, object->transform, object->world_to_object, exact->origin);
+    dip_view_object_to_clip(view, object->transform, exact->origin, exact->to_clip);
+    round_matrix(exact->to_clip, uniforms->to_clip);
+    memcpy(uniforms->origin, exact->origin, sizeof uniforms->origin);
+    memcpy(matrices->bounds_to_clip, uniforms->to_clip, sizeof uniforms->to_clip);
+    if (exact->origin[0] != 0.0f || exact->origin[1] != 0.0f || exact->origin[2] != 0.0f) {
+        double bounds_to_clip[16];
+        dip_view_object_to_clip(view, object->transform, no_origin, bounds_to_clip);
+        round_matrix(bounds_to_clip, matrices->bounds_to_clip);
+    }
+    memcpy(uniforms->normal_to_world, object->normal_to_world, sizeof uniforms->normal_to_world);
 }
 
 static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int index,
@@ -204,8 +195,7 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
     DipDraw *draw = &set->draws[set->count];
     DipSurfaceUniforms *uniforms = &set->uniforms[set->count++];
     *uniforms = mesh->normal_mapped && !input->plain_surfaces ? mesh->mapped_layout : mesh->layout;
-    dip_view_object_to_clip(pass->view, object->transform, uniforms->to_clip);
-    normal_matrix(object->transform, uniforms->normal_to_world);
+    set_matrices(pass->view, object, set);
     if (input->quality->step[DIP_SETTING_MIPDEBUG] && uniforms->colour_varying != DIP_ABSENT) {
         for (int c = 0; c < 3; c++) {
             uniforms->base_colour_lin[c] = 1.0f;
@@ -223,9 +213,14 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
                                         ? 0
                                         : mesh->varying_count - mesh->layout.light_varying,
         .clip_varying_count = clipped ? uniforms->colour_varying + 2 : 0,
+        .repeating_varyings = mesh->repeating_varyings,
         .uniforms = uniforms,
         .samplers = input->samplers[mesh->material],
-        .bounds_to_clip = uniforms->to_clip,
+        .bounds_to_clip = set->matrices[set->count - 1].bounds_to_clip,
+        // A sky is nowhere near the eye, so floats are exact enough for it.
+        .exact_to_clip = material->surface == DIP_SURFACE_SKY
+                             ? NULL
+                             : &set->matrices[set->count - 1].exact_to_clip,
         .cull = cull_of(material, object, pass->mirrored),
     };
     set_effect(input, set, mesh, uniforms, draw);

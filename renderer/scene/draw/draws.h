@@ -40,11 +40,18 @@ typedef struct DipDrawView {
     bool schlick;           // see DipReflectionDef
 } DipDrawView;
 
+// The matrices of a draw that take the mesh's own coordinates to clip space; see DipDraw.
+typedef struct DipDrawMatrices {
+    DipExactTransform exact_to_clip;
+    float bounds_to_clip[16];
+} DipDrawMatrices;
+
 // The draws of one pass and everything they point to. All members of an empty set are 0.
 typedef struct DipDrawSet {
     DipDraw *draws; // one per object that may be visible
     int count;
     DipSurfaceUniforms *uniforms; // one per draw
+    DipDrawMatrices *matrices;    // one per draw
     DipWaterUniforms *water;      // one per draw; NULL if the set has no reflecting water
     DipViewRays rays;
 } DipDrawSet;

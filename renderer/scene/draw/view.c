@@ -4,6 +4,7 @@
 #include "renderer/base/trig.h"
 
 #include <math.h>
+#include <stdint.h>
 
 // Computes the rows of world_to_clip from the eye, the axes and the scales.
 static void set_matrix(DipView *view) {
@@ -82,15 +83,50 @@ void dip_view_plane(const DipView *view, const double plane[4], double clip[4]) 
     clip[3] = -along[2];
 }
 
-void dip_view_object_to_clip(const DipView *view, const float transform[12], float product[16]) {
+// Rounds to a multiple of DIP_ORIGIN_CELL, halves up. Returns 0 if 64 bits cannot hold the factor.
+static double round_to_cell(double at) {
+    const double cells = at * (1.0 / DIP_ORIGIN_CELL) + 0.5;
+    if (!(cells > -9e18 && cells < 9e18)) {
+        return 0.0;
+    }
+    const double towards_zero = (double)(int64_t)cells;
+    return DIP_ORIGIN_CELL * (towards_zero > cells ? towards_zero - 1.0 : towards_zero);
+}
+
+void dip_view_object_origin(const DipView *view, const float transform[12],
+                            const double world_to_object[9], float origin[3]) {
+    double from_object[3];
+    for (int k = 0; k < 3; k++) {
+        from_object[k] = view->eye[k] - transform[4 * k + 3];
+    }
+    for (int c = 0; c < 3; c++) {
+        const double *row = world_to_object + 3 * c;
+        const double eye =
+            (row[0] * from_object[0] + row[1] * from_object[1]) + row[2] * from_object[2];
+        origin[c] = (float)round_to_cell(eye);
+    }
+}
+
+void dip_view_object_to_clip(const DipView *view, const float transform[12], const float origin[3],
+                             double product[16]) {
     const double *m = view->world_to_clip;
+    double from_eye[3]; // from the eye to the origin. It is small, and so is its rounding error.
+    for (int k = 0; k < 3; k++) {
+        const float *t = transform + 4 * k;
+        const double moved =
+            ((double)t[0] * origin[0] + (double)t[1] * origin[1]) + (double)t[2] * origin[2];
+        from_eye[k] = (moved + t[3]) - view->eye[k];
+    }
     for (int row = 0; row < 4; row++) {
-        for (int c = 0; c < 4; c++) {
-            double sum = c == 3 ? m[4 * row + 3] : 0.0;
+        double shift = row == 2 ? view->near_m : 0.0;
+        for (int c = 0; c < 3; c++) {
+            double sum = 0.0;
             for (int k = 0; k < 3; k++) {
                 sum += m[4 * row + k] * (double)transform[4 * k + c];
             }
-            product[4 * row + c] = (float)sum;
+            product[4 * row + c] = sum;
+            shift += m[4 * row + c] * from_eye[c];
         }
+        product[4 * row + 3] = shift;
     }
 }

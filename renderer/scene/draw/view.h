@@ -26,8 +26,21 @@ DipView dip_view_mirror(const DipView *view, double level);
 // dot(clip, clip position) = plane[0] x + plane[1] y + plane[2] z + plane[3].
 void dip_view_plane(const DipView *view, const double plane[4], double clip[4]);
 
-// Computes product = world_to_clip * transform. The transform is a 3x4 matrix; its fourth row is
+// Distance between neighbouring origins along each axis, in units of the object.
+#define DIP_ORIGIN_CELL 1024.0
+
+// Chooses the point of an object from which a vertex shader measures positions: the multiple of
+// DIP_ORIGIN_CELL on each axis that is nearest to the eye. Vertices near the eye then have small
+// coordinates, however far the eye is from the object's own origin, so their clip positions keep
+// their precision in floats. world_to_object: see DipSceneObject; if it is 0, the point is (0, 0,
+// 0).
+void dip_view_object_origin(const DipView *view, const float transform[12],
+                            const double world_to_object[9], float origin[3]);
+
+// Computes product = world_to_clip * transform * translation by `origin`, which takes positions
+// relative to the origin to clip space. The transform is a 3x4 matrix; its fourth row is
 // (0, 0, 0, 1).
-void dip_view_object_to_clip(const DipView *view, const float transform[12], float product[16]);
+void dip_view_object_to_clip(const DipView *view, const float transform[12], const float origin[3],
+                             double product[16]);
 
 #endif

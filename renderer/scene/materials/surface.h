@@ -53,7 +53,8 @@ typedef struct DipSkyUniforms {
 // normal-mapped; and the vertex colour, if the mesh has one. The light varying is the light of the
 // vertex times its colour; on a normal-mapped surface it is the vertex colour alone.
 typedef struct DipSurfaceUniforms {
-    float to_clip[16];        // row-major
+    float origin[3];          // subtracted from a vertex's position, see dip_view_object_origin
+    float to_clip[16];        // row-major; takes the difference to clip space
     float normal_to_world[9]; // row-major; gives a normal the right direction, but any length
     int copied_varying_count; // number of attributes, from 3 on, copied to varyings, from 0 on
     // Each of the next five is the index of the first of several attributes or varyings, or

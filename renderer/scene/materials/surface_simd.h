@@ -48,9 +48,9 @@ VEC_INLINE Vf clamp01(Vf v) {
 // Computes clip positions and copies attributes to varyings.
 VEC_INLINE void transform_vertices(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch,
                                    int i) {
-    const Vf x = vf_load(batch->in[0] + i);
-    const Vf y = vf_load(batch->in[1] + i);
-    const Vf z = vf_load(batch->in[2] + i);
+    const Vf x = vf_load(batch->in[0] + i) - uniforms->origin[0];
+    const Vf y = vf_load(batch->in[1] + i) - uniforms->origin[1];
+    const Vf z = vf_load(batch->in[2] + i) - uniforms->origin[2];
     for (int c = 0; c < 4; c++) {
         const float *m = uniforms->to_clip + 4 * c;
         vf_store(batch->clip[c] + i, ((x * m[0] + y * m[1]) + z * m[2]) + m[3]);

@@ -20,12 +20,18 @@ typedef struct DipSceneMesh {
     // `layout` and `varying_count` for the normal-mapped shaders; valid if normal_mapped is true.
     DipSurfaceUniforms mapped_layout;
     int mapped_varying_count;
+    uint32_t repeating_varyings; // see DipDraw
     bool sky; // true for a sky that has the texture and the coordinates that moving clouds need
 } DipSceneMesh;
 
 typedef struct DipSceneObject {
     int mesh;
     float transform[12];
+    float normal_to_world[9]; // gives a normal the right direction, but any length
+    bool mirrors;             // the transform reverses windings
+    // The inverse of the transform's 3x3 part. All elements are 0 if the transform is singular or
+    // one of its columns lies within 14 degrees of the plane of the other two.
+    double world_to_object[9];
     bool first_of_mesh; // no earlier object uses the same mesh
     DipBox bounds;      // in world space, see dip_cull_transform_box
 } DipSceneObject;

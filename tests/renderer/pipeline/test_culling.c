@@ -393,7 +393,11 @@ static void check_object(Random *random, DipPass *pass, const DipView *view, con
     float transform[12];
     float to_clip[16];
     random_transform(random, transform);
-    dip_view_object_to_clip(view, transform, to_clip);
+    double exact_to_clip[16];
+    dip_view_object_to_clip(view, transform, (const float[3]){0.0f, 0.0f, 0.0f}, exact_to_clip);
+    for (int i = 0; i < 16; i++) {
+        to_clip[i] = (float)exact_to_clip[i];
+    }
     const DipDraw draw = {.mesh = mesh, .bounds_to_clip = to_clip};
     pass->draws = &draw;
     pass->draw_count = 1;

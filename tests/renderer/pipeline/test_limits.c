@@ -36,10 +36,10 @@ static void coincident_planes_add_one_vertex_each(void **state) {
         DipClipPolygon polygon = {.count = 3};
         for (int v = 0; v < 3; v++) {
             for (int i = 0; i < 4; i++) {
-                polygon.vertex[v].position[i] = symmetric(&random);
+                polygon.vertex[v].position[i] = (double)symmetric(&random);
             }
         }
-        dip_clip_polygon(&polygon, DIP_CLIP_ALL_USER, &map, 0);
+        dip_clip_polygon(&polygon, DIP_CLIP_ALL_USER, &map, &(DipClipVaryings){0});
         assert_in_range(polygon.count, 0, 3 + DIP_MAX_CLIP_PLANES);
     }
 }

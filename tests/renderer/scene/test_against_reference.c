@@ -90,16 +90,13 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     // A vertex position halfway between two steps of 1/256 pixel may be rounded to either step.
     // Slivers show this most.
     static const DipImageBounds slivers = {0.004, 0.01, 0.001, 0.5};
-    // Corners that clipping at the guard band creates are rounded too. On a floor that runs from
-    // the eye to the horizon, an error of 1/512 pixel at such a corner changes 1/w by a tenth at
-    // the far edge, and so changes the level of detail. With AF, the number of probes in the
-    // coarser level changes in steps with the level of detail.
-    static const DipImageBounds huge = {0.0025, 0.025, 0.0005, 0.05};
-    static const DipImageBounds huge_af = {0.0025, 0.025, 0.0005, 0.08};
-    static const DipImageBounds huge_mips = {0.06, 0.01, 0.03, 1.0};
+    // With AF, the number of probes in the coarser level changes in steps with the level of detail.
+    // Towards the horizon, rounding moves a few pixels across such a step.
+    static const DipImageBounds huge_af = {0.0018, 0.01, 0.0005, 0.08};
     // The narrow blend multiplies differences in the level of detail by four.
     static const DipImageBounds narrow_mips = {0.0016, 0.02, 0.0, 0.02};
-    static const DipImageBounds huge_narrow = {0.0025, 0.025, 0.0005, 0.1};
+    static const DipImageBounds huge_narrow_mips = {0.0016, 0.021, 0.0, 0.021};
+    static const DipImageBounds huge_narrow = {0.0018, 0.01, 0.0005, 0.08};
     // Reflections in water are rounded to 8 bits twice. The narrow blend makes them sharper than
     // the wide blend does.
     static const DipImageBounds water_narrow = {0.0018, 0.01, 0.0, 0.01};
@@ -122,7 +119,10 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     case DIP_TEST_SCENE_slivers:
         return &slivers;
     case DIP_TEST_SCENE_huge:
-        return mip_colours ? &huge_mips : narrow ? &huge_narrow : anisotropic ? &huge_af : &huge;
+        return mip_colours   ? (narrow ? &huge_narrow_mips : &steady)
+               : narrow      ? &huge_narrow
+               : anisotropic ? &huge_af
+                             : &steady;
     default:
         return mip_colours && narrow ? &narrow_mips : &steady;
     }
