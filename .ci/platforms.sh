@@ -6,7 +6,7 @@
 
 PACKAGES_PLATFORMS="gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user musl-tools
     gcc-mingw-w64-x86-64-posix wine64 gcc-i686-linux-gnu libc6-dev-i386-cross"
-PLATFORMS="musl i686 aarch64 windows"
+PLATFORMS=${PLATFORMS:-musl i686 aarch64 windows}
 
 # fetch_cmocka ARCHITECTURE: unpacks Debian's cmocka for another architecture into
 # build/platforms/ARCHITECTURE, without changing the system's list of architectures.
@@ -29,30 +29,32 @@ fetch_cmocka() {
     ) >"$root.log" 2>&1
 }
 
-# build_platform NAME [CMAKE OPTION]...
+# build_platform NAME TARGET [CMAKE OPTION]...
 build_platform() {
     name=$1
     shift
     # A folder with nothing but stb: the other headers of /usr/include belong to this machine.
     mkdir -p build/platforms/headers
     ln -sfn /usr/include/stb build/platforms/headers/stb
+    target=$1
+    shift
     cmake -S . -B "build/platform-$name" -G Ninja --toolchain "$TOP/.ci/platforms/$name.cmake" \
         -DCMAKE_BUILD_TYPE=Release -DDIP_PROGRAM=OFF -DDIP_WERROR=ON -DDIP_ASSERTS=ON \
         -DSTB_DXT_INCLUDE_DIR="$TOP/build/platforms/headers" "$@" &&
-        cmake --build "build/platform-$name"
+        cmake --build "build/platform-$name" --target "$target"
 }
 
 # test_platform NAME: builds and runs the tests of a platform.
 test_platform() {
     case $1 in
     aarch64)
-        fetch_cmocka arm64 && PKG_CONFIG_LIBDIR="$TOP/build/platforms/arm64" build_platform "$1" &&
+        fetch_cmocka arm64 && PKG_CONFIG_LIBDIR="$TOP/build/platforms/arm64" build_platform "$1" all &&
             ctest --test-dir "build/platform-$1" -LE 'long|slow' -j "$(nproc)" \
                 --output-on-failure --no-tests=error
         ;;
     *)
-        build_platform "$1" -DBUILD_TESTING=OFF &&
-            emulate "$1" "$(find "build/platform-$1" -name 'stability' -o -name 'stability.exe')" \
+        build_platform "$1" stability -DBUILD_TESTING=OFF &&
+            emulate "$1" "build/platform-$1/tests/stability/stability$([ "$1" != windows ] || echo .exe)" \
                 --depth short
         ;;
     esac

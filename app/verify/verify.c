@@ -28,8 +28,7 @@ static void count_step(void *context) {
     dip_progress_show(&verification->progress, ++verification->done);
 }
 
-// --- pictures
-// --------------------------------------------------------------------------------------
+// --- pictures ---------------------------------------------------------------------------------
 
 // The result of the pictures with one instruction set and number of threads.
 typedef struct PictureResult {
@@ -78,8 +77,7 @@ static void verify_pictures(Verification *verification) {
     }
 }
 
-// --- hard cases
-// ------------------------------------------------------------------------------------
+// --- hard cases -------------------------------------------------------------------------------
 
 // A row's worst measurement over all instruction sets.
 typedef struct RowResult {
@@ -150,8 +148,7 @@ static void verify_rows(Verification *verification) {
     }
 }
 
-// --- command
-// ---------------------------------------------------------------------------------------
+// --- command ----------------------------------------------------------------------------------
 
 static void print_machine(void) {
     char processor[128];

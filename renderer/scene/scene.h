@@ -54,8 +54,7 @@ typedef struct DipMaterialDef {
 } DipMaterialDef;
 
 // Indexed triangles of one material. All arrays are packed. An array of an attribute that the mesh
-// does not have is NULL; only positions are required. All attributes must be finite, except for
-// positions: a triangle with a position that is not finite is not drawn.
+// does not have is NULL; only positions are required. All numbers must be finite.
 typedef struct DipMeshDef {
     const char *name;
     uint32_t vertex_count;

@@ -2,9 +2,11 @@
 #include "tests/stability/stability.h"
 
 extern const StabilityTopic stability_numbers;
+extern const StabilityTopic stability_raster;
 extern const StabilityTopic stability_view;
 
 const StabilityTopic *const stability_topics[] = {
+    &stability_raster,
     &stability_numbers,
     &stability_view,
 };

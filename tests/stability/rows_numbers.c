@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- the caller's floating-point mode ------------------------------------------------------------
+// --- the caller's floating-point mode ---------------------------------------------------------
 
 // What the public functions compute from. It is made before the mode changes.
 typedef struct ModeInputs {
@@ -265,8 +265,7 @@ static void measure_rounding_modes(StabilityRun *run) {
     compare_modes(run, modes, stability_count(run, 1, 3, 3));
 }
 
-// --- trigonometry
-// ----------------------------------------------------------------------------------
+// --- trigonometry -----------------------------------------------------------------------------
 
 // pi/2 in three parts. The first two have 32 significant bits, so that their products with a whole
 // number below 2^21 are exact.
@@ -333,8 +332,7 @@ static void measure_arc_cosine(StabilityRun *run) {
     }
 }
 
-// --- equal bits
-// ------------------------------------------------------------------------------------
+// --- equal bits -------------------------------------------------------------------------------
 
 static void measure_hashes(StabilityRun *run) {
     stability_compare_hashes(run, NULL, NULL);

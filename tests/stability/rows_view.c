@@ -10,7 +10,7 @@ enum { WIDTH = 96, HEIGHT = 72 };
 
 static const char *const settings[] = {"aa=none", "aa=8,af=16"};
 
-// --- a scene in front of the camera --------------------------------------------------------------
+// --- a scene in front of the camera -----------------------------------------------------------
 
 // Makes textured, lit and alpha-clipped quads 1 m to 60 m in front of the camera. Nothing is nearer
 // than 1 m, so the scene looks the same with any near plane up to 1 m. All coordinates are
@@ -91,8 +91,7 @@ static void compare_changes(StabilityRun *run, Change *change, const double *val
     }
 }
 
-// --- near plane
-// ------------------------------------------------------------------------------------
+// --- near plane -------------------------------------------------------------------------------
 
 static void set_near(DipTestScene *scene, double near_m) {
     scene->def.near_m = (float)near_m;
@@ -104,8 +103,7 @@ static void measure_near(StabilityRun *run) {
     compare_changes(run, set_near, distances, sizeof distances / sizeof *distances, "near plane");
 }
 
-// --- scale
-// -------------------------------------------------------------------------------------------
+// --- scale ------------------------------------------------------------------------------------
 
 static void scale_world(DipTestScene *scene, double exponent) {
     const float factor = (float)ldexp(1.0, (int)exponent);
@@ -127,8 +125,7 @@ static void measure_scale(StabilityRun *run) {
                     "power of two");
 }
 
-// --- orientation
-// -------------------------------------------------------------------------------------
+// --- orientation ------------------------------------------------------------------------------
 
 static void turn_camera(DipTestScene *scene) {
     static const double turned[4] = {0.03, -0.05, 0.02, 0.9978};
@@ -164,8 +161,7 @@ static void measure_orientation_length(StabilityRun *run) {
     dip_test_scene_free(&scene);
 }
 
-// --- refused input
-// -----------------------------------------------------------------------------------
+// --- refused input ----------------------------------------------------------------------------
 
 typedef struct BadScene {
     const char *what;

@@ -69,7 +69,7 @@ extern const size_t stability_topic_count;
 // first. Returns true if the row holds.
 bool stability_measure(const StabilityRow *row, StabilityRun *run);
 
-// --- for measuring functions ---------------------------------------------------------------------
+// --- for measuring functions ------------------------------------------------------------------
 
 // Counts a case and keeps its error if it is the greatest so far. An error that is not a number
 // counts as infinite. The format and its arguments name the case.

@@ -5,8 +5,7 @@
 #include "renderer/scene/scene.h"
 
 // Returns false and fills in *err if an index is out of range or a number is not acceptable.
-// Positions need not be finite: a triangle with a corner that is not finite is left out when the
-// scene is drawn. The indices of vertices are checked when the meshes are made.
+// The positions and the indices of vertices are checked when the meshes are made.
 bool dip_scene_check(const DipSceneDef *def, DipError *err);
 
 #endif

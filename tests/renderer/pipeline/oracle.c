@@ -6,18 +6,17 @@
 
 // --- coverage ----------------------------------------------------------------------------------
 
-__extension__ typedef __int128 Int128;
-
 typedef struct Edge {
     int64_t x, y;   // start of the edge
     int64_t dx, dy; // vector from the start of the edge to its end
     bool owns;      // true if samples on the edge belong to the triangle
 } Edge;
 
-// Returns twice the signed area of the triangle that the edge and the point form. The sign is
+// Returns twice the signed area of the triangle that the edge and the point form. Coordinates lie
+// within +-2^22 (DIP_ORACLE_LIMIT), so the area is below 2^48. The sign is
 // positive if the point lies to the right of the edge as seen on the screen.
-static Int128 side_of(const Edge *edge, int64_t x, int64_t y) {
-    return (Int128)edge->dx * (y - edge->y) - (Int128)edge->dy * (x - edge->x);
+static int64_t side_of(const Edge *edge, int64_t x, int64_t y) {
+    return (int64_t)edge->dx * (y - edge->y) - (int64_t)edge->dy * (x - edge->x);
 }
 
 // Makes the edges in clockwise order, so that the inside lies to their right. Returns false if the
@@ -25,7 +24,7 @@ static Int128 side_of(const Edge *edge, int64_t x, int64_t y) {
 static bool make_edges(const DipOracleTriangle *t, Edge edges[3]) {
     const Edge base = {t->x[0], t->y[0], (int64_t)t->x[1] - t->x[0], (int64_t)t->y[1] - t->y[0],
                        false};
-    const Int128 area = side_of(&base, t->x[2], t->y[2]);
+    const int64_t area = side_of(&base, t->x[2], t->y[2]);
     const int order[4] = {0, area > 0 ? 1 : 2, area > 0 ? 2 : 1, 0};
     for (int i = 0; i < 3; i++) {
         const int from = order[i];
@@ -42,7 +41,7 @@ static bool make_edges(const DipOracleTriangle *t, Edge edges[3]) {
 
 static bool is_inside(const Edge edges[3], int64_t x, int64_t y) {
     for (int i = 0; i < 3; i++) {
-        const Int128 side = side_of(&edges[i], x, y);
+        const int64_t side = side_of(&edges[i], x, y);
         if (side < 0 || (side == 0 && !edges[i].owns)) {
             return false;
         }
