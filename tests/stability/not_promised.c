@@ -7,8 +7,8 @@ const char *const stability_not_promised =
     "- Floats that a scene stores far from the origin have already lost precision: at 1000 km, "
     "two\n"
     "  neighbouring floats are 6.25 cm apart. Diptych draws the stored values exactly.\n"
-    "- Surfaces that lie in one plane but have different triangles show through each other. The "
-    "depth\n"
-    "  of a triangle is one plane of 32-bit floats, so its error is a share of the greatest depth "
-    "of\n"
-    "  the triangle. Lift a decal as row N16 says, or give it the same vertices as the surface.\n";
+    "- Surfaces that lie in one plane but have different triangles show through each other, "
+    "because\n"
+    "  vertices are rounded to 1/256 pixel. Lift a decal as row N16 says, or give it the same "
+    "vertices\n"
+    "  as the surface.\n";
