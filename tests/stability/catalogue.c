@@ -3,10 +3,12 @@
 
 extern const StabilityTopic stability_numbers;
 extern const StabilityTopic stability_raster;
+extern const StabilityTopic stability_texture;
 extern const StabilityTopic stability_view;
 
 const StabilityTopic *const stability_topics[] = {
     &stability_raster,
+    &stability_texture,
     &stability_numbers,
     &stability_view,
 };
