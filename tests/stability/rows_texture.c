@@ -12,8 +12,7 @@
 
 enum { SIDE = 8 }; // pixels of a picture across and down
 
-// --- a quad that fills the picture
-// -----------------------------------------------------------------
+// --- a quad that fills the picture ------------------------------------------------------------
 
 // Adds a texture with linear encoding, so that its texels are light.
 static int add_texture(DipTestScene *scene, int width, int height) {
@@ -68,7 +67,7 @@ static double distance_to(const StabilityPicture *picture, const double rgb[3]) 
     return greatest;
 }
 
-// --- addressing ----------------------------------------------------------------------------------
+// --- addressing -------------------------------------------------------------------------------
 
 // Computes the colour of a bilinear read at a coordinate u of a texture that is one texel high.
 static void read_exactly(const uint8_t *rgba8, int width, float u, double rgb[3]) {
@@ -117,7 +116,7 @@ static void measure_wrap(StabilityRun *run) {
     compare_read(run, nextafterf(1.0f, 0.0f), 7);
 }
 
-// --- mip chains ----------------------------------------------------------------------------------
+// --- mip chains -------------------------------------------------------------------------------
 
 // Minifies a texture so far that one texel of the last level fills the picture.
 static void compare_mean(StabilityRun *run, int width, int height) {
@@ -184,7 +183,7 @@ static void measure_single_texel(StabilityRun *run) {
     }
 }
 
-// --- level of detail -----------------------------------------------------------------------------
+// --- level of detail --------------------------------------------------------------------------
 
 // Texture scales from extreme magnification to extreme minification, with every bias: the picture
 // of a texture of one colour is that colour, whatever level is read.
@@ -265,7 +264,7 @@ static void measure_log2(StabilityRun *run) {
     }
 }
 
-// --- alpha ---------------------------------------------------------------------------------------
+// --- alpha ------------------------------------------------------------------------------------
 
 // Makes a clipped quad whose texels all have one alpha, and returns the share of pixels that show.
 static double shown_share(StabilityRun *run, int alpha, float cutoff, const char *settings) {
