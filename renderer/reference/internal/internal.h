@@ -126,6 +126,7 @@ typedef struct DipRefVaryings {
     double value[DIP_REF_VARYINGS];
     double ddx[DIP_REF_DERIVED];
     double ddy[DIP_REF_DERIVED];
+    double depth_change; // |dw/dx| + |dw/dy|, divided by w; w is the distance along the view axis
 } DipRefVaryings;
 
 // Interpolates `count` varyings from `first` on, with perspective correction. If derive is true,
