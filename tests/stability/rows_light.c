@@ -1,4 +1,4 @@
-// Rows about normal maps and vertex normals.
+// Rows about normal maps, vertex normals and the sky.
 #include "tests/renderer/scene/scenes.h"
 #include "tests/stability/pictures.h"
 
@@ -270,6 +270,55 @@ static void measure_normal_lengths(StabilityRun *run) {
     }
 }
 
+// --- the sky -------------------------------------------------------------------------------------
+
+#define SECOND_NS INT64_C(1000000000)
+
+static bool draw_sky(StabilityRun *run, const DipTestScene *scene, int64_t time_ns, Draw *draw,
+                     StabilityPicture *picture) {
+    const StabilityShot shot = {.def = &scene->def,
+                                .pose = &scene->pose,
+                                .settings = "aa=none,af=2",
+                                .width = WIDTH,
+                                .height = HEIGHT,
+                                .time_ns = time_ns};
+    return draw(run, &shot, picture);
+}
+
+// The default sky's layers repeat after 200 s and 300 s, so the sky repeats after 600 s. Compares
+// the picture at a time with pictures whole repetitions earlier and later, up to 9e9 s away.
+static void measure_repetition(StabilityRun *run, Draw *draw) {
+    static DipTestScene scene;
+    static const int64_t times_ns[] = {123456789012, 1, 0, 199999999999, 300000000001};
+    static const int64_t repetitions[] = {-1, -1666667, 1666667, 15000000, -15000000};
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_sky);
+    const int count = stability_count(run, 2, 5, 5);
+    for (int t = 0; t < count; t++) {
+        StabilityPicture expected, found;
+        if (!draw_sky(run, &scene, times_ns[t], draw, &expected)) {
+            break;
+        }
+        for (int r = 0; r < 5; r++) {
+            const int64_t time_ns = times_ns[t] + repetitions[r] * 600 * SECOND_NS;
+            if (draw_sky(run, &scene, time_ns, draw, &found)) {
+                stability_error(run, stability_differing(&expected, &found, 0.0), "%g s",
+                                (double)time_ns * 1e-9);
+                stability_picture_free(&found);
+            }
+        }
+        stability_picture_free(&expected);
+    }
+    dip_test_scene_free(&scene);
+}
+
+static void measure_sky(StabilityRun *run) {
+    measure_repetition(run, stability_draw);
+}
+
+static void measure_sky_of_reference(StabilityRun *run) {
+    measure_repetition(run, stability_draw_reference);
+}
+
 static const StabilityRow rows[] = {
     {.id = "A40",
      .promise = "A normal map has no effect where the texture coordinates have no area: where they "
@@ -280,7 +329,8 @@ static const StabilityRow rows[] = {
      .per_isa = true,
      .measure = measure_no_area},
     {.id = "A41",
-     .promise = "The same holds for the reference.",
+     .promise = "In the reference, too, a normal map has no effect where the texture coordinates "
+                "have no area.",
      .truth = "the closed form of the light on the plain normal",
      .unit = "of light",
      .bound = 1e-4,
@@ -294,7 +344,7 @@ static const StabilityRow rows[] = {
      .per_isa = true,
      .measure = measure_tangents},
     {.id = "A43",
-     .promise = "The same holds for the reference.",
+     .promise = "In the reference, too, a normal map's tangents follow such texture coordinates.",
      .truth = "the closed form of the light on the mapped normal",
      .unit = "of light",
      .bound = 1e-4,
@@ -314,7 +364,18 @@ static const StabilityRow rows[] = {
      .bound = 0.006,
      .per_isa = true,
      .measure = measure_normal_lengths},
+    {.id = "A45",
+     .promise = "The sky repeats to the bit, from -9e9 s to 9e9 s.",
+     .truth = "the picture at a time within the first repetition",
+     .unit = "pixels",
+     .per_isa = true,
+     .measure = measure_sky},
+    {.id = "A46",
+     .promise = "The reference's sky repeats to the bit, from -9e9 s to 9e9 s.",
+     .truth = "the picture at a time within the first repetition",
+     .unit = "pixels",
+     .measure = measure_sky_of_reference},
 };
 
-const StabilityTopic stability_light = {"light", "Normal maps and normals", rows,
+const StabilityTopic stability_light = {"light", "Normal maps, normals and sky", rows,
                                         sizeof rows / sizeof *rows};
