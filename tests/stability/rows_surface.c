@@ -1,4 +1,4 @@
-// Rows about normal maps, vertex normals and the sky.
+// Rows about surfaces: normal maps, vertex normals, alpha clipping and the sky.
 #include "tests/renderer/scene/scenes.h"
 #include "tests/stability/pictures.h"
 
@@ -222,6 +222,9 @@ static void measure_mappings(StabilityRun *run, bool has_area, Draw *draw) {
     const int exponent_count = stability_count(run, 2, 4, 4);
     for (int m = 0; m < MAPPING_COUNT; m++) {
         for (int v = 0; v < VIEW_COUNT && mappings[m].has_area == has_area; v++) {
+            if (run->depth == STABILITY_SHORT && v != m % VIEW_COUNT) {
+                continue;
+            }
             for (int e = 0; e < exponent_count; e++) {
                 Case c = {&mappings[m], &views[v], exponents[e], 0, {0}};
                 memcpy(c.texel, leaning, sizeof leaning);
@@ -250,7 +253,8 @@ static void measure_tangents_of_reference(StabilityRun *run) {
 // The values stand for the plain normal, for no direction and for a direction into the wall.
 static void measure_flat_values(StabilityRun *run) {
     static const uint8_t texels[][3] = {{128, 128, 255}, {128, 128, 128}, {128, 128, 0}};
-    for (int i = 0; i < 3; i++) {
+    const int texel_count = stability_count(run, 1, 3, 3);
+    for (int i = 0; i < texel_count; i++) {
         for (int m = 0; m < MAPPING_COUNT; m++) {
             Case c = {&mappings[m], &views[m % VIEW_COUNT], 0, 0, {0}};
             memcpy(c.texel, texels[i], sizeof c.texel);
@@ -267,6 +271,69 @@ static void measure_normal_lengths(StabilityRun *run) {
         memcpy(c.texel, leaning, sizeof leaning);
         measure_case(run, &c, stability_draw);
         measure_case(run, &c, stability_draw_reference);
+    }
+}
+
+// --- alpha ---------------------------------------------------------------------------------------
+
+// Makes a wall whose texture has the same alpha everywhere.
+static void make_clipped_wall(DipTestScene *scene, const View *view, uint8_t alpha, int width,
+                              int height) {
+    dip_test_scene_begin(scene);
+    memset(scene->def.background_lin, 0, sizeof scene->def.background_lin);
+    const int texture = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, width, height);
+    uint8_t *texels = dip_test_scene_texels(scene, texture);
+    for (int i = 0; i < width * height; i++) {
+        memset(texels + 4 * i, 255, 3);
+        texels[4 * i + 3] = alpha;
+    }
+    const int material = dip_test_scene_add_material(scene, texture);
+    scene->materials[material].surface = DIP_SURFACE_CLIPPED;
+    dip_test_scene_add_quad(scene, material, (const float[]){-40.0f, -40.0f, 0.0f},
+                            (const float[]){80.0f, 0.0f, 0.0f}, (const float[]){0.0f, 100.0f, 0.0f},
+                            37.3f, 61.7f);
+    turn_camera(view, &scene->pose);
+}
+
+// Draws the wall with a cutoff. Returns the number of pixels that are wrong.
+static void measure_cutoff(StabilityRun *run, DipTestScene *scene, float cutoff, bool kept,
+                           const char *settings, Draw *draw) {
+    scene->materials[0].alpha_cutoff = cutoff;
+    const StabilityShot shot = {.def = &scene->def,
+                                .pose = &scene->pose,
+                                .settings = settings,
+                                .width = WIDTH,
+                                .height = HEIGHT};
+    StabilityPicture picture;
+    if (draw(run, &shot, &picture)) {
+        int wrong = 0;
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            wrong += (picture.rgb_lin[3 * i] > 0.5) != kept;
+        }
+        stability_error(run, wrong, "alpha of %d texels, cutoff %a, %s",
+                        scene->textures[0].width * scene->textures[0].height, (double)cutoff,
+                        settings);
+        stability_picture_free(&picture);
+    }
+}
+
+static void measure_equal_alpha(StabilityRun *run) {
+    static const uint8_t alphas[] = {255, 1, 254, 128, 77, 3, 171, 85};
+    static const char *const settings[] = {"aa=none,af=none", "aa=4,af=16",
+                                           "aa=8,aaa=on,asd=1,af=8,opt=advanced",
+                                           "aa=2,af=16,aaf=on,miplod=high-performance"};
+    static DipTestScene scene;
+    const int count = stability_count(run, 2, 32, 32);
+    for (int i = 0; i < count; i++) {
+        const uint8_t alpha = alphas[i / 4];
+        const float equal = (float)(alpha / 255.0);
+        make_clipped_wall(&scene, &views[i % VIEW_COUNT], alpha, i % 2 ? 13 : 64, i % 2 ? 7 : 32);
+        for (int d = 0; d < 2; d++) {
+            Draw *const draw = d ? stability_draw_reference : stability_draw;
+            measure_cutoff(run, &scene, equal, true, settings[i % 4], draw);
+            measure_cutoff(run, &scene, nextafterf(equal, 2.0f), false, settings[i % 4], draw);
+        }
+        dip_test_scene_free(&scene);
     }
 }
 
@@ -364,6 +431,13 @@ static const StabilityRow rows[] = {
      .bound = 0.006,
      .per_isa = true,
      .measure = measure_normal_lengths},
+    {.id = "N34",
+     .promise = "Where all texels have the same alpha, a surface is kept if the cutoff equals it, "
+                "also at 1, and clipped if the cutoff is the next greater float.",
+     .truth = "all pixels or none",
+     .unit = "pixels",
+     .per_isa = true,
+     .measure = measure_equal_alpha},
     {.id = "A45",
      .promise = "The sky repeats to the bit, from -9e9 s to 9e9 s.",
      .truth = "the picture at a time within the first repetition",
@@ -377,5 +451,5 @@ static const StabilityRow rows[] = {
      .measure = measure_sky_of_reference},
 };
 
-const StabilityTopic stability_light = {"light", "Normal maps, normals and sky", rows,
-                                        sizeof rows / sizeof *rows};
+const StabilityTopic stability_surface = {"surface", "Normal maps, alpha and sky", rows,
+                                          sizeof rows / sizeof *rows};
