@@ -89,6 +89,10 @@ typedef struct DipRefShot {
     double margin;
 } DipRefShot;
 
+// Returns a pose's orientation, scaled by a power of two so that squares of its components neither
+// overflow nor vanish.
+void dip_reference_orientation(const DipPose *pose, double q[4]);
+
 // Collects all triangles that may be visible, in submission order.
 bool dip_reference_build_triangles(const DipReference *reference, const DipRefShot *shot,
                                    DipRefTriangles *triangles, DipError *err);
