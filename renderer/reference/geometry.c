@@ -22,18 +22,21 @@ typedef struct Camera {
     double margin;
 } Camera;
 
+void dip_reference_orientation(const DipPose *pose, double q[4]) {
+    const double *from = pose->orientation;
+    const double greatest =
+        fmax(fmax(fabs(from[0]), fabs(from[1])), fmax(fabs(from[2]), fabs(from[3])));
+    int exponent;
+    frexp(greatest, &exponent);
+    for (int i = 0; i < 4; i++) {
+        q[i] = ldexp(from[i], -exponent);
+    }
+}
+
 static Camera make_camera(const DipReference *reference, const DipRefShot *shot) {
     const DipPose *pose = shot->pose;
-    // Dividing by the greatest component keeps the squares of very long or short quaternions
-    // finite and apart from 0.
     double q[4];
-    double greatest = 0.0;
-    for (int i = 0; i < 4; i++) {
-        greatest = fmax(greatest, fabs(pose->orientation[i]));
-    }
-    for (int i = 0; i < 4; i++) {
-        q[i] = pose->orientation[i] / greatest;
-    }
+    dip_reference_orientation(pose, q);
     const double s = 2.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     const double focal = 1.0 / tan(pose->fov_y_deg * (pi / 360.0));
     const double x = q[0], y = q[1], z = q[2], w = q[3];

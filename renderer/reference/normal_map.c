@@ -33,28 +33,37 @@ bool dip_reference_is_bumpy(const DipMaterialDef *material) {
     return is_solid && has_light && material->normal_map != DIP_NO_TEXTURE;
 }
 
+// Returns the size of a texture coordinate's derivatives, which the derivatives' rounding errors
+// are relative to.
+static double size_of(const DipRefVaryings *varyings, int coordinate) {
+    return fabs(varyings->ddx[coordinate]) + fabs(varyings->ddy[coordinate]) +
+           fmin(1.0, fabs(varyings->value[coordinate])) * varyings->depth_change;
+}
+
 // Finds the tangents. along_u points where u grows while v stays constant, made perpendicular to
 // the normal. against_v is perpendicular to both and points where v shrinks. dP/du is (dP/dx dv/dy
 // - dP/dy dv/dx) / (du/dx dv/dy - du/dy dv/dx), and dP/dv is found accordingly. Returns false if
-// the texture coordinates have no area.
+// the texture coordinates have no area or if u grows along the normal.
 static bool find_tangents(const DipRefVaryings *varyings, const double normal[3], double along_u[3],
                           double against_v[3]) {
     const double *dx = varyings->ddx;
     const double *dy = varyings->ddy;
     const double area = dx[DIP_REF_U0] * dy[DIP_REF_V0] - dy[DIP_REF_U0] * dx[DIP_REF_V0];
+    const double limit = 0x1p-14 * size_of(varyings, DIP_REF_U0) * size_of(varyings, DIP_REF_V0);
+    if (!(fabs(area) > limit)) {
+        return false;
+    }
     double down[3]; // dP/dv
-    for (int i = 0; i < 3 && area != 0.0; i++) {
+    for (int i = 0; i < 3; i++) {
         const double p_dx = dx[DIP_REF_X + i], p_dy = dy[DIP_REF_X + i];
         along_u[i] = (p_dx * dy[DIP_REF_V0] - p_dy * dx[DIP_REF_V0]) / area;
         down[i] = (p_dy * dx[DIP_REF_U0] - p_dx * dy[DIP_REF_U0]) / area;
     }
-    if (area == 0.0) {
-        return false;
-    }
-    const double along = dot(along_u, normal);
+    const double rise = dot(along_u, normal);
     for (int i = 0; i < 3; i++) {
-        along_u[i] -= along * normal[i];
+        along_u[i] -= rise * normal[i];
     }
+    const bool is_flat = dot(along_u, along_u) > 0x1p-20 * rise * rise;
     normalise(along_u);
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -65,7 +74,7 @@ static bool find_tangents(const DipRefVaryings *varyings, const double normal[3]
             against_v[i] = -against_v[i];
         }
     }
-    return dot(along_u, along_u) > 0.0;
+    return is_flat;
 }
 
 // Turns a normal by the map's filtered normal. Returns the length of the filtered normal.

@@ -9,7 +9,9 @@ static double find_scroll(const DipSkyLayer *layer, int64_t time_ns) {
         return 0.0;
     }
     const int64_t period_ns = (int64_t)floor(60e9 / fabs(layer->speed_per_min) + 0.5);
-    return copysign((double)(time_ns % period_ns) / (double)period_ns, layer->speed_per_min);
+    const int64_t rest_ns = time_ns % period_ns; // negative if the time is
+    const int64_t into_ns = rest_ns < 0 ? rest_ns + period_ns : rest_ns;
+    return copysign((double)into_ns / (double)period_ns, layer->speed_per_min);
 }
 
 // Reads the sky's texture at coordinates * scale + shift, with derivatives multiplied by scale *

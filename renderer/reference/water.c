@@ -16,7 +16,8 @@ static double look_up(const DipPose *pose, int width, int height, const DipRefPo
     const double ray[3] = {(place->x / (128.0 * width) - 1.0) * half * width / height,
                            (1.0 - place->y / (128.0 * height)) * half, -1.0};
     // The quaternion turns v to v + 2 q x (q x v + w v). This is the y of the result.
-    const double *q = pose->orientation;
+    double q[4];
+    dip_reference_orientation(pose, q);
     const double cross[3] = {q[1] * ray[2] - q[2] * ray[1] + q[3] * ray[0],
                              q[2] * ray[0] - q[0] * ray[2] + q[3] * ray[1],
                              q[0] * ray[1] - q[1] * ray[0] + q[3] * ray[2]};

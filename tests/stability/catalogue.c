@@ -1,16 +1,26 @@
-// The list of topics. To add a topic, declare its table and add it here.
+// The list of topics, in the order of docs/stability.md. Each topic has a file rows_<name>.c. To add
+// one, add it here and to CMakeLists.txt.
 #include "tests/stability/stability.h"
 
-extern const StabilityTopic stability_numbers;
-extern const StabilityTopic stability_raster;
-extern const StabilityTopic stability_texture;
-extern const StabilityTopic stability_view;
-extern const StabilityTopic stability_time;
-extern const StabilityTopic stability_parallel;
+// clang-format off
+#define TOPIC_LIST(X) \
+    X(view)           \
+    X(raster)         \
+    X(texture)        \
+    X(surface)        \
+    X(time)           \
+    X(parallel)       \
+    X(numbers)
+// clang-format on
+
+#define DECLARE_TOPIC(name) extern const StabilityTopic stability_##name;
+TOPIC_LIST(DECLARE_TOPIC)
+#undef DECLARE_TOPIC
 
 const StabilityTopic *const stability_topics[] = {
-    &stability_raster,   &stability_texture, &stability_time,
-    &stability_parallel, &stability_numbers, &stability_view,
+#define TOPIC_ADDRESS(name) &stability_##name,
+    TOPIC_LIST(TOPIC_ADDRESS)
+#undef TOPIC_ADDRESS
 };
 
 const size_t stability_topic_count = sizeof stability_topics / sizeof *stability_topics;

@@ -89,6 +89,10 @@ typedef struct DipRefShot {
     double margin;
 } DipRefShot;
 
+// Returns a pose's orientation, scaled by a power of two so that squares of its components neither
+// overflow nor vanish.
+void dip_reference_orientation(const DipPose *pose, double q[4]);
+
 // Collects all triangles that may be visible, in submission order.
 bool dip_reference_build_triangles(const DipReference *reference, const DipRefShot *shot,
                                    DipRefTriangles *triangles, DipError *err);
@@ -126,6 +130,7 @@ typedef struct DipRefVaryings {
     double value[DIP_REF_VARYINGS];
     double ddx[DIP_REF_DERIVED];
     double ddy[DIP_REF_DERIVED];
+    double depth_change; // |dw/dx| + |dw/dy|, divided by w; w is the distance along the view axis
 } DipRefVaryings;
 
 // Interpolates `count` varyings from `first` on, with perspective correction. If derive is true,

@@ -58,42 +58,74 @@ VEC_INLINE Vf3 cross(Vf3 a, Vf3 b) {
     return (Vf3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+// Where the texture coordinates have (nearly) no area, only rounding decides the direction of their
+// derivatives. AREA_LIMIT bounds the area relative to the derivatives' sizes (Coordinate). Rounding
+// stays below 2^-22 of a size for coordinates within +-1, and below 2^-17 for coordinates within
+// +-32. The mapped surfaces of the courtyard have at least 2^-5.
+#define AREA_LIMIT 0x1p-14f
+// Least squared tangent of the angle between the normal and the direction of growing u.
+#define LEAST_TANGENT2 0x1p-20f
+
 // Unit tangents that point along growing u and falling v. They are perpendicular to each other and
-// to the normal. `there` is set where the tangents are valid. They are invalid where the texture
-// coordinates have no area or u grows along the normal.
+// to the normal. `there` is set where the tangents are valid. They are invalid, and may be NaN,
+// where the texture coordinates have no area or u grows along the normal.
 typedef struct Tangents {
     Vf3 u, v;
     Mask there;
 } Tangents;
 
+// The derivatives of a texture coordinate, and their size, which is relative to the depth.
+typedef struct Coordinate {
+    Vf dx, dy, size;
+} Coordinate;
+
+// Loads the derivatives of varying s. A derivative is the difference of two terms, of which one is
+// proportional to the coordinate and to the derivative of the depth. The size includes that term,
+// so that the derivative's rounding is small relative to the size. A large coordinate counts as 1
+// there, because whole numbers may be added to coordinates without changing the picture.
+VEC_INLINE Coordinate load_coordinate(const DipFragmentBatch *batch, int s, int i, Vf depth,
+                                      Vf depth_change) {
+    Coordinate c = {.dx = vf_load(batch->varying_dx[s] + i),
+                    .dy = vf_load(batch->varying_dy[s] + i)};
+    const Vf bounded = vf_min(vf_abs(vf_load(batch->varying[s] + i)), vf_splat(1.0f));
+    c.size = (vf_abs(c.dx) + vf_abs(c.dy)) * depth + bounded * depth_change;
+    return c;
+}
+
 // Finds the tangents from the derivatives of the position and of the texture coordinates. If the
-// coordinates are mirrored, the tangents are mirrored too.
+// coordinates are mirrored, the tangents are mirrored too. Multiplying coordinates or positions by
+// a power of two changes no bit of the result.
 VEC_INLINE Tangents find_tangents(DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
-    const int u = uniforms->normal_map_varying;
     const int w = uniforms->depth_varying;
     const Vf depth = vf_load(batch->varying[w] + i);
-    const Vf3 dx =
-        position_step(uniforms->rays->per_x, depth, ray, vf_load(batch->varying_dx[w] + i));
-    const Vf3 dy =
-        position_step(uniforms->rays->per_y, depth, ray, vf_load(batch->varying_dy[w] + i));
-    const Vf u_dx = vf_load(batch->varying_dx[u] + i), v_dx = vf_load(batch->varying_dx[u + 1] + i);
-    const Vf u_dy = vf_load(batch->varying_dy[u] + i), v_dy = vf_load(batch->varying_dy[u + 1] + i);
-    const Vf area = u_dx * v_dy - u_dy * v_dx;
-    // The directions of growing u and falling v, each multiplied by the area.
-    const Vf3 along = combine(dx, v_dy, dy, v_dx);
-    const Vf3 against = combine(dx, u_dy, dy, u_dx);
+    const Vf depth_dx = vf_load(batch->varying_dx[w] + i);
+    const Vf depth_dy = vf_load(batch->varying_dy[w] + i);
+    const Vf depth_change = vf_abs(depth_dx) + vf_abs(depth_dy);
+    const Vf3 dx = position_step(uniforms->rays->per_x, depth, ray, depth_dx);
+    const Vf3 dy = position_step(uniforms->rays->per_y, depth, ray, depth_dy);
+    const int s = uniforms->normal_map_varying;
+    const Coordinate u = load_coordinate(batch, s, i, depth, depth_change);
+    Coordinate v = load_coordinate(batch, s + 1, i, depth, depth_change);
+    const Vf scale = inverse_exponent(v.size);
+    v = (Coordinate){v.dx * scale, v.dy * scale, v.size * scale};
+    const Vf area = u.dx * v.dy - u.dy * v.dx;
+    // The direction of growing u, multiplied by the area.
+    const Vf3 along = combine(dx, v.dy, dy, v.dx);
     const Vf rise = vf3_dot(along, normal);
     const Vf3 flat = {along.x - normal.x * rise, along.y - normal.y * rise,
                       along.z - normal.z * rise};
     const Vf length2 = vf3_dot(flat, flat);
-    const Vf size = vf_min(vf_abs(area), length2);
-    const Vf inverse = vf_splat(1.0f) / vf_sqrt(vf_max(length2, vf_splat(1e-30f)));
+    const Mask has_area = vf_lt(u.size * v.size * AREA_LIMIT, vf_abs(area) * depth * depth);
+    const Mask is_flat = vf_lt(rise * rise * LEAST_TANGENT2, length2);
+    const Vf inverse = vf_splat(1.0f) / vf_sqrt(length2);
     const Vf sign = vf_select(vf_lt(area, vf_splat(0.0f)), vf_splat(0.0f) - inverse, inverse);
-    Tangents tangents = {.u = vf3_scale(flat, sign), .there = vf_lt(vf_splat(0.0f), size)};
+    Tangents tangents = {.u = vf3_scale(flat, sign), .there = has_area & is_flat};
     tangents.v = cross(normal, tangents.u);
-    const Vf hand = vf3_dot(tangents.v, against) * area;
-    const Mask left = vf_lt(hand, vf_splat(0.0f));
+    // The directions of growing u and growing v are in the same order as the derivatives of the
+    // position along x and y if the area is positive, and in the other order if it is negative.
+    const Vf hand = vf3_dot(cross(dx, dy), normal) * area;
+    const Mask left = vf_lt(vf_splat(0.0f), hand);
     tangents.v = vf3_scale(tangents.v, vf_select(left, vf_splat(-1.0f), vf_splat(1.0f)));
     return tangents;
 }
@@ -110,12 +142,13 @@ VEC_INLINE Facing find_facing(DipFragmentBatch *batch, int i, Vf3 ray,
     m.z = vf_max(m.z * (255.0f / 127.0f) - (128.0f / 127.0f), vf_splat(LEAST_RISE));
     facing.inverse_length = inverse_length(vf3_dot(m, m));
     m = vf3_scale(m, facing.inverse_length);
-    const Vf x = vf_select(tangents.there, m.x, vf_splat(0.0f));
-    const Vf y = vf_select(tangents.there, m.y, vf_splat(0.0f));
-    const Vf z = vf_select(tangents.there, m.z, vf_splat(1.0f));
-    facing.mapped = (Vf3){(tangents.u.x * x + tangents.v.x * y) + facing.mesh.x * z,
-                          (tangents.u.y * x + tangents.v.y * y) + facing.mesh.y * z,
-                          (tangents.u.z * x + tangents.v.z * y) + facing.mesh.z * z};
+    const Vf3 n = facing.mesh;
+    const Vf3 mapped = {(tangents.u.x * m.x + tangents.v.x * m.y) + n.x * m.z,
+                        (tangents.u.y * m.x + tangents.v.y * m.y) + n.y * m.z,
+                        (tangents.u.z * m.x + tangents.v.z * m.y) + n.z * m.z};
+    facing.mapped =
+        (Vf3){vf_select(tangents.there, mapped.x, n.x), vf_select(tangents.there, mapped.y, n.y),
+              vf_select(tangents.there, mapped.z, n.z)};
     return facing;
 }
 

@@ -41,6 +41,12 @@ VEC_INLINE Vf inverse_length(Vf length2) {
     return vf_splat(1.0f) / vf_sqrt(vf_max(length2, vf_splat(1e-12f)));
 }
 
+// Returns a power of two s for which 1 <= s * value < 2, for values from 2^-126 to 2^127. Returns
+// 2^127 for 0.
+VEC_INLINE Vf inverse_exponent(Vf value) {
+    return vf_bits(vi_splat(254 << 23) - (vi_bits(value) & vi_splat(0x7f800000)));
+}
+
 VEC_INLINE Vf clamp01(Vf v) {
     return vf_min(vf_max(v, vf_splat(0.0f)), vf_splat(1.0f));
 }
@@ -60,15 +66,19 @@ VEC_INLINE void transform_vertices(const DipSurfaceUniforms *uniforms, const Dip
     }
 }
 
-// Returns a vertex's normal in world space, not normalised.
+// Returns a vertex's normal in world space, not normalised. It is scaled by a power of two until
+// its greatest component is between 1 and 2, so that the squares of its components neither overflow
+// nor vanish.
 VEC_INLINE Vf3 turn_normal(const DipSurfaceUniforms *uniforms, const DipVertexBatch *batch, int i) {
     const float *const *normal = batch->in + uniforms->normal_attribute;
     const float *m = uniforms->normal_to_world;
     const Vf nx = vf_load(normal[0] + i);
     const Vf ny = vf_load(normal[1] + i);
     const Vf nz = vf_load(normal[2] + i);
-    return (Vf3){(nx * m[0] + ny * m[1]) + nz * m[2], (nx * m[3] + ny * m[4]) + nz * m[5],
-                 (nx * m[6] + ny * m[7]) + nz * m[8]};
+    const Vf3 turned = {(nx * m[0] + ny * m[1]) + nz * m[2], (nx * m[3] + ny * m[4]) + nz * m[5],
+                        (nx * m[6] + ny * m[7]) + nz * m[8]};
+    const Vf greatest = vf_max(vf_max(vf_abs(turned.x), vf_abs(turned.y)), vf_abs(turned.z));
+    return vf3_scale(turned, inverse_exponent(greatest));
 }
 
 // Returns the view ray of a fragment. It is not normalised; its component along the view axis is 1.
