@@ -68,7 +68,8 @@ static DipModel *load_model(const DipSession *session, DipErrorList *faults, Dip
     for (size_t i = 0; !session->options->model_count && i < named->count; i++) {
         files[count++] = named->items[i].path;
     }
-    DipModel *model = dip_model_load_with_normals(files, count, session->pool, faults, err);
+    const DipModelOptions options = {.normal_maps = true, .importer = session->importer};
+    DipModel *model = dip_model_load_with(files, count, &options, session->pool, faults, err);
     if (model) {
         *def = *dip_model_scene_def(model);
         set_surroundings(session, def);

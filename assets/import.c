@@ -199,6 +199,9 @@ static bool import_error(const char *path, DipError *err) {
     char reason[200] = "";
     snprintf(reason, sizeof reason, "%s", aiGetErrorString());
     make_one_line(reason);
+    if (strstr(reason, "bad_alloc")) {
+        return dip_model_out_of_memory(err, path);
+    }
     return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL, "the model cannot be read: %s",
                          reason[0] ? reason : "assimp gives no reason");
 }

@@ -30,6 +30,8 @@
 #include "renderer/base/pool.h"
 #include "renderer/scene/scene.h"
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -53,6 +55,8 @@ enum { DIP_MAX_MODEL_FILES = 256 };
 //
 // Threads: different models may be loaded at the same time on different threads.
 //
+// The files are read in this process. importer.h explains how to read untrusted files safely.
+//
 // This function loads no normal maps, so the materials have none.
 DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
                          DipErrorList *warnings, DipError *err);
@@ -60,6 +64,22 @@ DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool
 // Like dip_model_load, but also loads normal maps.
 DipModel *dip_model_load_with_normals(const char *const *files, int file_count, DipPool *pool,
                                       DipErrorList *warnings, DipError *err);
+
+// How dip_model_load_with loads a model. A zeroed struct gives what dip_model_load does.
+typedef struct DipModelOptions {
+    bool normal_maps; // True: normal maps are loaded, too.
+    // The program that imports the files in a process of its own. NULL: the files are imported in
+    // this process, where a bad file can crash the libraries that read it. Use NULL for trusted
+    // files only.
+    const struct DipImporter *importer;
+} DipModelOptions;
+
+// Like dip_model_load, but with options. If options->importer is not NULL, the pool only says how
+// many threads the importer uses. Further codes: RUNTIME (the importer crashed or cannot be
+// started), OVERSIZED (the importer needed more memory or time than its limits).
+DipModel *dip_model_load_with(const char *const *files, int file_count,
+                              const DipModelOptions *options, DipPool *pool, DipErrorList *warnings,
+                              DipError *err);
 
 // Destroys the model and sets the pointer to NULL. Accepts a pointer to NULL.
 void dip_model_destroy(DipModel **model);

@@ -9,6 +9,7 @@
 
 #include "assets/model.h"
 #include "assets/picture.h"
+#include "assets/scene_pack.h"
 #include "renderer/scene/scene.h"
 
 #include <stdbool.h>
@@ -108,7 +109,31 @@ struct DipModel {
     DipErrorList *warnings; // the caller's list, used only during the load; may be NULL
     DipModelTimes times;
     bool normal_maps; // true: normal maps are loaded
+    // The model of an importer has only a pack, whose scene is `def`, and the pack's bytes.
+    DipScenePack pack;
+    void *pack_bytes; // mapped memory, or NULL
+    size_t pack_size_bytes;
 };
+
+// importer.c: unmaps the bytes of the model's pack, if it has any.
+void dip_model_unmap_pack(DipModel *model);
+
+// A load in this process.
+typedef struct DipModelLoad {
+    const char *const *files;
+    int file_count;
+    DipModelOptions options; // The importer is not used.
+    DipPool *pool;           // May be NULL.
+    DipErrorList *warnings;  // May be NULL.
+    int note_file;           // Pack file that gets a note of every step, or -1.
+} DipModelLoad;
+
+// model.c: loads a model in this process. Returns NULL and fills *err if the load fails.
+DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err);
+
+// importer.c: loads a model in a child process. Fails like dip_model_load_with.
+DipModel *dip_model_load_in_child(const DipModelLoad *load, const struct DipImporter *importer,
+                                  DipError *err);
 
 // Makes room for one more item in an array of `count` items. Returns the array, which may have
 // moved. On failure returns NULL and the old array stays valid.

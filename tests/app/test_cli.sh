@@ -63,6 +63,10 @@ check "help on path names both commands" grep -q 'path convert .*rewrite' out.tx
 expect 0 '' "$diptych" --version
 check "the version is one line" grep -qE '^diptych [0-9]+\.[0-9]+\.[0-9]+$' out.txt
 
+expect 2 '\[import\] only Diptych itself runs this command' "$diptych" import
+expect 2 '\[import\] only Diptych itself runs this command' "$diptych" import -- 1 1 1 1 1 1 a.obj
+check "help does not show the hidden command" sh -c '! "$0" --help | grep -q "^  import"' "$diptych"
+
 # --- bad command lines: one line of error, exit code 2, nothing written
 expect 2 'diptych: \[dump\] nothing to do; give one of --out DIR, --json FILE, --hash$' "$diptych" dump
 expect 2 '\[--frmes\] is not an option of .diptych dump.; did you mean --frames\?$' "$diptych" dump --hash --frmes 0:1
