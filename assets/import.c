@@ -19,7 +19,7 @@
 // aiProcess_JoinIdenticalVertices is left out. It merges vertices that differ only in their second
 // texture coordinates, which would tear light maps. mesh.c compares all attributes instead.
 static const unsigned process_flags =
-    aiProcess_Triangulate | aiProcess_FlipUVs | aiProcess_SortByPType;
+    aiProcess_Triangulate | aiProcess_GenUVCoords | aiProcess_FlipUVs | aiProcess_SortByPType;
 
 // The stack reserves address space; memory is used only as needed.
 static const size_t import_stack_bytes = (size_t)256 << 20;

@@ -57,8 +57,8 @@ static uint64_t default_memory_bytes(void) {
 static DipImporter with_defaults(const DipImporter *given) {
     DipImporter importer = *given;
     importer.memory_bytes = given->memory_bytes ? given->memory_bytes : default_memory_bytes();
-    importer.cpu_s = given->cpu_s > 0 ? given->cpu_s : DIP_IMPORT_CPU_S;
     importer.wall_s = given->wall_s > 0 ? given->wall_s : DIP_IMPORT_WALL_S;
+    importer.cpu_s = given->cpu_s > 0 ? given->cpu_s : 4 * importer.wall_s;
     return importer;
 }
 
@@ -121,6 +121,7 @@ static void fill_invocation(const Child *child, Invocation *invocation) {
         [IMPORT_ARGUMENT_program_id] = (uint64_t)getpid(),
         [IMPORT_ARGUMENT_threads] = (uint64_t)(load->pool ? dip_pool_thread_count(load->pool) : 1),
         [IMPORT_ARGUMENT_normal_maps] = load->options.normal_maps,
+        [IMPORT_ARGUMENT_up] = load->options.up,
         [IMPORT_ARGUMENT_memory_bytes] = child->importer.memory_bytes,
         [IMPORT_ARGUMENT_cpu_s] = (uint64_t)child->importer.cpu_s,
     };
@@ -355,7 +356,7 @@ static bool explain_end(const Child *child, DipError *err) {
         break;
     case END_TIMEOUT:
         dip_error_set(&reason, DIP_ERROR_OVERSIZED, file, 0, NULL,
-                      "the importer hung %s, accepted %d s", step, child->importer.wall_s);
+                      "the importer hung %s, accepted at most %d s", step, child->importer.wall_s);
         break;
     default:
         dip_error_set(&reason, DIP_ERROR_RUNTIME, file, 0, NULL, "the importer ended %s", step);

@@ -27,15 +27,15 @@ extern "C" {
 typedef struct DipImporter {
     const char *program; // Path of the program; "/proc/self/exe" is the program itself.
     const char *command; // Argument before those of dip_importer_run, or NULL.
-    uint64_t
-        memory_bytes; // Memory; the default is three quarters of the machine's, at least 1 GiB.
-    int cpu_s;        // Processor time of all threads together, in seconds.
-    int wall_s;       // Time by the clock, in seconds.
+    // Memory, in bytes. The default is three quarters of the machine's memory, at least 1 GiB.
+    uint64_t memory_bytes;
+    int wall_s; // Time by the clock, in seconds; the default is DIP_IMPORT_WALL_S.
+    int cpu_s;  // Processor time of all threads, in seconds; the default is 4 * wall_s.
 } DipImporter;
 
 enum {
-    DIP_IMPORT_CPU_S = 600,
-    DIP_IMPORT_WALL_S = 300,
+    DIP_IMPORT_WALL_S = 120,
+    DIP_IMPORT_MAX_WALL_S = 86400,                         // Greatest wall_s.
     DIP_IMPORTER_MAX_ARGUMENTS = DIP_MAX_MODEL_FILES + 16, // Most arguments of dip_importer_run.
     DIP_IMPORTER_MISUSED = 2
 };

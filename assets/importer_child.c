@@ -58,7 +58,7 @@ static bool parse_task(int count, char *const *arguments, Task *task) {
     }
     const uint64_t threads = task->number[IMPORT_ARGUMENT_threads];
     return task->number[IMPORT_ARGUMENT_version] == IMPORT_VERSION && threads >= 1 &&
-           threads <= DIP_MAX_THREADS;
+           threads <= DIP_MAX_THREADS && task->number[IMPORT_ARGUMENT_up] < DIP_UP_COUNT;
 }
 
 // --- limits --------------------------------------------------------------------------------------
@@ -138,7 +138,8 @@ static bool load_and_hand_over(const Task *task) {
     const DipModelLoad load = {
         .files = task->files,
         .file_count = task->file_count,
-        .options = {.normal_maps = task->number[IMPORT_ARGUMENT_normal_maps] == 1},
+        .options = {.normal_maps = task->number[IMPORT_ARGUMENT_normal_maps] == 1,
+                    .up = (DipUpAxis)task->number[IMPORT_ARGUMENT_up]},
         .pool = pool,
         .warnings = &pack.warnings,
         .note_file = IMPORT_PACK_FILE,

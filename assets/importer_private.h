@@ -17,6 +17,7 @@ enum { IMPORT_PACK_FILE = 3, IMPORT_PIPE = 4 };
     X(program_id)   /* process id of the program */                                                \
     X(threads)      /* number of threads that decode pictures */                                   \
     X(normal_maps)  /* 1: normal maps are loaded, 0: not */                                        \
+    X(up)           /* a DipUpAxis */                                                              \
     X(memory_bytes) /* limit of memory */                                                          \
     X(cpu_s)        /* limit of processor time */
 

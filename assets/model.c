@@ -215,7 +215,8 @@ static bool load_file(DipModel *model, int index, const char *path, DipError *er
     if (!dip_model_import(model, file, err)) {
         return false;
     }
-    const NodeState root = {.world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    NodeState root = {.tag = DIP_TAG_SOLID};
+    dip_model_up_transform(model, file, root.world);
     const int objects_before = model->def.object_count;
     if (!walk(model, index, file->scene->mRootNode, &root, err)) {
         return false;
@@ -266,7 +267,9 @@ static float near_distance(const DipModel *model) {
         square += (high[axis] - low[axis]) * (high[axis] - low[axis]);
     }
     const double near_m = near_fraction * sqrt(square);
-    return isfinite(near_m) ? (float)fmin(fmax(near_m, (double)DIP_MIN_NEAR_M), (double)DIP_MAX_NEAR_M) : 0.01f;
+    return isfinite(near_m)
+               ? (float)fmin(fmax(near_m, (double)DIP_MIN_NEAR_M), (double)DIP_MAX_NEAR_M)
+               : 0.01f;
 }
 
 static void release_scenes(DipModel *model) {
@@ -318,6 +321,7 @@ DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
     }
     model->warnings = load->warnings;
     model->normal_maps = load->options.normal_maps;
+    model->up = load->options.up;
     model->files = calloc((size_t)load->file_count, sizeof *model->files);
     if (!load_parts(model, load, err)) {
         dip_model_destroy(&model);

@@ -131,6 +131,13 @@ expect 2 'none.ini: ' "$diptych" dump --hash --config none.ini
 expect 2 'none.glb: ' "$diptych" dump --hash --model none.glb
 expect 2 'none.pth: ' "$diptych" dump --hash --path none.pth
 expect 2 'none.pth: ' "$diptych" path info none.pth
+# The library that reads PLY files looks for the end of the header beyond the file, or for ever.
+printf 'ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nelement face 1\n' >hang.ply
+{ cat hang.ply && head -c 60 /dev/zero; } >crash.ply
+expect 2 'crash.ply: the importer (crashed|ended) while it read the model' "$diptych" dump --hash --model crash.ply
+expect 2 'hang.ply: the importer hung while it read the model, accepted at most 2 s' \
+    "$diptych" dump --hash --import-seconds 2 --model hang.ply
+expect 2 "\[--up\] 'x' is not an axis; give one of auto\|y\|z" "$diptych" dump --hash --up x
 printf 'v 0 0 0\nv 1e-10 0 0\nv 0 1e-10 0\nf 1 2 3\n' >tiny.obj
 expect 2 "tiny.obj: \[box\] the model's size is 1e-10" "$diptych" dump --hash --model tiny.obj
 expect 2 'tiny.obj:1: .* not a camera path, .*; load a model with --model$' \
