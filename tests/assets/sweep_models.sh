@@ -11,7 +11,7 @@ models=${2:-/usr/share/assimp/models}
 output=${3:-}
 # Files that belong to models, but are none.
 companions='png|jpg|jpeg|tga|bmp|dds|tif|tiff|gif|bin|txt|mtl|glsl|vert|frag|material|md|gz|license|uc|readme'
-seconds=60
+seconds=180 # longer than the limit of the importer, whose end is a clear line
 
 if [ ! -d "$models" ]; then
     echo "There is no folder $models. On Debian, install the package assimp-testmodels." >&2
@@ -26,7 +26,7 @@ mkdir -p "$pictures" || exit 1
 draw() {
     rm -rf "$work/frame"
     timeout "$seconds" "$diptych" dump --model "$1" --size 320x240 --current aa=4,af=4 \
-        --requested aa=4,af=4 --out "$work/frame" >/dev/null 2>"$work/messages"
+        --requested aa=4,af=4 --frames 45:46 --out "$work/frame" >/dev/null 2>"$work/messages"
     code=$?
     errors=$(grep -vc ': warning: ' "$work/messages")
     reason=$(grep -v ': warning: ' "$work/messages" | tail -n 1 | sed 's/^diptych: //')
@@ -44,7 +44,7 @@ while read -r file; do
     draw "$file"
     printf '%-8s %-60s %s\n' "$result" "$name" "${reason#"$file": }"
     if [ "$result" = drawn ]; then
-        mv "$work/frame/current_0000.png" "$pictures/$(echo "$name" | tr '/ ' '__').png"
+        mv "$work/frame/current_0045.png" "$pictures/$(echo "$name" | tr '/ ' '__').png"
     fi
 done <"$work/files" >"$work/table"
 cat "$work/table"
