@@ -56,10 +56,14 @@ typedef struct DipCommand {
     bool (*run)(DipSession *session, const void *options, DipError *err);
 } DipCommand;
 
-// The commands of a program. The first one runs if the command line names none.
+// The commands of a program. The first one runs if the command line names none. Hidden commands run
+// when they are named, but neither the help nor the manual page shows them, because the program
+// itself starts them. Their names are single words.
 typedef struct DipCommandList {
     const DipCommand *const *commands;
     size_t count;
+    const DipCommand *const *hidden;
+    size_t hidden_count;
 } DipCommandList;
 
 #endif

@@ -106,6 +106,12 @@ static bool find_command(const DipCommandList *list, int argc, char *const *argv
         line->group = second && is_help(second) ? first : NULL;
         return line->group || unknown_second_word(list, first, second, err);
     }
+    for (size_t c = 0; c < list->hidden_count; c++) {
+        if (strcmp(list->hidden[c]->name, first) == 0) {
+            line->command = list->hidden[c];
+            *used = 1;
+        }
+    }
     // A word without a dot or a slash cannot be the name of a model, so it is a mistyped command.
     return *used || first[0] == '-' || strpbrk(first, "./\\") || unknown_command(list, first, err);
 }

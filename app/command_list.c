@@ -4,6 +4,7 @@
 #include "app/bench/bench.h"
 #include "app/cost/command.h"
 #include "app/dump/dump.h"
+#include "app/import/import.h"
 #include "app/path/path.h"
 #include "app/preview/command.h"
 #include "app/verify/verify.h"
@@ -15,4 +16,7 @@ static const DipCommand *const commands[] = {
     &dip_path_info_command, &dip_path_convert_command, &dip_verify_command,
 };
 
-const DipCommandList dip_command_list = {commands, DIP_ARRAY_COUNT(commands)};
+static const DipCommand *const hidden[] = {&dip_import_command};
+
+const DipCommandList dip_command_list = {commands, DIP_ARRAY_COUNT(commands), hidden,
+                                         DIP_ARRAY_COUNT(hidden)};

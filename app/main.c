@@ -2,6 +2,7 @@
 #include "app/command_line.h"
 #include "app/command_list.h"
 #include "app/help.h"
+#include "app/import/import.h"
 #include "app/log.h"
 #include "app/machine.h"
 #include "app/output.h"
@@ -62,7 +63,10 @@ static int run_command(const DipCommandLine *line, int64_t begin_ns) {
     const DipProgramOptions *program = line->options;
     const DipCommand *command = line->command;
     if (command->describe_session) {
-        DipSessionDef def = {.log = program->log, .begin_ns = begin_ns};
+        // Models are imported by another process of this program: `diptych import`.
+        const DipImporter importer = {.program = "/proc/self/exe",
+                                      .command = dip_import_command.name};
+        DipSessionDef def = {.importer = &importer, .log = program->log, .begin_ns = begin_ns};
         command->describe_session(line->options, &def);
         return run_with_session(line, &def);
     }

@@ -199,7 +199,8 @@ static bool prepare_panes(DipSession *session, DipErrorList *faults) {
 }
 
 bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorList *faults) {
-    *session = (DipSession){.options = def->options, .isa = DIP_ISA_SCALAR};
+    *session =
+        (DipSession){.options = def->options, .importer = def->importer, .isa = DIP_ISA_SCALAR};
     session->times.begin_ns = def->begin_ns;
     bool opened = load_config(session, def->log, faults) && make_pool(session, faults);
     session->times.ini_ms = dip_start_times_since_ms(def->begin_ns);

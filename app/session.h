@@ -5,6 +5,7 @@
 
 #include "app/session_options.h"
 #include "app/start_times.h"
+#include "assets/importer.h"
 #include "assets/model.h"
 #include "campaths/camtrack.h"
 #include "config/config.h"
@@ -17,6 +18,7 @@ extern const char *const dip_pane_names[DIP_PANE_COUNT]; // "current", "requeste
 // What a session loads. Every session has the ini and the pool of threads.
 typedef struct DipSessionDef {
     const DipSessionOptions *options; // Borrowed until the session is closed.
+    const DipImporter *importer;      // Imports the models; NULL: they are imported here. Borrowed.
     const char *log;                  // File of --log, which replaces the ini's log file, or NULL.
     bool scene;                       // Load the models and the camera paths.
     bool renderers;                   // Make a renderer for each pane. This needs the scene.
@@ -26,6 +28,7 @@ typedef struct DipSessionDef {
 
 typedef struct DipSession {
     const DipSessionOptions *options; // Borrowed from the def.
+    const DipImporter *importer;      // Borrowed from the def.
     DipConfig config;
     DipPool *pool;
     DipIsa isa;

@@ -1,6 +1,7 @@
 // The tables of the options that a session reads.
 #include "app/session_options.h"
 
+#include "assets/importer.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/pool.h"
 
@@ -39,6 +40,23 @@ static bool read_isa(void *fields, const DipOptionRow *row, const char *value, D
     return dip_option_isa(row, value, &options->isa, err);
 }
 
+#define UP_AXIS(name, text) " `" #name "` " text "."
+#define UP_AXES             DIP_UP_AXIS_LIST(UP_AXIS)
+
+static bool read_up(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    char names[64] = "";
+    for (int i = 0; i < DIP_UP_COUNT; i++) {
+        if (strcmp(value, dip_up_axis_names[i]) == 0) {
+            options->up = (DipUpAxis)i;
+            return true;
+        }
+        strcat(strcat(names, i ? "|" : ""), dip_up_axis_names[i]);
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
+                         "'%.40s' is not an axis; give one of %s", value, names);
+}
+
 static const DipOptionRow scene_rows[] = {
     {.name = "--config",
      .argument = "FILE",
@@ -55,6 +73,18 @@ static const DipOptionRow scene_rows[] = {
      .field = FIELD(models),
      .count = FIELD(model_count),
      .most = DIP_MAX_MODELS},
+    {.name = "--up",
+     .argument = "AXIS",
+     .text = "The axis of the model files that points up:" UP_AXES " The default is auto.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_up},
+    {.name = "--import-seconds",
+     .argument = "N",
+     .text = "Refuse the models if reading them takes more than N seconds. The default is 120.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(import_seconds),
+     .least = 1,
+     .most = DIP_IMPORT_MAX_WALL_S},
     {.name = "--force-all-effects",
      .text = "Run every effect even where it cannot be seen. The picture stays the same and takes "
              "longer to draw.",

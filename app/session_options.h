@@ -3,6 +3,7 @@
 #define DIP_APP_SESSION_OPTIONS_H
 
 #include "app/options.h"
+#include "assets/model.h"
 #include "renderer/base/isa.h"
 #include "renderer/scene/quality.h"
 
@@ -16,6 +17,8 @@ typedef struct DipSessionOptions {
     const char *config;
     const char *models[DIP_MAX_MODELS];
     int model_count;
+    DipUpAxis up;       // Axis of the model files that points up.
+    int import_seconds; // Longest time that importing the models may take, in seconds; 0: default.
     bool force_all_effects;
     const char *path;     // File of a camera path that replaces the ini's.
     const char *category; // Which of the ini's paths to fly: "AA", ...
@@ -33,7 +36,7 @@ typedef struct DipSessionOptions {
 } DipSessionOptions;
 
 // Tables of the options in this struct. Each command takes the tables that make sense for it.
-extern const DipOptionTable dip_scene_option_table;    // --config --model --force-all-effects
+extern const DipOptionTable dip_scene_option_table;    // --config --model --up ...
 extern const DipOptionTable dip_path_option_table;     // --path
 extern const DipOptionTable dip_category_option_table; // --category
 extern const DipOptionTable dip_pane_option_table;     // --current --requested --timing

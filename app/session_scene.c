@@ -57,6 +57,15 @@ static void set_surroundings(const DipSession *session, DipSceneDef *def) {
     def->sky = sky_of(&session->config);
 }
 
+// Returns the session's importer with the time limit of the command line.
+static DipImporter importer_of(const DipSession *session) {
+    DipImporter importer = session->importer ? *session->importer : (DipImporter){.wall_s = 0};
+    if (session->options->import_seconds > 0) {
+        importer.wall_s = session->options->import_seconds;
+    }
+    return importer;
+}
+
 static DipModel *load_model(const DipSession *session, DipErrorList *faults, DipSceneDef *def,
                             DipError *err) {
     const char *files[DIP_MAX_MODELS];
@@ -68,7 +77,11 @@ static DipModel *load_model(const DipSession *session, DipErrorList *faults, Dip
     for (size_t i = 0; !session->options->model_count && i < named->count; i++) {
         files[count++] = named->items[i].path;
     }
-    DipModel *model = dip_model_load_with_normals(files, count, session->pool, faults, err);
+    const DipImporter importer = importer_of(session);
+    const DipModelOptions options = {.normal_maps = true,
+                                     .up = session->options->up,
+                                     .importer = session->importer ? &importer : NULL};
+    DipModel *model = dip_model_load_with(files, count, &options, session->pool, faults, err);
     if (model) {
         *def = *dip_model_scene_def(model);
         set_surroundings(session, def);

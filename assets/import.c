@@ -19,7 +19,7 @@
 // aiProcess_JoinIdenticalVertices is left out. It merges vertices that differ only in their second
 // texture coordinates, which would tear light maps. mesh.c compares all attributes instead.
 static const unsigned process_flags =
-    aiProcess_Triangulate | aiProcess_FlipUVs | aiProcess_SortByPType;
+    aiProcess_Triangulate | aiProcess_GenUVCoords | aiProcess_FlipUVs | aiProcess_SortByPType;
 
 // The stack reserves address space; memory is used only as needed.
 static const size_t import_stack_bytes = (size_t)256 << 20;
@@ -199,6 +199,9 @@ static bool import_error(const char *path, DipError *err) {
     char reason[200] = "";
     snprintf(reason, sizeof reason, "%s", aiGetErrorString());
     make_one_line(reason);
+    if (strstr(reason, "bad_alloc")) {
+        return dip_model_out_of_memory(err, path);
+    }
     return dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL, "the model cannot be read: %s",
                          reason[0] ? reason : "assimp gives no reason");
 }

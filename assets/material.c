@@ -11,6 +11,7 @@
 
 static const float default_cutoff = 0.5f;
 static const float default_roughness = 0.6f;
+static const float default_grey_srgb = 0.6f;
 static const float light_map_scale = 2.0f; // Light maps marked by `lightmapped` store light / 2.
 
 float dip_model_colour_to_linear(float value, bool linear) {
@@ -89,7 +90,13 @@ static float float_property(const struct aiMaterial *material, const char *key, 
     return found && isfinite(value) ? value : otherwise;
 }
 
-// Reads the base colour and returns its alpha.
+static bool is_black(const float lin[3]) {
+    return lin[0] == 0.0f && lin[1] == 0.0f && lin[2] == 0.0f;
+}
+
+// Reads the base colour and returns its alpha. Outside glTF, many files have a black base colour
+// that does not count: with a colour texture, many exporters write black for "none"; black with an
+// alpha of 0 is a material that nobody has filled in, and becomes assimp's default grey.
 static float read_base_colour(const DipModelFile *file, const struct aiMaterial *material,
                               bool textured, float base_lin[3]) {
     struct aiColor4D colour = {1.0f, 1.0f, 1.0f, 1.0f};
@@ -99,9 +106,9 @@ static float read_base_colour(const DipModelFile *file, const struct aiMaterial 
     base_lin[0] = dip_model_colour_to_linear(colour.r, file->linear_colours);
     base_lin[1] = dip_model_colour_to_linear(colour.g, file->linear_colours);
     base_lin[2] = dip_model_colour_to_linear(colour.b, file->linear_colours);
-    const bool black = base_lin[0] == 0.0f && base_lin[1] == 0.0f && base_lin[2] == 0.0f;
-    if (black && textured && !file->linear_colours) {
-        base_lin[0] = base_lin[1] = base_lin[2] = 1.0f;
+    if (is_black(base_lin) && !file->linear_colours && (textured || colour.a == 0.0f)) {
+        const float grey = dip_model_colour_to_linear(default_grey_srgb, false);
+        base_lin[0] = base_lin[1] = base_lin[2] = textured ? 1.0f : grey;
     }
     return colour.a;
 }
@@ -136,13 +143,26 @@ static void read_alpha(DipModel *model, const DipModelFile *file, const struct a
     }
 }
 
+// True if the mesh's material, outside glTF, has a black base colour. Such a surface shows nothing
+// but its highlights, so its specular texture becomes its colour texture.
+static bool shows_only_highlights(const DipModelFile *file, const struct aiMesh *mesh) {
+    float base_lin[3];
+    const struct aiMaterial *material = file->scene->mMaterials[mesh->mMaterialIndex];
+    read_base_colour(file, material, false, base_lin);
+    return !file->linear_colours && is_black(base_lin);
+}
+
 static void read_pictures(DipModel *model, int file, const char *name, const struct aiMesh *mesh,
                           DipMaterialPlan *plan) {
     static const enum aiTextureType colour[] = {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE};
+    static const enum aiTextureType specular[] = {aiTextureType_SPECULAR};
     static const enum aiTextureType opacity[] = {aiTextureType_OPACITY};
     static const enum aiTextureType light[] = {aiTextureType_LIGHTMAP};
     static const enum aiTextureType normal[] = {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA};
     plan->colour = texture_use(model, file, name, mesh, colour, 2);
+    if (plan->colour.picture < 0 && shows_only_highlights(&model->files[file], mesh)) {
+        plan->colour = texture_use(model, file, name, mesh, specular, 1);
+    }
     plan->opacity = texture_use(model, file, name, mesh, opacity, 1);
     plan->normal = (DipTextureUse){.picture = DIP_NO_TEXTURE};
     if (model->normal_maps) {

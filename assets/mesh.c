@@ -76,12 +76,11 @@ static float *pack_uv(DipModel *model, const VertexSource *source, int channel) 
 }
 
 static float *pack_colours(DipModel *model, const VertexSource *source, bool linear) {
+    DipColourReader reader;
+    dip_mesh_colours(source->mesh, linear, &reader);
     float *to = dip_model_alloc(model, source->count, 3 * sizeof *to);
     for (uint32_t i = 0; to && i < source->count; ++i) {
-        const struct aiColor4D colour = source->mesh->mColors[0][source_vertex(source, i)];
-        to[3 * (size_t)i + 0] = dip_model_colour_to_linear(colour.r, linear);
-        to[3 * (size_t)i + 1] = dip_model_colour_to_linear(colour.g, linear);
-        to[3 * (size_t)i + 2] = dip_model_colour_to_linear(colour.b, linear);
+        dip_read_colour(&reader, source_vertex(source, i), to + 3 * (size_t)i);
     }
     return to;
 }
@@ -194,10 +193,11 @@ static bool fill_arrays(DipModel *model, const struct aiMesh *mesh, const DipMes
     float *normals = pack_normals(model, &source);
     float *uvs0 = plan->has_uv0 ? pack_uv(model, &source, uv0) : NULL;
     float *uvs1 = plan->has_uv1 ? pack_uv(model, &source, plan->light.uv_channel) : NULL;
-    float *colours = mesh->mColors[0] ? pack_colours(model, &source, linear) : NULL;
+    const bool has_colours = dip_mesh_has_colours(mesh, linear);
+    float *colours = has_colours ? pack_colours(model, &source, linear) : NULL;
     uint32_t *remap = dip_model_alloc(model, source.count, sizeof *remap);
     if (!positions || !remap || !normals || (plan->has_uv0 && !uvs0) || (plan->has_uv1 && !uvs1) ||
-        (mesh->mColors[0] && !colours)) {
+        (has_colours && !colours)) {
         return false;
     }
     const VertexArrays arrays = {{positions, normals, uvs0, uvs1, colours}};

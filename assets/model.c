@@ -215,7 +215,8 @@ static bool load_file(DipModel *model, int index, const char *path, DipError *er
     if (!dip_model_import(model, file, err)) {
         return false;
     }
-    const NodeState root = {.world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    NodeState root = {.tag = DIP_TAG_SOLID};
+    dip_model_up_transform(model, file, root.world);
     const int objects_before = model->def.object_count;
     if (!walk(model, index, file->scene->mRootNode, &root, err)) {
         return false;
@@ -266,7 +267,9 @@ static float near_distance(const DipModel *model) {
         square += (high[axis] - low[axis]) * (high[axis] - low[axis]);
     }
     const double near_m = near_fraction * sqrt(square);
-    return isfinite(near_m) ? (float)fmin(fmax(near_m, (double)DIP_MIN_NEAR_M), (double)DIP_MAX_NEAR_M) : 0.01f;
+    return isfinite(near_m)
+               ? (float)fmin(fmax(near_m, (double)DIP_MIN_NEAR_M), (double)DIP_MAX_NEAR_M)
+               : 0.01f;
 }
 
 static void release_scenes(DipModel *model) {
@@ -290,47 +293,67 @@ static void finish(DipModel *model) {
     model->def.sky = dip_sky_default();
 }
 
-static DipModel *load(const char *const *files, int file_count, bool normal_maps, DipPool *pool,
-                      DipErrorList *warnings, DipError *err) {
+static bool note(const DipModelLoad *load, DipImportStage stage, int file) {
+    return load->note_file < 0 || dip_scene_pack_note(load->note_file, stage, file);
+}
+
+static bool load_parts(DipModel *model, const DipModelLoad *load, DipError *err) {
+    bool ok = model->files || dip_model_out_of_memory(err, load->files[0]);
+    const int64_t begin_ns = dip_clock_ns();
+    for (int i = 0; ok && i < load->file_count; ++i) {
+        note(load, DIP_IMPORT_READS, i);
+        ok = load_file(model, i, load->files[i], err);
+    }
+    const int64_t imported_ns = dip_clock_ns();
+    note(load, DIP_IMPORT_PICTURES, 0);
+    ok = ok && dip_model_decode_pictures(model, load->pool, err) &&
+         dip_model_finish_materials(model, err);
+    model->times.import_ms = 1e-6 * (double)(imported_ns - begin_ns);
+    model->times.pictures_ms = 1e-6 * (double)(dip_clock_ns() - imported_ns);
+    return ok;
+}
+
+DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
+    DipModel *model = calloc(1, sizeof *model);
+    if (!model) {
+        dip_model_out_of_memory(err, load->files[0]);
+        return NULL;
+    }
+    model->warnings = load->warnings;
+    model->normal_maps = load->options.normal_maps;
+    model->up = load->options.up;
+    model->files = calloc((size_t)load->file_count, sizeof *model->files);
+    if (!load_parts(model, load, err)) {
+        dip_model_destroy(&model);
+        return NULL;
+    }
+    finish(model);
+    return model;
+}
+
+DipModel *dip_model_load_with(const char *const *files, int file_count,
+                              const DipModelOptions *options, DipPool *pool, DipErrorList *warnings,
+                              DipError *err) {
+    const DipModelLoad load = {files, file_count, *options, pool, warnings, -1};
     if (file_count < 1 || file_count > DIP_MAX_MODEL_FILES) {
         dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL, "%d model files, accepted 1..%d",
                       file_count, DIP_MAX_MODEL_FILES);
         return NULL;
     }
-    DipModel *model = calloc(1, sizeof *model);
-    if (!model) {
-        dip_model_out_of_memory(err, files[0]);
-        return NULL;
-    }
-    model->warnings = warnings;
-    model->normal_maps = normal_maps;
-    model->files = calloc((size_t)file_count, sizeof *model->files);
-    bool ok = model->files || dip_model_out_of_memory(err, files[0]);
-    const int64_t begin_ns = dip_clock_ns();
-    for (int i = 0; ok && i < file_count; ++i) {
-        ok = load_file(model, i, files[i], err);
-    }
-    const int64_t imported_ns = dip_clock_ns();
-    ok =
-        ok && dip_model_decode_pictures(model, pool, err) && dip_model_finish_materials(model, err);
-    if (!ok) {
-        dip_model_destroy(&model);
-        return NULL;
-    }
-    model->times.import_ms = 1e-6 * (double)(imported_ns - begin_ns);
-    model->times.pictures_ms = 1e-6 * (double)(dip_clock_ns() - imported_ns);
-    finish(model);
-    return model;
+    return options->importer ? dip_model_load_in_child(&load, options->importer, err)
+                             : dip_model_load_here(&load, err);
 }
 
 DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
                          DipErrorList *warnings, DipError *err) {
-    return load(files, file_count, false, pool, warnings, err);
+    const DipModelOptions options = {.normal_maps = false};
+    return dip_model_load_with(files, file_count, &options, pool, warnings, err);
 }
 
 DipModel *dip_model_load_with_normals(const char *const *files, int file_count, DipPool *pool,
                                       DipErrorList *warnings, DipError *err) {
-    return load(files, file_count, true, pool, warnings, err);
+    const DipModelOptions options = {.normal_maps = true};
+    return dip_model_load_with(files, file_count, &options, pool, warnings, err);
 }
 
 void dip_model_destroy(DipModel **model_pointer) {
@@ -340,6 +363,8 @@ void dip_model_destroy(DipModel **model_pointer) {
     }
     *model_pointer = NULL;
     release_scenes(model);
+    dip_scene_pack_free(&model->pack);
+    dip_model_unmap_pack(model);
     for (int i = 0; i < model->picture_count; ++i) {
         dip_picture_free(&model->pictures[i].picture);
     }

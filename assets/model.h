@@ -30,6 +30,8 @@
 #include "renderer/base/pool.h"
 #include "renderer/scene/scene.h"
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -49,9 +51,11 @@ enum { DIP_MAX_MODEL_FILES = 256 };
 // Codes: MISSING (no such file, or no triangle), IO, TRUNCATED, FORMAT (not a supported format, or
 // malformed), UNSUPPORTED (a required glTF extension), RANGE (an index out of range; a position or
 // transform that is not finite; a picture of more than 8192 pixels in a direction), OVERSIZED (a
-// picture file), RUNTIME, MEMORY. A picture that exists but is broken fails the load.
+// picture file), RUNTIME, MEMORY. A broken picture only adds a warning.
 //
 // Threads: different models may be loaded at the same time on different threads.
+//
+// The files are read in this process. importer.h explains how to read untrusted files safely.
 //
 // This function loads no normal maps, so the materials have none.
 DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
@@ -60,6 +64,39 @@ DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool
 // Like dip_model_load, but also loads normal maps.
 DipModel *dip_model_load_with_normals(const char *const *files, int file_count, DipPool *pool,
                                       DipErrorList *warnings, DipError *err);
+
+// Which axis of a model file points up, as X(name, "what it means", for the help). Diptych's own +Y
+// is up. docs/models.md lists the rules of `auto`.
+#define DIP_UP_AXIS_LIST(X)                                                                        \
+    X(auto, "follows the file or the custom of its format")                                        \
+    X(y, "leaves the model as it is read")                                                         \
+    X(z, "turns the model so that its z axis points up")
+
+typedef enum DipUpAxis {
+#define DIP_UP_ENUM(name, text) DIP_UP_##name,
+    DIP_UP_AXIS_LIST(DIP_UP_ENUM)
+#undef DIP_UP_ENUM
+        DIP_UP_COUNT
+} DipUpAxis;
+
+extern const char *const dip_up_axis_names[DIP_UP_COUNT]; // "auto", "y", "z"
+
+// How dip_model_load_with loads a model. A zeroed struct gives what dip_model_load does.
+typedef struct DipModelOptions {
+    bool normal_maps; // True: normal maps are loaded, too.
+    DipUpAxis up;     // Holds for every file.
+    // The program that imports the files in a process of its own. NULL: the files are imported in
+    // this process, where a bad file can crash the libraries that read it. Use NULL for trusted
+    // files only.
+    const struct DipImporter *importer;
+} DipModelOptions;
+
+// Like dip_model_load, but with options. If options->importer is not NULL, the pool only says how
+// many threads the importer uses. Further codes: RUNTIME (the importer crashed or cannot be
+// started), OVERSIZED (the importer needed more memory or time than its limits).
+DipModel *dip_model_load_with(const char *const *files, int file_count,
+                              const DipModelOptions *options, DipPool *pool, DipErrorList *warnings,
+                              DipError *err);
 
 // Destroys the model and sets the pointer to NULL. Accepts a pointer to NULL.
 void dip_model_destroy(DipModel **model);

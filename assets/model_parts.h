@@ -9,12 +9,14 @@
 
 #include "assets/model.h"
 #include "assets/picture.h"
+#include "assets/scene_pack.h"
 #include "renderer/scene/scene.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
+struct aiColor4D;
 struct aiMaterial;
 struct aiMesh;
 struct aiNode;
@@ -108,7 +110,32 @@ struct DipModel {
     DipErrorList *warnings; // the caller's list, used only during the load; may be NULL
     DipModelTimes times;
     bool normal_maps; // true: normal maps are loaded
+    DipUpAxis up;
+    // The model of an importer has only a pack, whose scene is `def`, and the pack's bytes.
+    DipScenePack pack;
+    void *pack_bytes; // mapped memory, or NULL
+    size_t pack_size_bytes;
 };
+
+// importer.c: unmaps the bytes of the model's pack, if it has any.
+void dip_model_unmap_pack(DipModel *model);
+
+// A load in this process.
+typedef struct DipModelLoad {
+    const char *const *files;
+    int file_count;
+    DipModelOptions options; // The importer is not used.
+    DipPool *pool;           // May be NULL.
+    DipErrorList *warnings;  // May be NULL.
+    int note_file;           // Pack file that gets a note of every step, or -1.
+} DipModelLoad;
+
+// model.c: loads a model in this process. Returns NULL and fills *err if the load fails.
+DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err);
+
+// importer.c: loads a model in a child process. Fails like dip_model_load_with.
+DipModel *dip_model_load_in_child(const DipModelLoad *load, const struct DipImporter *importer,
+                                  DipError *err);
 
 // Makes room for one more item in an array of `count` items. Returns the array, which may have
 // moved. On failure returns NULL and the old array stays valid.
@@ -132,6 +159,25 @@ float dip_model_colour_to_linear(float value, bool linear);
 
 // mesh.c: true if a processed mesh consists of triangles.
 bool dip_mesh_is_triangles(const struct aiMesh *mesh);
+
+// How the colours of a mesh's vertices are read.
+typedef struct DipColourReader {
+    const struct aiColor4D *colours;
+    bool linear;       // true: the colours are linear, as in glTF
+    bool signed_bytes; // true: the colours are bytes that were read as signed numbers
+} DipColourReader;
+
+// colours.c: true if the mesh has vertex colours. Colours that are all black with an alpha of 0 are
+// none, except in glTF.
+bool dip_mesh_has_colours(const struct aiMesh *mesh, bool linear);
+void dip_mesh_colours(const struct aiMesh *mesh, bool linear, DipColourReader *reader);
+
+// colours.c: writes the linear colour of a vertex.
+void dip_read_colour(const DipColourReader *reader, unsigned vertex, float to[3]);
+
+// up_axis.c: writes the transform (rows of a 3x4 matrix) that turns an imported file so that +Y is
+// up.
+void dip_model_up_transform(const DipModel *model, const DipModelFile *file, double world[12]);
 
 // precheck.c: refuses files that would make assimp run out of stack, memory or time, and glTF files
 // that require an extension Diptych cannot decode.
@@ -161,8 +207,8 @@ int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, Dip
 // memory runs out.
 int dip_model_picture(DipModel *model, int file, const char *path);
 
-// pictures.c: decodes all registered pictures on the pool. A missing picture gives a warning; a
-// broken picture makes the load fail.
+// pictures.c: decodes all registered pictures on the pool. A picture that is
+// missing or cannot be decoded gives a warning. Fails when memory runs out.
 bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err);
 
 // material.c: makes the textures from the decoded pictures and decides which surfaces are opaque.

@@ -98,7 +98,8 @@ bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *nam
     if (!stbi_info_from_callbacks(&callbacks, &source, &picture->width, &picture->height,
                                   &channels)) {
         return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL,
-                             "the file is not a supported picture, accepted PNG, JPEG, BMP or TGA");
+                             "the file is not a supported picture, accepted PNG, BMP, TGA and JPEG "
+                             "(not arithmetic-coded)");
     }
     if (!check_size(picture->width, picture->height, name, err)) {
         return false;

@@ -66,9 +66,9 @@ static void decode_percent(char *path) {
 
 // Finds a picture file. Two names are tried in the model's folder: the path that the model gives,
 // and only the last part of this path, because some models contain absolute paths of another
-// machine. Each name is tried as written and then with percent-encoding decoded. Returns the path
-// of the file, or the first path tried if there is no file. The caller frees the path. Returns NULL
-// when memory runs out.
+// machine. In BLEND files, "//" at the beginning stands for the model's folder. Each name is tried
+// as written and then with percent-encoding decoded. Returns the path of the file, or the first
+// path tried if there is no file. The caller frees the path. Returns NULL when memory runs out.
 static char *find_file(const char *model_path, const char *picture_path) {
     const size_t folder_length = (size_t)(base_name(model_path) - model_path);
     const size_t size_bytes = folder_length + strlen(picture_path) + 1;
@@ -81,7 +81,8 @@ static char *find_file(const char *model_path, const char *picture_path) {
         } else if (attempt == 0) {
             use_forward_slashes(name);
         }
-        const char *relative = attempt % 2 == 0 ? name : base_name(name);
+        const char *written = strncmp(name, "//", 2) == 0 ? name + 2 : name;
+        const char *relative = attempt % 2 == 0 ? written : base_name(name);
         const int folder = relative[0] == '/' ? 0 : (int)folder_length;
         snprintf(path, size_bytes, "%.*s%s", folder, model_path, relative);
         if (exists(path)) {
@@ -222,11 +223,12 @@ bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
                 model, model->files[entry->file].path, NULL,
                 "the picture %s is missing, so its surfaces are drawn in their base colour",
                 entry->name);
+        } else if (entry->error.code == DIP_ERROR_MEMORY) {
+            return dip_model_out_of_memory(err, entry->name);
         } else if (entry->error.code != DIP_ERROR_NONE) {
-            if (err) {
-                *err = entry->error;
-            }
-            return false;
+            dip_model_warn(model, entry->name, NULL,
+                           "its surfaces are drawn in their base colour, because %s",
+                           entry->error.message);
         }
     }
     return true;

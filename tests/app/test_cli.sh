@@ -63,6 +63,10 @@ check "help on path names both commands" grep -q 'path convert .*rewrite' out.tx
 expect 0 '' "$diptych" --version
 check "the version is one line" grep -qE '^diptych [0-9]+\.[0-9]+\.[0-9]+$' out.txt
 
+expect 2 '\[import\] only Diptych itself runs this command' "$diptych" import
+expect 2 '\[import\] only Diptych itself runs this command' "$diptych" import -- 1 1 1 1 1 1 a.obj
+check "help does not show the hidden command" sh -c '! "$0" --help | grep -q "^  import"' "$diptych"
+
 # --- bad command lines: one line of error, exit code 2, nothing written
 expect 2 'diptych: \[dump\] nothing to do; give one of --out DIR, --json FILE, --hash$' "$diptych" dump
 expect 2 '\[--frmes\] is not an option of .diptych dump.; did you mean --frames\?$' "$diptych" dump --hash --frmes 0:1
@@ -127,6 +131,13 @@ expect 2 'none.ini: ' "$diptych" dump --hash --config none.ini
 expect 2 'none.glb: ' "$diptych" dump --hash --model none.glb
 expect 2 'none.pth: ' "$diptych" dump --hash --path none.pth
 expect 2 'none.pth: ' "$diptych" path info none.pth
+# The library that reads PLY files looks for the end of the header beyond the file, or for ever.
+printf 'ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nelement face 1\n' >hang.ply
+{ cat hang.ply && head -c 60 /dev/zero; } >crash.ply
+expect 2 'crash.ply: the importer (crashed|ended) while it read the model' "$diptych" dump --hash --model crash.ply
+expect 2 'hang.ply: the importer hung while it read the model, accepted at most 2 s' \
+    "$diptych" dump --hash --import-seconds 2 --model hang.ply
+expect 2 "\[--up\] 'x' is not an axis; give one of auto\|y\|z" "$diptych" dump --hash --up x
 printf 'v 0 0 0\nv 1e-10 0 0\nv 0 1e-10 0\nf 1 2 3\n' >tiny.obj
 expect 2 "tiny.obj: \[box\] the model's size is 1e-10" "$diptych" dump --hash --model tiny.obj
 expect 2 'tiny.obj:1: .* not a camera path, .*; load a model with --model$' \

@@ -18,7 +18,7 @@
 enum { MAX_WORDS = 12 };
 
 static const DipCommand *const only_bench[] = {&dip_bench_command};
-static const DipCommandList list = {only_bench, 1};
+static const DipCommandList list = {.commands = only_bench, .count = 1};
 
 #define WORDS(...) ((const char *const[]){__VA_ARGS__, NULL})
 

@@ -18,7 +18,7 @@
 enum { MAX_WORDS = 12 };
 
 static const DipCommand *const only_dump[] = {&dip_dump_command};
-static const DipCommandList list = {only_dump, 1};
+static const DipCommandList list = {.commands = only_dump, .count = 1};
 
 // Parses "dump" and the given arguments, which end with a NULL.
 static bool parse(DipCommandLine *line, DipError *err, const char *const words[]) {

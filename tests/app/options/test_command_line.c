@@ -23,7 +23,7 @@ enum { MAX_WORDS = 16, TEXT_SIZE = 65536 };
 static const char *const complete[] = {
     "preview",      "dump --hash",          "bench",
     "cost --out x", "cost merge --out x y", "cost assets",
-    "path info x",  "path convert x y.pth",
+    "path info x",  "path convert x y.pth", "verify",
 };
 
 // Parses `words`, which are separated by blanks, and then the arguments `more` and `last` if they
@@ -93,6 +93,19 @@ static void every_command_is_found_by_its_name(void **state) {
         assert_ptr_equal(line.command, dip_command_list.commands[c]);
         assert_true(line.named);
         dip_command_line_free(&line);
+    }
+}
+
+// The program itself starts the hidden command.
+static void the_hidden_command_is_found_but_not_listed(void **state) {
+    (void)state;
+    DipCommandLine line;
+    DipError err = {0};
+    assert_true(parse("import -- 1 2 -x.obj", NULL, NULL, &line, &err));
+    assert_string_equal(line.command->name, "import");
+    dip_command_line_free(&line);
+    for (size_t c = 0; c < dip_command_list.count; c++) {
+        assert_string_not_equal(dip_command_list.commands[c]->name, "import");
     }
 }
 
@@ -258,6 +271,7 @@ static void help_needs_no_complete_command_line(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_command_is_found_by_its_name),
+        cmocka_unit_test(the_hidden_command_is_found_but_not_listed),
         cmocka_unit_test(preview_runs_when_no_command_is_named),
         cmocka_unit_test(every_option_refuses_bad_values),
         cmocka_unit_test(every_option_is_explained_in_sentences),

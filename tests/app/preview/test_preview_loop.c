@@ -32,9 +32,13 @@ static DipPreview *preview;
 
 // --- the fixture -------------------------------------------------------------------------------
 
+static bool scene_is_broken; // The scene's file has become unreadable.
+
 static bool load_scene_def(void *context, DipError *err) {
     (void)context;
-    (void)err;
+    if (scene_is_broken) {
+        return dip_error_set(err, DIP_ERROR_RUNTIME, "scene.obj", 0, NULL, "the importer crashed");
+    }
     session.scene_def = scene.def;
     return true;
 }
@@ -354,6 +358,25 @@ static void errors_appear_while_the_camera_rests(void **state) {
     assert_in_range(dip_fake_display_damaged_pixels(fake), 1, WIDTH * HEIGHT / 2);
 }
 
+// Measuring errors needs the scene's files once more. A file that has become bad in the meantime
+// only closes the panel.
+static void a_broken_scene_file_leaves_the_running_scene(void **state) {
+    (void)state;
+    rest();
+    const Pane before = look(DIP_PANE_CURRENT);
+    scene_is_broken = true;
+    press('r');
+    scene_is_broken = false;
+    assert_false(dip_preview_state(preview)->panel);
+    assert_non_null(strstr(dip_preview_state(preview)->notice, "scene.obj: the importer crashed"));
+    for (int i = 0; i < 200; ++i) {
+        turn();
+    }
+    assert_true(pane_is(DIP_PANE_CURRENT, before));
+    press('r');
+    assert_true(dip_preview_state(preview)->panel);
+}
+
 static void quitting_ends_without_another_frame(void **state) {
     (void)state;
     static const DipEvent ways[] = {
@@ -441,6 +464,7 @@ int main(void) {
         PREVIEW_TEST(the_free_camera_follows_held_keys),
         PREVIEW_TEST(only_changes_are_presented),
         PREVIEW_TEST(errors_appear_while_the_camera_rests),
+        PREVIEW_TEST(a_broken_scene_file_leaves_the_running_scene),
         PREVIEW_TEST(quitting_ends_without_another_frame),
         PREVIEW_TEST(a_screenshot_equals_the_shown_picture),
         PREVIEW_TEST(random_events_do_no_harm),

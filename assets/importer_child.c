@@ -1,0 +1,177 @@
+// The importer process: limits itself, loads the model files, and hands over the scene as a sealed
+// pack.
+#define _GNU_SOURCE // F_ADD_SEALS, close_range
+#include "assets/importer.h"
+
+#include "assets/importer_private.h"
+#include "assets/model_parts.h"
+
+#ifdef __linux__
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+// Address space that is not memory in use: the program and its libraries, the stack of the thread
+// that reads models, and for each thread its stack and the heap that the C library reserves for it.
+static const uint64_t reserved_bytes = (uint64_t)1 << 30;
+static const uint64_t reserved_per_thread_bytes = (uint64_t)160 << 20;
+
+typedef struct Task {
+    uint64_t number[IMPORT_ARGUMENT_COUNT];
+    const char *files[DIP_MAX_MODEL_FILES];
+    int file_count;
+} Task;
+
+// --- arguments -----------------------------------------------------------------------------------
+
+static bool parse_number(const char *text, uint64_t *number) {
+    char *end = NULL;
+    errno = 0;
+    *number = strtoull(text, &end, 10);
+    return errno == 0 && text[0] >= '0' && text[0] <= '9' && *end == '\0';
+}
+
+static bool parse_task(int count, char *const *arguments, Task *task) {
+    if (count > 0 && strcmp(arguments[0], import_mark) == 0) {
+        count--;
+        arguments++;
+    }
+    task->file_count = count - IMPORT_ARGUMENT_COUNT;
+    if (task->file_count < 1 || task->file_count > DIP_MAX_MODEL_FILES) {
+        return false;
+    }
+    for (int i = 0; i < IMPORT_ARGUMENT_COUNT; ++i) {
+        if (!parse_number(arguments[i], &task->number[i])) {
+            return false;
+        }
+    }
+    for (int i = 0; i < task->file_count; ++i) {
+        task->files[i] = arguments[IMPORT_ARGUMENT_COUNT + i];
+    }
+    const uint64_t threads = task->number[IMPORT_ARGUMENT_threads];
+    return task->number[IMPORT_ARGUMENT_version] == IMPORT_VERSION && threads >= 1 &&
+           threads <= DIP_MAX_THREADS && task->number[IMPORT_ARGUMENT_up] < DIP_UP_COUNT;
+}
+
+// --- limits --------------------------------------------------------------------------------------
+
+static void close_other_files(void) {
+#ifdef SYS_close_range
+    if (syscall(SYS_close_range, (unsigned)IMPORT_PIPE + 1, ~0u, 0) == 0) {
+        return;
+    }
+#endif
+    DIR *listing = opendir("/proc/self/fd");
+    for (struct dirent *entry = listing ? readdir(listing) : NULL; entry;
+         entry = readdir(listing)) {
+        const int file = atoi(entry->d_name);
+        if (file > IMPORT_PIPE && file != dirfd(listing)) {
+            close(file);
+        }
+    }
+    if (listing) {
+        closedir(listing);
+    }
+}
+
+// Sets both limits of a resource, or the highest that are allowed.
+static bool limit(int resource, uint64_t soft, uint64_t hard) {
+    struct rlimit now;
+    if (getrlimit(resource, &now) != 0) {
+        return false;
+    }
+    const rlim_t most = now.rlim_max;
+    const rlim_t new_hard = hard < most ? (rlim_t)hard : most;
+    const struct rlimit wanted = {.rlim_cur = soft < new_hard ? (rlim_t)soft : new_hard,
+                                  .rlim_max = new_hard};
+    return setrlimit(resource, &wanted) == 0;
+}
+
+// Limits the process. Processor time ends it by SIGXCPU, a second later by SIGKILL.
+static bool limit_process(const Task *task) {
+    const uint64_t cpu_s = task->number[IMPORT_ARGUMENT_cpu_s];
+    const uint64_t memory = task->number[IMPORT_ARGUMENT_memory_bytes];
+    const uint64_t space =
+        memory + reserved_bytes + task->number[IMPORT_ARGUMENT_threads] * reserved_per_thread_bytes;
+    signal(SIGINT, SIG_IGN);  // Ctrl-C is for the program; its end ends this process, too.
+    signal(SIGXFSZ, SIG_IGN); // Writing beyond the limit fails with EFBIG.
+    signal(SIGPIPE, SIG_IGN);
+    close_other_files();
+    return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && limit(RLIMIT_CORE, 0, 0) &&
+           limit(RLIMIT_CPU, cpu_s, cpu_s + 1) && limit(RLIMIT_FSIZE, memory, memory) &&
+           (IMPORT_IS_SANITIZED || limit(RLIMIT_AS, space, space));
+}
+
+// Lets this process end with the program. Returns false if the program has ended already.
+static bool follow_program(const Task *task) {
+    return prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 &&
+           (uint64_t)getppid() == task->number[IMPORT_ARGUMENT_program_id];
+}
+
+// --- loading -------------------------------------------------------------------------------------
+
+static bool seal(void) {
+    const int seals = F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
+    return fcntl(IMPORT_PACK_FILE, F_ADD_SEALS, seals) == 0;
+}
+
+static bool hand_over(const DipModel *model, DipScenePack *pack) {
+    if (model) {
+        pack->scene = model->def;
+        pack->times = model->times;
+    }
+    return dip_scene_pack_note(IMPORT_PACK_FILE, DIP_IMPORT_PACKS, 0) &&
+           dip_scene_pack_write(IMPORT_PACK_FILE, pack) && seal() && write(IMPORT_PIPE, "", 1) == 1;
+}
+
+static bool load_and_hand_over(const Task *task) {
+    DipScenePack pack = {0};
+    DipPool *pool = dip_pool_create((int)task->number[IMPORT_ARGUMENT_threads], &pack.failure);
+    const DipModelLoad load = {
+        .files = task->files,
+        .file_count = task->file_count,
+        .options = {.normal_maps = task->number[IMPORT_ARGUMENT_normal_maps] == 1,
+                    .up = (DipUpAxis)task->number[IMPORT_ARGUMENT_up]},
+        .pool = pool,
+        .warnings = &pack.warnings,
+        .note_file = IMPORT_PACK_FILE,
+    };
+    DipModel *model = pool ? dip_model_load_here(&load, &pack.failure) : NULL;
+    const bool done = hand_over(model, &pack);
+    dip_model_destroy(&model);
+    dip_error_list_free(&pack.warnings);
+    dip_pool_destroy(&pool);
+    return done;
+}
+
+int dip_importer_run(int count, char *const *arguments) {
+    Task task;
+    if (!parse_task(count, arguments, &task) || fcntl(IMPORT_PACK_FILE, F_GET_SEALS) < 0) {
+        return IMPORT_EXIT_ARGUMENTS;
+    }
+    if (!follow_program(&task)) {
+        return IMPORT_EXIT_ORPHANED;
+    }
+    if (!limit_process(&task)) {
+        return IMPORT_EXIT_LIMITS;
+    }
+    return load_and_hand_over(&task) ? IMPORT_EXIT_DONE : IMPORT_EXIT_NO_ROOM;
+}
+
+#else
+
+int dip_importer_run(int count, char *const *arguments) {
+    (void)count;
+    (void)arguments;
+    return IMPORT_EXIT_ARGUMENTS;
+}
+
+#endif

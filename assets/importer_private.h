@@ -1,0 +1,59 @@
+// What the program and its importer process agree on. Private to importer.c and importer_child.c.
+//
+// The importer's arguments are import_mark, those of IMPORT_ARGUMENT_LIST, and the model files. It
+// inherits two files: the pack file, which it fills and seals, and the writing end of a pipe, which
+// it only keeps open. The program reads the other end of the pipe, which reaches its end when the
+// importer ends.
+#ifndef DIP_ASSETS_IMPORTER_PRIVATE_H
+#define DIP_ASSETS_IMPORTER_PRIVATE_H
+
+#include "assets/importer.h"
+
+enum { IMPORT_PACK_FILE = 3, IMPORT_PIPE = 4 };
+
+// The arguments before the files, as X(name). All are decimal numbers.
+#define IMPORT_ARGUMENT_LIST(X)                                                                    \
+    X(version)      /* IMPORT_VERSION */                                                           \
+    X(program_id)   /* process id of the program */                                                \
+    X(threads)      /* number of threads that decode pictures */                                   \
+    X(normal_maps)  /* 1: normal maps are loaded, 0: not */                                        \
+    X(up)           /* a DipUpAxis */                                                              \
+    X(memory_bytes) /* limit of memory */                                                          \
+    X(cpu_s)        /* limit of processor time */
+
+typedef enum ImportArgument {
+#define IMPORT_ARGUMENT_ENUM(name) IMPORT_ARGUMENT_##name,
+    IMPORT_ARGUMENT_LIST(IMPORT_ARGUMENT_ENUM)
+#undef IMPORT_ARGUMENT_ENUM
+        IMPORT_ARGUMENT_COUNT
+} ImportArgument;
+
+// Keeps a program that reads options from taking a file called "-x" for one. Such a program may
+// remove this argument.
+static const char import_mark[] = "--";
+
+enum { IMPORT_VERSION = 1, IMPORT_NUMBER_BYTES = 24 };
+
+// 1 in builds with a sanitizer. AddressSanitizer does not start in a process whose address space is
+// limited, and it reports to the standard error output.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define IMPORT_IS_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define IMPORT_IS_SANITIZED 1
+#endif
+#endif
+#ifndef IMPORT_IS_SANITIZED
+#define IMPORT_IS_SANITIZED 0
+#endif
+
+// Exit codes of the importer.
+enum {
+    IMPORT_EXIT_DONE = 0, // The pack is complete and sealed.
+    IMPORT_EXIT_ARGUMENTS = DIP_IMPORTER_MISUSED,
+    IMPORT_EXIT_LIMITS = 3,   // The process could not be limited.
+    IMPORT_EXIT_NO_ROOM = 4,  // The pack could not be written.
+    IMPORT_EXIT_ORPHANED = 5, // The program ended before the importer started.
+};
+
+#endif

@@ -1,0 +1,364 @@
+// Reads scene packs and checks every value in them.
+#include "assets/scene_pack.h"
+
+#include "assets/scene_pack_private.h"
+#include "renderer/base/assert.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct Reader {
+    const uint8_t *bytes;
+    uint64_t size_bytes;
+    PackHeader header;
+    uint64_t arrays_end; // End of the last array, in bytes. The next array begins here or later.
+    DipError *err;
+} Reader;
+
+// --- reporting faults ----------------------------------------------------------------------------
+
+static bool refuse(const Reader *reader, const char *what, uint64_t index) {
+    return dip_error_set(reader->err, DIP_ERROR_FORMAT, NULL, 0, NULL,
+                         "the importer's result is malformed: %s (item %llu)", what,
+                         (unsigned long long)index);
+}
+
+static bool out_of_memory(const Reader *reader) {
+    return dip_error_set(reader->err, DIP_ERROR_MEMORY, NULL, 0, NULL, "out of memory");
+}
+
+// --- values --------------------------------------------------------------------------------------
+
+// True if no float is infinite or NaN. Tests the exponents as integers, which compilers vectorise.
+static bool all_finite(const void *floats, uint64_t count) {
+    const uint32_t exponent = 0x7f800000;
+    const uint8_t *bytes = floats;
+    uint32_t found = 0;
+    for (uint64_t i = 0; i < count; ++i) {
+        uint32_t bits;
+        memcpy(&bits, bytes + sizeof bits * i, sizeof bits);
+        found |= (bits & exponent) == exponent;
+    }
+    return !found;
+}
+
+static bool within_unit(float value) {
+    return value >= 0.0f && value <= 1.0f;
+}
+
+static bool is_boolean(uint32_t value) {
+    return value <= 1;
+}
+
+// True for DIP_NO_TEXTURE and for the index of a texture.
+static bool is_texture(const Reader *reader, int32_t index) {
+    return index >= DIP_NO_TEXTURE &&
+           (index < 0 || (uint64_t)index < reader->header.textures.count);
+}
+
+// Reads record `index` of a section.
+static void read_record(const Reader *reader, const PackSection *section, uint64_t index,
+                        void *record, size_t record_bytes) {
+    memcpy(record, reader->bytes + section->offset + index * record_bytes, record_bytes);
+}
+
+// Finds a text. The section of text ends with a zero byte (check_sections), so every text ends.
+static bool read_text(const Reader *reader, uint64_t offset, const char **text) {
+    const bool inside = offset < reader->header.text.count;
+    *text = inside ? (const char *)reader->bytes + reader->header.text.offset + offset : NULL;
+    return inside;
+}
+
+// Finds an array. The offset 0 gives NULL. Counts and item sizes are below 2^33, so that their
+// product does not overflow.
+static bool read_array(Reader *reader, uint64_t offset, uint64_t count, uint64_t item_bytes,
+                       const void **array) {
+    *array = NULL;
+    if (offset == 0) {
+        return true;
+    }
+    const uint64_t size = reader->size_bytes;
+    if (offset % PACK_ALIGNMENT != 0 || offset < reader->arrays_end || offset > size ||
+        count * item_bytes > size - offset) {
+        return false;
+    }
+    *array = reader->bytes + offset;
+    reader->arrays_end = offset + count * item_bytes;
+    return true;
+}
+
+// Finds an array of floats, which must be finite.
+static bool read_floats(Reader *reader, uint64_t offset, uint64_t count, const float **floats) {
+    const void *array;
+    const bool ok = read_array(reader, offset, count, sizeof **floats, &array) &&
+                    all_finite(array, array ? count : 0);
+    *floats = array;
+    return ok;
+}
+
+// --- the header ----------------------------------------------------------------------------------
+
+static bool check_section(const Reader *reader, const PackSection *section, size_t record_bytes,
+                          uint64_t most) {
+    const uint64_t size = reader->size_bytes;
+    return section->offset >= sizeof(PackHeader) && section->offset <= size &&
+           section->count <= most && section->count <= (size - section->offset) / record_bytes;
+}
+
+static bool check_sections(const Reader *reader) {
+    const PackHeader *header = &reader->header;
+#define CHECK_SECTION(name, type)                                                                  \
+    if (!check_section(reader, &header->name, sizeof(type),                                        \
+                       sizeof(type) > 1 ? PACK_MAX_RECORDS : UINT64_MAX)) {                        \
+        return refuse(reader, "section " #name, header->name.count);                               \
+    }
+    PACK_SECTION_LIST(CHECK_SECTION)
+#undef CHECK_SECTION
+    const PackSection *text = &header->text;
+    return (text->count > 0 && reader->bytes[text->offset + text->count - 1] == '\0') ||
+           refuse(reader, "the text has no end", text->count);
+}
+
+static bool has_layout(const PackHeader *header) {
+    return memcmp(header->magic, pack_magic, sizeof header->magic) == 0 &&
+           header->version == PACK_VERSION && header->header_bytes == sizeof *header;
+}
+
+static bool read_header(Reader *reader) {
+    PackHeader *header = &reader->header;
+    if (reader->size_bytes < sizeof *header) {
+        return refuse(reader, "it ends too early", reader->size_bytes);
+    }
+    memcpy(header, reader->bytes, sizeof *header);
+    if (!has_layout(header)) {
+        return refuse(reader, "it is not of this version", header->version);
+    }
+    if (header->stage != DIP_IMPORT_DONE || header->total_bytes != reader->size_bytes) {
+        return refuse(reader, "it is incomplete", header->stage);
+    }
+    if (!isfinite(header->import_ms) || !isfinite(header->pictures_ms)) {
+        return refuse(reader, "times", 0);
+    }
+    return check_sections(reader);
+}
+
+// --- the scene -----------------------------------------------------------------------------------
+
+static bool read_texture(Reader *reader, uint64_t index, DipTextureDef *def) {
+    PackTexture record;
+    const void *texels;
+    read_record(reader, &reader->header.textures, index, &record, sizeof record);
+    if (record.width < 1 || record.width > DIP_MAX_TEXTURE_SIZE || record.height < 1 ||
+        record.height > DIP_MAX_TEXTURE_SIZE) {
+        return refuse(reader, "size of a texture", index);
+    }
+    *def = (DipTextureDef){.width = record.width,
+                           .height = record.height,
+                           .encoding = (DipEncoding)record.encoding,
+                           .wrap_u = (DipWrap)record.wrap_u,
+                           .wrap_v = (DipWrap)record.wrap_v};
+    const uint64_t texel_count = (uint64_t)record.width * (uint64_t)record.height;
+    const bool ok = record.encoding <= DIP_ENCODING_LINEAR && record.wrap_u <= DIP_WRAP_CLAMP &&
+                    record.wrap_v <= DIP_WRAP_CLAMP && read_text(reader, record.name, &def->name) &&
+                    read_array(reader, record.rgba8, texel_count, 4, &texels) && texels;
+    def->rgba8 = ok ? texels : NULL;
+    return ok || refuse(reader, "a texture", index);
+}
+
+static bool read_material(Reader *reader, uint64_t index, DipMaterialDef *def) {
+    PackMaterial record;
+    read_record(reader, &reader->header.materials, index, &record, sizeof record);
+    *def = (DipMaterialDef){.surface = (DipSurface)record.surface,
+                            .colour_texture = record.colour_texture,
+                            .light_map = record.light_map,
+                            .normal_map = record.normal_map,
+                            .light_map_scale = record.light_map_scale,
+                            .roughness = record.roughness,
+                            .alpha_cutoff = record.alpha_cutoff,
+                            .double_sided = record.double_sided == 1,
+                            .lit = record.lit == 1};
+    memcpy(def->base_colour_lin, record.base_colour_lin, sizeof def->base_colour_lin);
+    const float *base = record.base_colour_lin;
+    const bool numbers = within_unit(base[0]) && within_unit(base[1]) && within_unit(base[2]) &&
+                         within_unit(record.roughness) && within_unit(record.alpha_cutoff) &&
+                         record.light_map_scale >= 0.0f && isfinite(record.light_map_scale);
+    const bool textures = is_texture(reader, record.colour_texture) &&
+                          is_texture(reader, record.light_map) &&
+                          is_texture(reader, record.normal_map);
+    const bool ok = numbers && textures && record.surface <= DIP_SURFACE_SKY &&
+                    is_boolean(record.double_sided) && is_boolean(record.lit) &&
+                    read_text(reader, record.name, &def->name);
+    return ok || refuse(reader, "a material", index);
+}
+
+static bool read_indices(Reader *reader, const PackMesh *record, DipMeshDef *def) {
+    const void *array;
+    if (record->index_count % 3 != 0 ||
+        !read_array(reader, record->indices, record->index_count, sizeof *def->indices, &array) ||
+        (!array && record->index_count > 0)) {
+        return false;
+    }
+    def->indices = array;
+    uint32_t outside = 0;
+    for (uint32_t i = 0; i < record->index_count; ++i) {
+        outside |= def->indices[i] >= record->vertex_count;
+    }
+    return !outside;
+}
+
+static bool read_mesh(Reader *reader, uint64_t index, DipMeshDef *def) {
+    PackMesh record;
+    read_record(reader, &reader->header.meshes, index, &record, sizeof record);
+    *def = (DipMeshDef){.vertex_count = record.vertex_count,
+                        .index_count = record.index_count,
+                        .material = record.material};
+    const uint64_t rows = record.vertex_count;
+    const bool ok = record.material >= 0 &&
+                    (uint64_t)record.material < reader->header.materials.count &&
+                    read_text(reader, record.name, &def->name) &&
+                    read_floats(reader, record.positions, 3 * rows, &def->positions) &&
+                    read_floats(reader, record.normals, 3 * rows, &def->normals) &&
+                    read_floats(reader, record.uv0, 2 * rows, &def->uv0) &&
+                    read_floats(reader, record.uv1, 2 * rows, &def->uv1) &&
+                    read_floats(reader, record.colours_lin, 3 * rows, &def->colours_lin) &&
+                    read_indices(reader, &record, def) && def->positions;
+    return ok || refuse(reader, "a mesh", index);
+}
+
+static bool read_object(Reader *reader, uint64_t index, DipObjectDef *def) {
+    PackObject record;
+    read_record(reader, &reader->header.objects, index, &record, sizeof record);
+    def->mesh = record.mesh;
+    memcpy(def->transform, record.transform, sizeof def->transform);
+    const bool ok = record.mesh >= 0 && (uint64_t)record.mesh < reader->header.meshes.count &&
+                    all_finite(record.transform, 12) && read_text(reader, record.name, &def->name);
+    return ok || refuse(reader, "an object", index);
+}
+
+// Allocates the arrays of the scene; dip_scene_pack_free frees them.
+static bool allocate_scene(const Reader *reader, DipSceneDef *scene) {
+    const PackHeader *header = &reader->header;
+    scene->textures = calloc(header->textures.count + 1, sizeof *scene->textures);
+    scene->materials = calloc(header->materials.count + 1, sizeof *scene->materials);
+    scene->meshes = calloc(header->meshes.count + 1, sizeof *scene->meshes);
+    scene->objects = calloc(header->objects.count + 1, sizeof *scene->objects);
+    return (scene->textures && scene->materials && scene->meshes && scene->objects) ||
+           out_of_memory(reader);
+}
+
+// Reads all records of a section with `read` into the scene's array of the same name.
+#define READ_RECORDS(name, type, read, number)                                                     \
+    for (uint64_t i = 0; i < header->name.count; ++i) {                                            \
+        if (!read(reader, i, (type *)scene->name + i)) {                                           \
+            return false;                                                                          \
+        }                                                                                          \
+    }                                                                                              \
+    scene->number = (int)header->name.count
+
+static bool read_scene(Reader *reader, DipSceneDef *scene) {
+    const PackHeader *header = &reader->header;
+    if (!(header->near_m > 0.0f) || !isfinite(header->near_m) ||
+        !all_finite(header->background_lin, 3)) {
+        return refuse(reader, "near plane or background", 0);
+    }
+    scene->near_m = header->near_m;
+    memcpy(scene->background_lin, header->background_lin, sizeof scene->background_lin);
+    scene->sky = dip_sky_default();
+    reader->arrays_end = sizeof *header;
+    if (!allocate_scene(reader, scene)) {
+        return false;
+    }
+    READ_RECORDS(textures, DipTextureDef, read_texture, texture_count);
+    READ_RECORDS(materials, DipMaterialDef, read_material, material_count);
+    READ_RECORDS(meshes, DipMeshDef, read_mesh, mesh_count);
+    READ_RECORDS(objects, DipObjectDef, read_object, object_count);
+    return true;
+}
+
+// --- errors and warnings -------------------------------------------------------------------------
+
+// Replaces control characters by spaces, because a message must stay on one line. Returns false if
+// the text has no end.
+static bool copy_line(char *to, const char *from, size_t size_bytes) {
+    if (!memchr(from, '\0', size_bytes)) {
+        return false;
+    }
+    for (size_t i = 0; i < size_bytes; ++i) {
+        to[i] = from[i] && (unsigned char)from[i] < ' ' ? ' ' : from[i];
+    }
+    return true;
+}
+
+static bool read_error(const Reader *reader, const PackSection *section, uint64_t index,
+                       DipSeverity severity, DipError *error) {
+    PackError record;
+    read_record(reader, section, index, &record, sizeof record);
+    *error = (DipError){.code = (DipErrorCode)record.code,
+                        .origin = (DipOrigin)record.origin,
+                        .severity = severity,
+                        .line = record.line};
+    const bool ok = record.code > DIP_ERROR_NONE && record.code <= DIP_ERROR_RUNTIME &&
+                    record.origin <= DIP_ORIGIN_RUNTIME && record.severity == severity &&
+                    record.line >= 0 && copy_line(error->file, record.file, sizeof record.file) &&
+                    copy_line(error->key, record.key, sizeof record.key) &&
+                    copy_line(error->message, record.message, sizeof record.message);
+    return ok || refuse(reader, "a message", index);
+}
+
+static bool read_messages(const Reader *reader, DipScenePack *pack) {
+    const PackSection *warnings = &reader->header.warnings;
+    const PackSection *failures = &reader->header.failures;
+    for (uint64_t i = 0; i < warnings->count; ++i) {
+        DipError warning;
+        if (!read_error(reader, warnings, i, DIP_SEVERITY_WARNING, &warning)) {
+            return false;
+        }
+        dip_error_list_add(&pack->warnings, &warning);
+    }
+    if (failures->count > 1) {
+        return refuse(reader, "several failures", failures->count);
+    }
+    return failures->count == 0 ||
+           read_error(reader, failures, 0, DIP_SEVERITY_ERROR, &pack->failure);
+}
+
+// --- the pack ------------------------------------------------------------------------------------
+
+bool dip_scene_pack_read(const void *bytes, size_t size_bytes, DipScenePack *pack, DipError *err) {
+    Reader reader = {.bytes = bytes, .size_bytes = size_bytes, .err = err};
+    DIP_ASSERT((uintptr_t)bytes % 8 == 0);
+    *pack = (DipScenePack){0};
+    const bool ok =
+        read_header(&reader) && read_messages(&reader, pack) && read_scene(&reader, &pack->scene);
+    if (!ok) {
+        dip_scene_pack_free(pack);
+        return false;
+    }
+    pack->times = (DipModelTimes){.import_ms = reader.header.import_ms,
+                                  .pictures_ms = reader.header.pictures_ms};
+    return true;
+}
+
+void dip_scene_pack_free(DipScenePack *pack) {
+    free((void *)pack->scene.textures);
+    free((void *)pack->scene.materials);
+    free((void *)pack->scene.meshes);
+    free((void *)pack->scene.objects);
+    dip_error_list_free(&pack->warnings);
+    *pack = (DipScenePack){0};
+}
+
+bool dip_scene_pack_read_note(int pack_file, DipImportStage *stage, int *file_index) {
+    PackHeader header;
+    if (pread(pack_file, &header, sizeof header, 0) != (ssize_t)sizeof header ||
+        !has_layout(&header) || header.stage > DIP_IMPORT_DONE ||
+        header.file_index >= DIP_MAX_MODEL_FILES) {
+        return false;
+    }
+    *stage = (DipImportStage)header.stage;
+    *file_index = (int)header.file_index;
+    return true;
+}

@@ -1,0 +1,111 @@
+// Layout of a scene pack (scene_pack.h). Private to the reader and the writer.
+//
+// A pack begins with a PackHeader. The header places one section of records for each kind of
+// record. Texts are offsets into the section of text, where every text ends with a zero byte.
+// Arrays (texels, vertices, indices) are offsets from the start of the pack; the offset 0 means
+// that there is no array. Arrays lie in the order of the records that name them, and do not
+// overlap. So the arrays of all records together are no larger than the pack.
+#ifndef DIP_ASSETS_SCENE_PACK_PRIVATE_H
+#define DIP_ASSETS_SCENE_PACK_PRIVATE_H
+
+#include "renderer/base/error.h"
+
+#include <stdint.h>
+
+enum {
+    PACK_VERSION = 1, // Increase this number with every change of the layout.
+    PACK_ALIGNMENT = 64,
+    PACK_MAX_RECORDS = 1 << 24 // Most records in a section.
+};
+
+static const char pack_magic[8] = {'D', 'I', 'P', 'P', 'A', 'C', 'K', '\n'};
+
+// The sections, as X(name of the section, type of its records).
+#define PACK_SECTION_LIST(X)                                                                       \
+    X(textures, PackTexture)                                                                       \
+    X(materials, PackMaterial)                                                                     \
+    X(meshes, PackMesh)                                                                            \
+    X(objects, PackObject)                                                                         \
+    X(warnings, PackError)                                                                         \
+    X(failures, PackError)                                                                         \
+    X(text, char)
+
+typedef struct PackSection {
+    uint64_t offset; // From the start of the pack, in bytes.
+    uint64_t count;  // Number of records.
+} PackSection;
+
+typedef struct PackHeader {
+    char magic[8];
+    uint32_t version;
+    uint32_t header_bytes; // sizeof(PackHeader)
+    uint32_t stage;        // A DipImportStage.
+    uint32_t file_index;   // Index of the model file that the stage works on.
+    uint64_t total_bytes;  // Size of the pack.
+    double import_ms;
+    double pictures_ms;
+    float background_lin[3];
+    float near_m;
+#define PACK_SECTION_FIELD(name, type) PackSection name;
+    PACK_SECTION_LIST(PACK_SECTION_FIELD)
+#undef PACK_SECTION_FIELD
+} PackHeader;
+
+// The records have the fields of DipTextureDef and so on. Booleans are 0 or 1.
+typedef struct PackTexture {
+    uint64_t name;  // Offset of the text.
+    uint64_t rgba8; // Offset of the array: 4 * width * height bytes.
+    int32_t width;
+    int32_t height;
+    uint32_t encoding;
+    uint32_t wrap_u;
+    uint32_t wrap_v;
+    uint32_t unused;
+} PackTexture;
+
+typedef struct PackMaterial {
+    uint64_t name;
+    uint32_t surface;
+    float base_colour_lin[3];
+    int32_t colour_texture;
+    int32_t light_map;
+    int32_t normal_map;
+    float light_map_scale;
+    float roughness;
+    float alpha_cutoff;
+    uint32_t double_sided;
+    uint32_t lit;
+} PackMaterial;
+
+typedef struct PackMesh {
+    uint64_t name;
+    uint64_t positions; // Offsets of arrays: vertex_count rows of 3, 3, 2, 2 and 3 floats.
+    uint64_t normals;
+    uint64_t uv0;
+    uint64_t uv1;
+    uint64_t colours_lin;
+    uint64_t indices; // index_count numbers of 32 bits
+    uint32_t vertex_count;
+    uint32_t index_count;
+    int32_t material;
+    uint32_t unused;
+} PackMesh;
+
+typedef struct PackObject {
+    uint64_t name;
+    int32_t mesh;
+    float transform[12];
+    uint32_t unused;
+} PackObject;
+
+typedef struct PackError {
+    uint32_t code;
+    uint32_t origin;
+    uint32_t severity;
+    int32_t line;
+    char file[sizeof((DipError *)0)->file];
+    char key[sizeof((DipError *)0)->key];
+    char message[sizeof((DipError *)0)->message];
+} PackError;
+
+#endif

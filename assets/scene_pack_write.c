@@ -1,0 +1,224 @@
+// Writes scene packs. Arrays are written straight from the scene to the file, so the only copies
+// in memory are those of the records, which are small.
+#include "assets/scene_pack.h"
+#include "assets/scene_pack_private.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct Writer {
+    int file;
+    uint64_t end; // Where the next array or section begins, in bytes from the start of the pack.
+    char *text;   // The section of text.
+    size_t text_bytes;
+    size_t text_capacity;
+    PackHeader header;
+} Writer;
+
+static bool write_at(int file, uint64_t offset, const void *bytes, size_t size_bytes) {
+    const char *from = bytes;
+    while (size_bytes > 0) {
+        const ssize_t count = pwrite(file, from, size_bytes, (off_t)offset);
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count <= 0) {
+            return false;
+        }
+        from += count;
+        offset += (uint64_t)count;
+        size_bytes -= (size_t)count;
+    }
+    return true;
+}
+
+static PackHeader header_of(DipImportStage stage, int file_index) {
+    PackHeader header = {.version = PACK_VERSION,
+                         .header_bytes = sizeof header,
+                         .stage = stage,
+                         .file_index = (uint32_t)file_index};
+    memcpy(header.magic, pack_magic, sizeof header.magic);
+    return header;
+}
+
+bool dip_scene_pack_note(int pack_file, DipImportStage stage, int file_index) {
+    const PackHeader header = header_of(stage, file_index);
+    return write_at(pack_file, 0, &header, sizeof header);
+}
+
+// Appends an array and sets *offset to its place. A NULL array gets the offset 0.
+static bool add_array(Writer *writer, const void *bytes, size_t size_bytes, uint64_t *offset) {
+    *offset = bytes ? writer->end : 0;
+    if (!bytes) {
+        return true;
+    }
+    const uint64_t end = writer->end + size_bytes;
+    writer->end = (end + PACK_ALIGNMENT - 1) / PACK_ALIGNMENT * PACK_ALIGNMENT;
+    return write_at(writer->file, *offset, bytes, size_bytes);
+}
+
+// Appends a text to the section of text and sets *offset to its place there.
+static bool add_text(Writer *writer, const char *text, uint64_t *offset) {
+    const size_t size_bytes = strlen(text) + 1;
+    if (writer->text_capacity - writer->text_bytes < size_bytes) {
+        const size_t capacity = 2 * writer->text_capacity + size_bytes + 4096;
+        char *grown = realloc(writer->text, capacity);
+        if (!grown) {
+            return false;
+        }
+        writer->text = grown;
+        writer->text_capacity = capacity;
+    }
+    memcpy(writer->text + writer->text_bytes, text, size_bytes);
+    *offset = writer->text_bytes;
+    writer->text_bytes += size_bytes;
+    return true;
+}
+
+// Appends a section of records.
+static bool add_section(Writer *writer, const void *records, uint64_t count, size_t record_bytes,
+                        PackSection *section) {
+    section->count = count;
+    return add_array(writer, records, (size_t)count * record_bytes, &section->offset);
+}
+
+static bool add_textures(Writer *writer, const DipSceneDef *scene) {
+    const size_t count = (size_t)scene->texture_count;
+    PackTexture *records = calloc(count + 1, sizeof *records);
+    bool ok = records != NULL;
+    for (size_t i = 0; ok && i < count; ++i) {
+        const DipTextureDef *def = &scene->textures[i];
+        records[i] = (PackTexture){.width = def->width,
+                                   .height = def->height,
+                                   .encoding = def->encoding,
+                                   .wrap_u = def->wrap_u,
+                                   .wrap_v = def->wrap_v};
+        ok = add_text(writer, def->name, &records[i].name) &&
+             add_array(writer, def->rgba8, 4 * (size_t)def->width * (size_t)def->height,
+                       &records[i].rgba8);
+    }
+    ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.textures);
+    free(records);
+    return ok;
+}
+
+static bool add_materials(Writer *writer, const DipSceneDef *scene) {
+    const size_t count = (size_t)scene->material_count;
+    PackMaterial *records = calloc(count + 1, sizeof *records);
+    bool ok = records != NULL;
+    for (size_t i = 0; ok && i < count; ++i) {
+        const DipMaterialDef *def = &scene->materials[i];
+        records[i] = (PackMaterial){.surface = def->surface,
+                                    .colour_texture = def->colour_texture,
+                                    .light_map = def->light_map,
+                                    .normal_map = def->normal_map,
+                                    .light_map_scale = def->light_map_scale,
+                                    .roughness = def->roughness,
+                                    .alpha_cutoff = def->alpha_cutoff,
+                                    .double_sided = def->double_sided,
+                                    .lit = def->lit};
+        memcpy(records[i].base_colour_lin, def->base_colour_lin, sizeof def->base_colour_lin);
+        ok = add_text(writer, def->name, &records[i].name);
+    }
+    ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.materials);
+    free(records);
+    return ok;
+}
+
+static bool add_mesh(Writer *writer, const DipMeshDef *def, PackMesh *record) {
+    const size_t row = (size_t)def->vertex_count * sizeof(float);
+    *record = (PackMesh){.vertex_count = def->vertex_count,
+                         .index_count = def->index_count,
+                         .material = def->material};
+    return add_text(writer, def->name, &record->name) &&
+           add_array(writer, def->positions, 3 * row, &record->positions) &&
+           add_array(writer, def->normals, 3 * row, &record->normals) &&
+           add_array(writer, def->uv0, 2 * row, &record->uv0) &&
+           add_array(writer, def->uv1, 2 * row, &record->uv1) &&
+           add_array(writer, def->colours_lin, 3 * row, &record->colours_lin) &&
+           add_array(writer, def->indices, (size_t)def->index_count * sizeof *def->indices,
+                     &record->indices);
+}
+
+static bool add_meshes(Writer *writer, const DipSceneDef *scene) {
+    const size_t count = (size_t)scene->mesh_count;
+    PackMesh *records = calloc(count + 1, sizeof *records);
+    bool ok = records != NULL;
+    for (size_t i = 0; ok && i < count; ++i) {
+        ok = add_mesh(writer, &scene->meshes[i], &records[i]);
+    }
+    ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.meshes);
+    free(records);
+    return ok;
+}
+
+static bool add_objects(Writer *writer, const DipSceneDef *scene) {
+    const size_t count = (size_t)scene->object_count;
+    PackObject *records = calloc(count + 1, sizeof *records);
+    bool ok = records != NULL;
+    for (size_t i = 0; ok && i < count; ++i) {
+        const DipObjectDef *def = &scene->objects[i];
+        records[i].mesh = def->mesh;
+        memcpy(records[i].transform, def->transform, sizeof def->transform);
+        ok = add_text(writer, def->name, &records[i].name);
+    }
+    ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.objects);
+    free(records);
+    return ok;
+}
+
+static bool add_errors(Writer *writer, const DipError *errors, size_t count, PackSection *section) {
+    PackError *records = calloc(count + 1, sizeof *records);
+    for (size_t i = 0; records && i < count; ++i) {
+        const DipError *error = &errors[i];
+        records[i] = (PackError){.code = error->code,
+                                 .origin = error->origin,
+                                 .severity = error->severity,
+                                 .line = error->line};
+        memcpy(records[i].file, error->file, sizeof error->file);
+        memcpy(records[i].key, error->key, sizeof error->key);
+        memcpy(records[i].message, error->message, sizeof error->message);
+    }
+    const bool ok = records && add_section(writer, records, count, sizeof *records, section);
+    free(records);
+    return ok;
+}
+
+static bool write_scene(Writer *writer, const DipSceneDef *scene) {
+    PackHeader *header = &writer->header;
+    memcpy(header->background_lin, scene->background_lin, sizeof header->background_lin);
+    header->near_m = scene->near_m;
+    return add_textures(writer, scene) && add_materials(writer, scene) &&
+           add_meshes(writer, scene) && add_objects(writer, scene);
+}
+
+static bool write_all(Writer *writer, const DipScenePack *pack) {
+    PackHeader *header = &writer->header;
+    static const DipSceneDef nothing = {.near_m = 1.0f};
+    const bool failed = pack->failure.code != DIP_ERROR_NONE;
+    uint64_t empty;
+    header->import_ms = pack->times.import_ms;
+    header->pictures_ms = pack->times.pictures_ms;
+    if (!write_scene(writer, failed ? &nothing : &pack->scene) ||
+        !add_errors(writer, pack->warnings.items, pack->warnings.count, &header->warnings) ||
+        !add_errors(writer, &pack->failure, failed, &header->failures) ||
+        !add_text(writer, "", &empty) ||
+        !add_section(writer, writer->text, writer->text_bytes, 1, &header->text)) {
+        return false;
+    }
+    header->total_bytes = writer->end;
+    return ftruncate(writer->file, (off_t)writer->end) == 0 &&
+           write_at(writer->file, 0, header, sizeof *header);
+}
+
+bool dip_scene_pack_write(int pack_file, const DipScenePack *pack) {
+    Writer writer = {.file = pack_file,
+                     .end = (sizeof(PackHeader) + PACK_ALIGNMENT - 1) / PACK_ALIGNMENT *
+                            PACK_ALIGNMENT,
+                     .header = header_of(DIP_IMPORT_DONE, 0)};
+    const bool ok = write_all(&writer, pack);
+    free(writer.text);
+    return ok;
+}

@@ -1,0 +1,287 @@
+// Tests of the importer process. This program is also its own importer: started with a word such as
+// "crash" as its first argument, it misbehaves in that way.
+#define _GNU_SOURCE // F_ADD_SEALS
+#include "assets/importer.h"
+#include "assets/scene_pack.h"
+#include "renderer/base/clock.h"
+#include "tests/assets/fixture.h"
+#include "tests/assets/same_scene.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+// The files that an importer inherits (assets/importer_private.h).
+enum { PACK_FILE = 3, PIPE = 4 };
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+static const bool sanitized = true;
+#else
+static const bool sanitized = false;
+#endif
+
+// --- importers that misbehave --------------------------------------------------------------------
+
+static void seal_and_report(void) {
+    fcntl(PACK_FILE, F_ADD_SEALS, F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
+    if (write(PIPE, "", 1) != 1) {
+        _exit(99);
+    }
+}
+
+static void end_by(int signal_number) {
+    dip_scene_pack_note(PACK_FILE, DIP_IMPORT_READS, 0);
+    signal(signal_number, SIG_DFL); // Sanitizers have handlers of their own.
+    raise(signal_number);
+}
+
+static void write_garbage(void) {
+    char garbage[3000];
+    memset(garbage, 0xa5, sizeof garbage);
+    if (pwrite(PACK_FILE, garbage, sizeof garbage, 0) < 0) {
+        _exit(99);
+    }
+    seal_and_report();
+}
+
+static void spin(void) {
+    for (volatile uint64_t i = 0;; ++i) {
+    }
+}
+
+static int misbehave(const char *how, int count, char **arguments) {
+    if (strcmp(how, "well") == 0) {
+        return dip_importer_run(count, arguments);
+    } else if (strcmp(how, "crash") == 0) {
+        end_by(SIGSEGV);
+    } else if (strcmp(how, "abort") == 0) {
+        end_by(SIGABRT);
+    } else if (strcmp(how, "hang") == 0) {
+        dip_scene_pack_note(PACK_FILE, DIP_IMPORT_PICTURES, 0);
+        pause();
+    } else if (strcmp(how, "hang-closed") == 0) {
+        close(PIPE);
+        pause();
+    } else if (strcmp(how, "spin") == 0) {
+        end_by(SIGXCPU);
+        spin();
+    } else if (strcmp(how, "garbage") == 0) {
+        write_garbage();
+    } else if (strcmp(how, "unfinished") == 0) {
+        dip_scene_pack_note(PACK_FILE, DIP_IMPORT_READS, 0);
+        seal_and_report();
+    } else if (strcmp(how, "unsealed") == 0) {
+        const DipScenePack pack = {.failure = {.code = DIP_ERROR_RANGE}};
+        dip_scene_pack_write(PACK_FILE, &pack);
+        return write(PIPE, "", 1) == 1 ? 0 : 99;
+    } else if (strcmp(how, "exit") == 0) {
+        return 7;
+    }
+    return 0;
+}
+
+// --- tests ---------------------------------------------------------------------------------------
+
+static DipImporter importer_that(const char *how) {
+    return (DipImporter){.program = "/proc/self/exe", .command = how};
+}
+
+static int open_files(void) {
+    int count = 0;
+    DIR *listing = opendir("/proc/self/fd");
+    assert_non_null(listing);
+    while (readdir(listing)) {
+        count++;
+    }
+    closedir(listing);
+    return count;
+}
+
+static DipModel *import(const DipImporter *importer, const char *path, DipErrorList *warnings,
+                        DipError *err) {
+    const DipModelOptions options = {.normal_maps = true, .importer = importer};
+    const int files_before = open_files();
+    DipModel *model = dip_model_load_with(&path, 1, &options, NULL, warnings, err);
+    assert_int_equal(open_files(), files_before);
+    assert_true(waitpid(-1, NULL, WNOHANG) < 0 && errno == ECHILD); // No process is left behind.
+    return model;
+}
+
+static void assert_fails(const DipImporter *importer, const char *path, DipErrorCode code,
+                         const char *reason) {
+    DipError err = {0};
+    DipModel *model = import(importer, path, NULL, &err);
+    if (model || err.code != code || !strstr(err.message, reason)) {
+        fail_msg("%s: code %s, message \"%s\"", importer->command ? importer->command : "",
+                 dip_error_code_name(err.code), err.message);
+    }
+    assert_int_equal(err.origin, DIP_ORIGIN_INPUT);
+    assert_string_equal(err.file, path);
+}
+
+static void an_importer_that_crashes_fails_the_load(void **state) {
+    (void)state;
+    const char *path = fixture_data("square.obj");
+    const DipImporter crash = importer_that("crash");
+    assert_fails(&crash, path, DIP_ERROR_RUNTIME,
+                 "the importer crashed while it read the model (SIGSEGV)");
+    const DipImporter abort_ = importer_that("abort");
+    assert_fails(&abort_, path, DIP_ERROR_RUNTIME, "(SIGABRT)");
+    const DipImporter leaves = importer_that("exit");
+    assert_fails(&leaves, path, DIP_ERROR_RUNTIME, "exit code 7 and without a result");
+    const DipImporter nothing = importer_that("nothing");
+    assert_fails(&nothing, path, DIP_ERROR_RUNTIME, "exit code 0 and without a result");
+}
+
+static void an_importer_that_hangs_is_ended(void **state) {
+    (void)state;
+    const char *path = fixture_data("square.obj");
+    static const char *const ways[] = {"hang", "hang-closed"};
+    for (int i = 0; i < 2; ++i) {
+        DipImporter hang = importer_that(ways[i]);
+        hang.wall_s = 1;
+        const int64_t begin_ns = dip_clock_ns();
+        assert_fails(&hang, path, DIP_ERROR_OVERSIZED, "the importer hung while it");
+        assert_in_range(dip_clock_ns() - begin_ns, 1000000000, 20000000000);
+    }
+}
+
+static void the_end_of_the_processor_time_is_told(void **state) {
+    (void)state;
+    DipImporter spins = importer_that("spin");
+    spins.cpu_s = 4;
+    assert_fails(&spins, fixture_data("square.obj"), DIP_ERROR_OVERSIZED,
+                 "the importer used up its processor time while it read the model, accepted 4 s");
+}
+
+static void a_pack_that_is_not_whole_is_refused(void **state) {
+    (void)state;
+    const char *path = fixture_data("square.obj");
+    const DipImporter garbage = importer_that("garbage");
+    assert_fails(&garbage, path, DIP_ERROR_FORMAT, "malformed: it is not of this version");
+    const DipImporter unfinished = importer_that("unfinished");
+    assert_fails(&unfinished, path, DIP_ERROR_FORMAT, "malformed: it is incomplete");
+    const DipImporter unsealed = importer_that("unsealed");
+    assert_fails(&unsealed, path, DIP_ERROR_FORMAT, "not sealed");
+}
+
+static void a_program_that_is_no_importer_is_refused(void **state) {
+    (void)state;
+    const char *path = fixture_data("square.obj");
+    const DipImporter other = {.program = "/bin/true"};
+    assert_fails(&other, path, DIP_ERROR_RUNTIME, "without a result");
+    const DipImporter missing = {.program = "/no/such/program"};
+    DipError err = {0};
+    assert_null(import(&missing, path, NULL, &err));
+    assert_int_equal(err.origin, DIP_ORIGIN_RUNTIME);
+    assert_non_null(strstr(err.message, "cannot start the importer /no/such/program"));
+}
+
+// The file is 3 GiB of nothing, which the reader wants to hold in memory.
+static void memory_is_limited(void **state) {
+    (void)state;
+    if (sanitized) {
+        return; // AddressSanitizer does not run with limited address space.
+    }
+    static const char header[] = "ply\nformat binary_little_endian 1.0\nelement vertex 200000000\n"
+                                 "property float x\nproperty float y\nproperty float z\n"
+                                 "element face 1\nproperty list uchar int vertex_indices\n"
+                                 "end_header\n";
+    fixture_write("huge.ply", header, strlen(header));
+    const char *path = fixture_path("huge.ply");
+    assert_int_equal(truncate(path, (off_t)3 << 30), 0);
+    DipImporter well = importer_that("well");
+    well.memory_bytes = 64 << 20;
+    DipError err = {0};
+    assert_null(import(&well, path, NULL, &err));
+    assert_string_equal(err.file, path);
+    assert_int_equal(err.code, DIP_ERROR_OVERSIZED);
+    assert_non_null(strstr(err.message, "out of memory, accepted 64 MiB"));
+}
+
+static void a_scene_that_is_too_large_to_hand_over_is_refused(void **state) {
+    (void)state;
+    DipImporter well = importer_that("well");
+    well.memory_bytes = 300; // Room for notes only.
+    assert_fails(&well, fixture_data("seam.gltf"), DIP_ERROR_OVERSIZED, "does not fit into memory");
+}
+
+// The same scene and the same warnings as in this process, or the same error.
+static void assert_imports_alike(const char *path) {
+    const DipImporter well = importer_that("well");
+    DipErrorList warnings[2] = {{0}, {0}};
+    DipError err[2] = {{0}, {0}};
+    DipModel *here = dip_model_load_with_normals(&path, 1, NULL, &warnings[0], &err[0]);
+    DipModel *there = import(&well, path, &warnings[1], &err[1]);
+    if (!here != !there) {
+        fail_msg("%s: here \"%s\", there \"%s\"", path, err[0].message, err[1].message);
+    }
+    if (here) {
+        assert_same_scene(dip_model_scene_def(here), dip_model_scene_def(there));
+        assert_int_equal(warnings[0].count, warnings[1].count);
+        for (size_t i = 0; i < warnings[0].count; ++i) {
+            assert_string_equal(warnings[0].items[i].message, warnings[1].items[i].message);
+        }
+    } else {
+        assert_memory_equal(&err[0], &err[1], sizeof err[0]);
+    }
+    dip_model_destroy(&here);
+    dip_model_destroy(&there);
+    dip_error_list_free(&warnings[0]);
+    dip_error_list_free(&warnings[1]);
+}
+
+static void every_test_model_imports_as_in_this_process(void **state) {
+    (void)state;
+    DIR *listing = opendir(DIP_TEST_DATA);
+    assert_non_null(listing);
+    for (struct dirent *entry = readdir(listing); entry; entry = readdir(listing)) {
+        if (entry->d_name[0] != '.') {
+            assert_imports_alike(fixture_data(entry->d_name));
+        }
+    }
+    closedir(listing);
+}
+
+static void the_courtyard_imports_as_in_this_process(void **state) {
+    (void)state;
+    assert_imports_alike(DIP_ASSETS_DIR "/courtyard/court.gltf");
+}
+
+static void nobody_else_can_start_an_importer(void **state) {
+    (void)state;
+    char *no_arguments[] = {NULL};
+    assert_int_equal(dip_importer_run(0, no_arguments), DIP_IMPORTER_MISUSED);
+    char *words[] = {"--", "1", "2", "3", "4", "5", "6", "a.obj", NULL};
+    assert_int_equal(dip_importer_run(8, words), DIP_IMPORTER_MISUSED);
+    words[3] = "three";
+    assert_int_equal(dip_importer_run(8, words), DIP_IMPORTER_MISUSED);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) {
+        return misbehave(argv[1], argc - 2, argv + 2);
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_importer_that_crashes_fails_the_load),
+        cmocka_unit_test(an_importer_that_hangs_is_ended),
+        cmocka_unit_test(the_end_of_the_processor_time_is_told),
+        cmocka_unit_test(a_pack_that_is_not_whole_is_refused),
+        cmocka_unit_test(a_program_that_is_no_importer_is_refused),
+        cmocka_unit_test(memory_is_limited),
+        cmocka_unit_test(a_scene_that_is_too_large_to_hand_over_is_refused),
+        cmocka_unit_test(every_test_model_imports_as_in_this_process),
+        cmocka_unit_test(the_courtyard_imports_as_in_this_process),
+        cmocka_unit_test(nobody_else_can_start_an_importer),
+    };
+    return cmocka_run_group_tests_name("importer", tests, fixture_open, fixture_close);
+}

@@ -1,0 +1,276 @@
+// Tests of what the loader mends or decides where model files are broken, incomplete or ambiguous:
+// broken pictures, generated texture coordinates, colours that are none, and the up axis.
+#include "assets/model.h"
+#include "tests/assets/fixture.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+static DipModel *load_up(const char *path, DipUpAxis up, DipErrorList *warnings) {
+    const DipModelOptions options = {.normal_maps = true, .up = up};
+    DipError err = {0};
+    DipModel *model = dip_model_load_with(&path, 1, &options, NULL, warnings, &err);
+    if (!model) {
+        fail_msg("%s: %s", path, err.message);
+    }
+    return model;
+}
+
+static DipModel *load(const char *path, DipErrorList *warnings) {
+    return load_up(path, DIP_UP_auto, warnings);
+}
+
+static DipModel *load_text(const char *name, const char *text) {
+    fixture_write_text(name, text);
+    return load(fixture_path(name), NULL);
+}
+
+// --- broken pictures -----------------------------------------------------------------------------
+
+// The model is drawn in its base colour, and one line names the picture and the cause.
+static void assert_drawn_without_picture(const char *path, const char *picture, const char *cause) {
+    DipErrorList warnings = {0};
+    DipModel *model = load(path, &warnings);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_true(def->object_count > 0);
+    assert_int_equal(def->texture_count, 0);
+    assert_int_equal(def->materials[0].colour_texture, DIP_NO_TEXTURE);
+    bool found = false;
+    for (size_t i = 0; i < warnings.count; ++i) {
+        const DipError *warning = &warnings.items[i];
+        assert_int_equal(warning->severity, DIP_SEVERITY_WARNING);
+        found = found || (strstr(warning->file, picture) && strstr(warning->message, cause) &&
+                          strstr(warning->message, "drawn in their base colour"));
+    }
+    assert_true(found);
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
+static void a_broken_picture_gives_a_warning(void **state) {
+    (void)state;
+    assert_drawn_without_picture(fixture_data("bad_picture_truncated.gltf"),
+                                 "bad_picture_truncated.gltf", "ends too early");
+    assert_drawn_without_picture(fixture_data("bad_picture_size.gltf"), "bad_picture_size.gltf",
+                                 "9000 x 2");
+    fixture_copy("square.obj");
+    fixture_write_text("square.mtl", "newmtl painted\nKd 0 0 0\nmap_Kd colour.tga\n");
+    fixture_write("colour.tga", "", 0);
+    assert_drawn_without_picture(fixture_path("square.obj"), "colour.tga", "empty");
+    fixture_write_text("colour.tga", "no picture at all");
+    assert_drawn_without_picture(fixture_path("square.obj"), "colour.tga",
+                                 "not a supported picture");
+}
+
+// --- texture coordinates -------------------------------------------------------------------------
+
+// An NFF file's sphere has no texture coordinates; the reader asks for a mapping around it.
+static void generated_texture_coordinates_are_kept(void **state) {
+    (void)state;
+    fixture_write_tga("earth.tga", 2, 2, 100);
+    DipModel *model = load_text("sphere.nff", "f 1 1 1 0.5 0.5 8 0 1 earth.tga\ns 0 0 0 2\n");
+    const DipSceneDef *def = dip_model_scene_def(model);
+    const DipMeshDef *mesh = &def->meshes[0];
+    assert_int_equal(def->texture_count, 1);
+    assert_non_null(mesh->uv0);
+    float low[2] = {1.0f, 1.0f};
+    float high[2] = {0.0f, 0.0f};
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        for (int k = 0; k < 2; ++k) {
+            low[k] = fminf(low[k], mesh->uv0[2 * (size_t)i + (size_t)k]);
+            high[k] = fmaxf(high[k], mesh->uv0[2 * (size_t)i + (size_t)k]);
+        }
+    }
+    for (int k = 0; k < 2; ++k) { // The texture goes around the whole sphere.
+        assert_true(low[k] >= -0.01f && low[k] < 0.1f && high[k] > 0.9f && high[k] <= 1.01f);
+    }
+    dip_model_destroy(&model);
+}
+
+// --- colours -------------------------------------------------------------------------------------
+
+static const char *amf(const char *vertex_colour) {
+    static char text[2000];
+    snprintf(text, sizeof text,
+             "<?xml version=\"1.0\"?><amf><object id=\"1\"><mesh><vertices>"
+             "<vertex>%s<coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>"
+             "<vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>"
+             "<vertex><coordinates><x>0</x><y>1</y><z>0</z></coordinates></vertex>"
+             "</vertices><volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>"
+             "</mesh></object></amf>\n",
+             vertex_colour);
+    return text;
+}
+
+static void vertices_without_a_colour_are_not_black(void **state) {
+    (void)state;
+    DipModel *model = load_text("plain.amf", amf(""));
+    assert_null(dip_model_scene_def(model)->meshes[0].colours_lin);
+    dip_model_destroy(&model);
+    model = load_text("one.amf", amf("<color><r>0</r><g>1</g><b>0</b><a>1</a></color>"));
+    const DipMeshDef *mesh = &dip_model_scene_def(model)->meshes[0];
+    assert_non_null(mesh->colours_lin);
+    float sum[3] = {0};
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            sum[k] += mesh->colours_lin[3 * (size_t)i + (size_t)k];
+        }
+    }
+    assert_true(sum[0] == 2.0f && sum[1] == 3.0f && sum[2] == 2.0f); // green, white, white
+    dip_model_destroy(&model);
+}
+
+static void black_vertices_stay_black(void **state) {
+    (void)state;
+    DipModel *model =
+        load_text("black.amf", amf("<color><r>0</r><g>0</g><b>0</b><a>1</a></color>"));
+    const DipMeshDef *mesh = &dip_model_scene_def(model)->meshes[0];
+    float least = 1.0f;
+    for (uint32_t i = 0; mesh->colours_lin && i < 3 * mesh->vertex_count; ++i) {
+        least = fminf(least, mesh->colours_lin[i]);
+    }
+    assert_true(least == 0.0f);
+    dip_model_destroy(&model);
+}
+
+// assimp's reader of BLEND files gives -1 for the byte 255 and 100 for the byte 100. A PLY file
+// with colours in floats gives the same numbers.
+static void colours_of_signed_bytes_are_read_as_bytes(void **state) {
+    (void)state;
+    DipModel *model =
+        load_text("signed.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                  "property float z\nproperty float red\nproperty float green\n"
+                  "property float blue\nelement face 1\n"
+                  "property list uchar int vertex_indices\nend_header\n"
+                  "0 0 0 -1 100 0\n1 0 0 -1 100 0\n0 1 0 -1 100 0\n3 0 1 2\n");
+    const DipMeshDef *mesh = &dip_model_scene_def(model)->meshes[0];
+    assert_non_null(mesh->colours_lin);
+    const double green = pow((100.0 / 255.0 + 0.055) / 1.055, 2.4);
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        const float *colour = mesh->colours_lin + 3 * (size_t)i;
+        assert_true(colour[0] == 1.0f && fabs(colour[1] - green) < 1e-6 && colour[2] == 0.0f);
+    }
+    dip_model_destroy(&model);
+}
+
+// Some readers give black with an alpha of 0 to materials that the file leaves empty.
+static void a_material_that_is_left_empty_is_grey(void **state) {
+    (void)state;
+    static const char x_file[] =
+        "xof 0303txt 0032\nMesh a {\n3;\n0;0;0;,\n1;0;0;,\n0;1;0;;\n1;\n3;0,1,2;;\n"
+        "MeshMaterialList {\n1;\n1;\n0;;\nMaterial m {\n0.0;0.0;0.0;%s;;\n0.0;\n"
+        "0.0;0.0;0.0;;\n0.0;0.0;0.0;;\n}\n}\n}\n";
+    char text[1000];
+    snprintf(text, sizeof text, x_file, "0.0");
+    DipModel *model = load_text("empty.x", text);
+    const double grey = pow((0.6 + 0.055) / 1.055, 2.4);
+    assert_true(fabs(dip_model_scene_def(model)->materials[0].base_colour_lin[1] - grey) < 1e-6);
+    dip_model_destroy(&model);
+    snprintf(text, sizeof text, x_file, "1.0");
+    model = load_text("black.x", text);
+    assert_true(dip_model_scene_def(model)->materials[0].base_colour_lin[1] == 0.0f);
+    dip_model_destroy(&model);
+}
+
+// A metal's material may have a black base colour and all its colour in the specular texture.
+static void a_specular_texture_shows_where_nothing_else_does(void **state) {
+    (void)state;
+    fixture_copy("square.obj");
+    fixture_write_text("square.mtl", "newmtl painted\nKd 0 0 0\nKs 1 1 1\nmap_Ks shine.tga\n");
+    fixture_write_tga("shine.tga", 2, 2, 100);
+    DipModel *model = load(fixture_path("square.obj"), NULL);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_int_equal(def->texture_count, 1);
+    assert_true(def->materials[0].base_colour_lin[0] == 1.0f);
+    dip_model_destroy(&model);
+    fixture_write_text("square.mtl", "newmtl painted\nKd .5 0 0\nKs 1 1 1\nmap_Ks shine.tga\n");
+    model = load(fixture_path("square.obj"), NULL);
+    assert_int_equal(dip_model_scene_def(model)->texture_count, 0);
+    dip_model_destroy(&model);
+}
+
+// --- up axis -------------------------------------------------------------------------------------
+
+// Returns the height (world y) of the object's highest vertex.
+static double height(const char *path, DipUpAxis up) {
+    DipModel *model = load_up(path, up, NULL);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    double highest = -INFINITY;
+    for (int i = 0; i < def->object_count; ++i) {
+        const DipMeshDef *mesh = &def->meshes[def->objects[i].mesh];
+        const float *m = def->objects[i].transform;
+        for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
+            const float *p = mesh->positions + 3 * (size_t)v;
+            highest = fmax(highest,
+                           (double)m[4] * p[0] + (double)m[5] * p[1] + (double)m[6] * p[2] + m[7]);
+        }
+    }
+    dip_model_destroy(&model);
+    return highest;
+}
+
+// A triangle that is 2 long in x, 3 in y and 5 in z.
+static const char stl[] = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 2 0 0\nvertex 0 3 0\n"
+                          "vertex 0 0 5\nendloop\nendfacet\nendsolid a\n";
+static const char off[] = "OFF\n3 1 0\n2 0 0\n0 3 0\n0 0 5\n3 0 1 2\n";
+static const char nff[] = "v\nfrom 9 9 9\nat 0 0 0\nup %s\nangle 45\nhither 1\nresolution 9 9\n"
+                          "f 1 1 1 1 0 0 0 0\np 3\n2 0 0\n0 3 0\n0 0 5\n";
+static const char ogex[] =
+    "%s\nGeometryNode $node {Name {string {\"a\"}}\nObjectRef {ref {$geo}}}\n"
+    "GeometryObject $geo {Mesh (primitive = \"triangles\") {\n"
+    "VertexArray (attrib = \"position\") {float[3] {{2, 0, 0}, {0, 3, 0}, {0, 0, 5}}}\n"
+    "IndexArray {unsigned_int32[3] {{0, 1, 2}}}}}\n";
+
+static void the_format_or_the_file_says_which_way_is_up(void **state) {
+    (void)state;
+    char text[1000];
+    fixture_write_text("a.stl", stl);
+    assert_true(height(fixture_path("a.stl"), DIP_UP_auto) == 5.0);
+    fixture_write_text("a.off", off);
+    assert_true(height(fixture_path("a.off"), DIP_UP_auto) == 3.0);
+    snprintf(text, sizeof text, nff, "0 0 1");
+    fixture_write_text("z.nff", text);
+    assert_true(height(fixture_path("z.nff"), DIP_UP_auto) == 5.0);
+    snprintf(text, sizeof text, nff, "0 1 0");
+    fixture_write_text("y.nff", text);
+    assert_true(height(fixture_path("y.nff"), DIP_UP_auto) == 3.0);
+    fixture_write_text("none.nff", strstr(nff, "f 1"));
+    assert_true(height(fixture_path("none.nff"), DIP_UP_auto) == 5.0);
+    snprintf(text, sizeof text, ogex, "Metric (key = \"up\") {string {\"z\"}}");
+    fixture_write_text("z.ogex", text);
+    assert_true(height(fixture_path("z.ogex"), DIP_UP_auto) == 5.0);
+    snprintf(text, sizeof text, ogex, "Metric (key = \"up\") {string {\"y\"}}");
+    fixture_write_text("y.ogex", text);
+    assert_true(height(fixture_path("y.ogex"), DIP_UP_auto) == 3.0);
+}
+
+static void the_caller_can_say_which_way_is_up(void **state) {
+    (void)state;
+    fixture_write_text("a.stl", stl);
+    assert_true(height(fixture_path("a.stl"), DIP_UP_y) == 3.0);
+    assert_true(height(fixture_path("a.stl"), DIP_UP_z) == 5.0);
+    fixture_write_text("a.off", off);
+    assert_true(height(fixture_path("a.off"), DIP_UP_y) == 3.0);
+    assert_true(height(fixture_path("a.off"), DIP_UP_z) == 5.0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_broken_picture_gives_a_warning),
+        cmocka_unit_test(generated_texture_coordinates_are_kept),
+        cmocka_unit_test(vertices_without_a_colour_are_not_black),
+        cmocka_unit_test(black_vertices_stay_black),
+        cmocka_unit_test(colours_of_signed_bytes_are_read_as_bytes),
+        cmocka_unit_test(a_material_that_is_left_empty_is_grey),
+        cmocka_unit_test(a_specular_texture_shows_where_nothing_else_does),
+        cmocka_unit_test(the_format_or_the_file_says_which_way_is_up),
+        cmocka_unit_test(the_caller_can_say_which_way_is_up),
+    };
+    return cmocka_run_group_tests_name("mends", tests, fixture_open, fixture_close);
+}
