@@ -1,5 +1,5 @@
-// The list of topics, in the order of docs/stability.md. Each topic has a file rows_<name>.c. To add
-// one, add it here and to CMakeLists.txt.
+// The list of topics, in the order of docs/stability.md. Each topic has a file rows_<name>.c. To
+// add one, add it here and to CMakeLists.txt.
 #include "tests/stability/stability.h"
 
 // clang-format off
@@ -8,6 +8,7 @@
     X(raster)         \
     X(texture)        \
     X(surface)        \
+    X(effects)        \
     X(time)           \
     X(parallel)       \
     X(numbers)

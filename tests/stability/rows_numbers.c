@@ -5,6 +5,7 @@
 #include "renderer/base/srgb.h"
 #include "renderer/base/trig.h"
 #include "renderer/pipeline/cull.h"
+#include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/reference/convergence.h"
 #include "tests/renderer/random.h"
 #include "tests/renderer/scene/scenes.h"
@@ -334,6 +335,48 @@ static void measure_arc_cosine(StabilityRun *run) {
 
 // --- equal bits -------------------------------------------------------------------------------
 
+// Rounds to float after every operation: the compiler may neither fuse nor keep excess precision.
+static float rounded(double exact) {
+    volatile float result = (float)exact;
+    return result;
+}
+
+// The projection computes x / w * half + half. The product and the sum are each rounded: a fused
+// multiply-add would give another last bit in many of the cases, and then another position.
+static void measure_separate_rounding(StabilityRun *run) {
+    static float clip[4][DIP_VERTEX_BATCH];
+    static DipScreenBatch screen;
+    float *const rows[4] = {clip[0], clip[1], clip[2], clip[3]};
+    const DipScreenMapping map = {.half_width = 2048.0f,
+                                  .half_height = 1536.0f,
+                                  .left = -1.0f,
+                                  .right = 1.0f,
+                                  .bottom = -1.0f,
+                                  .top = 1.0f,
+                                  .guard_left = 8.0f,
+                                  .guard_right = 6.0f,
+                                  .guard_top = 8.0f,
+                                  .guard_bottom = 6.0f};
+    Random random = {run->seed};
+    const int batches = stability_count(run, 20, 2000, 100000);
+    for (int b = 0; b < batches; b++) {
+        for (int i = 0; i < DIP_VERTEX_BATCH; i++) {
+            clip[3][i] = (float)random_real(&random, 0.5, 2.0);
+            clip[0][i] = (float)random_real(&random, -0.5, 0.5);
+            clip[1][i] = (float)random_real(&random, -0.5, 0.5);
+            clip[2][i] = 0.1f;
+        }
+        dip_kernels(run->isa)->dip_kernel_project(&map, DIP_VERTEX_BATCH, rows, &screen);
+        for (int i = 0; i < DIP_VERTEX_BATCH; i++) {
+            // Quotients, products and sums of floats are exact enough in double for one rounding.
+            const float ndc = rounded((double)clip[0][i] / (double)clip[3][i]);
+            const float product = rounded((double)ndc * 2048.0 * 256.0);
+            const float sum = rounded((double)product + 2048.0 * 256.0);
+            stability_error(run, (double)screen.x[i] - rint((double)sum), "x of vertex %d", i);
+        }
+    }
+}
+
 static void measure_hashes(StabilityRun *run) {
     stability_compare_hashes(run, NULL, NULL);
 }
@@ -346,6 +389,12 @@ static const StabilityRow rows[] = {
      .unit = "pictures",
      .per_isa = true,
      .measure = measure_hashes},
+    {.id = "N49",
+     .promise = "Products and sums are rounded separately; no compiler fuses them.",
+     .truth = "the projection with each operation rounded by hand",
+     .unit = "1/256 pixel",
+     .per_isa = true,
+     .measure = measure_separate_rounding},
     {.id = "N47",
      .promise = "A caller that flushes subnormal numbers to zero gets the same results, and its "
                 "mode is restored.",

@@ -9,7 +9,7 @@ enum { WIDTH = 64, HEIGHT = 48 };
 
 static const double pi = 3.14159265358979323846;
 
-// --- vectors -------------------------------------------------------------------------------------
+// --- vectors ----------------------------------------------------------------------------------
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -22,7 +22,7 @@ static void normalise(double a[3]) {
     }
 }
 
-// --- the scene -----------------------------------------------------------------------------------
+// --- the scene --------------------------------------------------------------------------------
 
 // Texture coordinates on a plane: u = u[0] + u[1] s + u[2] t, where s and t are the position on the
 // plane in metres; v likewise.
@@ -121,7 +121,7 @@ static void make_wall(DipTestScene *scene, const Case *c) {
     turn_camera(c->view, &scene->pose);
 }
 
-// --- the truth -----------------------------------------------------------------------------------
+// --- the truth --------------------------------------------------------------------------------
 
 // Computes the normal that the map gives the wall. u grows along the first tangent while v stays
 // constant. v falls along the second one.
@@ -183,7 +183,7 @@ static void find_ray(const View *view, double fov_y_deg, int x, int y, double ra
     ray[2] = qy * sin(a) - cos(a);
 }
 
-// --- measuring -----------------------------------------------------------------------------------
+// --- measuring --------------------------------------------------------------------------------
 
 typedef bool Draw(StabilityRun *run, const StabilityShot *shot, StabilityPicture *picture);
 
@@ -274,7 +274,7 @@ static void measure_normal_lengths(StabilityRun *run) {
     }
 }
 
-// --- alpha ---------------------------------------------------------------------------------------
+// --- alpha ------------------------------------------------------------------------------------
 
 // Makes a wall whose texture has the same alpha everywhere.
 static void make_clipped_wall(DipTestScene *scene, const View *view, uint8_t alpha, int width,
@@ -337,7 +337,7 @@ static void measure_equal_alpha(StabilityRun *run) {
     }
 }
 
-// --- the sky -------------------------------------------------------------------------------------
+// --- the sky ----------------------------------------------------------------------------------
 
 #define SECOND_NS INT64_C(1000000000)
 

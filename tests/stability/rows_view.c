@@ -13,7 +13,7 @@ static const char *const settings[] = {"aa=none", "aa=8,af=16"};
 // --- a scene in front of the camera -----------------------------------------------------------
 
 // Makes textured, lit and alpha-clipped quads 1 m to 60 m in front of the camera. Nothing is nearer
-// than 1 m, so the scene looks the same with any near plane up to 1 m. All coordinates are
+// than 0.5 m, so the scene looks the same with any near plane up to 0.5 m. All coordinates are
 // multiples of 1/16 m, so that moved and scaled copies of them are exact.
 static void make_quads(DipTestScene *scene, uint64_t seed) {
     Random random = {seed};
@@ -22,8 +22,8 @@ static void make_quads(DipTestScene *scene, uint64_t seed) {
     const int noise = dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 128, 32);
     for (int i = 0; i < DIP_TEST_SCENE_PARTS; i++) {
         const int material = dip_test_scene_add_material(scene, i % 2 ? checker : noise);
-        const float distance = (float)(1 << i % 6) + 0.0625f * (float)i;
-        float corner[3] = {0.0f, 0.0f, -distance};
+        const float distance = (float)(1 << i % 6);
+        float corner[3] = {0.0f, 0.0f, -distance - 0.0625f * (float)i};
         float right[3] = {0.0f, 0.0f, 0.0f};
         float up[3] = {0.0f, 0.0f, 0.0f};
         for (int c = 0; c < 2; c++) {
@@ -123,6 +123,96 @@ static void measure_scale(StabilityRun *run) {
     static const double exponents[] = {-30, -24, -10, -1, 1, 3};
     compare_changes(run, scale_world, exponents, sizeof exponents / sizeof *exponents,
                     "power of two");
+}
+
+// --- position ---------------------------------------------------------------------------------
+
+// All coordinates are multiples of 1/16 m, which floats hold up to 1000 km from the origin.
+static void move_world(DipTestScene *scene, double distance_m) {
+    const double offset[3] = {distance_m, -0.5 * distance_m, 0.25 * distance_m};
+    for (int m = 0; m < scene->def.mesh_count; m++) {
+        float *positions = (float *)(uintptr_t)scene->meshes[m].positions;
+        for (uint32_t i = 0; i < 3 * scene->meshes[m].vertex_count; i++) {
+            positions[i] = (float)((double)positions[i] + offset[i % 3]);
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        scene->pose.position_world[i] += offset[i];
+    }
+}
+
+static void measure_position(StabilityRun *run) {
+    static const double distances[] = {4096.0, -65536.0, 131072.0, 524288.0, 1044480.0};
+    compare_changes(run, move_world, distances, sizeof distances / sizeof *distances, "moved by");
+}
+
+// --- texture coordinates ----------------------------------------------------------------------
+
+static void move_coordinates(DipTestScene *scene, double whole) {
+    for (int m = 0; m < scene->def.mesh_count; m++) {
+        float *uv0 = (float *)(uintptr_t)scene->meshes[m].uv0;
+        for (uint32_t i = 0; i < 2 * scene->meshes[m].vertex_count; i++) {
+            uv0[i] += (float)(i % 2 ? whole : -2.0 * whole);
+        }
+    }
+}
+
+static void measure_coordinates(StabilityRun *run) {
+    static const double numbers[] = {4096.0, -65536.0, 524288.0};
+    compare_changes(run, move_coordinates, numbers, sizeof numbers / sizeof *numbers,
+                    "coordinates plus");
+}
+
+// --- transforms -------------------------------------------------------------------------------
+
+// Fills a matrix with multiples of 1/4 such that it shears, stretches and often mirrors.
+static void fill_transform(Random *random, float transform[12]) {
+    for (int i = 0; i < 12; i++) {
+        transform[i] = (float)random_int(random, -2, 2) / 4.0f + (i % 5 == 0 ? 1.0f : 0.0f);
+    }
+}
+
+// Applies a matrix to an object by its transform or, exactly, to the positions of its mesh.
+static void apply_transform(DipTestScene *scene, int object, const float t[12], bool by_hand) {
+    if (!by_hand) {
+        memcpy(scene->objects[object].transform, t, 12 * sizeof *t);
+        return;
+    }
+    float *p = (float *)(uintptr_t)scene->meshes[object].positions;
+    for (uint32_t v = 0; v < scene->meshes[object].vertex_count; v++, p += 3) {
+        const float from[3] = {p[0], p[1], p[2]};
+        for (int i = 0; i < 3; i++) {
+            p[i] =
+                t[4 * i] * from[0] + t[4 * i + 1] * from[1] + t[4 * i + 2] * from[2] + t[4 * i + 3];
+        }
+    }
+}
+
+static void measure_transforms(StabilityRun *run) {
+    static DipTestScene scene;
+    const int count = stability_count(run, 3, 40, 2000);
+    for (int i = 0; i < count; i++) {
+        StabilityPicture pictures[2] = {{0}, {0}};
+        for (int by_hand = 0; by_hand < 2; by_hand++) {
+            Random random = {run->seed + 1000 + (uint64_t)i};
+            make_quads(&scene, run->seed + (uint64_t)i);
+            for (int object = 0; object < scene.def.object_count; object++) {
+                float transform[12];
+                fill_transform(&random, transform);
+                apply_transform(&scene, object, transform, by_hand);
+            }
+            const StabilityShot shot = shot_of(&scene, settings[1]);
+            if (stability_draw(run, &shot, &pictures[by_hand])) {
+                stability_shows(run, &pictures[by_hand], 100);
+            }
+            dip_test_scene_free(&scene);
+        }
+        if (pictures[0].rgb_lin && pictures[1].rgb_lin) {
+            stability_error(run, stability_rms(&pictures[0], &pictures[1]), "transforms %d", i);
+        }
+        stability_picture_free(&pictures[0]);
+        stability_picture_free(&pictures[1]);
+    }
 }
 
 // --- orientation ------------------------------------------------------------------------------
@@ -299,6 +389,27 @@ static const StabilityRow rows[] = {
      .unit = "pixels",
      .per_isa = true,
      .measure = measure_scale},
+    {.id = "A8",
+     .promise = "A scene and a camera moved together by multiples of 1024 m, up to 1000 km, give "
+                "the same picture.",
+     .truth = "the picture at the origin",
+     .unit = "pixels",
+     .per_isa = true,
+     .measure = measure_position},
+    {.id = "A9",
+     .promise = "Repeating texture coordinates plus whole multiples of 64, up to a million, give "
+                "the same picture.",
+     .truth = "the picture without the multiples",
+     .unit = "pixels",
+     .per_isa = true,
+     .measure = measure_coordinates},
+    {.id = "A10",
+     .promise = "Transforms may shear, stretch and mirror.",
+     .truth = "meshes whose positions are transformed exactly",
+     .unit = "of light, RMS",
+     .bound = 0.005,
+     .per_isa = true,
+     .measure = measure_transforms},
     {.id = "N38",
      .promise = "A pose's quaternion may have any length from 2^-1040 to 2^1022.",
      .truth = "the reference's picture with a quaternion of length 1",
