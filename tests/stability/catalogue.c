@@ -6,8 +6,11 @@
 #define TOPIC_LIST(X) \
     X(view)           \
     X(raster)         \
+    X(clipping)       \
+    X(distance)       \
     X(texture)        \
     X(surface)        \
+    X(water)          \
     X(time)           \
     X(parallel)       \
     X(numbers)
