@@ -6,9 +6,12 @@
 #define TOPIC_LIST(X) \
     X(view)           \
     X(raster)         \
+    X(clipping)       \
+    X(distance)       \
     X(texture)        \
     X(surface)        \
     X(effects)        \
+    X(water)          \
     X(time)           \
     X(parallel)       \
     X(numbers)
