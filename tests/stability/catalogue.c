@@ -8,6 +8,7 @@
     X(raster)         \
     X(texture)        \
     X(surface)        \
+    X(reference)      \
     X(time)           \
     X(parallel)       \
     X(numbers)
