@@ -7,9 +7,11 @@
     X(view)           \
     X(raster)         \
     X(texture)        \
+    X(footprint)      \
     X(surface)        \
     X(reference)      \
     X(time)           \
+    X(turns)          \
     X(parallel)       \
     X(numbers)
 // clang-format on
