@@ -5,13 +5,16 @@
 // clang-format off
 #define TOPIC_LIST(X) \
     X(view)           \
+    X(turns)          \
     X(raster)         \
     X(clipping)       \
     X(distance)       \
     X(texture)        \
+    X(footprint)      \
     X(surface)        \
     X(effects)        \
     X(water)          \
+    X(reference)      \
     X(time)           \
     X(parallel)       \
     X(numbers)

@@ -431,8 +431,9 @@ static const StabilityRow rows[] = {
      .bound = 0.006,
      .per_isa = true,
      .measure = measure_normal_lengths},
-    {.id = "N34",
-     .promise = "Where all texels have the same alpha, a surface is kept if the cutoff equals it, "
+    {.id = "A53",
+     .promise = "In both renderers, where all texels have the same alpha, a surface is kept if the "
+                "cutoff equals it, "
                 "also at 1, and clipped if the cutoff is the next greater float.",
      .truth = "all pixels or none",
      .unit = "pixels",

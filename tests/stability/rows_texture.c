@@ -384,10 +384,10 @@ static const StabilityRow rows[] = {
      .unit = "levels",
      .bound = 1.4e-5,
      .measure = measure_log2},
-    {.id = "N34",
+    {.id = "A11",
      .promise =
-         "Alpha that equals the cutoff is kept, for each of the 256 values, and alpha half a "
-         "step below the cutoff is dropped.",
+         "Adaptive AA, AF and compressed textures, too, keep alpha that equals the cutoff and "
+         "drop alpha half a step below it.",
      .truth = "the comparison of the two values",
      .unit = "share of the pixels",
      .per_isa = true,

@@ -1,22 +1,14 @@
-// Compares the reference with a ray cast in 128-bit floating point, on triangles whose coordinates
-// differ by many orders of magnitude.
+// Rows about the reference renderer's geometry. They compare it with a ray cast in 128-bit floating
+// point, on triangles whose coordinates differ by many orders of magnitude.
 #include "renderer/reference/internal/internal.h"
 #include "renderer/reference/internal/wide.h"
-#include "tests/renderer/pipeline/screen.h"
 #include "tests/renderer/random.h"
-#include "tests/renderer/reference/raycast.h"
+#include "tests/renderer/scene/scenes.h"
+#include "tests/stability/raycast.h"
+#include "tests/stability/stability.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include <math.h>
 #include <string.h>
-
-#include <cmocka.h>
-
-#include "tests/renderer/pipeline/near.h"
 
 enum { WIDTH = 64, HEIGHT = 48 };
 
@@ -37,22 +29,27 @@ typedef struct Pair {
     int wrong;   // of these, positions that the reference shows wrongly
 } Pair;
 
-static void open_pair(Pair *pair, const DipTestScene *scene, bool rounded) {
-    DipError err = {0};
-    pair->scene = scene;
-    pair->margin_px = rounded ? ROUNDED_PX : EXACT_PX;
-    pair->reference = dip_reference_create(&scene->def, &err);
-    assert_non_null(pair->reference);
-    const DipRefShot shot = {&scene->pose, WIDTH, HEIGHT, (double)WIDTH / HEIGHT,
-                             .rounded = rounded};
-    assert_true(dip_reference_build_triangles(pair->reference, &shot, &pair->triangles, &err));
-    assert_true(dip_raycast_init(&pair->raycast, &scene->def, &scene->pose, WIDTH, HEIGHT));
-}
-
 static void close_pair(Pair *pair) {
     dip_raycast_free(&pair->raycast);
     dip_reference_triangles_free(&pair->triangles);
     dip_reference_destroy(&pair->reference);
+}
+
+static bool open_pair(StabilityRun *run, Pair *pair, const DipTestScene *scene, bool rounded) {
+    DipError err = {0};
+    *pair = (Pair){.scene = scene};
+    pair->margin_px = rounded ? ROUNDED_PX : EXACT_PX;
+    pair->reference = dip_reference_create_for_truth(&scene->def, NULL, &err);
+    const DipRefShot shot = {&scene->pose, WIDTH, HEIGHT, (double)WIDTH / HEIGHT,
+                             .rounded = rounded};
+    if (!pair->reference ||
+        !dip_reference_build_triangles(pair->reference, &shot, &pair->triangles, &err) ||
+        !dip_raycast_init(&pair->raycast, &scene->def, &scene->pose, WIDTH, HEIGHT)) {
+        stability_break(run, "no picture: %s", err.message);
+        close_pair(pair);
+        return false;
+    }
+    return true;
 }
 
 // Places a position (in pixels) on a triangle. Returns false if the triangle does not cover it.
@@ -106,6 +103,19 @@ static double terms_of(const DipRefPosition *place, int varying) {
     return sum / weights;
 }
 
+// Returns the error that rounding in the edge functions may cause in the sum of the corners'
+// values, weighted by the edge functions. Each edge function is right within 2^-34 pixel times the
+// edge's length. In slivers, this is much compared with the area.
+static double sliver_tolerance(const DipRefPosition *place, const double values[3]) {
+    const DipRefVertex *v = place->triangle->vertices;
+    double sum = 0.0;
+    for (int i = 0; i < 3; i++) {
+        const DipRefVertex *from = &v[(i + 1) % 3], *to = &v[(i + 2) % 3];
+        sum += hypot(to->x - from->x, to->y - from->y) * fabs(values[i]);
+    }
+    return 256.0 * 0x1p-34 * sum / place->triangle->area;
+}
+
 // Returns the greatest error of a derivative. Moving the corners of a triangle of the height h by d
 // changes the gradients of U and Q by d / h of their lengths. The sum that the reference computes
 // may have terms that are much greater than the sum.
@@ -122,7 +132,7 @@ static double gradient_tolerance(const DipRefPosition *place, int varying, const
     }
     const double height_px = place->triangle->area / longest / 256.0;
     const double steepness = (fabs(inv_w[1]) + fabs(inv_w[2])) / inv_w[0];
-    return 0x1p-26 * (1.0 + 1.0 / height_px + steepness) *
+    return 0x1p-24 * (1.0 + 1.0 / height_px + steepness) *
                (fabs(value[1]) + fabs(value[2]) + 2.0 * fabs(value[0]) * steepness) +
            0x1p-47 * 256.0 * terms / weights;
 }
@@ -131,25 +141,43 @@ static bool is_near(double value, double expected, double tolerance) {
     return fabs(value - expected) <= tolerance; // false for a NaN
 }
 
+static bool shows_depth(const Pair *pair, const DipRefPosition *place, double depth,
+                        const DipRayHit *hit) {
+    const DipRefVertex *v = place->triangle->vertices;
+    const double near_m = pair->scene->def.near_m;
+    const double values[3] = {v[0].inv_w, v[1].inv_w, v[2].inv_w};
+    const double tolerance = (fabs(hit->inv_w[1]) + fabs(hit->inv_w[2])) * pair->margin_px +
+                             0x1p-44 * hit->inv_w[0] + sliver_tolerance(place, values);
+    return is_near(depth, near_m * hit->inv_w[0], near_m * tolerance);
+}
+
+// Compares a texture coordinate. *value is the truth: the coordinate and its derivatives.
+static bool shows_coordinate(const Pair *pair, const DipRefPosition *place,
+                             const DipRefVaryings *varyings, int k, const double value[3],
+                             const double inv_w[3]) {
+    double values[3];
+    for (int i = 0; i < 3; i++) {
+        const DipRefVertex *vertex = &place->triangle->vertices[i];
+        values[i] = vertex->inv_w / inv_w[0] * (vertex->varyings[k] - value[0]);
+    }
+    const double tolerance = tolerance_of(value, inv_w, pair->margin_px) +
+                             0x1p-44 * terms_of(place, k) + sliver_tolerance(place, values);
+    if (pair->margin_px != EXACT_PX) {
+        return is_near(varyings->value[k], value[0], tolerance);
+    }
+    const double gradient = gradient_tolerance(place, k, value, inv_w);
+    return is_near(varyings->value[k], value[0], tolerance) &&
+           is_near(varyings->ddx[k], value[1], gradient) &&
+           is_near(varyings->ddy[k], value[2], gradient);
+}
+
 static bool shows_hit(const Pair *pair, const DipRefPosition *place, double depth,
                       const DipRayHit *hit) {
-    const double near_m = pair->scene->def.near_m;
-    const double slack = (fabs(hit->inv_w[1]) + fabs(hit->inv_w[2])) * pair->margin_px;
-    bool right = is_near(depth, near_m * hit->inv_w[0], near_m * (slack + 0x1p-44 * hit->inv_w[0]));
     DipRefVaryings varyings;
     dip_reference_interpolate(place, DIP_REF_U0, 2, true, &varyings);
-    for (int c = 0; c < 2; c++) {
-        const double *value = c == 0 ? hit->u : hit->v;
-        const double tolerance = tolerance_of(value, hit->inv_w, pair->margin_px) +
-                                 0x1p-44 * terms_of(place, DIP_REF_U0 + c);
-        right = right && is_near(varyings.value[c], value[0], tolerance);
-        if (pair->margin_px == EXACT_PX) {
-            const double gradient = gradient_tolerance(place, DIP_REF_U0 + c, value, hit->inv_w);
-            right = right && is_near(varyings.ddx[c], value[1], gradient) &&
-                    is_near(varyings.ddy[c], value[2], gradient);
-        }
-    }
-    return right;
+    return shows_depth(pair, place, depth, hit) &&
+           shows_coordinate(pair, place, &varyings, DIP_REF_U0, hit->u, hit->inv_w) &&
+           shows_coordinate(pair, place, &varyings, DIP_REF_V0, hit->v, hit->inv_w);
 }
 
 static void judge(Pair *pair, double x, double y) {
@@ -179,7 +207,6 @@ static double random_magnitude(Random *random, int low, int high) {
 }
 
 enum {
-    TRIANGLES = 10000,
     POSITIONS = 48, // positions that are compared, per triangle
     KINDS = 12      // kinds of triangles: six, with exponents in -20..30 or in -60..60
 };
@@ -251,7 +278,7 @@ static void turn_camera(Random *random, DipPose *pose, double corners[3][3]) {
 static void make_triangle(DipTestScene *scene, Random *random, int kind, double corners[3][3]) {
     static const float nears[] = {0.1f, 1e-2f, 1e-4f, 1e-6f};
     double world[3][3];
-    dip_screen_begin(scene);
+    dip_test_scene_begin(scene);
     scene->def.near_m = nears[random_int(random, 0, 3)];
     scene->pose.fov_y_deg = random_real(random, 20.0, 120.0);
     make_corners(random, kind, corners);
@@ -260,7 +287,7 @@ static void make_triangle(DipTestScene *scene, Random *random, int kind, double 
         turn_camera(random, &scene->pose, world);
     }
     const double offset = random_int(random, 0, 2) ? 0.0 : random_magnitude(random, -10, 20);
-    const int material = dip_screen_add_white(scene);
+    const int material = dip_test_scene_add_material(scene, DIP_NO_TEXTURE);
     scene->materials[material].double_sided = random_int(random, 0, 3) > 0;
     const DipTestMesh mesh = dip_test_scene_add_mesh(scene, 3, 3, DIP_TEST_UV0, material);
     for (int v = 0; v < 3; v++) {
@@ -306,60 +333,58 @@ static void compare_triangle(Pair *pair, Random *random, double corners[3][3]) {
     }
 }
 
-static void compare_random_triangles(bool rounded) {
-    int covered[KINDS] = {0}, wrong[KINDS] = {0};
-    int wrong_count = 0;
-    Random random = {2026};
-    for (int t = 0; t < TRIANGLES; t++) {
-        DipTestScene scene;
-        Pair pair = {0};
+static void compare_random_triangles(StabilityRun *run, bool rounded) {
+    static DipTestScene scene;
+    Random random = {run->seed};
+    const int count = stability_count(run, 240, 10000, 300000);
+    int covered = 0;
+    for (int t = 0; t < count; t++) {
+        Pair pair;
         double corners[3][3];
         make_triangle(&scene, &random, t % KINDS, corners);
-        open_pair(&pair, &scene, rounded);
-        compare_triangle(&pair, &random, corners);
-        covered[t % KINDS] += pair.covered;
-        wrong[t % KINDS] += pair.wrong;
-        close_pair(&pair);
+        if (open_pair(run, &pair, &scene, rounded)) {
+            compare_triangle(&pair, &random, corners);
+            stability_error(run, pair.wrong, "triangle %d of seed %llu, kind %d", t,
+                            (unsigned long long)run->seed, t % KINDS);
+            covered += pair.covered;
+            close_pair(&pair);
+        }
         dip_test_scene_free(&scene);
     }
-    for (int k = 0; k < KINDS; k++) {
-        print_message("kind %d: %d positions covered, %d wrong\n", k, covered[k], wrong[k]);
-        wrong_count += wrong[k];
-        // The narrow slivers are too thin for rounded positions.
-        assert_true(covered[k] >= (rounded && k % (KINDS / 2) == 3 ? 0 : 100));
-    }
-    assert_int_equal(wrong_count, 0);
+    stability_expect(run, covered > count, "only %d positions on triangles", covered);
 }
 
-static void random_triangles_appear_where_rays_meet_them(void **state) {
-    (void)state;
-    compare_random_triangles(false);
+static void measure_random_triangles(StabilityRun *run) {
+    compare_random_triangles(run, false);
 }
 
-static void rounding_moves_triangles_by_at_most_half_a_step(void **state) {
-    (void)state;
-    compare_random_triangles(true);
+static void measure_rounded_triangles(StabilityRun *run) {
+    compare_random_triangles(run, true);
 }
 
 // Compares a scene at every pixel's centre.
-static void compare_picture(const DipTestScene *scene, bool rounded) {
-    Pair pair = {0};
-    open_pair(&pair, scene, rounded);
-    for (int y = 0; y < HEIGHT; y++) {
-        for (int x = 0; x < WIDTH; x++) {
-            judge(&pair, x + 0.5, y + 0.5);
+static void compare_picture(StabilityRun *run, const DipTestScene *scene, const char *what,
+                            double value) {
+    for (int rounded = 0; rounded < 2; rounded++) {
+        Pair pair;
+        if (!open_pair(run, &pair, scene, rounded)) {
+            return;
         }
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            judge(&pair, i % WIDTH + 0.5, i / WIDTH + 0.5);
+        }
+        stability_error(run, pair.wrong, "%s %g%s", what, value, rounded ? ", rounded" : "");
+        stability_expect(run, pair.judged > WIDTH * HEIGHT * 9 / 10, "%s %g: %d positions judged",
+                         what, value, pair.judged);
+        close_pair(&pair);
     }
-    assert_int_equal(pair.wrong, 0);
-    assert_true(pair.judged > WIDTH * HEIGHT * 9 / 10);
-    close_pair(&pair);
 }
 
-static void huge_triangles_close_to_the_eye_are_not_bent(void **state) {
-    (void)state;
-    static const float scales[] = {1.0f, 1e5f, 1e9f};
-    for (int k = 0; k < 3; k++) {
-        DipTestScene scene;
+static void measure_huge_triangles(StabilityRun *run) {
+    static const float scales[] = {1e5f, 1.0f, 1e9f};
+    static DipTestScene scene;
+    const int count = stability_count(run, 1, 3, 3);
+    for (int k = 0; k < count; k++) {
         dip_test_scene_make(&scene, DIP_TEST_SCENE_cube_on_plane);
         scene.objects[1] = scene.objects[--scene.def.object_count]; // leaves out the decal
         for (int o = 0; o < scene.def.object_count; o++) {
@@ -367,30 +392,62 @@ static void huge_triangles_close_to_the_eye_are_not_bent(void **state) {
                 scene.objects[o].transform[i] *= scales[k];
             }
         }
-        compare_picture(&scene, false);
-        compare_picture(&scene, true);
+        compare_picture(run, &scene, "cube on a plane times", scales[k]);
         dip_test_scene_free(&scene);
     }
 }
 
-static void a_floor_keeps_its_shape_however_near_the_near_plane_is(void **state) {
-    (void)state;
-    static const float nears[] = {0.1f, 1e-3f, 1e-6f, 1e-12f};
-    for (int k = 0; k < 4; k++) {
-        DipTestScene scene;
-        dip_screen_begin(&scene);
+static void measure_floor(StabilityRun *run) {
+    static const float nears[] = {1e-6f, 0.1f, 1e-3f, 1e-12f};
+    static DipTestScene scene;
+    const int count = stability_count(run, 1, 4, 4);
+    for (int k = 0; k < count; k++) {
+        dip_test_scene_begin(&scene);
         scene.def.near_m = nears[k];
         scene.pose.orientation[2] = sin(0.1);
         scene.pose.orientation[3] = cos(0.1);
+        const int material = dip_test_scene_add_material(&scene, DIP_NO_TEXTURE);
         const float corner[3] = {-25.0f, -1.0f, 25.0f};
         const float right[3] = {50.0f, 0.0f, 0.0f};
         const float back[3] = {0.0f, 0.0f, -50.0f};
-        dip_test_scene_add_quad(&scene, dip_screen_add_white(&scene), corner, right, back, 50.0f,
-                                50.0f);
-        compare_picture(&scene, false);
-        compare_picture(&scene, true);
+        dip_test_scene_add_quad(&scene, material, corner, right, back, 50.0f, 50.0f);
+        compare_picture(run, &scene, "near plane at", nears[k]);
         dip_test_scene_free(&scene);
     }
+}
+
+// --- lengths of orientations ---------------------------------------------------------------------
+
+static bool same_triangles(const DipRefTriangles *a, const DipRefTriangles *b) {
+    bool same = a->count == b->count;
+    for (size_t t = 0; same && t < a->count; t++) {
+        same = memcmp(a->items[t].vertices, b->items[t].vertices, sizeof a->items[t].vertices) == 0;
+    }
+    return same;
+}
+
+static void measure_orientations(StabilityRun *run) {
+    static const int exponents[] = {-1000, -600, 600, 1000};
+    static DipTestScene scene, scaled;
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_cube_on_plane);
+    dip_test_scene_make(&scaled, DIP_TEST_SCENE_cube_on_plane);
+    Pair pair, other;
+    const bool opened = open_pair(run, &pair, &scene, true);
+    for (int k = 0; opened && k < 4; k++) {
+        for (int i = 0; i < 4; i++) {
+            scaled.pose.orientation[i] = ldexp(scene.pose.orientation[i], exponents[k]);
+        }
+        if (open_pair(run, &other, &scaled, true)) {
+            stability_expect(run, same_triangles(&pair.triangles, &other.triangles),
+                             "quaternion times 2^%d", exponents[k]);
+            close_pair(&other);
+        }
+    }
+    if (opened) {
+        close_pair(&pair);
+    }
+    dip_test_scene_free(&scaled);
+    dip_test_scene_free(&scene);
 }
 
 // --- wide numbers --------------------------------------------------------------------------------
@@ -399,16 +456,22 @@ static DipQuad quad_of(DipWide a) {
     return (DipQuad)a.high + a.low;
 }
 
-static void assert_wide(DipWide value, DipQuad expected, DipQuad terms) {
-    const DipQuad error = quad_of(value) - expected;
-    assert_true((error < 0 ? -error : error) <= terms * 0x1p-102);
-    assert_true(value.high + value.low == value.high);
+static DipQuad size_of(DipQuad a) {
+    return a < 0 ? -a : a;
 }
 
-static void wide_numbers_have_a_hundred_bits(void **state) {
-    (void)state;
-    Random random = {7};
-    for (int i = 0; i < 100000; i++) {
+// Keeps the error of a result, relative to the sum of the magnitudes of its terms.
+static void check_wide(StabilityRun *run, DipWide value, DipQuad expected, DipQuad terms,
+                       const char *operation) {
+    stability_error(run, (double)(size_of(quad_of(value) - expected) / terms), "%s", operation);
+    stability_expect(run, value.high + value.low == value.high, "%s is not in lowest terms",
+                     operation);
+}
+
+static void measure_wide_numbers(StabilityRun *run) {
+    Random random = {run->seed};
+    const int count = stability_count(run, 2000, 100000, 10000000);
+    for (int i = 0; i < count; i++) {
         const DipWide a =
             dip_wide_sum(random_magnitude(&random, -100, 100), random_magnitude(&random, -160, 40));
         DipWide b =
@@ -416,25 +479,59 @@ static void wide_numbers_have_a_hundred_bits(void **state) {
         if (i % 2) { // nearly cancels a
             b = dip_wide_add_double(dip_wide_negate(a), random_magnitude(&random, -180, 0));
         }
-        const DipQuad x = quad_of(a), y = quad_of(b);
-        const DipQuad sum = (x < 0 ? -x : x) + (y < 0 ? -y : y);
-        assert_wide(dip_wide_add(a, b), x + y, sum);
-        assert_wide(dip_wide_subtract(a, b), x - y, sum);
-        assert_wide(dip_wide_add_double(a, b.high), x + b.high, sum);
-        assert_wide(dip_wide_scale(a, b.high), x * b.high,
-                    x * b.high < 0 ? -x * b.high : x * b.high);
-        assert_wide(dip_wide_multiply(a, b), x * y, x * y < 0 ? -x * y : x * y);
-        assert_wide(dip_wide_divide(a, b), x / y, x / y < 0 ? -x / y : x / y);
+        const DipQuad x = quad_of(a), y = quad_of(b), terms = size_of(x) + size_of(y);
+        check_wide(run, dip_wide_add(a, b), x + y, terms, "sum");
+        check_wide(run, dip_wide_subtract(a, b), x - y, terms, "difference");
+        check_wide(run, dip_wide_add_double(a, b.high), x + b.high, terms, "sum with a double");
+        check_wide(run, dip_wide_scale(a, b.high), x * b.high, size_of(x * b.high),
+                   "product with a double");
+        check_wide(run, dip_wide_multiply(a, b), x * y, size_of(x * y), "product");
+        check_wide(run, dip_wide_divide(a, b), x / y, size_of(x / y), "quotient");
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wide_numbers_have_a_hundred_bits),
-        cmocka_unit_test(random_triangles_appear_where_rays_meet_them),
-        cmocka_unit_test(rounding_moves_triangles_by_at_most_half_a_step),
-        cmocka_unit_test(huge_triangles_close_to_the_eye_are_not_bent),
-        cmocka_unit_test(a_floor_keeps_its_shape_however_near_the_near_plane_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+#define RAY_CAST "a ray cast in 128-bit floats, without projection, clipping or rounding"
+
+static const StabilityRow rows[] = {
+    {.id = "A47",
+     .promise =
+         "The reference's converged picture shows random triangles with coordinates from "
+         "2^-60 to 2^60 where they are: coverage, depth, coordinates and derivatives are "
+         "right within 2^-20 pixel. In slivers, rounding adds an error of 2^-34 pixel divided "
+         "by the sliver's height.",
+     .truth = RAY_CAST,
+     .unit = "positions",
+     .measure = measure_random_triangles},
+    {.id = "A48",
+     .promise = "With positions rounded to 1/256 pixel, the same triangles move by at most 1/512 "
+                "pixel along each axis, wherever they are cut.",
+     .truth = RAY_CAST,
+     .unit = "positions",
+     .measure = measure_rounded_triangles},
+    {.id = "A49",
+     .promise = "The reference does not bend triangles of up to 1e11 m close to the eye.",
+     .truth = RAY_CAST,
+     .unit = "positions",
+     .measure = measure_huge_triangles},
+    {.id = "A50",
+     .promise = "In the reference, a floor of 50 m keeps its shape with a near plane at 0.1 m to "
+                "1e-12 m.",
+     .truth = RAY_CAST,
+     .unit = "positions",
+     .measure = measure_floor},
+    {.id = "A51",
+     .promise = "A quaternion times a power of two gives the reference the same triangles to the "
+                "bit.",
+     .truth = "the triangles with a quaternion of length 1",
+     .unit = "pictures",
+     .measure = measure_orientations},
+    {.id = "A52",
+     .promise = "The reference's double-double arithmetic is right to 102 bits.",
+     .truth = "128-bit floats",
+     .unit = "relative",
+     .bound = 0x1p-102,
+     .measure = measure_wide_numbers},
+};
+
+const StabilityTopic stability_reference = {"reference", "Geometry of the reference", rows,
+                                            sizeof rows / sizeof *rows};

@@ -4,7 +4,7 @@
 // a position of the picture. The point w r = i a + j b + k c of the triangle's plane has i = w
 // (b x c) . r / det, with det = a . (b x c), and so on for j and k. So the three triple products
 // are edge functions, and their sum is det / w.
-#include "tests/renderer/reference/raycast.h"
+#include "tests/stability/raycast.h"
 
 #include <float.h>
 #include <math.h>

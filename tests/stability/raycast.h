@@ -1,7 +1,7 @@
 // A ray caster in 128-bit floating point: the truth about which triangle a position of the picture
 // shows. It neither projects, cuts nor rounds anything, and shares no code with the renderers.
-#ifndef DIP_TESTS_RENDERER_REFERENCE_RAYCAST_H
-#define DIP_TESTS_RENDERER_REFERENCE_RAYCAST_H
+#ifndef DIP_TESTS_STABILITY_RAYCAST_H
+#define DIP_TESTS_STABILITY_RAYCAST_H
 
 #include "renderer/scene/pose.h"
 #include "renderer/scene/scene.h"
