@@ -53,8 +53,9 @@ static long double schlick(long double c) {
     return r * r + (1.0L - r * r) * powl(1.0L - c, 5.0L);
 }
 
-// Compares each pixel of black water under a white sky with the share of light that it reflects.
-static void compare_water(StabilityRun *run, const DipTestScene *scene, double pitch) {
+// Compares a channel of each pixel of black water, under a sky that is 1 in this channel, with the
+// share of light that it reflects.
+static void compare_water(StabilityRun *run, const DipTestScene *scene, double pitch, int channel) {
     const StabilityShot shot = shot_of(scene, "aa=none");
     const double slope = dip_tan(fov_y_deg * DIP_PI / 360.0);
     StabilityPicture picture;
@@ -68,7 +69,8 @@ static void compare_water(StabilityRun *run, const DipTestScene *scene, double p
         const long double c = (long double)down / sqrtl((long double)(x * x + y * y + 1.0));
         if (c > 0.002L) { // nearer to the horizon, the water ends
             const long double share = scene->reflection.schlick ? schlick(c) : fresnel(c);
-            stability_error(run, picture.rgb_lin[3 * i] - (double)share, "cosine %.4Lf", c);
+            stability_error(run, picture.rgb_lin[3 * i + channel] - (double)share, "cosine %.4Lf",
+                            c);
         }
     }
     stability_picture_free(&picture);
@@ -90,7 +92,7 @@ static void measure_fresnel(StabilityRun *run) {
         scene.reflection = (DipReflectionDef){.width = 16, .height = 12, .schlick = i % 2};
         scene.pose.position_world[1] = 1.0;
         set_pitch(&scene, pitch);
-        compare_water(run, &scene, pitch);
+        compare_water(run, &scene, pitch, 0);
         dip_test_scene_free(&scene);
     }
 }
@@ -151,6 +153,31 @@ static void measure_shore(StabilityRun *run) {
             stability_error(run, leaks, "room %d", i);
             stability_picture_free(&picture);
         }
+        dip_test_scene_free(&scene);
+    }
+}
+
+// Looks down on a wide pool under a green sky. Every pixel of the frame reads the mirrored picture,
+// the outermost ones close to its edges.
+static void measure_mirrored_edges(StabilityRun *run) {
+    static const float green[3] = {0.0f, 1.0f, 0.0f};
+    static const float black[3] = {0.0f, 0.0f, 0.0f};
+    static DipTestScene scene;
+    Random random = {run->seed};
+    const int count = stability_count(run, 6, 100, 5000);
+    for (int i = 0; i < count; i++) {
+        const double pitch = random_real(&random, -1.5, -0.7);
+        dip_test_scene_begin(&scene);
+        memcpy(scene.def.background_lin, green, sizeof green);
+        const int water = add_colour(&scene, black);
+        scene.materials[water].surface = DIP_SURFACE_WATER;
+        dip_test_scene_add_quad(&scene, water, (const float[]){-500, 0, 500},
+                                (const float[]){1000, 0, 0}, (const float[]){0, 0, -1000}, 1, 1);
+        scene.reflection = (DipReflectionDef){.width = random_int(&random, 1, 9),
+                                              .height = random_int(&random, 1, 9)};
+        scene.pose.position_world[1] = 2.0;
+        set_pitch(&scene, pitch);
+        compare_water(run, &scene, pitch, 1);
         dip_test_scene_free(&scene);
     }
 }
@@ -252,6 +279,14 @@ static const StabilityRow rows[] = {
      .unit = "pixels",
      .per_isa = true,
      .measure = measure_shore},
+    {.id = "N22",
+     .promise = "Every pixel of the frame reads the mirrored picture inside its edges, also if it "
+                "has only 1x1 pixel.",
+     .truth = "Fresnel's formulas for a sky of one colour",
+     .unit = "of light",
+     .bound = 0.005,
+     .per_isa = true,
+     .measure = measure_mirrored_edges},
     {.id = "N46",
      .promise = "Base colour, light map and its factor of 2 are clamped once, at the end.",
      .truth = "the product in double precision",

@@ -207,6 +207,44 @@ static void measure_rounded_area(StabilityRun *run) {
     }
 }
 
+// Draws slivers between two walls of other colours. A depth that is extrapolated beyond the corners
+// of a sliver would let it show through the near wall, or let the far wall show through it.
+static void measure_sliver_depth(StabilityRun *run) {
+    static const DipOracleTriangle cover[2] = {
+        {{-STEPS, SIDE * STEPS + STEPS, -STEPS}, {-STEPS, -STEPS, SIDE * STEPS + STEPS}},
+        {{SIDE * STEPS + STEPS, SIDE * STEPS + STEPS, -STEPS},
+         {-STEPS, SIDE * STEPS + STEPS, SIDE * STEPS + STEPS}}};
+    static DipTestScene scene;
+    static uint8_t masks[SIDE * SIDE];
+    Random random = {run->seed};
+    const int count = stability_count(run, 6, 120, 6000);
+    for (int i = 0; i < count; i++) {
+        const DipOracleTriangle sliver =
+            dip_oracle_make(DIP_ORACLE_sliver, &random, dip_sample_pattern(8), &whole, 1 << 20);
+        // The sliver's corners are 1 m, 2 m and 4 m away.
+        const bool hidden = i % 2;
+        const double wall_w = hidden ? 1.0 - 0x1p-10 : 4.0 + 0x1p-8;
+        begin(&scene);
+        add_triangles(&scene, add_colour(&scene, 1.0f, 1.0f, 1.0f), &sliver, 1, 1.0);
+        const DipTestMesh wall =
+            dip_test_scene_add_mesh(&scene, 6, 6, 0, add_colour(&scene, 0.0f, 0.0f, 1.0f));
+        for (uint32_t v = 0; v < 6; v++) {
+            put_vertex(&wall, v, cover[v / 3].x[v % 3], cover[v / 3].y[v % 3], wall_w);
+            wall.indices[v] = v;
+        }
+        memset(masks, 0, sizeof masks);
+        if (!hidden) {
+            dip_oracle_cover(&sliver, dip_sample_pattern(8), &whole, masks);
+        }
+        StabilityPicture picture;
+        if (draw(run, &scene, "aa=8", &picture)) {
+            stability_error(run, wrong_pixels(&picture, masks, 8), "sliver %d", i);
+            stability_picture_free(&picture);
+        }
+        dip_test_scene_free(&scene);
+    }
+}
+
 // --- triangles that must not be drawn ---------------------------------------------------------
 
 static void measure_behind(StabilityRun *run) {
@@ -564,6 +602,13 @@ static const StabilityRow rows[] = {
      .unit = "pixels",
      .per_isa = true,
      .measure = measure_sample_boxes},
+    {.id = "N14",
+     .promise = "The depth of a sliver stays between the depths of its corners: it neither shows "
+                "through a wall before it nor lets one behind it show.",
+     .truth = "edge functions in exact integers",
+     .unit = "pixels",
+     .per_isa = true,
+     .measure = measure_sliver_depth},
     {.id = "N15",
      .promise = "Of two surfaces with the same vertices, the one that was submitted first is in "
                 "front everywhere.",

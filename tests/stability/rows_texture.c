@@ -384,7 +384,7 @@ static const StabilityRow rows[] = {
      .unit = "levels",
      .bound = 1.4e-5,
      .measure = measure_log2},
-    {.id = "A11",
+    {.id = "N34",
      .promise =
          "Adaptive AA, AF and compressed textures, too, keep alpha that equals the cutoff and "
          "drop alpha half a step below it.",
