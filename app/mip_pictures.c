@@ -2,7 +2,7 @@
 #include "app/mip_pictures.h"
 
 #include "app/session_private.h"
-#include "assets/picture.h"
+#include "assets/importer.h"
 
 typedef struct MipPictures {
     DipPicture pictures[DIP_MIP_LEVEL_COUNT];
@@ -19,7 +19,7 @@ static bool read_pictures(const DipSession *session, MipPictures *all, DipErrorL
         if (!file->path) {
             continue;
         }
-        if (!dip_picture_read_file(file->path, &all->pictures[level], &err)) {
+        if (!dip_picture_import(file->path, session->importer, &all->pictures[level], &err)) {
             read = dip_session_place_fault(session, file, faults, &err);
             continue;
         }

@@ -122,6 +122,7 @@ static void fill_invocation(const Child *child, Invocation *invocation) {
         [IMPORT_ARGUMENT_threads] = (uint64_t)(load->pool ? dip_pool_thread_count(load->pool) : 1),
         [IMPORT_ARGUMENT_normal_maps] = load->options.normal_maps,
         [IMPORT_ARGUMENT_up] = load->options.up,
+        [IMPORT_ARGUMENT_picture_only] = load->picture_only,
         [IMPORT_ARGUMENT_memory_bytes] = child->importer.memory_bytes,
         [IMPORT_ARGUMENT_cpu_s] = (uint64_t)child->importer.cpu_s,
     };
@@ -308,7 +309,7 @@ static const char *last_step(const Child *child, const char **file) {
     static const char *const doing[] = {
         [DIP_IMPORT_STARTS] = "while it started",
         [DIP_IMPORT_READS] = "while it read the model",
-        [DIP_IMPORT_PICTURES] = "while it decoded the model's pictures",
+        [DIP_IMPORT_PICTURES] = "while it decoded pictures",
         [DIP_IMPORT_PACKS] = "while it handed over the model",
         [DIP_IMPORT_DONE] = "after it had handed over the model",
     };

@@ -15,6 +15,7 @@
 #define DIP_ASSETS_IMPORTER_H
 
 #include "assets/model.h"
+#include "assets/picture.h"
 
 #include <stdint.h>
 
@@ -39,6 +40,11 @@ enum {
     DIP_IMPORTER_MAX_ARGUMENTS = DIP_MAX_MODEL_FILES + 16, // Most arguments of dip_importer_run.
     DIP_IMPORTER_MISUSED = 2
 };
+
+// Does the same as dip_picture_read_file (picture.h), but in an importer. NULL: in this process.
+// Further codes are those of dip_model_load_with.
+bool dip_picture_import(const char *path, const DipImporter *importer, DipPicture *picture,
+                        DipError *err);
 
 // Runs the importer in the process that dip_model_load_with has started. count, arguments: the
 // command line after DipImporter.command. Returns the exit code of the process. The function limits

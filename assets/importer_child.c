@@ -143,6 +143,7 @@ static bool load_and_hand_over(const Task *task) {
         .pool = pool,
         .warnings = &pack.warnings,
         .note_file = IMPORT_PACK_FILE,
+        .picture_only = task->number[IMPORT_ARGUMENT_picture_only] == 1,
     };
     DipModel *model = pool ? dip_model_load_here(&load, &pack.failure) : NULL;
     const bool done = hand_over(model, &pack);

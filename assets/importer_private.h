@@ -18,6 +18,7 @@ enum { IMPORT_PACK_FILE = 3, IMPORT_PIPE = 4 };
     X(threads)      /* number of threads that decode pictures */                                   \
     X(normal_maps)  /* 1: normal maps are loaded, 0: not */                                        \
     X(up)           /* a DipUpAxis */                                                              \
+    X(picture_only) /* 1: the only file is a picture, 0: the files are models */                   \
     X(memory_bytes) /* limit of memory */                                                          \
     X(cpu_s)        /* limit of processor time */
 

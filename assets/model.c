@@ -2,6 +2,7 @@
 // and completes the scene description.
 #include "assets/model.h"
 
+#include "assets/importer.h"
 #include "assets/model_parts.h"
 #include "renderer/base/clock.h"
 
@@ -313,6 +314,28 @@ static bool load_parts(DipModel *model, const DipModelLoad *load, DipError *err)
     return ok;
 }
 
+// Loads a picture file as the scene's only texture.
+static bool load_picture(DipModel *model, const DipModelLoad *load, DipError *err) {
+    const char *path = load->files[0];
+    note(load, DIP_IMPORT_PICTURES, 0);
+    model->pictures = calloc(1, sizeof *model->pictures);
+    model->textures = calloc(1, sizeof *model->textures);
+    if (!model->pictures || !model->textures) {
+        return dip_model_out_of_memory(err, path);
+    }
+    DipPicture *picture = &model->pictures[0].picture;
+    model->picture_count = 1;
+    if (!dip_picture_read_file(path, picture, err)) {
+        return false;
+    }
+    model->textures[0] = (DipTextureDef){.name = dip_model_copy_text(model, path),
+                                         .width = picture->width,
+                                         .height = picture->height,
+                                         .rgba8 = picture->rgba8};
+    model->def.texture_count = 1;
+    return model->textures[0].name || dip_model_out_of_memory(err, path);
+}
+
 DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
     DipModel *model = calloc(1, sizeof *model);
     if (!model) {
@@ -323,7 +346,9 @@ DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
     model->normal_maps = load->options.normal_maps;
     model->up = load->options.up;
     model->files = calloc((size_t)load->file_count, sizeof *model->files);
-    if (!load_parts(model, load, err)) {
+    const bool ok =
+        load->picture_only ? load_picture(model, load, err) : load_parts(model, load, err);
+    if (!ok) {
         dip_model_destroy(&model);
         return NULL;
     }
@@ -334,7 +359,12 @@ DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
 DipModel *dip_model_load_with(const char *const *files, int file_count,
                               const DipModelOptions *options, DipPool *pool, DipErrorList *warnings,
                               DipError *err) {
-    const DipModelLoad load = {files, file_count, *options, pool, warnings, -1};
+    const DipModelLoad load = {.files = files,
+                               .file_count = file_count,
+                               .options = *options,
+                               .pool = pool,
+                               .warnings = warnings,
+                               .note_file = -1};
     if (file_count < 1 || file_count > DIP_MAX_MODEL_FILES) {
         dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL, "%d model files, accepted 1..%d",
                       file_count, DIP_MAX_MODEL_FILES);
@@ -342,6 +372,26 @@ DipModel *dip_model_load_with(const char *const *files, int file_count,
     }
     return options->importer ? dip_model_load_in_child(&load, options->importer, err)
                              : dip_model_load_here(&load, err);
+}
+
+bool dip_picture_import(const char *path, const DipImporter *importer, DipPicture *picture,
+                        DipError *err) {
+    if (!importer) {
+        return dip_picture_read_file(path, picture, err);
+    }
+    *picture = (DipPicture){0};
+    const DipModelLoad load = {
+        .files = &path, .file_count = 1, .note_file = -1, .picture_only = true};
+    DipModel *model = dip_model_load_in_child(&load, importer, err);
+    if (!model) {
+        return false;
+    }
+    const bool ok = model->def.texture_count == 1
+                        ? dip_picture_copy(&model->def.textures[0], picture, err)
+                        : dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL,
+                                        "the importer's result is malformed: it has no picture");
+    dip_model_destroy(&model);
+    return ok;
 }
 
 DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,

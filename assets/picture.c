@@ -159,6 +159,16 @@ bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_t height
     return true;
 }
 
+bool dip_picture_copy(const DipTextureDef *texture, DipPicture *picture, DipError *err) {
+    if (!allocate(picture, texture->width, texture->height)) {
+        *picture = (DipPicture){0};
+        return dip_error_set(err, DIP_ERROR_MEMORY, texture->name, 0, NULL, "out of memory");
+    }
+    memcpy(picture->rgba8, texture->rgba8, 4 * (size_t)texture->width * (size_t)texture->height);
+    picture->has_alpha = any_alpha(picture);
+    return true;
+}
+
 bool dip_picture_with_opacity(const DipPicture *colour, const DipPicture *opacity,
                               DipPicture *picture) {
     const DipPicture *size_of = colour ? colour : opacity;

@@ -9,6 +9,7 @@
 #define DIP_ASSETS_PICTURE_H
 
 #include "renderer/base/error.h"
+#include "renderer/pipeline/texture.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -39,6 +40,9 @@ bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err)
 // Copies texels that are stored as b, g, r, a. Codes: RANGE (size), MEMORY.
 bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_t height, const char *name,
                            DipPicture *picture, DipError *err);
+
+// Copies the texels of a texture. Code: MEMORY.
+bool dip_picture_copy(const DipTextureDef *texture, DipPicture *picture, DipError *err);
 
 // Makes a new picture from the colours of one picture (NULL: white) and the opacity of another. The
 // opacity is the alpha channel of the opacity picture if it has one, otherwise its brightness. If

@@ -257,14 +257,106 @@ static void the_courtyard_imports_as_in_this_process(void **state) {
     assert_imports_alike(DIP_ASSETS_DIR "/courtyard/court.gltf");
 }
 
+static void a_picture_is_imported_as_in_this_process(void **state) {
+    (void)state;
+    const DipImporter well = importer_that("well");
+    static const char *const names[] = {"leaf.png", "door.jpg", "no_such.png", "court.gltf"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        char path[FIXTURE_PATH];
+        snprintf(path, sizeof path, "%s/courtyard/%s", DIP_ASSETS_DIR, names[i]);
+        DipPicture here;
+        DipPicture there;
+        DipError err[2] = {{0}, {0}};
+        const bool read = dip_picture_read_file(path, &here, &err[0]);
+        assert_int_equal(dip_picture_import(path, &well, &there, &err[1]), read);
+        assert_int_equal(read, i < 2);
+        assert_memory_equal(&err[0], &err[1], sizeof err[0]);
+        assert_int_equal(here.width, there.width);
+        assert_int_equal(here.has_alpha, there.has_alpha);
+        if (read) {
+            assert_memory_equal(here.rgba8, there.rgba8,
+                                4 * (size_t)here.width * (size_t)here.height);
+        }
+        dip_picture_free(&here);
+        dip_picture_free(&there);
+    }
+    const DipImporter crash = importer_that("crash");
+    DipPicture none;
+    DipError err = {0};
+    assert_false(dip_picture_import("x.png", &crash, &none, &err));
+    assert_null(none.rgba8);
+    assert_non_null(strstr(err.message, "the importer crashed"));
+}
+
+// --- extreme pictures ----------------------------------------------------------------------------
+
+// Writes a run-length encoded TGA of one grey, and a square that shows it.
+static void write_textured_square(int width, int height) {
+    fixture_copy("square.obj");
+    fixture_write_text("square.mtl", "newmtl painted\nKd 1 1 1\nmap_Kd colour.tga\n");
+    FILE *file = fopen(fixture_path("colour.tga"), "wb");
+    assert_non_null(file);
+    const uint8_t header[18] = {[2] = 10,
+                                [12] = (uint8_t)width,
+                                [13] = (uint8_t)(width >> 8),
+                                [14] = (uint8_t)height,
+                                [15] = (uint8_t)(height >> 8),
+                                [16] = 24,
+                                [17] = 0x20};
+    fwrite(header, 1, sizeof header, file);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; x += 128) {
+            const int run = width - x < 128 ? width - x : 128;
+            const uint8_t packet[4] = {(uint8_t)(0x80 + run - 1), 90, 90, 90};
+            fwrite(packet, 1, sizeof packet, file);
+        }
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+static void textures_of_every_size_are_imported(void **state) {
+    (void)state;
+    static const int sizes[][2] = {{1, 1},    {1, 4096}, {4096, 1}, {3, 5},
+                                   {1023, 7}, {8191, 3}, {1, 8192}, {8192, 8192}};
+    const DipImporter well = importer_that("well");
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0] - sanitized; ++i) {
+        write_textured_square(sizes[i][0], sizes[i][1]);
+        DipError err = {0};
+        DipModel *model = import(&well, fixture_path("square.obj"), NULL, &err);
+        assert_non_null(model);
+        const DipSceneDef *def = dip_model_scene_def(model);
+        assert_int_equal(def->texture_count, 1);
+        assert_int_equal(def->textures[0].width, sizes[i][0]);
+        assert_int_equal(def->textures[0].height, sizes[i][1]);
+        DipScene *scene = dip_scene_create(def, NULL, &err);
+        assert_non_null(scene);
+        dip_scene_destroy(&scene);
+        dip_model_destroy(&model);
+    }
+}
+
+static void a_texture_beyond_the_limit_is_left_out_with_a_warning(void **state) {
+    (void)state;
+    const DipImporter well = importer_that("well");
+    write_textured_square(8193, 1);
+    DipErrorList warnings = {0};
+    DipModel *model = import(&well, fixture_path("square.obj"), &warnings, NULL);
+    assert_non_null(model);
+    assert_int_equal(dip_model_scene_def(model)->texture_count, 0);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.items[0].message, "8193 x 1 pixels, accepted 1..8192"));
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
 static void nobody_else_can_start_an_importer(void **state) {
     (void)state;
     char *no_arguments[] = {NULL};
     assert_int_equal(dip_importer_run(0, no_arguments), DIP_IMPORTER_MISUSED);
-    char *words[] = {"--", "1", "2", "3", "4", "5", "6", "a.obj", NULL};
-    assert_int_equal(dip_importer_run(8, words), DIP_IMPORTER_MISUSED);
+    char *words[] = {"--", "1", "2", "3", "4", "0", "0", "7", "8", "a.obj", NULL};
+    assert_int_equal(dip_importer_run(10, words), DIP_IMPORTER_MISUSED);
     words[3] = "three";
-    assert_int_equal(dip_importer_run(8, words), DIP_IMPORTER_MISUSED);
+    assert_int_equal(dip_importer_run(10, words), DIP_IMPORTER_MISUSED);
 }
 
 int main(int argc, char **argv) {
@@ -281,6 +373,9 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_scene_that_is_too_large_to_hand_over_is_refused),
         cmocka_unit_test(every_test_model_imports_as_in_this_process),
         cmocka_unit_test(the_courtyard_imports_as_in_this_process),
+        cmocka_unit_test(a_picture_is_imported_as_in_this_process),
+        cmocka_unit_test(textures_of_every_size_are_imported),
+        cmocka_unit_test(a_texture_beyond_the_limit_is_left_out_with_a_warning),
         cmocka_unit_test(nobody_else_can_start_an_importer),
     };
     return cmocka_run_group_tests_name("importer", tests, fixture_open, fixture_close);
