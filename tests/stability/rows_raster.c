@@ -1,5 +1,7 @@
 // Rows about triangles: which samples they cover, and which surface is in front.
+#include "renderer/pipeline/pattern.h"
 #include "tests/renderer/pipeline/oracle.h"
+#include "tests/renderer/random.h"
 #include "tests/renderer/scene/scenes.h"
 #include "tests/stability/pictures.h"
 
@@ -550,6 +552,93 @@ static void measure_sizes(StabilityRun *run) {
     }
 }
 
+// --- depth on the edges of slivers ------------------------------------------------------------
+// ------------------------------------------------------------------
+
+enum { SLIVERS = 64 };
+
+// Adds slivers that are at most 3/256 pixel high. Their upper edges run through samples and have
+// the distance `edge` at both ends, so samples have exactly this depth. The lower corners have the
+// distance edge times 2^exponent, so the depth changes steeply below the edges.
+static void add_slivers(DipTestScene *scene, int material, Random random, double edge,
+                        int least_exponent, int greatest_exponent) {
+    const DipSamplePattern *pattern = dip_sample_pattern(8);
+    const DipTestMesh mesh = dip_test_scene_add_mesh(scene, 3 * SLIVERS, 3 * SLIVERS, 0, material);
+    for (uint32_t i = 0; i < SLIVERS; i++) {
+        const int y = random_int(&random, 0, SIDE - 1) * STEPS +
+                      pattern->y[random_int(&random, 0, pattern->count - 1)];
+        const int left = random_int(&random, -SIDE, SIDE / 2) * STEPS;
+        const int right = left + random_int(&random, 1, 2 * SIDE) * STEPS;
+        const int lower = random_int(&random, left, right);
+        const int exponent = random_int(&random, least_exponent, greatest_exponent);
+        put_vertex(&mesh, 3 * i, left, y, edge);
+        put_vertex(&mesh, 3 * i + 1, right, y, edge);
+        put_vertex(&mesh, 3 * i + 2, lower, y + random_int(&random, 1, 3), ldexp(edge, exponent));
+        for (uint32_t k = 0; k < 3; k++) {
+            mesh.indices[3 * i + k] = 3 * i + k;
+        }
+    }
+}
+
+static void add_wall(DipTestScene *scene, int material, double distance) {
+    const float d = (float)distance;
+    dip_test_scene_add_quad(scene, material, (const float[]){-2.0f * d, -2.0f * d, -d},
+                            (const float[]){4.0f * d, 0.0f, 0.0f},
+                            (const float[]){0.0f, 4.0f * d, 0.0f}, 1.0f, 1.0f);
+}
+
+// Draws red slivers behind a blue wall (in_front is false) or in front of it. If wall is false, the
+// wall is left out.
+static bool draw_slivers(StabilityRun *run, Random random, bool in_front, bool wall,
+                         StabilityPicture *picture) {
+    static DipTestScene scene;
+    begin(&scene);
+    const int red = add_colour(&scene, 1.0f, 0.0f, 0.0f);
+    const int blue = add_colour(&scene, 0.0f, 0.0f, 1.0f);
+    if (in_front && wall) {
+        add_wall(&scene, blue, 64.0 * (1.0 + 0x1p-22));
+    }
+    add_slivers(&scene, red, random, in_front ? 64.0 : 1.0, in_front ? -6 : 1, in_front ? -1 : 6);
+    if (!in_front && wall) {
+        add_wall(&scene, blue, 1.0 - 0x1p-22);
+    }
+    const bool drawn = draw(run, &scene, "aa=8", picture);
+    dip_test_scene_free(&scene);
+    return drawn;
+}
+
+// Returns the number of pixels whose red differs. If b is NULL, it counts as black.
+static double differing_reds(const StabilityPicture *a, const StabilityPicture *b) {
+    double count = 0.0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        count += a->rgb_lin[3 * i] != (b ? b->rgb_lin[3 * i] : 0.0);
+    }
+    return count;
+}
+
+static void measure_edge_depth(StabilityRun *run) {
+    Random random = {run->seed};
+    const int count = stability_count(run, 4, 100, 4000);
+    double covered = 0.0;
+    for (int i = 0; i < count; i++) {
+        StabilityPicture hidden, alone, shown;
+        if (draw_slivers(run, random, false, true, &hidden)) {
+            stability_error(run, differing_reds(&hidden, NULL), "slivers %d behind a wall", i);
+            stability_picture_free(&hidden);
+        }
+        if (draw_slivers(run, random, true, false, &alone)) {
+            if (draw_slivers(run, random, true, true, &shown)) {
+                stability_error(run, differing_reds(&alone, &shown), "slivers %d in front", i);
+                stability_picture_free(&shown);
+            }
+            covered += differing_reds(&alone, NULL);
+            stability_picture_free(&alone);
+        }
+        random_u64(&random);
+    }
+    stability_expect(run, covered > 10.0 * count, "the slivers cover only %g pixels", covered);
+}
+
 static const StabilityRow rows[] = {
     {.id = "N3",
      .promise = "A triangle that lies wholly behind the camera changes no pixel.",
@@ -609,6 +698,13 @@ static const StabilityRow rows[] = {
      .unit = "pixels",
      .per_isa = true,
      .measure = measure_sliver_depth},
+    {.id = "A54",
+     .promise = "A sample on the edge of a sliver has the depth of the edge, however steeply the "
+                "depth changes across the sliver: walls 2^-22 nearer or farther hide it or not.",
+     .truth = "the slivers without a wall, or none of them",
+     .unit = "pixels",
+     .per_isa = true,
+     .measure = measure_edge_depth},
     {.id = "N15",
      .promise = "Of two surfaces with the same vertices, the one that was submitted first is in "
                 "front everywhere.",
