@@ -1,0 +1,316 @@
+// Compares the fast renderer with the reference.
+//
+// docs/picture.md allows the fast renderer to round positions, alpha and levels of detail a little
+// differently. At a tie, such a difference moves a corner by 1/256 pixel, switches a sample of a
+// clipped surface, or changes a number of probes. This judge therefore also draws the reference
+// after tiny random changes of the scene, and keeps the range of values that each pixel takes. A
+// pixel of the fast renderer is explained if it lies in this range or within a tolerance of it.
+#include "tests/stability/search/check.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// How often the scene is changed until a difference counts as unexplained.
+enum { CHANGES_FEW = 8, CHANGES_MOST = 96 };
+
+// The range of values that the reference takes, in linear light.
+typedef struct Range {
+    size_t count; // values: 3 for each pixel
+    double *low;
+    double *high;
+} Range;
+
+// What tiny changes must restore: a copy of the meshes' positions, and the view.
+typedef struct Original {
+    float *positions[DIP_TEST_SCENE_PARTS];
+    float cutoffs[DIP_TEST_SCENE_PARTS];
+    DipPose pose;
+} Original;
+
+// --- tiny changes --------------------------------------------------------------------------------
+
+static size_t size_of_positions(const DipMeshDef *mesh) {
+    return 3 * (size_t)mesh->vertex_count * sizeof(float);
+}
+
+static void keep_original(const SearchScene *made, Original *original) {
+    for (int m = 0; m < made->scene.def.mesh_count; m++) {
+        const DipMeshDef *mesh = &made->scene.meshes[m];
+        original->positions[m] = malloc(size_of_positions(mesh));
+        if (original->positions[m]) {
+            memcpy(original->positions[m], mesh->positions, size_of_positions(mesh));
+        }
+    }
+    for (int m = 0; m < made->scene.def.material_count; m++) {
+        original->cutoffs[m] = made->scene.materials[m].alpha_cutoff;
+    }
+    original->pose = made->scene.pose;
+}
+
+static void restore_original(SearchScene *made, const Original *original) {
+    for (int m = 0; m < made->scene.def.mesh_count; m++) {
+        const DipMeshDef *mesh = &made->scene.meshes[m];
+        if (original->positions[m]) {
+            memcpy((float *)(uintptr_t)mesh->positions, original->positions[m],
+                   size_of_positions(mesh));
+        }
+    }
+    for (int m = 0; m < made->scene.def.material_count; m++) {
+        made->scene.materials[m].alpha_cutoff = original->cutoffs[m];
+    }
+    made->scene.pose = original->pose;
+}
+
+static void free_original(Original *original) {
+    for (int m = 0; m < DIP_TEST_SCENE_PARTS; m++) {
+        free(original->positions[m]);
+    }
+}
+
+// Returns a random generator that depends only on a position, so that equal vertices move alike.
+static Random random_of_vertex(const float *position, uint64_t seed) {
+    Random random = {seed};
+    for (int i = 0; i < 3; i++) {
+        uint32_t bits;
+        memcpy(&bits, &position[i], sizeof bits);
+        random.state = random_u64(&random) ^ bits;
+    }
+    return random;
+}
+
+// Moves the vertices of an object's mesh by as much as docs/picture.md allows floats to move them:
+// in proportion to the distance from the eye, and to the eye's distance from the object's origin.
+static void shake_mesh(SearchScene *made, const DipObjectDef *object, uint64_t seed) {
+    const DipMeshDef *mesh = &made->scene.meshes[object->mesh];
+    const float *m = object->transform;
+    double scales[3];
+    double reach = 0.0;
+    for (int i = 0; i < 3; i++) {
+        scales[i] = sqrt((double)m[i] * (double)m[i] + (double)m[4 + i] * (double)m[4 + i] +
+                         (double)m[8 + i] * (double)m[8 + i]);
+        reach = fmax(reach, scales[i] * 1024.0);
+    }
+    double eye = 0.0;
+    for (int i = 0; i < 3; i++) {
+        eye = fmax(eye, fabs(made->scene.pose.position_world[i] - (double)m[4 * i + 3]));
+    }
+    float *positions = (float *)(uintptr_t)mesh->positions;
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        double offset[3];
+        search_vertex_from_eye(made, object, v, offset);
+        const double distance =
+            sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
+        const double most = 0x1p-22 * (distance + 2.0 * fmin(eye, reach));
+        Random random = random_of_vertex(positions + 3 * (size_t)v, seed);
+        for (int i = 0; i < 3; i++) {
+            const double move = scales[i] > 0.0 ? most / scales[i] : 0.0;
+            positions[3 * v + (uint32_t)i] =
+                (float)((double)positions[3 * v + (uint32_t)i] + random_real(&random, -move, move));
+        }
+    }
+}
+
+// Turns the camera and changes its field of view by at most 1/512 pixel, mostly by less.
+static void shake_camera(SearchScene *made, Random *random) {
+    DipPose *pose = &made->scene.pose;
+    const double pixel_rad = 2.0 * tan(pose->fov_y_deg * 3.14159265358979 / 360.0) / made->height;
+    const double most = fmin(pixel_rad, 0.1) / 512.0 * ldexp(1.0, -random_int(random, 0, 12));
+    const double *q = pose->orientation;
+    const double r[3] = {random_real(random, -most, most) / 2.0,
+                         random_real(random, -most, most) / 2.0,
+                         random_real(random, -most, most) / 2.0};
+    const double turned[4] = {q[0] + q[3] * r[0] + q[1] * r[2] - q[2] * r[1],
+                              q[1] + q[3] * r[1] + q[2] * r[0] - q[0] * r[2],
+                              q[2] + q[3] * r[2] + q[0] * r[1] - q[1] * r[0],
+                              q[3] - q[0] * r[0] - q[1] * r[1] - q[2] * r[2]};
+    memcpy(pose->orientation, turned, sizeof turned);
+    pose->fov_y_deg *= 1.0 + random_real(random, -most, most);
+}
+
+// Changes the scene so little that the fast renderer may mistake the one for the other.
+static void shake(SearchScene *made, uint64_t seed) {
+    Random random = {seed};
+    bool shaken[DIP_TEST_SCENE_PARTS] = {false};
+    for (int i = 0; i < made->scene.def.object_count; i++) {
+        const DipObjectDef *object = &made->scene.objects[i];
+        if (!shaken[object->mesh]) {
+            shaken[object->mesh] = true;
+            shake_mesh(made, object, seed);
+        }
+    }
+    for (int i = 0; i < made->scene.def.material_count; i++) {
+        float *cutoff = &made->scene.materials[i].alpha_cutoff;
+        *cutoff += *cutoff > 0.0f ? (float)random_real(&random, -0x1p-7, 0x1p-7) : 0.0f;
+    }
+    shake_camera(made, &random);
+}
+
+// --- the judge -----------------------------------------------------------------------------------
+
+// Draws with the reference and widens the range by its picture.
+static bool widen(StabilityRun *run, const SearchScene *made, Range *range) {
+    const StabilityShot shot = search_scene_shot(made);
+    StabilityPicture picture;
+    if (!stability_draw_reference(run, &shot, &picture)) {
+        return false;
+    }
+    for (size_t i = 0; i < range->count; i++) {
+        const double value = picture.rgb_lin[i];
+        if (!isfinite(value)) {
+            stability_break(run, "pixel %zu of the reference is not finite", i / 3);
+        }
+        range->low[i] = fmin(range->low[i], value);
+        range->high[i] = fmax(range->high[i], value);
+    }
+    stability_picture_free(&picture);
+    return !run->broken;
+}
+
+// Greatest difference that rounding of texels, weights, light and 8 bits explains.
+static double tolerance_of(const SearchScene *made) {
+    const bool narrow = made->quality.step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
+    return narrow && made->quality.step[DIP_SETTING_MIPDEBUG] ? 0.021 : 0.012;
+}
+
+typedef struct Unexplained {
+    size_t pixels;
+    size_t worst_pixel;
+    double worst; // greatest distance from the range
+    double rms;   // of the distances from the range, over the whole picture
+} Unexplained;
+
+static Unexplained find_unexplained(const Range *range, const StabilityPicture *picture,
+                                    double tolerance) {
+    Unexplained result = {0};
+    for (size_t p = 0; p < range->count / 3; p++) {
+        double outside = 0.0;
+        for (size_t i = 3 * p; i < 3 * p + 3; i++) {
+            outside = fmax(outside, fmax(range->low[i] - picture->rgb_lin[i],
+                                         picture->rgb_lin[i] - range->high[i]));
+        }
+        result.rms += outside * outside;
+        result.pixels += outside > tolerance;
+        if (outside > result.worst) {
+            result.worst = outside;
+            result.worst_pixel = p;
+        }
+    }
+    result.rms = sqrt(result.rms / ((double)range->count / 3.0));
+    return result;
+}
+
+static void report(const SearchScene *made, const Range *range, const StabilityPicture *picture,
+                   const Unexplained *left, const char *check, SearchFinding *finding) {
+    const size_t p = left->worst_pixel;
+    const double *low = range->low + 3 * p;
+    const double *high = range->high + 3 * p;
+    const double *got = picture->rgb_lin + 3 * p;
+    search_found(finding, check, left->rms,
+                 "%zu pixels cannot be explained, RMS %.4f; worst at (%zu, %zu): the reference has "
+                 "(%.4f..%.4f, %.4f..%.4f, %.4f..%.4f), the fast renderer (%.4f, %.4f, %.4f)",
+                 left->pixels, left->rms, p % (size_t)made->width, p / (size_t)made->width, low[0],
+                 high[0], low[1], high[1], low[2], high[2], got[0], got[1], got[2]);
+}
+
+// Widens the range by changes of the scene until it explains the picture or the changes run out.
+static bool explain(StabilityRun *run, SearchScene *made, const StabilityPicture *picture,
+                    Range *range, const char *check, SearchFinding *finding) {
+    const double tolerance = tolerance_of(made);
+    Unexplained left = find_unexplained(range, picture, tolerance);
+    Original original = {0};
+    keep_original(made, &original);
+    for (int i = 0; left.pixels > 0 && !run->broken && i < CHANGES_MOST; i++) {
+        shake(made, run->seed + (uint64_t)i);
+        widen(run, made, range);
+        restore_original(made, &original);
+        if (i + 1 >= CHANGES_FEW && (i + 1) % CHANGES_FEW == 0) {
+            left = find_unexplained(range, picture, tolerance);
+        }
+    }
+    free_original(&original);
+    if (left.pixels > 0 && !run->broken) {
+        report(made, range, picture, &left, check, finding);
+    }
+    return left.pixels == 0 && !run->broken;
+}
+
+// --- pictures that the reference judges ----------------------------------------------------------
+
+// Returns true if neither the near plane nor the guard band cuts any triangle. Cutting starts at a
+// triangle's first corner, so a cut triangle may change a little when its corners are rotated.
+static bool nothing_is_cut(const SearchScene *made) {
+    for (int i = 0; i < made->scene.def.object_count; i++) {
+        const DipObjectDef *object = &made->scene.objects[i];
+        const DipMeshDef *mesh = &made->scene.meshes[object->mesh];
+        for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+            double offset[3];
+            search_vertex_from_eye(made, object, v, offset);
+            const double depth = search_depth(made, offset);
+            const double reach = fabs(offset[0]) + fabs(offset[1]) + fabs(offset[2]);
+            if (depth < 1.001 * (double)made->scene.def.near_m || reach > 32.0 * depth) {
+                return false;
+            }
+        }
+    }
+    return made->scene.reflection.width == 0;
+}
+
+static void rotate_corners(SearchScene *made) {
+    for (int m = 0; m < made->scene.def.mesh_count; m++) {
+        uint32_t *indices = (uint32_t *)(uintptr_t)made->scene.meshes[m].indices;
+        for (uint32_t i = 0; i + 2 < made->scene.meshes[m].index_count; i += 3) {
+            const uint32_t first = indices[i];
+            indices[i] = indices[i + 1];
+            indices[i + 1] = indices[i + 2];
+            indices[i + 2] = first;
+        }
+    }
+}
+
+static bool judge(StabilityRun *run, SearchScene *made, Range *range, const char *check,
+                  SearchFinding *finding) {
+    const StabilityShot shot = search_scene_shot(made);
+    StabilityPicture picture;
+    if (!stability_draw(run, &shot, &picture)) {
+        return false;
+    }
+    const bool explained = explain(run, made, &picture, range, check, finding);
+    stability_picture_free(&picture);
+    return explained;
+}
+
+static bool judge_all(StabilityRun *run, SearchScene *made, Range *range, SearchFinding *finding) {
+    if (!widen(run, made, range) || !judge(run, made, range, "reference", finding)) {
+        return false;
+    }
+    if (nothing_is_cut(made)) {
+        rotate_corners(made);
+        return judge(run, made, range, "rotated corners", finding);
+    }
+    return true;
+}
+
+bool search_check_reference(const SearchBench *bench, Choices *choices, SearchFinding *finding) {
+    static SearchScene made;
+    choices_rewind(choices);
+    search_scene_make(&made, choices);
+    const size_t count = 3 * (size_t)made.width * (size_t)made.height;
+    Range range = {count, malloc(count * sizeof(double)), malloc(count * sizeof(double))};
+    StabilityRun run = {.isa = dip_isa_best(), .pool = bench->pool_of_one, .seed = 1};
+    bool good = range.low && range.high;
+    for (size_t i = 0; good && i < count; i++) {
+        range.low[i] = INFINITY;
+        range.high[i] = -INFINITY;
+    }
+    good = good && judge_all(&run, &made, &range, finding);
+    if (run.broken) {
+        search_found(finding, "drawing", INFINITY, "%s", run.broken_why);
+    } else if (!range.low || !range.high) {
+        search_found(finding, "drawing", INFINITY, "out of memory");
+    }
+    free(range.low);
+    free(range.high);
+    dip_test_scene_free(&made.scene);
+    return good;
+}
