@@ -11,8 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// How often the scene is changed until a difference counts as unexplained.
-enum { CHANGES_FEW = 8, CHANGES_MOST = 96 };
+// How often the scene is changed until a difference counts as unexplained, and after how many
+// changes a difference in many pixels does.
+enum { CHANGES_STEP = 8, CHANGES_IF_MANY = 24, MANY_PIXELS = 30, CHANGES_MOST = 96 };
 
 // The range of values that the reference takes, in linear light.
 typedef struct Range {
@@ -79,29 +80,41 @@ static Random random_of_vertex(const float *position, uint64_t seed) {
     return random;
 }
 
+static double column_length(const float *m, int column) {
+    const double x = (double)m[column], y = (double)m[4 + column], z = (double)m[8 + column];
+    return sqrt(x * x + y * y + z * z);
+}
+
+// Returns a bound, in metres, for the distance between the eye and the origin from which the fast
+// renderer transforms an object's vertices. It chooses origins 1024 units of the mesh apart.
+static double distance_from_origin(const SearchScene *made, const DipObjectDef *object) {
+    double reach = 0.0;
+    double eye = 0.0;
+    for (int i = 0; i < 3; i++) {
+        reach = fmax(reach, 1024.0 * column_length(object->transform, i));
+        eye = fmax(eye,
+                   fabs(made->scene.pose.position_world[i] - (double)object->transform[4 * i + 3]));
+    }
+    return fmin(eye, reach);
+}
+
 // Moves the vertices of an object's mesh by as much as docs/picture.md allows floats to move them:
 // in proportion to the distance from the eye, and to the eye's distance from the object's origin.
 static void shake_mesh(SearchScene *made, const DipObjectDef *object, uint64_t seed) {
     const DipMeshDef *mesh = &made->scene.meshes[object->mesh];
     const float *m = object->transform;
     double scales[3];
-    double reach = 0.0;
     for (int i = 0; i < 3; i++) {
-        scales[i] = sqrt((double)m[i] * (double)m[i] + (double)m[4 + i] * (double)m[4 + i] +
-                         (double)m[8 + i] * (double)m[8 + i]);
-        reach = fmax(reach, scales[i] * 1024.0);
+        scales[i] = column_length(m, i);
     }
-    double eye = 0.0;
-    for (int i = 0; i < 3; i++) {
-        eye = fmax(eye, fabs(made->scene.pose.position_world[i] - (double)m[4 * i + 3]));
-    }
+    const double from_origin = distance_from_origin(made, object);
     float *positions = (float *)(uintptr_t)mesh->positions;
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {
         double offset[3];
         search_vertex_from_eye(made, object, v, offset);
         const double distance =
             sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
-        const double most = 0x1p-22 * (distance + 2.0 * fmin(eye, reach));
+        const double most = 0x1p-22 * (distance + 2.0 * from_origin);
         Random random = random_of_vertex(positions + 3 * (size_t)v, seed);
         for (int i = 0; i < 3; i++) {
             const double move = scales[i] > 0.0 ? most / scales[i] : 0.0;
@@ -128,6 +141,19 @@ static void shake_camera(SearchScene *made, Random *random) {
     pose->fov_y_deg *= 1.0 + random_real(random, -most, most);
 }
 
+// Moves the camera by as much as the vertices of some object may move. Where floats are far from 0,
+// this replaces the movement of vertices, which would need finer floats.
+static void shift_camera(SearchScene *made, Random *random) {
+    double most = 0.0;
+    for (int i = 0; i < made->scene.def.object_count; i++) {
+        most = fmax(most, 0x1p-21 * distance_from_origin(made, &made->scene.objects[i]));
+    }
+    most *= ldexp(1.0, -random_int(random, 0, 8));
+    for (int i = 0; i < 3; i++) {
+        made->scene.pose.position_world[i] += random_real(random, -most, most);
+    }
+}
+
 // Changes the scene so little that the fast renderer may mistake the one for the other.
 static void shake(SearchScene *made, uint64_t seed) {
     Random random = {seed};
@@ -144,6 +170,7 @@ static void shake(SearchScene *made, uint64_t seed) {
         *cutoff += *cutoff > 0.0f ? (float)random_real(&random, -0x1p-7, 0x1p-7) : 0.0f;
     }
     shake_camera(made, &random);
+    shift_camera(made, &random);
 }
 
 // --- the judge -----------------------------------------------------------------------------------
@@ -223,6 +250,10 @@ static Unexplained find_unexplained(const Range *range, const StabilityPicture *
             double high = range->high[3 * p + c];
             if (value < low - tolerance || value > high + tolerance) {
                 range_around(range, picture, p, c, tolerance, &low, &high);
+                // The changes that were drawn may also have missed the extremes.
+                const double margin = is_unstable(range, p, tolerance) ? (high - low) / 4.0 : 0.0;
+                low -= margin;
+                high += margin;
             }
             outside = fmax(outside, fmax(low - value, value - high));
         }
@@ -261,8 +292,11 @@ static bool explain(StabilityRun *run, SearchScene *made, const StabilityPicture
         shake(made, run->seed + (uint64_t)i);
         widen(run, made, range);
         restore_original(made, &original);
-        if (i + 1 >= CHANGES_FEW && (i + 1) % CHANGES_FEW == 0) {
+        if ((i + 1) % CHANGES_STEP == 0) {
             left = find_unexplained(range, picture, tolerance);
+        }
+        if (i + 1 >= CHANGES_IF_MANY && left.pixels >= MANY_PIXELS) {
+            break;
         }
     }
     free_original(&original);
