@@ -85,17 +85,40 @@ static double column_length(const float *m, int column) {
     return sqrt(x * x + y * y + z * z);
 }
 
+// Returns true if the object keeps the origin (0, 0, 0), because its transform is nearly singular:
+// a column lies within about 15 degrees of the plane of the other two.
+static bool keeps_origin(const float *m) {
+    double cross[3]; // of columns c + 1 and c + 2
+    for (int c = 0; c < 3; c++) {
+        double cross2 = 0.0;
+        double volume = 0.0;
+        for (int r = 0; r < 3; r++) {
+            const int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+            const int r1 = 4 * ((r + 1) % 3), r2 = 4 * ((r + 2) % 3);
+            cross[r] =
+                (double)m[r1 + c1] * (double)m[r2 + c2] - (double)m[r2 + c1] * (double)m[r1 + c2];
+            cross2 += cross[r] * cross[r];
+            volume += cross[r] * (double)m[4 * r + c];
+        }
+        if (!(sqrt(cross2) * column_length(m, c) <= 3.99 * fabs(volume))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Returns a bound, in metres, for the distance between the eye and the origin from which the fast
-// renderer transforms an object's vertices. It chooses origins 1024 units of the mesh apart.
+// renderer transforms an object's vertices. It chooses origins 1024 units of the mesh apart, except
+// for transforms that are nearly singular.
 static double distance_from_origin(const SearchScene *made, const DipObjectDef *object) {
+    const float *m = object->transform;
     double reach = 0.0;
     double eye = 0.0;
     for (int i = 0; i < 3; i++) {
-        reach = fmax(reach, 1024.0 * column_length(object->transform, i));
-        eye = fmax(eye,
-                   fabs(made->scene.pose.position_world[i] - (double)object->transform[4 * i + 3]));
+        reach = fmax(reach, 1024.0 * column_length(m, i));
+        eye = fmax(eye, fabs(made->scene.pose.position_world[i] - (double)m[4 * i + 3]));
     }
-    return fmin(eye, reach);
+    return keeps_origin(m) ? 4.0 * eye : fmin(eye, reach);
 }
 
 // Moves the vertices of an object's mesh by as much as docs/picture.md allows floats to move them:
