@@ -10,12 +10,14 @@
 void choices_begin(Choices *choices, uint64_t seed) {
     choices->count = 0;
     choices->cursor = 0;
+    choices->part_count = 0;
     choices->recorded = false;
     choices->random = (Random){seed};
 }
 
 void choices_rewind(Choices *choices) {
     choices->cursor = 0;
+    choices->part_count = 0;
     choices->recorded = true;
 }
 
@@ -30,6 +32,21 @@ uint64_t choices_draw(Choices *choices, uint64_t bound) {
     choices->values[choices->cursor++] = value;
     choices->count = choices->cursor;
     return value;
+}
+
+int choices_begin_part(Choices *choices, int length_index) {
+    if (choices->part_count >= CHOICES_MAX_PARTS) {
+        return -1;
+    }
+    choices->parts[choices->part_count] =
+        (ChoicesPart){choices->cursor, choices->cursor, length_index};
+    return choices->part_count++;
+}
+
+void choices_end_part(Choices *choices, int part) {
+    if (part >= 0) {
+        choices->parts[part].end = choices->cursor;
+    }
 }
 
 bool choices_rarely(Choices *choices, int one_in) {

@@ -13,7 +13,18 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { CHOICES_MAX = 8192 }; // numbers in a sequence; after that, every number is 0
+enum {
+    CHOICES_MAX = 8192,       // numbers in a sequence; after that, every number is 0
+    CHOICES_MAX_PARTS = 1024, // parts that a sequence remembers
+};
+
+// The numbers of one element of a list, for example of an object or of a triangle. The list stays
+// whole if these numbers are deleted and its length is lowered by 1.
+typedef struct ChoicesPart {
+    int first;        // index of the element's first number
+    int end;          // index after its last number
+    int length_index; // index of the number that holds the list's length; -1 if there is none
+} ChoicesPart;
 
 typedef struct Choices {
     uint64_t values[CHOICES_MAX];
@@ -21,6 +32,8 @@ typedef struct Choices {
     int cursor;    // index of the number that is read next
     bool recorded; // true: read `values`; false: draw new numbers from `random`
     Random random;
+    ChoicesPart parts[CHOICES_MAX_PARTS];
+    int part_count;
 } Choices;
 
 // Begins a sequence of new random numbers.
@@ -31,6 +44,10 @@ void choices_rewind(Choices *choices);
 
 // Returns a number from 0 to bound - 1. bound must be at least 1.
 uint64_t choices_draw(Choices *choices, uint64_t bound);
+
+// Begins and ends the numbers of one element of a list. Returns the index of the part.
+int choices_begin_part(Choices *choices, int length_index);
+void choices_end_part(Choices *choices, int part);
 
 // Returns true for one new random number in `one_in`, and false for the number 0.
 bool choices_rarely(Choices *choices, int one_in);

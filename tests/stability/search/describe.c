@@ -60,6 +60,10 @@ static void describe_vertices(const DipMeshDef *mesh, FILE *out) {
             fprintf(out, ", uv0 (%.9g, %.9g)", (double)mesh->uv0[2 * v],
                     (double)mesh->uv0[2 * v + 1]);
         }
+        if (mesh->uv1) {
+            fprintf(out, ", uv1 (%.9g, %.9g)", (double)mesh->uv1[2 * v],
+                    (double)mesh->uv1[2 * v + 1]);
+        }
         fprintf(out, "\n");
     }
 }

@@ -144,9 +144,13 @@ void search_scene_make(SearchScene *made, Choices *choices) {
     choose_size(&maker);
     choose_settings(&maker);
     choose_view(&maker);
-    do {
+    bool more = true;
+    while (more) {
+        const int part = choices_begin_part(choices, -1);
         add_object(&maker);
-    } while (made->scene.def.object_count < MOST_OBJECTS && choices_draw(choices, 4) != 0);
+        more = made->scene.def.object_count < MOST_OBJECTS && choices_draw(choices, 4) != 0;
+        choices_end_part(choices, part);
+    }
     choose_reflection(&maker);
 }
 

@@ -65,18 +65,23 @@ static void make_quad(SearchMaker *maker) {
 // A triangle for each number drawn; all corners are independent.
 static void make_soup(SearchMaker *maker) {
     const int count = 1 + (int)choices_draw(maker->choices, 20);
+    const int length_index = maker->choices->cursor - 1;
     for (int t = 0; t < count; t++) {
+        const int part = choices_begin_part(maker->choices, length_index);
         for (int i = 0; i < 3; i++) {
             add_in_view(maker, choose_depth(maker), i == 1, i == 2);
         }
         add_triangle(&maker->shape, 3 * t, 3 * t + 1, 3 * t + 2);
+        choices_end_part(maker->choices, part);
     }
 }
 
 static void make_slivers(SearchMaker *maker) {
     SearchShape *shape = &maker->shape;
     const int count = 1 + (int)choices_draw(maker->choices, 20);
+    const int length_index = maker->choices->cursor - 1;
     for (int t = 0; t < count; t++) {
+        const int part = choices_begin_part(maker->choices, length_index);
         const double depth = choose_depth(maker);
         const double width = choices_power(maker->choices, -22, 0) / 8.0;
         const int first = shape->vertex_count;
@@ -89,6 +94,7 @@ static void make_slivers(SearchMaker *maker) {
                    a[1] + along * (b[1] - a[1]) + width * (b[0] - a[0]),
                    a[2] + along * (b[2] - a[2]), along, width);
         add_triangle(shape, first, first + 1, first + 2);
+        choices_end_part(maker->choices, part);
     }
 }
 
@@ -186,7 +192,9 @@ static void make_floor(SearchMaker *maker) {
 // Triangles whose coordinates have exponents that differ widely.
 static void make_huge(SearchMaker *maker) {
     const int count = 1 + (int)choices_draw(maker->choices, 4);
+    const int length_index = maker->choices->cursor - 1;
     for (int t = 0; t < count; t++) {
+        const int part = choices_begin_part(maker->choices, length_index);
         for (int i = 0; i < 3; i++) {
             double p[3];
             for (int k = 0; k < 3; k++) {
@@ -195,6 +203,7 @@ static void make_huge(SearchMaker *maker) {
             add_vertex(&maker->shape, p[0], p[1], p[2] - 4.0, i == 1, i == 2);
         }
         add_triangle(&maker->shape, 3 * t, 3 * t + 1, 3 * t + 2);
+        choices_end_part(maker->choices, part);
     }
 }
 
@@ -212,7 +221,9 @@ static void make_near(SearchMaker *maker) {
                              16.0,
                              0.5 * near_m,
                              -4.0};
+    const int length_index = maker->choices->cursor - 1;
     for (int t = 0; t < count; t++) {
+        const int part = choices_begin_part(maker->choices, length_index);
         for (int i = 0; i < 3; i++) {
             const double depth =
                 depths[choices_draw(maker->choices, sizeof depths / sizeof *depths)];
@@ -222,6 +233,7 @@ static void make_near(SearchMaker *maker) {
             add_vertex(&maker->shape, x, y, -depth, i == 1, i == 2);
         }
         add_triangle(&maker->shape, 3 * t, 3 * t + 1, 3 * t + 2);
+        choices_end_part(maker->choices, part);
     }
 }
 
@@ -229,7 +241,9 @@ static void make_near(SearchMaker *maker) {
 static void make_through_eye(SearchMaker *maker) {
     SearchShape *shape = &maker->shape;
     const int count = 1 + (int)choices_draw(maker->choices, 4);
+    const int length_index = maker->choices->cursor - 1;
     for (int t = 0; t < count; t++) {
+        const int part = choices_begin_part(maker->choices, length_index);
         const int first = shape->vertex_count;
         add_in_view(maker, choose_depth(maker), 0.0, 0.0);
         add_in_view(maker, choose_depth(maker), 1.0, 0.0);
@@ -241,6 +255,7 @@ static void make_through_eye(SearchMaker *maker) {
         add_vertex(shape, -beyond * (a[0] + b[0]), -beyond * (a[1] + b[1]) + aside,
                    -beyond * (a[2] + b[2]), 0.0, 1.0);
         add_triangle(shape, first, first + 1, first + 2);
+        choices_end_part(maker->choices, part);
     }
 }
 

@@ -96,21 +96,25 @@ static void zero_blocks(Shrinker *shrinker, int length) {
     }
 }
 
-// Lowers a number and deletes what follows it. This removes one part of a list whose length the
-// number is. The lengths are those of the parts of the generator's lists.
-static bool lower_and_delete(Shrinker *shrinker, int index) {
-    static const int lengths[] = {18, 15, 27, 14, 16, 2, 1, 4};
-    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
-        shrinker->candidate = *shrinker->best;
-        if (index + 1 + lengths[i] <= shrinker->candidate.count) {
-            shrinker->candidate.values[index]--;
-            delete_numbers(&shrinker->candidate, index + 1, lengths[i]);
-            if (try_candidate(shrinker)) {
-                return true;
-            }
+// Deletes elements of lists, from the last to the first.
+static void delete_parts(Shrinker *shrinker) {
+    for (int i = shrinker->best->part_count - 1; i >= 0 && !is_done(shrinker); i--) {
+        if (i >= shrinker->best->part_count) {
+            continue;
         }
+        const ChoicesPart part = shrinker->best->parts[i];
+        const int end = part.end < shrinker->best->count ? part.end : shrinker->best->count;
+        if (part.first >= end ||
+            (part.length_index >= 0 && shrinker->best->values[part.length_index] == 0)) {
+            continue;
+        }
+        shrinker->candidate = *shrinker->best;
+        if (part.length_index >= 0) {
+            shrinker->candidate.values[part.length_index]--;
+        }
+        delete_numbers(&shrinker->candidate, part.first, end - part.first);
+        try_candidate(shrinker);
     }
-    return false;
 }
 
 // Lowers each number as far as a search by halves finds the failure.
@@ -128,15 +132,6 @@ static void lower_numbers(Shrinker *shrinker) {
     }
 }
 
-static void lower_counts(Shrinker *shrinker) {
-    for (int i = 0; i < shrinker->best->count && !is_done(shrinker); i++) {
-        const uint64_t value = shrinker->best->values[i];
-        while (i < shrinker->best->count && shrinker->best->values[i] > 0 && value < 40 &&
-               lower_and_delete(shrinker, i)) {
-        }
-    }
-}
-
 void search_shrink(const SearchBench *bench, Choices *choices, SearchFinding *finding) {
     static Shrinker shrinker;
     shrinker =
@@ -148,13 +143,14 @@ void search_shrink(const SearchBench *bench, Choices *choices, SearchFinding *fi
     while (!is_done(&shrinker) && (choices->count != last_count || sum != last_sum)) {
         last_count = choices->count;
         last_sum = sum;
+        delete_parts(&shrinker);
         for (int length = 64; length >= 1; length /= 2) {
             delete_blocks(&shrinker, length);
         }
         for (int length = 16; length >= 1; length /= 4) {
             zero_blocks(&shrinker, length);
         }
-        lower_counts(&shrinker);
+        delete_parts(&shrinker);
         lower_numbers(&shrinker);
         sum = 0;
         for (int i = 0; i < choices->count; i++) {
