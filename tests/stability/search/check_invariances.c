@@ -166,8 +166,11 @@ static bool move_all(SearchScene *made) {
 }
 
 static bool repeats(const SearchScene *made, int texture, int axis) {
+    if (texture == DIP_NO_TEXTURE) {
+        return true;
+    }
     const DipTextureDef *def = &made->scene.textures[texture];
-    return texture == DIP_NO_TEXTURE || (axis ? def->wrap_v : def->wrap_u) == DIP_WRAP_REPEAT;
+    return (axis ? def->wrap_v : def->wrap_u) == DIP_WRAP_REPEAT;
 }
 
 static bool add_whole_numbers(SearchScene *made) {

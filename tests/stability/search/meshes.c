@@ -104,12 +104,27 @@ static void fill_positions(const SearchMaker *maker, const Placement *placement,
     }
 }
 
-static void fill_coordinates(SearchMaker *maker, float *uv) {
+static bool is_clamped(const DipTestScene *scene, int texture) {
+    return texture != DIP_NO_TEXTURE && (scene->textures[texture].wrap_u == DIP_WRAP_CLAMP ||
+                                         scene->textures[texture].wrap_v == DIP_WRAP_CLAMP);
+}
+
+// Returns true if the fast renderer does not reduce all texture coordinates of a material's
+// surfaces: clamped axes and skies keep large coordinates, which leave few digits for derivatives.
+static bool keeps_large_coordinates(const DipTestScene *scene, int material) {
+    const DipMaterialDef *def = &scene->materials[material];
+    return def->surface == DIP_SURFACE_SKY || is_clamped(scene, def->colour_texture) ||
+           is_clamped(scene, def->normal_map) || is_clamped(scene, def->light_map);
+}
+
+// Fills texture coordinates. most: greatest whole number that is added to them.
+static void fill_coordinates(SearchMaker *maker, double most, float *uv) {
     static const double offsets[] = {0.5, -0.75, 64.0, -4096.0, 65536.0, 1e6, -1e-9, 0.25};
     Choices *choices = maker->choices;
     const int style = (int)choices_draw(choices, 9);
     const double scale = style == 1 || style == 2 ? choices_power(choices, -6, 6) : 1.0;
-    const double offset = style == 2 ? offsets[choices_draw(choices, 8)] : 0.0;
+    const double drawn = style == 2 ? offsets[choices_draw(choices, 8)] : 0.0;
+    const double offset = fmax(fmin(drawn, most), -most);
     for (int i = 0; i < maker->shape.vertex_count; i++) {
         const double s = maker->shape.st[i][0];
         const double t = maker->shape.st[i][1];
@@ -206,9 +221,10 @@ void search_add_mesh(SearchMaker *maker, int material) {
     maker->made->shape_names[scene->def.mesh_count - 1] = shape->name;
     memcpy(mesh.indices, shape->indices, (size_t)shape->index_count * sizeof *shape->indices);
     fill_positions(maker, &placement, mesh.positions);
+    const double most = keeps_large_coordinates(scene, material) ? 64.0 : 1e6;
     if (!bare) {
-        fill_coordinates(maker, mesh.uv0);
-        fill_coordinates(maker, mesh.uv1);
+        fill_coordinates(maker, most, mesh.uv0);
+        fill_coordinates(maker, most, mesh.uv1);
         fill_normals(maker, mesh.positions, mesh.normals);
     }
     for (int i = 0; !bare && coloured && i < 3 * shape->vertex_count; i++) {
