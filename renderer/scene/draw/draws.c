@@ -76,12 +76,12 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
                       DipMaterialSamplers *samplers) {
     for (int i = 0; i < scene->material_count; i++) {
         const DipSceneMaterial *material = &scene->materials[i];
+        const int32_t clipped_bias_lod8 =
+            material->surface == DIP_SURFACE_CLIPPED ? group_bias_lod8(quality) : 0;
         if (material->colour_texture != DIP_NO_TEXTURE) {
             DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_COLOUR];
             *sampler = colour_sampler(quality, shown, colour_texture(scene, quality, material));
-            if (material->surface == DIP_SURFACE_CLIPPED) {
-                sampler->bias_lod8 += group_bias_lod8(quality);
-            }
+            sampler->bias_lod8 += clipped_bias_lod8;
         }
         if (material->light_map != DIP_NO_TEXTURE) {
             samplers[i][DIP_SURFACE_SAMPLER_LIGHT_MAP] =
@@ -90,6 +90,7 @@ void dip_set_samplers(const DipScene *scene, const DipQuality *quality, const Di
         if (material->normal_map != DIP_NO_TEXTURE) {
             DipSampler *sampler = &samplers[i][DIP_SURFACE_SAMPLER_NORMAL_MAP];
             *sampler = colour_sampler(quality, shown, scene->textures[material->normal_map]);
+            sampler->bias_lod8 += clipped_bias_lod8;
             sampler->shown = NULL; // mip colours replace colour textures only
         }
     }
