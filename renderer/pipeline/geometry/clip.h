@@ -10,9 +10,11 @@
 // smallest w, four of the guard band) and the user clip planes.
 enum { DIP_MAX_CLIP_VERTICES = 3 + 7 + DIP_MAX_CLIP_PLANES };
 
-// A vertex whose clip coordinates have a greater magnitude than this is far: the edges that end at
-// it are cut in double precision.
+// A vertex is far if a clip coordinate has a greater magnitude than DIP_FAR_COORDINATE, or than
+// DIP_FAR_RATIO times the distance of the near plane. The edges that end at a far vertex are cut in
+// double precision. The ratio keeps cuts exact where the near plane is closer than 0.1 m.
 #define DIP_FAR_COORDINATE 512.0f
+#define DIP_FAR_RATIO      5120.0f
 
 typedef struct DipClipVertex {
     // The clip position by which the polygon is cut. It has the precision of a double if the vertex

@@ -443,11 +443,14 @@ static int nearest_vertex(const DipClipPolygon *polygon) {
 // Sets the clip position of vertex v of the current chunk.
 static void load_position(const JobRun *run, uint8_t v, DipClipVertex *vertex) {
     const DipExactTransform *exact = run->draw->exact_to_clip;
+    const float near_clip = run->scratch->clip[2][v]; // the same for all vertices
+    const float by_near = DIP_FAR_RATIO * near_clip;
+    const float far_coordinate = by_near < DIP_FAR_COORDINATE ? by_near : DIP_FAR_COORDINATE;
     vertex->far = false;
     for (int c = 0; c < 4; c++) {
         vertex->projected[c] = run->scratch->clip[c][v];
         vertex->position[c] = vertex->projected[c];
-        vertex->far |= exact && fabsf(vertex->projected[c]) > DIP_FAR_COORDINATE;
+        vertex->far |= exact && fabsf(vertex->projected[c]) > far_coordinate;
     }
     double from_origin[3];
     for (int k = 0; vertex->far && k < 3; k++) {

@@ -211,3 +211,18 @@ void search_shake(SearchScene *made, uint64_t seed) {
     shake_camera(made, &random);
     shift_camera(made, &random);
 }
+
+bool search_is_beyond_precision(const SearchScene *made) {
+    for (int i = 0; i < made->scene.def.object_count; i++) {
+        const DipObjectDef *object = &made->scene.objects[i];
+        const double error = 0x1p-21 * distance_from_origin(made, object);
+        for (uint32_t v = 0; v < made->scene.meshes[object->mesh].vertex_count; v++) {
+            double offset[3];
+            search_vertex_from_eye(made, object, v, offset);
+            if (fabs(offset[0]) + fabs(offset[1]) + fabs(offset[2]) < 16.0 * error) {
+                return true;
+            }
+        }
+    }
+    return false;
+}

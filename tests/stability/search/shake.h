@@ -22,4 +22,8 @@ void search_free_original(SearchOriginal *original);
 // coplanar a little towards the eye or away from it. Each seed gives other changes.
 void search_shake(SearchScene *made, uint64_t seed);
 
+// Returns true if a vertex is so close to the eye that the error allowed for its position is not
+// small beside its distance. Then any picture is right.
+bool search_is_beyond_precision(const SearchScene *made);
+
 #endif
