@@ -48,7 +48,8 @@ build_platform() {
 test_platform() {
     case $1 in
     aarch64)
-        fetch_cmocka arm64 && PKG_CONFIG_LIBDIR="$TOP/build/platforms/arm64" build_platform "$1" all &&
+        fetch_cmocka arm64 && PKG_CONFIG_LIBDIR="$TOP/build/platforms/arm64" build_platform "$1" all \
+                -DDIP_STABILITY_DEPTH=short &&
             ctest --test-dir "build/platform-$1" -LE 'long|slow' -j "$(nproc)" \
                 --output-on-failure --no-tests=error
         ;;
