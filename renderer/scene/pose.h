@@ -14,7 +14,7 @@ typedef struct DipPose {
     // Quaternion x, y, z, w that rotates camera space to world space. Any length but 0 is accepted;
     // drawing divides the quaternion by its length.
     double orientation[4];
-    double fov_y_deg;      // vertical field of view, 1..170
+    double fov_y_deg; // vertical field of view, 1..170
 } DipPose;
 
 #ifdef __cplusplus

@@ -13,7 +13,7 @@ static const char *const settings[] = {"aa=none", "aa=8,af=16"};
 // --- a scene in front of the camera -----------------------------------------------------------
 
 // Makes textured, lit and alpha-clipped quads 1 m to 60 m in front of the camera. Nothing is nearer
-// than 0.5 m, so the scene looks the same with any near plane up to 0.5 m. All coordinates are
+// than 1 m, so the scene looks the same with any near plane up to 1 m. All coordinates are
 // multiples of 1/16 m, so that moved and scaled copies of them are exact.
 static void make_quads(DipTestScene *scene, uint64_t seed) {
     Random random = {seed};

@@ -20,8 +20,8 @@ typedef struct Jacobian {
 } Jacobian;
 
 // Returns log2 of positive normal numbers. The result is exact at powers of two, and the function
-// is monotone; its error is below 1.4e-5. On [1, 2), the function computes log2(1 + t) = t (1 + (1 -
-// t) r(t)), where the polynomial r interpolates at Chebyshev points.
+// is monotone; its error is below 1.4e-5. On [1, 2), the function computes log2(1 + t) = t (1 + (1
+// - t) r(t)), where the polynomial r interpolates at Chebyshev points.
 VEC_INLINE Vf log2_of(Vf x) {
     const Vi bits = vi_bits(x);
     const Vf exponent = vf_from_int((bits >> 23) - 127);
