@@ -84,7 +84,7 @@ static inline void dip_fp_mode_leave(const DipFpMode *mode) {
 
 // Sets the mode until the end of the block in which this stands.
 #define DIP_FP_MODE_SCOPE()                                                                        \
-    __attribute__((cleanup(dip_fp_mode_leave))) const DipFpMode dip_fp_mode_before =               \
+    __attribute__((cleanup(dip_fp_mode_leave), unused)) const DipFpMode dip_fp_mode_before =       \
         dip_fp_mode_set()
 
 // Makes every computation that uses this variable wait until here, and every computation that

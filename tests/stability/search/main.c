@@ -215,7 +215,7 @@ static bool parse_value(const char *name, const char *value, Options *options) {
 
 static bool parse_options(int argc, char **argv, Options *options) {
     *options = (Options){.seed = 1, .threads = 3};
-    for (int i = 1; i < argc; i++) {
+    for (int i = 1; i < argc; i += 2) {
         if (strcmp(argv[i], "--help") == 0) {
             fputs(usage, stdout);
             exit(0);
@@ -231,7 +231,6 @@ static bool parse_options(int argc, char **argv, Options *options) {
                     argv[i], usage);
             return false;
         }
-        i++;
     }
     return true;
 }
