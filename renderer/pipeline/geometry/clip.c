@@ -46,10 +46,7 @@ static bool is_large(double value) {
 
 static void intersect(const DipClipVertex *inside, const DipClipVertex *outside, double from,
                       double to, const DipClipVaryings *varyings, DipClipVertex *out) {
-    // keep_one_run may have treated an inside vertex as outside. Both vertices are then inside the
-    // plane, t is 1, and the result is the vertex `outside` itself.
-    const double share = from / (from - to);
-    const double t = share >= 0.0 && share <= 1.0 ? share : 1.0;
+    const double t = from / (from - to); // In 0..1, since from >= 0 > to.
     out->far = inside->far || outside->far;
     for (int i = 0; i < 4; i++) {
         const double a = inside->position[i];

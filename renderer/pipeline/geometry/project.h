@@ -36,8 +36,9 @@ enum {
         DIP_CLIP_NEAR | DIP_CLIP_FAR | DIP_CLIP_W | DIP_CLIP_GUARD | DIP_CLIP_ALL_USER,
 };
 
-// The smallest w by which projection divides. It is smaller than any near plane of a scene
-// (DIP_MIN_NEAR_M), so that rounding at the near plane never cuts a triangle here.
+// The smallest w by which projection divides; a vertex with a smaller w is clipped. It is smaller
+// than any near plane of a scene (DIP_MIN_NEAR_M), so that rounding at the near plane never cuts a
+// triangle here.
 #define DIP_MIN_W 1e-13f
 // Greatest magnitude of a clip coordinate. A triangle with a greater coordinate or with a NaN is
 // dropped.
@@ -57,8 +58,9 @@ typedef struct DipScreenMapping {
     int clip_plane_count;
 } DipScreenMapping;
 
-// Screen positions of a chunk's vertices. x, y, z and rw are undefined for a vertex whose code has
-// a bit of a clipping plane.
+// Screen positions of a chunk's vertices. x, y, z and rw have no meaning for a vertex whose code
+// has a bit of a clipping plane. z and rw may then be infinite or NaN, but x and y always lie
+// within +-2^22.
 typedef struct DipScreenBatch {
     int32_t x[DIP_VERTEX_BATCH]; // 1/256 pixel from the target's top left corner
     int32_t y[DIP_VERTEX_BATCH];

@@ -55,10 +55,9 @@ void DIP_KERNEL(dip_kernel_project)(const DipScreenMapping *map, int count, floa
         const Vf w = vf_load(clip[3] + i);
         const Vi code = clip_code(map, x, y, z, w);
         vi_store(out->code + i, code);
-        const Vf divisor = vf_max(w, vf_splat(DIP_MIN_W));
-        vi_store(out->x + i, to_subpixels(x / divisor, half_x));
-        vi_store(out->y + i, to_subpixels(-y / divisor, half_y));
-        vf_store(out->z + i, z / divisor);
-        vf_store(out->rw + i, vf_splat(1.0f) / divisor);
+        vi_store(out->x + i, to_subpixels(x / w, half_x));
+        vi_store(out->y + i, to_subpixels(-y / w, half_y));
+        vf_store(out->z + i, z / w);
+        vf_store(out->rw + i, vf_splat(1.0f) / w);
     }
 }

@@ -163,8 +163,7 @@ VEC_INLINE Vi find_level(const DipSampler *sampler, Vf minor2) {
     const Vf lambda = log2_of(vf_max(minor2, vf_splat(MIN_LENGTH * MIN_LENGTH))) * 0.5f;
     const Vi lod8 = vi_from_float(vf_floor(lambda * 256.0f + 0.5f)) + sampler->bias_lod8;
     const int32_t last = (sampler->texture->level_count - 1) * 256;
-    const int32_t min = sampler->min_lod8 < last ? sampler->min_lod8 : last;
-    return vi_min(vi_max(lod8, vi_splat(min)), vi_splat(last));
+    return vi_min(vi_max(lod8, vi_splat(sampler->min_lod8)), vi_splat(last));
 }
 
 // Returns the number of probes of an anisotropic footprint in the finer of its two levels. The

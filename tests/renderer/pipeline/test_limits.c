@@ -12,14 +12,27 @@
 
 #include <cmocka.h>
 
+#include <math.h>
+
 enum { ROUNDS = 100000, BIG_MESH_TRIANGLES = 1 << 17, BIG_PASS_DRAWS = 2000 };
 
 static float symmetric(Random *random) {
     return (float)random_real(random, -1.0, 1.0);
 }
 
+// A clipped polygon lies within the bounds of its triangle, but for a rounding to float.
+static void assert_within(const DipClipPolygon *polygon, const double *least, const double *most) {
+    for (int v = 0; v < polygon->count; v++) {
+        for (int i = 0; i < 4; i++) {
+            assert_true(polygon->vertex[v].position[i] >= least[i] - 1e-6);
+            assert_true(polygon->vertex[v].position[i] <= most[i] + 1e-6);
+        }
+    }
+}
+
 // Six user planes are equal except for rounding. Each plane may add at most one vertex to a convex
-// polygon, no matter how vertices that lie on the plane are rounded.
+// polygon, no matter how vertices that lie on the plane are rounded, and the vertices that it adds
+// lie on the polygon's edges.
 static void coincident_planes_add_one_vertex_each(void **state) {
     (void)state;
     Random random = {1};
@@ -34,13 +47,18 @@ static void coincident_planes_add_one_vertex_each(void **state) {
             }
         }
         DipClipPolygon polygon = {.count = 3};
+        double least[4] = {1.0, 1.0, 1.0, 1.0}, most[4] = {-1.0, -1.0, -1.0, -1.0};
         for (int v = 0; v < 3; v++) {
             for (int i = 0; i < 4; i++) {
-                polygon.vertex[v].position[i] = (double)symmetric(&random);
+                const double value = (double)symmetric(&random);
+                polygon.vertex[v].position[i] = value;
+                least[i] = fmin(least[i], value);
+                most[i] = fmax(most[i], value);
             }
         }
         dip_clip_polygon(&polygon, DIP_CLIP_ALL_USER, &map, &(DipClipVaryings){0});
         assert_in_range(polygon.count, 0, 3 + DIP_MAX_CLIP_PLANES);
+        assert_within(&polygon, least, most);
     }
 }
 
