@@ -5,7 +5,7 @@ A mutant is a copy of the source with one small change: a comparison with the ot
 constant plus one, a sum for a difference, a removed statement. If no test fails, the line is not
 tested, or the change makes no difference. The runner works in a copy of the last commit under
 build/mutation/, writes a line per mutant to a journal, and skips mutants that the journal has, so
-that it can be stopped and started again.
+that it can be stopped and started again. Mutants that survived are tested again after a commit.
 
     tests/mutation/run.py --count 60 --seed 1     random mutants
     tests/mutation/run.py --guards                the mutants of guards.txt
@@ -99,8 +99,11 @@ def all_mutants():
 
 
 def read_guards():
-    """Reads guards.txt: blocks of `name`, `file`, `- old line`, `+ new line`, separated by blanks."""
-    guards = []
+    """Reads guards.txt: blocks of `name`, `file`, `- old line`, `+ new line`, separated by blanks.
+
+    Returns the guards to test, and the names of those that cannot be noticed with the reason.
+    """
+    guards, equivalent = [], []
     text = (TOP / "tests/mutation/guards.txt").read_text()
     for block in re.split(r"\n\s*\n", text):
         lines = [line for line in block.split("\n") if line and not line.startswith("#")]
@@ -108,8 +111,12 @@ def read_guards():
             continue
         old = "\n".join(line[2:] for line in lines[2:] if line.startswith("- "))
         new = "\n".join(line[2:] for line in lines[2:] if line.startswith("+ "))
-        guards.append((lines[0], lines[1], old, new))
-    return guards
+        reason = " ".join(line[2:] for line in lines[2:] if line.startswith("= "))
+        if reason:
+            equivalent.append((lines[0], reason))
+        else:
+            guards.append((lines[0], lines[1], old, new))
+    return guards, equivalent
 
 
 def run(command, seconds, folder=TREE):
@@ -170,8 +177,20 @@ def judge(unchanged):
         return "invalid", "does not compile"
     if digest(BUILD) == unchanged:
         return "equivalent", "the same machine code"
-    failed = ctest("-E", SLOW_TESTS) or ctest("-R", SLOW_TESTS)
+    failed = ctest("-E", SLOW_TESTS) or ctest("-R", SLOW_TESTS) or sanitizer()
     return ("caught", failed) if failed else ("survived", "")
+
+
+def sanitizer():
+    """Runs the catalogue with the address and undefined-behaviour sanitizers, as ./test does."""
+    for command in (["cmake", "--preset", "asan", "-DDIP_WERROR=OFF"],
+                    ["cmake", "--build", "--preset", "asan", "--target", "stability"]):
+        code, output = run(command, 1800)
+        if code != 0:
+            return None
+    code, output = run(["build/asan/tests/stability/stability", "--depth", "short"], 1800)
+    found = re.findall(r"runtime error: .*|ERROR: AddressSanitizer.*|^\S+ +\S+ +FAILS", output, re.M)
+    return None if code == 0 else "sanitizer: " + (found[0] if found else "exit %s" % code)
 
 
 def journal_lines(path):
@@ -184,7 +203,7 @@ def test_mutants(mutants, count, journal, head, unchanged):
     `apply` returns the changed text of the file, or None where it does not hold the line.
     """
     known = {entry["id"]: entry["verdict"] for entry in journal_lines(journal)
-             if entry["commit"] == head}
+             if entry["commit"] == head or entry["verdict"] != "survived"}
     judged = 0
     for identity, name, apply in mutants:
         if judged == count:
@@ -226,12 +245,14 @@ def change_line(number, changed):
 
 
 def report(journal):
-    entries = journal_lines(journal)
+    entries = {entry["id"]: entry for entry in journal_lines(journal)}.values()  # the latest of each
     counts = {}
     for entry in entries:
         counts[entry["verdict"]] = counts.get(entry["verdict"], 0) + 1
         if entry["verdict"] in ("survived", "equivalent"):
             print("%-10s %s" % (entry["verdict"], entry["id"]))
+    for name, reason in read_guards()[1]:
+        print("equivalent guard: %s. %s" % (name, reason))
     judged = counts.get("caught", 0) + counts.get("survived", 0)
     print(", ".join("%d %s" % (count, verdict) for verdict, count in sorted(counts.items())))
     if judged:
@@ -255,7 +276,7 @@ def main():
     head = prepare()
     mutants = []
     if options.guards:
-        for name, file, old, new in read_guards():
+        for name, file, old, new in read_guards()[0]:
             mutants.append(("guard: " + name, file,
                             lambda text, old=old, new=new:
                             text.replace(old, new, 1) if old in text else None))
