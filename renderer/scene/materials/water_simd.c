@@ -32,7 +32,7 @@ VEC_INLINE Vf fresnel_schlick(Vf c) {
 // surface.
 VEC_INLINE Vf share_of(const DipWaterUniforms *water, Vf3 ray) {
     const Vf down = vf_splat(0.0f) - ray.y;
-    const Vf c = clamp01(down / vf_sqrt(vf3_dot(ray, ray)));
+    const Vf c = down / vf_sqrt(vf3_dot(ray, ray)); // At most 1, up to rounding.
     const Vf share = water->schlick ? fresnel_schlick(c) : fresnel_exact(c);
     return vf_select(vf_lt(vf_splat(0.0f), down), share, vf_splat(0.0f));
 }
