@@ -1,11 +1,10 @@
 // Tests of session.h: what a session loads, that it reports every fault, and that neither a failed
-// nor a closed session keeps memory. The linker's option --wrap sends the libraries' allocations to
-// the functions here. Usage: test_session SOURCE_FOLDER
+// nor a closed session keeps memory. Usage: test_session SOURCE_FOLDER
 #include "app/session.h"
+#include "tests/support/allocation.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
-#include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -15,52 +14,8 @@
 
 #include <cmocka.h>
 
-// --- counting allocations ------------------------------------------------------------------------
-
-static atomic_int live_blocks; // Threads of the pool allocate, too.
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *memory, size_t size);
-void *__real_aligned_alloc(size_t alignment, size_t size);
-void __real_free(void *memory);
-char *__real_strdup(const char *text);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *memory, size_t size);
-void *__wrap_aligned_alloc(size_t alignment, size_t size);
-void __wrap_free(void *memory);
-char *__wrap_strdup(const char *text);
-
-static void *count_block(void *memory) {
-    atomic_fetch_add(&live_blocks, memory != NULL);
-    return memory;
-}
-
-void *__wrap_malloc(size_t size) {
-    return count_block(__real_malloc(size));
-}
-
-void *__wrap_calloc(size_t count, size_t size) {
-    return count_block(__real_calloc(count, size));
-}
-
-void *__wrap_aligned_alloc(size_t alignment, size_t size) {
-    return count_block(__real_aligned_alloc(alignment, size));
-}
-
-void *__wrap_realloc(void *memory, size_t size) {
-    void *moved = __real_realloc(memory, size);
-    return memory ? moved : count_block(moved);
-}
-
-char *__wrap_strdup(const char *text) {
-    return count_block(__real_strdup(text));
-}
-
-void __wrap_free(void *memory) {
-    atomic_fetch_sub(&live_blocks, memory != NULL);
-    __real_free(memory);
+static int64_t live_blocks(void) {
+    return dip_allocation_holdings().blocks;
 }
 
 // --- sessions for tests --------------------------------------------------------------------------
@@ -109,7 +64,7 @@ static DipErrorList open_badly(const DipSessionOptions *options) {
     const DipSessionDef def = {.options = options, .scene = true, .renderers = true};
     DipErrorList faults = {0};
     DipSession session;
-    const int before = atomic_load(&live_blocks);
+    const int64_t before = live_blocks();
     assert_false(dip_session_open(&session, &def, &faults));
     assert_null(session.pool);
     assert_null(session.scene);
@@ -118,7 +73,7 @@ static DipErrorList open_badly(const DipSessionOptions *options) {
     assert_null(session.renderers[0]);
     assert_null(session.renderers[1]);
     assert_true(faults.error_count > 0);
-    assert_int_equal(atomic_load(&live_blocks), before + 1); // The one block is the list of faults.
+    assert_int_equal(live_blocks(), before + 1); // The one block is the list of faults.
     return faults;
 }
 
@@ -140,7 +95,7 @@ static bool has_fault(const DipErrorList *faults, DipErrorCode code, const char 
 static void session_loads_what_its_def_asks_for(void **state) {
     (void)state;
     const DipSessionOptions options = small_options();
-    const int before = atomic_load(&live_blocks);
+    const int64_t before = live_blocks();
     for (int what = 0; what < 4; what++) {
         const DipSessionDef def = {
             .options = &options, .scene = what > 0, .renderers = what > 1, .keep_model = what > 2};
@@ -157,7 +112,7 @@ static void session_loads_what_its_def_asks_for(void **state) {
         assert_string_equal(dip_session_scene_file(&session), model);
         dip_session_close(&session);
         assert_null(session.pool);
-        assert_int_equal(atomic_load(&live_blocks), before);
+        assert_int_equal(live_blocks(), before);
     }
 }
 
@@ -165,7 +120,7 @@ static void model_can_be_loaded_later(void **state) {
     (void)state;
     const DipSessionOptions options = small_options();
     const DipSessionDef def = {.options = &options, .scene = true};
-    const int before = atomic_load(&live_blocks);
+    const int64_t before = live_blocks();
     DipErrorList faults = {0};
     DipSession session;
     DipError err;
@@ -179,7 +134,7 @@ static void model_can_be_loaded_later(void **state) {
     assert_true(dip_session_keep_model(&session, &err));
     assert_ptr_equal(session.model, kept);
     dip_session_close(&session);
-    assert_int_equal(atomic_load(&live_blocks), before);
+    assert_int_equal(live_blocks(), before);
 }
 
 static void session_draws_both_panes(void **state) {

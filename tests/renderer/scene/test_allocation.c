@@ -1,54 +1,22 @@
 // Tests that drawing a frame allocates no memory. After the first frame of a scene, drawing the
-// scene with any settings and any camera must not call an allocator. The linker redirects allocator
-// calls to this file (--wrap).
+// scene with any settings and any camera must not call an allocator. tests/support/allocation.h
+// counts the calls.
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/scenes.h"
+#include "tests/support/allocation.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
-#include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include <cmocka.h>
 
-static atomic_int calls; // atomic, since workers allocate too
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *memory, size_t size);
-void *__real_aligned_alloc(size_t alignment, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *memory, size_t size);
-void *__wrap_aligned_alloc(size_t alignment, size_t size);
-
-void *__wrap_malloc(size_t size) {
-    atomic_fetch_add(&calls, 1);
-    return __real_malloc(size);
-}
-
-void *__wrap_calloc(size_t count, size_t size) {
-    atomic_fetch_add(&calls, 1);
-    return __real_calloc(count, size);
-}
-
-void *__wrap_realloc(void *memory, size_t size) {
-    atomic_fetch_add(&calls, 1);
-    return __real_realloc(memory, size);
-}
-
-void *__wrap_aligned_alloc(size_t alignment, size_t size) {
-    atomic_fetch_add(&calls, 1);
-    return __real_aligned_alloc(alignment, size);
-}
-
 // Draws from several positions with the steps of every setting. Draws each frame twice: with the
 // first pane alone, and with both panes together. Returns the number of allocations.
-static int draw_everything(DipRenderer *const panes[2], const DipScene *scene, DipPose pose,
-                           bool instancing) {
-    const int before = atomic_load(&calls);
+static int64_t draw_everything(DipRenderer *const panes[2], const DipScene *scene, DipPose pose,
+                               bool instancing) {
+    const int64_t before = dip_allocation_count();
     for (int i = 0; i < 60; i++) {
         DipQuality quality = dip_quality_default();
         quality.step[DIP_SETTING_AA] = (uint8_t)(i % 5);
@@ -68,7 +36,7 @@ static int draw_everything(DipRenderer *const panes[2], const DipScene *scene, D
         assert_true(dip_renderer_draw_frames(panes, 2, scene, &pose, i,
                                              (DipFrame *const[2]){&frames[0], &frames[1]}, NULL));
     }
-    return atomic_load(&calls) - before;
+    return dip_allocation_count() - before;
 }
 
 static void frames_after_the_first_allocate_nothing(void **state) {
@@ -76,7 +44,7 @@ static void frames_after_the_first_allocate_nothing(void **state) {
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
         static DipTestScene scene;
         dip_test_scene_make(&scene, (DipTestSceneKind)kind);
-        const int before = atomic_load(&calls);
+        const int64_t before = dip_allocation_count();
         DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
         DipPool *pool = dip_pool_create(2, NULL);
         DipRendererDef def = dip_renderer_default_def();
@@ -87,7 +55,7 @@ static void frames_after_the_first_allocate_nothing(void **state) {
         DipRenderer *panes[2] = {dip_renderer_create(&def, NULL), dip_renderer_create(&def, NULL)};
         DipFrame frame;
         assert_true(panes[0] && panes[1]);
-        assert_true(atomic_load(&calls) > before); // proves that calls are counted
+        assert_true(dip_allocation_count() > before); // proves that calls are counted
         // In the first frame, nothing is in view: the memory that it allocates does not depend on
         // the view.
         DipPose away = scene.pose;
