@@ -158,7 +158,7 @@ static bool make_room(DipGeometry *geometry, const Needs *needs) {
 
 static bool make_bins(DipGeometry *geometry) {
     const size_t bins = dip_geometry_tiles(geometry) + 1;
-    return geometry->bins ||
+    return (geometry->bins && geometry->occupied) ||
            (replace(&geometry->bins, DIP_MAX_JOBS * bins, sizeof *geometry->bins) &&
             replace(&geometry->occupied, DIP_MAX_JOBS * ((bins + 63) / 64),
                     sizeof *geometry->occupied));

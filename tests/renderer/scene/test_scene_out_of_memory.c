@@ -1,0 +1,471 @@
+// Tests what scenes and renderers do when memory runs out: an operation that fails says so, leaks
+// nothing and changes nothing. Afterwards, the renderer draws the right picture.
+#include "renderer/base/hash.h"
+#include "renderer/scene/renderer.h"
+#include "tests/renderer/scene/scenes.h"
+#include "tests/support/out_of_memory.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 64, HEIGHT = 48, PANES = 2 };
+
+// A scene in memory, and what the operation under test makes of it.
+typedef struct Fixture {
+    DipTestScene made;
+    DipPool *pool;
+    DipScene *scene;
+    DipRenderer *panes[PANES];
+    DipFrame frames[PANES];
+    DipQuality quality; // Settings that the operation selects.
+    DipHash before[PANES];
+    DipHash after[PANES]; // Pictures with these settings, from renderers that never failed.
+    int width;            // Size that the operation selects.
+    int height;
+} Fixture;
+
+static DipHash hash_of(const DipFrame *frame) {
+    DipHash hash = dip_hash_begin(0);
+    for (int y = 0; y < frame->height; y++) {
+        dip_hash_bytes(&hash, frame->rgba8 + (size_t)y * frame->stride_bytes,
+                       4 * (size_t)frame->width);
+    }
+    return hash;
+}
+
+static void assert_same(DipHash a, DipHash b) {
+    assert_memory_equal(&a, &b, sizeof a);
+}
+
+static DipHash draw(Fixture *fixture, int pane) {
+    DipError err;
+    if (!dip_renderer_draw(fixture->panes[pane], fixture->scene, &fixture->made.pose, 0,
+                           &fixture->frames[pane], &err)) {
+        fail_msg("cannot draw: %s", err.message);
+    }
+    return hash_of(&fixture->frames[pane]);
+}
+
+// --- making things -------------------------------------------------------------------------------
+
+static bool make_scene(void *context, DipError *err) {
+    Fixture *fixture = context;
+    fixture->scene = dip_scene_create(&fixture->made.def, fixture->pool, err);
+    return fixture->scene != NULL;
+}
+
+static bool make_renderer(void *context, DipError *err) {
+    Fixture *fixture = context;
+    DipRendererDef def = dip_renderer_default_def();
+    def.pool = fixture->pool;
+    def.width = WIDTH;
+    def.height = HEIGHT;
+    def.reflection = fixture->made.reflection;
+    const int pane = fixture->panes[0] ? 1 : 0;
+    fixture->panes[pane] = dip_renderer_create(&def, err);
+    return fixture->panes[pane] != NULL;
+}
+
+static bool make_pool(void *context, DipError *err) {
+    Fixture *fixture = context;
+    fixture->pool = dip_pool_create(2, err);
+    return fixture->pool != NULL;
+}
+
+static void must_make_scene(void *context) {
+    assert_true(make_scene(context, NULL));
+}
+
+static void must_make_panes(void *context) {
+    must_make_scene(context);
+    for (int p = 0; p < PANES; p++) {
+        assert_true(make_renderer(context, NULL));
+    }
+}
+
+static void free_panes(void *context) {
+    Fixture *fixture = context;
+    for (int p = 0; p < PANES; p++) {
+        dip_renderer_destroy(&fixture->panes[p]);
+    }
+    dip_scene_destroy(&fixture->scene);
+}
+
+static void free_pool(void *context) {
+    dip_pool_destroy(&((Fixture *)context)->pool);
+}
+
+// Stores the first picture of each pane, drawn by new renderers.
+static void draw_truth(Fixture *fixture, const DipQuality *quality, DipHash hashes[PANES]) {
+    must_make_panes(fixture);
+    for (int p = 0; p < PANES; p++) {
+        if (quality) {
+            assert_true(dip_renderer_set_quality(fixture->panes[p], quality, NULL));
+        }
+        if (fixture->width) {
+            assert_true(
+                dip_renderer_resize(fixture->panes[p], fixture->width, fixture->height, NULL));
+        }
+        hashes[p] = draw(fixture, p);
+    }
+    free_panes(fixture);
+}
+
+static void begin(Fixture *fixture, DipTestSceneKind kind) {
+    *fixture = (Fixture){.quality = dip_quality_default()};
+    dip_test_scene_make(&fixture->made, kind);
+    assert_true(make_pool(fixture, NULL));
+    draw_truth(fixture, NULL, fixture->before);
+}
+
+static void end(Fixture *fixture) {
+    dip_pool_destroy(&fixture->pool);
+    dip_test_scene_free(&fixture->made);
+}
+
+// --- loading -------------------------------------------------------------------------------------
+
+static void check_pool(void *context, bool succeeded) {
+    const Fixture *fixture = context;
+    assert_int_equal(fixture->pool != NULL, succeeded);
+}
+
+static void pool_starts_all_threads_or_none(void **state) {
+    (void)state;
+    Fixture fixture = {.pool = NULL};
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a pool of two threads",
+                                              .context = &fixture,
+                                              .run = make_pool,
+                                              .check = check_pool,
+                                              .finish = free_pool,
+                                              .needs_every_allocation = true});
+}
+
+static void check_scene(void *context, bool succeeded) {
+    Fixture *fixture = context;
+    assert_int_equal(fixture->scene != NULL, succeeded);
+    if (succeeded) {
+        assert_true(make_renderer(fixture, NULL));
+        assert_same(draw(fixture, 0), fixture->before[0]);
+    }
+}
+
+static void scene_is_made_whole_or_not_at_all(void **state) {
+    (void)state;
+    static Fixture fixture;
+    for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
+        char name[64];
+        snprintf(name, sizeof name, "scene %s", dip_test_scene_name((DipTestSceneKind)kind));
+        begin(&fixture, (DipTestSceneKind)kind);
+        dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
+                                                  .context = &fixture,
+                                                  .run = make_scene,
+                                                  .check = check_scene,
+                                                  .finish = free_panes,
+                                                  .needs_every_allocation = true,
+                                                  .short_count = 25});
+        end(&fixture);
+    }
+}
+
+static void check_renderer(void *context, bool succeeded) {
+    Fixture *fixture = context;
+    assert_int_equal(fixture->panes[0] != NULL, succeeded);
+    if (!succeeded) {
+        assert_true(make_renderer(fixture, NULL));
+    }
+    assert_same(draw(fixture, 0), fixture->before[0]);
+}
+
+static void renderer_is_made_whole_or_not_at_all(void **state) {
+    (void)state;
+    static Fixture fixture;
+    begin(&fixture, DIP_TEST_SCENE_water_effects);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a renderer",
+                                              .context = &fixture,
+                                              .prepare = must_make_scene,
+                                              .run = make_renderer,
+                                              .check = check_renderer,
+                                              .finish = free_panes,
+                                              .needs_every_allocation = true});
+    end(&fixture);
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static bool draw_one(void *context, DipError *err) {
+    Fixture *fixture = context;
+    return dip_renderer_draw(fixture->panes[0], fixture->scene, &fixture->made.pose, 0,
+                             &fixture->frames[0], err);
+}
+
+static bool draw_pair(void *context, DipError *err) {
+    Fixture *fixture = context;
+    return dip_renderer_draw_frames(fixture->panes, PANES, fixture->scene, &fixture->made.pose, 0,
+                                    (DipFrame *const[2]){&fixture->frames[0], &fixture->frames[1]},
+                                    err);
+}
+
+// Draws again after a failed draw. The next frame must be right.
+static void check_frame(void *context, bool succeeded) {
+    Fixture *fixture = context;
+    if (!succeeded) {
+        assert_true(draw_one(fixture, NULL));
+    }
+    assert_same(hash_of(&fixture->frames[0]), fixture->before[0]);
+}
+
+static void check_pair(void *context, bool succeeded) {
+    Fixture *fixture = context;
+    if (!succeeded) {
+        assert_true(draw_pair(fixture, NULL));
+    }
+    for (int p = 0; p < PANES; p++) {
+        assert_same(hash_of(&fixture->frames[p]), fixture->before[p]);
+    }
+}
+
+// The first frame of a scene allocates the memory of all later frames.
+static void failed_frame_leaves_the_renderer_usable(void **state) {
+    (void)state;
+    static Fixture fixture;
+    static const DipTestSceneKind kinds[] = {DIP_TEST_SCENE_fence, DIP_TEST_SCENE_huge,
+                                             DIP_TEST_SCENE_water_effects};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        char name[64];
+        begin(&fixture, kinds[i]);
+        snprintf(name, sizeof name, "first frame of %s", dip_test_scene_name(kinds[i]));
+        dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
+                                                  .context = &fixture,
+                                                  .prepare = must_make_panes,
+                                                  .run = draw_one,
+                                                  .check = check_frame,
+                                                  .finish = free_panes});
+        snprintf(name, sizeof name, "first pair of %s", dip_test_scene_name(kinds[i]));
+        dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
+                                                  .context = &fixture,
+                                                  .prepare = must_make_panes,
+                                                  .run = draw_pair,
+                                                  .check = check_pair,
+                                                  .finish = free_panes});
+        end(&fixture);
+    }
+}
+
+// --- changes -------------------------------------------------------------------------------------
+
+// Makes panes that have drawn a frame with the default settings.
+static void make_drawn_panes(void *context) {
+    Fixture *fixture = context;
+    must_make_panes(fixture);
+    for (int p = 0; p < PANES; p++) {
+        assert_same(draw(fixture, p), fixture->before[p]);
+    }
+}
+
+static bool change_and_draw(void *context, DipError *err) {
+    Fixture *fixture = context;
+    return dip_renderer_set_quality(fixture->panes[0], &fixture->quality, err) &&
+           draw_one(fixture, err);
+}
+
+// After a failure, the old settings must still draw the old picture, and the new settings must draw
+// the new picture as soon as there is memory.
+static void check_change(void *context, bool succeeded) {
+    Fixture *fixture = context;
+    const DipQuality old = dip_quality_default();
+    if (!succeeded) {
+        assert_true(dip_renderer_set_quality(fixture->panes[0], &old, NULL));
+        assert_same(draw(fixture, 0), fixture->before[0]);
+        assert_true(change_and_draw(fixture, NULL));
+    }
+    assert_same(hash_of(&fixture->frames[0]), fixture->after[0]);
+    assert_true(dip_renderer_set_quality(fixture->panes[0], &old, NULL));
+    assert_same(draw(fixture, 0), fixture->before[0]);
+    assert_same(draw(fixture, 1), fixture->before[1]);
+}
+
+static void failed_change_of_a_setting_can_be_taken_back(void **state) {
+    (void)state;
+    static Fixture fixture;
+    begin(&fixture, DIP_TEST_SCENE_water_effects);
+    for (int setting = 0; setting < DIP_SETTING_COUNT; setting++) {
+        for (int step = 0; step < dip_setting_info((DipSetting)setting)->step_count; step++) {
+            char name[64];
+            fixture.quality = dip_quality_default();
+            if (fixture.quality.step[setting] == step) {
+                continue;
+            }
+            fixture.quality.step[setting] = (uint8_t)step;
+            // Not every number of samples can be divided into every number of groups.
+            while (!dip_quality_check(&fixture.quality, NULL)) {
+                fixture.quality.step[DIP_SETTING_AA]++;
+            }
+            draw_truth(&fixture, &fixture.quality, fixture.after);
+            snprintf(name, sizeof name, "change of %s to step %d",
+                     dip_setting_info((DipSetting)setting)->key, step);
+            dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
+                                                      .context = &fixture,
+                                                      .prepare = make_drawn_panes,
+                                                      .run = change_and_draw,
+                                                      .check = check_change,
+                                                      .finish = free_panes});
+        }
+    }
+    end(&fixture);
+}
+
+static bool resize(void *context, DipError *err) {
+    Fixture *fixture = context;
+    return dip_renderer_resize(fixture->panes[0], fixture->width, fixture->height, err);
+}
+
+static void check_resize(void *context, bool succeeded) {
+    Fixture *fixture = context;
+    if (!succeeded) {
+        assert_same(draw(fixture, 0), fixture->before[0]);
+        assert_true(resize(fixture, NULL));
+    }
+    assert_same(draw(fixture, 0), fixture->after[0]);
+}
+
+static void failed_resize_keeps_the_old_size(void **state) {
+    (void)state;
+    static Fixture fixture;
+    begin(&fixture, DIP_TEST_SCENE_water_effects);
+    fixture.width = 161;
+    fixture.height = 67;
+    draw_truth(&fixture, NULL, fixture.after);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a new size of a pane",
+                                              .context = &fixture,
+                                              .prepare = make_drawn_panes,
+                                              .run = resize,
+                                              .check = check_resize,
+                                              .finish = free_panes,
+                                              .needs_every_allocation = true});
+    end(&fixture);
+}
+
+static bool compress(void *context, DipError *err) {
+    Fixture *fixture = context;
+    return dip_scene_compress_textures(fixture->scene, fixture->pool, err);
+}
+
+static void check_compress(void *context, bool succeeded) {
+    Fixture *fixture = context;
+    assert_same(draw(fixture, 0), fixture->before[0]);
+    fixture->quality.step[DIP_SETTING_OPT] = 1;
+    assert_int_equal(change_and_draw(fixture, NULL), true);
+    assert_same(hash_of(&fixture->frames[0]), fixture->after[0]);
+    (void)succeeded;
+}
+
+static void failed_compression_can_be_repeated(void **state) {
+    (void)state;
+    static Fixture fixture;
+    begin(&fixture, DIP_TEST_SCENE_water_effects);
+    fixture.quality.step[DIP_SETTING_OPT] = 1;
+    draw_truth(&fixture, &fixture.quality, fixture.after);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "compressed textures",
+                                              .context = &fixture,
+                                              .prepare = make_drawn_panes,
+                                              .run = compress,
+                                              .check = check_compress,
+                                              .finish = free_panes,
+                                              .needs_every_allocation = true});
+    end(&fixture);
+}
+
+static bool set_mip_pictures(void *context, DipError *err) {
+    Fixture *fixture = context;
+    const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS];
+    for (int level = 0; level < DIP_MIP_DEBUG_LEVELS; level++) {
+        pictures[level] = &fixture->made.def.textures[0];
+    }
+    return dip_renderer_set_mip_pictures(fixture->panes[0], pictures, err);
+}
+
+static void check_mip_pictures(void *context, bool succeeded) {
+    Fixture *fixture = context;
+    fixture->quality.step[DIP_SETTING_MIPDEBUG] = 1;
+    assert_true(change_and_draw(fixture, NULL));
+    const DipHash hash = hash_of(&fixture->frames[0]);
+    assert_int_equal(memcmp(&hash, &fixture->after[0], sizeof hash) == 0, !succeeded);
+}
+
+static void failed_mip_pictures_keep_the_old_ones(void **state) {
+    (void)state;
+    static Fixture fixture;
+    begin(&fixture, DIP_TEST_SCENE_grazing_checker);
+    fixture.quality.step[DIP_SETTING_MIPDEBUG] = 1;
+    draw_truth(&fixture, &fixture.quality, fixture.after);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "pictures for mip debugging",
+                                              .context = &fixture,
+                                              .prepare = make_drawn_panes,
+                                              .run = set_mip_pictures,
+                                              .check = check_mip_pictures,
+                                              .finish = free_panes,
+                                              .needs_every_allocation = true});
+    end(&fixture);
+}
+
+// Draws another scene with a renderer that has drawn one.
+static DipScene *other;
+
+static bool draw_other(void *context, DipError *err) {
+    Fixture *fixture = context;
+    return dip_renderer_draw(fixture->panes[0], other, &fixture->made.pose, 0, &fixture->frames[0],
+                             err);
+}
+
+static void check_other(void *context, bool succeeded) {
+    Fixture *fixture = context;
+    (void)succeeded;
+    assert_same(draw(fixture, 0), fixture->before[0]);
+    assert_true(draw_other(fixture, NULL));
+    assert_same(hash_of(&fixture->frames[0]), fixture->after[0]);
+}
+
+static void failed_change_of_scene_keeps_the_old_scene_drawable(void **state) {
+    (void)state;
+    static Fixture fixture;
+    static DipTestScene sky;
+    begin(&fixture, DIP_TEST_SCENE_water);
+    dip_test_scene_make(&sky, DIP_TEST_SCENE_water_effects);
+    other = dip_scene_create(&sky.def, NULL, NULL);
+    must_make_panes(&fixture);
+    assert_true(draw_other(&fixture, NULL));
+    fixture.after[0] = hash_of(&fixture.frames[0]);
+    free_panes(&fixture);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "first frame of another scene",
+                                              .context = &fixture,
+                                              .prepare = make_drawn_panes,
+                                              .run = draw_other,
+                                              .check = check_other,
+                                              .finish = free_panes});
+    dip_scene_destroy(&other);
+    dip_test_scene_free(&sky);
+    end(&fixture);
+}
+
+int main(int argc, char **argv) {
+    dip_out_of_memory_read_options(argc, argv);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pool_starts_all_threads_or_none),
+        cmocka_unit_test(scene_is_made_whole_or_not_at_all),
+        cmocka_unit_test(renderer_is_made_whole_or_not_at_all),
+        cmocka_unit_test(failed_frame_leaves_the_renderer_usable),
+        cmocka_unit_test(failed_change_of_a_setting_can_be_taken_back),
+        cmocka_unit_test(failed_resize_keeps_the_old_size),
+        cmocka_unit_test(failed_compression_can_be_repeated),
+        cmocka_unit_test(failed_mip_pictures_keep_the_old_ones),
+        cmocka_unit_test(failed_change_of_scene_keeps_the_old_scene_drawable),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
