@@ -75,22 +75,42 @@ const char *dip_error_code_name(DipErrorCode code) {
     return (size_t)code < DIP_ARRAY_COUNT(names) ? names[code] : "?";
 }
 
+// The only item of a list that has lost all its errors because memory ran out. Its capacity is 0.
+static const DipError lost = {
+    .code = DIP_ERROR_MEMORY, .origin = DIP_ORIGIN_RUNTIME, .message = "out of memory"};
+
+// Makes room for one more item. Lists that are full double their capacity.
+static bool make_room(DipErrorList *list) {
+    if (list->count < list->capacity) {
+        return true;
+    }
+    const size_t capacity = list->capacity ? 2 * list->capacity : 8;
+    DipError *items = realloc(list->capacity ? list->items : NULL, capacity * sizeof *items);
+    if (!items) {
+        return false;
+    }
+    if (!list->capacity && list->count) {
+        items[0] = lost;
+    }
+    list->items = items;
+    list->capacity = capacity;
+    return true;
+}
+
 void dip_error_list_add(DipErrorList *list, const DipError *err) {
     list->error_count += err->severity == DIP_SEVERITY_ERROR;
-    if (list->count == list->capacity) {
-        const size_t capacity = list->capacity ? 2 * list->capacity : 8;
-        DipError *items = realloc(list->items, capacity * sizeof *items);
-        if (!items) {
-            return;
-        }
-        list->items = items;
-        list->capacity = capacity;
+    if (make_room(list)) {
+        list->items[list->count++] = *err;
+    } else if (!list->count && err->severity == DIP_SEVERITY_ERROR) {
+        list->items = (DipError *)&lost;
+        list->count = 1;
     }
-    list->items[list->count++] = *err;
 }
 
 void dip_error_list_free(DipErrorList *list) {
-    free(list->items);
+    if (list->capacity) {
+        free(list->items);
+    }
     *list = (DipErrorList){0};
 }
 

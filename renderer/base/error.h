@@ -78,7 +78,7 @@ DIP_API size_t dip_error_format(const DipError *err, char *buffer, size_t size_b
 DIP_API const char *dip_error_code_name(DipErrorCode code);
 
 // A list of the faults in one file, in the order of the file. Zero-initialise it; free it with
-// dip_error_list_free.
+// dip_error_list_free. Callers may read the items but not change them.
 typedef struct DipErrorList {
     DipError *items;
     size_t count;
@@ -87,6 +87,8 @@ typedef struct DipErrorList {
 } DipErrorList;
 
 // Appends a copy of *err. If memory runs out, the list still counts an error but does not keep it.
+// A list that has errors but could not keep the first one holds an error with the code MEMORY, so
+// that a failure is never without a message.
 DIP_API void dip_error_list_add(DipErrorList *list, const DipError *err);
 DIP_API void dip_error_list_free(DipErrorList *list);
 
