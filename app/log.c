@@ -1,6 +1,8 @@
 // Formatting errors and writing them to standard error and to the log file.
 #include "app/log.h"
 
+#include "renderer/base/file.h"
+
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,8 +12,12 @@ static FILE *log_file;
 
 bool dip_log_open(const char *file, DipError *err) {
     log_file = fopen(file, "a");
-    return log_file || dip_error_set(err, DIP_ERROR_IO, file, 0, "log", "cannot be written: %s",
-                                     strerror(errno));
+    if (log_file) {
+        return true;
+    }
+    const bool is_machine = dip_file_open_code(errno) == DIP_ERROR_RUNTIME;
+    return dip_error_set(err, is_machine ? DIP_ERROR_RUNTIME : DIP_ERROR_IO, file, 0, "log",
+                         "cannot be written: %s", strerror(errno));
 }
 
 void dip_log_close(void) {

@@ -4,6 +4,7 @@
 // checked, and only then processed. assimp's readers recurse as deep as the file nests, so they run
 // on a thread with a large stack. precheck.c limits the depth.
 #include "assets/model_parts.h"
+#include "renderer/base/file.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
@@ -44,8 +45,7 @@ static bool check_file(const char *path, DipError *err) {
     struct stat info = {0};
     FILE *file = fopen(path, "rb");
     if (!file) {
-        const bool missing = errno == ENOENT || errno == ENOTDIR;
-        return dip_error_set(err, missing ? DIP_ERROR_MISSING : DIP_ERROR_IO, path, 0, NULL,
+        return dip_error_set(err, dip_file_open_code(errno), path, 0, NULL,
                              "cannot open the model: %s", strerror(errno));
     }
     const bool known = fstat(fileno(file), &info) == 0;

@@ -1,6 +1,7 @@
 // Loads an ini: reads the key and value pairs that inih finds, then fills in defaults and checks
 // values that depend on each other.
 #include "config/config_private.h"
+#include "renderer/base/file.h"
 
 #include <errno.h>
 #include <ini.h>
@@ -229,7 +230,9 @@ static bool read_file(Loader *loader) {
     DipConfigReader *reader = &loader->reader;
     reader->stream = fopen(reader->file, "rb");
     if (!reader->stream) {
-        dip_config_add_fault(reader, DIP_ERROR_IO, DIP_SEVERITY_ERROR, 0, NULL,
+        const bool is_machine = dip_file_open_code(errno) == DIP_ERROR_RUNTIME;
+        dip_config_add_fault(reader, is_machine ? DIP_ERROR_RUNTIME : DIP_ERROR_IO,
+                             DIP_SEVERITY_ERROR, 0, NULL,
                              "cannot be opened (%s), accepted an ini file", strerror(errno));
         return false;
     }

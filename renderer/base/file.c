@@ -40,14 +40,27 @@ static unsigned char *read_bytes(FILE *stream, const char *file, const char *kin
     return bytes;
 }
 
+DipErrorCode dip_file_open_code(int error_number) {
+    switch (error_number) {
+    case ENOENT:
+    case ENOTDIR:
+        return DIP_ERROR_MISSING;
+    case ENOMEM:
+    case EMFILE:
+    case ENFILE:
+        return DIP_ERROR_RUNTIME;
+    default:
+        return DIP_ERROR_IO;
+    }
+}
+
 bool dip_file_read(const char *file, const char *kind, size_t max_bytes, unsigned char **bytes,
                    size_t *size_bytes, DipError *err) {
     *bytes = NULL;
     FILE *stream = fopen(file, "rb");
     if (!stream) {
-        const bool missing = errno == ENOENT || errno == ENOTDIR;
-        return dip_error_set(err, missing ? DIP_ERROR_MISSING : DIP_ERROR_IO, file, 0, NULL,
-                             "cannot open %s: %s", kind, strerror(errno));
+        return dip_error_set(err, dip_file_open_code(errno), file, 0, NULL, "cannot open %s: %s",
+                             kind, strerror(errno));
     }
     if (find_size(stream, file, kind, max_bytes, size_bytes, err)) {
         *bytes = read_bytes(stream, file, kind, *size_bytes, err);
