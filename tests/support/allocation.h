@@ -7,8 +7,8 @@
 // aligned_alloc, posix_memalign, strdup, strndup, fopen, fdopen, open_memstream (and each growth of
 // its text), getline (where it allocates its buffer), opendir, mmap, memfd_create, pipe, pipe2,
 // posix_spawn, its file actions, and pthread_create. Calls inside the libraries of third parties
-// and inside libc are not redirected. FreeType and cJSON accept an allocator from their caller, so
-// both get this one.
+// and inside libc are not redirected, except in libraries that are compiled into Diptych (stb). A
+// test can give cJSON this allocator by cJSON_InitHooks.
 //
 // All threads may allocate at the same time. The functions below are called from one thread, while
 // no other thread allocates.

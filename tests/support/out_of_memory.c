@@ -50,7 +50,7 @@ static void refuse(const Try *try, const char *what, const char *detail) {
 // True if the text says that memory, files or threads have run out.
 static bool names_the_cause(const char *message) {
     static const char *const causes[] = {"memory", "Too many open files",
-                                         "Resource temporarily unavailable", "threads"};
+                                         "Resource temporarily unavailable", "thread"};
     for (size_t i = 0; i < sizeof causes / sizeof *causes; i++) {
         if (strstr(message, causes[i])) {
             return true;
