@@ -173,10 +173,10 @@ static bool add_object(DipModel *model, int file, const struct aiNode *node, uns
     object.name = dip_model_copy_text(model, node->mName.data);
     DipObjectDef *objects =
         dip_array_grow(model->objects, model->def.object_count, sizeof *objects);
+    model->objects = objects ? objects : model->objects;
     if (!object.name || !objects) {
         return dip_model_out_of_memory(err, path);
     }
-    model->objects = objects;
     objects[model->def.object_count++] = object;
     return true;
 }

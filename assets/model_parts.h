@@ -103,7 +103,8 @@ struct DipModel {
     int picture_count;
     DipPicture *merged; // pictures made of a colour and an opacity picture
     int merged_count;
-    void **blocks; // memory blocks that dip_model_alloc has allocated
+    bool lost_picture; // memory ran out for a picture, so the load must fail
+    void **blocks;     // memory blocks that dip_model_alloc has allocated
     int block_count;
     DipModelFile *files;
     int file_count;

@@ -8,6 +8,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+// stb_image reports a failed allocation like a fault of the file, so failures are recorded here.
+static _Thread_local bool ran_out;
+
+static void *stb_resize(void *memory, size_t size_bytes) {
+    void *resized = realloc(memory, size_bytes);
+    ran_out = ran_out || !resized;
+    return resized;
+}
+
+#define STBI_MALLOC(size)           stb_resize(NULL, size)
+#define STBI_REALLOC(pointer, size) stb_resize(pointer, size)
+#define STBI_FREE(pointer)          free(pointer)
+
 // stb_image's code is compiled into this file only, with the supported formats and without file
 // access.
 #define STB_IMAGE_STATIC
@@ -86,8 +99,8 @@ static bool any_alpha(const DipPicture *picture) {
     return false;
 }
 
-bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
-                        DipPicture *picture, DipError *err) {
+static bool decode(const uint8_t *bytes, size_t size_bytes, const char *name, DipPicture *picture,
+                   DipError *err) {
     static const stbi_io_callbacks callbacks = {source_read, source_skip, source_at_end};
     *picture = (DipPicture){0};
     if (size_bytes == 0) {
@@ -119,6 +132,18 @@ bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *nam
     }
     picture->has_alpha = (channels == 2 || channels == 4) && any_alpha(picture);
     return true;
+}
+
+bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
+                        DipPicture *picture, DipError *err) {
+    ran_out = false;
+    const bool decoded = decode(bytes, size_bytes, name, picture, err);
+    if (ran_out) {
+        dip_picture_free(picture);
+        return dip_error_set(err, DIP_ERROR_MEMORY, name, 0, NULL,
+                             "the picture cannot be read: out of memory");
+    }
+    return decoded;
 }
 
 bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err) {

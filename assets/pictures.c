@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static const char *base_name(const char *path) {
     const char *slash = strrchr(path, '/');
@@ -34,11 +35,7 @@ static const struct aiTexture *find_embedded(const struct aiScene *scene, const 
 }
 
 static bool exists(const char *path) {
-    FILE *file = fopen(path, "rb");
-    if (file) {
-        fclose(file);
-    }
-    return file != NULL;
+    return access(path, R_OK) == 0;
 }
 
 static void use_forward_slashes(char *path) {
@@ -140,7 +137,7 @@ static int embedded_picture(DipModel *model, int file, const char *path,
     return entry.name ? add_picture(model, &entry) : DIP_NO_TEXTURE;
 }
 
-int dip_model_picture(DipModel *model, int file, const char *path) {
+static int register_picture(DipModel *model, int file, const char *path) {
     const struct aiTexture *texture = find_embedded(model->files[file].scene, path);
     if (texture && texture->pcData) {
         return embedded_picture(model, file, path, texture);
@@ -153,6 +150,12 @@ int dip_model_picture(DipModel *model, int file, const char *path) {
         index = entry.name ? add_picture(model, &entry) : DIP_NO_TEXTURE;
     }
     free(found);
+    return index;
+}
+
+int dip_model_picture(DipModel *model, int file, const char *path) {
+    const int index = register_picture(model, file, path);
+    model->lost_picture |= index < 0;
     return index;
 }
 
@@ -213,7 +216,7 @@ static bool decode_all(DipModel *model, DipPool *pool) {
 }
 
 bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
-    if (!decode_all(model, pool)) {
+    if (model->lost_picture || !decode_all(model, pool)) {
         return dip_model_out_of_memory(err, NULL);
     }
     for (int i = 0; i < model->picture_count; ++i) {
@@ -223,7 +226,7 @@ bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
                 model, model->files[entry->file].path, NULL,
                 "the picture %s is missing, so its surfaces are drawn in their base colour",
                 entry->name);
-        } else if (entry->error.code == DIP_ERROR_MEMORY) {
+        } else if (entry->error.origin == DIP_ORIGIN_RUNTIME) {
             return dip_model_out_of_memory(err, entry->name);
         } else if (entry->error.code != DIP_ERROR_NONE) {
             dip_model_warn(model, entry->name, NULL,

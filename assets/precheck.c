@@ -1,7 +1,9 @@
 // Checks of model files before assimp reads them. They refuse files that would make assimp run out
 // of stack, memory or time, and glTF files that require an extension Diptych cannot decode.
 #include "assets/model_parts.h"
+#include "renderer/base/file.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -91,14 +93,20 @@ static bool check_scan(const JsonScan *scan, DipError *err) {
                          scan->refused);
 }
 
+static bool cannot_open(const char *path, DipError *err) {
+    return dip_error_set(err, dip_file_open_code(errno), path, 0, NULL, "cannot open the model: %s",
+                         strerror(errno));
+}
+
 // Scans the text of a .gltf, or of the first chunk of a .glb (binary).
 static bool check_json(DipModel *model, const char *path, bool binary, DipError *err) {
     FILE *file = fopen(path, "rb");
     unsigned char header[20] = {0}; // glb: 12 bytes, then the JSON chunk's length and type
-    if (!file || (binary && fread(header, 1, sizeof header, file) != sizeof header)) {
-        if (file) {
-            fclose(file);
-        }
+    if (!file) {
+        return cannot_open(path, err);
+    }
+    if (binary && fread(header, 1, sizeof header, file) != sizeof header) {
+        fclose(file);
         return dip_error_set(err, DIP_ERROR_TRUNCATED, path, 0, NULL,
                              "the model file ends too early");
     }
@@ -117,10 +125,12 @@ static bool check_json(DipModel *model, const char *path, bool binary, DipError 
 // Opens a file and finds its size.
 static FILE *open_sized(const char *path, long *size_bytes, DipError *err) {
     FILE *file = fopen(path, "rb");
-    if (!file || fseek(file, 0, SEEK_END) != 0) {
-        if (file) {
-            fclose(file);
-        }
+    if (!file) {
+        cannot_open(path, err);
+        return NULL;
+    }
+    if (fseek(file, 0, SEEK_END) != 0) {
+        fclose(file);
         dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "the model file cannot be read");
         return NULL;
     }

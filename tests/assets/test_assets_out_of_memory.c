@@ -1,0 +1,238 @@
+// Tests what loading models and pictures does when memory runs out: a model is loaded whole or not
+// at all, in this process and through the importer. This program is also its own importer.
+#include "assets/importer.h"
+#include "assets/scene_pack.h"
+#include "tests/assets/fixture.h"
+#include "tests/assets/same_scene.h"
+#include "tests/support/out_of_memory.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+static const char importer_word[] = "import";
+
+// --- models --------------------------------------------------------------------------------------
+
+typedef struct Loading {
+    const char *file;
+    DipModelOptions options;
+    DipModel *model;
+    DipModel *expected;
+    size_t expected_warnings;
+    DipErrorList warnings;
+} Loading;
+
+static bool load(void *context, DipError *err) {
+    Loading *l = context;
+    l->model = dip_model_load_with(&l->file, 1, &l->options, NULL, &l->warnings, err);
+    return l->model != NULL;
+}
+
+static void check_model(void *context, bool succeeded) {
+    const Loading *l = context;
+    assert_int_equal(l->model != NULL, succeeded);
+    if (succeeded) {
+        assert_same_scene(dip_model_scene_def(l->expected), dip_model_scene_def(l->model));
+    }
+}
+
+static void free_model(void *context) {
+    Loading *l = context;
+    dip_model_destroy(&l->model);
+    dip_error_list_free(&l->warnings);
+}
+
+static void check_loading(const char *how, const char *name, const DipImporter *importer,
+                          int short_count) {
+    char title[128];
+    Loading l = {.file = fixture_data(name),
+                 .options = {.normal_maps = true, .importer = importer}};
+    l.expected = dip_model_load_with(&l.file, 1, &l.options, NULL, NULL, NULL);
+    assert_non_null(l.expected);
+    snprintf(title, sizeof title, "%s %s", how, name);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = title,
+                                              .context = &l,
+                                              .run = load,
+                                              .check = check_model,
+                                              .finish = free_model,
+                                              .short_count = short_count});
+    dip_model_destroy(&l.expected);
+}
+
+static void model_is_loaded_whole_or_not_at_all(void **state) {
+    (void)state;
+    static const char *const names[] = {"square.gltf", "seam.gltf", "square.obj", "tags.gltf",
+                                        "instances.gltf"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+        check_loading("loading", names[i], NULL, 40);
+    }
+}
+
+static void model_is_imported_whole_or_not_at_all(void **state) {
+    (void)state;
+    const DipImporter importer = {.program = "/proc/self/exe", .command = importer_word};
+    check_loading("importing", "square.gltf", &importer, 0);
+}
+
+// --- pictures ------------------------------------------------------------------------------------
+
+typedef struct Picturing {
+    const char *file;
+    const DipImporter *importer;
+    DipPicture picture;
+    DipPicture other;
+} Picturing;
+
+static bool import_picture(void *context, DipError *err) {
+    Picturing *p = context;
+    return dip_picture_import(p->file, p->importer, &p->picture, err);
+}
+
+static bool combine(void *context, DipError *err) {
+    Picturing *p = context;
+    DipPicture made;
+    if (!dip_picture_with_opacity(&p->other, &p->other, &made)) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "out of memory");
+    }
+    p->picture = made;
+    return true;
+}
+
+static bool copy_bgra(void *context, DipError *err) {
+    Picturing *p = context;
+    return dip_picture_from_bgra(p->other.rgba8, 2, 2, "name", &p->picture, err);
+}
+
+static void check_picture(void *context, bool succeeded) {
+    const Picturing *p = context;
+    assert_int_equal(p->picture.rgba8 != NULL, succeeded);
+}
+
+static void free_picture(void *context) {
+    dip_picture_free(&((Picturing *)context)->picture);
+}
+
+static void picture_is_read_whole_or_not_at_all(void **state) {
+    (void)state;
+    const DipImporter importer = {.program = "/proc/self/exe", .command = importer_word};
+    fixture_write("picture.png", fixture_png, sizeof fixture_png);
+    char file[FIXTURE_PATH];
+    snprintf(file, sizeof file, "%s", fixture_path("picture.png"));
+    Picturing p = {.file = file};
+    assert_true(dip_picture_read_file(file, &p.other, NULL));
+    DipOutOfMemory operation = {.name = "reading a picture",
+                                .context = &p,
+                                .run = import_picture,
+                                .check = check_picture,
+                                .finish = free_picture,
+                                .needs_every_allocation = true};
+    dip_out_of_memory_check(&operation);
+    operation.name = "importing a picture";
+    p.importer = &importer;
+    operation.needs_every_allocation = false;
+    dip_out_of_memory_check(&operation);
+    operation.name = "a picture with the opacity of another";
+    operation.run = combine;
+    dip_out_of_memory_check(&operation);
+    operation.name = "a copy of texels";
+    operation.run = copy_bgra;
+    dip_out_of_memory_check(&operation);
+    dip_picture_free(&p.other);
+}
+
+// --- packs ---------------------------------------------------------------------------------------
+
+typedef struct Packing {
+    DipScenePack written;
+    DipScenePack read;
+    FILE *file;
+    uint8_t *bytes;
+    size_t size_bytes;
+} Packing;
+
+static void open_file(void *context) {
+    Packing *p = context;
+    p->file = tmpfile();
+    assert_non_null(p->file);
+}
+
+static void close_file(void *context) {
+    fclose(((Packing *)context)->file);
+}
+
+static bool write_pack(void *context, DipError *err) {
+    const Packing *p = context;
+    return dip_scene_pack_write(fileno(p->file), &p->written) ||
+           dip_error_set_runtime(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "out of memory");
+}
+
+static bool read_pack(void *context, DipError *err) {
+    Packing *p = context;
+    return dip_scene_pack_read(p->bytes, p->size_bytes, &p->read, err);
+}
+
+static void check_read(void *context, bool succeeded) {
+    static const DipScenePack empty;
+    const Packing *p = context;
+    if (succeeded) {
+        assert_same_scene(&p->written.scene, &p->read.scene);
+        assert_true(p->read.warnings.count <= 1); // A list that cannot grow drops a warning.
+    } else {
+        assert_memory_equal(&p->read, &empty, sizeof empty);
+    }
+}
+
+static void free_read(void *context) {
+    dip_scene_pack_free(&((Packing *)context)->read);
+}
+
+static void pack_is_written_and_read_whole_or_not_at_all(void **state) {
+    (void)state;
+    const char *path = fixture_data("seam.gltf");
+    DipModel *model = dip_model_load_with_normals(&path, 1, NULL, NULL, NULL);
+    assert_non_null(model);
+    Packing p = {.written = {.scene = *dip_model_scene_def(model)}};
+    DipError warning;
+    dip_error_set(&warning, DIP_ERROR_UNSUPPORTED, "seam.gltf", 0, "key", "a warning");
+    warning.severity = DIP_SEVERITY_WARNING;
+    dip_error_list_add(&p.written.warnings, &warning);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "writing a scene pack",
+                                              .context = &p,
+                                              .prepare = open_file,
+                                              .run = write_pack,
+                                              .finish = close_file,
+                                              .needs_every_allocation = true});
+    open_file(&p);
+    assert_true(write_pack(&p, NULL));
+    p.size_bytes = (size_t)lseek(fileno(p.file), 0, SEEK_END);
+    p.bytes = malloc(p.size_bytes);
+    assert_true(pread(fileno(p.file), p.bytes, p.size_bytes, 0) == (ssize_t)p.size_bytes);
+    close_file(&p);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "reading a scene pack",
+                                              .context = &p,
+                                              .run = read_pack,
+                                              .check = check_read,
+                                              .finish = free_read});
+    free(p.bytes);
+    dip_error_list_free(&p.written.warnings);
+    dip_model_destroy(&model);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1 && strcmp(argv[1], importer_word) == 0) {
+        return dip_importer_run(argc - 2, argv + 2);
+    }
+    dip_out_of_memory_read_options(argc, argv);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(model_is_loaded_whole_or_not_at_all),
+        cmocka_unit_test(model_is_imported_whole_or_not_at_all),
+        cmocka_unit_test(picture_is_read_whole_or_not_at_all),
+        cmocka_unit_test(pack_is_written_and_read_whole_or_not_at_all),
+    };
+    return cmocka_run_group_tests(tests, fixture_open, fixture_close);
+}
