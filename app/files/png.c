@@ -5,12 +5,70 @@
 #include "app/files/zip.h"
 
 #include <limits.h>
+#include <setjmp.h>
+#include <stdalign.h>
+#include <stddef.h>
 #include <stdlib.h>
 
+// --- memory for stb_image_write ------------------------------------------------------------------
+
+// stb_image_write does not check whether an allocation succeeds. If one fails, control jumps out of
+// the library, and all blocks that it holds are freed.
+typedef struct Block {
+    alignas(max_align_t) struct Block *next;
+    struct Block *previous;
+} Block;
+
+typedef struct Memory {
+    jmp_buf ran_out;
+    Block first; // Head of the list of blocks.
+} Memory;
+
+static _Thread_local Memory *memory; // That of the call in progress.
+
+static void stb_free(void *pointer) {
+    if (pointer) {
+        Block *block = (Block *)pointer - 1;
+        block->previous->next = block->next;
+        if (block->next) {
+            block->next->previous = block->previous;
+        }
+        free(block);
+    }
+}
+
+static void *stb_resize(void *pointer, size_t size_bytes) {
+    Block *old = pointer ? (Block *)pointer - 1 : NULL;
+    Block *block = realloc(old, sizeof *block + size_bytes);
+    if (!block) {
+        longjmp(memory->ran_out, 1);
+    }
+    if (!old) {
+        block->previous = &memory->first;
+        block->next = memory->first.next;
+    }
+    block->previous->next = block;
+    if (block->next) {
+        block->next->previous = block;
+    }
+    return block + 1;
+}
+
+static void free_blocks(void) {
+    while (memory->first.next) {
+        stb_free(memory->first.next + 1);
+    }
+}
+
+#define STBIW_MALLOC(size)           stb_resize(NULL, size)
+#define STBIW_REALLOC(pointer, size) stb_resize(pointer, size)
+#define STBIW_FREE(pointer)          stb_free(pointer)
 #define STBI_WRITE_NO_STDIO
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
+
+// --- PNG -----------------------------------------------------------------------------------------
 
 // The bytes of the file so far. stb_image_write may deliver the file in several pieces.
 typedef struct Buffer {
@@ -43,13 +101,23 @@ static uint8_t *packed_rgb(const uint8_t *rgba8, size_t stride_bytes, int width,
     return rgb;
 }
 
+// Fills the buffer. Returns false when memory runs out.
+static bool write_png(Buffer *buffer, const uint8_t *rgb, int width, int height) {
+    Memory own = {.first = {.next = NULL}};
+    memory = &own;
+    if (setjmp(own.ran_out) != 0) {
+        free_blocks();
+        return false;
+    }
+    return stbi_write_png_to_func(append, buffer, width, height, 3, rgb, width * 3) &&
+           !buffer->failed;
+}
+
 bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height,
                     unsigned char **bytes, size_t *size_bytes) {
     Buffer buffer = {0};
     uint8_t *rgb = packed_rgb(rgba8, stride_bytes, width, height);
-    const bool made = rgb &&
-                      stbi_write_png_to_func(append, &buffer, width, height, 3, rgb, width * 3) &&
-                      !buffer.failed;
+    const bool made = rgb && write_png(&buffer, rgb, width, height);
     free(rgb);
     if (!made) {
         free(buffer.bytes);
@@ -72,19 +140,27 @@ bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
     return written;
 }
 
-size_t dip_zip_size(const unsigned char *bytes, size_t size_bytes) {
-    int size = 0;
-    unsigned char *zipped = NULL;
-    if (size_bytes > 0 && size_bytes < INT_MAX) {
-        // The library's parameter is not const, although it only reads.
-        unsigned char *copy = malloc(size_bytes);
-        if (copy) {
-            memcpy(copy, bytes, size_bytes);
-            zipped = stbi_zlib_compress(copy, (int)size_bytes, &size, 8);
-        }
-        free(copy);
+// Returns the size of the compressed bytes, or 0 when memory runs out. stb_image_write only reads
+// the bytes, although its parameter is not const.
+static size_t zip(unsigned char *bytes, int size_bytes) {
+    Memory own = {.first = {.next = NULL}};
+    memory = &own;
+    if (setjmp(own.ran_out) != 0) {
+        free_blocks();
+        return 0;
     }
-    const size_t zipped_size = zipped ? (size_t)size : 0;
-    free(zipped);
+    int size = 0;
+    stb_free(stbi_zlib_compress(bytes, size_bytes, &size, 8));
+    return (size_t)size;
+}
+
+size_t dip_zip_size(const unsigned char *bytes, size_t size_bytes) {
+    unsigned char *copy = size_bytes > 0 && size_bytes < INT_MAX ? malloc(size_bytes) : NULL;
+    size_t zipped_size = 0;
+    if (copy) {
+        memcpy(copy, bytes, size_bytes);
+        zipped_size = zip(copy, (int)size_bytes);
+    }
+    free(copy);
     return zipped_size;
 }
