@@ -35,7 +35,11 @@ void dip_record_destroy(DipRecord **record) {
 
 static bool add_numbers(cJSON *object, const char *name, const double *values, int count) {
     cJSON *array = cJSON_CreateDoubleArray(values, count);
-    return array && cJSON_AddItemToObject(object, name, array);
+    if (!array || !cJSON_AddItemToObject(object, name, array)) {
+        cJSON_Delete(array);
+        return false;
+    }
+    return true;
 }
 
 static bool add_pose(cJSON *frame, const DipPose *pose) {
