@@ -55,70 +55,89 @@ static void check_of(const char *text, size_t length, char check[33]) {
     dip_hash_hex(&hash, check);
 }
 
-// Reads the text from..end as numbers separated by spaces. Returns NULL if the text has another
-// form.
-static double *read_values(const char *from, const char *end, int *count) {
+// Reads the text from..end as numbers separated by spaces. Sets *values to NULL if the text has
+// another form. Returns false when memory runs out.
+static bool read_values(const char *from, const char *end, double **values_read, int *count) {
     int room = 1;
     for (const char *c = from; c < end; c++) {
         room += *c == ' ';
     }
     double *values = malloc((size_t)room * sizeof *values);
+    bool is_good = values != NULL;
     *count = 0;
-    while (values && from < end) {
+    while (is_good && from < end) {
         char *rest;
         values[*count] = strtod(from, &rest);
-        if (rest == from || rest > end) {
-            free(values);
-            return NULL;
-        }
+        is_good = rest != from && rest <= end;
         ++*count;
         from = rest + (rest < end);
     }
-    return values;
+    *values_read = is_good ? values : NULL;
+    if (!is_good) {
+        free(values);
+    }
+    return values != NULL;
 }
 
 // Reads and keeps one line without its line break: "errors KEY v v ... CHECK" or "round PLAN v v
-// ... CHECK". Ignores a line whose checksum CHECK is wrong.
-static void read_line(DipCostJournal *journal, char *line, size_t length) {
+// ... CHECK". Ignores a line whose checksum CHECK is wrong. Returns false when memory runs out.
+static bool read_line(DipCostJournal *journal, char *line, size_t length) {
     Entry entry = {.is_round = strncmp(line, "round ", 6) == 0};
     const size_t head = entry.is_round ? 6 : 7;
     char check[33];
     if (length < head + KEY_LENGTH + 1 + 33 ||
         (!entry.is_round && strncmp(line, "errors ", 7) != 0)) {
-        return;
+        return true;
     }
     const size_t body = length - 33; // without " CHECK"
     check_of(line, body, check);
     if (line[body] != ' ' || memcmp(line + body + 1, check, 32) != 0) {
-        return;
+        return true;
     }
     memcpy(entry.key, line + head, KEY_LENGTH);
     line[body] = '\0';
-    entry.values = read_values(line + head + KEY_LENGTH + 1, line + body, &entry.count);
+    if (!read_values(line + head + KEY_LENGTH + 1, line + body, &entry.values, &entry.count)) {
+        return false;
+    }
     if (entry.values && !keep(journal, &entry)) {
         free(entry.values);
+        return false;
     }
+    return true;
 }
 
-// Reads all complete lines. Cuts an incomplete line off the end of the file.
-static bool read_file(DipCostJournal *journal) {
+// Reads all complete lines. Cuts an incomplete line off the end of the file, but only after the
+// whole file was read: if memory runs out, the file keeps its measurements.
+static bool read_file(DipCostJournal *journal, DipError *err) {
     FILE *in = fopen(journal->file, "r");
     if (!in) {
-        return true;
+        return errno == ENOENT || io_fault(journal, err);
     }
     char *line = NULL;
     size_t room = 0;
     long whole = 0;
-    for (ssize_t length; (length = getline(&line, &room, in)) > 0;) {
+    bool kept = true;
+    errno = 0;
+    for (ssize_t length; kept && (length = getline(&line, &room, in)) > 0;) {
         if (line[length - 1] != '\n') {
             break;
         }
         whole = ftell(in);
-        read_line(journal, line, (size_t)length - 1);
+        kept = read_line(journal, line, (size_t)length - 1);
     }
+    const bool ended = feof(in) != 0;
+    const int reason = errno;
     free(line);
     fclose(in);
-    return truncate(journal->file, whole) == 0;
+    if (!kept || (!ended && reason == ENOMEM)) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, journal->file, 0, NULL,
+                             "cannot be read: out of memory");
+    }
+    if (!ended) {
+        return dip_error_set_runtime(err, DIP_ERROR_IO, journal->file, 0, NULL,
+                                     "cannot be read: %s", strerror(reason));
+    }
+    return truncate(journal->file, whole) == 0 || io_fault(journal, err);
 }
 
 DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipError *err) {
@@ -134,10 +153,12 @@ DipCostJournal *dip_cost_journal_open(const char *folder, const char *plan, DipE
         dip_cost_journal_close(&journal, false);
         return NULL;
     }
-    const bool read = read_file(journal);
-    journal->out = read ? fopen(journal->file, "a") : NULL;
-    if (!journal->out) {
-        io_fault(journal, err);
+    bool opened = read_file(journal, err);
+    if (opened) {
+        journal->out = fopen(journal->file, "a");
+        opened = journal->out || io_fault(journal, err);
+    }
+    if (!opened) {
         dip_cost_journal_close(&journal, false);
     }
     return journal;
@@ -162,32 +183,45 @@ void dip_cost_journal_close(DipCostJournal **state_pointer, bool finished) {
     *state_pointer = NULL;
 }
 
-static bool append(DipCostJournal *journal, bool is_round, const char *key, const double *values,
-                   int count, DipError *err) {
+// Returns the text of a line without its checksum, or NULL when memory runs out. The caller frees
+// it.
+static char *make_line(bool is_round, const char *key, const double *values, int count,
+                       size_t *size) {
     char *text = NULL;
-    size_t size = 0;
-    FILE *line = open_memstream(&text, &size);
+    FILE *line = open_memstream(&text, size);
     if (!line) {
-        return io_fault(journal, err);
+        return NULL;
     }
     fprintf(line, "%s %s", is_round ? "round" : "errors", key);
     for (int i = 0; i < count; i++) {
         fprintf(line, " %a", values[i]);
     }
-    bool written = fclose(line) == 0;
-    if (written) {
-        char check[33];
-        check_of(text, size, check);
-        written = fprintf(journal->out, "%s %s\n", text, check) > 0 && fflush(journal->out) == 0;
+    const bool made = !ferror(line);
+    if (fclose(line) != 0 || !made) {
+        free(text);
+        return NULL;
     }
-    free(text);
+    return text;
+}
+
+// Keeps a measurement, then writes it to the file. If memory runs out, does neither.
+static bool append(DipCostJournal *journal, bool is_round, const char *key, const double *values,
+                   int count, DipError *err) {
+    size_t size = 0;
+    char *text = make_line(is_round, key, values, count, &size);
     Entry entry = {is_round, "", malloc((size_t)count * sizeof *values), count};
     snprintf(entry.key, sizeof entry.key, "%s", key);
-    if (!entry.values || !keep(journal, &entry)) {
+    if (!text || !entry.values || !keep(journal, &entry)) {
+        free(text);
         free(entry.values);
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
     }
     memcpy(entry.values, values, (size_t)count * sizeof *values);
+    char check[33];
+    check_of(text, size, check);
+    const bool written =
+        fprintf(journal->out, "%s %s\n", text, check) > 0 && fflush(journal->out) == 0;
+    free(text);
     return written || io_fault(journal, err);
 }
 
