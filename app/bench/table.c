@@ -306,9 +306,9 @@ bool dip_bench_write_csv(const char *file, const DipBenchResult *results, int co
             }
         }
     }
-    const bool made = !ferror(out);
-    bool written = fclose(out) == 0 && made ? dip_whole_file_write(file, text, size_bytes, err)
-                                            : out_of_memory(err);
+    bool made = !ferror(out);
+    made = fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
+    bool written = made ? dip_whole_file_write(file, text, size_bytes, err) : out_of_memory(err);
     free(text);
     return written;
 }

@@ -33,11 +33,13 @@ bool dip_cost_advise(DipCostContext *cost, DipError *err) {
     if (!latest_ms) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
     }
+    (void)dip_stats_ran_out();
     for (int r = 0; r < report->row_count; r++) {
         latest_ms[r] = dip_cost_ms(report, r);
     }
+    bool advised = !dip_stats_ran_out() ||
+                   dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
     DipProgress progress = dip_progress_begin("budgets", budgets);
-    bool advised = true;
     for (int i = 0; advised && i < budgets; i++) {
         advised = advise(cost, report->options.budgets_ms[i], latest_ms, err);
         dip_progress_show(&progress, i + 1);

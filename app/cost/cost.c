@@ -78,11 +78,11 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
         dip_cost_journal_close(&journal, false);
         return false;
     }
-    const bool done = measure(&cost, err) && write_report(&cost, arguments->out, err);
+    bool done = measure(&cost, err) && write_report(&cost, arguments->out, err);
     dip_cost_context_close(&cost);
     dip_cost_journal_close(&journal, done);
     if (done) {
-        dip_cost_print(report, stdout);
+        done = dip_cost_print(report, stdout, err);
         printf("\nWritten: %s/cost.html, cost.csv, cost.json\n", arguments->out);
     }
     return done;

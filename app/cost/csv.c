@@ -65,6 +65,7 @@ static void write_row(const DipCostReport *report, const char *kind, const char 
 bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError *err) {
     char *text = NULL;
     size_t size = 0;
+    (void)dip_stats_ran_out();
     FILE *out = open_memstream(&text, &size);
     if (!out) {
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
@@ -80,8 +81,9 @@ bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError 
     for (int r = report->combined_first; r < report->row_count; r++) {
         write_row(report, "combination", "", r, 0, out);
     }
-    const bool made = !ferror(out);
-    const bool written = fclose(out) == 0 && made
+    bool made = !ferror(out) && !dip_stats_ran_out();
+    made = fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
+    const bool written = made
                              ? dip_whole_file_write(file, text, size, err)
                              : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     free(text);

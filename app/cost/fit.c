@@ -4,7 +4,6 @@
 #include "app/cost/fit.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { TERMS = 8 };
@@ -92,12 +91,12 @@ static void judge_fit(const DipCostReport *report, const double *ms, const doubl
     // R2 compares the fit with a constant: the one time that fits all rows best. The errors of
     // both are relative errors.
     double sum = 0.0, weight = 0.0, all = 0.0, left = 0.0;
-    double *misses = malloc((size_t)report->row_count * sizeof *misses);
+    double misses[DIP_COST_MAX_ROWS];
     for (int r = 0; r < report->row_count; r++) {
         sum += 1.0 / ms[r];
         weight += 1.0 / (ms[r] * ms[r]);
     }
-    for (int r = 0; misses && r < report->row_count; r++) {
+    for (int r = 0; r < report->row_count; r++) {
         double terms[TERMS];
         terms_of(&report->rows[r], terms);
         const double miss = fitted(terms, solution) / ms[r] - 1.0;
@@ -106,11 +105,8 @@ static void judge_fit(const DipCostReport *report, const double *ms, const doubl
         left += miss * miss;
         misses[r] = fabs(miss);
     }
-    if (misses) {
-        fit->median_miss = dip_stats_median(misses, report->row_count);
-        fit->r2 = all > 0.0 ? 1.0 - left / all : 0.0;
-    }
-    free(misses);
+    fit->median_miss = dip_stats_median(misses, report->row_count);
+    fit->r2 = all > 0.0 ? 1.0 - left / all : 0.0;
 }
 
 static void solve_without_negatives(const Equations *equations, double solution[TERMS]) {
@@ -134,9 +130,8 @@ DipCostFit dip_cost_fit(const DipCostReport *report) {
     Equations equations = {0};
     double scale[TERMS] = {0};
     double solution[TERMS] = {0};
-    double *ms = malloc((size_t)report->row_count * sizeof *ms);
-    if (!ms || report->rounds == 0 || report->row_count < 2 * TERMS) {
-        free(ms);
+    double ms[DIP_COST_MAX_ROWS];
+    if (report->rounds == 0 || report->row_count < 2 * TERMS) {
         return (DipCostFit){0};
     }
     for (int r = 0; r < report->row_count; r++) {
@@ -160,6 +155,5 @@ DipCostFit dip_cost_fit(const DipCostReport *report) {
     }
     fit.rows = report->row_count;
     judge_fit(report, ms, solution, &fit);
-    free(ms);
     return fit;
 }

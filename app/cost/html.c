@@ -192,14 +192,16 @@ static void write_scatter(const DipCostReport *report, const int *rows, int coun
     fprintf(out, "</div>\n");
 }
 
-static void write_pareto_front(const DipCostReport *report, FILE *out) {
+// Returns false when memory runs out.
+static bool write_pareto_front(const DipCostReport *report, FILE *out) {
     const size_t room = (size_t)report->row_count + 1;
     int *rows = malloc(2 * room * sizeof *rows);
     double *values = malloc(4 * room * sizeof *values);
     const char **labels = malloc(room * sizeof *labels);
     char(*label_texts)[12] = malloc(room * sizeof *label_texts);
     const int count = rows ? list_combinations(report, rows) : 0;
-    if (rows && values && labels && label_texts && count > 1) {
+    const bool has_room = rows && values && labels && label_texts;
+    if (has_room && count > 1) {
         int *pareto = rows + room;
         const int kept = dip_cost_pareto_front_thin(
             report, pareto, dip_cost_pareto_front(report, rows, count, pareto));
@@ -217,6 +219,7 @@ static void write_pareto_front(const DipCostReport *report, FILE *out) {
     free(values);
     free(labels);
     free(label_texts);
+    return has_room;
 }
 
 // --- fit, noise floors, words ------------------------------------------------------------------
@@ -289,6 +292,7 @@ bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pic
                          const char *file, DipError *err) {
     char *page = NULL;
     size_t size = 0;
+    (void)dip_stats_ran_out();
     FILE *out = open_memstream(&page, &size);
     if (!out) {
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
@@ -300,15 +304,16 @@ bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pic
             style);
     write_facts(report, out);
     write_advice(report, out);
-    write_pareto_front(report, out);
+    const bool has_front = write_pareto_front(report, out);
     dip_cost_write_html_sweeps(report, pictures, out);
     if (report->rounds > 0) {
         write_fit(report, out);
     }
     write_foot(report, out);
     fprintf(out, "</body></html>\n");
-    const bool made = !ferror(out);
-    const bool written = fclose(out) == 0 && made
+    bool made = !ferror(out) && has_front && !dip_stats_ran_out();
+    made = fclose(out) == 0 && made && page; // glibc sets it to NULL if memory runs out here.
+    const bool written = made
                              ? dip_whole_file_write(file, page, size, err)
                              : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     free(page);

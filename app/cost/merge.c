@@ -106,7 +106,7 @@ bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err) {
         done = dip_cost_write_html(&report, NULL, file, err);
     }
     if (done) {
-        dip_cost_print(&report, stdout);
+        done = dip_cost_print(&report, stdout, err);
     }
     dip_cost_report_free(&report);
     return done;

@@ -2,6 +2,7 @@
 #include "app/cost/formats.h"
 
 #include "app/cost/json_fields.h"
+#include "app/cost/json_memory.h"
 #include "renderer/base/file.h"
 
 #include <cjson/cJSON.h>
@@ -245,11 +246,15 @@ bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) 
     if (!dip_file_read(file, "report", MAX_FILE_BYTES, &text, &size_bytes, err)) {
         return false;
     }
+    dip_json_memory_begin();
     cJSON *root = cJSON_ParseWithLength((const char *)text, size_bytes);
     const bool parsed =
-        root || dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file");
+        root || (dip_json_memory_ran_out()
+                     ? dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory")
+                     : dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file"));
     const bool read = parsed && read_report(root, report, file, err);
     cJSON_Delete(root);
+    dip_json_memory_end();
     free(text);
     if (!read) {
         dip_cost_report_free(report);

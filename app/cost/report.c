@@ -2,6 +2,7 @@
 #include "app/cost/report.h"
 
 #include "app/measure/truth.h"
+#include "renderer/base/assert.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -157,9 +158,10 @@ static int compare_candidates(const void *a, const void *b) {
 }
 
 int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *pareto) {
-    Candidate *candidates = malloc(((size_t)count + 1) * sizeof *candidates);
+    Candidate candidates[DIP_COST_MAX_ROWS];
+    DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
     int found = 0, kept = 0;
-    for (int i = 0; candidates && i < count; i++) {
+    for (int i = 0; i < count; i++) {
         int viewpoints;
         const DipMetricSums sums = dip_cost_row_sums(report, rows[i], &viewpoints);
         if (viewpoints > 0 && dip_cost_is_timed(report, rows[i])) {
@@ -167,9 +169,7 @@ int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int coun
                 (Candidate){rows[i], dip_cost_ms(report, rows[i]), dip_metrics_of(&sums, 0).flip};
         }
     }
-    if (candidates) {
-        qsort(candidates, (size_t)found, sizeof *candidates, compare_candidates);
-    }
+    qsort(candidates, (size_t)found, sizeof *candidates, compare_candidates);
     double least = INFINITY;
     for (int i = 0; i < found; i++) {
         if (candidates[i].error < least) {
@@ -177,7 +177,6 @@ int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int coun
             pareto[kept++] = candidates[i].row;
         }
     }
-    free(candidates);
     return kept;
 }
 

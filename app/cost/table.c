@@ -5,7 +5,6 @@
 #include "app/cost/order.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static void print_heading(const DipCostReport *report, FILE *out) {
     const DipCostOptions *o = &report->options;
@@ -66,9 +65,8 @@ static void print_floors(const DipCostReport *report, FILE *out) {
 
 static void print_front(const DipCostReport *report, FILE *out) {
     const int count = report->row_count - report->combined_first;
-    int *rows = malloc(2 * ((size_t)count + 1) * sizeof *rows);
-    if (!rows || count == 0) {
-        free(rows);
+    int rows[2 * DIP_COST_MAX_ROWS];
+    if (count == 0) {
         return;
     }
     int *front = rows + count;
@@ -93,7 +91,6 @@ static void print_front(const DipCostReport *report, FILE *out) {
         fprintf(out, "  %8.2f ms  FLIP %.5f  %s\n", dip_cost_ms(report, front[i]),
                 dip_metrics_of(&sums, 0).flip, text);
     }
-    free(rows);
 }
 
 static void print_fit(const DipCostReport *report, FILE *out) {
@@ -143,7 +140,8 @@ static void print_advice(const DipCostReport *report, FILE *out) {
     }
 }
 
-void dip_cost_print(const DipCostReport *report, FILE *out) {
+bool dip_cost_print(const DipCostReport *report, FILE *out, DipError *err) {
+    (void)dip_stats_ran_out();
     print_heading(report, out);
     fputc('\n', out);
     print_columns(out);
@@ -171,4 +169,6 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
     print_front(report, out);
     print_advice(report, out);
     print_fit(report, out);
+    return !dip_stats_ran_out() ||
+           dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
 }

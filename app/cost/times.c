@@ -129,9 +129,11 @@ bool dip_cost_time_row_again(DipCostContext *cost, int row, DipStatsEstimate *ti
     const bool timed =
         (ms || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory")) &&
         dip_timing_run(&def, &calls, ms, err);
+    (void)dip_stats_ran_out();
     if (timed) {
         *time = dip_stats_time_estimate(ms, options->timed_frames, options->rounds);
     }
     free(ms);
-    return timed;
+    return timed && (!dip_stats_ran_out() ||
+                     dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory"));
 }

@@ -3,16 +3,31 @@
 
 #include "app/cost/fit.h"
 #include "app/cost/json_fields.h"
+#include "app/cost/json_memory.h"
 #include "app/files/whole_file.h"
 
 #include <cjson/cJSON.h>
 #include <stdlib.h>
 #include <string.h>
 
+// These two functions take ownership of an item, even if memory runs out. The object or array may
+// be NULL. cJSON's own functions leave the item to the caller if they fail.
+static void add_to_object(cJSON *object, const char *name, cJSON *item) {
+    if (!cJSON_AddItemToObject(object, name, item)) {
+        cJSON_Delete(item);
+    }
+}
+
+static void add_to_array(cJSON *array, cJSON *item) {
+    if (!cJSON_AddItemToArray(array, item)) {
+        cJSON_Delete(item);
+    }
+}
+
 static void add_sums(cJSON *to, const char *name, const DipMetricSums *sums) {
     double values[DIP_METRIC_SUM_COUNT];
     memcpy(values, sums, sizeof values);
-    cJSON_AddItemToObject(to, name, cJSON_CreateDoubleArray(values, DIP_METRIC_SUM_COUNT));
+    add_to_object(to, name, cJSON_CreateDoubleArray(values, DIP_METRIC_SUM_COUNT));
 }
 
 static void add_figures(cJSON *to, const DipMetricSums *sums) {
@@ -46,7 +61,7 @@ static void add_errors(cJSON *object, const DipCostReport *report, int row) {
             cJSON *viewpoint = cJSON_CreateObject();
             cJSON_AddNumberToObject(viewpoint, "place", p);
             add_sums(viewpoint, "sums", &report->rows[row].viewpoints[p]);
-            cJSON_AddItemToArray(array, viewpoint);
+            add_to_array(array, viewpoint);
         }
     }
     if (viewpoints > 0) {
@@ -68,9 +83,9 @@ static void add_times(cJSON *object, const DipCostReport *report, int row) {
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         cJSON_AddNumberToObject(counters, dip_cost_counter_names[c], report->rows[row].counters[c]);
     }
-    cJSON_AddItemToObject(object, "all_ms",
-                          cJSON_CreateDoubleArray(report->rows[row].ms,
-                                                  report->rounds * report->options.timed_frames));
+    add_to_object(object, "all_ms",
+                  cJSON_CreateDoubleArray(report->rows[row].ms,
+                                          report->rounds * report->options.timed_frames));
 }
 
 static void add_rows(cJSON *root, const DipCostReport *report) {
@@ -86,7 +101,7 @@ static void add_rows(cJSON *root, const DipCostReport *report) {
         cJSON_AddNumberToObject(object, "path", report->rows[r].path);
         add_errors(object, report, r);
         add_times(object, report, r);
-        cJSON_AddItemToArray(rows, object);
+        add_to_array(rows, object);
     }
 }
 
@@ -109,9 +124,9 @@ static void add_sweeps(cJSON *root, const DipCostReport *report) {
                 cJSON_AddNumberToObject(step, "ratio_low", ratio.low);
                 cJSON_AddNumberToObject(step, "ratio_high", ratio.high);
             }
-            cJSON_AddItemToArray(steps, step);
+            add_to_array(steps, step);
         }
-        cJSON_AddItemToArray(sweeps, object);
+        add_to_array(sweeps, object);
     }
 }
 
@@ -125,7 +140,7 @@ static void add_floors(cJSON *root, const DipCostReport *report) {
                 cJSON_AddNumberToObject(object, "path", path);
                 cJSON_AddNumberToObject(object, "place", p);
                 add_sums(object, "half_against_half", &report->floors[index]);
-                cJSON_AddItemToArray(floors, object);
+                add_to_array(floors, object);
             }
         }
     }
@@ -155,7 +170,7 @@ static void add_advice(cJSON *root, const DipCostReport *report) {
         cJSON_AddNumberToObject(object, "checked_ms", a->checked_ms);
         cJSON_AddNumberToObject(object, "checked_ms_low", a->checked_low);
         cJSON_AddNumberToObject(object, "checked_ms_high", a->checked_high);
-        cJSON_AddItemToArray(advice, object);
+        add_to_array(advice, object);
     }
 }
 
@@ -175,15 +190,17 @@ static void add_header(cJSON *root, const DipCostReport *report) {
     cJSON_AddStringToObject(root, "baseline", baseline);
     cJSON *paths = cJSON_AddArrayToObject(root, "paths");
     for (int p = 0; p < report->path_count; p++) {
-        cJSON_AddItemToArray(paths, cJSON_CreateString(report->paths[p]));
+        add_to_array(paths, cJSON_CreateString(report->paths[p]));
     }
     cJSON *refused = cJSON_AddArrayToObject(root, "left_out");
     for (int i = 0; i < report->refused_count; i++) {
-        cJSON_AddItemToArray(refused, cJSON_CreateString(report->refused[i]));
+        add_to_array(refused, cJSON_CreateString(report->refused[i]));
     }
 }
 
 bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError *err) {
+    (void)dip_stats_ran_out();
+    dip_json_memory_begin();
     cJSON *root = cJSON_CreateObject();
     add_header(root, report);
     add_floors(root, report);
@@ -193,9 +210,11 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     add_advice(root, report);
     char *text = cJSON_PrintUnformatted(root);
     cJSON_Delete(root);
-    const bool written = text
+    const bool complete = !dip_json_memory_ran_out() && !dip_stats_ran_out();
+    const bool written = complete && text
                              ? dip_whole_file_write(file, text, strlen(text), err)
                              : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     cJSON_free(text);
+    dip_json_memory_end();
     return written;
 }

@@ -97,6 +97,14 @@ static double median_of_ratios(const Times *times, const int *drawn, double *scr
     return dip_stats_median(scratch, count);
 }
 
+static _Thread_local bool ran_out;
+
+bool dip_stats_ran_out(void) {
+    const bool had_run_out = ran_out;
+    ran_out = false;
+    return had_run_out;
+}
+
 // Computes the estimate from all rounds, and its 95 % interval. For the interval, the estimate is
 // repeated `resamples` times, each time from a new drawing of rounds: as many rounds as were
 // measured, drawn with replacement. If `resamples` is 0, the interval's ends are 0.
@@ -123,6 +131,8 @@ static DipStatsEstimate estimate(const Times *times, Estimator *estimator, int r
             result.low = values[resamples / 40];
             result.high = values[resamples - 1 - resamples / 40];
         }
+    } else {
+        ran_out = true;
     }
     free(scratch);
     free(drawn);

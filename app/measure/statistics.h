@@ -10,6 +10,8 @@
 #ifndef DIP_APP_MEASURE_STATISTICS_H
 #define DIP_APP_MEASURE_STATISTICS_H
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -36,15 +38,20 @@ typedef struct DipStatsEstimate {
 } DipStatsEstimate;
 
 // Computes each frame's median over the rounds, and returns the mean of these medians over the
-// frames; 0 when memory runs out.
+// frames; 0 when memory runs out (dip_stats_ran_out).
 double dip_stats_time(const double *ms, int frames, int rounds);
 DipStatsEstimate dip_stats_time_estimate(const double *ms, int frames, int rounds);
 
 // Returns the median over all frames and rounds of ms / base_ms, both of the same frame and round;
-// 0 when memory runs out.
+// 0 when memory runs out (dip_stats_ran_out).
 double dip_stats_paired_ratio(const double *ms, const double *base_ms, int frames, int rounds);
 DipStatsEstimate dip_stats_paired_ratio_estimate(const double *ms, const double *base_ms,
                                                  int frames, int rounds);
+
+// Returns whether memory ran out in one of the four functions above, called from this thread, since
+// this function was last called. Code that prints or keeps times calls it once before and once
+// after, and fails if the second call returns true.
+bool dip_stats_ran_out(void);
 
 // Returns the 95 % interval of median(a) / median(b). The bootstrap draws rounds separately for
 // every frame, so that differences between frames do not widen the interval. a and b use the same

@@ -286,8 +286,9 @@ bool dip_plot_write(const char *file, const DipPlot *plot, DipError *err) {
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
     dip_plot_print(out, plot);
-    const bool made = !ferror(out);
-    const bool written = fclose(out) == 0 && made
+    bool made = !ferror(out);
+    made = fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
+    const bool written = made
                              ? dip_whole_file_write(file, text, size_bytes, err)
                              : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     free(text);

@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double default_budget_ms = 16.6;
@@ -68,13 +67,11 @@ static DipCostsAdvice advice_of(const DipCostReport *report, double budget_ms, i
 }
 
 static int choose(const DipCostReport *report, double budget_ms) {
-    double *ms = malloc(((size_t)report->row_count + 1) * sizeof *ms);
-    for (int r = 0; ms && r < report->row_count; r++) {
+    double ms[DIP_COST_MAX_ROWS];
+    for (int r = 0; r < report->row_count; r++) {
         ms[r] = dip_cost_is_timed(report, r) ? dip_cost_ms(report, r) : INFINITY;
     }
-    const int row = ms ? dip_cost_choose(report, ms, budget_ms) : -1;
-    free(ms);
-    return row;
+    return dip_cost_choose(report, ms, budget_ms);
 }
 
 static void make_advice(DipCosts *costs, const DipCostReport *report) {
@@ -116,11 +113,13 @@ bool dip_costs_load(DipCosts *costs, const char *file, const char *scene, DipErr
         strcmp(report.scene, scene) == 0 ||
         dip_error_set(err, DIP_ERROR_CONFLICT, file, 0, "--cost",
                       "is a report of %s, accepted a report of %s", report.scene, scene);
+    (void)dip_stats_ran_out();
     if (fits) {
         dip_costs_make(costs, &report);
     }
     dip_cost_report_free(&report);
-    return fits;
+    return fits && (!dip_stats_ran_out() ||
+                    dip_error_set(err, DIP_ERROR_MEMORY, file, 0, "--cost", "out of memory"));
 }
 
 void dip_costs_describe(const DipCosts *costs, int index, char *text, size_t size_bytes) {

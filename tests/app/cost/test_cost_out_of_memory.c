@@ -1,0 +1,296 @@
+// Tests what the writers and readers of reports do when memory runs out: a file is written whole or
+// stays as it was, and a journal never loses a measurement.
+#include "app/cost/formats.h"
+#include "app/cost/html.h"
+#include "app/cost/journal.h"
+#include "app/dump/record.h"
+#include "app/files/png.h"
+#include "tests/app/cost/made_report.h"
+#include "tests/support/out_of_memory.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cjson/cJSON.h>
+#include <cmocka.h>
+
+enum { ROUNDS = 3, MAX_BYTES = 1 << 20 };
+
+typedef struct Content {
+    size_t size;
+    char bytes[MAX_BYTES];
+} Content;
+
+static void read_content(const char *file, Content *content) {
+    FILE *in = fopen(file, "rb");
+    content->size = in ? fread(content->bytes, 1, MAX_BYTES, in) : 0;
+    if (in) {
+        fclose(in);
+    }
+}
+
+static void write_text(const char *file, const char *text) {
+    FILE *out = fopen(file, "wb");
+    assert_non_null(out);
+    fputs(text, out);
+    fclose(out);
+}
+
+// --- files ---------------------------------------------------------------------------------------
+
+static const char old_text[] = "the old file";
+
+typedef struct Writing {
+    DipCostReport report;
+    DipCostReport read;
+    DipRecord *record;
+    const char *file;
+    Content expected;
+    Content found;
+    uint8_t rgba8[4 * 64 * 48];
+} Writing;
+
+static Writing w;
+
+static bool write_json(void *context, DipError *err) {
+    (void)context;
+    return dip_cost_write_json(&w.report, w.file, err);
+}
+
+static bool write_csv(void *context, DipError *err) {
+    (void)context;
+    return dip_cost_write_csv(&w.report, w.file, err);
+}
+
+static bool write_html(void *context, DipError *err) {
+    (void)context;
+    return dip_cost_write_html(&w.report, NULL, w.file, err);
+}
+
+static bool write_png(void *context, DipError *err) {
+    (void)context;
+    const DipFrame frame = {.rgba8 = w.rgba8, .stride_bytes = 4 * 64, .width = 64, .height = 48};
+    return dip_png_write(w.file, &frame, err);
+}
+
+static bool write_record(void *context, DipError *err) {
+    (void)context;
+    const DipQuality quality = dip_quality_default();
+    DipFrame frame = {.rgba8 = w.rgba8};
+#define SET_WHY(name, text) frame.effects.name.why = "why not";
+    DIP_EFFECT_LIST(SET_WHY)
+#undef SET_WHY
+    const DipRecordPane panes[2] = {{&quality, &frame, "hash", false},
+                                    {&quality, &frame, "hash", true}};
+    const DipPose pose = {.fov_y_deg = 50.0};
+    const DipStartTimes times = {0};
+    DipRecord *record = dip_record_create(err);
+    const bool written = record && dip_record_add(record, 0, 0.0, &pose, 1.0, panes, err) &&
+                         dip_record_set_start(record, &times, 1000, err) &&
+                         dip_record_write(record, w.file, err);
+    dip_record_destroy(&record);
+    return written;
+}
+
+// cJSON allocates through this program, so that its allocations can fail as well.
+static void hook_cjson(void) {
+    cJSON_Hooks hooks = {.malloc_fn = malloc, .free_fn = free};
+    cJSON_InitHooks(&hooks);
+}
+
+static void write_old(void *context) {
+    (void)context;
+    hook_cjson();
+    write_text(w.file, old_text);
+}
+
+static void check_written(void *context, bool succeeded) {
+    (void)context;
+    read_content(w.file, &w.found);
+    assert_int_equal(w.found.size, succeeded ? w.expected.size : strlen(old_text));
+    assert_memory_equal(w.found.bytes, succeeded ? w.expected.bytes : old_text, w.found.size);
+}
+
+static void remove_file(void *context) {
+    (void)context;
+    remove(w.file);
+}
+
+static void check_writer(const char *name, const char *file, bool (*write)(void *, DipError *),
+                         int short_count) {
+    w.file = file;
+    write_old(NULL);
+    assert_true(write(NULL, NULL));
+    read_content(file, &w.expected);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
+                                              .prepare = write_old,
+                                              .run = write,
+                                              .check = check_written,
+                                              .finish = remove_file,
+                                              .short_count = short_count});
+}
+
+static void files_are_written_whole_or_stay(void **state) {
+    (void)state;
+    dip_made_report(&w.report, ROUNDS);
+    check_writer("cost.json", "cost.json", write_json, 200);
+    check_writer("record.json", "record.json", write_record, 0);
+    check_writer("a PNG", "picture.png", write_png, 0);
+    check_writer("cost.csv", "cost.csv", write_csv, 0);
+    check_writer("cost.html", "cost.html", write_html, 100);
+    dip_cost_report_free(&w.report);
+}
+
+// --- reading a report ----------------------------------------------------------------------------
+
+static bool read_json(void *context, DipError *err) {
+    (void)context;
+    return dip_cost_read_json(&w.read, w.file, err);
+}
+
+static void check_read(void *context, bool succeeded) {
+    (void)context;
+    assert_int_equal(w.read.rows != NULL, succeeded);
+    if (succeeded) {
+        assert_int_equal(w.read.row_count, w.report.row_count);
+        assert_int_equal(w.read.rounds, ROUNDS);
+    }
+}
+
+static void free_read(void *context) {
+    (void)context;
+    dip_cost_report_free(&w.read);
+}
+
+static void report_is_read_whole_or_not_at_all(void **state) {
+    (void)state;
+    dip_made_report(&w.report, ROUNDS);
+    w.file = "cost.json";
+    assert_true(write_json(NULL, NULL));
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "reading cost.json",
+                                              .run = read_json,
+                                              .check = check_read,
+                                              .finish = free_read,
+                                              .needs_every_allocation = true,
+                                              .short_count = 200});
+    dip_cost_report_free(&w.report);
+    assert_int_equal(remove("cost.json"), 0);
+}
+
+// --- the journal ---------------------------------------------------------------------------------
+
+static const char plan[] = "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa";
+static const char key[] = "0123456789abcdef0123456789abcdef";
+static const double first_ms[] = {1.0 / 3.0, 2e-9, 12345.678};
+static const double second_ms[] = {4.0, 5.0, 6.0};
+static DipCostJournal *journal;
+
+static bool open_journal(void *context, DipError *err) {
+    (void)context;
+    journal = dip_cost_journal_open(".", plan, err);
+    return journal != NULL;
+}
+
+static bool add_round(void *context, DipError *err) {
+    (void)context;
+    return dip_cost_journal_add_round(journal, second_ms, 3, err);
+}
+
+static bool add_errors(void *context, DipError *err) {
+    (void)context;
+    const DipMetricSums sums = {.bursts = 7.0};
+    return dip_cost_journal_add(journal, key, &sums, err);
+}
+
+static void close_journal(void *context) {
+    (void)context;
+    dip_cost_journal_close(&journal, false);
+}
+
+// Makes a journal with one round, and leaves it closed.
+static void make_journal(void *context) {
+    remove("cost.state");
+    assert_true(open_journal(context, NULL));
+    assert_true(dip_cost_journal_add_round(journal, first_ms, 3, NULL));
+    close_journal(context);
+}
+
+static void make_open_journal(void *context) {
+    make_journal(context);
+    assert_true(open_journal(context, NULL));
+}
+
+static void assert_round(int round, const double *ms) {
+    const double *found = dip_cost_journal_round(journal, round, 3);
+    assert_int_equal(found != NULL, ms != NULL);
+    if (ms) {
+        assert_memory_equal(found, ms, sizeof first_ms);
+    }
+}
+
+// Whatever failed, the measurements of the past must still be in the file.
+static void check_opened(void *context, bool succeeded) {
+    assert_true(succeeded || open_journal(context, NULL));
+    assert_round(0, first_ms);
+}
+
+static void check_round(void *context, bool succeeded) {
+    for (int reopened = 0; reopened < 2; reopened++) {
+        assert_round(0, first_ms);
+        assert_round(1, succeeded ? second_ms : NULL);
+        close_journal(context);
+        assert_true(open_journal(context, NULL));
+    }
+}
+
+static void check_errors(void *context, bool succeeded) {
+    DipMetricSums sums;
+    for (int reopened = 0; reopened < 2; reopened++) {
+        assert_round(0, first_ms);
+        assert_int_equal(dip_cost_journal_find(journal, key, &sums), succeeded);
+        close_journal(context);
+        assert_true(open_journal(context, NULL));
+    }
+}
+
+static void journal_never_loses_a_measurement(void **state) {
+    (void)state;
+    DipOutOfMemory operation = {.name = "opening a journal",
+                                .prepare = make_journal,
+                                .run = open_journal,
+                                .check = check_opened,
+                                .finish = close_journal,
+                                .needs_every_allocation = true};
+    dip_out_of_memory_check(&operation);
+    operation.prepare = make_open_journal;
+    operation.name = "a round in the journal";
+    operation.run = add_round;
+    operation.check = check_round;
+    dip_out_of_memory_check(&operation);
+    operation.name = "errors in the journal";
+    operation.run = add_errors;
+    operation.check = check_errors;
+    dip_out_of_memory_check(&operation);
+    remove("cost.state");
+}
+
+int main(int argc, char **argv) {
+    dip_out_of_memory_read_options(argc, argv);
+    char folder[] = "/tmp/cost_out_of_memory.XXXXXX";
+    if (!mkdtemp(folder) || chdir(folder) != 0) {
+        return 1;
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_are_written_whole_or_stay),
+        cmocka_unit_test(report_is_read_whole_or_not_at_all),
+        cmocka_unit_test(journal_never_loses_a_measurement),
+    };
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return failed + (chdir("/") != 0 || rmdir(folder) != 0);
+}
