@@ -151,20 +151,24 @@ int dip_font_line_height(DipFont *font, int size) {
 
 // --- glyphs ------------------------------------------------------------------------------------
 
-// If memory runs out for a glyph's mask, the glyph is drawn as a gap of the same width.
-static void draw_glyph(DipFont *font, int size, uint32_t code_point, Glyph *glyph) {
+// Fills an empty glyph. If memory runs out for its mask, the glyph is a gap of the same width, and
+// the function returns false.
+static bool draw_glyph(DipFont *font, int size, uint32_t code_point, Glyph *glyph) {
     set_face_size(font, size);
     if (FT_Load_Char(font->face, code_point, FT_LOAD_RENDER | FT_LOAD_TARGET_NORMAL) != 0) {
         glyph->advance = size / 2;
-        return;
+        return true;
     }
     const FT_GlyphSlot slot = font->face->glyph;
     const FT_Bitmap *bitmap = &slot->bitmap;
     const size_t width = bitmap->width, height = bitmap->rows;
     glyph->advance = pixels_up(slot->advance.x - 32);
-    if (width == 0 || height == 0 || bitmap->pixel_mode != FT_PIXEL_MODE_GRAY ||
-        !(glyph->mask = malloc(width * height))) {
-        return;
+    if (width == 0 || height == 0 || bitmap->pixel_mode != FT_PIXEL_MODE_GRAY) {
+        return true;
+    }
+    glyph->mask = malloc(width * height);
+    if (!glyph->mask) {
+        return false;
     }
     for (size_t y = 0; y < height; ++y) {
         memcpy(glyph->mask + y * width, bitmap->buffer + (ptrdiff_t)y * bitmap->pitch, width);
@@ -173,6 +177,7 @@ static void draw_glyph(DipFont *font, int size, uint32_t code_point, Glyph *glyp
     glyph->top = slot->bitmap_top;
     glyph->width = (int)width;
     glyph->height = (int)height;
+    return true;
 }
 
 static const Glyph *find_glyph(DipFont *font, int size, uint32_t code_point) {
@@ -189,9 +194,12 @@ static const Glyph *find_glyph(DipFont *font, int size, uint32_t code_point) {
         forget_glyphs(font);
         return find_glyph(font, size, code_point);
     }
-    ++font->glyph_count;
-    glyph->key = key;
-    draw_glyph(font, size, code_point, glyph);
+    // A glyph without its mask does not get its key, so that the next line draws it anew.
+    *glyph = (Glyph){0};
+    if (draw_glyph(font, size, code_point, glyph)) {
+        ++font->glyph_count;
+        glyph->key = key;
+    }
     return glyph;
 }
 
