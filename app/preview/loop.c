@@ -37,7 +37,9 @@ struct DipPreview {
     int64_t turn_ns; // When the last turn began.
     int64_t refresh_ns;
     bool full_screen;
-    bool resized;          // The panes' size may have changed.
+    bool resized;    // The panes' size may have changed.
+    int tried_width; // Size that the renderers last got, or were refused for lack of memory.
+    int tried_height;
     bool redraw;           // The overlay may have changed.
     bool exposed;          // The display lost its picture, so all of it must be presented.
     bool flying;           // The user moved the camera in this turn.
@@ -183,6 +185,39 @@ static bool follow_settings(DipPreview *preview, DipError *err) {
     return true;
 }
 
+// Tells the user about an error that does not end the preview.
+static void report(DipPreview *preview, const DipError *err, int64_t now_ns) {
+    char line[512];
+    dip_error_format(err, line, sizeof line);
+    dip_preview_notice(&preview->state, now_ns, "%.120s", line);
+}
+
+static bool fail(const DipError *failure, DipError *err) {
+    if (err) {
+        *err = *failure;
+    }
+    return false;
+}
+
+static bool resize_panes(DipPreview *preview, int width, int height, DipError *err) {
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        if (!dip_renderer_resize(preview->def.session->renderers[p], width, height, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Goes back to the size of the last frame, after memory ran out for a new size. The view scales
+// the frames to the panes. Returns false if there was no frame.
+static bool keep_size(DipPreview *preview, DipError *err) {
+    if (err->code != DIP_ERROR_MEMORY || preview->picture_number == 0) {
+        return false;
+    }
+    report(preview, err, clock_ns(preview));
+    return resize_panes(preview, preview->drawn.width, preview->drawn.height, err);
+}
+
 // Sets the renderers to the panes' size. A frame's size is limited; if the display is larger, the
 // view scales the frame up.
 static bool follow_size(DipPreview *preview, DipError *err) {
@@ -193,11 +228,15 @@ static bool follow_size(DipPreview *preview, DipError *err) {
     dip_view_panes(width, height, panes);
     width = panes[0].width < DIP_MAX_FRAME_SIZE ? panes[0].width : DIP_MAX_FRAME_SIZE;
     height = panes[0].height < DIP_MAX_FRAME_SIZE ? panes[0].height : DIP_MAX_FRAME_SIZE;
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        if (!dip_renderer_resize(preview->def.session->renderers[p], width, height, err)) {
-            return false;
-        }
+    if (width == preview->tried_width && height == preview->tried_height) {
+        return true;
     }
+    DipError failure;
+    if (!resize_panes(preview, width, height, &failure) && !keep_size(preview, &failure)) {
+        return fail(&failure, err);
+    }
+    preview->tried_width = width;
+    preview->tried_height = height;
     return true;
 }
 
@@ -215,18 +254,37 @@ static void number_picture(DipPreview *preview) {
     }
 }
 
+static bool draw_with_settings(DipPreview *preview, DipError *err) {
+    return follow_settings(preview, err) &&
+           dip_session_draw_pose(preview->def.session, &preview->pose, preview->state.play_ns,
+                                 preview->frame_index, &preview->frame, err);
+}
+
+// Draws with the settings of the last frame, after memory ran out for new settings. Returns false
+// if the settings were not new.
+static bool take_back_settings(DipPreview *preview, DipError *err) {
+    const size_t size_bytes = sizeof preview->drawn.quality;
+    if (err->code != DIP_ERROR_MEMORY || preview->picture_number == 0 ||
+        memcmp(preview->state.quality, preview->drawn.quality, size_bytes) == 0) {
+        return false;
+    }
+    report(preview, err, clock_ns(preview));
+    memcpy(preview->state.quality, preview->drawn.quality, size_bytes);
+    return draw_with_settings(preview, err);
+}
+
 static bool draw_panes(DipPreview *preview, DipError *err) {
     DipSession *session = preview->def.session;
     const int64_t play_ns = preview->state.play_ns;
-    if (!follow_settings(preview, err) || !follow_size(preview, err)) {
+    if (!follow_size(preview, err)) {
         return false;
     }
     if (!preview->state.manual && !dip_camtrack_pose(&session->track, play_ns, &preview->pose)) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
     }
-    if (!dip_session_draw_pose(session, &preview->pose, play_ns, preview->frame_index,
-                               &preview->frame, err)) {
-        return false;
+    DipError failure;
+    if (!draw_with_settings(preview, &failure) && !take_back_settings(preview, &failure)) {
+        return fail(&failure, err);
     }
     number_picture(preview);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
@@ -251,12 +309,6 @@ static bool alternates(const DipPreview *preview) {
 }
 
 // --- errors of the pictures --------------------------------------------------------------------
-
-static void report(DipPreview *preview, const DipError *err, int64_t now_ns) {
-    char line[512];
-    dip_error_format(err, line, sizeof line);
-    dip_preview_notice(&preview->state, now_ns, "%.120s", line);
-}
 
 static bool create_errors(DipPreview *preview, int64_t now_ns) {
     const DipSession *session = preview->def.session;
@@ -393,7 +445,11 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     const bool news = measure_errors(preview, now_ns);
     *shown = new_frame || news || preview->redraw || preview->exposed || state->screenshot ||
              (had_notice && !state->notice[0]);
-    return !*shown || show(preview, now_ns, err);
+    if (*shown && !show(preview, now_ns, err)) {
+        preview->redraw = preview->exposed = true; // The next turn shows what this one could not.
+        return false;
+    }
+    return true;
 }
 
 // After a picture was shown, waits for the display's next refresh. Otherwise waits up to
