@@ -169,7 +169,7 @@ static void scene_is_made_whole_or_not_at_all(void **state) {
                                                   .check = check_scene,
                                                   .finish = free_panes,
                                                   .needs_every_allocation = true,
-                                                  .short_count = 25});
+                                                  .short_count = 12});
         end(&fixture);
     }
 }
@@ -246,14 +246,16 @@ static void failed_frame_leaves_the_renderer_usable(void **state) {
                                                   .prepare = must_make_panes,
                                                   .run = draw_one,
                                                   .check = check_frame,
-                                                  .finish = free_panes});
+                                                  .finish = free_panes,
+                                                  .short_count = 27});
         snprintf(name, sizeof name, "first pair of %s", dip_test_scene_name(kinds[i]));
         dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
                                                   .context = &fixture,
                                                   .prepare = must_make_panes,
                                                   .run = draw_pair,
                                                   .check = check_pair,
-                                                  .finish = free_panes});
+                                                  .finish = free_panes,
+                                                  .short_count = 27});
         end(&fixture);
     }
 }
