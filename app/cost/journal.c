@@ -4,6 +4,7 @@
 
 #include "renderer/base/hash.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
@@ -55,8 +56,8 @@ static void check_of(const char *text, size_t length, char check[33]) {
     dip_hash_hex(&hash, check);
 }
 
-// Reads the text from..end as numbers separated by spaces. Sets *values to NULL if the text has
-// another form. Returns false when memory runs out.
+// Reads the text from..end as numbers with one space between them. Sets *values to NULL if the text
+// has another form. Returns false when memory runs out. `*end` must not be part of a number.
 static bool read_values(const char *from, const char *end, double **values_read, int *count) {
     int room = 1;
     for (const char *c = from; c < end; c++) {
@@ -68,7 +69,9 @@ static bool read_values(const char *from, const char *end, double **values_read,
     while (is_good && from < end) {
         char *rest;
         values[*count] = strtod(from, &rest);
-        is_good = rest != from && rest <= end;
+        // strtod skips white space before a number.
+        is_good = rest != from && rest <= end && !isspace((unsigned char)*from) &&
+                  (rest == end || *rest == ' ');
         ++*count;
         from = rest + (rest < end);
     }
