@@ -29,6 +29,14 @@ static int integer(const cJSON *object, const char *name, int least, int most, b
     return good ? (int)item->valuedouble : -1;
 }
 
+// Returns a number, or 0 if there is none. An infinite number (1e999) sets *ok to false.
+static double number(const cJSON *object, const char *name, bool *ok) {
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
+    const double value = cJSON_IsNumber(item) ? item->valuedouble : 0.0;
+    *ok = *ok && isfinite(value);
+    return value;
+}
+
 static void copy_text(const cJSON *item, char *to, size_t size, bool *ok) {
     if (cJSON_IsString(item)) {
         snprintf(to, size, "%s", item->valuestring);
@@ -80,8 +88,7 @@ static bool read_header(const cJSON *root, DipCostReport *report) {
     ok = ok && options->places > 0 && options->burst > 0 && options->timed_frames > 0;
     options->rounds = report->rounds;
     options->end_place = options->places;
-    const cJSON *ppd = cJSON_GetObjectItemCaseSensitive(root, "pixels_per_degree");
-    options->pixels_per_degree = cJSON_IsNumber(ppd) ? ppd->valuedouble : 0.0;
+    options->pixels_per_degree = number(root, "pixels_per_degree", &ok);
     const cJSON *baseline = cJSON_GetObjectItemCaseSensitive(root, "baseline");
     ok = ok && cJSON_IsString(baseline) &&
          dip_quality_parse(baseline->valuestring, &options->baseline, NULL);
@@ -117,11 +124,9 @@ static bool read_row(const cJSON *object, DipCostReport *report, DipCostRow *row
     if (ok && times > 0) {
         const cJSON *counters = cJSON_GetObjectItemCaseSensitive(object, "counters");
         for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
-            const cJSON *value =
-                cJSON_GetObjectItemCaseSensitive(counters, dip_cost_counter_names[c]);
-            row->counters[c] = cJSON_IsNumber(value) ? value->valuedouble : 0.0;
+            row->counters[c] = number(counters, dip_cost_counter_names[c], &ok);
         }
-        ok = numbers(cJSON_GetObjectItemCaseSensitive(object, "all_ms"), times, row->ms);
+        ok = ok && numbers(cJSON_GetObjectItemCaseSensitive(object, "all_ms"), times, row->ms);
     }
     return ok;
 }
@@ -198,7 +203,7 @@ static void read_advice(const cJSON *root, DipCostReport *report) {
         double values[4] = {0};
         for (int i = 0; i < 4; i++) {
             const cJSON *value = cJSON_GetObjectItemCaseSensitive(object, names[i]);
-            ok = ok && cJSON_IsNumber(value);
+            ok = ok && cJSON_IsNumber(value) && isfinite(value->valuedouble);
             values[i] = ok ? value->valuedouble : 0.0;
         }
         const int row = integer(object, "row", -1, report->row_count - 1, &ok);
@@ -209,13 +214,21 @@ static void read_advice(const cJSON *root, DipCostReport *report) {
     }
 }
 
-static bool read_report(const cJSON *root, DipCostReport *report, const char *file, DipError *err) {
+// True if a file of this size can hold the times of all rows, of which each takes two characters.
+// If it cannot, memory for the times would be out of proportion to the file.
+static bool times_fit(const DipCostReport *report, int row_count, size_t size_bytes) {
+    return (double)row_count * report->rounds * report->options.timed_frames * 2.0 <=
+           (double)size_bytes;
+}
+
+static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *report,
+                        const char *file, DipError *err) {
     if (!read_header(root, report)) {
         return missing(file, "header", err);
     }
     const cJSON *rows = cJSON_GetObjectItemCaseSensitive(root, "rows");
     const int count = cJSON_GetArraySize(rows);
-    if (count < 1 || count > DIP_COST_MAX_ROWS) {
+    if (count < 1 || count > DIP_COST_MAX_ROWS || !times_fit(report, count, size_bytes)) {
         return missing(file, "rows", err);
     }
     report->rows = calloc((size_t)count, sizeof *report->rows);
@@ -252,7 +265,7 @@ bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) 
         root || (dip_json_memory_ran_out()
                      ? dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory")
                      : dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL, "is not a JSON file"));
-    const bool read = parsed && read_report(root, report, file, err);
+    const bool read = parsed && read_report(root, size_bytes, report, file, err);
     cJSON_Delete(root);
     dip_json_memory_end();
     free(text);
