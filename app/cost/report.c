@@ -198,7 +198,8 @@ int dip_cost_step_up(const DipCostReport *report, int row) {
     for (int r = report->combined_first; r < report->row_count; r++) {
         int viewpoints;
         const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
-        const double ms = viewpoints > 0 ? dip_cost_ms(report, r) : INFINITY;
+        const bool is_known = viewpoints > 0 && dip_cost_is_timed(report, r);
+        const double ms = is_known ? dip_cost_ms(report, r) : INFINITY;
         if (ms < least_ms && dip_metrics_of(&sums, 0).flip <= enough) {
             least_ms = ms;
             next = r;

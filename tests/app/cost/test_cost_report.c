@@ -174,7 +174,8 @@ static void no_row_is_better_than_the_pareto_front(void **state) {
     report.combined_first = 0;
     assert_int_equal(dip_cost_step_up(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
     assert_int_equal(dip_cost_step_up(&report, 1), -1);
-    report.rounds = 0; // without times there is no Pareto front
+    report.rounds = 0; // without times there is no Pareto front, and no row is faster
+    assert_int_equal(dip_cost_step_up(&report, 3), -1);
     assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 0);
     dip_cost_report_free(&report);
 }
