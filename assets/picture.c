@@ -1,7 +1,8 @@
-// Decodes pictures with stb_image and adds the checks that it leaves out: the size of the picture
-// and truncated files.
+// Decodes pictures with stb_image and adds the checks that it leaves out: the size of the picture,
+// truncated files, and the tables of JPEG files (jpeg_tables.c).
 #include "assets/picture.h"
 
+#include "assets/picture_private.h"
 #include "renderer/base/file.h"
 
 #include <stdio.h>
@@ -105,6 +106,11 @@ static bool decode(const uint8_t *bytes, size_t size_bytes, const char *name, Di
     *picture = (DipPicture){0};
     if (size_bytes == 0) {
         return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL, "the picture file is empty");
+    }
+    if (!dip_jpeg_has_good_tables(bytes, size_bytes)) {
+        return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL,
+                             "a Huffman or quantisation table of the JPEG file is malformed or "
+                             "missing, accepted files with every table that they use");
     }
     Source source = {.bytes = bytes, .size_bytes = size_bytes};
     int channels = 0;

@@ -149,6 +149,33 @@ static void a_cut_jpeg_is_refused(void **state) {
     every_cut_is_refused(progressive_jpeg, sizeof progressive_jpeg);
 }
 
+// Changes a byte of the JPEG file's first Huffman table. `offset` counts from the table's marker,
+// which is followed by two bytes of length, one byte that names the table, and the numbers of codes
+// of 1 to 16 bits.
+static void expect_bad_table(int offset, uint8_t value) {
+    uint8_t bytes[sizeof baseline_jpeg];
+    memcpy(bytes, baseline_jpeg, sizeof bytes);
+    size_t at = 0;
+    while (bytes[at] != 0xff || bytes[at + 1] != 0xc4) {
+        ++at;
+    }
+    bytes[at + (size_t)offset] = value;
+    DipPicture picture;
+    DipError err = {0};
+    assert_false(dip_picture_decode(bytes, sizeof bytes, "jpeg", &picture, &err));
+    assert_int_equal(err.code, DIP_ERROR_FORMAT);
+    assert_non_null(strstr(err.message, "table of the JPEG file is malformed or missing"));
+}
+
+// stb_image writes beyond a table of more than 256 codes, and uses undefined tables.
+static void bad_tables_of_a_jpeg_are_refused(void **state) {
+    (void)state;
+    expect_bad_table(4, 0x03);    // names the table 3, so that the table 0 is missing
+    expect_bad_table(4, 0x05);    // names a table that does not exist
+    expect_bad_table(4 + 8, 255); // more codes than the segment holds
+    expect_bad_table(3, 0xff);    // a segment that ends within a table
+}
+
 static void sizes_out_of_range_are_refused(void **state) {
     (void)state;
     uint8_t tga[18 + 64] = {[2] = 2, [12] = 1, [13] = 0x20, [14] = 1, [16] = 24, [17] = 0x20};
@@ -217,6 +244,7 @@ int main(void) {
         cmocka_unit_test(a_cut_bmp_is_refused),
         cmocka_unit_test(a_jpeg_has_its_texels),
         cmocka_unit_test(a_cut_jpeg_is_refused),
+        cmocka_unit_test(bad_tables_of_a_jpeg_are_refused),
         cmocka_unit_test(sizes_out_of_range_are_refused),
         cmocka_unit_test(bgra_texels_are_reordered),
         cmocka_unit_test(errors_say_what_is_wrong_with_a_file),
