@@ -1,0 +1,176 @@
+// Fuzzes the reader of the configuration. A configuration that was read is the same when it is
+// written, with indentation and CRLF, and read again.
+#include "config/config.h"
+#include "config/config_private.h"
+#include "renderer/base/number.h"
+#include "tests/fuzz/fuzz.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- writing -------------------------------------------------------------------------------------
+
+static void write_number(FILE *out, double value) {
+    char text[DIP_NUMBER_TEXT_SIZE];
+    dip_number_format(value, text);
+    fputs(text, out);
+}
+
+static void write_isa(FILE *out, int isa) {
+    static const char *const names[] = {
+#define ISA_NAME(name, NAME, lanes) #name,
+        DIP_ISA_LIST(ISA_NAME)
+#undef ISA_NAME
+    };
+    fputs(isa == DIP_CONFIG_ISA_AUTO ? "auto" : names[isa], out);
+}
+
+static void write_value(FILE *out, DipConfigType type, const void *field) {
+    char settings[256];
+    const DipConfigSize *size = field;
+    const DipConfigColor *colour = field;
+    switch (type) {
+    case DIP_TYPE_SIZE:
+        fprintf(out, "%dx%d", size->width, size->height);
+        break;
+    case DIP_TYPE_NUMBER:
+        write_number(out, *(const double *)field);
+        break;
+    case DIP_TYPE_INTEGER:
+        fprintf(out, "%d", *(const int *)field);
+        break;
+    case DIP_TYPE_FLAG:
+        fputs(*(const bool *)field ? "true" : "false", out);
+        break;
+    case DIP_TYPE_SETTINGS:
+        dip_quality_format(field, settings, sizeof settings);
+        fputs(settings, out);
+        break;
+    case DIP_TYPE_COLOR:
+        fprintf(out, "%d,%d,%d", colour->rgb[0], colour->rgb[1], colour->rgb[2]);
+        break;
+    case DIP_TYPE_ISA:
+        write_isa(out, *(const int *)field);
+        break;
+    case DIP_TYPE_FILE:
+    case DIP_TYPE_FILES:
+        fputs(((const DipConfigFile *)field)->text, out);
+        break;
+    }
+}
+
+static void write_line(FILE *out, const DipConfigKeyInfo *info, const void *field) {
+    fprintf(out, "\t %s = ", info->name);
+    write_value(out, info->type, field);
+    fputs(" ; comment\r\n", out);
+}
+
+static const void *field_of(const DipConfig *config, int key) {
+    return (const char *)config + dip_config_key_info((DipConfigKey)key)->offset;
+}
+
+// Writes the keys that the first file gave.
+static void write_config(FILE *out, const DipConfig *config) {
+    for (int k = 0; k < DIP_KEY_COUNT; k++) {
+        const DipConfigKeyInfo *info = dip_config_key_info((DipConfigKey)k);
+        const DipConfigFiles *files = field_of(config, k);
+        const size_t count = config->line[k] == 0           ? 0
+                             : info->type == DIP_TYPE_FILES ? files->count
+                                                            : 1;
+        for (size_t i = 0; i < count; i++) {
+            write_line(out, info, info->type == DIP_TYPE_FILES ? &files->items[i] : (void *)files);
+        }
+    }
+}
+
+// --- comparing -----------------------------------------------------------------------------------
+
+static bool same_file(const DipConfigFile *a, const DipConfigFile *b) {
+    return (a->path == NULL) == (b->path == NULL) &&
+           (!a->path || (strcmp(a->path, b->path) == 0 && strcmp(a->text, b->text) == 0));
+}
+
+static bool same_files(const DipConfigFiles *a, const DipConfigFiles *b) {
+    bool same = a->count == b->count;
+    for (size_t i = 0; same && i < a->count; i++) {
+        same = same_file(&a->items[i], &b->items[i]);
+    }
+    return same;
+}
+
+static bool same_value(DipConfigType type, const void *a, const void *b) {
+    switch (type) {
+    case DIP_TYPE_SIZE:
+        return memcmp(a, b, sizeof(DipConfigSize)) == 0;
+    case DIP_TYPE_NUMBER:
+        return memcmp(a, b, sizeof(double)) == 0;
+    case DIP_TYPE_INTEGER:
+    case DIP_TYPE_ISA:
+        return memcmp(a, b, sizeof(int)) == 0;
+    case DIP_TYPE_FLAG:
+        return memcmp(a, b, sizeof(bool)) == 0;
+    case DIP_TYPE_SETTINGS:
+        return memcmp(a, b, sizeof(DipQuality)) == 0;
+    case DIP_TYPE_COLOR:
+        return memcmp(a, b, sizeof(DipConfigColor)) == 0;
+    case DIP_TYPE_FILE:
+        return same_file(a, b);
+    case DIP_TYPE_FILES:
+        return same_files(a, b);
+    }
+    return false;
+}
+
+// --- the check -----------------------------------------------------------------------------------
+
+static void check_range(const DipConfigKeyInfo *info, const void *field) {
+    if (info->type == DIP_TYPE_NUMBER && info->fallback && info->fallback[0]) {
+        const double value = *(const double *)field;
+        FUZZ_CHECK(value == 0.0 || (value >= info->low && value <= info->high));
+    }
+}
+
+static void check_accepted(const DipConfig *config) {
+    char *text = NULL;
+    size_t size_bytes = 0;
+    FILE *out = open_memstream(&text, &size_bytes);
+    FUZZ_CHECK(out != NULL);
+    write_config(out, config);
+    fclose(out);
+    DipConfig again;
+    DipErrorList faults = {0};
+    FUZZ_CHECK(dip_config_load(fuzz_write("x.ini", text, size_bytes), &again, &faults));
+    FUZZ_CHECK(faults.count == 0);
+    for (int k = 0; k < DIP_KEY_COUNT; k++) {
+        const DipConfigKeyInfo *info = dip_config_key_info((DipConfigKey)k);
+        check_range(info, field_of(config, k));
+        FUZZ_CHECK(same_value(info->type, field_of(config, k), field_of(&again, k)));
+    }
+    dip_config_free(&again);
+    dip_error_list_free(&faults);
+    free(text);
+}
+
+static void check_faults(const DipErrorList *faults) {
+    for (size_t i = 0; i < faults->count; i++) {
+        char line[1024];
+        dip_error_format(&faults->items[i], line, sizeof line);
+        FUZZ_CHECK(faults->items[i].code != DIP_ERROR_NONE && faults->items[i].message[0]);
+        FUZZ_CHECK(!strchr(line, '\n'));
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
+    DipConfig config;
+    DipErrorList faults = {0};
+    const bool accepted = dip_config_load(fuzz_write("x.ini", bytes, size_bytes), &config, &faults);
+    FUZZ_CHECK(accepted == (faults.error_count == 0));
+    check_faults(&faults);
+    if (accepted) {
+        check_accepted(&config);
+        dip_config_free(&config);
+    }
+    dip_error_list_free(&faults);
+    return 0;
+}

@@ -1,0 +1,111 @@
+// Fuzzes the reader of the journal of an unfinished cost report. Each input is read twice: as it
+// is, and with the right checksum added to every line, because changes of a line break its
+// checksum. Measurements that were found are found again, after the journal was closed, and in a
+// new journal to which they were added.
+#include "app/cost/journal.h"
+#include "renderer/base/hash.h"
+#include "tests/fuzz/fuzz.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char plan[] = "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa";
+static const char key[] = "0123456789abcdef0123456789abcdef";
+
+enum { MOST_ROUNDS = 4, MOST_TIMES = 6 };
+
+static DipCostJournal *open_journal(void) {
+    char folder[1024];
+    snprintf(folder, sizeof folder, "%s", fuzz_path("cost.state"));
+    *strrchr(folder, '/') = '\0';
+    DipError err = {0};
+    DipCostJournal *journal = dip_cost_journal_open(folder, plan, &err);
+    FUZZ_CHECK(journal != NULL);
+    return journal;
+}
+
+static void check_same_numbers(const double *a, const double *b, int count) {
+    FUZZ_CHECK((a == NULL) == (b == NULL));
+    for (int i = 0; a && i < count; i++) {
+        FUZZ_CHECK(fuzz_same_number(a[i], b[i]));
+    }
+}
+
+// Compares the measurements that both journals have for the key and for rounds of several lengths.
+static void check_same(const DipCostJournal *a, const DipCostJournal *b) {
+    DipMetricSums sums_a, sums_b;
+    const bool found = dip_cost_journal_find(a, key, &sums_a);
+    FUZZ_CHECK(found == dip_cost_journal_find(b, key, &sums_b));
+    if (found) {
+        check_same_numbers((const double *)&sums_a, (const double *)&sums_b, DIP_METRIC_SUM_COUNT);
+    }
+    for (int count = 0; count <= MOST_TIMES; count++) {
+        for (int r = 0; r < MOST_ROUNDS; r++) {
+            check_same_numbers(dip_cost_journal_round(a, r, count),
+                               dip_cost_journal_round(b, r, count), count);
+        }
+    }
+}
+
+static void add_all(const DipCostJournal *from, DipCostJournal *to) {
+    DipMetricSums sums;
+    if (dip_cost_journal_find(from, key, &sums)) {
+        FUZZ_CHECK(dip_cost_journal_add(to, key, &sums, NULL));
+    }
+    for (int count = 1; count <= MOST_TIMES; count++) {
+        for (int r = 0; r < MOST_ROUNDS; r++) {
+            const double *ms = dip_cost_journal_round(from, r, count);
+            FUZZ_CHECK(!ms || dip_cost_journal_add_round(to, ms, count, NULL));
+        }
+    }
+}
+
+static void check_journal(const void *bytes, size_t size_bytes) {
+    fuzz_write("cost.state", bytes, size_bytes);
+    DipCostJournal *journal = open_journal();
+    DipCostJournal *again = open_journal();
+    check_same(journal, again);
+    dip_cost_journal_close(&again, true); // Removes the file.
+    DipCostJournal *made = open_journal();
+    add_all(journal, made);
+    dip_cost_journal_close(&made, false);
+    DipCostJournal *read = open_journal();
+    for (int count = 1; count <= MOST_TIMES; count++) {
+        for (int r = 0; r < MOST_ROUNDS; r++) {
+            check_same_numbers(dip_cost_journal_round(journal, r, count),
+                               dip_cost_journal_round(read, r, count), count);
+        }
+    }
+    dip_cost_journal_close(&read, true);
+    dip_cost_journal_close(&journal, false);
+}
+
+// Adds the checksum to every line.
+static char *sign(const uint8_t *bytes, size_t size_bytes, size_t *signed_bytes) {
+    char *text = NULL;
+    FILE *out = open_memstream(&text, signed_bytes);
+    FUZZ_CHECK(out != NULL);
+    for (const uint8_t *at = bytes, *end = bytes + size_bytes; at < end;) {
+        const uint8_t *newline = memchr(at, '\n', (size_t)(end - at));
+        const size_t length = (size_t)((newline ? newline : end) - at);
+        char check[33];
+        DipHash hash = dip_hash_begin(0);
+        dip_hash_bytes(&hash, at, length);
+        dip_hash_hex(&hash, check);
+        fwrite(at, 1, length, out);
+        fprintf(out, " %s\n", check);
+        at = newline ? newline + 1 : end;
+    }
+    fclose(out);
+    return text;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
+    size_t signed_bytes = 0;
+    char *text = sign(bytes, size_bytes, &signed_bytes);
+    check_journal(bytes, size_bytes);
+    check_journal(text, signed_bytes);
+    free(text);
+    return 0;
+}
