@@ -5,7 +5,7 @@
 # from there. Inputs that show a fault, and the output of each fuzzer, are in build/fuzz/found and
 # build/fuzz/READER.log.
 
-FUZZERS=${FUZZERS:-ini pth bth settings picture journal cost_json scene_pack model}
+FUZZERS=${FUZZERS:-ini pth bth settings picture journal cost_json scene_pack frame model}
 
 # run_fuzzer READER SECONDS
 run_fuzzer() {
@@ -42,6 +42,7 @@ fuzz_all() {
     fuzz_findings=
     TMPDIR=$(mktemp -d "$([ -w /dev/shm ] && echo /dev/shm || echo /tmp)/diptych-fuzz.XXXXXX")
     export TMPDIR
+    trap 'rm -rf "$TMPDIR"' EXIT
     printf '%-12s %12s %8s %10s %8s %9s\n' reader executions seconds 'per second' new findings
     set -- "$1" $FUZZERS
     while [ $# -gt 1 ]; do
@@ -56,7 +57,6 @@ fuzz_all() {
         shift "$(($# > 2 ? 3 : 2))"
         set -- "$seconds_each" "$@"
     done
-    rm -rf "$TMPDIR"
     for reader in $fuzz_findings; do
         echo "== $reader" >&2
         grep -E 'broken promise|runtime error|ERROR|SUMMARY|Test unit' "build/fuzz/$reader.log" >&2
