@@ -131,10 +131,12 @@ typedef struct Points {
     char (*label_texts)[12];
 } Points;
 
+// The axes are logarithmic, so an error of 0 is plotted as the least error that is told apart.
 static void fill_points(const DipCostReport *report, const int *rows, int count, Points *points) {
+    static const double least_flip = 1e-7;
     for (int i = 0; i < count; i++) {
         points->x[i] = dip_cost_ms(report, rows[i]);
-        points->y[i] = dip_cost_row_metrics(report, rows[i], 0).flip;
+        points->y[i] = fmax(dip_cost_row_metrics(report, rows[i], 0).flip, least_flip);
     }
 }
 

@@ -13,6 +13,13 @@
 
 enum { MAX_FILE_BYTES = 1 << 29 };
 
+// Ranges of measurements, far beyond what can be measured. They keep all values that are computed
+// from measurements finite.
+static const double min_ms = 1e-6;
+static const double max_ms = 1e9;
+static const double max_count = 1e15;
+static const double max_mean = 1e6;
+
 static bool missing(const char *file, const char *what, DipError *err) {
     return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, what,
                          "is missing, or is not what `diptych cost` writes");
@@ -29,11 +36,11 @@ static int integer(const cJSON *object, const char *name, int least, int most, b
     return good ? (int)item->valuedouble : -1;
 }
 
-// Returns a number, or 0 if there is none. An infinite number (1e999) sets *ok to false.
-static double number(const cJSON *object, const char *name, bool *ok) {
+// Returns a number, or 0 if there is none. A number outside of 0..most sets *ok to false.
+static double number(const cJSON *object, const char *name, double most, bool *ok) {
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
     const double value = cJSON_IsNumber(item) ? item->valuedouble : 0.0;
-    *ok = *ok && isfinite(value);
+    *ok = *ok && value >= 0.0 && value <= most;
     return value;
 }
 
@@ -45,14 +52,14 @@ static void copy_text(const cJSON *item, char *to, size_t size, bool *ok) {
     }
 }
 
-// Reads an array of exactly `count` finite numbers.
-static bool numbers(const cJSON *array, int count, double *to) {
+// Reads an array of exactly `count` numbers in least..most.
+static bool numbers(const cJSON *array, int count, double least, double most, double *to) {
     if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != count) {
         return false;
     }
     const cJSON *item;
     cJSON_ArrayForEach(item, array) {
-        if (!cJSON_IsNumber(item) || !isfinite(item->valuedouble)) {
+        if (!cJSON_IsNumber(item) || !(item->valuedouble >= least && item->valuedouble <= most)) {
             return false;
         }
         *to++ = item->valuedouble;
@@ -60,13 +67,34 @@ static bool numbers(const cJSON *array, int count, double *to) {
     return true;
 }
 
+// True if there are no or at least one counted things (pixels or bursts), and if the mean of the
+// sum over them is possible.
+static bool is_sum(double sum, double count) {
+    return (count == 0.0 || count >= 1.0) && fabs(sum) <= max_mean * count;
+}
+
+static bool are_sums(const DipMetricSums *sums) {
+    const double bursts = sums->bursts;
+    bool ok = is_sum(sums->squared_static, bursts) && is_sum(sums->squared_flicker, bursts) &&
+              is_sum(sums->squared_step, bursts) && is_sum(sums->squared_two_mean, bursts);
+    for (int i = 0; i < DIP_METRIC_REGION_COUNT; i++) {
+        const DipMetricRegionSums *region = &sums->regions[i];
+        ok = ok && is_sum(region->squared_lin, region->pixels) &&
+             is_sum(region->squared_codes, region->pixels) &&
+             is_sum(region->flip, region->pixels) && is_sum(region->ssim, region->ssim_pixels);
+    }
+    return ok;
+}
+
 static bool read_sums(const cJSON *object, const char *name, DipMetricSums *sums) {
     double values[DIP_METRIC_SUM_COUNT];
-    if (!numbers(cJSON_GetObjectItemCaseSensitive(object, name), DIP_METRIC_SUM_COUNT, values)) {
+    const double most = max_mean * max_count;
+    if (!numbers(cJSON_GetObjectItemCaseSensitive(object, name), DIP_METRIC_SUM_COUNT, -most, most,
+                 values)) {
         return false;
     }
     memcpy(sums, values, sizeof values);
-    return true;
+    return are_sums(sums);
 }
 
 // --- parts -------------------------------------------------------------------------------------
@@ -88,7 +116,7 @@ static bool read_header(const cJSON *root, DipCostReport *report) {
     ok = ok && options->places > 0 && options->burst > 0 && options->timed_frames > 0;
     options->rounds = report->rounds;
     options->end_place = options->places;
-    options->pixels_per_degree = number(root, "pixels_per_degree", &ok);
+    options->pixels_per_degree = number(root, "pixels_per_degree", max_count, &ok);
     const cJSON *baseline = cJSON_GetObjectItemCaseSensitive(root, "baseline");
     ok = ok && cJSON_IsString(baseline) &&
          dip_quality_parse(baseline->valuestring, &options->baseline, NULL);
@@ -124,9 +152,10 @@ static bool read_row(const cJSON *object, DipCostReport *report, DipCostRow *row
     if (ok && times > 0) {
         const cJSON *counters = cJSON_GetObjectItemCaseSensitive(object, "counters");
         for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
-            row->counters[c] = number(counters, dip_cost_counter_names[c], &ok);
+            row->counters[c] = number(counters, dip_cost_counter_names[c], max_count, &ok);
         }
-        ok = ok && numbers(cJSON_GetObjectItemCaseSensitive(object, "all_ms"), times, row->ms);
+        ok = ok && numbers(cJSON_GetObjectItemCaseSensitive(object, "all_ms"), times, min_ms,
+                           max_ms, row->ms);
     }
     return ok;
 }
@@ -203,7 +232,8 @@ static void read_advice(const cJSON *root, DipCostReport *report) {
         double values[4] = {0};
         for (int i = 0; i < 4; i++) {
             const cJSON *value = cJSON_GetObjectItemCaseSensitive(object, names[i]);
-            ok = ok && cJSON_IsNumber(value) && isfinite(value->valuedouble);
+            ok = ok && cJSON_IsNumber(value) && value->valuedouble >= 0.0 &&
+                 value->valuedouble <= max_ms;
             values[i] = ok ? value->valuedouble : 0.0;
         }
         const int row = integer(object, "row", -1, report->row_count - 1, &ok);
