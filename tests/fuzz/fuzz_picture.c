@@ -21,25 +21,29 @@ static bool is_jpeg_frame(const uint8_t *at) {
 }
 
 // True if some field of the file that may hold the picture's size holds a large one.
-static bool may_be_large(const uint8_t *bytes, size_t size_bytes) {
-    if (size_bytes < 26) {
-        return false;
+static bool may_be_large(const uint8_t *file, size_t size_bytes) {
+    uint8_t bytes[26] = {0}; // The decoder, too, reads zeros beyond the end.
+    memcpy(bytes, file, size_bytes < sizeof bytes ? size_bytes : sizeof bytes);
+    if (bytes[0] == 0x89) { // PNG
+        return number(bytes + 16, 4, true) * number(bytes + 20, 4, true) > max_pixels;
     }
-    bool large = number(bytes + 16, 4, true) * number(bytes + 20, 4, true) > max_pixels;
-    if (bytes[0] == 'B') {
-        const uint64_t width = (uint32_t)abs((int32_t)(number(bytes + 18, 4, false) & 0xffffff));
-        const uint64_t height = number(bytes + 22, 4, false);
-        large = width * (height >> 31 ? (uint32_t)-height : height) > max_pixels;
-    } else if (bytes[0] == 0xff) {
-        large = false;
-        for (size_t i = 0; i + 9 < size_bytes && !large; i++) {
-            large = is_jpeg_frame(bytes + i) &&
-                    number(bytes + i + 5, 2, true) * number(bytes + i + 7, 2, true) > max_pixels;
+    if (bytes[0] == 'B' && bytes[14] == 12) { // BMP with a small header
+        return number(bytes + 18, 2, false) * number(bytes + 20, 2, false) > max_pixels;
+    }
+    if (bytes[0] == 'B') { // BMP: a negative height means that the top row is first.
+        const uint64_t width = number(bytes + 18, 4, false);
+        const uint64_t height = (uint64_t)llabs((int32_t)number(bytes + 22, 4, false));
+        return width * height > max_pixels;
+    }
+    const bool is_jpeg = bytes[0] == 0xff && bytes[1] >= 0xd8;
+    for (size_t i = 0; is_jpeg && i + 9 < size_bytes; i++) {
+        if (is_jpeg_frame(file + i) &&
+            number(file + i + 5, 2, true) * number(file + i + 7, 2, true) > max_pixels) {
+            return true;
         }
-    } else if (bytes[0] != 0x89) {
-        large = number(bytes + 12, 2, false) * number(bytes + 14, 2, false) > max_pixels;
     }
-    return large;
+    return !is_jpeg && // TGA
+           number(bytes + 12, 2, false) * number(bytes + 14, 2, false) > max_pixels;
 }
 
 static void check_accepted(const DipPicture *picture) {
