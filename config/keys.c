@@ -6,6 +6,7 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MAX_NAME = 64 }; // Longer names get no suggestion.
@@ -102,10 +103,11 @@ const char *dip_config_nearest_key(const char *name) {
     int nearest = 1 + (int)(length / 3 > 1 ? length / 3 : 1);
     const char *found = NULL;
     for (int k = 0; k < DIP_KEY_COUNT; k++) {
-        const int distance = edit_distance(name, infos[k].name);
-        if (distance < nearest) {
-            nearest = distance;
-            found = infos[k].name;
+        // Each letter of the difference in length counts as wrong.
+        if (abs((int)strlen(infos[k].name) - (int)length) < nearest) {
+            const int distance = edit_distance(name, infos[k].name);
+            found = distance < nearest ? infos[k].name : found;
+            nearest = distance < nearest ? distance : nearest;
         }
     }
     return found;
