@@ -174,7 +174,7 @@ static void check_refused(const DipError *err) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     static const DipImporter importer = {
-        .program = "/proc/self/exe", .command = "import", .wall_s = 20, .cpu_s = 1};
+        .program = "/proc/self/exe", .command = "import", .wall_s = 10, .cpu_s = 1};
     const DipModelOptions options = {.normal_maps = true, .importer = &importer};
     char ending[16];
     char name[32];
