@@ -16,6 +16,7 @@
     X(water)          \
     X(reference)      \
     X(time)           \
+    X(motion)         \
     X(parallel)       \
     X(numbers)
 // clang-format on

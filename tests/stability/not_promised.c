@@ -14,4 +14,10 @@ const char *const stability_not_promised =
     "because\n"
     "  vertices are rounded to 1/256 pixel. Lift a decal as row N16 says, or give it the same "
     "vertices\n"
-    "  as the surface.\n";
+    "  as the surface.\n"
+    "- Anisotropic filtering reads a whole number of probes, which can change on a whole surface "
+    "at\n"
+    "  once if the surface is nearly parallel to the picture. Row A63 bounds the change.\n"
+    "- The rows about small motions sample poses, directions and settings. A pop at another "
+    "moment is\n"
+    "  possible.\n";

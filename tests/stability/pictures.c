@@ -23,7 +23,7 @@ static bool allocate(StabilityRun *run, const StabilityShot *shot, StabilityPict
     return picture->rgb_lin != NULL;
 }
 
-static void decode_frame(const DipFrame *frame, StabilityPicture *picture) {
+void stability_decode(const DipFrame *frame, StabilityPicture *picture) {
     DipSrgbDecodeTable table;
     dip_srgb_decode_table(&table);
     for (int y = 0; y < frame->height; y++) {
@@ -66,7 +66,7 @@ bool stability_draw(StabilityRun *run, const StabilityShot *shot, StabilityPictu
         drawn = dip_renderer_draw(renderer, scene, shot->pose, shot->time_ns, &frame, &err);
     }
     if (drawn) {
-        decode_frame(&frame, picture);
+        stability_decode(&frame, picture);
     } else {
         break_with(run, shot, &err);
         stability_picture_free(picture);

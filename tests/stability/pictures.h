@@ -36,6 +36,10 @@ bool stability_draw_reference(StabilityRun *run, const StabilityShot *shot,
 
 void stability_picture_free(StabilityPicture *picture);
 
+// Decodes a frame's pixels into a picture of the frame's size, whose rgb_lin the caller has
+// allocated, and writes the frame's hash.
+void stability_decode(const DipFrame *frame, StabilityPicture *picture);
+
 // Both pictures have the same size. Returns the root of the mean squared difference of all values,
 // in linear light.
 double stability_rms(const StabilityPicture *a, const StabilityPicture *b);
