@@ -84,7 +84,7 @@ static void check_accepted(const DipCostReport *report) {
     dip_cost_report_free(&again);
     FUZZ_CHECK(dip_cost_write_csv(report, fuzz_path("x.csv"), NULL));
     FUZZ_CHECK(dip_cost_write_html(report, NULL, fuzz_path("x.html"), NULL));
-    dip_cost_print(report, nowhere);
+    FUZZ_CHECK(dip_cost_print(report, nowhere, NULL));
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
