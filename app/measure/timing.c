@@ -3,35 +3,23 @@
 #include "app/measure/timing.h"
 
 #include "app/measure/internal/random.h"
-#include "app/measure/statistics.h"
+#include "app/measure/internal/runner.h"
 #include "renderer/base/assert.h"
-#include "renderer/base/clock.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <time.h>
-
-enum { SETTLE_RUNS = 5, SETTLE_TRIES = 20 };
-static const double settle_tolerance = 0.02;
 
 typedef struct Timing {
     const DipTimingDef *def;
     const DipTimingCalls *calls;
+    DipTimingRunner runner;
     uint64_t random;
     int *order;       // subjects, in the round's order
     double *round_ms; // times of one round, as after_round receives them
 } Timing;
 
-static int64_t now_ns(const Timing *t) {
-    return t->calls->clock_ns ? t->calls->clock_ns(t->calls->context) : dip_clock_ns();
-}
-
 static bool run(Timing *t, const DipTimingTurn *turn, double *ms, DipError *err) {
-    const DipTimingCalls *calls = t->calls;
-    const int64_t begin_ns = now_ns(t);
-    const bool done = calls->run(calls->context, turn, err);
-    *ms = 1e-6 * (double)(now_ns(t) - begin_ns);
-    return done && (!calls->after_run || calls->after_run(calls->context, turn, *ms, err));
+    return dip_timing_run_once(&t->runner, turn, ms, err);
 }
 
 // --- before the rounds -------------------------------------------------------------------------
@@ -51,36 +39,7 @@ static bool warm_up(Timing *t, DipError *err) {
     return true;
 }
 
-static bool settle(Timing *t, DipError *err) {
-    const DipTimingTurn turn = {.phase = DIP_TIMING_SETTLE, .round = -1};
-    double last = 0.0;
-    for (int tries = 0; tries < SETTLE_TRIES; tries++) {
-        double ms[SETTLE_RUNS];
-        for (int i = 0; i < SETTLE_RUNS; i++) {
-            if (!run(t, &turn, &ms[i], err)) {
-                return false;
-            }
-        }
-        const double median = dip_stats_median(ms, SETTLE_RUNS);
-        if (tries > 0 && fabs(median - last) <= settle_tolerance * last) {
-            break;
-        }
-        last = median;
-    }
-    return true;
-}
-
 // --- rounds ------------------------------------------------------------------------------------
-
-// Shuffles the previous round's order (Fisher and Yates).
-static void shuffle(Timing *t) {
-    for (int i = t->def->subject_count - 1; i > 0; i--) {
-        const int other = dip_random_below(&t->random, i + 1);
-        const int swap = t->order[i];
-        t->order[i] = t->order[other];
-        t->order[other] = swap;
-    }
-}
 
 static double *round_time(Timing *t, const DipTimingTurn *turn) {
     const DipTimingDef *def = t->def;
@@ -139,7 +98,7 @@ static void keep_round(const DipTimingDef *def, int round, const double *round_m
 static bool run_round(Timing *t, int round, double *ms, DipError *err) {
     const DipTimingCalls *calls = t->calls;
     const double *known = calls->known_round ? calls->known_round(calls->context, round) : NULL;
-    shuffle(t);
+    dip_random_shuffle(&t->random, t->order, t->def->subject_count);
     for (int i = 0; !known && i < t->def->subject_count; i++) {
         const bool visited = t->def->version_count == 1
                                  ? visit_one_version(t, round, t->order[i], err)
@@ -167,6 +126,7 @@ bool dip_timing_run(const DipTimingDef *def, const DipTimingCalls *calls, double
     Timing t = {
         .def = def,
         .calls = calls,
+        .runner = {calls->run, calls->after_run, calls->clock_ns, calls->context},
         .random = def->seed,
         .order = malloc(subjects * sizeof(int)),
         .round_ms = malloc(values * sizeof(double)),
@@ -176,7 +136,9 @@ bool dip_timing_run(const DipTimingDef *def, const DipTimingCalls *calls, double
     for (int i = 0; done && i < def->subject_count; i++) {
         t.order[i] = i;
     }
-    done = done && warm_up(&t, err) && (!def->settle || settle(&t, err));
+    bool settled;
+    done =
+        done && warm_up(&t, err) && (!def->settle || dip_timing_settle(&t.runner, &settled, err));
     for (int round = 0; done && round < def->round_count; round++) {
         done = run_round(&t, round, ms, err);
     }

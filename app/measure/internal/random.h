@@ -16,4 +16,14 @@ static inline int dip_random_below(uint64_t *state, int count) {
     return (int)(dip_random_next(state) % (uint32_t)count);
 }
 
+// Shuffles the values in place (Fisher and Yates).
+static inline void dip_random_shuffle(uint64_t *state, int *values, int count) {
+    for (int i = count - 1; i > 0; i--) {
+        const int other = dip_random_below(state, i + 1);
+        const int swap = values[i];
+        values[i] = values[other];
+        values[other] = swap;
+    }
+}
+
 #endif
