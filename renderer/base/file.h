@@ -14,8 +14,8 @@ extern "C" {
 // Reads a regular file of at most max_bytes. Messages call the file by `kind`, for example "camera
 // path" or "picture". On success *bytes is the content followed by a zero byte, and *size_bytes is
 // the size without this zero. The caller frees *bytes. On failure *bytes is NULL and the error's
-// code is MISSING (no such file), IO (the file cannot be read, or is a folder or device), OVERSIZED,
-// MEMORY or RUNTIME (the machine has no memory or open files left). Thread-safe.
+// code is MISSING (no such file), IO (the file cannot be read, or is a folder or device),
+// OVERSIZED, MEMORY or RUNTIME (the machine has no memory or open files left). Thread-safe.
 DIP_API bool dip_file_read(const char *file, const char *kind, size_t max_bytes,
                            unsigned char **bytes, size_t *size_bytes, DipError *err);
 
