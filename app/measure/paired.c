@@ -114,7 +114,7 @@ static double ratio_error(const DipPairedTimes *times, int *drawn, double *logs,
 bool dip_paired_ratio(const DipPairedTimes *times, DipStatsEstimate *ratio, DipError *err) {
     const int rounds = times->rounds;
     DIP_ASSERT(rounds > 0 && times->frames > 0);
-    int *drawn = malloc((size_t)rounds * sizeof *drawn);
+    int *drawn = calloc((size_t)rounds, sizeof *drawn);
     double *scratch = malloc((size_t)rounds * sizeof *scratch);
     double *logs = malloc(RESAMPLES * sizeof *logs);
     bool done = (drawn && scratch && logs) || out_of_memory(err);
