@@ -1,6 +1,8 @@
 // Reading /proc/cpuinfo and the resource usage of the process.
 #include "app/machine.h"
 
+#include "renderer/base/hash.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -21,6 +23,23 @@ void dip_machine_processor(char *name, size_t size_bytes) {
     if (in) {
         fclose(in);
     }
+}
+
+void dip_machine_build(char hex[33]) {
+    hex[0] = '\0';
+    FILE *in = fopen("/proc/self/exe", "rb");
+    if (!in) {
+        return;
+    }
+    DipHash hash = dip_hash_begin(0);
+    char block[1 << 16];
+    for (size_t got; (got = fread(block, 1, sizeof block, in)) > 0;) {
+        dip_hash_bytes(&hash, block, got);
+    }
+    if (!ferror(in)) {
+        dip_hash_hex(&hash, hex);
+    }
+    fclose(in);
 }
 
 int dip_machine_processor_count(void) {

@@ -7,6 +7,10 @@
 // Copies the name of the processor, as Linux gives it, or "unknown processor".
 void dip_machine_processor(char *name, size_t size_bytes);
 
+// Writes a hash of this program's file, which differs between any two builds, or "" if the file
+// cannot be read.
+void dip_machine_build(char hex[33]);
+
 // Returns the number of processors that are online, at least 1.
 int dip_machine_processor_count(void);
 

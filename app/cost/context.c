@@ -26,6 +26,7 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
         .height = report->height,
         .quality = report->options.baseline,
         .reflection = session->reflection,
+        .force_all_effects = session->force_all_effects,
     };
     cost->reference = dip_reference_create(&session->scene_def, err);
     bool opened = cost->reference != NULL;
@@ -63,7 +64,7 @@ bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *fra
     const DipCostReport *report = cost->report;
     const int64_t duration_ns =
         dip_cost_path_duration_ns(report, cost->session, report->rows[row].path);
-    return dip_cost_draw(cost, row, duration_ns / report->options.timed_frames * index, index,
+    return dip_cost_draw(cost, row, duration_ns / dip_cost_frame_count(report) * index, index,
                          frame, err);
 }
 

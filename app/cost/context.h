@@ -32,7 +32,7 @@ void dip_cost_context_close(DipCostContext *cost);
 bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
                    DipError *err);
 
-// Draws the row's timed frame `index`, 0..timed_frames - 1.
+// Draws the row's timed frame `index`, 0..dip_cost_frame_count - 1.
 bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *frame, DipError *err);
 
 // Gets the truth of one frame at a viewpoint of a path. A burst is the successive frames that are

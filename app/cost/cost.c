@@ -71,19 +71,24 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     if (!find_cache(arguments, cache, err) || !dip_folder_make(arguments->out, "--out", err)) {
         return false;
     }
-    dip_cost_plan_hash(report, plan);
+    dip_cost_plan_hash(report, session, plan);
     DipCostJournal *journal = dip_cost_journal_open(arguments->out, plan, err);
     if (!journal ||
         !dip_cost_context_open(&cost, session, report, journal, cache[0] ? cache : NULL, err)) {
         dip_cost_journal_close(&journal, false);
         return false;
     }
-    bool done = measure(&cost, err) && write_report(&cost, arguments->out, err);
+    const bool done = measure(&cost, err) && write_report(&cost, arguments->out, err);
     dip_cost_context_close(&cost);
     dip_cost_journal_close(&journal, done);
     if (done) {
-        done = dip_cost_print(report, stdout, err);
+        dip_cost_print(report, stdout);
         printf("\nWritten: %s/cost.html, cost.csv, cost.json\n", arguments->out);
+    }
+    const bool wrong = report->rounds > 0 && report->verdict == DIP_COST_RED;
+    if (done && wrong && report->options.require_quiet) {
+        return dip_error_set_runtime(err, DIP_ERROR_RUNTIME, NULL, 0, "--require-quiet",
+                                     "the times are wrong. %s", report->verdict_reason);
     }
     return done;
 }

@@ -8,7 +8,10 @@
 #include <string.h>
 
 static void write_head(FILE *out) {
-    fprintf(out, "kind,title,path,settings,ratio,ratio_low,ratio_high,ms,ms_low,ms_high");
+    fprintf(out,
+            "kind,title,path,settings,ratio,ratio_low,ratio_high,ms,ms_low,ms_high,"
+            "p95_ms,p95_ms_high,worst_ms,worst_ms_high,scene,width,height,processor,threads,isa,"
+            "version,verdict");
     for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
         const char *name = dip_metric_region_names[r];
         fprintf(out, ",%s_pixels,%s_rmse_lin,%s_psnr_db,%s_ssim,%s_flip", name, name, name, name,
@@ -42,19 +45,23 @@ static void write_errors(const DipCostReport *report, int row, FILE *out) {
 
 // Writes one line. The settings are quoted, since they contain commas.
 static void write_row(const DipCostReport *report, const char *kind, const char *title, int row,
-                      int base, FILE *out) {
+                      const DipStatsEstimate *ratio, FILE *out) {
     char settings[256];
     dip_quality_format(&report->rows[row].quality, settings, sizeof settings);
     fprintf(out, "%s,\"%s\",%s,\"%s\"", kind, title, report->paths[report->rows[row].path],
             settings);
     if (dip_cost_is_timed(report, row)) {
-        const DipStatsEstimate ratio = dip_cost_ratio(report, row, base);
-        const DipStatsEstimate time = dip_cost_time(report, row);
-        fprintf(out, ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", ratio.value, ratio.low, ratio.high,
-                time.value, time.low, time.high);
+        const DipPathEstimate *time = &report->rows[row].time;
+        fprintf(out, ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", ratio->value, ratio->low, ratio->high,
+                time->mean_ms.value, time->mean_ms.low, time->mean_ms.high);
+        fprintf(out, ",%.6g,%.6g,%.6g,%.6g", time->p95_ms.value, time->p95_ms.high,
+                time->worst_ms.value, time->worst_ms.high);
     } else {
-        fprintf(out, ",,,,,,");
+        fprintf(out, ",,,,,,,,,,");
     }
+    fprintf(out, ",\"%s\",%d,%d,\"%s\",%d,%s,%s,%s", report->scene, report->width, report->height,
+            report->processor, report->threads, report->isa, report->version,
+            report->rounds > 0 ? dip_cost_verdict_names[report->verdict] : "");
     write_errors(report, row, out);
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         fprintf(out, ",%.10g", report->rows[row].counters[c]);
@@ -65,23 +72,25 @@ static void write_row(const DipCostReport *report, const char *kind, const char 
 bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError *err) {
     char *text = NULL;
     size_t size = 0;
-    (void)dip_stats_ran_out();
     FILE *out = open_memstream(&text, &size);
     if (!out) {
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
     write_head(out);
-    write_row(report, "a/a", "the baseline twice", report->same_row, 0, out);
+    for (int p = 0; p < report->path_count; p++) {
+        const int row = report->same_rows[p];
+        write_row(report, "a/a", "the baseline twice", row, &report->rows[row].time.ratio, out);
+    }
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
         for (int i = 0; i < sweep->row_count; i++) {
-            write_row(report, "step", sweep->title, sweep->rows[i], sweep->base, out);
+            write_row(report, "step", sweep->title, sweep->rows[i], &sweep->ratios[i], out);
         }
     }
     for (int r = report->combined_first; r < report->row_count; r++) {
-        write_row(report, "combination", "", r, 0, out);
+        write_row(report, "combination", "", r, &report->rows[r].time.ratio, out);
     }
-    bool made = !ferror(out) && !dip_stats_ran_out();
+    bool made = !ferror(out);
     made = fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
     const bool written = made
                              ? dip_whole_file_write(file, text, size, err)

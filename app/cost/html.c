@@ -26,6 +26,8 @@ static const char style[] =
     ".pictures{display:flex;flex-wrap:wrap;gap:.8rem;margin:.6rem 0}"
     "figure{margin:0;width:200px}figure img{width:200px;display:block;image-rendering:pixelated;"
     "margin-bottom:3px}figcaption{font-size:.85rem}"
+    ".verdict{padding:.4rem .8rem;border-left:.4rem solid #009e73}"
+    ".amber{border-color:#e69f00}.red{border-color:#d55e00}"
     ".note{color:#555;font-size:.9rem}dl{font-size:.9rem}dt{font-weight:bold}dd{margin:0 0 .4rem}";
 
 static void write_row_text(const DipCostReport *report, int row, FILE *out) {
@@ -36,6 +38,25 @@ static void write_row_text(const DipCostReport *report, int row, FILE *out) {
 
 // --- head --------------------------------------------------------------------------------------
 
+// The verdict on the machine, and the A/A rows of all paths.
+static void write_verdict(const DipCostReport *report, FILE *out) {
+    fprintf(out, "<p class=\"verdict %s\"><b>The machine was %s.</b> ",
+            dip_cost_verdict_names[report->verdict], dip_cost_verdict_names[report->verdict]);
+    dip_markup_text(out, report->verdict_reason);
+    fprintf(out,
+            "%s</p>\n<p><b>A/A:</b> on each path, the baseline was timed twice, as if it were "
+            "two settings. Differences between settings that are smaller than these are noise:",
+            report->verdict == DIP_COST_RED
+                ? " The times below are wrong, and no settings are advised."
+                : "");
+    for (int p = 0; p < report->path_count; p++) {
+        const DipStatsEstimate same = report->rows[report->same_rows[p]].time.ratio;
+        fprintf(out, "%s %s %.3f (%.3f to %.3f)", p ? "," : "", report->paths[p], same.value,
+                same.low, same.high);
+    }
+    fprintf(out, ".</p>\n");
+}
+
 static void write_facts(const DipCostReport *report, FILE *out) {
     const DipCostOptions *o = &report->options;
     char baseline[DIP_COST_TEXT];
@@ -45,22 +66,18 @@ static void write_facts(const DipCostReport *report, FILE *out) {
     fprintf(out, "</h1>\n<p>%d&times;%d pixels, on ", report->width, report->height);
     dip_markup_text(out, report->processor);
     fprintf(out,
-            ", %d thread%s, %s. Times were taken of %d frame%s of each path, in %d rounds of "
-            "random order. Errors were taken at %d viewpoint%s on each path, %d successive frame%s "
+            ", %d thread%s, %s. Times were taken of %d frames along each path, in %d rounds of "
+            "random order, each beside a time of the baseline. Errors were taken at %d viewpoint%s "
+            "on each path, %d successive frame%s "
             "at each, against a converged picture (the truth) of 2&times;%d samples per pixel. "
             "Settings of the baseline: %s.",
-            report->threads, dip_cost_plural(report->threads), report->isa, o->timed_frames,
-            dip_cost_plural(o->timed_frames), report->rounds, o->places, dip_cost_plural(o->places),
+            report->threads, dip_cost_plural(report->threads), report->isa,
+            dip_cost_frame_count(report), report->rounds, o->places, dip_cost_plural(o->places),
             o->burst, dip_cost_plural(o->burst), o->samples, baseline);
-    if (dip_cost_is_timed(report, report->same_row)) {
-        const DipStatsEstimate same = dip_cost_ratio(report, report->same_row, 0);
-        fprintf(
-            out,
-            " <b>A/A:</b> the baseline was timed twice, as if it were two settings. The ratio of "
-            "the two times is %.3f (95 %% interval %.3f to %.3f); smaller differences are noise.",
-            same.value, same.low, same.high);
-    }
     fprintf(out, "</p>\n");
+    if (report->rounds > 0) {
+        write_verdict(report, out);
+    }
 }
 
 // --- advice ------------------------------------------------------------------------------------
@@ -82,29 +99,33 @@ static void write_advice(const DipCostReport *report, FILE *out) {
     if (report->advice_count == 0) {
         return;
     }
+    const char *of = dip_cost_budget_of_names[report->options.budget_of];
     fprintf(
         out,
         "<h2>Best settings for a time budget</h2>\n"
         "<p>For each time budget, the table shows the settings with the least FLIP that are within "
-        "the budget. It chooses from %d combinations on path %s. The time of the chosen settings "
-        "was measured again. &ldquo;Next better&rdquo; is the fastest combination whose FLIP is at "
+        "the budget: the upper end of the interval of their %s time along the path is at most "
+        "the budget. It chooses from %d combinations on path %s. &ldquo;Next better&rdquo; is the "
+        "fastest combination whose FLIP is at "
         "least 1 %% below that of the chosen settings.</p>\n"
         "<div class=\"scroll\"><table>\n"
-        "<tr><th>budget, ms</th><th class=\"l\">settings</th><th>time again, ms</th><th>95 %% "
+        "<tr><th>budget, ms</th><th class=\"l\">settings</th><th>%s, ms</th><th>95 %% "
         "interval</th><th>FLIP</th><th>RMSE, linear</th><th class=\"l\">next better</th><th>change "
         "of ms</th><th>change of FLIP</th></tr>\n",
-        report->row_count - report->combined_first, report->paths[0]);
+        of, report->row_count - report->combined_first, report->paths[0], of);
     for (int i = 0; i < report->advice_count; i++) {
         const DipCostAdvice *advice = &report->advice[i];
         fprintf(out, "<tr><td>%g</td><td class=\"l\">", advice->budget_ms);
         if (advice->row < 0) {
-            fprintf(out, "no measured combination is that fast</td><td colspan=\"7\"></td></tr>\n");
+            fprintf(
+                out,
+                "no measured combination is surely that fast</td><td colspan=\"7\"></td></tr>\n");
             continue;
         }
         const DipMetrics f = dip_cost_row_metrics(report, advice->row, 0);
         write_row_text(report, advice->row, out);
         fprintf(out, "</td><td>%.2f</td><td>%.2f to %.2f</td><td>%.4f</td><td>%.5f</td>",
-                advice->checked_ms, advice->checked_low, advice->checked_high, f.flip, f.rmse_lin);
+                advice->ms, advice->ms_low, advice->ms_high, f.flip, f.rmse_lin);
         write_next_better(report, advice->row, f.flip, out);
     }
     fprintf(out, "</table></div>\n");
@@ -173,8 +194,8 @@ static void write_scatter(const DipCostReport *report, const int *rows, int coun
         best->labels[i] = best->label_texts[i];
     }
     snprintf(subtitle, sizeof subtitle,
-             "%d combinations on path %s, %dx%d pixels; medians of %d rounds", count,
-             report->paths[0], report->width, report->height, report->rounds);
+             "%d combinations on path %s, %dx%d pixels; mean of %d frames", count, report->paths[0],
+             report->width, report->height, dip_cost_frame_count(report));
     const DipPlotSeries series[2] = {
         {.name = "all combinations", .x = all->x, .y = all->y, .count = count, .marks_only = true},
         {.name = "Pareto front", .x = best->x, .y = best->y, .count = kept, .labels = best->labels},
@@ -269,9 +290,12 @@ static void write_foot(const DipCostReport *report, FILE *out) {
         out,
         "<h2>What the words mean</h2>\n"
         "<dl>\n"
-        "<dt>ratio</dt><dd>The step's time divided by the baseline's time in the same round: the "
-        "median of this quotient over rounds and frames. The 95 %% interval comes from a bootstrap "
-        "over the rounds.</dd>\n"
+        "<dt>ratio</dt><dd>The step's time for the whole path divided by the baseline's. Each "
+        "frame "
+        "was timed beside the baseline's same frame. The 95 %% interval comes from a "
+        "bootstrap.</dd>\n"
+        "<dt>mean, p95</dt><dd>Mean and 95th percentile of the times of the frames along the path, "
+        "in milliseconds, in this run.</dd>\n"
         "<dt>truth</dt><dd>The converged picture: jittered supersampling in linear light. Every "
         "sample is shaded at its own position, and textures are read from their largest level. The "
         "truth is the mean of two independent halves. Half of their difference is its noise floor; "
@@ -294,7 +318,6 @@ bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pic
                          const char *file, DipError *err) {
     char *page = NULL;
     size_t size = 0;
-    (void)dip_stats_ran_out();
     FILE *out = open_memstream(&page, &size);
     if (!out) {
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
@@ -313,7 +336,7 @@ bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pic
     }
     write_foot(report, out);
     fprintf(out, "</body></html>\n");
-    bool made = !ferror(out) && has_front && !dip_stats_ran_out();
+    bool made = !ferror(out) && has_front;
     made = fclose(out) == 0 && made && page; // glibc sets it to NULL if memory runs out here.
     const bool written = made
                              ? dip_whole_file_write(file, page, size, err)

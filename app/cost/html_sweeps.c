@@ -37,8 +37,7 @@ static Scale find_scale(const DipCostReport *report, const DipCostSweep *sweep) 
     Scale scale = {1e-9, 1e-9};
     for (int i = 0; i < sweep->row_count; i++) {
         if (dip_cost_is_timed(report, sweep->rows[i])) {
-            scale.most_ratio =
-                fmax(scale.most_ratio, dip_cost_ratio(report, sweep->rows[i], sweep->base).high);
+            scale.most_ratio = fmax(scale.most_ratio, sweep->ratios[i].high);
         }
         scale.most_flip =
             fmax(scale.most_flip, dip_cost_row_metrics(report, sweep->rows[i], 0).flip);
@@ -46,13 +45,13 @@ static Scale find_scale(const DipCostReport *report, const DipCostSweep *sweep) 
     return scale;
 }
 
-static void write_time_bar(const DipCostReport *report, const DipCostSweep *sweep, int row,
+static void write_time_bar(const DipCostReport *report, const DipCostSweep *sweep, int index,
                            double y, double most, FILE *out) {
-    if (!dip_cost_is_timed(report, row)) {
+    if (!dip_cost_is_timed(report, sweep->rows[index])) {
         return;
     }
     const double room = BAR_ROOM - 60.0;
-    const DipStatsEstimate ratio = dip_cost_ratio(report, row, sweep->base);
+    const DipStatsEstimate ratio = sweep->ratios[index];
     char number[32];
     snprintf(number, sizeof number, "%.2f", ratio.value);
     const double end = BAR_LEFT + room * ratio.high / most;
@@ -84,7 +83,7 @@ static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, F
         dip_cost_step_text(report, sweep, row, step);
         fprintf(out, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n", BAR_LEFT - 8,
                 y + 13.0, step);
-        write_time_bar(report, sweep, row, y, scale.most_ratio, out);
+        write_time_bar(report, sweep, i, y, scale.most_ratio, out);
         snprintf(number, sizeof number, "%.4f", flip);
         write_bar(out, BAR_SECOND, y, (BAR_ROOM - 40.0) * flip / scale.most_flip, "#d55e00",
                   number);
@@ -92,8 +91,9 @@ static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, F
     fprintf(out, "</svg>\n</div>\n");
 }
 
-static void write_step_row(const DipCostReport *report, const DipCostSweep *sweep, int row,
+static void write_step_row(const DipCostReport *report, const DipCostSweep *sweep, int index,
                            FILE *out) {
+    const int row = sweep->rows[index];
     int viewpoints;
     char step[DIP_COST_TEXT];
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
@@ -102,11 +102,12 @@ static void write_step_row(const DipCostReport *report, const DipCostSweep *swee
     dip_cost_step_text(report, sweep, row, step);
     fprintf(out, "<tr><td>%s%s</td>", step, row == sweep->base ? " (baseline)" : "");
     if (dip_cost_is_timed(report, row)) {
-        const DipStatsEstimate ratio = dip_cost_ratio(report, row, sweep->base);
-        fprintf(out, "<td>%.2f</td><td>%.3f</td><td>%.3f to %.3f</td>", dip_cost_ms(report, row),
-                ratio.value, ratio.low, ratio.high);
+        const DipStatsEstimate ratio = sweep->ratios[index];
+        fprintf(out, "<td>%.2f</td><td>%.2f</td><td>%.3f</td><td>%.3f to %.3f</td>",
+                dip_cost_ms(report, row), report->rows[row].time.p95_ms.value, ratio.value,
+                ratio.low, ratio.high);
     } else {
-        fprintf(out, "<td></td><td></td><td></td>");
+        fprintf(out, "<td></td><td></td><td></td><td></td>");
     }
     fprintf(out,
             "<td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.4f</td><td>%.5f</td><td>%.5f</td>"
@@ -153,11 +154,12 @@ static void write_all_sweeps(const DipCostReport *report, const DipCostPictures 
         fprintf(out, "<h3>%s <span class=\"note\">(path %s)</span></h3>\n", sweep->title,
                 report->paths[sweep->path]);
         write_bars(report, sweep, out);
-        fprintf(out, "<div class=\"scroll\"><table>\n<tr><th>step</th><th>ms</th><th>ratio</th>"
+        fprintf(out, "<div class=\"scroll\"><table>\n<tr><th>step</th><th>mean ms</th><th>p95 "
+                     "ms</th><th>ratio</th>"
                      "<th>95 %% interval</th><th>RMSE, linear</th><th>PSNR, dB</th><th>SSIM</th>"
                      "<th>FLIP</th><th>flicker</th><th>two-frame mean</th><th></th></tr>\n");
         for (int i = 0; i < sweep->row_count; i++) {
-            write_step_row(report, sweep, sweep->rows[i], out);
+            write_step_row(report, sweep, i, out);
         }
         fprintf(out, "</table></div>\n");
         char order[2 * DIP_COST_TEXT];

@@ -247,18 +247,27 @@ bool dip_cost_journal_add(DipCostJournal *journal, const char *key, const DipMet
     return append(journal, false, key, values, DIP_METRIC_SUM_COUNT, err);
 }
 
+// The first value of a round's entry is the number of the round.
 const double *dip_cost_journal_round(const DipCostJournal *journal, int round, int count) {
     for (int i = 0; i < journal->count; i++) {
         const Entry *entry = &journal->entries[i];
-        if (entry->is_round && entry->count == count && strcmp(entry->key, journal->plan) == 0 &&
-            round-- == 0) {
-            return entry->values;
+        if (entry->is_round && entry->count == count + 1 && entry->values[0] == round &&
+            strcmp(entry->key, journal->plan) == 0) {
+            return entry->values + 1;
         }
     }
     return NULL;
 }
 
-bool dip_cost_journal_add_round(DipCostJournal *journal, const double *ms, int count,
+bool dip_cost_journal_add_round(DipCostJournal *journal, int round, const double *values, int count,
                                 DipError *err) {
-    return append(journal, true, journal->plan, ms, count, err);
+    double *entry = malloc(((size_t)count + 1) * sizeof *entry);
+    if (!entry) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+    }
+    entry[0] = round;
+    memcpy(entry + 1, values, (size_t)count * sizeof *values);
+    const bool added = append(journal, true, journal->plan, entry, count + 1, err);
+    free(entry);
+    return added;
 }

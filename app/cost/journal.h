@@ -29,12 +29,10 @@ bool dip_cost_journal_find(const DipCostJournal *journal, const char *key, DipMe
 bool dip_cost_journal_add(DipCostJournal *journal, const char *key, const DipMetricSums *sums,
                           DipError *err);
 
-// Returns the times of the round with this number, or NULL if there is no such round. The rounds
-// that were stored with the journal's plan hash are numbered from 0, in the order in which they
-// were added. Rounds that do not have `count` times are skipped. The times are borrowed until the
-// journal is closed.
+// Returns the values of the round with this number, or NULL if the journal has none with its own
+// plan hash and `count` values. The values are borrowed until the journal is closed.
 const double *dip_cost_journal_round(const DipCostJournal *journal, int round, int count);
-bool dip_cost_journal_add_round(DipCostJournal *journal, const double *ms, int count,
+bool dip_cost_journal_add_round(DipCostJournal *journal, int round, const double *values, int count,
                                 DipError *err);
 
 #endif

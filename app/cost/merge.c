@@ -9,14 +9,17 @@
 #include <stdio.h>
 #include <string.h>
 
-// True if two reports are parts of the same report: if they have the same scene, size, rows and
-// truths (converged pictures). Their machines and times may differ.
+// True if two reports are parts of the same report: if they have the same scene, size, paths, rows
+// and truths (converged pictures). Their machines and times may differ.
 static bool belong(const DipCostReport *a, const DipCostReport *b) {
     bool same = strcmp(a->scene_hash, b->scene_hash) == 0 && a->width == b->width &&
                 a->height == b->height && a->row_count == b->row_count &&
                 a->path_count == b->path_count && a->options.places == b->options.places &&
                 a->options.burst == b->options.burst && a->options.samples == b->options.samples &&
                 a->options.pixels_per_degree == b->options.pixels_per_degree;
+    for (int p = 0; same && p < a->path_count; p++) {
+        same = strcmp(a->path_hashes[p], b->path_hashes[p]) == 0;
+    }
     for (int r = 0; same && r < a->row_count; r++) {
         same = a->rows[r].path == b->rows[r].path &&
                memcmp(&a->rows[r].quality, &b->rows[r].quality, sizeof a->rows[r].quality) == 0;
@@ -58,7 +61,7 @@ static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *re
             dip_cost_report_free(&part);
             return dip_error_set(err, DIP_ERROR_CONFLICT, arguments->parts[i], 0, NULL,
                                  "is not a part of the same report as %s (scene, size, settings, "
-                                 "viewpoints or samples differ)",
+                                 "camera paths, viewpoints or samples differ)",
                                  arguments->parts[0]);
         }
         if (report->rounds == 0 && part.rounds > 0) {
@@ -106,7 +109,7 @@ bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err) {
         done = dip_cost_write_html(&report, NULL, file, err);
     }
     if (done) {
-        done = dip_cost_print(&report, stdout, err);
+        dip_cost_print(&report, stdout);
     }
     dip_cost_report_free(&report);
     return done;

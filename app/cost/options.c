@@ -70,6 +70,23 @@ static bool read_budget(void *fields, const DipOptionRow *row, const char *value
     return true;
 }
 
+const char *const dip_cost_budget_of_names[3] = {
+    [DIP_COST_BUDGET_P95] = "p95",
+    [DIP_COST_BUDGET_MEAN] = "mean",
+    [DIP_COST_BUDGET_WORST] = "worst",
+};
+
+static bool read_budget_of(void *fields, const DipOptionRow *row, const char *value,
+                           DipError *err) {
+    for (int i = 0; i < (int)DIP_ARRAY_COUNT(dip_cost_budget_of_names); i++) {
+        if (strcmp(value, dip_cost_budget_of_names[i]) == 0) {
+            ((DipCostOptions *)fields)->budget_of = (DipCostBudgetOf)i;
+            return true;
+        }
+    }
+    return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, "p95, mean or worst");
+}
+
 // --- the tables ----------------------------------------------------------------------------------
 
 static const DipOptionRow out_rows[] = {
@@ -114,6 +131,12 @@ static const DipOptionRow choice_rows[] = {
      .most = DIP_COST_MAX_BUDGETS,
      .separator = ',',
      .read = read_budget},
+    {.name = "--budget-of",
+     .argument = "TIME",
+     .text = "The time that must be within the budget: p95 (the 95th percentile of the frames "
+             "along the path), mean or worst. The default is p95.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_budget_of},
 };
 
 static const DipOptionRow error_rows[] = {
@@ -167,18 +190,24 @@ static const DipOptionRow time_rows[] = {
      .field = FIELD(errors_only)},
     {.name = "--rounds",
      .argument = "N",
-     .text = "Measure every time in this many rounds. The default is 16.",
+     .text = "Measure times in this many rounds. Each round times other frames of the path. The "
+             "default is 16.",
      .kind = DIP_OPTION_INTEGER,
      .field = FIELD(rounds),
      .least = 2,
      .most = 10000},
     {.name = "--timed",
      .argument = "N",
-     .text = "Time this many frames along the path in each round. The default is 4.",
+     .text = "Time this many frames in each round, spread evenly over the path. The default is 4.",
      .kind = DIP_OPTION_INTEGER,
      .field = FIELD(timed_frames),
      .least = 1,
      .most = 100},
+    {.name = "--require-quiet",
+     .text = "Exit with code 1 if other programs kept the machine so busy that the times are "
+             "wrong. The report is written all the same.",
+     .kind = DIP_OPTION_FLAG,
+     .field = FIELD(require_quiet)},
     {.name = "--seed",
      .argument = "N",
      .text = "Seed of the random order of measurements in each round. The default comes from the "

@@ -11,9 +11,18 @@
 enum {
     DIP_COST_MAX_PLACES = 1000,
     DIP_COST_MAX_BURST = 16,
-    DIP_COST_MAX_BUDGETS = 8,
+    DIP_COST_MAX_BUDGETS = 64,
     DIP_COST_MAX_PARTS = 256 // Files that one merge joins.
 };
+
+// The time of a path's frames that must be within a budget.
+typedef enum DipCostBudgetOf {
+    DIP_COST_BUDGET_P95,  // The 95th percentile over the frames.
+    DIP_COST_BUDGET_MEAN, // The mean over the frames.
+    DIP_COST_BUDGET_WORST // The slowest frame.
+} DipCostBudgetOf;
+
+extern const char *const dip_cost_budget_of_names[3]; // "p95", "mean", "worst"
 
 // What to measure. Texts are borrowed from argv.
 typedef struct DipCostOptions {
@@ -34,7 +43,9 @@ typedef struct DipCostOptions {
     unsigned combined; // Bit s: setting s takes part in the combinations.
     double budgets_ms[DIP_COST_MAX_BUDGETS];
     int budget_count;
-    const char *cache; // Folder of the cached truths; NULL: the user's cache folder.
+    DipCostBudgetOf budget_of;
+    bool require_quiet; // Fail if the machine was too busy for the times to be believed.
+    const char *cache;  // Folder of the cached truths; NULL: the user's cache folder.
 } DipCostOptions;
 
 // The whole command line of `diptych cost`.

@@ -198,6 +198,16 @@ static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     }
 }
 
+// Adds two rows with the baseline's settings on each path: the one beside which the path's rows are
+// timed, unless a sweep has it already, and the A/A row.
+static void add_base_rows(DipCostReport *report) {
+    for (int path = 0; path < report->path_count; path++) {
+        report->base_rows[path] = add_row(report, &report->options.baseline, path);
+        report->same_rows[path] = report->row_count;
+        report->rows[report->row_count++] = report->rows[report->base_rows[path]];
+    }
+}
+
 // --- combinations ------------------------------------------------------------------------------
 
 // True if some enabled setting has no effect, so that another combination draws the same picture.
@@ -250,6 +260,7 @@ static void describe(DipCostReport *report, const DipSession *session) {
     dip_machine_processor(report->processor, sizeof report->processor);
     snprintf(report->isa, sizeof report->isa, "%s", dip_isa_name(session->isa));
     snprintf(report->version, sizeof report->version, "%s", DIP_VERSION);
+    dip_machine_build(report->build);
     report->threads = dip_pool_thread_count(session->pool);
     report->width = session->pane_size.width;
     report->height = session->pane_size.height;
@@ -262,6 +273,31 @@ static unsigned default_combined(const DipCostOptions *options) {
     return options->budget_count
                ? two | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD | 1u << DIP_SETTING_AAF
                : two;
+}
+
+static void hash_pose(DipHash *hash, const DipCostReport *report, const DipSession *session,
+                      int path, int64_t time_ns) {
+    const DipPose pose = dip_cost_pose(report, session, path, time_ns);
+    dip_hash_integer(hash, time_ns);
+    for (int i = 0; i < 3; i++) {
+        dip_hash_number(hash, pose.position_world[i]);
+    }
+    for (int i = 0; i < 4; i++) {
+        dip_hash_number(hash, pose.orientation[i]);
+    }
+    dip_hash_number(hash, pose.fov_y_deg);
+}
+
+// Hashes the poses at all viewpoints of a path.
+static void hash_path(DipCostReport *report, const DipSession *session, int path) {
+    const DipCostOptions *options = &report->options;
+    DipHash hash = dip_hash_begin(0);
+    for (int i = 0; i < options->places * options->burst; i++) {
+        hash_pose(&hash, report, session, path,
+                  dip_cost_viewpoint_time_ns(report, session, path, i / options->burst,
+                                             i % options->burst));
+    }
+    dip_hash_hex(&hash, report->path_hashes[path]);
 }
 
 bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCostOptions *options,
@@ -279,8 +315,6 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     }
     describe(report, session);
     add_row(report, &report->options.baseline, add_path(report, session, DIP_CATEGORY_DEFAULT));
-    report->same_row = report->row_count;
-    report->rows[report->row_count++] = report->rows[0];
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         if (s == DIP_SETTING_AAA) {
             plan_adaptive(report, session);
@@ -288,16 +322,21 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
             plan_setting(report, session, (DipSetting)s);
         }
     }
+    add_base_rows(report);
     report->combined_first = report->row_count;
     if (report->options.combined && !add_combinations(report, report->options.baseline, 0, err)) {
         return false;
     }
+    for (int path = 0; path < report->path_count; path++) {
+        hash_path(report, session, path);
+    }
     return dip_cost_report_alloc(report, err);
 }
 
-void dip_cost_plan_hash(const DipCostReport *report, char hex[33]) {
+void dip_cost_plan_hash(const DipCostReport *report, const DipSession *session, char hex[33]) {
     DipHash hash = dip_hash_begin(0);
     dip_hash_text(&hash, report->version);
+    dip_hash_text(&hash, report->build);
     dip_hash_text(&hash, report->scene_hash);
     dip_hash_text(&hash, report->processor);
     dip_hash_text(&hash, report->isa);
@@ -307,10 +346,20 @@ void dip_cost_plan_hash(const DipCostReport *report, char hex[33]) {
                           report->options.places,
                           report->options.burst,
                           report->options.samples,
-                          report->options.timed_frames};
+                          report->options.rounds,
+                          report->options.timed_frames,
+                          session->force_all_effects};
     dip_hash_bytes(&hash, values, sizeof values);
+    for (int path = 0; path < report->path_count; path++) {
+        const int frames = dip_cost_frame_count(report);
+        const int64_t duration_ns = dip_cost_path_duration_ns(report, session, path);
+        dip_hash_text(&hash, report->path_hashes[path]);
+        for (int f = 0; f < frames; f++) {
+            hash_pose(&hash, report, session, path, duration_ns / frames * f);
+        }
+    }
     for (int r = 0; r < report->row_count; r++) {
-        dip_hash_text(&hash, report->paths[report->rows[r].path]);
+        dip_hash_bytes(&hash, &report->rows[r].path, sizeof report->rows[r].path);
         dip_hash_bytes(&hash, &report->rows[r].quality, sizeof report->rows[r].quality);
     }
     dip_hash_hex(&hash, hex);

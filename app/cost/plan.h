@@ -28,8 +28,8 @@ DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, in
 int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession *session, int path,
                                    int viewpoint, int frame);
 
-// Writes the plan hash, which covers everything that times depend on: rows, size, scene, machine,
-// version.
-void dip_cost_plan_hash(const DipCostReport *report, char hex[33]);
+// Writes the plan hash, which covers everything that times depend on: rows, poses along the paths,
+// effects, size, scene, machine, version and build.
+void dip_cost_plan_hash(const DipCostReport *report, const DipSession *session, char hex[33]);
 
 #endif

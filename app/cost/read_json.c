@@ -6,6 +6,7 @@
 #include "renderer/base/file.h"
 
 #include <cjson/cJSON.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,6 +100,35 @@ static bool read_sums(const cJSON *object, const char *name, DipMetricSums *sums
 
 // --- parts -------------------------------------------------------------------------------------
 
+static bool read_paths(const cJSON *root, DipCostReport *report) {
+    bool ok = true;
+    const cJSON *item;
+    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "paths")) {
+        const int p = report->path_count;
+        if (p == DIP_COST_MAX_PATHS) {
+            return false;
+        }
+        copy_text(cJSON_GetObjectItemCaseSensitive(item, "name"), report->paths[p],
+                  sizeof report->paths[p], &ok);
+        copy_text(cJSON_GetObjectItemCaseSensitive(item, "poses"), report->path_hashes[p],
+                  sizeof report->path_hashes[p], &ok);
+        report->base_rows[p] = integer(item, "base_row", 0, DIP_COST_MAX_ROWS - 1, &ok);
+        report->same_rows[p] = integer(item, "same_row", 0, DIP_COST_MAX_ROWS - 1, &ok);
+        report->path_count++;
+    }
+    return ok;
+}
+
+static bool read_machine(const cJSON *root, DipCostReport *report) {
+    bool ok = true;
+    const cJSON *machine = cJSON_GetObjectItemCaseSensitive(root, "machine");
+    report->machine.wait = number(machine, "wait", max_mean, &ok);
+    report->machine.repeated = integer(machine, "repeated", 0, INT_MAX, &ok);
+    report->machine.has_wait = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(machine, "has_wait"));
+    report->machine.settled = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(machine, "settled"));
+    return ok;
+}
+
 static bool read_header(const cJSON *root, DipCostReport *report) {
     bool ok = true;
     DipCostOptions *options = &report->options;
@@ -113,7 +143,8 @@ static bool read_header(const cJSON *root, DipCostReport *report) {
 #define READ_OPTION(field, most) options->field = integer(root, #field, 0, most, &ok);
     DIP_COST_OPTION_NUMBERS(READ_OPTION)
 #undef READ_OPTION
-    ok = ok && options->places > 0 && options->burst > 0 && options->timed_frames > 0;
+    ok = ok && options->places > 0 && options->burst > 0 && options->timed_frames > 0 &&
+         report->rounds != 1; // One round has no interval.
     options->rounds = report->rounds;
     options->end_place = options->places;
     options->pixels_per_degree = number(root, "pixels_per_degree", max_count, &ok);
@@ -121,17 +152,31 @@ static bool read_header(const cJSON *root, DipCostReport *report) {
     ok = ok && cJSON_IsString(baseline) &&
          dip_quality_parse(baseline->valuestring, &options->baseline, NULL);
     const cJSON *item;
-    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "paths")) {
-        if (report->path_count < DIP_COST_MAX_PATHS) {
-            copy_text(item, report->paths[report->path_count++], sizeof report->paths[0], &ok);
-        }
-    }
+    ok = ok && read_paths(root, report);
     cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "left_out")) {
         if (report->refused_count < DIP_COST_MAX_REFUSED) {
             copy_text(item, report->refused[report->refused_count++], DIP_COST_REASON, &ok);
         }
     }
     return ok && report->path_count > 0;
+}
+
+static bool read_pairs(const cJSON *object, int frames, DipTimePair *pairs) {
+    double *values = malloc((size_t)frames * sizeof *values);
+    bool ok = values != NULL;
+#define READ_PAIRS(field)                                                                          \
+    ok = ok &&                                                                                     \
+         numbers(cJSON_GetObjectItemCaseSensitive(object, #field), frames, 0.0, max_ms, values);   \
+    for (int f = 0; ok && f < frames; f++) {                                                       \
+        pairs[f].field = values[f];                                                                \
+    }
+    DIP_COST_PAIR_FIELDS(READ_PAIRS)
+#undef READ_PAIRS
+    for (int f = 0; ok && f < frames; f++) {
+        ok = pairs[f].ms >= min_ms && pairs[f].base_ms >= min_ms;
+    }
+    free(values);
+    return ok;
 }
 
 static bool read_row(const cJSON *object, DipCostReport *report, DipCostRow *row) {
@@ -148,14 +193,13 @@ static bool read_row(const cJSON *object, DipCostReport *report, DipCostRow *row
         }
         row->judged[p] = true;
     }
-    const int times = report->rounds * report->options.timed_frames;
-    if (ok && times > 0) {
+    if (ok && report->rounds > 0) {
         const cJSON *counters = cJSON_GetObjectItemCaseSensitive(object, "counters");
         for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
             row->counters[c] = number(counters, dip_cost_counter_names[c], max_count, &ok);
         }
-        ok = ok && numbers(cJSON_GetObjectItemCaseSensitive(object, "all_ms"), times, min_ms,
-                           max_ms, row->ms);
+        ok = ok && read_pairs(cJSON_GetObjectItemCaseSensitive(object, "pairs"),
+                              dip_cost_frame_count(report), row->pairs);
     }
     return ok;
 }
@@ -168,7 +212,13 @@ static bool read_rows(const cJSON *root, DipCostReport *report) {
             return false;
         }
     }
-    return report->same_row < row && report->combined_first <= row;
+    bool ok = report->combined_first <= row;
+    for (int p = 0; p < report->path_count; p++) {
+        ok = ok && report->base_rows[p] < row && report->same_rows[p] < row &&
+             report->rows[report->base_rows[p]].path == p &&
+             report->rows[report->same_rows[p]].path == p;
+    }
+    return ok;
 }
 
 static bool read_sweep(const cJSON *object, DipCostReport *report, DipCostSweep *sweep) {
@@ -227,8 +277,7 @@ static void read_advice(const cJSON *root, DipCostReport *report) {
     const cJSON *object;
     cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "advice")) {
         bool ok = report->advice_count < DIP_COST_MAX_BUDGETS;
-        const char *const names[] = {"budget_ms", "checked_ms", "checked_ms_low",
-                                     "checked_ms_high"};
+        const char *const names[] = {"budget_ms", "ms", "ms_low", "ms_high"};
         double values[4] = {0};
         for (int i = 0; i < 4; i++) {
             const cJSON *value = cJSON_GetObjectItemCaseSensitive(object, names[i]);
@@ -244,15 +293,25 @@ static void read_advice(const cJSON *root, DipCostReport *report) {
     }
 }
 
-// True if a file of this size can hold the times of all rows, of which each takes two characters.
+// True if a file of this size can hold the times of all rows, of which each has six numbers of at
+// least two characters.
 // If it cannot, memory for the times would be out of proportion to the file.
 static bool times_fit(const DipCostReport *report, int row_count, size_t size_bytes) {
-    return (double)row_count * report->rounds * report->options.timed_frames * 2.0 <=
+    return (double)row_count * report->rounds * report->options.timed_frames *
+               DIP_TIME_PAIR_VALUES * 2.0 <=
            (double)size_bytes;
 }
 
 static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *report,
                         const char *file, DipError *err) {
+    bool ok = true;
+    if (number(root, "format", max_count, &ok) != DIP_COST_JSON_FORMAT &&
+        cJSON_GetObjectItemCaseSensitive(root, "version")) {
+        return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, "format",
+                             "is that of another version of Diptych, accepted %d; measure the "
+                             "report again",
+                             DIP_COST_JSON_FORMAT);
+    }
     if (!read_header(root, report)) {
         return missing(file, "header", err);
     }
@@ -279,7 +338,11 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
         return missing(file, "floors", err);
     }
     read_advice(root, report);
-    return true;
+    if (report->rounds == 0) {
+        return true;
+    }
+    return (read_machine(root, report) || missing(file, "machine", err)) &&
+           dip_cost_estimate_times(report, err);
 }
 
 bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) {

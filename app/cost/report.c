@@ -17,7 +17,7 @@ const char *const dip_cost_counter_names[DIP_COST_COUNTER_COUNT] = {
 
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err) {
     const size_t viewpoints = (size_t)report->options.places;
-    const size_t times = (size_t)report->options.rounds * (size_t)report->options.timed_frames;
+    const size_t frames = (size_t)dip_cost_frame_count(report);
     report->floors = calloc((size_t)report->path_count * viewpoints, sizeof *report->floors);
     report->has_floor = calloc((size_t)report->path_count * viewpoints, sizeof *report->has_floor);
     bool made = report->floors && report->has_floor;
@@ -25,8 +25,8 @@ bool dip_cost_report_alloc(DipCostReport *report, DipError *err) {
         DipCostRow *row = &report->rows[r];
         row->viewpoints = calloc(viewpoints, sizeof *row->viewpoints);
         row->judged = calloc(viewpoints, sizeof *row->judged);
-        row->ms = calloc(times, sizeof *row->ms);
-        made = made && row->viewpoints && row->judged && row->ms;
+        row->pairs = calloc(frames, sizeof *row->pairs);
+        made = made && row->viewpoints && row->judged && row->pairs;
     }
     return made || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
 }
@@ -35,7 +35,7 @@ void dip_cost_report_free(DipCostReport *report) {
     for (int r = 0; r < report->row_count; r++) {
         free(report->rows[r].viewpoints);
         free(report->rows[r].judged);
-        free(report->rows[r].ms);
+        free(report->rows[r].pairs);
     }
     free(report->rows);
     free(report->floors);
@@ -117,31 +117,6 @@ bool dip_cost_at_floor(const DipCostReport *report, int row) {
            DIP_TRUTH_FLOOR_FACTOR * dip_cost_floor_rmse(report, report->rows[row].path, 0);
 }
 
-// --- times -------------------------------------------------------------------------------------
-
-bool dip_cost_is_timed(const DipCostReport *report, int row) {
-    return report->rounds > 0 && report->rows[row].ms;
-}
-
-DipStatsEstimate dip_cost_time(const DipCostReport *report, int row) {
-    return dip_stats_time_estimate(report->rows[row].ms, report->options.timed_frames,
-                                   report->rounds);
-}
-
-double dip_cost_ms(const DipCostReport *report, int row) {
-    return dip_stats_time(report->rows[row].ms, report->options.timed_frames, report->rounds);
-}
-
-DipStatsEstimate dip_cost_ratio(const DipCostReport *report, int row, int base) {
-    return dip_stats_paired_ratio_estimate(report->rows[row].ms, report->rows[base].ms,
-                                           report->options.timed_frames, report->rounds);
-}
-
-double dip_cost_median_ratio(const DipCostReport *report, int row, int base) {
-    return dip_stats_paired_ratio(report->rows[row].ms, report->rows[base].ms,
-                                  report->options.timed_frames, report->rounds);
-}
-
 // --- choosing ----------------------------------------------------------------------------------
 
 typedef struct Candidate {
@@ -208,16 +183,40 @@ int dip_cost_step_up(const DipCostReport *report, int row) {
     return next;
 }
 
-int dip_cost_choose(const DipCostReport *report, const double *latest_ms, double budget_ms) {
+static int count_changes(const DipQuality *quality) {
+    int count = 0;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        count += quality->step[s] != dip_setting_info((DipSetting)s)->default_step;
+    }
+    return count;
+}
+
+// True if row a is to be preferred to row b, whose errors are alike.
+static bool is_preferred(const DipCostReport *report, int a, int b) {
+    const DipStatsEstimate x = dip_cost_budget_time(report, a);
+    const DipStatsEstimate y = dip_cost_budget_time(report, b);
+    const bool apart = x.high < y.low || y.high < x.low;
+    const int changes =
+        count_changes(&report->rows[a].quality) - count_changes(&report->rows[b].quality);
+    return !apart && changes != 0 ? changes < 0 : x.value < y.value;
+}
+
+int dip_cost_choose(const DipCostReport *report, double budget_ms) {
     int best = -1;
     double least = INFINITY;
-    for (int r = report->combined_first; r < report->row_count; r++) {
-        int viewpoints;
-        const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
-        const double flip = dip_metrics_of(&sums, 0).flip;
-        if (viewpoints > 0 && latest_ms[r] <= budget_ms && flip < least) {
-            least = flip;
-            best = r;
+    for (int pass = 0; pass < 2; pass++) { // First the least FLIP, then the best row of that FLIP.
+        for (int r = report->combined_first; r < report->row_count; r++) {
+            int viewpoints;
+            const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
+            const double flip = dip_metrics_of(&sums, 0).flip;
+            if (viewpoints == 0 || dip_cost_budget_time(report, r).high > budget_ms) {
+                continue;
+            }
+            if (pass == 0) {
+                least = fmin(least, flip);
+            } else if (flip <= 1.01 * least && (best < 0 || is_preferred(report, r, best))) {
+                best = r;
+            }
         }
     }
     return best;

@@ -1,12 +1,14 @@
 // A cost report: its measurements, and the values computed from them. Errors are measured against
 // truths (converged pictures, app/measure/truth.h), at a few viewpoints of each camera path. Times
-// are measured in rounds: each round times every frame of every row once.
+// are measured along each path, each beside a time of the path's baseline
+// (app/measure/paired_timing.h).
 #ifndef DIP_APP_COST_REPORT_H
 #define DIP_APP_COST_REPORT_H
 
 #include "app/cost/options.h"
 #include "app/measure/metrics.h"
-#include "app/measure/statistics.h"
+#include "app/measure/paired.h"
+#include "app/measure/paired_timing.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/quality.h"
 
@@ -38,8 +40,9 @@ typedef struct DipCostRow {
     int path;                                // Index of the camera path in the report.
     DipMetricSums *viewpoints;               // Errors per viewpoint of the path. Owned.
     bool *judged;                            // [viewpoint]: its errors are known. Owned.
-    double *ms;                              // Times, [round * timed_frames + frame]. Owned.
+    DipTimePair *pairs;                      // Times of the frames along the path. Owned.
     double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
+    DipPathEstimate time;                    // Computed from the pairs.
 } DipCostRow;
 
 // A sweep: all steps of one setting on one path, with every other setting held constant.
@@ -47,19 +50,29 @@ typedef struct DipCostSweep {
     char title[DIP_COST_TEXT]; // "Adaptive AA with aa=4"
     DipSetting setting;
     int path;
-    int base; // Row of the baseline's step, with which times are compared.
+    int base; // Row of the step that the baseline has, with which the other steps are compared.
     int rows[DIP_COST_MAX_SWEEP_ROWS];
+    DipStatsEstimate ratios[DIP_COST_MAX_SWEEP_ROWS]; // Times of the rows over that of the base.
     int row_count;
 } DipCostSweep;
 
 // The row to choose for one time budget.
 typedef struct DipCostAdvice {
     double budget_ms;
-    int row;            // -1 if no combination is within the budget.
-    double checked_ms;  // Time of the row, measured again.
-    double checked_low; // 95 % interval of checked_ms.
-    double checked_high;
+    int row;       // -1 if no combination is within the budget.
+    double ms;     // The row's time, of the kind that the budget is meant for.
+    double ms_low; // 95 % interval of ms; ms_high is at most the budget.
+    double ms_high;
 } DipCostAdvice;
+
+// How quiet the machine was while times were taken.
+typedef enum DipCostVerdict {
+    DIP_COST_GREEN, // The intervals hold.
+    DIP_COST_AMBER, // The intervals may be too narrow.
+    DIP_COST_RED    // The times are wrong: no advice is given.
+} DipCostVerdict;
+
+extern const char *const dip_cost_verdict_names[]; // "green", "amber", "red"
 
 typedef struct DipCostReport {
     char scene[DIP_COST_TEXT];
@@ -67,21 +80,31 @@ typedef struct DipCostReport {
     char processor[DIP_COST_TEXT];
     char isa[16];
     char version[32];
+    char build[33]; // Hash of the program's file.
     int threads;
     int width;  // Pixels.
     int height; // Pixels.
     DipCostOptions options;
     char paths[DIP_COST_MAX_PATHS][16]; // Names: "DEFAULT", "AA", ...
+    // Hashes of the poses that are drawn on each path, since a path may be edited and keep its
+    // name.
+    char path_hashes[DIP_COST_MAX_PATHS][33];
     int path_count;
     DipCostRow *rows; // Owned. Row 0 is the baseline on path 0.
     int row_count;
-    int same_row;       // The A/A row: the same settings and path as row 0.
+    // Rows with the baseline's settings, per path: the row with which all others of the path are
+    // timed, and the A/A row, which is timed beside it as if it were another setting.
+    int base_rows[DIP_COST_MAX_PATHS];
+    int same_rows[DIP_COST_MAX_PATHS];
     int combined_first; // Rows from this index on are the combinations, on path 0.
     DipCostSweep sweeps[DIP_COST_MAX_SWEEPS];
     int sweep_count;
     char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // Steps that were left out, with reasons.
     int refused_count;
-    int rounds; // Number of rounds timed so far.
+    int rounds;                    // Number of rounds timed; 0 if the report has no times.
+    DipPairedTimingResult machine; // What the timing tells about the machine.
+    DipCostVerdict verdict;        // Valid if the report has times.
+    char verdict_reason[DIP_COST_REASON];
     // Noise floors of the truths, [path * options.places + viewpoint]. Both arrays are owned.
     DipMetricSums *floors;
     bool *has_floor; // True if the floor with this index is known.
@@ -132,19 +155,24 @@ bool dip_cost_at_floor(const DipCostReport *report, int row);
 
 // --- times -------------------------------------------------------------------------------------
 
+// Number of frames that are timed along a path.
+int dip_cost_frame_count(const DipCostReport *report);
+
+// Computes the time of every row from its pairs, the ratios of all sweeps and the verdict. Call it
+// once all pairs are there. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_estimate_times(DipCostReport *report, DipError *err);
+
 bool dip_cost_is_timed(const DipCostReport *report, int row);
 
-// The time of a row in milliseconds per frame: the median over the rounds for each frame, then the
-// mean of these medians over the frames. dip_cost_ms returns this value only. dip_cost_time also
-// returns its 95 % interval, which takes far longer to compute.
+// The mean time of a row over the frames along the path, in milliseconds per frame.
 double dip_cost_ms(const DipCostReport *report, int row);
-DipStatsEstimate dip_cost_time(const DipCostReport *report, int row);
 
-// The ratio of two rows: the row's time divided by the base row's time in the same round, as the
-// median over rounds and frames. dip_cost_median_ratio returns this value only. dip_cost_ratio also
-// returns its 95 % interval.
-double dip_cost_median_ratio(const DipCostReport *report, int row, int base);
-DipStatsEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
+// The time of a row, of the kind that budgets are meant for (--budget-of).
+DipStatsEstimate dip_cost_budget_time(const DipCostReport *report, int row);
+
+// Computes the ratio of the times of two rows of one path. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEstimate *ratio,
+                    DipError *err);
 
 // --- choosing ----------------------------------------------------------------------------------
 
@@ -161,8 +189,10 @@ int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int coun
 // there is none.
 int dip_cost_step_up(const DipCostReport *report, int row);
 
-// Returns the combination with the least FLIP whose time is within the budget, or -1 if there is
-// none. latest_ms[row] is the time of a row.
-int dip_cost_choose(const DipCostReport *report, const double *latest_ms, double budget_ms);
+// Returns the combination with the least FLIP whose time is surely within the budget: the upper end
+// of its interval is at most the budget. Among combinations whose FLIP is within 1 % of the least,
+// takes the fastest one, and among those whose intervals overlap with it, the one with the fewest
+// settings that differ from their defaults. Returns -1 if no combination is within the budget.
+int dip_cost_choose(const DipCostReport *report, double budget_ms);
 
 #endif

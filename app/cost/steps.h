@@ -14,13 +14,18 @@ bool dip_cost_make_truths(DipCostContext *cost, DipError *err);
 // their errors against the truths.
 bool dip_cost_judge(DipCostContext *cost, DipError *err);
 
-// Times every row in interleaved rounds (app/measure/timing.h), and counts its work.
+// Times every row beside the baseline of its path (app/measure/paired_timing.h), counts its work
+// and computes the verdict on the machine.
 bool dip_cost_time_rows(DipCostContext *cost, DipError *err);
 
-// Times one row alone, in as many rounds as dip_cost_time_rows.
-bool dip_cost_time_row_again(DipCostContext *cost, int row, DipStatsEstimate *time, DipError *err);
+// Times rows of path 0 again, each next to the baseline, in as many rounds as dip_cost_time_rows,
+// and joins the times to those before. `times_before` is how often the rows were timed before. The
+// caller estimates the report's times again.
+bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int times_before,
+                         DipError *err);
 
-// Chooses a row for each budget, times it again and fills in the advice.
+// Times again the rows that may or may not be within a budget, and chooses a row for each budget.
+// If the verdict on the machine is red, no row is chosen.
 bool dip_cost_advise(DipCostContext *cost, DipError *err);
 
 #endif

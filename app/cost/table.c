@@ -13,9 +13,15 @@ static void print_heading(const DipCostReport *report, FILE *out) {
     fprintf(out, "scene    %s, %dx%d pixels\n", report->scene, report->width, report->height);
     fprintf(out, "machine  %s, %d thread%s, %s\n", report->processor, report->threads,
             dip_cost_plural(report->threads), report->isa);
-    fprintf(out,
-            "times    %d frame%s of each path in %d rounds; ratio = time / the baseline's time\n",
-            o->timed_frames, dip_cost_plural(o->timed_frames), report->rounds);
+    fprintf(
+        out,
+        "times    %d frames along each path in %d rounds, each beside the baseline; ratio = time "
+        "/ the baseline's time\n",
+        dip_cost_frame_count(report), report->rounds);
+    if (report->rounds > 0) {
+        fprintf(out, "machine was %s: %s\n", dip_cost_verdict_names[report->verdict],
+                report->verdict_reason);
+    }
     fprintf(out,
             "errors   %d viewpoint%s on each path, %d frame%s at each, against a converged picture "
             "(truth) of 2 x %d samples per pixel\n",
@@ -23,22 +29,24 @@ static void print_heading(const DipCostReport *report, FILE *out) {
     fprintf(out, "baseline %s\n", baseline);
 }
 
-static void print_times(const DipCostReport *report, int row, int base, FILE *out) {
+static void print_times(const DipCostReport *report, int row, const DipStatsEstimate *ratio,
+                        FILE *out) {
     if (!dip_cost_is_timed(report, row)) {
-        fprintf(out, " %8s %6s %-14s", "-", "-", "");
+        fprintf(out, " %8s %8s %6s %-14s", "-", "-", "-", "");
         return;
     }
-    const DipStatsEstimate ratio = dip_cost_ratio(report, row, base);
     char interval[32];
-    snprintf(interval, sizeof interval, "%.3f to %.3f", ratio.low, ratio.high);
-    fprintf(out, " %8.2f %6.3f %-14s", dip_cost_ms(report, row), ratio.value, interval);
+    snprintf(interval, sizeof interval, "%.3f to %.3f", ratio->low, ratio->high);
+    fprintf(out, " %8.2f %8.2f %6.3f %-14s", dip_cost_ms(report, row),
+            report->rows[row].time.p95_ms.value, ratio->value, interval);
 }
 
-static void print_row(const DipCostReport *report, const char *name, int row, int base, FILE *out) {
+static void print_row(const DipCostReport *report, const char *name, int row,
+                      const DipStatsEstimate *ratio, FILE *out) {
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     fprintf(out, "  %-17s", name);
-    print_times(report, row, base, out);
+    print_times(report, row, ratio, out);
     if (viewpoints > 0) {
         const DipMetrics f = dip_metrics_of(&sums, 0);
         const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums);
@@ -49,8 +57,8 @@ static void print_row(const DipCostReport *report, const char *name, int row, in
 }
 
 static void print_columns(FILE *out) {
-    fprintf(out, "  %-17s %8s %6s %-14s %7s %6s %7s %7s %7s %7s\n", "", "ms", "ratio",
-            "95 % interval", "RMSE", "PSNR", "SSIM", "FLIP", "flicker", "2-frame");
+    fprintf(out, "  %-17s %8s %8s %6s %-14s %7s %6s %7s %7s %7s %7s\n", "", "mean ms", "p95 ms",
+            "ratio", "95 % interval", "RMSE", "PSNR", "SSIM", "FLIP", "flicker", "2-frame");
 }
 
 static void print_floors(const DipCostReport *report, FILE *out) {
@@ -111,15 +119,21 @@ static void print_fit(const DipCostReport *report, FILE *out) {
 }
 
 static void print_advice(const DipCostReport *report, FILE *out) {
+    if (report->verdict == DIP_COST_RED && report->rounds > 0) {
+        fprintf(out,
+                "\nThe machine was too busy: the times are wrong, so no settings are advised.\n");
+    }
     for (int i = 0; i < report->advice_count; i++) {
         const DipCostAdvice *advice = &report->advice[i];
         if (i == 0) {
             fprintf(out,
-                    "\nBest settings for a time budget on path %s (least FLIP; timed again):\n",
-                    report->paths[0]);
+                    "\nBest settings for a time budget on path %s: the least FLIP whose %s time is "
+                    "within the budget:\n",
+                    report->paths[0], dip_cost_budget_of_names[report->options.budget_of]);
         }
         if (advice->row < 0) {
-            fprintf(out, "  %6g ms: no measured combination is that fast\n", advice->budget_ms);
+            fprintf(out, "  %6g ms: no measured combination is surely that fast\n",
+                    advice->budget_ms);
             continue;
         }
         int viewpoints;
@@ -127,8 +141,8 @@ static void print_advice(const DipCostReport *report, FILE *out) {
         const DipMetricSums sums = dip_cost_row_sums(report, advice->row, &viewpoints);
         dip_cost_settings_text(&report->rows[advice->row].quality, text);
         fprintf(out, "  %6g ms: %s  (%.2f ms, 95 %% interval %.2f to %.2f; FLIP %.5f)\n",
-                advice->budget_ms, text, advice->checked_ms, advice->checked_low,
-                advice->checked_high, dip_metrics_of(&sums, 0).flip);
+                advice->budget_ms, text, advice->ms, advice->ms_low, advice->ms_high,
+                dip_metrics_of(&sums, 0).flip);
         const int next = dip_cost_step_up(report, advice->row);
         if (next >= 0) {
             const DipMetricSums better = dip_cost_row_sums(report, next, &viewpoints);
@@ -140,13 +154,15 @@ static void print_advice(const DipCostReport *report, FILE *out) {
     }
 }
 
-bool dip_cost_print(const DipCostReport *report, FILE *out, DipError *err) {
-    (void)dip_stats_ran_out();
+void dip_cost_print(const DipCostReport *report, FILE *out) {
     print_heading(report, out);
     fputc('\n', out);
     print_columns(out);
-    if (dip_cost_is_timed(report, report->same_row)) {
-        print_row(report, "baseline (A/A)", report->same_row, 0, out);
+    for (int p = 0; p < report->path_count && report->rounds > 0; p++) {
+        char name[40];
+        snprintf(name, sizeof name, "A/A on %s", report->paths[p]);
+        const int row = report->same_rows[p];
+        print_row(report, name, row, &report->rows[row].time.ratio, out);
     }
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
@@ -154,7 +170,7 @@ bool dip_cost_print(const DipCostReport *report, FILE *out, DipError *err) {
         for (int i = 0; i < sweep->row_count; i++) {
             char text[DIP_COST_TEXT];
             dip_cost_step_text(report, sweep, sweep->rows[i], text);
-            print_row(report, text, sweep->rows[i], sweep->base, out);
+            print_row(report, text, sweep->rows[i], &sweep->ratios[i], out);
         }
         char order[2 * DIP_COST_TEXT];
         if (dip_cost_order_text(report, sweep, order, sizeof order)) {
@@ -169,6 +185,4 @@ bool dip_cost_print(const DipCostReport *report, FILE *out, DipError *err) {
     print_front(report, out);
     print_advice(report, out);
     print_fit(report, out);
-    return !dip_stats_ran_out() ||
-           dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
 }

@@ -7,6 +7,7 @@
 #include "app/files/whole_file.h"
 
 #include <cjson/cJSON.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,21 +72,35 @@ static void add_errors(cJSON *object, const DipCostReport *report, int row) {
     }
 }
 
+static void add_estimate(cJSON *to, const char *name, const DipStatsEstimate *estimate) {
+    char low[48], high[48];
+    snprintf(low, sizeof low, "%s_low", name);
+    snprintf(high, sizeof high, "%s_high", name);
+    cJSON_AddNumberToObject(to, name, estimate->value);
+    cJSON_AddNumberToObject(to, low, estimate->low);
+    cJSON_AddNumberToObject(to, high, estimate->high);
+}
+
 static void add_times(cJSON *object, const DipCostReport *report, int row) {
     if (!dip_cost_is_timed(report, row)) {
         return;
     }
-    const DipStatsEstimate time = dip_cost_time(report, row);
-    cJSON_AddNumberToObject(object, "ms", time.value);
-    cJSON_AddNumberToObject(object, "ms_low", time.low);
-    cJSON_AddNumberToObject(object, "ms_high", time.high);
+    const DipPathEstimate *time = &report->rows[row].time;
+    add_estimate(object, "ms", &time->mean_ms);
+    add_estimate(object, "p95_ms", &time->p95_ms);
+    add_estimate(object, "worst_ms", &time->worst_ms);
     cJSON *counters = cJSON_AddObjectToObject(object, "counters");
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         cJSON_AddNumberToObject(counters, dip_cost_counter_names[c], report->rows[row].counters[c]);
     }
-    add_to_object(object, "all_ms",
-                  cJSON_CreateDoubleArray(report->rows[row].ms,
-                                          report->rounds * report->options.timed_frames));
+    cJSON *pairs = cJSON_AddObjectToObject(object, "pairs");
+#define ADD_PAIRS(field)                                                                           \
+    cJSON *field = cJSON_AddArrayToObject(pairs, #field);                                          \
+    for (int f = 0; f < dip_cost_frame_count(report); f++) {                                       \
+        add_to_array(field, cJSON_CreateNumber(report->rows[row].pairs[f].field));                 \
+    }
+    DIP_COST_PAIR_FIELDS(ADD_PAIRS)
+#undef ADD_PAIRS
 }
 
 static void add_rows(cJSON *root, const DipCostReport *report) {
@@ -119,10 +134,7 @@ static void add_sweeps(cJSON *root, const DipCostReport *report) {
             cJSON *step = cJSON_CreateObject();
             cJSON_AddNumberToObject(step, "row", sweep->rows[i]);
             if (dip_cost_is_timed(report, sweep->rows[i])) {
-                const DipStatsEstimate ratio = dip_cost_ratio(report, sweep->rows[i], sweep->base);
-                cJSON_AddNumberToObject(step, "ratio", ratio.value);
-                cJSON_AddNumberToObject(step, "ratio_low", ratio.low);
-                cJSON_AddNumberToObject(step, "ratio_high", ratio.high);
+                add_estimate(step, "ratio", &sweep->ratios[i]);
             }
             add_to_array(steps, step);
         }
@@ -167,15 +179,30 @@ static void add_advice(cJSON *root, const DipCostReport *report) {
         cJSON *object = cJSON_CreateObject();
         cJSON_AddNumberToObject(object, "budget_ms", a->budget_ms);
         cJSON_AddNumberToObject(object, "row", a->row);
-        cJSON_AddNumberToObject(object, "checked_ms", a->checked_ms);
-        cJSON_AddNumberToObject(object, "checked_ms_low", a->checked_low);
-        cJSON_AddNumberToObject(object, "checked_ms_high", a->checked_high);
+        cJSON_AddNumberToObject(object, "ms", a->ms);
+        cJSON_AddNumberToObject(object, "ms_low", a->ms_low);
+        cJSON_AddNumberToObject(object, "ms_high", a->ms_high);
         add_to_array(advice, object);
     }
 }
 
+// What the timing tells about the machine.
+static void add_machine(cJSON *root, const DipCostReport *report) {
+    if (report->rounds == 0) {
+        return;
+    }
+    cJSON *machine = cJSON_AddObjectToObject(root, "machine");
+    cJSON_AddStringToObject(machine, "verdict", dip_cost_verdict_names[report->verdict]);
+    cJSON_AddStringToObject(machine, "reason", report->verdict_reason);
+    cJSON_AddNumberToObject(machine, "wait", report->machine.wait);
+    cJSON_AddNumberToObject(machine, "repeated", (double)report->machine.repeated);
+    cJSON_AddBoolToObject(machine, "has_wait", report->machine.has_wait);
+    cJSON_AddBoolToObject(machine, "settled", report->machine.settled);
+}
+
 static void add_header(cJSON *root, const DipCostReport *report) {
     char baseline[256];
+    cJSON_AddNumberToObject(root, "format", DIP_COST_JSON_FORMAT);
 #define ADD_TEXT(field) cJSON_AddStringToObject(root, #field, report->field);
     DIP_COST_HEADER_TEXTS(ADD_TEXT)
 #undef ADD_TEXT
@@ -190,8 +217,14 @@ static void add_header(cJSON *root, const DipCostReport *report) {
     cJSON_AddStringToObject(root, "baseline", baseline);
     cJSON *paths = cJSON_AddArrayToObject(root, "paths");
     for (int p = 0; p < report->path_count; p++) {
-        add_to_array(paths, cJSON_CreateString(report->paths[p]));
+        cJSON *path = cJSON_CreateObject();
+        cJSON_AddStringToObject(path, "name", report->paths[p]);
+        cJSON_AddStringToObject(path, "poses", report->path_hashes[p]);
+        cJSON_AddNumberToObject(path, "base_row", report->base_rows[p]);
+        cJSON_AddNumberToObject(path, "same_row", report->same_rows[p]);
+        add_to_array(paths, path);
     }
+    add_machine(root, report);
     cJSON *refused = cJSON_AddArrayToObject(root, "left_out");
     for (int i = 0; i < report->refused_count; i++) {
         add_to_array(refused, cJSON_CreateString(report->refused[i]));
@@ -199,7 +232,6 @@ static void add_header(cJSON *root, const DipCostReport *report) {
 }
 
 bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError *err) {
-    (void)dip_stats_ran_out();
     dip_json_memory_begin();
     cJSON *root = cJSON_CreateObject();
     add_header(root, report);
@@ -210,7 +242,7 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     add_advice(root, report);
     char *text = cJSON_PrintUnformatted(root);
     cJSON_Delete(root);
-    const bool complete = !dip_json_memory_ran_out() && !dip_stats_ran_out();
+    const bool complete = !dip_json_memory_ran_out();
     const bool written = complete && text
                              ? dip_whole_file_write(file, text, strlen(text), err)
                              : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");

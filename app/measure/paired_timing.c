@@ -68,7 +68,6 @@ static bool run_timed(PairedTiming *t, const DipTimingTurn *turn, DipTimePair *t
         return false;
     }
     const DipThreadUse after = thread_use(t);
-    t->has_wait = after.has_wait;
     *to = (DipTimePair){
         .ms = ms,
         .wait = ms > 0.0 ? 1e-6 * (double)(after.wait_ns - before.wait_ns) / ms : 0.0,
@@ -296,8 +295,10 @@ bool dip_paired_timing_run(const DipPairedTimingDef *def, const DipPairedTimingC
         .pairs = pairs,
     };
     *result = (DipPairedTimingResult){.settled = true};
-    bool done = open_timing(&t, err) && warm_up(&t, err) &&
-                (!def->settle || dip_timing_settle(&t.runner, &result->settled, err));
+    bool done = open_timing(&t, err);
+    t.has_wait = done && thread_use(&t).has_wait;
+    done = done && warm_up(&t, err) &&
+           (!def->settle || dip_timing_settle(&t.runner, &result->settled, err));
     for (int round = 0; done && round < 2 * def->rounds; round++) {
         done = run_round(&t, round, err);
     }

@@ -1,5 +1,5 @@
-// Order statistics of times, estimates from rounds of measurement, and bootstrap intervals of the
-// estimates.
+// Order statistics of times, and the bootstrap interval of the ratio of two medians. paired.h has
+// the estimates of times that were taken side by side.
 //
 // A subject is anything that draws frames, and a round times every frame of every subject once
 // (timing.h). The times of one subject are an array of rounds * frames values. The index of a time
@@ -9,8 +9,6 @@
 // same times always give the same interval. All functions are thread-safe.
 #ifndef DIP_APP_MEASURE_STATISTICS_H
 #define DIP_APP_MEASURE_STATISTICS_H
-
-#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -38,20 +36,8 @@ typedef struct DipStatsEstimate {
 } DipStatsEstimate;
 
 // Computes each frame's median over the rounds, and returns the mean of these medians over the
-// frames; 0 when memory runs out (dip_stats_ran_out).
-double dip_stats_time(const double *ms, int frames, int rounds);
-DipStatsEstimate dip_stats_time_estimate(const double *ms, int frames, int rounds);
-
-// Returns the median over all frames and rounds of ms / base_ms, both of the same frame and round;
-// 0 when memory runs out (dip_stats_ran_out).
-double dip_stats_paired_ratio(const double *ms, const double *base_ms, int frames, int rounds);
-DipStatsEstimate dip_stats_paired_ratio_estimate(const double *ms, const double *base_ms,
-                                                 int frames, int rounds);
-
-// Returns whether memory ran out in one of the four functions above, called from this thread, since
-// this function was last called. Code that prints or keeps times calls it once before and once
-// after, and fails if the second call returns true.
-bool dip_stats_ran_out(void);
+// frames. scratch has room for `rounds` values.
+double dip_stats_time(const double *ms, int frames, int rounds, double *scratch);
 
 // Returns the 95 % interval of median(a) / median(b). The bootstrap draws rounds separately for
 // every frame, so that differences between frames do not widen the interval. a and b use the same

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double default_budget_ms = 16.6;
@@ -27,7 +28,8 @@ static double flip_of(const DipCostReport *report, int row) {
 }
 
 static void make_step(DipCostsStep *step, const DipCostReport *report, const DipCostSweep *sweep,
-                      int row) {
+                      int index) {
+    const int row = sweep->rows[index];
     char name[DIP_COST_TEXT], ratio[24] = "", flip[24] = "";
     const double base_flip = flip_of(report, sweep->base);
     const bool is_base = row == sweep->base;
@@ -35,7 +37,7 @@ static void make_step(DipCostsStep *step, const DipCostReport *report, const Dip
     if (is_base) {
         snprintf(ratio, sizeof ratio, "1x ");
     } else if (dip_cost_is_timed(report, row) && dip_cost_is_timed(report, sweep->base)) {
-        snprintf(ratio, sizeof ratio, "%.2fx ", dip_cost_median_ratio(report, row, sweep->base));
+        snprintf(ratio, sizeof ratio, "%.2fx ", sweep->ratios[index].value);
     }
     const double shown = is_base ? base_flip : flip_of(report, row) - base_flip;
     if (!isnan(shown)) {
@@ -51,7 +53,7 @@ static void make_row(DipCostsRow *row, const DipCostReport *report, const DipCos
     row->setting = sweep->setting;
     row->step_count = sweep->row_count;
     for (int i = 0; i < sweep->row_count; i++) {
-        make_step(&row->steps[i], report, sweep, sweep->rows[i]);
+        make_step(&row->steps[i], report, sweep, i);
     }
 }
 
@@ -67,18 +69,14 @@ static DipCostsAdvice advice_of(const DipCostReport *report, double budget_ms, i
 }
 
 static int choose(const DipCostReport *report, double budget_ms) {
-    double ms[DIP_COST_MAX_ROWS];
-    for (int r = 0; r < report->row_count; r++) {
-        ms[r] = dip_cost_is_timed(report, r) ? dip_cost_ms(report, r) : INFINITY;
-    }
-    return dip_cost_choose(report, ms, budget_ms);
+    return report->rounds > 0 ? dip_cost_choose(report, budget_ms) : -1;
 }
 
 static void make_advice(DipCosts *costs, const DipCostReport *report) {
     for (int i = 0; i < report->advice_count; i++) {
         const DipCostAdvice *advice = &report->advice[i];
         costs->advice[costs->advice_count++] =
-            advice_of(report, advice->budget_ms, advice->row, advice->checked_ms);
+            advice_of(report, advice->budget_ms, advice->row, advice->ms);
     }
     if (report->advice_count == 0) {
         costs->advice[costs->advice_count++] =
@@ -113,13 +111,11 @@ bool dip_costs_load(DipCosts *costs, const char *file, const char *scene, DipErr
         strcmp(report.scene, scene) == 0 ||
         dip_error_set(err, DIP_ERROR_CONFLICT, file, 0, "--cost",
                       "is a report of %s, accepted a report of %s", report.scene, scene);
-    (void)dip_stats_ran_out();
     if (fits) {
         dip_costs_make(costs, &report);
     }
     dip_cost_report_free(&report);
-    return fits && (!dip_stats_ran_out() ||
-                    dip_error_set(err, DIP_ERROR_MEMORY, file, 0, "--cost", "out of memory"));
+    return fits;
 }
 
 void dip_costs_describe(const DipCosts *costs, int index, char *text, size_t size_bytes) {

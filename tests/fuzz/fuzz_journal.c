@@ -56,7 +56,7 @@ static void add_all(const DipCostJournal *from, DipCostJournal *to) {
     for (int count = 1; count <= MOST_TIMES; count++) {
         for (int r = 0; r < MOST_ROUNDS; r++) {
             const double *ms = dip_cost_journal_round(from, r, count);
-            FUZZ_CHECK(!ms || dip_cost_journal_add_round(to, ms, count, NULL));
+            FUZZ_CHECK(!ms || dip_cost_journal_add_round(to, r, ms, count, NULL));
         }
     }
 }

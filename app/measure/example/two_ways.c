@@ -2,6 +2,7 @@
 // picture. It links only dip_measure and uses none of Diptych's commands.
 #include "app/measure/flip.h"
 #include "app/measure/metrics.h"
+#include "app/measure/paired.h"
 #include "app/measure/statistics.h"
 #include "app/measure/timing.h"
 
@@ -80,11 +81,16 @@ int main(void) {
     printf("%-18s %8s %24s %8s\n", "", "ms", "ratio (95 % interval)", "FLIP");
     for (int s = 0; s < SUBJECTS; s++) {
         const double *subject_ms = ms + dip_timing_index(&def, 0, s);
-        const DipStatsEstimate ratio =
-            dip_stats_paired_ratio_estimate(subject_ms, base_ms, FRAMES, ROUNDS);
+        const DipPairedTimes times = {subject_ms, base_ms, ROUNDS, FRAMES};
+        DipStatsEstimate ratio;
+        if (!dip_paired_ratio(&times, &ratio, &err)) {
+            fprintf(stderr, "%s\n", err.message);
+            return 1;
+        }
+        double scratch[ROUNDS];
         printf("%-18s %8.3f    %.3f (%.3f to %.3f) %8.4f\n", names[s],
-               dip_stats_time(subject_ms, FRAMES, ROUNDS), ratio.value, ratio.low, ratio.high,
-               flip_between(s, FULL));
+               dip_stats_time(subject_ms, FRAMES, ROUNDS, scratch), ratio.value, ratio.low,
+               ratio.high, flip_between(s, FULL));
     }
     return 0;
 }

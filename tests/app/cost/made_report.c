@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <stdio.h>
 
-enum { ROWS = 4 };
+enum { ROWS = 5 };
 
 static void fill_sums(DipMetricSums *sums, int seed) {
     double *values = (double *)sums;
@@ -18,8 +18,14 @@ static void fill_sums(DipMetricSums *sums, int seed) {
     sums->bursts = 1.0;
 }
 
+void dip_made_times(DipCostReport *report, int row, double ms) {
+    for (int f = 0; report->rounds > 0 && f < dip_cost_frame_count(report); f++) {
+        report->rows[row].pairs[f] = (DipTimePair){.ms = ms, .base_ms = 1.0, .cpu_ms = 1.5 * ms};
+    }
+}
+
 static void fill_row(DipCostReport *report, int index) {
-    static const uint8_t steps[ROWS] = {0, 0, 1, 2};
+    static const uint8_t steps[ROWS] = {0, 0, 1, 2, 0};
     DipCostRow *row = &report->rows[index];
     row->quality = dip_quality_default();
     row->quality.step[DIP_SETTING_AA] = steps[index];
@@ -30,9 +36,7 @@ static void fill_row(DipCostReport *report, int index) {
             fill_sums(&row->viewpoints[p], index * 3 + p);
         }
     }
-    for (int i = 0; i < report->rounds * report->options.timed_frames; i++) {
-        row->ms[i] = index + 1.0;
-    }
+    dip_made_times(report, index, index + 1.0);
     for (int c = 0; report->rounds > 0 && c < DIP_COST_COUNTER_COUNT;
          c++) { // counters come from timing
         row->counters[c] = 1000.0 * index + c;
@@ -45,6 +49,7 @@ void dip_made_report(DipCostReport *report, int rounds) {
         .scene_hash = "0123456789abcdef0123456789abcdef",
         .processor = "none",
         .isa = "scalar",
+        .build = "b",
         .version = "0",
         .threads = 2,
         .width = 64,
@@ -52,12 +57,14 @@ void dip_made_report(DipCostReport *report, int rounds) {
         .paths = {"DEFAULT", "AA"},
         .path_count = 2,
         .row_count = ROWS,
-        .same_row = 1,
+        .base_rows = {0, 4},
+        .same_rows = {1, 4},
         .combined_first = ROWS,
         .sweep_count = 1,
         .refused = {{"opt=standard: not yet"}},
         .refused_count = 1,
         .rounds = rounds,
+        .machine = {.settled = true, .has_wait = true, .wait = 0.01},
         .advice = {{16.6, 2, 3.0, 2.9, 3.1}},
         .advice_count = 1,
     };
@@ -78,6 +85,13 @@ void dip_made_report(DipCostReport *report, int rounds) {
     }
     for (int r = 0; r < ROWS; r++) {
         fill_row(report, r);
+    }
+    if (rounds > 0) {
+        dip_made_times(report, 1, 1.0); // the A/A rows
+        dip_made_times(report, 4, 1.0);
+        if (!dip_cost_estimate_times(report, NULL)) {
+            abort();
+        }
     }
     for (int path = 0; path < report->path_count; path++) {
         report->has_floor[path * report->options.places] = true;

@@ -39,7 +39,7 @@ static void write_some(void) {
     DipCostJournal *journal = open_journal(plan);
     const DipMetricSums sums = make_sums(1);
     assert_true(dip_cost_journal_add(journal, key, &sums, NULL));
-    assert_true(dip_cost_journal_add_round(journal, round_ms, 3, NULL));
+    assert_true(dip_cost_journal_add_round(journal, 5, round_ms, 3, NULL));
     dip_cost_journal_close(&journal, false);
 }
 
@@ -58,9 +58,9 @@ static void stored_measurements_are_found_again(void **state) {
     assert_true(dip_cost_journal_find(again, key, &sums));
     assert_memory_equal(&sums, &expected, sizeof sums);
     assert_false(dip_cost_journal_find(again, other_key, &sums));
-    assert_memory_equal(dip_cost_journal_round(again, 0, 3), round_ms, sizeof round_ms);
-    assert_null(dip_cost_journal_round(again, 1, 3));
-    assert_null(dip_cost_journal_round(again, 0, 4));
+    assert_memory_equal(dip_cost_journal_round(again, 5, 3), round_ms, sizeof round_ms);
+    assert_null(dip_cost_journal_round(again, 4, 3)); // no such round
+    assert_null(dip_cost_journal_round(again, 5, 4)); // a round of another size
     dip_cost_journal_close(&again, false);
 }
 
@@ -72,7 +72,7 @@ static void times_of_another_plan_are_ignored(void **state) {
     DipCostJournal *again = open_journal(other_plan);
     DipMetricSums sums;
     assert_true(dip_cost_journal_find(again, key, &sums));
-    assert_null(dip_cost_journal_round(again, 0, 3));
+    assert_null(dip_cost_journal_round(again, 5, 3));
     dip_cost_journal_close(&again, false);
 }
 
@@ -97,7 +97,7 @@ static void an_incomplete_line_is_dropped(void **state) {
         write_some();
         assert_int_equal(truncate("cost.state", (off_t)cut), 0);
         DipCostJournal *again = open_journal(plan);
-        assert_null(dip_cost_journal_round(again, 0, 3));
+        assert_null(dip_cost_journal_round(again, 5, 3));
         const bool had_errors = dip_cost_journal_find(again, key, &sums);
         const DipMetricSums more = make_sums(9);
         assert_true(dip_cost_journal_add(again, other_key, &more, NULL));
@@ -127,7 +127,7 @@ static void a_changed_byte_drops_its_line(void **state) {
         DipCostJournal *again = open_journal(plan);
         DipMetricSums sums;
         const bool errors = dip_cost_journal_find(again, key, &sums);
-        const bool times = dip_cost_journal_round(again, 0, 3) != NULL;
+        const bool times = dip_cost_journal_round(again, 5, 3) != NULL;
         assert_int_equal(errors + times, 1);
         dip_cost_journal_close(&again, false);
     }

@@ -199,7 +199,7 @@ static bool open_journal(void *context, DipError *err) {
 
 static bool add_round(void *context, DipError *err) {
     (void)context;
-    return dip_cost_journal_add_round(journal, second_ms, 3, err);
+    return dip_cost_journal_add_round(journal, 1, second_ms, 3, err);
 }
 
 static bool add_errors(void *context, DipError *err) {
@@ -217,7 +217,7 @@ static void close_journal(void *context) {
 static void make_journal(void *context) {
     remove("cost.state");
     assert_true(open_journal(context, NULL));
-    assert_true(dip_cost_journal_add_round(journal, first_ms, 3, NULL));
+    assert_true(dip_cost_journal_add_round(journal, 0, first_ms, 3, NULL));
     close_journal(context);
 }
 

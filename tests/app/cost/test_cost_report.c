@@ -4,6 +4,7 @@
 #include "app/cost/html.h"
 #include "app/cost/order.h"
 #include "app/cost/formats.h"
+#include "app/cost/verdict.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>
@@ -85,7 +86,7 @@ static void expect_order(const DipCostReport *report, const char *part) {
 static void steps_out_of_order_are_named(void **state) {
     (void)state;
     DipCostReport report;
-    dip_made_report(&report, 1);
+    dip_made_report(&report, 2);
     expect_order(
         &report,
         "As theory says: FLIP falls from step to step, and the counter samples_shown rises.");
@@ -109,45 +110,119 @@ static void steps_out_of_order_are_named(void **state) {
 
 enum { ROUNDS = 40 };
 
+static DipStatsEstimate ratio_of(const DipCostReport *report, int row, int base) {
+    DipStatsEstimate ratio;
+    assert_true(dip_cost_ratio(report, row, base, &ratio, NULL));
+    return ratio;
+}
+
 // The times of frames differ up to tenfold, and drift slows all rows down alike. Row 2 takes 1.5
-// times as long as row 0.
+// times as long as row 0, and row 3 three times as long.
 static void drift_and_uneven_frames_do_not_change_ratios(void **state) {
     (void)state;
     DipCostReport report;
     dip_made_report(&report, ROUNDS);
-    const int frames = report.options.timed_frames;
-    for (int i = 0; i < ROUNDS * frames; i++) {
-        const double base = (1 + 9 * (i % frames)) * (1.0 + i / frames / 20.0);
-        report.rows[0].ms[i] = base * (1.0 + 0.05 * random_share());
-        report.rows[1].ms[i] = base * (1.0 + 0.05 * random_share());
-        report.rows[2].ms[i] = 1.5 * base * (1.0 + 0.05 * random_share());
+    static const double factors[] = {1.0, 1.0, 1.5, 3.0};
+    const int frames = dip_cost_frame_count(&report);
+    for (int r = 0; r < 4; r++) {
+        for (int f = 0; f < frames; f++) {
+            DipTimePair *pair = &report.rows[r].pairs[f];
+            const double base = (1.0 + 9.0 * f / frames) * (1.0 + f % ROUNDS / 20.0);
+            pair->ms = factors[r] * base * (1.0 + 0.05 * random_share());
+            pair->base_ms = base * (1.0 + 0.05 * random_share());
+        }
     }
-    report.rows[2].ms[7] *= 20.0; // another program ran
-    const DipStatsEstimate ratio = dip_cost_ratio(&report, 2, 0);
+    report.rows[2].pairs[7].ms *= 20.0; // another program ran
+    assert_true(dip_cost_estimate_times(&report, NULL));
+    const DipStatsEstimate ratio = ratio_of(&report, 2, 0);
     expect_near(ratio.value, 1.5, 0.015);
     assert_true(ratio.low <= 1.5 + 0.01 && ratio.high >= 1.5 - 0.01);
-    assert_true(ratio.high - ratio.low < 0.03);
-    const DipStatsEstimate same = dip_cost_ratio(&report, 1, 0);
+    assert_true(ratio.high - ratio.low < 0.05);
+    const DipStatsEstimate same = ratio_of(&report, 1, 0);
     assert_true(same.low <= 1.0 && same.high >= 1.0);
+    // Rows 2 and 3 were never timed side by side, but both beside the baseline.
+    const DipStatsEstimate other = ratio_of(&report, 3, 2);
+    expect_near(other.value, 2.0, 0.03);
+    assert_true(other.low <= 2.0 && other.high >= 2.0 && other.high - other.low < 0.1);
     dip_cost_report_free(&report);
 }
 
-static void times_are_means_of_medians(void **state) {
+// A row's time in milliseconds is its ratio times the baseline's usual time.
+static void milliseconds_are_those_of_the_level(void **state) {
     (void)state;
     DipCostReport report;
     dip_made_report(&report, 5);
-    for (int i = 0; i < 5 * 4; i++) {
-        report.rows[0].ms[i] = i % 4 + 1.0 + (i / 4 == 2 ? 1000.0 : 0.0); // 1, 2, 3, 4; one spike
+    const int frames = dip_cost_frame_count(&report);
+    for (int r = 0; r < 4; r++) {
+        for (int f = 0; f < frames; f++) {
+            // Row 2 was timed while the machine was ten times as slow.
+            const double slow = r == 2 ? 10.0 : 1.0;
+            report.rows[r].pairs[f] =
+                (DipTimePair){.ms = slow * 2.0 * (1.0 + f), .base_ms = slow * (1.0 + f)};
+        }
     }
-    expect_near(dip_cost_ms(&report, 0), 2.5, 1e-12);
-    expect_near(dip_cost_time(&report, 0).value, 2.5, 1e-12);
+    assert_true(dip_cost_estimate_times(&report, NULL));
+    const double mean = (1.0 + frames) / 2.0;
+    expect_near(dip_cost_ms(&report, 2), 2.0 * mean, 1e-9);
+    expect_near(report.rows[2].time.worst_ms.value, 2.0 * frames, 1e-9);
+    report.options.budget_of = DIP_COST_BUDGET_WORST;
+    expect_near(dip_cost_budget_time(&report, 2).value, 2.0 * frames, 1e-9);
+    dip_cost_report_free(&report);
+}
+
+// A red machine has wrong times, whatever the intervals say.
+static void the_verdict_has_both_sides_of_each_limit(void **state) {
+    (void)state;
+    char reason[DIP_COST_REASON];
+    const DipCostSigns quiet = {.wait = 0.03, .spread = 0.03, .offset = 0.01, .settled = true};
+    assert_int_equal(dip_cost_verdict_of(&quiet, reason), DIP_COST_GREEN);
+    static const struct {
+        size_t sign;
+        const DipCostLimits *limits;
+        const char *word;
+    } rows[] = {
+        {offsetof(DipCostSigns, wait), &dip_cost_wait_limits, "waited"},
+        {offsetof(DipCostSigns, spread), &dip_cost_spread_limits, "from round to round"},
+        {offsetof(DipCostSigns, offset), &dip_cost_offset_limits, "as if it were two"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        DipCostSigns signs = quiet;
+        double *sign = (double *)((char *)&signs + rows[i].sign);
+        *sign = rows[i].limits->green;
+        assert_int_equal(dip_cost_verdict_of(&signs, reason), DIP_COST_GREEN);
+        *sign = rows[i].limits->green + 1e-6;
+        assert_int_equal(dip_cost_verdict_of(&signs, reason), DIP_COST_AMBER);
+        assert_non_null(strstr(reason, rows[i].word));
+        *sign = rows[i].limits->red + 1e-6;
+        assert_int_equal(dip_cost_verdict_of(&signs, reason), DIP_COST_RED);
+        assert_non_null(strstr(reason, rows[i].word));
+    }
+    DipCostSigns signs = quiet;
+    signs.disturbed = 0.26;
+    assert_int_equal(dip_cost_verdict_of(&signs, reason), DIP_COST_RED);
+    signs = quiet;
+    signs.settled = false;
+    assert_int_equal(dip_cost_verdict_of(&signs, reason), DIP_COST_AMBER);
+}
+
+// One frame in a hundred that waited is left out, and the report stays green.
+static void a_few_frames_that_waited_are_left_out(void **state) {
+    (void)state;
+    DipCostReport report;
+    dip_made_report(&report, ROUNDS);
+    for (int f = 0; f < dip_cost_frame_count(&report); f += 100) {
+        report.rows[2].pairs[f].ms *= 50.0;
+        report.rows[2].pairs[f].wait = 0.9;
+    }
+    assert_true(dip_cost_estimate_times(&report, NULL));
+    expect_near(ratio_of(&report, 2, 0).value, 3.0, 1e-9);
+    assert_int_equal(report.verdict, DIP_COST_GREEN);
     dip_cost_report_free(&report);
 }
 
 static void set_viewpoint(DipCostReport *report, int row, double ms, double flip) {
-    for (int i = 0; i < report->rounds * report->options.timed_frames; i++) {
-        report->rows[row].ms[i] = ms;
-    }
+    dip_made_times(report, row, ms);
+    assert_true(dip_cost_estimate_times(report, NULL));
     for (int p = 0; p < report->options.places; p++) {
         report->rows[row].viewpoints[p].regions[0].flip =
             flip * report->rows[row].viewpoints[p].regions[0].pixels;
@@ -172,11 +247,35 @@ static void no_row_is_better_than_the_pareto_front(void **state) {
     assert_int_equal(dip_cost_pareto_front_thin(&report, front, 3), 2);
     assert_int_equal(front[1], 1);
     report.combined_first = 0;
+    set_viewpoint(&report, 4, 9.0, 0.9);
     assert_int_equal(dip_cost_step_up(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
     assert_int_equal(dip_cost_step_up(&report, 1), -1);
     report.rounds = 0; // without times there is no Pareto front, and no row is faster
     assert_int_equal(dip_cost_step_up(&report, 3), -1);
     assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 0);
+    dip_cost_report_free(&report);
+}
+
+static void advice_is_surely_within_the_budget(void **state) {
+    (void)state;
+    DipCostReport report;
+    dip_made_report(&report, 4);
+    report.combined_first = 0;
+    set_viewpoint(&report, 4, 9.0, 0.9);
+    set_viewpoint(&report, 0, 4.0, 0.100);
+    set_viewpoint(&report, 1, 3.0, 0.1005); // hardly worse than row 0, but faster
+    set_viewpoint(&report, 2, 2.0, 0.3);
+    set_viewpoint(&report, 3, 1.0, 0.5);
+    assert_int_equal(dip_cost_choose(&report, 5.0), 1);
+    assert_int_equal(dip_cost_choose(&report, 2.5), 2);
+    assert_int_equal(dip_cost_choose(&report, 0.5), -1);
+    // The interval of row 2 reaches over the budget.
+    report.rows[2].time.p95_ms.high = 2.6;
+    assert_int_equal(dip_cost_choose(&report, 2.5), 3);
+    // Rows 0 and 1 differ neither in time nor in error: the one with fewer settings is taken.
+    set_viewpoint(&report, 0, 3.0, 0.100);
+    report.rows[1].quality.step[DIP_SETTING_AF] = 2;
+    assert_int_equal(dip_cost_choose(&report, 5.0), 0);
     dip_cost_report_free(&report);
 }
 
@@ -186,7 +285,7 @@ static void the_fit_finds_the_prices(void **state) {
     (void)state;
     enum { ROWS = 60 };
     DipCostReport report = {.row_count = ROWS, .rounds = 1, .path_count = 1};
-    report.options = (DipCostOptions){.places = 1, .rounds = 1, .timed_frames = 1};
+    report.options = (DipCostOptions){.places = 1, .rounds = 2, .timed_frames = 1};
     report.rows = calloc(ROWS, sizeof *report.rows);
     assert_true(dip_cost_report_alloc(&report, NULL));
     for (int r = 0; r < ROWS; r++) {
@@ -197,7 +296,7 @@ static void the_fit_finds_the_prices(void **state) {
         }
         const double ns = 5e5 + 20.0 * row->counters[DIP_COST_COUNTER_fragments_shaded] +
                           3.0 * row->counters[DIP_COST_COUNTER_texels_fetched];
-        row->ms[0] = 1e-6 * ns * (0.99 + 0.02 * random_share());
+        row->time.mean_ms.value = 1e-6 * ns * (0.99 + 0.02 * random_share());
     }
     const DipCostFit fit = dip_cost_fit(&report);
     assert_true(fit.r2 > 0.99 && fit.median_miss < 0.01);
@@ -238,19 +337,23 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
         assert_int_equal(x->path, y->path);
         assert_memory_equal(x->judged, y->judged, 3 * sizeof(bool));
         check_values(x->viewpoints, y->viewpoints, 3 * sizeof *x->viewpoints);
-        check_values(x->ms, y->ms, (size_t)a->rounds * 4 * sizeof(double));
+        check_values(x->pairs, y->pairs, (size_t)a->rounds * 4 * sizeof *x->pairs);
+        check_values(&x->time.ratio, &y->time.ratio, sizeof x->time.ratio);
+        check_values(&x->time.p95_ms, &y->time.p95_ms, sizeof x->time.p95_ms);
         check_values(x->counters, y->counters, sizeof x->counters);
     }
     check_values(a->floors, b->floors, 6 * sizeof *a->floors);
     assert_memory_equal(a->sweeps[0].rows, b->sweeps[0].rows, sizeof a->sweeps[0].rows);
     assert_int_equal(a->advice[0].row, b->advice[0].row);
     assert_true(a->advice[0].budget_ms == b->advice[0].budget_ms);
-    assert_true(a->advice[0].checked_high == b->advice[0].checked_high);
+    assert_true(a->advice[0].ms_high == b->advice[0].ms_high);
+    assert_int_equal(a->verdict, b->verdict);
+    assert_true(a->rounds == 0 || a->machine.wait == b->machine.wait);
 }
 
 static void json_keeps_everything(void **state) {
     (void)state;
-    for (int rounds = 0; rounds < 3; rounds++) {
+    for (int rounds = 0; rounds < 5; rounds += 2) {
         DipCostReport report;
         DipCostReport read;
         DipError err = {0};
@@ -284,7 +387,7 @@ static void write_whole(const char *text, size_t size) {
 // file.
 static void broken_json_is_refused(void **state) {
     (void)state;
-    static const char *const fields[] = {"\"width\"",   "\"rows\"", "\"sums\"",    "\"all_ms\"",
+    static const char *const fields[] = {"\"width\"",   "\"rows\"", "\"sums\"",    "\"base_ms\"",
                                          "\"setting\"", "\"path\"", "\"baseline\""};
     DipCostReport report;
     DipCostReport read;
@@ -334,7 +437,7 @@ static void csv_and_page_are_complete(void **state) {
             commas = 0;
         }
     }
-    assert_int_equal(lines, 1 + 1 + 3);
+    assert_int_equal(lines, 1 + 2 + 3);
     free(text);
     assert_true(dip_cost_write_html(&report, NULL, file, &err));
     text = read_whole(&size);
@@ -355,7 +458,10 @@ int main(void) {
         cmocka_unit_test(errors_below_three_noise_floors_are_marked),
         cmocka_unit_test(steps_out_of_order_are_named),
         cmocka_unit_test(drift_and_uneven_frames_do_not_change_ratios),
-        cmocka_unit_test(times_are_means_of_medians),
+        cmocka_unit_test(milliseconds_are_those_of_the_level),
+        cmocka_unit_test(the_verdict_has_both_sides_of_each_limit),
+        cmocka_unit_test(a_few_frames_that_waited_are_left_out),
+        cmocka_unit_test(advice_is_surely_within_the_budget),
         cmocka_unit_test(no_row_is_better_than_the_pareto_front),
         cmocka_unit_test(the_fit_finds_the_prices),
         cmocka_unit_test(json_keeps_everything),

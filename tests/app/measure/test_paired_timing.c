@@ -241,6 +241,21 @@ static void resumed_rounds_are_not_timed_again(void **state) {
                         (size_t)rest * sizeof *whole.turns);
 }
 
+// A measurement that was complete, but whose report was not written, tells the same of the machine.
+static void known_rounds_keep_the_verdict(void **state) {
+    (void)state;
+    static Machine m;
+    m = machine();
+    m.busy_round = 2;
+    DipPairedTimingResult whole;
+    assert_true(time_all(&m, all, &whole, NULL));
+    m.known = ROUNDS;
+    m.turn_count = 0;
+    assert_true(time_all(&m, all, &outcome, NULL));
+    assert_int_equal(m.turn_count, SUBJECTS); // only the warm-up
+    assert_true(outcome.has_wait && whole.wait > 0.1 && fabs(outcome.wait - whole.wait) < 1e-12);
+}
+
 static void a_failing_run_ends_the_measurement(void **state) {
     (void)state;
     static Machine m;
@@ -281,6 +296,7 @@ int main(void) {
         cmocka_unit_test(disturbed_rounds_are_timed_again),
         cmocka_unit_test(busy_rounds_are_repeated),
         cmocka_unit_test(resumed_rounds_are_not_timed_again),
+        cmocka_unit_test(known_rounds_keep_the_verdict),
         cmocka_unit_test(a_failing_run_ends_the_measurement),
         cmocka_unit_test(the_watch_counts_processor_time),
     };

@@ -84,33 +84,13 @@ static void a_time_is_the_mean_of_medians(void **state) {
     for (int i = 0; i < 10; i++) {
         ms[i] = 10.0 * (i % 2 + 1) + (i / 2 == 3 ? 100.0 : 0.0);
     }
-    assert_true(dip_stats_time(ms, 2, 5) == 15.0);
-    const DipStatsEstimate estimate = dip_stats_time_estimate(ms, 2, 5);
-    assert_true(estimate.value == 15.0 && estimate.low == 15.0);
-    // A resample draws the slow round at least three times out of five with a probability of 5.8 %.
-    // This is more than 2.5 %, so the interval reaches the slow round.
-    assert_true(estimate.high == 115.0);
-}
-
-// Both subjects are slow in the same rounds. So their ratio is certain, although their times are
-// not.
-static void a_paired_ratio_compares_times_of_one_round(void **state) {
-    (void)state;
-    double a[12], b[12];
-    for (int i = 0; i < 12; i++) {
-        b[i] = (1.0 + i / 2) * (i % 2 + 1);
-        a[i] = 1.5 * b[i];
-    }
-    const DipStatsEstimate ratio = dip_stats_paired_ratio_estimate(a, b, 2, 6);
-    assert_true(ratio.value == 1.5 && ratio.low == 1.5 && ratio.high == 1.5);
-    assert_true(dip_stats_paired_ratio(a, b, 2, 6) == 1.5);
+    assert_true(dip_stats_time(ms, 2, 5, scratch) == 15.0);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_median_needs_no_sorted_values),
         cmocka_unit_test(a_time_is_the_mean_of_medians),
-        cmocka_unit_test(a_paired_ratio_compares_times_of_one_round),
         cmocka_unit_test(quantiles_lie_between_neighbours),
         cmocka_unit_test(different_frames_do_not_widen_the_interval),
         cmocka_unit_test(different_rounds_widen_the_interval),

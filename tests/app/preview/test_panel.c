@@ -188,6 +188,8 @@ static void the_default_budget_is_16_6_ms(void **state) {
     report.advice_count = 0;
     report.combined_first = 2;
     report.rows[2].quality = report.options.baseline;
+    memset(report.rows[4].judged, false, (size_t)report.options.places); // not a combination
+    report.rows[4].quality.step[DIP_SETTING_AF] = 1;
     dip_costs_make(&costs, &report);
     assert_int_equal(costs.advice_count, 1);
     assert_true(costs.advice[0].budget_ms == 16.6 && costs.advice[0].found);
