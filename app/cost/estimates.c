@@ -85,7 +85,7 @@ static bool open_level(PathLevel *level, const DipCostReport *report, int path) 
 
 // --- rows ----------------------------------------------------------------------------------------
 
-// Estimates a time from pairs. If more than half of them was disturbed, all of them are used: the
+// Estimates a time from pairs. If more than half of them were disturbed, all of them are used: the
 // verdict is then red.
 static bool estimate(const DipCostReport *report, PathLevel *level,
                      double (*ms_of)(const DipTimePair *, const DipTimePair *),

@@ -10,14 +10,12 @@
 #include <string.h>
 
 enum { RESAMPLES = 300, SMOOTHED = 7, LEVEL_GROUPS = 7 };
-static const double mad_to_sd = 1.4826; // Of a normal distribution.
+// The standard deviation of normally distributed values is this many times the median of their
+// distances from their median.
+static const double mad_to_sd = 1.4826;
 
 static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "timing", "out of memory");
-}
-
-static double max_double(double a, double b) {
-    return a > b ? a : b;
 }
 
 // --- Student's t -------------------------------------------------------------------------------
@@ -67,9 +65,8 @@ static DipStatsEstimate around(double value, double log_half_width) {
 
 // --- rounds of the same frames -----------------------------------------------------------------
 
-// Computes the ratio from the rounds listed in `drawn`. `weights` has the base's median time of
-// each frame over these rounds' base times. Returns NAN if no pair is left. scratch has room for
-// `rounds` values.
+// Computes the ratio from the rounds listed in `drawn`. Returns NAN if no pair is left. scratch has
+// room for `rounds` values.
 static double ratio_of(const DipPairedTimes *times, const int *drawn, double *scratch) {
     double total = 0.0, base_total = 0.0;
     for (int f = 0; f < times->frames; f++) {
@@ -241,7 +238,7 @@ static void path_values(const PathWork *w, double values[PATH_VALUE_COUNT]) {
     for (int f = 0; f < frames; f++) {
         total += w->time_ms[f];
         level += w->times->level_ms[f];
-        worst = max_double(worst, w->time_ms[f]);
+        worst = fmax(worst, w->time_ms[f]);
     }
     values[RATIO] = total / level;
     values[P95] = dip_stats_quantile(w->time_ms, frames, 0.95, w->sorted);
