@@ -164,6 +164,7 @@ static void milliseconds_are_those_of_the_level(void **state) {
     assert_true(dip_cost_estimate_times(&report, NULL));
     const double mean = (1.0 + frames) / 2.0;
     expect_near(dip_cost_ms(&report, 2), 2.0 * mean, 1e-9);
+    expect_near(ratio_of(&report, 2, 3).value, 1.0, 1e-9); // timed at different speeds
     expect_near(report.rows[2].time.worst_ms.value, 2.0 * frames, 1e-9);
     report.options.budget_of = DIP_COST_BUDGET_WORST;
     expect_near(dip_cost_budget_time(&report, 2).value, 2.0 * frames, 1e-9);
