@@ -208,12 +208,37 @@ static void noise_is_read_as_the_reference_reads_it(void **state) {
     close_bench();
 }
 
+// The smallest level (one texel) is read through a footprint of 16 times 256 texels of the largest
+// level, so every lane takes 16 probes. A least level of detail beyond the chain means the smallest
+// level, so it must not change that number.
+static void a_least_level_beyond_the_chain_is_the_smallest_level(void **state) {
+    (void)state;
+    open_bench(DIP_WRAP_REPEAT);
+    FOR_EACH_ISA(kernels) {
+        for (int level = 8; level <= 20; level++) {
+            const DipSampler sampler = {.texture = bench.fast,
+                                        .max_anisotropy = 16,
+                                        .exact_footprint = true,
+                                        .min_lod8 = level * 256};
+            for (int i = 0; i < LANES; i++) {
+                place(i, 100.0, 50.0, 16.0 * SIZE, SIZE, 0.1 * i);
+            }
+            bench.batch.count = LANES;
+            bench.batch.work = (DipShaderWork){0};
+            kernels->dip_kernel_sample_colour(&bench.batch, &sampler, 0, bench.colour);
+            assert_int_equal(bench.batch.work.probes, 16 * LANES);
+        }
+    }
+    close_bench();
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ramp_is_read_exactly),
         cmocka_unit_test(a_footprint_of_one_period_reads_the_mean_of_stripes),
         cmocka_unit_test(the_coarser_level_takes_fewer_probes),
         cmocka_unit_test(noise_is_read_as_the_reference_reads_it),
+        cmocka_unit_test(a_least_level_beyond_the_chain_is_the_smallest_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
