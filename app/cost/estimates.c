@@ -177,6 +177,32 @@ bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEsti
     return done;
 }
 
+// Computes how the row's mean time divides into the stages: the shares of the undisturbed frames,
+// weighted by the baseline's times. Rows that were read from a file have no shares, and keep the
+// times of the stages that the file has.
+static void divide_into_stages(const DipCostReport *report, const PathLevel *level,
+                               DipCostRow *row) {
+    double sums[DIP_TIME_PARTS] = {0};
+    double weight = 0.0, all = 0.0;
+    for (int f = 0; f < dip_cost_frame_count(report); f++) {
+        const DipTimePair *pair = &row->pairs[f];
+        const double share = pair->shares[0] + pair->shares[1] + pair->shares[2] + pair->shares[3];
+        if (share > 0.0 && !dip_time_pair_is_disturbed(pair)) {
+            weight += level->level_ms[f];
+            for (int i = 0; i < DIP_TIME_PARTS; i++) {
+                sums[i] += level->level_ms[f] * pair->shares[i];
+            }
+        }
+    }
+    if (weight > 0.0) {
+        for (int i = 0; i < DIP_TIME_PARTS; i++) {
+            row->stage_ms[i] = row->time.mean_ms.value * sums[i] / weight;
+            all += row->stage_ms[i];
+        }
+        row->stage_ms[DIP_COST_STAGE_rest] = fmax(row->time.mean_ms.value - all, 0.0);
+    }
+}
+
 static bool estimate_sweeps(DipCostReport *report, DipError *err) {
     bool done = true;
     for (int s = 0; s < report->sweep_count; s++) {
@@ -195,8 +221,11 @@ bool dip_cost_estimate_times(DipCostReport *report, DipError *err) {
         done = open_level(&level, report, path) || out_of_memory(err);
         for (int r = 0; done && r < report->row_count; r++) {
             DipCostRow *row = &report->rows[r];
-            done = row->path != path || estimate(report, &level, own_ms, own_base_ms, row->pairs,
-                                                 row->pairs, &row->time, err);
+            if (row->path == path) {
+                done = estimate(report, &level, own_ms, own_base_ms, row->pairs, row->pairs,
+                                &row->time, err);
+                divide_into_stages(report, &level, row);
+            }
         }
         close_level(&level);
     }

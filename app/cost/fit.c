@@ -1,159 +1,187 @@
-// The linear fit of time to work, by the normal equations of least squares. A term is a kind of
-// work; its price is the time for one unit. While a price is negative, the term with the most
-// negative price is dropped, and the equations are solved again for the other terms.
+// The model of times, stage by stage.
 #include "app/cost/fit.h"
 
+#include "app/measure/least_squares.h"
+#include "renderer/base/assert.h"
+
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
-enum { TERMS = 8 };
-
-static const char *const names[TERMS] = {
-    "frame",           "triangle in", "sub-block test per sample",
-    "fragment shaded", "normal map",  "sky fragment",
-    "texel fetched",   "clip test",
-};
-
-// The amounts of work in one frame of a row, in the order of `names`.
-static void terms_of(const DipCostRow *row, double terms[TERMS]) {
-    const double *c = row->counters;
-    const double samples = dip_quality_sample_count(&row->quality);
-    terms[0] = 1.0;
-    terms[1] = c[DIP_COST_COUNTER_triangles_in];
-    terms[2] = c[DIP_COST_COUNTER_sub_blocks_tested] * samples;
-    terms[3] = c[DIP_COST_COUNTER_fragments_shaded];
-    terms[4] = c[DIP_COST_COUNTER_fragments_normal_mapped];
-    terms[5] = c[DIP_COST_COUNTER_fragments_sky];
-    terms[6] = c[DIP_COST_COUNTER_texels_fetched];
-    terms[7] = c[DIP_COST_COUNTER_fragments_clip_tested];
-}
-
+// The equations of all stages.
 typedef struct Equations {
-    double left[TERMS][TERMS];
-    double right[TERMS];
+    DipNormalEquations stages[DIP_COST_STAGE_COUNT];
 } Equations;
 
-// Solves for the used terms by Gaussian elimination with pivots. The other terms get the price 0. A
-// term whose column depends linearly on other columns gets the price 0, too.
-static void solve(const Equations *equations, const bool used[TERMS], double solution[TERMS]) {
-    Equations e = *equations;
-    int pivot_of[TERMS];
-    bool taken[TERMS] = {false};
-    for (int c = 0; c < TERMS; c++) {
-        int pivot = -1;
-        for (int r = 0; used[c] && r < TERMS; r++) {
-            if (used[r] && !taken[r] &&
-                (pivot < 0 || fabs(e.left[r][c]) > fabs(e.left[pivot][c]))) {
-                pivot = r;
+static void begin(Equations *equations, const DipCostReport *report, const int *rows, int count) {
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        double scale[DIP_COST_MAX_TERMS] = {0};
+        const int terms = dip_cost_term_count((DipCostStage)stage);
+        for (int r = 0; r < count; r++) {
+            double amounts[DIP_COST_MAX_TERMS];
+            const DipCostRow *row = &report->rows[rows[r]];
+            dip_cost_terms((DipCostStage)stage, row->counters, &row->quality, amounts);
+            for (int t = 0; t < terms; t++) {
+                scale[t] = fmax(scale[t], amounts[t]);
             }
         }
-        pivot_of[c] = pivot >= 0 && fabs(e.left[pivot][c]) > 1e-9 ? pivot : -1;
-        if (pivot_of[c] < 0) {
-            continue;
-        }
-        taken[pivot] = true;
-        for (int r = 0; r < TERMS; r++) {
-            const double factor = r == pivot ? 0.0 : e.left[r][c] / e.left[pivot][c];
-            for (int k = 0; k < TERMS; k++) {
-                e.left[r][k] -= factor * e.left[pivot][k];
-            }
-            e.right[r] -= factor * e.right[pivot];
-        }
-    }
-    for (int c = 0; c < TERMS; c++) {
-        solution[c] = pivot_of[c] < 0 ? 0.0 : e.right[pivot_of[c]] / e.left[pivot_of[c]][c];
+        dip_normal_equations_begin(&equations->stages[stage], terms, scale);
     }
 }
 
-static double fitted(const double terms[TERMS], const double solution[TERMS]) {
-    double sum = 0.0;
-    for (int i = 0; i < TERMS; i++) {
-        sum += terms[i] * solution[i];
+static double whole_ms(const DipCostRow *row) {
+    double ms = 0.0;
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        ms += row->stage_ms[stage];
     }
-    return sum;
+    return ms;
 }
 
-// Adds a row to the normal equations. Terms are divided by their greatest values, which keeps the
-// equations well conditioned. The fit minimises relative errors, so that slow rows have no
-// more weight than fast rows.
-static void add_row(Equations *equations, const double terms[TERMS], const double scale[TERMS],
-                    double ms) {
-    for (int i = 0; i < TERMS; i++) {
-        for (int k = 0; k < TERMS; k++) {
-            equations->left[i][k] += terms[i] / scale[i] * terms[k] / scale[k] / (ms * ms);
+// Adds a row (sign 1) or takes it away (sign -1).
+static void add(Equations *equations, const DipCostRow *row, double sign) {
+    const double weight = 1.0 / (whole_ms(row) * whole_ms(row));
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        double amounts[DIP_COST_MAX_TERMS];
+        dip_cost_terms((DipCostStage)stage, row->counters, &row->quality, amounts);
+        dip_normal_equations_add(&equations->stages[stage], amounts, row->stage_ms[stage],
+                                 sign * weight);
+    }
+}
+
+static DipCostModel solve(const Equations *equations, int rows) {
+    DipCostModel model = {.rows = rows};
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        dip_least_squares_nonnegative(&equations->stages[stage], model.price_ms[stage]);
+    }
+    return model;
+}
+
+static bool is_known(const DipCostRow *row) {
+    return whole_ms(row) > 0.0;
+}
+
+DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count) {
+    Equations equations;
+    int known = 0;
+    begin(&equations, report, rows, count);
+    for (int r = 0; r < count; r++) {
+        if (is_known(&report->rows[rows[r]])) {
+            add(&equations, &report->rows[rows[r]], 1.0);
+            known++;
         }
-        equations->right[i] += terms[i] / scale[i] / ms;
     }
+    return solve(&equations, known);
 }
 
-static void judge_fit(const DipCostReport *report, const double *ms, const double solution[TERMS],
-                      DipCostFit *fit) {
-    // R2 compares the fit with a constant: the one time that fits all rows best. The errors of
-    // both are relative errors.
-    double sum = 0.0, weight = 0.0, all = 0.0, left = 0.0;
+double dip_cost_model_ms(const DipCostModel *model, const double counters[DIP_COST_COUNTER_COUNT],
+                         const DipQuality *quality) {
+    double ms = 0.0;
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        double amounts[DIP_COST_MAX_TERMS];
+        dip_cost_terms((DipCostStage)stage, counters, quality, amounts);
+        for (int t = 0; t < dip_cost_term_count((DipCostStage)stage); t++) {
+            ms += amounts[t] * model->price_ms[stage][t];
+        }
+    }
+    return ms;
+}
+
+// --- misses --------------------------------------------------------------------------------------
+
+static double miss_of(const DipCostModel *model, const DipCostRow *row) {
+    return fabs(dip_cost_model_ms(model, row->counters, &row->quality) / whole_ms(row) - 1.0);
+}
+
+static int compare_values(const void *a, const void *b) {
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+DipCostMisses dip_cost_misses_of(double *misses, int count) {
+    if (count == 0) {
+        return (DipCostMisses){0};
+    }
+    qsort(misses, (size_t)count, sizeof *misses, compare_values);
+    int within = 0;
+    for (int i = 0; i < count; i++) {
+        within += misses[i] <= 0.10;
+    }
+    return (DipCostMisses){
+        .median = dip_stats_median(misses, count),
+        .p90 = misses[(9 * count + 9) / 10 - 1], // The least value that 90 % do not exceed.
+        .within_10 = (double)within / count,
+        .rows = count,
+    };
+}
+
+DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const int *rows,
+                                           int count) {
+    Equations equations;
     double misses[DIP_COST_MAX_ROWS];
-    for (int r = 0; r < report->row_count; r++) {
-        sum += 1.0 / ms[r];
-        weight += 1.0 / (ms[r] * ms[r]);
+    int known = 0;
+    DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
+    begin(&equations, report, rows, count);
+    for (int r = 0; r < count; r++) {
+        if (is_known(&report->rows[rows[r]])) {
+            add(&equations, &report->rows[rows[r]], 1.0);
+        }
     }
-    for (int r = 0; r < report->row_count; r++) {
-        double terms[TERMS];
-        terms_of(&report->rows[r], terms);
-        const double miss = fitted(terms, solution) / ms[r] - 1.0;
-        const double off = sum / weight / ms[r] - 1.0;
+    for (int r = 0; r < count; r++) {
+        const DipCostRow *row = &report->rows[rows[r]];
+        if (is_known(row)) {
+            add(&equations, row, -1.0);
+            const DipCostModel others = solve(&equations, count - 1);
+            add(&equations, row, 1.0);
+            misses[known++] = miss_of(&others, row);
+        }
+    }
+    return dip_cost_misses_of(misses, known);
+}
+
+// --- the fit of a whole report -------------------------------------------------------------------
+
+// R2 compares the fit with a constant: the one time that fits all rows best. The errors of both are
+// relative errors.
+static void judge_fit(const DipCostReport *report, const DipCostModel *model, const int *rows,
+                      DipCostFit *fit) {
+    double misses[DIP_COST_MAX_ROWS];
+    double sum = 0.0, weight = 0.0, all = 0.0, left = 0.0;
+    for (int r = 0; r < fit->rows; r++) {
+        const double ms = whole_ms(&report->rows[rows[r]]);
+        sum += 1.0 / ms;
+        weight += 1.0 / (ms * ms);
+    }
+    for (int r = 0; r < fit->rows; r++) {
+        const DipCostRow *row = &report->rows[rows[r]];
+        const double off = sum / weight / whole_ms(row) - 1.0;
+        misses[r] = miss_of(model, row);
         all += off * off;
-        left += miss * miss;
-        misses[r] = fabs(miss);
+        left += misses[r] * misses[r];
     }
-    fit->median_miss = dip_stats_median(misses, report->row_count);
+    fit->median_miss = dip_cost_misses_of(misses, fit->rows).median;
     fit->r2 = all > 0.0 ? 1.0 - left / all : 0.0;
 }
 
-static void solve_without_negatives(const Equations *equations, double solution[TERMS]) {
-    bool used[TERMS];
-    memset(used, true, sizeof used);
-    for (int tries = 0; tries < TERMS; tries++) {
-        int worst = 0;
-        solve(equations, used, solution);
-        for (int i = 1; i < TERMS; i++) {
-            worst = solution[i] < solution[worst] ? i : worst;
-        }
-        if (solution[worst] >= 0.0) {
-            return;
-        }
-        used[worst] = false;
-    }
-}
-
 DipCostFit dip_cost_fit(const DipCostReport *report) {
-    DipCostFit fit = {.count = TERMS};
-    Equations equations = {0};
-    double scale[TERMS] = {0};
-    double solution[TERMS] = {0};
-    double ms[DIP_COST_MAX_ROWS];
-    if (report->rounds == 0 || report->row_count < 2 * TERMS) {
+    DipCostFit fit = {0};
+    int rows[DIP_COST_MAX_ROWS];
+    for (int r = 0; report->rounds > 0 && r < report->row_count; r++) {
+        if (is_known(&report->rows[r])) {
+            rows[fit.rows++] = r;
+        }
+    }
+    if (fit.rows < 2 * dip_cost_term_count(DIP_COST_STAGE_raster)) {
         return (DipCostFit){0};
     }
-    for (int r = 0; r < report->row_count; r++) {
-        double terms[TERMS];
-        terms_of(&report->rows[r], terms);
-        ms[r] = dip_cost_ms(report, r);
-        for (int i = 0; i < TERMS; i++) {
-            scale[i] = fmax(scale[i], fmax(terms[i], 1e-30));
+    const DipCostModel model = dip_cost_model_fit(report, rows, fit.rows);
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        for (int t = 0; t < dip_cost_term_count((DipCostStage)stage); t++) {
+            fit.stages[fit.count] = dip_cost_stage_names[stage];
+            fit.names[fit.count] = dip_cost_term_name((DipCostStage)stage, t);
+            fit.ns[fit.count++] = 1e6 * model.price_ms[stage][t];
         }
     }
-    for (int r = 0; r < report->row_count; r++) {
-        double terms[TERMS];
-        terms_of(&report->rows[r], terms);
-        add_row(&equations, terms, scale, ms[r]);
-    }
-    solve_without_negatives(&equations, solution);
-    for (int i = 0; i < TERMS; i++) {
-        solution[i] /= scale[i];
-        fit.names[i] = names[i];
-        fit.ns[i] = 1e6 * solution[i];
-    }
-    fit.rows = report->row_count;
-    judge_fit(report, ms, solution, &fit);
+    judge_fit(report, &model, rows, &fit);
+    fit.others = dip_cost_model_leave_one_out(report, rows, fit.rows);
     return fit;
 }

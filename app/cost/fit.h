@@ -1,24 +1,56 @@
-// A linear fit of time to the work counters over all timed rows. (A row is one combination of
-// settings on a camera path, report.h.) The fit shows how well work explains time, and how much
-// time each kind of work (a term) takes.
+// The model of times: each stage of a frame takes the sum of its terms (terms.h), amounts of work
+// times prices. The prices come from measured rows. (A row is one combination of settings on a
+// camera path, report.h.) The model explains how time follows from work, and predicts the times of
+// combinations that were not measured.
 #ifndef DIP_APP_COST_FIT_H
 #define DIP_APP_COST_FIT_H
 
 #include "app/cost/report.h"
+#include "app/cost/terms.h"
 
-enum { DIP_COST_FIT_MAX_TERMS = 8 };
+typedef struct DipCostModel {
+    double price_ms[DIP_COST_STAGE_COUNT][DIP_COST_MAX_TERMS]; // Per unit of work; never negative.
+    int rows; // Number of rows that the prices come from; 0 if there are none.
+} DipCostModel;
+
+// Fits prices to rows whose times and stages are known: for each stage, the prices >= 0 with the
+// least sum of squared errors, each relative to the row's whole time, so that slow rows have no
+// more weight than fast ones.
+DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count);
+
+// Returns the mean time of a frame with these counters and settings, in milliseconds.
+double dip_cost_model_ms(const DipCostModel *model, const double counters[DIP_COST_COUNTER_COUNT],
+                         const DipQuality *quality);
+
+// How far predictions lie from measurements: |predicted / measured - 1| over some rows.
+typedef struct DipCostMisses {
+    double median;
+    double p90;       // 90th percentile.
+    double within_10; // Share of the rows that are missed by at most 10 %.
+    int rows;         // Number of rows; 0 if there are none to compare.
+} DipCostMisses;
+
+// Summarises misses, which are sorted on return.
+DipCostMisses dip_cost_misses_of(double *misses, int count);
+
+// Predicts each of the rows from all others of them (leave one out).
+DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const int *rows, int count);
+
+// The model of all rows of a report, for readers.
+enum { DIP_COST_FIT_MAX_TERMS = DIP_COST_ALL_TERMS };
 
 typedef struct DipCostFit {
-    const char *names[DIP_COST_FIT_MAX_TERMS]; // The first is "frame", the constant term.
-    double ns[DIP_COST_FIT_MAX_TERMS];         // Time per unit of each term; never negative.
-    int count;                                 // Number of terms.
-    double r2;          // Share of the relative variance that the fit explains.
-    double median_miss; // Median of |fitted / measured - 1|.
-    int rows;           // Number of rows fitted; 0 if there are too few.
+    const char *stages[DIP_COST_FIT_MAX_TERMS]; // The stage of each term.
+    const char *names[DIP_COST_FIT_MAX_TERMS];  // The kind of work; the first of each stage is
+                                                // "frame", the constant term.
+    double ns[DIP_COST_FIT_MAX_TERMS];          // Time per unit of each term; never negative.
+    int count;                                  // Number of terms.
+    double r2;            // Share of the relative variance of the times that the fit explains.
+    double median_miss;   // Median of |fitted / measured - 1|.
+    DipCostMisses others; // Each row predicted from all others.
+    int rows;             // Number of rows fitted; 0 if there are too few.
 } DipCostFit;
 
-// Fits the times per unit: minimises the sum of the squares of the rows' relative errors. No time
-// per unit is negative.
 DipCostFit dip_cost_fit(const DipCostReport *report);
 
 #endif

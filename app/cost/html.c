@@ -253,13 +253,17 @@ static void write_fit(const DipCostReport *report, FILE *out) {
         return;
     }
     fprintf(out,
-            "<p>A linear fit explains the times of %d rows by their work counters: R&sup2; is "
-            "%.3f, the median error is %.1f %%. Times per unit of work, in nanoseconds: ",
-            fit.rows, fit.r2, 100.0 * fit.median_miss);
+            "<p>A linear fit explains the times of the stages of %d rows by their work counters: "
+            "R&sup2; is %.3f, the median error is %.1f %%. If each row is predicted from all "
+            "others, the median error is %.1f %%, and %.0f %% of the rows are predicted within "
+            "10 %%. Times per unit of work, in nanoseconds: ",
+            fit.rows, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
+            100.0 * fit.others.within_10);
     bool first = true;
     for (int i = 0; i < fit.count; i++) {
         if (fit.ns[i] > 0.0) {
-            fprintf(out, "%s%.3g per %s", first ? "" : ", ", fit.ns[i], fit.names[i]);
+            fprintf(out, "%s%s %.3g per %s", first ? "" : ", ", fit.stages[i], fit.ns[i],
+                    fit.names[i]);
             first = false;
         }
     }

@@ -198,6 +198,10 @@ static bool read_row(const cJSON *object, DipCostReport *report, DipCostRow *row
         for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
             row->counters[c] = number(counters, dip_cost_counter_names[c], max_count, &ok);
         }
+        const cJSON *stages = cJSON_GetObjectItemCaseSensitive(object, "stages_ms");
+        for (int i = 0; stages && i < DIP_COST_STAGE_COUNT; i++) {
+            row->stage_ms[i] = number(stages, dip_cost_stage_names[i], max_ms, &ok);
+        }
         ok = ok && read_pairs(cJSON_GetObjectItemCaseSensitive(object, "pairs"),
                               dip_cost_frame_count(report), row->pairs);
     }
@@ -293,12 +297,16 @@ static void read_advice(const cJSON *root, DipCostReport *report) {
     }
 }
 
+enum {
+#define COUNT_FIELD(field) +1
+    PAIR_FIELDS = 0 DIP_COST_PAIR_FIELDS(COUNT_FIELD)
+#undef COUNT_FIELD
+};
+
 // True if a file of this size can hold the times of all rows, of which each has six numbers of at
-// least two characters.
-// If it cannot, memory for the times would be out of proportion to the file.
+// least two characters. If it cannot, memory for the times would be out of proportion to the file.
 static bool times_fit(const DipCostReport *report, int row_count, size_t size_bytes) {
-    return (double)row_count * report->rounds * report->options.timed_frames *
-               DIP_TIME_PAIR_VALUES * 2.0 <=
+    return (double)row_count * report->rounds * report->options.timed_frames * PAIR_FIELDS * 2.0 <=
            (double)size_bytes;
 }
 

@@ -15,6 +15,13 @@ const char *const dip_cost_counter_names[DIP_COST_COUNTER_COUNT] = {
 #undef COUNTER_NAME
 };
 
+const char *const dip_cost_stage_names[DIP_COST_STAGE_COUNT] = {
+#define STAGE_NAME(name, text) #name,
+    DIP_STAGE_LIST(STAGE_NAME)
+#undef STAGE_NAME
+        "rest",
+};
+
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err) {
     const size_t viewpoints = (size_t)report->options.places;
     const size_t frames = (size_t)dip_cost_frame_count(report);

@@ -24,6 +24,18 @@ enum {
 
 extern const char *const dip_cost_counter_names[DIP_COST_COUNTER_COUNT];
 
+// Parts of a frame's time: the stages of the pipeline, in the order of DIP_STAGE_LIST, and the rest
+// (the choice of effects, the start of the passes).
+typedef enum DipCostStage {
+#define DIP_COST_STAGE(name, text) DIP_COST_STAGE_##name,
+    DIP_STAGE_LIST(DIP_COST_STAGE)
+#undef DIP_COST_STAGE
+        DIP_COST_STAGE_rest,
+    DIP_COST_STAGE_COUNT
+} DipCostStage;
+
+extern const char *const dip_cost_stage_names[DIP_COST_STAGE_COUNT];
+
 enum {
     DIP_COST_MAX_PATHS = 16,
     DIP_COST_MAX_SWEEPS = 24,
@@ -43,6 +55,7 @@ typedef struct DipCostRow {
     DipTimePair *pairs;                      // Times of the frames along the path. Owned.
     double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
     DipPathEstimate time;                    // Computed from the pairs.
+    double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of time.mean_ms; they add up to it.
 } DipCostRow;
 
 // A sweep: all steps of one setting on one path, with every other setting held constant.

@@ -108,12 +108,15 @@ static void print_fit(const DipCostReport *report, FILE *out) {
     }
     fprintf(out,
             "\n"
-            "Linear fit of time to work (%d rows, R2 %.3f, median error %.1f %%), ns per unit of "
-            "work:\n",
-            fit.rows, fit.r2, 100.0 * fit.median_miss);
+            "Linear fit of the time of each stage to its work (%d rows, R2 %.3f, median error "
+            "%.1f %%).\n"
+            "Each row predicted from all others: median error %.1f %%, %.0f %% within 10 %%.\n"
+            "Nanoseconds per unit of work:\n",
+            fit.rows, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
+            100.0 * fit.others.within_10);
     for (int i = 0; i < fit.count; i++) {
         if (fit.ns[i] > 0.0) {
-            fprintf(out, "  %10.3g per %s\n", fit.ns[i], fit.names[i]);
+            fprintf(out, "  %-9s %10.3g per %s\n", fit.stages[i], fit.ns[i], fit.names[i]);
         }
     }
 }

@@ -65,6 +65,18 @@ static bool draw(void *context, const DipTimingTurn *turn, DipError *err) {
     return dip_cost_draw_timed(t->cost, turn->subject, turn->frame, &t->frame, err);
 }
 
+static void write_stage_ms(const DipFrame *frame, double ms[DIP_TIME_PARTS]) {
+    _Static_assert((int)DIP_COST_STAGE_rest == (int)DIP_TIME_PARTS, "each stage is a part");
+#define WRITE_STAGE(name, text) *ms++ = frame->stages.name##_ms;
+    DIP_STAGE_LIST(WRITE_STAGE)
+#undef WRITE_STAGE
+}
+
+static void stage_ms(void *context, double ms[DIP_TIME_PARTS]) {
+    const RowTiming *t = context;
+    write_stage_ms(&t->frame, ms);
+}
+
 static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
     (void)ms;
     RowTiming *t = context;
@@ -121,6 +133,7 @@ static bool run_timing(DipCostContext *cost, RowTiming *t, const int *base_of, D
         .after_run = after_draw,
         .known_round = known_round,
         .after_round = keep_round,
+        .part_ms = stage_ms,
         .context = t,
     };
     int known = 0;
@@ -161,12 +174,17 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
 typedef struct AgainTiming {
     DipCostContext *cost;
     const int *rows; // [subject]
+    DipFrame frame;  // The frame of the latest run.
 } AgainTiming;
 
 static bool draw_again(void *context, const DipTimingTurn *turn, DipError *err) {
+    AgainTiming *t = context;
+    return dip_cost_draw_timed(t->cost, t->rows[turn->subject], turn->frame, &t->frame, err);
+}
+
+static void stage_ms_again(void *context, double ms[DIP_TIME_PARTS]) {
     const AgainTiming *t = context;
-    DipFrame frame;
-    return dip_cost_draw_timed(t->cost, t->rows[turn->subject], turn->frame, &frame, err);
+    write_stage_ms(&t->frame, ms);
 }
 
 static bool after_draw_again(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
@@ -211,10 +229,11 @@ bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int t
             .frames_per_round = report->options.timed_frames,
             .seed = (uint64_t)report->options.seed + (uint64_t)times_before,
         };
-        AgainTiming t = {cost, subjects};
+        AgainTiming t = {.cost = cost, .rows = subjects};
         const DipPairedTimingCalls calls = {
             .run = draw_again,
             .after_run = after_draw_again,
+            .part_ms = stage_ms_again,
             .context = &t,
         };
         DipPairedTimingResult result;

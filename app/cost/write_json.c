@@ -89,6 +89,10 @@ static void add_times(cJSON *object, const DipCostReport *report, int row) {
     add_estimate(object, "ms", &time->mean_ms);
     add_estimate(object, "p95_ms", &time->p95_ms);
     add_estimate(object, "worst_ms", &time->worst_ms);
+    cJSON *stages = cJSON_AddObjectToObject(object, "stages_ms");
+    for (int i = 0; i < DIP_COST_STAGE_COUNT; i++) {
+        cJSON_AddNumberToObject(stages, dip_cost_stage_names[i], report->rows[row].stage_ms[i]);
+    }
     cJSON *counters = cJSON_AddObjectToObject(object, "counters");
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         cJSON_AddNumberToObject(counters, dip_cost_counter_names[c], report->rows[row].counters[c]);
@@ -165,11 +169,17 @@ static void add_fit(cJSON *root, const DipCostReport *report) {
     }
     cJSON *object = cJSON_AddObjectToObject(root, "fit");
     cJSON *costs = cJSON_AddObjectToObject(object, "ns_per");
+    cJSON *stage = NULL;
     for (int i = 0; i < fit.count; i++) {
-        cJSON_AddNumberToObject(costs, fit.names[i], fit.ns[i]);
+        if (i == 0 || fit.stages[i] != fit.stages[i - 1]) {
+            stage = cJSON_AddObjectToObject(costs, fit.stages[i]);
+        }
+        cJSON_AddNumberToObject(stage, fit.names[i], fit.ns[i]);
     }
     cJSON_AddNumberToObject(object, "r2", fit.r2);
     cJSON_AddNumberToObject(object, "median_miss", fit.median_miss);
+    cJSON_AddNumberToObject(object, "median_miss_of_others", fit.others.median);
+    cJSON_AddNumberToObject(object, "within_10_percent_of_others", fit.others.within_10);
 }
 
 static void add_advice(cJSON *root, const DipCostReport *report) {

@@ -74,6 +74,12 @@ static bool run_timed(PairedTiming *t, const DipTimingTurn *turn, DipTimePair *t
         .cpu_ms = 1e-6 * (double)(after.cpu_ns - before.cpu_ns),
         .switches = (double)(after.switches - before.switches),
     };
+    if (t->calls->part_ms && ms > 0.0) {
+        t->calls->part_ms(t->calls->context, to->shares);
+        for (int i = 0; i < DIP_TIME_PARTS; i++) {
+            to->shares[i] /= ms;
+        }
+    }
     return true;
 }
 

@@ -37,14 +37,18 @@ extern "C" {
 // the threads.
 #define DIP_PAIRED_MOST_WAIT 0.2
 
+// Number of parts into which the caller may divide the time of a run.
+enum { DIP_TIME_PARTS = 4 };
+
 // A subject's time and its base's time for one frame.
 typedef struct DipTimePair {
-    double ms;        // Of the subject; 0 if it was not timed.
-    double base_ms;   // Of the base.
-    double wait;      // Waiting time of all threads in the subject's run / its time.
-    double base_wait; // The same of the base's run.
-    double cpu_ms;    // Processor time of the subject's run, summed over the threads.
-    double switches;  // Involuntary context switches in the subject's run.
+    double ms;                     // Of the subject; 0 if it was not timed.
+    double base_ms;                // Of the base.
+    double wait;                   // Waiting time of all threads in the subject's run / its time.
+    double base_wait;              // The same of the base's run.
+    double cpu_ms;                 // Processor time of the subject's run, summed over the threads.
+    double switches;               // Involuntary context switches in the subject's run.
+    double shares[DIP_TIME_PARTS]; // Shares of the parts in the subject's time; see part_ms.
 } DipTimePair;
 
 enum { DIP_TIME_PAIR_VALUES = sizeof(DipTimePair) / sizeof(double) };
@@ -78,6 +82,10 @@ typedef struct DipPairedTimingCalls {
     // Pairs that were not timed are 0. The function pointer may be NULL.
     bool (*after_round)(void *context, int round, const DipTimePair *pairs, bool known,
                         DipError *err);
+
+    // Writes the times of the parts of the latest run, in milliseconds, for example of its stages.
+    // NULL means that no parts are known; their shares are then 0.
+    void (*part_ms)(void *context, double ms[DIP_TIME_PARTS]);
 
     int64_t (*clock_ns)(void *context);        // NULL means the monotonic clock.
     DipThreadUse (*thread_use)(void *context); // NULL means a watch of this process' threads.

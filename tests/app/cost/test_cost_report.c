@@ -297,10 +297,12 @@ static void the_fit_finds_the_prices(void **state) {
         }
         const double ns = 5e5 + 20.0 * row->counters[DIP_COST_COUNTER_fragments_shaded] +
                           3.0 * row->counters[DIP_COST_COUNTER_texels_fetched];
-        row->time.mean_ms.value = 1e-6 * ns * (0.99 + 0.02 * random_share());
+        row->stage_ms[DIP_COST_STAGE_shading] = 1e-6 * ns * (0.99 + 0.02 * random_share());
     }
     const DipCostFit fit = dip_cost_fit(&report);
     assert_true(fit.r2 > 0.99 && fit.median_miss < 0.01);
+    assert_true(fit.others.rows == ROWS && fit.others.within_10 == 1.0);
+    assert_true(fit.others.median > fit.median_miss && fit.others.median < 0.01);
     for (int i = 0; i < fit.count; i++) {
         if (strcmp(fit.names[i], "fragment shaded") == 0) {
             expect_near(fit.ns[i], 20.0, 1.0);

@@ -1,0 +1,28 @@
+// Terms: the kinds of work that explain how long each stage of a frame takes. The time of a stage
+// is modelled as the sum of its terms, each the amount of one kind of work times a price (fit.h).
+//
+// Amounts come from the exact counters of a frame and from its settings. No counter tells what lies
+// in the processor's caches, so texels that are read from the full set of mip levels, from textures
+// that are not compressed, or by the probes of advanced AF are terms of their own.
+#ifndef DIP_APP_COST_TERMS_H
+#define DIP_APP_COST_TERMS_H
+
+#include "app/cost/report.h"
+
+enum {
+    DIP_COST_MAX_TERMS = 14,                                       // Of one stage.
+    DIP_COST_ALL_TERMS = DIP_COST_STAGE_COUNT * DIP_COST_MAX_TERMS // Of all stages, at most.
+};
+
+// Returns the number of terms of a stage.
+int dip_cost_term_count(DipCostStage stage);
+
+// Returns the name of a term: "texel fetched". Static storage.
+const char *dip_cost_term_name(DipCostStage stage, int term);
+
+// Computes the amounts of a stage's terms from the counters of a frame (means over frames are
+// amounts too) that is drawn with these settings.
+void dip_cost_terms(DipCostStage stage, const double counters[DIP_COST_COUNTER_COUNT],
+                    const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]);
+
+#endif
