@@ -11,6 +11,9 @@ static bool prepare_textures(const DipCostContext *cost, DipError *err) {
     for (int row = 0; row < cost->report->row_count; row++) {
         compresses |= dip_quality_compresses(&cost->report->rows[row].quality);
     }
+    for (int i = 0; i < cost->report->predicted.count; i++) {
+        compresses |= dip_quality_compresses(&cost->report->predicted.list[i].quality);
+    }
     return !compresses ||
            dip_scene_compress_textures(cost->session->scene, cost->session->pool, err);
 }
@@ -50,22 +53,34 @@ void dip_cost_context_close(DipCostContext *cost) {
     dip_renderer_destroy(&cost->renderers[1]);
 }
 
-bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
-                   DipError *err) {
-    const DipCostRow *drawn = &cost->report->rows[row];
-    const DipPose pose = dip_cost_pose(cost->report, cost->session, drawn->path, time_ns);
-    DipRenderer *renderer = cost->renderers[drawn->quality.step[DIP_SETTING_GI] != 0];
+static bool draw(DipCostContext *cost, const DipQuality *quality, int path, int64_t time_ns,
+                 int frame_index, DipFrame *frame, DipError *err) {
+    const DipPose pose = dip_cost_pose(cost->report, cost->session, path, time_ns);
+    DipRenderer *renderer = cost->renderers[quality->step[DIP_SETTING_GI] != 0];
     dip_renderer_set_frame_index(renderer, (uint64_t)frame_index);
-    return dip_renderer_set_quality(renderer, &drawn->quality, err) &&
+    return dip_renderer_set_quality(renderer, quality, err) &&
            dip_renderer_draw(renderer, cost->session->scene, &pose, time_ns, frame, err);
 }
 
+bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
+                   DipError *err) {
+    const DipCostRow *drawn = &cost->report->rows[row];
+    return draw(cost, &drawn->quality, drawn->path, time_ns, frame_index, frame, err);
+}
+
+static int64_t timed_ns(const DipCostContext *cost, int path, int index) {
+    return dip_cost_path_duration_ns(cost->report, cost->session, path) /
+           dip_cost_frame_count(cost->report) * index;
+}
+
+bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int index,
+                            DipFrame *frame, DipError *err) {
+    return draw(cost, quality, 0, timed_ns(cost, 0, index), index, frame, err);
+}
+
 bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *frame, DipError *err) {
-    const DipCostReport *report = cost->report;
-    const int64_t duration_ns =
-        dip_cost_path_duration_ns(report, cost->session, report->rows[row].path);
-    return dip_cost_draw(cost, row, duration_ns / dip_cost_frame_count(report) * index, index,
-                         frame, err);
+    const int path = cost->report->rows[row].path;
+    return dip_cost_draw(cost, row, timed_ns(cost, path, index), index, frame, err);
 }
 
 bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int frame,

@@ -32,6 +32,10 @@ void dip_cost_context_close(DipCostContext *cost);
 bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
                    DipError *err);
 
+// Draws the timed frame `index` of path 0 with any settings.
+bool dip_cost_draw_settings(DipCostContext *cost, const DipQuality *quality, int index,
+                            DipFrame *frame, DipError *err);
+
 // Draws the row's timed frame `index`, 0..dip_cost_frame_count - 1.
 bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *frame, DipError *err);
 

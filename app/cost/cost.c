@@ -58,9 +58,15 @@ static bool find_cache(const DipCostArguments *arguments, char folder[PATH_MAX],
 }
 
 static bool measure(DipCostContext *cost, DipError *err) {
-    return dip_cost_make_truths(cost, err) && dip_cost_judge(cost, err) &&
-           (cost->report->options.errors_only ||
-            (dip_cost_time_rows(cost, err) && dip_cost_advise(cost, err)));
+    const DipCostOptions *options = &cost->report->options;
+    if (!dip_cost_make_truths(cost, err)) {
+        return false;
+    }
+    if (options->predict) {
+        return dip_cost_predict(cost, err) && dip_cost_advise(cost, err);
+    }
+    return dip_cost_judge(cost, err) &&
+           (options->errors_only || (dip_cost_time_rows(cost, err) && dip_cost_advise(cost, err)));
 }
 
 static bool run(DipSession *session, const DipCostArguments *arguments, DipCostReport *report,

@@ -85,6 +85,15 @@ static bool open_level(PathLevel *level, const DipCostReport *report, int path) 
 
 // --- rows ----------------------------------------------------------------------------------------
 
+// Number of frames that were disturbed in either row.
+static int count_disturbed(const DipTimePair *row, const DipTimePair *base, int frames) {
+    int count = 0;
+    for (int f = 0; f < frames; f++) {
+        count += dip_time_pair_is_disturbed(&row[f]) || dip_time_pair_is_disturbed(&base[f]);
+    }
+    return count;
+}
+
 // Estimates a time from pairs. If more than half of them were disturbed, all of them are used: the
 // verdict is then red.
 static bool estimate(const DipCostReport *report, PathLevel *level,
@@ -93,13 +102,10 @@ static bool estimate(const DipCostReport *report, PathLevel *level,
                      const DipTimePair *row, const DipTimePair *base, DipPathEstimate *time,
                      DipError *err) {
     const int frames = dip_cost_frame_count(report);
-    int disturbed = 0;
+    const bool most = 2 * count_disturbed(row, base, frames) > frames;
     for (int f = 0; f < frames; f++) {
-        disturbed += dip_time_pair_is_disturbed(&row[f]) || dip_time_pair_is_disturbed(&base[f]);
-    }
-    for (int f = 0; f < frames; f++) {
-        const bool drop = 2 * disturbed <= frames && (dip_time_pair_is_disturbed(&row[f]) ||
-                                                      dip_time_pair_is_disturbed(&base[f]));
+        const bool drop =
+            !most && (dip_time_pair_is_disturbed(&row[f]) || dip_time_pair_is_disturbed(&base[f]));
         level->ms[f] = drop ? NAN : ms_of(&row[f], &base[f]);
         level->base_ms[f] = base_ms_of(&row[f], &base[f]);
     }
@@ -177,17 +183,19 @@ bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEsti
     return done;
 }
 
-// Computes how the row's mean time divides into the stages: the shares of the undisturbed frames,
-// weighted by the baseline's times. Rows that were read from a file have no shares, and keep the
-// times of the stages that the file has.
+// Computes how the row's mean time divides into the stages: the shares of the frames that the
+// estimate uses, weighted by the baseline's times. Rows that were read from a file have no shares,
+// and keep the times of the stages that the file has.
 static void divide_into_stages(const DipCostReport *report, const PathLevel *level,
                                DipCostRow *row) {
     double sums[DIP_TIME_PARTS] = {0};
     double weight = 0.0, all = 0.0;
-    for (int f = 0; f < dip_cost_frame_count(report); f++) {
+    const int frames = dip_cost_frame_count(report);
+    const bool most = 2 * count_disturbed(row->pairs, row->pairs, frames) > frames;
+    for (int f = 0; f < frames; f++) {
         const DipTimePair *pair = &row->pairs[f];
         const double share = pair->shares[0] + pair->shares[1] + pair->shares[2] + pair->shares[3];
-        if (share > 0.0 && !dip_time_pair_is_disturbed(pair)) {
+        if (share > 0.0 && (most || !dip_time_pair_is_disturbed(pair))) {
             weight += level->level_ms[f];
             for (int i = 0; i < DIP_TIME_PARTS; i++) {
                 sums[i] += level->level_ms[f] * pair->shares[i];

@@ -102,16 +102,31 @@ DipCostMisses dip_cost_misses_of(double *misses, int count) {
         return (DipCostMisses){0};
     }
     qsort(misses, (size_t)count, sizeof *misses, compare_values);
-    int within = 0;
+    int within_10 = 0, within_5 = 0;
     for (int i = 0; i < count; i++) {
-        within += misses[i] <= 0.10;
+        within_10 += misses[i] <= 0.10;
+        within_5 += misses[i] <= 0.05;
     }
     return (DipCostMisses){
         .median = dip_stats_median(misses, count),
         .p90 = misses[(9 * count + 9) / 10 - 1], // The least value that 90 % do not exceed.
-        .within_10 = (double)within / count,
+        .within_10 = (double)within_10 / count,
+        .within_5 = (double)within_5 / count,
         .rows = count,
     };
+}
+
+DipCostMisses dip_cost_model_misses(const DipCostReport *report, const DipCostModel *model,
+                                    const int *rows, int count) {
+    double misses[DIP_COST_MAX_ROWS];
+    int known = 0;
+    DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
+    for (int r = 0; r < count; r++) {
+        if (is_known(&report->rows[rows[r]])) {
+            misses[known++] = miss_of(model, &report->rows[rows[r]]);
+        }
+    }
+    return dip_cost_misses_of(misses, known);
 }
 
 DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const int *rows,
@@ -133,6 +148,103 @@ DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const in
             const DipCostModel others = solve(&equations, count - 1);
             add(&equations, row, 1.0);
             misses[known++] = miss_of(&others, row);
+        }
+    }
+    return dip_cost_misses_of(misses, known);
+}
+
+// --- errors --------------------------------------------------------------------------------------
+
+// Without it, rows that do not tell two terms apart would give them great coefficients of opposite
+// sign.
+static const double error_ridge = 1e-5;
+
+// FLIP of a row, or 0 if the row was not judged.
+static double flip_of(const DipCostReport *report, int row) {
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    return viewpoints > 0 ? dip_metrics_of(&sums, 0).flip : 0.0;
+}
+
+static void add_error(DipNormalEquations *equations, const DipQuality *quality, double flip,
+                      double sign) {
+    double terms[DIP_COST_ERROR_TERMS];
+    dip_cost_error_terms(quality, terms);
+    dip_normal_equations_add(equations, terms, flip, sign / (flip * flip));
+}
+
+static int begin_errors(DipNormalEquations *equations, const DipCostReport *report, const int *rows,
+                        int count) {
+    double scale[DIP_COST_ERROR_TERMS];
+    int known = 0;
+    for (int t = 0; t < DIP_COST_ERROR_TERMS; t++) {
+        scale[t] = 1.0; // Terms are at most 1.
+    }
+    dip_normal_equations_begin(equations, DIP_COST_ERROR_TERMS, scale);
+    for (int r = 0; r < count; r++) {
+        const double flip = flip_of(report, rows[r]);
+        if (flip > 0.0) {
+            add_error(equations, &report->rows[rows[r]].quality, flip, 1.0);
+            known++;
+        }
+    }
+    return known;
+}
+
+static DipCostErrorModel solve_errors(const DipNormalEquations *equations, int rows) {
+    DipCostErrorModel model = {.rows = rows};
+    dip_least_squares_ridge(equations, error_ridge * equations->left[0][0], model.coefficients);
+    return model;
+}
+
+DipCostErrorModel dip_cost_error_model_fit(const DipCostReport *report, const int *rows,
+                                           int count) {
+    DipNormalEquations equations;
+    const int known = begin_errors(&equations, report, rows, count);
+    return solve_errors(&equations, known);
+}
+
+double dip_cost_error_model_flip(const DipCostErrorModel *model, const DipQuality *quality) {
+    double terms[DIP_COST_ERROR_TERMS];
+    double flip = 0.0;
+    dip_cost_error_terms(quality, terms);
+    for (int t = 0; t < DIP_COST_ERROR_TERMS; t++) {
+        flip += terms[t] * model->coefficients[t];
+    }
+    return fmax(flip, 0.0);
+}
+
+DipCostMisses dip_cost_error_model_misses(const DipCostReport *report,
+                                          const DipCostErrorModel *model, const int *rows,
+                                          int count) {
+    double misses[DIP_COST_MAX_ROWS];
+    int known = 0;
+    DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
+    for (int r = 0; r < count; r++) {
+        const double flip = flip_of(report, rows[r]);
+        if (flip > 0.0) {
+            misses[known++] =
+                fabs(dip_cost_error_model_flip(model, &report->rows[rows[r]].quality) / flip - 1.0);
+        }
+    }
+    return dip_cost_misses_of(misses, known);
+}
+
+DipCostMisses dip_cost_error_model_leave_one_out(const DipCostReport *report, const int *rows,
+                                                 int count) {
+    DipNormalEquations equations;
+    double misses[DIP_COST_MAX_ROWS];
+    int known = 0;
+    DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
+    const int judged = begin_errors(&equations, report, rows, count);
+    for (int r = 0; r < count; r++) {
+        const DipQuality *quality = &report->rows[rows[r]].quality;
+        const double flip = flip_of(report, rows[r]);
+        if (flip > 0.0) {
+            add_error(&equations, quality, flip, -1.0);
+            const DipCostErrorModel others = solve_errors(&equations, judged - 1);
+            add_error(&equations, quality, flip, 1.0);
+            misses[known++] = fabs(dip_cost_error_model_flip(&others, quality) / flip - 1.0);
         }
     }
     return dip_cost_misses_of(misses, known);

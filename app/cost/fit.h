@@ -22,19 +22,38 @@ DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, in
 double dip_cost_model_ms(const DipCostModel *model, const double counters[DIP_COST_COUNTER_COUNT],
                          const DipQuality *quality);
 
-// How far predictions lie from measurements: |predicted / measured - 1| over some rows.
-typedef struct DipCostMisses {
-    double median;
-    double p90;       // 90th percentile.
-    double within_10; // Share of the rows that are missed by at most 10 %.
-    int rows;         // Number of rows; 0 if there are none to compare.
-} DipCostMisses;
-
 // Summarises misses, which are sorted on return.
 DipCostMisses dip_cost_misses_of(double *misses, int count);
 
+// The misses of a model at rows that it does not come from.
+DipCostMisses dip_cost_model_misses(const DipCostReport *report, const DipCostModel *model,
+                                    const int *rows, int count);
+
 // Predicts each of the rows from all others of them (leave one out).
 DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const int *rows, int count);
+
+// --- errors --------------------------------------------------------------------------------------
+
+// The model of FLIP: a sum of terms of the settings alone (dip_cost_error_terms), since the error
+// of antialiasing and that of filtering add up nearly.
+typedef struct DipCostErrorModel {
+    double coefficients[DIP_COST_ERROR_TERMS];
+    int rows; // Number of rows that the model comes from; 0 if there are none.
+} DipCostErrorModel;
+
+// Fits the model to rows that were judged, by least squares of relative errors.
+DipCostErrorModel dip_cost_error_model_fit(const DipCostReport *report, const int *rows, int count);
+
+double dip_cost_error_model_flip(const DipCostErrorModel *model, const DipQuality *quality);
+
+// As the functions of the same name for times, for FLIP.
+DipCostMisses dip_cost_error_model_misses(const DipCostReport *report,
+                                          const DipCostErrorModel *model, const int *rows,
+                                          int count);
+DipCostMisses dip_cost_error_model_leave_one_out(const DipCostReport *report, const int *rows,
+                                                 int count);
+
+// --- the fit of a whole report -------------------------------------------------------------------
 
 // The model of all rows of a report, for readers.
 enum { DIP_COST_FIT_MAX_TERMS = DIP_COST_ALL_TERMS };

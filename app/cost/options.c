@@ -120,6 +120,12 @@ static const DipOptionRow choice_rows[] = {
      .kind = DIP_OPTION_CUSTOM,
      .given = FIELD(has_combined),
      .read = read_combined},
+    {.name = "--predict",
+     .text = "Instead of measuring every step and every combination, measure the few combinations "
+             "that tell most about all others, predict the others, and measure those that the "
+             "prediction finds best. By default it combines aa, aaa, asd, af, aaf, opt and miplod.",
+     .kind = DIP_OPTION_FLAG,
+     .field = FIELD(predict)},
     {.name = "--budget-ms",
      .argument = "LIST",
      .text =
@@ -285,6 +291,11 @@ bool dip_cost_options_check(const void *arguments, DipError *err) {
     if (cost->errors_only && cost->budget_count) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--budget-ms",
                              "advice needs times; leave out --budget-ms or --errors-only");
+    }
+    if (cost->predict && (cost->errors_only || cost->first_place > 0 || cost->end_place > 0)) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--predict",
+                             "a prediction needs times and all viewpoints; leave out "
+                             "--errors-only and --part, or --predict");
     }
     return dip_session_options_check(&all->session, err);
 }

@@ -37,6 +37,7 @@ typedef struct DipCostOptions {
     int rounds;
     int timed_frames;
     bool errors_only;
+    bool predict; // Measure a few combinations and predict all others.
     bool has_seed;
     int seed;
     bool has_combined;

@@ -2,6 +2,7 @@
 // path; a sweep is the rows of all steps of one setting.
 #include "app/cost/plan.h"
 
+#include "app/cost/combinations.h"
 #include "app/cost/scene_hash.h"
 #include "app/machine.h"
 #include "renderer/base/hash.h"
@@ -210,40 +211,54 @@ static void add_base_rows(DipCostReport *report) {
 
 // --- combinations ------------------------------------------------------------------------------
 
-// True if some enabled setting has no effect, so that another combination draws the same picture.
-static bool is_idle(const DipQuality *q) {
-    const bool adaptive = q->step[DIP_SETTING_AAA] != 0;
-    return (q->step[DIP_SETTING_AAF] && !q->step[DIP_SETTING_AF]) ||
-           (q->step[DIP_SETTING_TAA] && !q->step[DIP_SETTING_AA]) ||
-           (!adaptive && q->step[DIP_SETTING_ASD]) ||
-           (adaptive && dip_quality_samples_per_group(q) == dip_quality_sample_count(q));
+static bool too_many(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--combine",
+                         "these settings make more than %d combinations; give fewer settings",
+                         DIP_COST_MAX_ROWS);
 }
 
-static bool add_combinations(DipCostReport *report, DipQuality quality, int setting,
+static bool add_combinations(DipCostReport *report, const DipQuality *list, int count,
                              DipError *err) {
-    while (setting < DIP_SETTING_COUNT && !(report->options.combined >> setting & 1)) {
-        setting++;
+    if (report->row_count + count > DIP_COST_MAX_ROWS) {
+        return too_many(err);
     }
-    if (setting == DIP_SETTING_COUNT) {
-        if (!dip_quality_check(&quality, NULL) || is_idle(&quality)) {
-            return true;
-        }
-        if (report->row_count == DIP_COST_MAX_ROWS) {
-            return dip_error_set(
-                err, DIP_ERROR_RANGE, NULL, 0, "--combine",
-                "these settings make more than %d combinations; give fewer settings",
-                DIP_COST_MAX_ROWS);
-        }
-        report->rows[report->row_count++] = (DipCostRow){.quality = quality, .path = 0};
-        return true;
-    }
-    for (int step = 0; step < dip_setting_info((DipSetting)setting)->step_count; step++) {
-        quality.step[setting] = (uint8_t)step;
-        if (!add_combinations(report, quality, setting + 1, err)) {
-            return false;
-        }
+    for (int i = 0; i < count; i++) {
+        report->rows[report->row_count++] = (DipCostRow){.quality = list[i], .path = 0};
     }
     return true;
+}
+
+// The combinations are to be predicted: only a few of them become rows later.
+static bool add_predictions(DipCostReport *report, const DipQuality *list, int count,
+                            DipError *err) {
+    if (count > DIP_COST_MAX_ROWS) {
+        return too_many(err);
+    }
+    report->predicted.list = calloc((size_t)count + 1, sizeof *report->predicted.list);
+    if (!report->predicted.list) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+    }
+    report->predicted.count = count;
+    for (int i = 0; i < count; i++) {
+        report->predicted.list[i] = (DipCostPrediction){.quality = list[i], .row = -1};
+    }
+    return true;
+}
+
+static bool plan_combinations(DipCostReport *report, DipError *err) {
+    DipQuality *list = malloc(DIP_COST_MAX_ROWS * sizeof *list);
+    if (!list) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+    }
+    const int count =
+        report->options.combined
+            ? dip_cost_list_combinations(&report->options.baseline, report->options.combined, list,
+                                         DIP_COST_MAX_ROWS)
+            : 0;
+    const bool added = report->options.predict ? add_predictions(report, list, count, err)
+                                               : add_combinations(report, list, count, err);
+    free(list);
+    return added;
 }
 
 // --- the whole ---------------------------------------------------------------------------------
@@ -267,12 +282,15 @@ static void describe(DipCostReport *report, const DipSession *session) {
 }
 
 // Returns the settings that are combined by default. A plot of the Pareto front needs two settings.
-// Advice (--budget-ms) needs three more, which are worth choosing in any scene.
+// Advice (--budget-ms) needs three more, which are worth choosing in any scene. A prediction
+// (--predict) has all settings that change the error of a single picture.
 static unsigned default_combined(const DipCostOptions *options) {
     const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
-    return options->budget_count
-               ? two | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD | 1u << DIP_SETTING_AAF
-               : two;
+    const unsigned five =
+        two | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD | 1u << DIP_SETTING_AAF;
+    return options->predict        ? five | 1u << DIP_SETTING_OPT | 1u << DIP_SETTING_MIPLOD
+           : options->budget_count ? five
+                                   : two;
 }
 
 static void hash_pose(DipHash *hash, const DipCostReport *report, const DipSession *session,
@@ -315,7 +333,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     }
     describe(report, session);
     add_row(report, &report->options.baseline, add_path(report, session, DIP_CATEGORY_DEFAULT));
-    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+    for (int s = 0; s < DIP_SETTING_COUNT && !options->predict; s++) {
         if (s == DIP_SETTING_AAA) {
             plan_adaptive(report, session);
         } else if (s != DIP_SETTING_ASD && s != DIP_SETTING_MIPDEBUG) {
@@ -324,7 +342,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     }
     add_base_rows(report);
     report->combined_first = report->row_count;
-    if (report->options.combined && !add_combinations(report, report->options.baseline, 0, err)) {
+    if (!plan_combinations(report, err)) {
         return false;
     }
     for (int path = 0; path < report->path_count; path++) {
@@ -361,6 +379,9 @@ void dip_cost_plan_hash(const DipCostReport *report, const DipSession *session, 
     for (int r = 0; r < report->row_count; r++) {
         dip_hash_bytes(&hash, &report->rows[r].path, sizeof report->rows[r].path);
         dip_hash_bytes(&hash, &report->rows[r].quality, sizeof report->rows[r].quality);
+    }
+    for (int i = 0; i < report->predicted.count; i++) {
+        dip_hash_bytes(&hash, &report->predicted.list[i].quality, sizeof(DipQuality));
     }
     dip_hash_hex(&hash, hex);
 }

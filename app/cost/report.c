@@ -22,20 +22,39 @@ const char *const dip_cost_stage_names[DIP_COST_STAGE_COUNT] = {
         "rest",
 };
 
+static bool alloc_row(const DipCostReport *report, DipCostRow *row) {
+    const size_t viewpoints = (size_t)report->options.places;
+    row->viewpoints = calloc(viewpoints, sizeof *row->viewpoints);
+    row->judged = calloc(viewpoints, sizeof *row->judged);
+    row->pairs = calloc((size_t)dip_cost_frame_count(report), sizeof *row->pairs);
+    return row->viewpoints && row->judged && row->pairs;
+}
+
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err) {
     const size_t viewpoints = (size_t)report->options.places;
-    const size_t frames = (size_t)dip_cost_frame_count(report);
     report->floors = calloc((size_t)report->path_count * viewpoints, sizeof *report->floors);
     report->has_floor = calloc((size_t)report->path_count * viewpoints, sizeof *report->has_floor);
     bool made = report->floors && report->has_floor;
     for (int r = 0; r < report->row_count; r++) {
-        DipCostRow *row = &report->rows[r];
-        row->viewpoints = calloc(viewpoints, sizeof *row->viewpoints);
-        row->judged = calloc(viewpoints, sizeof *row->judged);
-        row->pairs = calloc(frames, sizeof *row->pairs);
-        made = made && row->viewpoints && row->judged && row->pairs;
+        made = alloc_row(report, &report->rows[r]) && made;
     }
     return made || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+}
+
+int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, int path,
+                            DipError *err) {
+    if (report->row_count == DIP_COST_MAX_ROWS) {
+        dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "cost", "there are more than %d rows",
+                      DIP_COST_MAX_ROWS);
+        return -1;
+    }
+    DipCostRow *row = &report->rows[report->row_count++]; // Freed with the others if this fails.
+    *row = (DipCostRow){.quality = *quality, .path = path};
+    if (!alloc_row(report, row)) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+        return -1;
+    }
+    return report->row_count - 1;
 }
 
 void dip_cost_report_free(DipCostReport *report) {
@@ -47,6 +66,7 @@ void dip_cost_report_free(DipCostReport *report) {
     free(report->rows);
     free(report->floors);
     free(report->has_floor);
+    free(report->predicted.list);
     *report = (DipCostReport){0};
 }
 

@@ -78,6 +78,37 @@ typedef struct DipCostAdvice {
     double ms_high;
 } DipCostAdvice;
 
+// How far predictions lie from measurements: |predicted / measured - 1| over some rows.
+typedef struct DipCostMisses {
+    double median;
+    double p90;       // 90th percentile.
+    double within_10; // Share of the rows that are missed by at most 10 %.
+    double within_5;  // Share of the rows that are missed by at most 5 %.
+    int rows;         // Number of rows; 0 if there are none to compare.
+} DipCostMisses;
+
+// A combination on path 0 whose time and error are predicted from measured rows (predict.h).
+typedef struct DipCostPrediction {
+    DipQuality quality;
+    double counters[DIP_COST_COUNTER_COUNT]; // Means per frame.
+    double ms;                               // Mean time of a frame.
+    double p95_ms;                           // 95th percentile of the frames along the path.
+    double flip;                             // Mean FLIP of the viewpoints.
+    // All three keep their predicted values when the combination is measured later.
+    int row; // The row that measured it later, or -1.
+} DipCostPrediction;
+
+// All combinations that --predict ranks, and how well it did.
+typedef struct DipCostPredictions {
+    DipCostPrediction *list; // Owned; NULL if nothing was predicted.
+    int count;
+    int trained;                   // Number of rows that were measured to predict all others.
+    DipCostMisses times_left_out;  // Each of these rows predicted from the others: mean times,
+    DipCostMisses errors_left_out; // and FLIP.
+    DipCostMisses times;  // Rows that were measured after they had been predicted: mean times,
+    DipCostMisses errors; // and FLIP.
+} DipCostPredictions;
+
 // How quiet the machine was while times were taken.
 typedef enum DipCostVerdict {
     DIP_COST_GREEN, // The intervals hold.
@@ -123,11 +154,17 @@ typedef struct DipCostReport {
     bool *has_floor; // True if the floor with this index is known.
     DipCostAdvice advice[DIP_COST_MAX_BUDGETS];
     int advice_count;
+    DipCostPredictions predicted; // Empty without --predict.
 } DipCostReport;
 
 // Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in
 // before.
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err);
+
+// Adds a row to a report whose arrays have been allocated. Returns its index, or -1 and fills *err
+// if there is no room or no memory. `rows` must have room for DIP_COST_MAX_ROWS rows.
+int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, int path,
+                            DipError *err);
 void dip_cost_report_free(DipCostReport *report);
 
 // --- texts -------------------------------------------------------------------------------------

@@ -24,6 +24,16 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err);
 bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int times_before,
                          DipError *err);
 
+// Times rows of path 0 for the first time, which were added after dip_cost_time_rows, and counts
+// their work. The journal does not keep these times. The caller estimates the report's times again.
+bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipError *err);
+
+// Ranks the combinations of report->predicted: counts their work on a few frames, measures the few
+// that tell most about all others, predicts the times and errors of all, and measures those that
+// the prediction puts on the Pareto front or near a budget (predict.c). Takes the place of
+// dip_cost_judge and dip_cost_time_rows.
+bool dip_cost_predict(DipCostContext *cost, DipError *err);
+
 // Times again the rows that may or may not be within a budget, and chooses a row for each budget.
 // If the verdict on the machine is red, no row is chosen.
 bool dip_cost_advise(DipCostContext *cost, DipError *err);

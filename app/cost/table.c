@@ -3,6 +3,7 @@
 
 #include "app/cost/fit.h"
 #include "app/cost/order.h"
+#include "app/cost/prediction_counts.h"
 
 #include <math.h>
 
@@ -83,14 +84,14 @@ static void print_front(const DipCostReport *report, FILE *out) {
     }
     const int kept = dip_cost_pareto_front_thin(report, front,
                                                 dip_cost_pareto_front(report, rows, count, front));
-    fprintf(
-        out,
-        "\n"
-        "Pareto front of %d combinations on path %s: no other combination has less time and less "
-        "FLIP.\n"
-        "A combination is listed only if its FLIP is at least 1 %% below the FLIP of the line "
-        "above.\n",
-        count, report->paths[0]);
+    fprintf(out,
+            "\n"
+            "Pareto front of %d measured combinations on path %s: no other combination has less "
+            "time and less "
+            "FLIP.\n"
+            "A combination is listed only if its FLIP is at least 1 %% below the FLIP of the line "
+            "above.\n",
+            count, report->paths[0]);
     for (int i = 0; i < kept; i++) {
         int viewpoints;
         char text[DIP_COST_TEXT];
@@ -118,6 +119,36 @@ static void print_fit(const DipCostReport *report, FILE *out) {
         if (fit.ns[i] > 0.0) {
             fprintf(out, "  %-9s %10.3g per %s\n", fit.stages[i], fit.ns[i], fit.names[i]);
         }
+    }
+}
+
+static void print_misses(const char *what, const DipCostMisses *times, const DipCostMisses *errors,
+                         FILE *out) {
+    if (times->rows > 0) {
+        fprintf(out,
+                "  %-58s time %4.1f %% (90 %% of them within %.1f %%), FLIP %4.1f %% (%.1f %%)\n",
+                what, 100.0 * times->median, 100.0 * times->p90, 100.0 * errors->median,
+                100.0 * errors->p90);
+    }
+}
+
+static void print_prediction(const DipCostReport *report, FILE *out) {
+    const DipCostPredictions *p = &report->predicted;
+    if (p->count == 0) {
+        return;
+    }
+    fprintf(out,
+            "\n"
+            "Predicted %d combinations on path %s from %d measured ones, then measured %d that the "
+            "prediction found best.\n"
+            "Median miss of the predictions:\n",
+            p->count, report->paths[0], p->trained, p->times.rows);
+    print_misses("combinations measured after they had been predicted", &p->times, &p->errors, out);
+    print_misses("each of the first ones, predicted from the others", &p->times_left_out,
+                 &p->errors_left_out, out);
+    if (p->count > DIP_COST_MOST_COUNTED) {
+        fprintf(out, "  The work of combinations of antialiasing and filtering was composed from "
+                     "the work of either.\n");
     }
 }
 
@@ -185,6 +216,7 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
         fprintf(out, "%s  %s\n", i ? "" : "\nSteps left out, with the reason:\n",
                 report->refused[i]);
     }
+    print_prediction(report, out);
     print_front(report, out);
     print_advice(report, out);
     print_fit(report, out);

@@ -3,6 +3,8 @@
 
 #include "renderer/base/assert.h"
 
+#include <math.h>
+
 // What the formulas see.
 typedef struct Work {
     const double *counters;
@@ -108,5 +110,54 @@ void dip_cost_terms(DipCostStage stage, const double counters[DIP_COST_COUNTER_C
         RESOLVE_TERMS(AMOUNT) break;
     default:
         REST_TERMS(AMOUNT) break;
+    }
+}
+
+void dip_cost_error_terms(const DipQuality *quality, double terms[DIP_COST_ERROR_TERMS]) {
+    const double samples = dip_quality_sample_count(quality);
+    const double groups = samples / dip_quality_samples_per_group(quality);
+    const double probes = dip_quality_max_anisotropy(quality);
+    const double several = samples > 1.0;
+    const double anisotropic = probes > 1.0;
+    const double exact = anisotropic && quality->step[DIP_SETTING_AAF];
+    const int level = quality->step[DIP_SETTING_MIPLOD];
+    const double biased[3] = {level <= DIP_MIPLOD_QUALITY, level <= DIP_MIPLOD_PERFORMANCE,
+                              level <= DIP_MIPLOD_HIGH_PERFORMANCE};
+    const double compressed = quality->step[DIP_SETTING_OPT] != DIP_OPT_OFF;
+    const double advanced = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
+    const double values[DIP_COST_ERROR_TERMS] = {
+        1.0,
+        // Edges, and the edges of alpha-clipped surfaces, which have a decision per sample group.
+        1.0 - several,
+        1.0 / samples,
+        several / groups,
+        several / sqrt(groups),
+        // Textures.
+        1.0 - anisotropic,
+        1.0 / probes,
+        1.0 / (probes * probes),
+        exact * (1.0 - 1.0 / probes),
+        exact / probes,
+        compressed,
+        advanced,
+        biased[0],
+        biased[1],
+        biased[2],
+        quality->step[DIP_SETTING_TAA] != 0,
+        quality->step[DIP_SETTING_MIPDEBUG] != 0,
+        // An error hides a part of another error in the same place.
+        (1.0 - several) / probes,
+        several / (groups * probes),
+        (1.0 - several) * (1.0 - anisotropic),
+        biased[0] / probes,
+        biased[1] / probes,
+        biased[2] / probes,
+        compressed / probes,
+        advanced / probes,
+        compressed * biased[0],
+        compressed * biased[2],
+    };
+    for (int t = 0; t < DIP_COST_ERROR_TERMS; t++) {
+        terms[t] = values[t];
     }
 }

@@ -25,4 +25,11 @@ const char *dip_cost_term_name(DipCostStage stage, int term);
 void dip_cost_terms(DipCostStage stage, const double counters[DIP_COST_COUNTER_COUNT],
                     const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]);
 
+// Terms that explain a picture's FLIP by its settings alone: of antialiasing, of the clipping of
+// alpha-clipped surfaces, of anisotropic filtering and of the other settings, and products of two
+// of them where one hides a part of the other. Each is 0 to 1.
+enum { DIP_COST_ERROR_TERMS = 27 };
+
+void dip_cost_error_terms(const DipQuality *quality, double terms[DIP_COST_ERROR_TERMS]);
+
 #endif

@@ -169,29 +169,80 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     return done;
 }
 
-// --- some rows again ---------------------------------------------------------------------------
+// --- some rows of path 0 -------------------------------------------------------------------------
 
-typedef struct AgainTiming {
-    DipCostContext *cost;
-    const int *rows; // [subject]
-    DipFrame frame;  // The frame of the latest run.
-} AgainTiming;
+// Subject 0 is the baseline; subject i is rows[i - 1].
+typedef struct SomeTiming {
+    RowTiming rows_timing; // Its counted rows and its frame.
+    const int *rows;
+    DipTimePair *pairs;
+    bool counts; // The runs count the rows' work.
+} SomeTiming;
 
-static bool draw_again(void *context, const DipTimingTurn *turn, DipError *err) {
-    AgainTiming *t = context;
-    return dip_cost_draw_timed(t->cost, t->rows[turn->subject], turn->frame, &t->frame, err);
+static int row_of(const SomeTiming *t, int subject) {
+    return subject == 0 ? t->rows_timing.cost->report->base_rows[0] : t->rows[subject - 1];
 }
 
-static void stage_ms_again(void *context, double ms[DIP_TIME_PARTS]) {
-    const AgainTiming *t = context;
-    write_stage_ms(&t->frame, ms);
+static bool draw_some(void *context, const DipTimingTurn *turn, DipError *err) {
+    SomeTiming *t = context;
+    return dip_cost_draw_timed(t->rows_timing.cost, row_of(t, turn->subject), turn->frame,
+                               &t->rows_timing.frame, err);
 }
 
-static bool after_draw_again(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
-    (void)turn;
+static bool after_draw_some(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
     (void)ms;
-    const AgainTiming *t = context;
-    return !dip_cost_interrupted(t->cost, err);
+    SomeTiming *t = context;
+    if (t->counts && turn->subject > 0) {
+        count_work(&t->rows_timing, row_of(t, turn->subject), turn->frame);
+    }
+    return !dip_cost_interrupted(t->rows_timing.cost, err);
+}
+
+static void some_stage_ms(void *context, double ms[DIP_TIME_PARTS]) {
+    const SomeTiming *t = context;
+    write_stage_ms(&t->rows_timing.frame, ms);
+}
+
+// Times the rows beside the baseline in as many rounds as dip_cost_time_rows. The pairs of row i
+// begin at pairs[(i + 1) * frames].
+static bool time_some(SomeTiming *t, int count, int block_rows, uint64_t seed, DipError *err) {
+    const DipCostReport *report = t->rows_timing.cost->report;
+    int *base_of = calloc((size_t)count + 1, sizeof *base_of); // The baseline is subject 0.
+    const DipPairedTimingDef def = {
+        .subject_count = count + 1,
+        .base_of = base_of,
+        .block_subjects = block_rows,
+        .rounds = report->options.rounds,
+        .frames_per_round = report->options.timed_frames,
+        .seed = seed,
+    };
+    const DipPairedTimingCalls calls = {
+        .run = draw_some,
+        .after_run = after_draw_some,
+        .part_ms = some_stage_ms,
+        .context = t,
+    };
+    DipPairedTimingResult result;
+    const bool done =
+        base_of ? dip_paired_timing_run(&def, &calls, report->threads, t->pairs, &result, err)
+                : out_of_memory(err);
+    free(base_of);
+    return done;
+}
+
+static bool open_some(SomeTiming *t, DipCostContext *cost, const int *rows, int count, bool counts,
+                      DipError *err) {
+    const size_t frames = (size_t)dip_cost_frame_count(cost->report);
+    *t = (SomeTiming){.rows_timing = {.cost = cost}, .rows = rows, .counts = counts};
+    t->pairs = calloc(((size_t)count + 1) * frames, sizeof *t->pairs);
+    t->rows_timing.counted =
+        calloc((size_t)cost->report->row_count * frames, sizeof *t->rows_timing.counted);
+    return (t->pairs && t->rows_timing.counted) || out_of_memory(err);
+}
+
+static void close_some(SomeTiming *t) {
+    free(t->pairs);
+    free(t->rows_timing.counted);
 }
 
 // Joins a new pair to the one before. If both are good, their ratios' geometric mean is kept: the
@@ -213,39 +264,32 @@ bool dip_cost_time_again(DipCostContext *cost, const int *rows, int count, int t
                          DipError *err) {
     DipCostReport *report = cost->report;
     const size_t frames = (size_t)dip_cost_frame_count(report);
-    int *subjects = malloc(2 * ((size_t)count + 1) * sizeof *subjects);
-    DipTimePair *pairs = calloc(((size_t)count + 1) * frames, sizeof *pairs);
-    bool done = (subjects && pairs) || out_of_memory(err);
-    if (done) {
-        int *base_of = subjects + count + 1; // All 0: the baseline is subject 0.
-        memset(base_of, 0, ((size_t)count + 1) * sizeof *base_of);
-        subjects[0] = report->base_rows[0];
-        memcpy(subjects + 1, rows, (size_t)count * sizeof *rows);
-        const DipPairedTimingDef def = {
-            .subject_count = count + 1,
-            .base_of = base_of,
-            .block_subjects = 1,
-            .rounds = report->options.rounds,
-            .frames_per_round = report->options.timed_frames,
-            .seed = (uint64_t)report->options.seed + (uint64_t)times_before,
-        };
-        AgainTiming t = {.cost = cost, .rows = subjects};
-        const DipPairedTimingCalls calls = {
-            .run = draw_again,
-            .after_run = after_draw_again,
-            .part_ms = stage_ms_again,
-            .context = &t,
-        };
-        DipPairedTimingResult result;
-        done = dip_paired_timing_run(&def, &calls, report->threads, pairs, &result, err);
-    }
+    SomeTiming t;
+    const uint64_t seed = (uint64_t)report->options.seed + (uint64_t)times_before;
+    // One row per block: two rows that are compared with a budget get a baseline each.
+    const bool done =
+        open_some(&t, cost, rows, count, false, err) && time_some(&t, count, 1, seed, err);
     for (int i = 0; done && i < count; i++) {
         for (size_t f = 0; f < frames; f++) {
-            join_pair(&report->rows[rows[i]].pairs[f], &pairs[(size_t)(i + 1) * frames + f],
+            join_pair(&report->rows[rows[i]].pairs[f], &t.pairs[(size_t)(i + 1) * frames + f],
                       times_before);
         }
     }
-    free(subjects);
-    free(pairs);
+    close_some(&t);
+    return done;
+}
+
+bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipError *err) {
+    DipCostReport *report = cost->report;
+    const size_t frames = (size_t)dip_cost_frame_count(report);
+    SomeTiming t;
+    const uint64_t seed = (uint64_t)report->options.seed + UINT64_C(0x10000) + (uint64_t)rows[0];
+    const bool done =
+        open_some(&t, cost, rows, count, true, err) && time_some(&t, count, BLOCK_ROWS, seed, err);
+    for (int i = 0; done && i < count; i++) {
+        memcpy(report->rows[rows[i]].pairs, t.pairs + (size_t)(i + 1) * frames,
+               frames * sizeof *t.pairs);
+    }
+    close_some(&t);
     return done;
 }

@@ -182,6 +182,42 @@ static void add_fit(cJSON *root, const DipCostReport *report) {
     cJSON_AddNumberToObject(object, "within_10_percent_of_others", fit.others.within_10);
 }
 
+static void add_misses(cJSON *to, const char *name, const DipCostMisses *misses) {
+    cJSON *object = cJSON_AddObjectToObject(to, name);
+    cJSON_AddNumberToObject(object, "rows", misses->rows);
+    cJSON_AddNumberToObject(object, "median", misses->median);
+    cJSON_AddNumberToObject(object, "p90", misses->p90);
+    cJSON_AddNumberToObject(object, "within_5_percent", misses->within_5);
+    cJSON_AddNumberToObject(object, "within_10_percent", misses->within_10);
+}
+
+static void add_predictions(cJSON *root, const DipCostReport *report) {
+    const DipCostPredictions *predicted = &report->predicted;
+    if (predicted->count == 0) {
+        return;
+    }
+    cJSON *object = cJSON_AddObjectToObject(root, "predicted");
+    cJSON_AddNumberToObject(object, "trained", predicted->trained);
+    cJSON *misses = cJSON_AddObjectToObject(object, "misses");
+    add_misses(misses, "times", &predicted->times);
+    add_misses(misses, "flip", &predicted->errors);
+    add_misses(misses, "times_left_out", &predicted->times_left_out);
+    add_misses(misses, "flip_left_out", &predicted->errors_left_out);
+    cJSON *list = cJSON_AddArrayToObject(object, "combinations");
+    for (int i = 0; i < predicted->count; i++) {
+        const DipCostPrediction *p = &predicted->list[i];
+        char settings[256];
+        cJSON *item = cJSON_CreateObject();
+        dip_quality_format(&p->quality, settings, sizeof settings);
+        cJSON_AddStringToObject(item, "settings", settings);
+        cJSON_AddNumberToObject(item, "ms", p->ms);
+        cJSON_AddNumberToObject(item, "p95_ms", p->p95_ms);
+        cJSON_AddNumberToObject(item, "flip", p->flip);
+        cJSON_AddNumberToObject(item, "row", p->row);
+        add_to_array(list, item);
+    }
+}
+
 static void add_advice(cJSON *root, const DipCostReport *report) {
     cJSON *advice = cJSON_AddArrayToObject(root, "advice");
     for (int i = 0; i < report->advice_count; i++) {
@@ -249,6 +285,7 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     add_rows(root, report);
     add_sweeps(root, report);
     add_fit(root, report);
+    add_predictions(root, report);
     add_advice(root, report);
     char *text = cJSON_PrintUnformatted(root);
     cJSON_Delete(root);

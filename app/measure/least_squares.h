@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-enum { DIP_LEAST_SQUARES_MAX_TERMS = 48 };
+enum { DIP_LEAST_SQUARES_MAX_TERMS = 64 };
 
 // The normal equations of a set of rows. Rows can be added and taken away again, so that every row
 // can be predicted from all others without adding them up anew.

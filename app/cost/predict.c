@@ -1,0 +1,294 @@
+// Predicting combinations from a few of them.
+#include "app/cost/predict.h"
+
+#include "app/cost/fit.h"
+#include "app/cost/prediction_counts.h"
+#include "app/cost/steps.h"
+#include "app/measure/least_squares.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    DESIGN_TERMS = DIP_LEAST_SQUARES_MAX_TERMS,
+    MOST_PROMISING = 24, // Combinations that are measured in one go.
+    MOST_GOES = 3,
+    PER_BUDGET = 6
+};
+
+static bool out_of_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+}
+
+// --- the rows to measure first -----------------------------------------------------------------
+
+int dip_cost_training_count(unsigned settings, int count) {
+    const unsigned main = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD |
+                          1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF;
+    int training = 16;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        if (settings >> s & 1 && !(main >> s & 1)) {
+            training += 2 * (dip_setting_info((DipSetting)s)->step_count - 1);
+        }
+    }
+    return training < count ? training : count;
+}
+
+// Writes the terms of all stages and of FLIP; their constant terms are one. Returns their number.
+static int design_terms(const DipCostPrediction *prediction, double terms[DESIGN_TERMS]) {
+    double amounts[DIP_COST_MAX_TERMS], errors[DIP_COST_ERROR_TERMS];
+    int count = 0;
+    terms[count++] = 1.0;
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        dip_cost_terms((DipCostStage)stage, prediction->counters, &prediction->quality, amounts);
+        for (int t = 1; t < dip_cost_term_count((DipCostStage)stage); t++) {
+            terms[count++] = amounts[t];
+        }
+    }
+    dip_cost_error_terms(&prediction->quality, errors);
+    for (int t = 1; t < DIP_COST_ERROR_TERMS; t++) {
+        terms[count++] = errors[t];
+    }
+    return count;
+}
+
+bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err) {
+    const DipCostPredictions *predicted = &report->predicted;
+    double *matrix = malloc((size_t)predicted->count * DESIGN_TERMS * sizeof *matrix);
+    if (!matrix) {
+        return out_of_memory(err);
+    }
+    int terms = 0, given = 0;
+    for (int i = 0; i < predicted->count; i++) {
+        double row[DESIGN_TERMS];
+        terms = design_terms(&predicted->list[i], row);
+        memcpy(matrix + (size_t)i * (size_t)terms, row, (size_t)terms * sizeof *row);
+        if (memcmp(&predicted->list[i].quality, &report->options.baseline, sizeof(DipQuality)) ==
+            0) {
+            chosen[0] = i;
+            given = count > 0;
+        }
+    }
+    dip_design_choose(matrix, predicted->count, terms, given, count, chosen);
+    free(matrix);
+    return true;
+}
+
+// --- predicting --------------------------------------------------------------------------------
+
+static int list_rows(const DipCostPredictions *predicted, int rows[DIP_COST_MAX_ROWS]) {
+    int count = 0;
+    for (int i = 0; i < predicted->count; i++) {
+        if (predicted->list[i].row >= 0) {
+            rows[count++] = predicted->list[i].row;
+        }
+    }
+    return count;
+}
+
+// Returns the usual 95th percentile of a frame's time over its mean, along path 0.
+static double usual_p95(const DipCostReport *report, const int *rows, int count) {
+    double ratios[DIP_COST_MAX_ROWS];
+    for (int i = 0; i < count; i++) {
+        const DipPathEstimate *time = &report->rows[rows[i]].time;
+        ratios[i] = time->p95_ms.value / time->mean_ms.value;
+    }
+    return dip_stats_median(ratios, count);
+}
+
+void dip_cost_predict_others(DipCostReport *report) {
+    DipCostPredictions *predicted = &report->predicted;
+    int rows[DIP_COST_MAX_ROWS];
+    const int count = list_rows(predicted, rows);
+    if (count == 0) {
+        return;
+    }
+    const DipCostModel times = dip_cost_model_fit(report, rows, count);
+    const DipCostErrorModel errors = dip_cost_error_model_fit(report, rows, count);
+    const double p95 = usual_p95(report, rows, count);
+    for (int i = 0; i < predicted->count; i++) {
+        DipCostPrediction *p = &predicted->list[i];
+        if (p->row < 0) {
+            p->ms = dip_cost_model_ms(&times, p->counters, &p->quality);
+            p->p95_ms = p95 * p->ms;
+            p->flip = dip_cost_error_model_flip(&errors, &p->quality);
+        }
+    }
+}
+
+// --- what is worth measuring -------------------------------------------------------------------
+
+typedef struct Candidate {
+    int index; // In report->predicted.
+    bool measured;
+    double ms, p95_ms, flip;
+} Candidate;
+
+static Candidate candidate(const DipCostReport *report, int index) {
+    const DipCostPrediction *p = &report->predicted.list[index];
+    if (p->row < 0) {
+        return (Candidate){index, false, p->ms, p->p95_ms, p->flip};
+    }
+    const DipPathEstimate *time = &report->rows[p->row].time;
+    return (Candidate){index, true, time->mean_ms.value, time->p95_ms.value,
+                       dip_cost_row_metrics(report, p->row, 0).flip};
+}
+
+static int compare_ms(const void *a, const void *b) {
+    const Candidate *x = a;
+    const Candidate *y = b;
+    const int by_time = (x->ms > y->ms) - (x->ms < y->ms);
+    return by_time ? by_time : (x->flip > y->flip) - (x->flip < y->flip);
+}
+
+static int compare_flip(const void *a, const void *b) {
+    const Candidate *x = a;
+    const Candidate *y = b;
+    return (x->flip > y->flip) - (x->flip < y->flip);
+}
+
+typedef struct Promising {
+    int *list;
+    int count;
+    int most;
+} Promising;
+
+static void add_promising(Promising *promising, const Candidate *candidate) {
+    for (int i = 0; i < promising->count; i++) {
+        if (promising->list[i] == candidate->index) {
+            return;
+        }
+    }
+    if (!candidate->measured && promising->count < promising->most) {
+        promising->list[promising->count++] = candidate->index;
+    }
+}
+
+static void add_front(Promising *promising, Candidate *all, int count) {
+    double least = INFINITY;
+    qsort(all, (size_t)count, sizeof *all, compare_ms);
+    for (int i = 0; i < count; i++) {
+        if (all[i].flip <= 0.99 * least) {
+            least = all[i].flip;
+            add_promising(promising, &all[i]);
+        }
+    }
+}
+
+// Adds the candidates of least FLIP that may be within a budget, until PER_BUDGET of them are
+// listed or measured.
+static void add_near_budget(Promising *promising, const DipCostReport *report, double budget_ms,
+                            Candidate *all, int count) {
+    int seen = 0;
+    qsort(all, (size_t)count, sizeof *all, compare_flip);
+    for (int i = 0; i < count && seen < PER_BUDGET; i++) {
+        const double ms =
+            report->options.budget_of == DIP_COST_BUDGET_MEAN ? all[i].ms : all[i].p95_ms;
+        if (ms <= 1.08 * budget_ms) {
+            add_promising(promising, &all[i]);
+            seen++;
+        }
+    }
+}
+
+int dip_cost_list_promising(const DipCostReport *report, int most, int *list, DipError *err) {
+    const int count = report->predicted.count;
+    Candidate *all = malloc(((size_t)count + 1) * sizeof *all);
+    Promising promising = {.list = list, .most = most};
+    if (!all) {
+        out_of_memory(err);
+        return -1;
+    }
+    for (int i = 0; i < count; i++) {
+        all[i] = candidate(report, i);
+    }
+    for (int b = 0; b < report->options.budget_count; b++) {
+        add_near_budget(&promising, report, report->options.budgets_ms[b], all, count);
+    }
+    add_front(&promising, all, count);
+    free(all);
+    return promising.count;
+}
+
+// --- the whole ---------------------------------------------------------------------------------
+
+// Makes rows of some combinations.
+static bool add_rows(DipCostReport *report, const int *list, int count, int *rows, DipError *err) {
+    for (int i = 0; i < count; i++) {
+        DipCostPrediction *p = &report->predicted.list[list[i]];
+        rows[i] = dip_cost_report_add_row(report, &p->quality, 0, err);
+        if (rows[i] < 0) {
+            return false;
+        }
+        p->row = rows[i];
+    }
+    return true;
+}
+
+static bool measure_training(DipCostContext *cost, DipError *err) {
+    DipCostReport *report = cost->report;
+    DipCostPredictions *predicted = &report->predicted;
+    int chosen[DIP_COST_MAX_ROWS], rows[DIP_COST_MAX_ROWS];
+    const int count = dip_cost_training_count(report->options.combined, predicted->count);
+    predicted->trained = count;
+    if (!dip_cost_choose_training(report, count, chosen, err) ||
+        !add_rows(report, chosen, count, rows, err) || !dip_cost_judge(cost, err) ||
+        !dip_cost_time_rows(cost, err)) {
+        return false;
+    }
+    dip_cost_scale_counters(report);
+    predicted->times_left_out = dip_cost_model_leave_one_out(report, rows, count);
+    predicted->errors_left_out = dip_cost_error_model_leave_one_out(report, rows, count);
+    for (int i = 0; i < count; i++) {
+        const Candidate measured = candidate(report, chosen[i]);
+        DipCostPrediction *p = &predicted->list[chosen[i]];
+        p->ms = measured.ms;
+        p->p95_ms = measured.p95_ms;
+        p->flip = measured.flip;
+    }
+    dip_cost_predict_others(report);
+    return true;
+}
+
+// Compares the rows that were measured after they had been predicted with their predictions.
+static void judge_predictions(DipCostReport *report, int first_row) {
+    DipCostPredictions *predicted = &report->predicted;
+    double times[DIP_COST_MAX_ROWS], errors[DIP_COST_MAX_ROWS];
+    int count = 0;
+    for (int i = 0; i < predicted->count; i++) {
+        const DipCostPrediction *p = &predicted->list[i];
+        if (p->row >= first_row) {
+            const Candidate measured = candidate(report, i);
+            times[count] = fabs(p->ms / measured.ms - 1.0);
+            errors[count++] = fabs(p->flip / measured.flip - 1.0);
+        }
+    }
+    predicted->times = dip_cost_misses_of(times, count);
+    predicted->errors = dip_cost_misses_of(errors, count);
+}
+
+bool dip_cost_predict(DipCostContext *cost, DipError *err) {
+    DipCostReport *report = cost->report;
+    if (!dip_cost_count_combinations(cost, err) || !measure_training(cost, err)) {
+        return false;
+    }
+    const int first_row = report->row_count;
+    for (int go = 0; go < MOST_GOES; go++) {
+        int list[MOST_PROMISING], rows[MOST_PROMISING];
+        const int count = dip_cost_list_promising(report, MOST_PROMISING, list, err);
+        if (count < 0) {
+            return false;
+        }
+        if (count == 0) {
+            break;
+        }
+        if (!add_rows(report, list, count, rows, err) || !dip_cost_judge(cost, err) ||
+            !dip_cost_time_added(cost, rows, count, err) || !dip_cost_estimate_times(report, err)) {
+            return false;
+        }
+        dip_cost_predict_others(report);
+    }
+    judge_predictions(report, first_row);
+    return true;
+}
