@@ -5,6 +5,7 @@
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
 #include "app/cost/report_pictures.h"
+#include "app/cost/same_pictures.h"
 #include "app/cost/steps.h"
 #include "app/files/folder.h"
 #include "app/interrupt.h"
@@ -65,7 +66,7 @@ static bool measure(DipCostContext *cost, DipError *err) {
     if (options->predict) {
         return dip_cost_predict(cost, err) && dip_cost_advise(cost, err);
     }
-    return dip_cost_judge(cost, err) &&
+    return dip_cost_judge(cost, err) && dip_cost_join_same_pictures(cost->report, err) &&
            (options->errors_only || (dip_cost_time_rows(cost, err) && dip_cost_advise(cost, err)));
 }
 

@@ -159,6 +159,13 @@ static void judge_burst(void *context, int index, int worker) {
     dip_meter_end_burst(meter, &drawn->sums);
 }
 
+static void keep_errors(const Judge *j, const Burst *drawn) {
+    DipCostRow *row = &j->cost->report->rows[drawn->row];
+    row->viewpoints[j->viewpoint] = drawn->sums;
+    row->judged[j->viewpoint] = true;
+    memcpy(row->pictures[j->viewpoint], drawn->key, sizeof drawn->key);
+}
+
 static bool judge_bursts(Judge *j, DipError *err) {
     dip_pool_run(j->cost->session->pool, j->burst_count, judge_burst, j);
     for (int i = 0; i < j->burst_count; i++) {
@@ -166,8 +173,7 @@ static bool judge_bursts(Judge *j, DipError *err) {
         if (drawn->failed) {
             return out_of_memory(err);
         }
-        j->cost->report->rows[drawn->row].viewpoints[j->viewpoint] = drawn->sums;
-        j->cost->report->rows[drawn->row].judged[j->viewpoint] = true;
+        keep_errors(j, drawn);
         if (!dip_cost_journal_add(j->cost->journal, drawn->key, &drawn->sums, err)) {
             return false;
         }
@@ -215,8 +221,7 @@ static bool judge_rows(Judge *j, DipError *err) {
         Burst *drawn = &j->bursts[j->burst_count];
         judged = draw_burst(j, row, drawn, err);
         if (judged && dip_cost_journal_find(j->cost->journal, drawn->key, &drawn->sums)) {
-            report->rows[row].viewpoints[j->viewpoint] = drawn->sums;
-            report->rows[row].judged[j->viewpoint] = true;
+            keep_errors(j, drawn);
         } else if (judged && ++j->burst_count == j->burst_room) {
             judged = judge_bursts(j, err);
         }

@@ -3,6 +3,7 @@
 
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
+#include "app/cost/same_pictures.h"
 #include "app/files/folder.h"
 
 #include <limits.h>
@@ -34,6 +35,8 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
             if (!to->rows[r].judged[p] && from->rows[r].judged[p]) {
                 to->rows[r].viewpoints[p] = from->rows[r].viewpoints[p];
                 to->rows[r].judged[p] = true;
+                memcpy(to->rows[r].pictures[p], from->rows[r].pictures[p],
+                       sizeof to->rows[r].pictures[p]);
             }
         }
     }
@@ -92,6 +95,7 @@ bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err) {
         printf("%d of %d viewpoints are missing: no part has them\n", count_missing(&report),
                report.options.places);
     }
+    done = done && dip_cost_join_same_pictures(&report, err);
     if (done && strlen(folder) + 16 > sizeof file) {
         done = dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
                                      "the name is too long");

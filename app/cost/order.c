@@ -2,6 +2,7 @@
 #include "app/cost/order.h"
 
 #include "app/cost/formats.h"
+#include "app/cost/same_pictures.h"
 
 #include <stdio.h>
 
@@ -16,27 +17,35 @@ typedef struct Theory {
     bool of_two_frames; // true: the error is the RMSE of the mean of two frames; false: it is FLIP
     Trend work;         // trend of `counter`; a step with equal work also follows the trend
     int counter;
-    const char *why; // the likely reason if a step does not follow the trend
+    const char *why;  // the likely reason if a step does not follow the trend
+    const char *idle; // what the path does not show if all steps draw the same pictures
 } Theory;
 
 #define FEW_VIEWPOINTS                                                                             \
     "So small a difference may be due to the small number of viewpoints; --places N measures at "  \
     "more of them"
 
+#define TEXTURES "colour textures that are smaller than their largest mip level"
+
 static const Theory theories[] = {
-    {DIP_SETTING_AA, FALLS, false, RISES, DIP_COST_COUNTER_samples_shown, FEW_VIEWPOINTS},
-    {DIP_SETTING_AAA, FALLS, false, RISES, DIP_COST_COUNTER_clip_sample_groups, FEW_VIEWPOINTS},
+    {DIP_SETTING_AA, FALLS, false, RISES, DIP_COST_COUNTER_samples_shown, FEW_VIEWPOINTS, "edges"},
+    {DIP_SETTING_AAA, FALLS, false, RISES, DIP_COST_COUNTER_clip_sample_groups, FEW_VIEWPOINTS,
+     "alpha-clipped surfaces"},
     {DIP_SETTING_TAA, FALLS, true, FREE, 0,
-     "Where the camera moves far between two frames, their mean is blurred"},
-    {DIP_SETTING_AF, FALLS, false, RISES, DIP_COST_COUNTER_texture_probes, FEW_VIEWPOINTS},
+     "Where the camera moves far between two frames, their mean is blurred", "edges"},
+    {DIP_SETTING_AF, FALLS, false, RISES, DIP_COST_COUNTER_texture_probes, FEW_VIEWPOINTS,
+     "textures that are seen at an angle"},
     {DIP_SETTING_AAF, FALLS, false, FREE, 0,
      "Surfaces that tilt away at nearly a multiple of 45 degrees on the screen get as many probes "
-     "without aaf as with it"},
-    {DIP_SETTING_OPT, RISES, false, FALLS, DIP_COST_COUNTER_texels_fetched, FEW_VIEWPOINTS},
+     "without aaf as with it",
+     "textures that are seen at an angle"},
+    {DIP_SETTING_OPT, RISES, false, FALLS, DIP_COST_COUNTER_texels_fetched, FEW_VIEWPOINTS,
+     TEXTURES},
     {DIP_SETTING_MIPLOD, FALLS, false, RISES, DIP_COST_COUNTER_texels_fetched,
      "With a bias, most reads take as many texels as without it, but from smaller mip levels; on a "
-     "magnified surface, a read may even take two levels instead of one"},
-    {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COST_COUNTER_geometry_bytes, FEW_VIEWPOINTS},
+     "magnified surface, a read may even take two levels instead of one",
+     TEXTURES},
+    {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COST_COUNTER_geometry_bytes, FEW_VIEWPOINTS, NULL},
 };
 
 static const char *const trend_words[] = {
@@ -70,10 +79,11 @@ static int first_departure(const DipCostReport *report, const DipCostSweep *swee
         const int before = sweep->rows[i - 1];
         const int after = sweep->rows[i];
         const bool right =
-            by_work ? follows(theory->work, report->rows[before].counters[theory->counter],
-                              report->rows[after].counters[theory->counter], false)
-                    : follows(theory->error, error_of(report, theory, before, judged),
-                              error_of(report, theory, after, judged), true);
+            (theory->idle && dip_cost_same_pictures(report, before, after)) ||
+            (by_work ? follows(theory->work, report->rows[before].counters[theory->counter],
+                               report->rows[after].counters[theory->counter], false)
+                     : follows(theory->error, error_of(report, theory, before, judged),
+                               error_of(report, theory, after, judged), true));
         if (!right) {
             return i;
         }
@@ -89,6 +99,15 @@ static bool is_counted(const DipCostReport *report, const DipCostSweep *sweep) {
     return timed;
 }
 
+static bool all_same(const DipCostReport *report, const DipCostSweep *sweep) {
+    for (int i = 1; i < sweep->row_count; i++) {
+        if (!dip_cost_same_pictures(report, sweep->rows[0], sweep->rows[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep, char *text,
                          size_t size_bytes) {
     const Theory *theory = NULL;
@@ -99,6 +118,12 @@ bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep,
     const int by_error = judged ? first_departure(report, sweep, theory, false, &judged) : 0;
     if (!judged) {
         return false;
+    }
+    if (theory->idle && all_same(report, sweep)) {
+        snprintf(text, size_bytes,
+                 "All steps draw the same pictures: the viewpoints on this path show no %s.",
+                 theory->idle);
+        return true;
     }
     const bool counted = theory->work != FREE && is_counted(report, sweep);
     const int by_work = counted ? first_departure(report, sweep, theory, true, &judged) : 0;

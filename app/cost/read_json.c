@@ -192,6 +192,10 @@ static bool read_row(const cJSON *object, DipCostReport *report, DipCostRow *row
             return false;
         }
         row->judged[p] = true;
+        const cJSON *pictures = cJSON_GetObjectItemCaseSensitive(viewpoint, "pictures");
+        if (pictures) {
+            copy_text(pictures, row->pictures[p], sizeof row->pictures[p], &ok);
+        }
     }
     if (ok && report->rounds > 0) {
         const cJSON *counters = cJSON_GetObjectItemCaseSensitive(object, "counters");
@@ -221,6 +225,27 @@ static bool read_rows(const cJSON *root, DipCostReport *report) {
         ok = ok && report->base_rows[p] < row && report->same_rows[p] < row &&
              report->rows[report->base_rows[p]].path == p &&
              report->rows[report->same_rows[p]].path == p;
+    }
+    return ok;
+}
+
+static bool read_same(const cJSON *root, DipCostReport *report) {
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(root, "same_pictures");
+    const int count = cJSON_GetArraySize(list);
+    if (count > DIP_COST_MAX_ROWS) {
+        return false;
+    }
+    report->same = calloc((size_t)count + 1, sizeof *report->same);
+    bool ok = report->same != NULL;
+    const cJSON *object;
+    cJSON_ArrayForEach(object, list) {
+        const cJSON *settings = cJSON_GetObjectItemCaseSensitive(object, "settings");
+        DipCostSame *same = ok ? &report->same[report->same_count++] : NULL;
+        ok = same && cJSON_IsString(settings) &&
+             dip_quality_parse(settings->valuestring, &same->quality, NULL);
+        if (ok) {
+            same->row = integer(object, "row", 0, report->row_count - 1, &ok);
+        }
     }
     return ok;
 }
@@ -338,6 +363,9 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
     }
     if (!read_rows(root, report)) {
         return missing(file, "rows", err);
+    }
+    if (!read_same(root, report)) {
+        return missing(file, "same_pictures", err);
     }
     if (!read_sweeps(root, report)) {
         return missing(file, "sweeps", err);

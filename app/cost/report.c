@@ -26,8 +26,9 @@ static bool alloc_row(const DipCostReport *report, DipCostRow *row) {
     const size_t viewpoints = (size_t)report->options.places;
     row->viewpoints = calloc(viewpoints, sizeof *row->viewpoints);
     row->judged = calloc(viewpoints, sizeof *row->judged);
+    row->pictures = calloc(viewpoints, sizeof *row->pictures);
     row->pairs = calloc((size_t)dip_cost_frame_count(report), sizeof *row->pairs);
-    return row->viewpoints && row->judged && row->pairs;
+    return row->viewpoints && row->judged && row->pictures && row->pairs;
 }
 
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err) {
@@ -57,12 +58,19 @@ int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, in
     return report->row_count - 1;
 }
 
+void dip_cost_row_free(DipCostRow *row) {
+    free(row->viewpoints);
+    free(row->judged);
+    free(row->pictures);
+    free(row->pairs);
+    *row = (DipCostRow){0};
+}
+
 void dip_cost_report_free(DipCostReport *report) {
     for (int r = 0; r < report->row_count; r++) {
-        free(report->rows[r].viewpoints);
-        free(report->rows[r].judged);
-        free(report->rows[r].pairs);
+        dip_cost_row_free(&report->rows[r]);
     }
+    free(report->same);
     free(report->rows);
     free(report->floors);
     free(report->has_floor);
@@ -210,7 +218,7 @@ int dip_cost_step_up(const DipCostReport *report, int row) {
     return next;
 }
 
-static int count_changes(const DipQuality *quality) {
+int dip_cost_count_changes(const DipQuality *quality) {
     int count = 0;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         count += quality->step[s] != dip_setting_info((DipSetting)s)->default_step;
@@ -223,8 +231,8 @@ static bool is_preferred(const DipCostReport *report, int a, int b) {
     const DipStatsEstimate x = dip_cost_budget_time(report, a);
     const DipStatsEstimate y = dip_cost_budget_time(report, b);
     const bool apart = x.high < y.low || y.high < x.low;
-    const int changes =
-        count_changes(&report->rows[a].quality) - count_changes(&report->rows[b].quality);
+    const int changes = dip_cost_count_changes(&report->rows[a].quality) -
+                        dip_cost_count_changes(&report->rows[b].quality);
     return !apart && changes != 0 ? changes < 0 : x.value < y.value;
 }
 

@@ -49,14 +49,21 @@ enum {
 // One measured combination: quality settings on a camera path.
 typedef struct DipCostRow {
     DipQuality quality;
-    int path;                                // Index of the camera path in the report.
-    DipMetricSums *viewpoints;               // Errors per viewpoint of the path. Owned.
-    bool *judged;                            // [viewpoint]: its errors are known. Owned.
-    DipTimePair *pairs;                      // Times of the frames along the path. Owned.
+    int path;                  // Index of the camera path in the report.
+    DipMetricSums *viewpoints; // Errors per viewpoint of the path. Owned.
+    bool *judged;              // [viewpoint]: its errors are known. Owned.
+    char (*pictures)[33];      // [viewpoint]: hash of the row's pictures and truths, or "". Owned.
+    DipTimePair *pairs;        // Times of the frames along the path. Owned.
     double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
     DipPathEstimate time;                    // Computed from the pairs.
     double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of time.mean_ms; they add up to it.
 } DipCostRow;
+
+// A combination that draws the same pictures as a row of fewer settings off their defaults.
+typedef struct DipCostSame {
+    DipQuality quality;
+    int row; // The row that stands for it.
+} DipCostSame;
 
 // A sweep: all steps of one setting on one path, with every other setting held constant.
 typedef struct DipCostSweep {
@@ -141,6 +148,8 @@ typedef struct DipCostReport {
     int base_rows[DIP_COST_MAX_PATHS];
     int same_rows[DIP_COST_MAX_PATHS];
     int combined_first; // Rows from this index on are the combinations, on path 0.
+    DipCostSame *same;  // Combinations that another row stands for (same_pictures.h). Owned.
+    int same_count;
     DipCostSweep sweeps[DIP_COST_MAX_SWEEPS];
     int sweep_count;
     char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // Steps that were left out, with reasons.
@@ -166,6 +175,11 @@ bool dip_cost_report_alloc(DipCostReport *report, DipError *err);
 int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, int path,
                             DipError *err);
 void dip_cost_report_free(DipCostReport *report);
+
+void dip_cost_row_free(DipCostRow *row);
+
+// Returns the number of settings that differ from their defaults.
+int dip_cost_count_changes(const DipQuality *quality);
 
 // --- texts -------------------------------------------------------------------------------------
 

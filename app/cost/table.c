@@ -92,6 +92,12 @@ static void print_front(const DipCostReport *report, FILE *out) {
             "A combination is listed only if its FLIP is at least 1 %% below the FLIP of the line "
             "above.\n",
             count, report->paths[0]);
+    if (report->same_count > 0) {
+        fprintf(out,
+                "%d more combinations draw the same pictures as one of these with fewer settings "
+                "off their defaults; cost.json lists them.\n",
+                report->same_count);
+    }
     for (int i = 0; i < kept; i++) {
         int viewpoints;
         char text[DIP_COST_TEXT];

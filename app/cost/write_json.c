@@ -61,6 +61,7 @@ static void add_errors(cJSON *object, const DipCostReport *report, int row) {
         if (report->rows[row].judged[p]) {
             cJSON *viewpoint = cJSON_CreateObject();
             cJSON_AddNumberToObject(viewpoint, "place", p);
+            cJSON_AddStringToObject(viewpoint, "pictures", report->rows[row].pictures[p]);
             add_sums(viewpoint, "sums", &report->rows[row].viewpoints[p]);
             add_to_array(array, viewpoint);
         }
@@ -121,6 +122,18 @@ static void add_rows(cJSON *root, const DipCostReport *report) {
         add_errors(object, report, r);
         add_times(object, report, r);
         add_to_array(rows, object);
+    }
+}
+
+static void add_same(cJSON *root, const DipCostReport *report) {
+    cJSON *same = cJSON_AddArrayToObject(root, "same_pictures");
+    for (int i = 0; i < report->same_count; i++) {
+        char settings[256];
+        cJSON *object = cJSON_CreateObject();
+        dip_quality_format(&report->same[i].quality, settings, sizeof settings);
+        cJSON_AddStringToObject(object, "settings", settings);
+        cJSON_AddNumberToObject(object, "row", report->same[i].row);
+        add_to_array(same, object);
     }
 }
 
@@ -283,6 +296,7 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     add_header(root, report);
     add_floors(root, report);
     add_rows(root, report);
+    add_same(root, report);
     add_sweeps(root, report);
     add_fit(root, report);
     add_predictions(root, report);

@@ -1,0 +1,315 @@
+// Tests predictions: of times from made-up work and prices, of FLIP from recorded errors, and the
+// choice of what to measure.
+#include "app/cost/combinations.h"
+#include "app/cost/fit.h"
+#include "app/cost/predict.h"
+#include "app/cost/prediction_counts.h"
+#include "app/cost/same_pictures.h"
+#include "tests/renderer/random.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/app/cost/recorded_flip.inc"
+
+enum { COMBINATIONS = 126, TRAINED = 16 };
+
+static const unsigned five = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AAA | 1u << DIP_SETTING_ASD |
+                             1u << DIP_SETTING_AF | 1u << DIP_SETTING_AAF;
+
+// Work that depends on the settings as in a real scene: samples, groups and probes rise with their
+// settings, and the edges that several samples show get more fragments.
+static void make_counters(const DipQuality *quality, double *counters) {
+    const double samples = dip_quality_sample_count(quality);
+    const double groups = samples / dip_quality_samples_per_group(quality);
+    const double probes = dip_quality_max_anisotropy(quality);
+    const double fragments = 3e5 * (1.0 + 0.2 * (1.0 - 1.0 / samples));
+    memset(counters, 0, DIP_COST_COUNTER_COUNT * sizeof *counters);
+    counters[DIP_COST_COUNTER_passes] = 2.0;
+    counters[DIP_COST_COUNTER_tiles_drawn] = 80.0;
+    counters[DIP_COST_COUNTER_triangles_in] = 2e4;
+    counters[DIP_COST_COUNTER_triangles_drawn] = 8e3;
+    counters[DIP_COST_COUNTER_tile_triangles] = 1.5e4;
+    counters[DIP_COST_COUNTER_sub_blocks_tested] = 1e5;
+    counters[DIP_COST_COUNTER_sub_blocks_accepted] = 3e4;
+    counters[DIP_COST_COUNTER_fragments_clip_tested] = 4e4 * groups;
+    counters[DIP_COST_COUNTER_clip_sample_groups] = 900.0 * groups;
+    counters[DIP_COST_COUNTER_fragments_shaded] = fragments;
+    counters[DIP_COST_COUNTER_samples_shown] = 3e5 * samples;
+    counters[DIP_COST_COUNTER_pixels_resolved] = samples > 1.0 ? 5e4 : 0.0;
+    counters[DIP_COST_COUNTER_texture_probes] =
+        fragments *
+        (1.0 + 0.6 * log2(probes) - 0.01 * probes + (quality->step[DIP_SETTING_AAF] ? 0.05 : 0.0));
+    counters[DIP_COST_COUNTER_texels_fetched] = 6.5 * counters[DIP_COST_COUNTER_texture_probes];
+}
+
+// Prices that the model does not have as they are: a fixed time, and work of several stages.
+static void make_times(DipCostRow *row, double noise) {
+    const double *c = row->counters;
+    row->stage_ms[DIP_COST_STAGE_geometry] = 0.2 + 3e-5 * c[DIP_COST_COUNTER_triangles_in];
+    row->stage_ms[DIP_COST_STAGE_raster] = 0.1 + 1e-6 * c[DIP_COST_COUNTER_samples_shown] +
+                                           8e-6 * c[DIP_COST_COUNTER_fragments_clip_tested];
+    row->stage_ms[DIP_COST_STAGE_shading] =
+        4e-6 * c[DIP_COST_COUNTER_fragments_shaded] + 5e-7 * c[DIP_COST_COUNTER_texels_fetched];
+    row->stage_ms[DIP_COST_STAGE_resolve] = 5e-6 * c[DIP_COST_COUNTER_pixels_resolved];
+    row->stage_ms[DIP_COST_STAGE_rest] = 0.1;
+    row->time.mean_ms.value = 0.0;
+    for (int s = 0; s < DIP_COST_STAGE_COUNT; s++) {
+        row->stage_ms[s] *= noise;
+        row->time.mean_ms.value += row->stage_ms[s];
+    }
+    row->time.p95_ms = (DipStatsEstimate){1.3 * row->time.mean_ms.value, 0.0, 0.0};
+}
+
+static void set_flip(DipCostRow *row, double flip) {
+    row->judged[0] = true;
+    row->viewpoints[0] = (DipMetricSums){.bursts = 1.0};
+    row->viewpoints[0].regions[0].pixels = 1.0;
+    row->viewpoints[0].regions[0].flip = flip;
+}
+
+// A report with every combination as a row and as a prediction. All rows are known; a test forgets
+// those that it wants to predict.
+static void make_report(DipCostReport *report, const double *flip, double noise, uint64_t seed) {
+    DipQuality list[COMBINATIONS];
+    Random random = {seed};
+    *report = (DipCostReport){.path_count = 1, .rounds = 2};
+    report->options = (DipCostOptions){.baseline = dip_quality_default(),
+                                       .places = 1,
+                                       .rounds = 2,
+                                       .timed_frames = 1,
+                                       .combined = five};
+    assert_int_equal(
+        dip_cost_list_combinations(&report->options.baseline, five, list, COMBINATIONS),
+        COMBINATIONS);
+    report->rows = calloc(DIP_COST_MAX_ROWS, sizeof *report->rows);
+    report->predicted.list = calloc(COMBINATIONS, sizeof *report->predicted.list);
+    report->predicted.count = COMBINATIONS;
+    assert_true(report->rows && report->predicted.list);
+    assert_true(dip_cost_report_alloc(report, NULL));
+    for (int i = 0; i < COMBINATIONS; i++) {
+        assert_int_equal(dip_cost_report_add_row(report, &list[i], 0, NULL), i);
+        make_counters(&list[i], report->rows[i].counters);
+        make_times(&report->rows[i], 1.0 + noise * random_real(&random, -1.0, 1.0));
+        set_flip(&report->rows[i], flip[i]);
+        report->predicted.list[i] = (DipCostPrediction){.quality = list[i], .row = -1};
+        memcpy(report->predicted.list[i].counters, report->rows[i].counters,
+               sizeof report->rows[i].counters);
+    }
+}
+
+// Trains on TRAINED combinations and predicts the others. Returns the misses of times and of FLIP.
+static void train(DipCostReport *report, DipCostMisses *times, DipCostMisses *errors) {
+    int chosen[TRAINED];
+    double time_misses[COMBINATIONS], flip_misses[COMBINATIONS];
+    int others = 0;
+    assert_int_equal(dip_cost_training_count(five, COMBINATIONS), TRAINED);
+    assert_true(dip_cost_choose_training(report, TRAINED, chosen, NULL));
+    for (int i = 0; i < TRAINED; i++) {
+        report->predicted.list[chosen[i]].row = chosen[i];
+    }
+    dip_cost_predict_others(report);
+    for (int i = 0; i < COMBINATIONS; i++) {
+        const DipCostPrediction *p = &report->predicted.list[i];
+        if (p->row < 0) {
+            const DipCostRow *row = &report->rows[i];
+            time_misses[others] = fabs(p->ms / row->time.mean_ms.value - 1.0);
+            flip_misses[others++] = fabs(p->flip / row->viewpoints[0].regions[0].flip - 1.0);
+            assert_true(fabs(p->p95_ms / p->ms - 1.3) < 1e-9);
+        }
+    }
+    assert_int_equal(others, COMBINATIONS - TRAINED);
+    *times = dip_cost_misses_of(time_misses, others);
+    *errors = dip_cost_misses_of(flip_misses, others);
+}
+
+static void times_follow_from_work(void **state) {
+    (void)state;
+    DipCostMisses times, errors;
+    DipCostReport report;
+    make_report(&report, courtyard_flip, 0.0, 1);
+    train(&report, &times, &errors);
+    assert_true(times.p90 < 1e-6); // Without noise, prices explain all of it.
+    dip_cost_report_free(&report);
+    make_report(&report, courtyard_flip, 0.02, 1);
+    train(&report, &times, &errors);
+    assert_true(times.median < 0.02 && times.p90 < 0.05);
+    dip_cost_report_free(&report);
+}
+
+static void flip_follows_from_settings(void **state) {
+    (void)state;
+    const double *const scenes[] = {courtyard_flip, city_flip};
+    for (int s = 0; s < 2; s++) {
+        DipCostMisses times, errors;
+        DipCostReport report;
+        make_report(&report, scenes[s], 0.0, 1);
+        train(&report, &times, &errors);
+        assert_true(errors.median < 0.01);
+        assert_true(errors.within_5 >= 0.98);
+        dip_cost_report_free(&report);
+    }
+}
+
+// The error of leaving one out must not be less than that of the rows that were never seen: it
+// would promise too much.
+static void leaving_one_out_does_not_promise_too_much(void **state) {
+    (void)state;
+    DipCostMisses times, errors;
+    DipCostReport report;
+    int chosen[TRAINED];
+    make_report(&report, courtyard_flip, 0.03, 7);
+    assert_true(dip_cost_choose_training(&report, TRAINED, chosen, NULL));
+    const DipCostMisses left_out = dip_cost_model_leave_one_out(&report, chosen, TRAINED);
+    const DipCostMisses flip_left_out =
+        dip_cost_error_model_leave_one_out(&report, chosen, TRAINED);
+    train(&report, &times, &errors);
+    assert_int_equal(left_out.rows, TRAINED);
+    assert_true(left_out.median >= 0.9 * times.median);
+    assert_true(flip_left_out.median >= errors.median);
+    dip_cost_report_free(&report);
+}
+
+// Whatever is on the true front is measured or lies within 1 % of a measured one.
+static void the_front_is_found(void **state) {
+    (void)state;
+    DipCostMisses times, errors;
+    DipCostReport report;
+    make_report(&report, courtyard_flip, 0.0, 3);
+    report.options.budget_count = 1;
+    report.options.budgets_ms[0] = 6.0;
+    train(&report, &times, &errors);
+    for (int go = 0; go < 3; go++) {
+        int list[24];
+        const int count = dip_cost_list_promising(&report, 24, list, NULL);
+        for (int i = 0; i < count; i++) {
+            assert_true(report.predicted.list[list[i]].row < 0);
+            report.predicted.list[list[i]].row = list[i];
+        }
+        dip_cost_predict_others(&report);
+    }
+    int measured = 0;
+    for (int i = 0; i < COMBINATIONS; i++) {
+        bool beaten = report.predicted.list[i].row >= 0;
+        measured += beaten;
+        for (int k = 0; k < COMBINATIONS; k++) {
+            beaten |=
+                report.predicted.list[k].row >= 0 &&
+                report.rows[k].time.mean_ms.value <= 1.02 * report.rows[i].time.mean_ms.value &&
+                courtyard_flip[k] <= 1.015 * courtyard_flip[i];
+        }
+        assert_true(beaten);
+    }
+    assert_true(measured < 60);
+    dip_cost_report_free(&report);
+}
+
+static void combinations_without_effect_are_left_out(void **state) {
+    (void)state;
+    DipQuality list[COMBINATIONS];
+    const DipQuality baseline = dip_quality_default();
+    assert_int_equal(dip_cost_list_combinations(&baseline, five, list, COMBINATIONS), COMBINATIONS);
+    for (int i = 0; i < COMBINATIONS; i++) {
+        const DipQuality *q = &list[i];
+        assert_true(dip_quality_check(q, NULL));
+        assert_false(q->step[DIP_SETTING_AAF] && !q->step[DIP_SETTING_AF]);
+        assert_false(q->step[DIP_SETTING_AAA] && !q->step[DIP_SETTING_AA]);
+        for (int k = 0; k < i; k++) {
+            assert_true(memcmp(&list[k], q, sizeof *q) != 0);
+        }
+    }
+    assert_int_equal(dip_cost_list_combinations(&baseline, 0, list, 1), 1);
+    assert_int_equal(dip_cost_list_combinations(&baseline, 1u << DIP_SETTING_AF, list, 1), 5);
+}
+
+// Counters of a few frames are scaled to those of all frames by what the measured rows have.
+static void counters_are_scaled_to_the_timed_frames(void **state) {
+    (void)state;
+    DipCostReport report;
+    make_report(&report, courtyard_flip, 0.0, 1);
+    for (int i = 0; i < COMBINATIONS; i++) {
+        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+            report.predicted.list[i].counters[c] *= 0.8; // The few frames show less.
+        }
+    }
+    report.predicted.list[3].row = 3;
+    report.predicted.list[90].row = 90;
+    dip_cost_scale_counters(&report);
+    for (int i = 0; i < COMBINATIONS; i++) {
+        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+            const double truth = report.rows[i].counters[c];
+            const bool seen = report.rows[3].counters[c] + report.rows[90].counters[c] > 0.0;
+            assert_true(!seen ||
+                        fabs(report.predicted.list[i].counters[c] - truth) <= 1e-9 * truth);
+        }
+    }
+    dip_cost_report_free(&report);
+}
+
+// --- rows with the same pictures -----------------------------------------------------------------
+
+static void combinations_with_the_same_pictures_are_one_row(void **state) {
+    (void)state;
+    DipCostReport report;
+    make_report(&report, city_flip, 0.0, 1);
+    for (int i = 0; i < COMBINATIONS; i++) { // In this scene adaptive AA changes no picture.
+        const DipQuality *q = &report.rows[i].quality;
+        snprintf(report.rows[i].pictures[0], 33, "aa %d af %d aaf %d", q->step[DIP_SETTING_AA],
+                 q->step[DIP_SETTING_AF], q->step[DIP_SETTING_AAF]);
+    }
+    const DipQuality adaptive = report.rows[COMBINATIONS - 1].quality;
+    report.advice[0].row = COMBINATIONS - 1;
+    report.advice_count = 1;
+    assert_true(dip_cost_join_same_pictures(&report, NULL));
+    assert_int_equal(report.row_count, 5 * 9);
+    assert_int_equal(report.same_count, COMBINATIONS - 5 * 9);
+    for (int r = 0; r < report.row_count; r++) {
+        assert_int_equal(report.rows[r].quality.step[DIP_SETTING_AAA], 0);
+    }
+    for (int i = 0; i < report.same_count; i++) {
+        const DipQuality *q = &report.same[i].quality;
+        const DipQuality *stands = &report.rows[report.same[i].row].quality;
+        assert_int_equal(q->step[DIP_SETTING_AA], stands->step[DIP_SETTING_AA]);
+        assert_int_equal(q->step[DIP_SETTING_AF], stands->step[DIP_SETTING_AF]);
+        assert_int_equal(q->step[DIP_SETTING_AAF], stands->step[DIP_SETTING_AAF]);
+    }
+    const DipQuality *advised = &report.rows[report.advice[0].row].quality;
+    assert_int_equal(advised->step[DIP_SETTING_AA], adaptive.step[DIP_SETTING_AA]);
+    assert_int_equal(advised->step[DIP_SETTING_AF], adaptive.step[DIP_SETTING_AF]);
+    dip_cost_report_free(&report);
+}
+
+static void pictures_that_are_not_known_are_not_the_same(void **state) {
+    (void)state;
+    DipCostReport report;
+    make_report(&report, city_flip, 0.0, 1);
+    assert_false(dip_cost_same_pictures(&report, 1, 2)); // No hashes.
+    snprintf(report.rows[1].pictures[0], 33, "x");
+    snprintf(report.rows[2].pictures[0], 33, "x");
+    assert_true(dip_cost_same_pictures(&report, 1, 2));
+    report.rows[2].judged[0] = false; // Another part has this viewpoint.
+    assert_false(dip_cost_same_pictures(&report, 1, 2));
+    dip_cost_report_free(&report);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(times_follow_from_work),
+        cmocka_unit_test(flip_follows_from_settings),
+        cmocka_unit_test(leaving_one_out_does_not_promise_too_much),
+        cmocka_unit_test(the_front_is_found),
+        cmocka_unit_test(combinations_without_effect_are_left_out),
+        cmocka_unit_test(counters_are_scaled_to_the_timed_frames),
+        cmocka_unit_test(combinations_with_the_same_pictures_are_one_row),
+        cmocka_unit_test(pictures_that_are_not_known_are_not_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
