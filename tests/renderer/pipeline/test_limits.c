@@ -119,10 +119,77 @@ static void passes_with_too_many_triangles_are_refused(void **state) {
     free(indices);
 }
 
+// One triangle covers the whole picture, so that it goes to the bin of wide triangles, and a small
+// one lies in the last tile.
+static void cover_and_corner(const DipVertexBatch *batch) {
+    static const float x[6] = {-1.0f, 3.0f, -1.0f, 1.0f, 1.0f, 0.9961f};
+    static const float y[6] = {-1.0f, -1.0f, 3.0f, -1.0f, -0.9961f, -1.0f};
+    for (int i = 0; i < batch->count; i++) {
+        const int vertex = (int)batch->in[0][i];
+        batch->clip[0][i] = x[vertex];
+        batch->clip[1][i] = y[vertex];
+        batch->clip[2][i] = vertex < 3 ? 0.25f : 0.5f;
+        batch->clip[3][i] = 1.0f;
+        batch->varying[0][i] = vertex < 3 ? 0.0f : 1.0f;
+    }
+}
+
+static void varying_as_colour(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->colour[0][i] = batch->varying[0][i];
+        batch->colour[1][i] = 1.0f;
+        batch->colour[2][i] = 0.0f;
+    }
+}
+
+// The largest target has a bin for each of its 128 x 128 tiles and one for wide triangles. Arrays
+// that are one bin too small are found by the sanitizers.
+static void the_largest_target_has_a_bin_for_every_tile(void **state) {
+    (void)state;
+    enum { SIZE = DIP_MAX_TARGET_SIZE };
+    const float numbers[6][3] = {{0}, {1}, {2}, {3}, {4}, {5}};
+    const uint32_t indices[6] = {0, 1, 2, 3, 4, 5};
+    const DipMeshData data = {.name = "two",
+                              .attributes = &numbers[0][0],
+                              .attribute_count = 3,
+                              .vertex_count = 6,
+                              .indices = indices,
+                              .index_count = 6};
+    DipMesh *mesh = dip_mesh_create(&data, NULL);
+    DipPool *pool = dip_pool_create(2, NULL);
+    DipPipeline *pipeline = dip_pipeline_create(pool, dip_isa_best(), SIZE, SIZE, NULL);
+    uint8_t *rgba8 = malloc((size_t)SIZE * SIZE * 4);
+    assert_true(mesh && pool && pipeline && rgba8);
+    const DipDraw draw = {.mesh = mesh,
+                          .vertex_shader = cover_and_corner,
+                          .fragment_shader = varying_as_colour,
+                          .varying_count = 1};
+    const DipPass pass = {.draws = &draw,
+                          .draw_count = 1,
+                          .sample_count = 1,
+                          .target = {rgba8, (size_t)SIZE * 4, SIZE, SIZE}};
+    DipPipelineCounters counters = {0};
+    DipStageTimes times = {0};
+    assert_true(dip_pipeline_draw(pipeline, &pass, &counters, &times, NULL));
+    assert_int_equal(counters.tiles_drawn, SIZE / 64 * (SIZE / 64));
+    for (int y = 0; y < SIZE; y += 64) {
+        for (int x = 0; x < SIZE; x += 64) { // Each tile shows the wide triangle.
+            assert_int_equal(rgba8[((size_t)y * SIZE + (size_t)x) * 4 + 1], 255);
+        }
+    }
+    assert_int_equal(rgba8[(size_t)SIZE * SIZE * 4 - 4], 255); // The last pixel is the small one's.
+    assert_int_equal(rgba8[0], 0);
+    free(rgba8);
+    dip_pipeline_destroy(&pipeline);
+    dip_pool_destroy(&pool);
+    dip_mesh_destroy(&mesh);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coincident_planes_add_one_vertex_each),
         cmocka_unit_test(passes_with_too_many_triangles_are_refused),
+        cmocka_unit_test(the_largest_target_has_a_bin_for_every_tile),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
