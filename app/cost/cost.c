@@ -4,6 +4,7 @@
 
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
+#include "app/cost/levels.h"
 #include "app/cost/report_pictures.h"
 #include "app/cost/same_pictures.h"
 #include "app/cost/steps.h"
@@ -85,7 +86,11 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
         dip_cost_journal_close(&journal, false);
         return false;
     }
-    const bool done = measure(&cost, err) && write_report(&cost, arguments->out, err);
+    bool done = measure(&cost, err);
+    if (done) {
+        dip_cost_remember_level(report, cost.cache);
+        done = write_report(&cost, arguments->out, err);
+    }
     dip_cost_context_close(&cost);
     dip_cost_journal_close(&journal, done);
     if (done) {

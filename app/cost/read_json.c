@@ -126,6 +126,16 @@ static bool read_machine(const cJSON *root, DipCostReport *report) {
     report->machine.repeated = integer(machine, "repeated", 0, INT_MAX, &ok);
     report->machine.has_wait = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(machine, "has_wait"));
     report->machine.settled = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(machine, "settled"));
+    const cJSON *level = cJSON_GetObjectItemCaseSensitive(machine, "runs");
+    if (level) {
+        report->level_spread = (DipCostLevelSpread){
+            .runs = integer(level, "runs", 0, INT_MAX, &ok),
+            .least_ms = number(level, "least_ms", max_ms, &ok),
+            .most_ms = number(level, "most_ms", max_ms, &ok),
+            .deviation = number(level, "deviation", max_ms, &ok),
+            .factor = number(level, "factor", max_ms, &ok),
+        };
+    }
     return ok;
 }
 

@@ -110,6 +110,22 @@ const char *dip_cost_floor_mark(const DipCostReport *report, int row) {
     return dip_cost_at_floor(report, row) ? "at floor" : "";
 }
 
+void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]) {
+    const DipCostLevelSpread *spread = &report->level_spread;
+    if (spread->factor > 0.0) {
+        snprintf(text, DIP_COST_REASON,
+                 "Milliseconds are those of this run. In %d runs on this machine the baseline took "
+                 "%.2f to %.2f ms, so in another run all times may be %.0f %% longer or %.0f %% "
+                 "shorter; ratios repeat far better.",
+                 spread->runs, spread->least_ms, spread->most_ms, 100.0 * (spread->factor - 1.0),
+                 100.0 * (1.0 - 1.0 / spread->factor));
+    } else {
+        snprintf(text, DIP_COST_REASON,
+                 "Milliseconds are those of this run. In another run all times may differ by a "
+                 "tenth; ratios repeat far better.");
+    }
+}
+
 // --- errors ------------------------------------------------------------------------------------
 
 DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints) {

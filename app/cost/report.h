@@ -125,6 +125,15 @@ typedef enum DipCostVerdict {
 
 extern const char *const dip_cost_verdict_names[]; // "green", "amber", "red"
 
+// How far the baseline's times lie apart in several runs on one machine (levels.h).
+typedef struct DipCostLevelSpread {
+    int runs;         // Number of runs, with this one; 0 if they are not known.
+    double least_ms;  // Of the baseline, in the fastest run.
+    double most_ms;   // In the slowest run.
+    double deviation; // Standard deviation of the logarithm.
+    double factor;    // 95 % of the ratios of two runs are at most this; 0 for too few runs.
+} DipCostLevelSpread;
+
 typedef struct DipCostReport {
     char scene[DIP_COST_TEXT];
     char scene_hash[33];
@@ -156,7 +165,8 @@ typedef struct DipCostReport {
     int refused_count;
     int rounds;                    // Number of rounds timed; 0 if the report has no times.
     DipPairedTimingResult machine; // What the timing tells about the machine.
-    DipCostVerdict verdict;        // Valid if the report has times.
+    DipCostLevelSpread level_spread;
+    DipCostVerdict verdict; // Valid if the report has times.
     char verdict_reason[DIP_COST_REASON];
     // Noise floors of the truths, [path * options.places + viewpoint]. Both arrays are owned.
     DipMetricSums *floors;
@@ -175,6 +185,9 @@ bool dip_cost_report_alloc(DipCostReport *report, DipError *err);
 int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, int path,
                             DipError *err);
 void dip_cost_report_free(DipCostReport *report);
+
+// Writes a sentence that says which runs the report's milliseconds hold for.
+void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]);
 
 void dip_cost_row_free(DipCostRow *row);
 

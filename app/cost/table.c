@@ -20,8 +20,10 @@ static void print_heading(const DipCostReport *report, FILE *out) {
         "/ the baseline's time\n",
         dip_cost_frame_count(report), report->rounds);
     if (report->rounds > 0) {
-        fprintf(out, "machine was %s: %s\n", dip_cost_verdict_names[report->verdict],
-                report->verdict_reason);
+        char level[DIP_COST_REASON];
+        dip_cost_level_text(report, level);
+        fprintf(out, "machine was %s: %s\n         %s\n", dip_cost_verdict_names[report->verdict],
+                report->verdict_reason, level);
     }
     fprintf(out,
             "errors   %d viewpoint%s on each path, %d frame%s at each, against a converged picture "

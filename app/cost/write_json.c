@@ -257,6 +257,12 @@ static void add_machine(cJSON *root, const DipCostReport *report) {
     cJSON_AddNumberToObject(machine, "repeated", (double)report->machine.repeated);
     cJSON_AddBoolToObject(machine, "has_wait", report->machine.has_wait);
     cJSON_AddBoolToObject(machine, "settled", report->machine.settled);
+    cJSON *level = cJSON_AddObjectToObject(machine, "runs");
+    cJSON_AddNumberToObject(level, "runs", report->level_spread.runs);
+    cJSON_AddNumberToObject(level, "least_ms", report->level_spread.least_ms);
+    cJSON_AddNumberToObject(level, "most_ms", report->level_spread.most_ms);
+    cJSON_AddNumberToObject(level, "deviation", report->level_spread.deviation);
+    cJSON_AddNumberToObject(level, "factor", report->level_spread.factor);
 }
 
 static void add_header(cJSON *root, const DipCostReport *report) {

@@ -1,6 +1,7 @@
 // Tests of the cost report: metrics and times, the Pareto front, the fit of prices, and a report
 // written to JSON and read back.
 #include "app/cost/fit.h"
+#include "app/cost/levels.h"
 #include "app/cost/html.h"
 #include "app/cost/order.h"
 #include "app/cost/formats.h"
@@ -314,6 +315,53 @@ static void the_fit_finds_the_prices(void **state) {
     dip_cost_report_free(&report);
 }
 
+// Four runs that lie 10 % apart: the standard deviation of the logarithms of 1, 1.1, 1.21 and 1.331
+// is log(1.1) sqrt(5/3), and t with 3 degrees of freedom is 3.182 (published tables).
+static void the_spread_of_runs_has_its_closed_form(void **state) {
+    (void)state;
+    const double levels[4] = {5.0, 5.5, 6.655, 6.05};
+    const DipCostLevelSpread few = dip_cost_level_spread(levels, 3);
+    const DipCostLevelSpread spread = dip_cost_level_spread(levels, 4);
+    const double deviation = log(1.1) * sqrt(5.0 / 3.0);
+    assert_true(few.runs == 3 && few.factor == 0.0);
+    assert_int_equal(spread.runs, 4);
+    expect_near(spread.least_ms, 5.0, 0.0);
+    expect_near(spread.most_ms, 6.655, 0.0);
+    expect_near(spread.deviation, deviation, 1e-12);
+    expect_near(log(spread.factor), 3.182 * sqrt(2.0) * deviation, 1e-3);
+}
+
+// The fourth run of the same measurement knows the three before; runs of another size, and runs on
+// a busy machine, stand apart.
+static void runs_are_remembered_in_the_cache(void **state) {
+    (void)state;
+    char folder[] = "/tmp/diptych-levels-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    DipCostReport report;
+    dip_made_report(&report, 2);
+    for (int run = 1; run <= 4; run++) {
+        report.verdict = DIP_COST_GREEN;
+        report.rows[report.base_rows[0]].time.mean_ms.value = 4.0 + run;
+        dip_cost_remember_level(&report, folder);
+        assert_int_equal(report.level_spread.runs, run);
+        report.verdict = DIP_COST_RED;
+        dip_cost_remember_level(&report, folder);
+        assert_int_equal(report.level_spread.runs, run);
+    }
+    assert_true(report.level_spread.factor > 1.0);
+    expect_near(report.level_spread.most_ms, 8.0, 1e-9);
+    report.verdict = DIP_COST_GREEN;
+    report.width *= 2;
+    dip_cost_remember_level(&report, folder);
+    assert_int_equal(report.level_spread.runs, 1);
+    dip_cost_remember_level(&report, NULL);
+    assert_int_equal(report.level_spread.runs, 1);
+    dip_cost_report_free(&report);
+    char command[128];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
 // --- files -------------------------------------------------------------------------------------
 
 // Compares arrays of numbers. The JSON library may round the last bit.
@@ -467,6 +515,8 @@ int main(void) {
         cmocka_unit_test(advice_is_surely_within_the_budget),
         cmocka_unit_test(no_row_is_better_than_the_pareto_front),
         cmocka_unit_test(the_fit_finds_the_prices),
+        cmocka_unit_test(the_spread_of_runs_has_its_closed_form),
+        cmocka_unit_test(runs_are_remembered_in_the_cache),
         cmocka_unit_test(json_keeps_everything),
         cmocka_unit_test(broken_json_is_refused),
         cmocka_unit_test(csv_and_page_are_complete),

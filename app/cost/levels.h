@@ -1,0 +1,26 @@
+// How fast this machine was in earlier runs. Ratios of times repeat from run to run, but the
+// milliseconds themselves do not: on a quiet machine they may differ by a tenth, and nothing within
+// one run shows it. So every run leaves the baseline's time in the cache, and a report whose
+// machine, build, scene and size were measured before says how far its runs lie apart.
+#ifndef DIP_APP_COST_LEVELS_H
+#define DIP_APP_COST_LEVELS_H
+
+#include "app/cost/report.h"
+
+enum {
+    DIP_COST_LEVEL_LEAST_RUNS = 4, // The spread of fewer runs is not stated.
+    DIP_COST_LEVEL_MOST_RUNS = 200 // Only the latest runs count.
+};
+
+// Computes the spread of levels: the standard deviation of their logarithms, and the factor within
+// which 95 % of the ratios of two runs lie, exp(t sqrt(2) sd) with the quantile of Student's t for
+// count - 1 degrees of freedom. Leaves spread->factor 0 for fewer than DIP_COST_LEVEL_LEAST_RUNS.
+DipCostLevelSpread dip_cost_level_spread(const double *levels_ms, int count);
+
+// Adds the time of the baseline on path 0 to the levels that the cache has of the same machine,
+// build, scene, poses, size, threads and settings, unless the verdict is red, and fills in
+// report->level_spread. Without a cache (NULL), and where the file cannot be read or written, it
+// does nothing: the report then speaks of this run alone.
+void dip_cost_remember_level(DipCostReport *report, const char *cache);
+
+#endif
