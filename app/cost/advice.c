@@ -4,6 +4,7 @@
 #include "app/cost/steps.h"
 
 #include "app/cost/verdict.h"
+#include "app/measure/choice.h"
 #include "app/progress.h"
 
 #include <stdlib.h>
@@ -64,6 +65,46 @@ static bool race(DipCostContext *cost, double budget_ms, Candidate *candidates, 
     return true;
 }
 
+static double budget_error(const DipCostReport *report, const DipPathEstimate *time) {
+    const double errors[] = {
+        [DIP_COST_BUDGET_P95] = time->p95_error,
+        [DIP_COST_BUDGET_MEAN] = time->ratio_error,
+        [DIP_COST_BUDGET_WORST] = time->worst_error,
+    };
+    return errors[report->options.budget_of];
+}
+
+// Fills in how sure the advised row is. Returns false when memory runs out.
+static bool add_odds(const DipCostReport *report, DipCostAdvice *advice) {
+    const int first = report->combined_first;
+    int rows[DIP_COST_MAX_ROWS];
+    int count = 0, chosen = 0;
+    DipChoice *choices = malloc(((size_t)report->row_count + 1) * sizeof *choices);
+    for (int r = first; choices && r < report->row_count; r++) {
+        int viewpoints;
+        const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
+        if (viewpoints > 0) {
+            chosen = r == advice->row ? count : chosen;
+            rows[count] = r;
+            choices[count++] = (DipChoice){
+                .time = dip_cost_budget_time(report, r).value,
+                .error = budget_error(report, &report->rows[r].time),
+                .loss = dip_metrics_of(&sums, 0).flip,
+            };
+        }
+    }
+    if (choices) {
+        const DipChoiceOdds odds =
+            dip_choice_odds(choices, count, chosen, advice->budget_ms,
+                            report->rows[advice->row].time.level_error, 0.01);
+        advice->probability = odds.best;
+        advice->runner_up = odds.runner_up >= 0 ? rows[odds.runner_up] : -1;
+        advice->runner_up_probability = odds.runner_up_best;
+    }
+    free(choices);
+    return choices != NULL;
+}
+
 bool dip_cost_advise(DipCostContext *cost, DipError *err) {
     DipCostReport *report = cost->report;
     const int budgets = report->options.budget_count;
@@ -85,8 +126,17 @@ bool dip_cost_advise(DipCostContext *cost, DipError *err) {
         const int row = dip_cost_choose(report, budget_ms);
         const DipStatsEstimate time =
             row >= 0 ? dip_cost_budget_time(report, row) : (DipStatsEstimate){0};
-        report->advice[report->advice_count++] =
-            (DipCostAdvice){budget_ms, row, time.value, time.low, time.high};
+        DipCostAdvice *advice = &report->advice[report->advice_count++];
+        *advice = (DipCostAdvice){
+            .budget_ms = budget_ms,
+            .row = row,
+            .ms = time.value,
+            .ms_low = time.low,
+            .ms_high = time.high,
+            .runner_up = -1,
+        };
+        advised = row < 0 || add_odds(report, advice) ||
+                  dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
     }
     free(candidates);
     return advised;

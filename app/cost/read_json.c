@@ -312,22 +312,32 @@ static bool read_floors(const cJSON *root, DipCostReport *report) {
     return ok;
 }
 
+static bool read_one_advice(const cJSON *object, const DipCostReport *report,
+                            DipCostAdvice *advice) {
+    bool ok = true;
+    *advice = (DipCostAdvice){
+        .budget_ms = number(object, "budget_ms", max_ms, &ok),
+        .row = integer(object, "row", -1, report->row_count - 1, &ok),
+        .ms = number(object, "ms", max_ms, &ok),
+        .ms_low = number(object, "ms_low", max_ms, &ok),
+        .ms_high = number(object, "ms_high", max_ms, &ok),
+        .runner_up = -1,
+    };
+    if (cJSON_GetObjectItemCaseSensitive(object, "probability")) {
+        advice->probability = number(object, "probability", 1.0, &ok);
+        advice->runner_up = integer(object, "runner_up", -1, report->row_count - 1, &ok);
+        advice->runner_up_probability = number(object, "runner_up_probability", 1.0, &ok);
+    }
+    return ok;
+}
+
+// Advice that cannot be read is left out.
 static void read_advice(const cJSON *root, DipCostReport *report) {
     const cJSON *object;
     cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "advice")) {
-        bool ok = report->advice_count < DIP_COST_MAX_BUDGETS;
-        const char *const names[] = {"budget_ms", "ms", "ms_low", "ms_high"};
-        double values[4] = {0};
-        for (int i = 0; i < 4; i++) {
-            const cJSON *value = cJSON_GetObjectItemCaseSensitive(object, names[i]);
-            ok = ok && cJSON_IsNumber(value) && value->valuedouble >= 0.0 &&
-                 value->valuedouble <= max_ms;
-            values[i] = ok ? value->valuedouble : 0.0;
-        }
-        const int row = integer(object, "row", -1, report->row_count - 1, &ok);
-        if (ok) {
-            report->advice[report->advice_count++] =
-                (DipCostAdvice){values[0], row, values[1], values[2], values[3]};
+        if (report->advice_count < DIP_COST_MAX_BUDGETS &&
+            read_one_advice(object, report, &report->advice[report->advice_count])) {
+            report->advice_count++;
         }
     }
 }

@@ -83,6 +83,9 @@ typedef struct DipCostAdvice {
     double ms;     // The row's time, of the kind that the budget is meant for.
     double ms_low; // 95 % interval of ms; ms_high is at most the budget.
     double ms_high;
+    double probability;           // That the row is the best for the budget (choice.h).
+    int runner_up;                // The row that is most likely better, or -1.
+    double runner_up_probability; // That the runner-up is the best instead.
 } DipCostAdvice;
 
 // How far predictions lie from measurements: |predicted / measured - 1| over some rows.

@@ -185,6 +185,11 @@ static void print_advice(const DipCostReport *report, FILE *out) {
         fprintf(out, "  %6g ms: %s  (%.2f ms, 95 %% interval %.2f to %.2f; FLIP %.5f)\n",
                 advice->budget_ms, text, advice->ms, advice->ms_low, advice->ms_high,
                 dip_metrics_of(&sums, 0).flip);
+        if (advice->probability > 0.0 && advice->probability < 0.95 && advice->runner_up >= 0) {
+            dip_cost_settings_text(&report->rows[advice->runner_up].quality, text);
+            fprintf(out, "  %9s  %.0f %% sure; with %.0f %% it is %s instead\n", "",
+                    100.0 * advice->probability, 100.0 * advice->runner_up_probability, text);
+        }
         const int next = dip_cost_step_up(report, advice->row);
         if (next >= 0) {
             const DipMetricSums better = dip_cost_row_sums(report, next, &viewpoints);

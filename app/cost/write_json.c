@@ -241,6 +241,9 @@ static void add_advice(cJSON *root, const DipCostReport *report) {
         cJSON_AddNumberToObject(object, "ms", a->ms);
         cJSON_AddNumberToObject(object, "ms_low", a->ms_low);
         cJSON_AddNumberToObject(object, "ms_high", a->ms_high);
+        cJSON_AddNumberToObject(object, "probability", a->probability);
+        cJSON_AddNumberToObject(object, "runner_up", a->runner_up);
+        cJSON_AddNumberToObject(object, "runner_up_probability", a->runner_up_probability);
         add_to_array(advice, object);
     }
 }

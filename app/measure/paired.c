@@ -303,6 +303,10 @@ bool dip_path_estimate(const DipPathTimes *times, DipPathEstimate *estimate, Dip
             .p95_ms = with_bound(values[P95], errors[P95], times->level_error),
             .worst_ms = with_bound(values[WORST], errors[WORST], times->level_error),
             .used = w.used,
+            .ratio_error = hypot(errors[RATIO], 0.002),
+            .p95_error = errors[P95],
+            .worst_error = errors[WORST],
+            .level_error = times->level_error,
         };
     }
     close_work(&w);

@@ -9,8 +9,7 @@
 //   - Rounds of the same frames: each round times every frame. A frame's ratio is the median over
 //     the rounds (DipPairedTimes).
 //   - Frames along a path: each frame is timed once, in a round of its own, so that many more
-//   frames
-//     are seen in the same time. The ratio of a frame is smoothed over its neighbours
+//     frames are seen in the same time. The ratio of a frame is smoothed over its neighbours
 //     (DipPathTimes).
 //
 // Intervals come from the bootstrap (Efron 1979) with a fixed seed, so the same times always give
@@ -73,6 +72,11 @@ typedef struct DipPathEstimate {
     DipStatsEstimate p95_ms; // 95th percentile over the frames; `high` is its one-sided 95 % bound.
     DipStatsEstimate worst_ms; // The slowest frame; `high` is its one-sided 95 % bound.
     int used;                  // Number of frames whose pair was not dropped.
+    // Standard errors of the logarithms of ratio, p95 and worst, without that of the level.
+    double ratio_error;
+    double p95_error;
+    double worst_error;
+    double level_error; // As in DipPathTimes; all rows beside one base share it.
 } DipPathEstimate;
 
 // Let q_f = log(ms_f / base_ms_f), s = running median of 7 of q along the path (pairs that were

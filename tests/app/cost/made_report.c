@@ -65,7 +65,7 @@ void dip_made_report(DipCostReport *report, int rounds) {
         .refused_count = 1,
         .rounds = rounds,
         .machine = {.settled = true, .has_wait = true, .wait = 0.01},
-        .advice = {{16.6, 2, 3.0, 2.9, 3.1}},
+        .advice = {{16.6, 2, 3.0, 2.9, 3.1, 0.9, 3, 0.1}},
         .advice_count = 1,
     };
     report->options = (DipCostOptions){.baseline = dip_quality_default(),

@@ -396,6 +396,8 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
     check_values(a->floors, b->floors, 6 * sizeof *a->floors);
     assert_memory_equal(a->sweeps[0].rows, b->sweeps[0].rows, sizeof a->sweeps[0].rows);
     assert_int_equal(a->advice[0].row, b->advice[0].row);
+    assert_true(a->advice[0].probability == b->advice[0].probability);
+    assert_int_equal(a->advice[0].runner_up, b->advice[0].runner_up);
     assert_true(a->advice[0].budget_ms == b->advice[0].budget_ms);
     assert_true(a->advice[0].ms_high == b->advice[0].ms_high);
     assert_int_equal(a->verdict, b->verdict);
