@@ -73,6 +73,7 @@ emulate() {
 
 # Prints a line per platform; the output of a platform is in build/platform-NAME.log.
 test_platforms() {
+    mkdir -p build
     failed=
     for platform in $PLATFORMS; do
         begin=$(date +%s)
