@@ -22,10 +22,6 @@ static int compare_candidates(const void *a, const void *b) {
     return (x->flip > y->flip) - (x->flip < y->flip);
 }
 
-static double flip_of(const DipCostReport *report, int row) {
-    return dip_cost_row_metrics(report, row, 0).flip;
-}
-
 // Lists the rows whose interval holds the budget and whose FLIP is at least 1 % below that of the
 // row chosen so far: those of least FLIP first, at most MOST_AGAIN. Returns their number.
 static int list_undecided(const DipCostReport *report, double budget_ms, Candidate *candidates,
@@ -34,11 +30,11 @@ static int list_undecided(const DipCostReport *report, double budget_ms, Candida
     int count = 0;
     for (int r = report->combined_first; r < report->row_count; r++) {
         int viewpoints;
-        const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
-        const double flip = dip_metrics_of(&sums, 0).flip;
+        dip_cost_row_sums(report, r, &viewpoints);
+        const double flip = dip_cost_ranking_flip(report, r);
         const DipStatsEstimate time = dip_cost_budget_time(report, r);
         if (viewpoints > 0 && time.low <= budget_ms && time.high > budget_ms &&
-            (chosen < 0 || flip < 0.99 * flip_of(report, chosen))) {
+            (chosen < 0 || flip < 0.99 * dip_cost_ranking_flip(report, chosen))) {
             candidates[count++] = (Candidate){r, flip};
         }
     }
@@ -82,14 +78,14 @@ static bool add_odds(const DipCostReport *report, DipCostAdvice *advice) {
     DipChoice *choices = malloc(((size_t)report->row_count + 1) * sizeof *choices);
     for (int r = first; choices && r < report->row_count; r++) {
         int viewpoints;
-        const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
+        dip_cost_row_sums(report, r, &viewpoints);
         if (viewpoints > 0) {
             chosen = r == advice->row ? count : chosen;
             rows[count] = r;
             choices[count++] = (DipChoice){
                 .time = dip_cost_budget_time(report, r).value,
                 .error = budget_error(report, &report->rows[r].time),
-                .loss = dip_metrics_of(&sums, 0).flip,
+                .loss = dip_cost_ranking_flip(report, r),
             };
         }
     }

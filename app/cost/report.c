@@ -168,6 +168,49 @@ bool dip_cost_at_floor(const DipCostReport *report, int row) {
            DIP_TRUTH_FLOOR_FACTOR * dip_cost_floor_rmse(report, report->rows[row].path, 0);
 }
 
+double dip_cost_floor_flip(const DipCostReport *report, int path) {
+    const DipMetricSums sums = dip_cost_floor(report, path);
+    return pow(0.5, 0.7) * dip_metrics_of(&sums, 0).flip;
+}
+
+double dip_cost_ranking_flip(const DipCostReport *report, int row) {
+    return fmax(dip_cost_row_metrics(report, row, 0).flip,
+                dip_cost_floor_flip(report, report->rows[row].path));
+}
+
+// The mean of a row's FLIP minus that of another row (-1: of none), over the viewpoints that both
+// have, with Student's interval.
+static DipStatsEstimate flip_over_viewpoints(const DipCostReport *report, int row, int base) {
+    double sum = 0.0, squares = 0.0;
+    int count = 0;
+    for (int p = 0; p < report->options.places; p++) {
+        const DipCostRow *a = &report->rows[row];
+        const DipCostRow *b = base >= 0 ? &report->rows[base] : a;
+        if (a->judged[p] && b->judged[p]) {
+            const double other = base >= 0 ? dip_metrics_of(&b->viewpoints[p], 0).flip : 0.0;
+            const double flip = dip_metrics_of(&a->viewpoints[p], 0).flip - other;
+            sum += flip;
+            squares += flip * flip;
+            count++;
+        }
+    }
+    const double mean = count > 0 ? sum / count : NAN;
+    if (count < 2) {
+        return (DipStatsEstimate){mean, NAN, NAN};
+    }
+    const double variance = fmax(squares - sum * mean, 0.0) / (count - 1);
+    const double half = dip_student_quantile(0.975, count - 1) * sqrt(variance / count);
+    return (DipStatsEstimate){mean, mean - half, mean + half};
+}
+
+DipStatsEstimate dip_cost_flip(const DipCostReport *report, int row) {
+    return flip_over_viewpoints(report, row, -1);
+}
+
+DipStatsEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base) {
+    return flip_over_viewpoints(report, row, base);
+}
+
 // --- choosing ----------------------------------------------------------------------------------
 
 typedef struct Candidate {
@@ -217,6 +260,29 @@ int dip_cost_pareto_front_thin(const DipCostReport *report, int *pareto, int cou
     return kept;
 }
 
+int dip_cost_knee(const DipCostReport *report, const int *front, int count) {
+    if (count < 3) {
+        return -1;
+    }
+    const int last = front[count - 1];
+    const double x0 = log(dip_cost_ms(report, front[0]));
+    const double y0 = log(dip_cost_row_metrics(report, front[0], 0).flip);
+    const double dx = log(dip_cost_ms(report, last)) - x0;
+    const double dy = log(dip_cost_row_metrics(report, last, 0).flip) - y0;
+    int knee = -1;
+    double farthest = 0.0;
+    for (int i = 1; i < count - 1; i++) {
+        const double x = log(dip_cost_ms(report, front[i])) - x0;
+        const double y = log(dip_cost_row_metrics(report, front[i], 0).flip) - y0;
+        const double below = x / dx * dy - y;
+        if (below > farthest) {
+            farthest = below;
+            knee = i;
+        }
+    }
+    return knee;
+}
+
 int dip_cost_step_up(const DipCostReport *report, int row) {
     const double enough = 0.99 * dip_cost_row_metrics(report, row, 0).flip;
     int next = -1;
@@ -258,8 +324,8 @@ int dip_cost_choose(const DipCostReport *report, double budget_ms) {
     for (int pass = 0; pass < 2; pass++) { // First the least FLIP, then the best row of that FLIP.
         for (int r = report->combined_first; r < report->row_count; r++) {
             int viewpoints;
-            const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
-            const double flip = dip_metrics_of(&sums, 0).flip;
+            dip_cost_row_sums(report, r, &viewpoints);
+            const double flip = dip_cost_ranking_flip(report, r);
             if (viewpoints == 0 || dip_cost_budget_time(report, r).high > budget_ms) {
                 continue;
             }

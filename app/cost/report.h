@@ -224,11 +224,29 @@ DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewp
 // Returns the metrics of a row over all judged viewpoints, in one region (0: the whole picture).
 DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region);
 
+// Returns the mean of a row's FLIP over the judged viewpoints, with the 95 % interval of the mean
+// of all viewpoints that the path could have been cut into: Student's t of the viewpoints' own
+// means. With a single viewpoint there is no interval, and low and high are NAN.
+DipStatsEstimate dip_cost_flip(const DipCostReport *report, int row);
+
+// The same of the difference of two rows of one path, which is far narrower: viewpoints differ more
+// than settings do. Only viewpoints that both rows have count.
+DipStatsEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base);
+
 // Returns the sum of the noise floors of a path's truths.
 DipMetricSums dip_cost_floor(const DipCostReport *report, int path);
 
 // Returns the RMS error of a path's truths in linear light. See dip_truth_floor_rmse.
 double dip_cost_floor_rmse(const DipCostReport *report, int path, int region);
+
+// Returns an estimate of the FLIP that the noise of a path's truths alone makes: that of the two
+// halves against each other, times 0.5^0.7, since the truth's error is half of their difference and
+// FLIP grows with the 0.7th power of differences. Rows whose FLIP is below it are equally good as
+// far as this truth can tell.
+double dip_cost_floor_flip(const DipCostReport *report, int path);
+
+// Returns a row's FLIP for ranking: at least dip_cost_floor_flip.
+double dip_cost_ranking_flip(const DipCostReport *report, int row);
 
 // True if a row's error is too small to tell from the truth's own noise.
 bool dip_cost_at_floor(const DipCostReport *report, int row);
@@ -264,6 +282,11 @@ int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int coun
 // Thins a Pareto front: keeps the first row and every row whose FLIP is at least 1 % below the FLIP
 // of the row kept before. Returns the number of rows kept.
 int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int count);
+
+// Returns the index of the knee of a thinned Pareto front (in order of time): the row beyond which
+// more time buys least. In a plot of log time against log FLIP it is the point farthest below the
+// line from the first row to the last (Satopaa et al. 2011). Returns -1 for fewer than three rows.
+int dip_cost_knee(const DipCostReport *report, const int *front, int count);
 
 // Returns the fastest combination whose FLIP is at least 1 % lower than the row's FLIP, or -1 if
 // there is none.

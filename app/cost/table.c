@@ -66,12 +66,34 @@ static void print_columns(FILE *out) {
 
 static void print_floors(const DipCostReport *report, FILE *out) {
     fprintf(out,
-            "\nNoise floor of the truth (an RMSE below three times this value is \"at floor\"):\n");
+            "\nNoise floor of the truth (an RMSE below three times this value is \"at floor\", and "
+            "combinations whose FLIP is below that of the noise rank alike):\n");
     for (int p = 0; p < report->path_count; p++) {
         const DipMetricSums sums = dip_cost_floor(report, p);
-        fprintf(out, "  path %-9s RMSE %.5f; FLIP between the two halves %.5f\n", report->paths[p],
-                dip_cost_floor_rmse(report, p, 0), dip_metrics_of(&sums, 0).flip);
+        const DipMetrics halves = dip_metrics_of(&sums, 0);
+        fprintf(
+            out,
+            "  path %-9s RMSE %.5f, FLIP %.5f; between the two halves: PSNR %.2f dB, SSIM %.5f, "
+            "FLIP %.5f\n",
+            report->paths[p], dip_cost_floor_rmse(report, p, 0), dip_cost_floor_flip(report, p),
+            halves.psnr_db, halves.ssim, halves.flip);
     }
+}
+
+// The price is the time of each 1 % by which FLIP falls from the row before.
+static void print_front_row(const DipCostReport *report, int row, int before, bool is_knee,
+                            FILE *out) {
+    char text[DIP_COST_TEXT];
+    char price[32] = "";
+    const double flip = dip_cost_row_metrics(report, row, 0).flip;
+    if (before >= 0) {
+        const double steps = 100.0 * log(dip_cost_row_metrics(report, before, 0).flip / flip);
+        snprintf(price, sizeof price, "%+.3f ms per 1 %%",
+                 (dip_cost_ms(report, row) - dip_cost_ms(report, before)) / steps);
+    }
+    dip_cost_settings_text(&report->rows[row].quality, text);
+    fprintf(out, "  %8.2f ms  FLIP %.5f  %-18s %s%s\n", dip_cost_ms(report, row), flip, price, text,
+            is_knee ? "  <- knee" : "");
 }
 
 static void print_front(const DipCostReport *report, FILE *out) {
@@ -100,13 +122,13 @@ static void print_front(const DipCostReport *report, FILE *out) {
                 "off their defaults; cost.json lists them.\n",
                 report->same_count);
     }
+    const int knee = dip_cost_knee(report, front, kept);
     for (int i = 0; i < kept; i++) {
-        int viewpoints;
-        char text[DIP_COST_TEXT];
-        const DipMetricSums sums = dip_cost_row_sums(report, front[i], &viewpoints);
-        dip_cost_settings_text(&report->rows[front[i]].quality, text);
-        fprintf(out, "  %8.2f ms  FLIP %.5f  %s\n", dip_cost_ms(report, front[i]),
-                dip_metrics_of(&sums, 0).flip, text);
+        print_front_row(report, front[i], i > 0 ? front[i - 1] : -1, i == knee, out);
+    }
+    if (kept > 1) {
+        fprintf(out, "  (after FLIP: what 1 %% less FLIP cost on the way from the line above%s)\n",
+                knee >= 0 ? "; knee: beyond it, more time buys least" : "");
     }
 }
 
@@ -201,6 +223,25 @@ static void print_advice(const DipCostReport *report, FILE *out) {
     }
 }
 
+// Four budgets make the four tiers of a settings menu.
+static void print_tiers(const DipCostReport *report, FILE *out) {
+    static const char *const tiers[] = {"low", "medium", "high", "ultra"};
+    if (report->advice_count != 4) {
+        return;
+    }
+    fprintf(out, "\nAs the tiers of a settings menu, and as lines for the ini:\n");
+    for (int i = 0; i < 4; i++) {
+        const DipCostAdvice *advice = &report->advice[i];
+        if (advice->row < 0) {
+            fprintf(out, "  %-7s nothing is surely within %g ms\n", tiers[i], advice->budget_ms);
+            continue;
+        }
+        char text[256];
+        dip_quality_format(&report->rows[advice->row].quality, text, sizeof text);
+        fprintf(out, "  %-7s REQUESTED: %s\n", tiers[i], text);
+    }
+}
+
 void dip_cost_print(const DipCostReport *report, FILE *out) {
     print_heading(report, out);
     fputc('\n', out);
@@ -232,5 +273,6 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
     print_prediction(report, out);
     print_front(report, out);
     print_advice(report, out);
+    print_tiers(report, out);
     print_fit(report, out);
 }

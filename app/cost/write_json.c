@@ -7,6 +7,7 @@
 #include "app/files/whole_file.h"
 
 #include <cjson/cJSON.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,6 +54,15 @@ static void add_flicker(cJSON *to, const DipMetricSums *sums) {
     cJSON_AddNumberToObject(to, "two_frame_mean_rms_lin", flicker.two_mean);
 }
 
+static void add_estimate(cJSON *to, const char *name, const DipStatsEstimate *estimate) {
+    char low[48], high[48];
+    snprintf(low, sizeof low, "%s_low", name);
+    snprintf(high, sizeof high, "%s_high", name);
+    cJSON_AddNumberToObject(to, name, estimate->value);
+    cJSON_AddNumberToObject(to, low, estimate->low);
+    cJSON_AddNumberToObject(to, high, estimate->high);
+}
+
 static void add_errors(cJSON *object, const DipCostReport *report, int row) {
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
@@ -69,17 +79,12 @@ static void add_errors(cJSON *object, const DipCostReport *report, int row) {
     if (viewpoints > 0) {
         add_figures(cJSON_AddObjectToObject(object, "figures"), &sums);
         add_flicker(cJSON_AddObjectToObject(object, "over_time"), &sums);
+        const DipStatsEstimate flip = dip_cost_flip(report, row);
+        if (viewpoints > 1) {
+            add_estimate(object, "flip_of_viewpoints", &flip);
+        }
         cJSON_AddBoolToObject(object, "at_floor", dip_cost_at_floor(report, row));
     }
-}
-
-static void add_estimate(cJSON *to, const char *name, const DipStatsEstimate *estimate) {
-    char low[48], high[48];
-    snprintf(low, sizeof low, "%s_low", name);
-    snprintf(high, sizeof high, "%s_high", name);
-    cJSON_AddNumberToObject(to, name, estimate->value);
-    cJSON_AddNumberToObject(to, low, estimate->low);
-    cJSON_AddNumberToObject(to, high, estimate->high);
 }
 
 static void add_times(cJSON *object, const DipCostReport *report, int row) {
@@ -152,6 +157,11 @@ static void add_sweeps(cJSON *root, const DipCostReport *report) {
             cJSON_AddNumberToObject(step, "row", sweep->rows[i]);
             if (dip_cost_is_timed(report, sweep->rows[i])) {
                 add_estimate(step, "ratio", &sweep->ratios[i]);
+            }
+            const DipStatsEstimate change =
+                dip_cost_flip_change(report, sweep->rows[i], sweep->base);
+            if (isfinite(change.low)) {
+                add_estimate(step, "flip_change", &change);
             }
             add_to_array(steps, step);
         }

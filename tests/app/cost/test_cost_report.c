@@ -315,6 +315,78 @@ static void the_fit_finds_the_prices(void **state) {
     dip_cost_report_free(&report);
 }
 
+static void set_flip(DipCostReport *report, int row, int viewpoint, double flip) {
+    report->rows[row].judged[viewpoint] = true;
+    report->rows[row].viewpoints[viewpoint] = (DipMetricSums){.bursts = 1.0};
+    report->rows[row].viewpoints[viewpoint].regions[0].pixels = 10.0;
+    report->rows[row].viewpoints[viewpoint].regions[0].flip = 10.0 * flip;
+}
+
+// FLIP of .1, .2 and .3 has the mean .2 and the standard deviation .1; t with 2 degrees of freedom
+// is 4.303 (published tables). A second row is better by .01 everywhere: the change has no spread.
+static void flip_has_an_interval_over_viewpoints(void **state) {
+    (void)state;
+    DipCostReport report;
+    dip_made_report(&report, 2);
+    for (int p = 0; p < 3; p++) {
+        set_flip(&report, 0, p, 0.1 + 0.1 * p);
+        set_flip(&report, 2, p, 0.09 + 0.1 * p);
+    }
+    const DipStatsEstimate flip = dip_cost_flip(&report, 0);
+    const DipStatsEstimate change = dip_cost_flip_change(&report, 2, 0);
+    expect_near(flip.value, 0.2, 1e-12);
+    expect_near(flip.high - flip.value, 4.303 * 0.1 / sqrt(3.0), 1e-4);
+    expect_near(change.value, -0.01, 1e-12);
+    expect_near(change.high - change.low, 0.0, 1e-8);
+    report.rows[2].judged[0] = false;
+    report.rows[2].judged[1] = false;
+    assert_true(isnan(dip_cost_flip_change(&report, 2, 0).low)); // One viewpoint.
+    dip_cost_report_free(&report);
+}
+
+// Below the noise of the truth, the faster of two rows is as good as the better one.
+static void rows_below_the_floor_rank_alike(void **state) {
+    (void)state;
+    DipCostReport report;
+    dip_made_report(&report, 2);
+    report.combined_first = 2;
+    for (int p = 0; p < 3; p++) {
+        set_flip(&report, 2, p, 0.020);
+        set_flip(&report, 3, p, 0.010);
+        report.has_floor[p] = false;
+    }
+    report.rows[4].judged[0] = report.rows[4].judged[2] = false;
+    assert_int_equal(dip_cost_choose(&report, 100.0), 3);
+    report.has_floor[0] = true;
+    report.floors[0] = (DipMetricSums){0};
+    report.floors[0].regions[0].pixels = 1.0;
+    report.floors[0].regions[0].flip = 0.05;
+    expect_near(dip_cost_floor_flip(&report, 0), 0.05 * pow(0.5, 0.7), 1e-12);
+    expect_near(dip_cost_ranking_flip(&report, 3), 0.05 * pow(0.5, 0.7), 1e-12);
+    assert_int_equal(dip_cost_choose(&report, 100.0), 2);
+    dip_cost_report_free(&report);
+}
+
+static void the_knee_is_farthest_below_the_line(void **state) {
+    (void)state;
+    const double ms[4] = {1.0, 2.0, 4.0, 16.0};
+    const double flip[4] = {0.16, 0.03, 0.02, 0.01};
+    const int front[4] = {0, 1, 2, 3};
+    DipCostReport report;
+    dip_made_report(&report, 2);
+    for (int r = 0; r < 4; r++) {
+        report.rows[r].time.mean_ms.value = ms[r];
+        for (int p = 0; p < 3; p++) {
+            set_flip(&report, r, p, flip[r]);
+        }
+    }
+    // Below the line from (log 1, log .16) to (log 16, log .01), whose slope is -1: at 2 ms the
+    // line is at .08, at 4 ms at .04.
+    assert_int_equal(dip_cost_knee(&report, front, 4), 1);
+    assert_int_equal(dip_cost_knee(&report, front, 2), -1);
+    dip_cost_report_free(&report);
+}
+
 // Four runs that lie 10 % apart: the standard deviation of the logarithms of 1, 1.1, 1.21 and 1.331
 // is log(1.1) sqrt(5/3), and t with 3 degrees of freedom is 3.182 (published tables).
 static void the_spread_of_runs_has_its_closed_form(void **state) {
@@ -517,6 +589,9 @@ int main(void) {
         cmocka_unit_test(advice_is_surely_within_the_budget),
         cmocka_unit_test(no_row_is_better_than_the_pareto_front),
         cmocka_unit_test(the_fit_finds_the_prices),
+        cmocka_unit_test(flip_has_an_interval_over_viewpoints),
+        cmocka_unit_test(rows_below_the_floor_rank_alike),
+        cmocka_unit_test(the_knee_is_farthest_below_the_line),
         cmocka_unit_test(the_spread_of_runs_has_its_closed_form),
         cmocka_unit_test(runs_are_remembered_in_the_cache),
         cmocka_unit_test(json_keeps_everything),
