@@ -559,6 +559,39 @@ static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 
 
 // One corner of each triangle is nearer than the near plane (z > w = 1), so clipping turns each
 // triangle into two.
+// With the identity as matrix and w = 1, the view volume is -1..1, -1..1, 0..1, and user planes are
+// those of the pass. A box that only one plane cuts away is culled by that plane alone.
+static void each_plane_culls_by_itself(void **state) {
+    (void)state;
+    const double unchanged[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    const float outside[DIP_VIEW_PLANES][3] = {{-3.0f, 0.1f, 0.5f}, {3.0f, -0.1f, 0.5f},
+                                               {0.1f, -3.0f, 0.5f}, {0.1f, 3.0f, 0.5f},
+                                               {0.1f, 0.2f, -2.0f}, {0.1f, 0.2f, 3.0f}};
+    const DipCullPlanes view = dip_cull_view_planes(unchanged);
+    for (int p = 0; p < DIP_VIEW_PLANES; p++) {
+        DipBox box = {.extent = {0.4f, 0.4f, 0.4f}};
+        memcpy(box.centre, outside[p], sizeof outside[p]);
+        assert_true(dip_cull_outside(&view, &box));
+        for (int c = 0; c < 3; c++) {
+            box.extent[c] = 4.0f; // Reaches into the view.
+        }
+        assert_false(dip_cull_outside(&view, &box));
+    }
+    for (int p = 0; p < DIP_MAX_CLIP_PLANES; p++) {
+        DipPass pass = {.clip_plane_count = DIP_MAX_CLIP_PLANES, .target = {NULL, 256, 64, 64}};
+        for (int i = 0; i < DIP_MAX_CLIP_PLANES; i++) {
+            pass.clip_planes[i][3] = 1.0f; // Cuts nothing away.
+        }
+        pass.clip_planes[p][0] = 1.0f;
+        pass.clip_planes[p][3] = -0.5f; // Keeps x >= 0.5.
+        const DipCullPlanes planes = dip_cull_pass_planes(&pass, unchanged);
+        const DipBox left = {.centre = {-0.2f, 0.0f, 0.5f}, .extent = {0.3f, 0.3f, 0.3f}};
+        const DipBox right = {.centre = {0.7f, 0.0f, 0.5f}, .extent = {0.3f, 0.3f, 0.3f}};
+        assert_true(dip_cull_outside(&planes, &left));
+        assert_false(dip_cull_outside(&planes, &right));
+    }
+}
+
 static void clipping_can_double_the_triangles(void **state) {
     (void)state;
     enum { COUNT = 40000 };
@@ -611,6 +644,7 @@ int main(void) {
         cmocka_unit_test(a_region_equals_the_same_part_of_the_whole_picture),
         cmocka_unit_test(culling_keeps_everything_visible),
         cmocka_unit_test(tile_parts_contain_everything_visible),
+        cmocka_unit_test(each_plane_culls_by_itself),
         cmocka_unit_test(clipping_can_double_the_triangles),
         cmocka_unit_test(many_triangles_can_lie_in_many_tiles),
     };
