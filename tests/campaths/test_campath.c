@@ -521,6 +521,27 @@ static void bad_orbits_and_keys_are_refused(void **context) {
     assert_null(path);
 }
 
+// The ends of each range are accepted; the next numbers beyond them are not.
+static void orbits_accept_their_ranges_and_no_more(void **context) {
+    (void)context;
+    const double aspects[2] = {0.01, 100.0};
+    const double fovs_deg[2] = {1.0, 170.0};
+    for (int end = 0; end < 2; end++) {
+        DipCamPath *path;
+        DipCamOrbitDef def = dip_campath_default_orbit();
+        def.aspect = aspects[end];
+        def.fov_y_deg = fovs_deg[end];
+        assert_true(dip_campath_orbit(&def, &path, NULL));
+        dip_campath_destroy(&path);
+        const double beyond = end == 0 ? 0.0 : INFINITY;
+        def.aspect = nextafter(aspects[end], beyond);
+        assert_false(dip_campath_orbit(&def, &path, NULL));
+        def.aspect = aspects[end];
+        def.fov_y_deg = nextafter(fovs_deg[end], beyond);
+        assert_false(dip_campath_orbit(&def, &path, NULL));
+    }
+}
+
 // Hashes the bits of 5000 poses. The hash shows that all compilers and processors compute the same
 // poses. Other tests show that the poses are right.
 static void poses_have_the_same_bits_on_every_machine(void **context) {
@@ -590,6 +611,7 @@ int main(void) {
         cmocka_unit_test(the_orbit_shows_the_whole_box),
         cmocka_unit_test(the_orbit_begins_in_front_and_turns_over_plus_x),
         cmocka_unit_test(bad_orbits_and_keys_are_refused),
+        cmocka_unit_test(orbits_accept_their_ranges_and_no_more),
         cmocka_unit_test(poses_have_the_same_bits_on_every_machine),
         cmocka_unit_test(switching_paths_restarts_or_keeps_the_time),
     };
