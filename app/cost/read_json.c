@@ -312,6 +312,55 @@ static bool read_floors(const cJSON *root, DipCostReport *report) {
     return ok;
 }
 
+static DipCostMisses read_misses(const cJSON *misses, const char *name, bool *ok) {
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(misses, name);
+    return (DipCostMisses){
+        .rows = integer(item, "rows", 0, DIP_COST_MAX_ROWS, ok),
+        .median = number(item, "median", max_mean, ok),
+        .p90 = number(item, "p90", max_mean, ok),
+        .within_5 = number(item, "within_5_percent", 1.0, ok),
+        .within_10 = number(item, "within_10_percent", 1.0, ok),
+    };
+}
+
+static bool read_prediction(const cJSON *object, const DipCostReport *report,
+                            DipCostPrediction *prediction) {
+    bool ok = true;
+    const cJSON *settings = cJSON_GetObjectItemCaseSensitive(object, "settings");
+    *prediction = (DipCostPrediction){
+        .ms = number(object, "ms", max_ms, &ok),
+        .p95_ms = number(object, "p95_ms", max_ms, &ok),
+        .flip = number(object, "flip", max_mean, &ok),
+        .row = integer(object, "row", -1, report->row_count - 1, &ok),
+    };
+    return ok && cJSON_IsString(settings) &&
+           dip_quality_parse(settings->valuestring, &prediction->quality, NULL);
+}
+
+// The counters of combinations that were not measured are not in the file.
+static bool read_predictions(const cJSON *root, DipCostReport *report) {
+    DipCostPredictions *predicted = &report->predicted;
+    const cJSON *object = cJSON_GetObjectItemCaseSensitive(root, "predicted");
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(object, "combinations");
+    const cJSON *misses = cJSON_GetObjectItemCaseSensitive(object, "misses");
+    const int count = cJSON_GetArraySize(list);
+    if (!object) {
+        return true;
+    }
+    predicted->list = calloc((size_t)count + 1, sizeof *predicted->list);
+    bool ok = predicted->list && count <= DIP_COST_MAX_ROWS;
+    predicted->trained = integer(object, "trained", 0, DIP_COST_MAX_ROWS, &ok);
+    predicted->times = read_misses(misses, "times", &ok);
+    predicted->errors = read_misses(misses, "flip", &ok);
+    predicted->times_left_out = read_misses(misses, "times_left_out", &ok);
+    predicted->errors_left_out = read_misses(misses, "flip_left_out", &ok);
+    const cJSON *item;
+    cJSON_ArrayForEach(item, list) {
+        ok = ok && read_prediction(item, report, &predicted->list[predicted->count++]);
+    }
+    return ok;
+}
+
 static bool read_one_advice(const cJSON *object, const DipCostReport *report,
                             DipCostAdvice *advice) {
     bool ok = true;
@@ -392,6 +441,9 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
     }
     if (!read_floors(root, report)) {
         return missing(file, "floors", err);
+    }
+    if (!read_predictions(root, report)) {
+        return missing(file, "predicted", err);
     }
     read_advice(root, report);
     if (report->rounds == 0) {

@@ -93,6 +93,18 @@ void dip_made_report(DipCostReport *report, int rounds) {
             abort();
         }
     }
+    report->predicted.list = calloc(2, sizeof *report->predicted.list);
+    if (!report->predicted.list) {
+        abort();
+    }
+    report->predicted.count = rounds > 0 ? 2 : 0;
+    report->predicted.trained = 1;
+    report->predicted.times = (DipCostMisses){0.01, 0.02, 1.0, 0.9, 1};
+    report->predicted.errors_left_out = (DipCostMisses){0.02, 0.03, 0.8, 0.7, 1};
+    report->predicted.list[0] =
+        (DipCostPrediction){.quality = report->rows[2].quality, .ms = 3.5, .flip = 0.1, .row = 2};
+    report->predicted.list[1] = (DipCostPrediction){
+        .quality = report->rows[3].quality, .ms = 4.5, .p95_ms = 5.0, .flip = 0.2, .row = -1};
     for (int path = 0; path < report->path_count; path++) {
         report->has_floor[path * report->options.places] = true;
         fill_sums(&report->floors[path * report->options.places], 50 + path);

@@ -468,6 +468,17 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
     check_values(a->floors, b->floors, 6 * sizeof *a->floors);
     assert_memory_equal(a->sweeps[0].rows, b->sweeps[0].rows, sizeof a->sweeps[0].rows);
     assert_int_equal(a->advice[0].row, b->advice[0].row);
+    assert_int_equal(a->predicted.count, b->predicted.count);
+    for (int i = 0; i < a->predicted.count; i++) {
+        const DipCostPrediction *x = &a->predicted.list[i];
+        const DipCostPrediction *y = &b->predicted.list[i];
+        assert_memory_equal(&x->quality, &y->quality, sizeof x->quality);
+        assert_true(x->ms == y->ms && x->p95_ms == y->p95_ms && x->flip == y->flip);
+        assert_int_equal(x->row, y->row);
+        assert_true(a->predicted.times.median == b->predicted.times.median);
+        assert_true(a->predicted.times.within_10 == b->predicted.times.within_10);
+        assert_true(a->predicted.errors_left_out.p90 == b->predicted.errors_left_out.p90);
+    }
     assert_true(a->advice[0].probability == b->advice[0].probability);
     assert_int_equal(a->advice[0].runner_up, b->advice[0].runner_up);
     assert_true(a->advice[0].budget_ms == b->advice[0].budget_ms);
