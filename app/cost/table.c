@@ -2,6 +2,7 @@
 #include "app/cost/formats.h"
 
 #include "app/cost/fit.h"
+#include "app/cost/interaction.h"
 #include "app/cost/order.h"
 #include "app/cost/prediction_counts.h"
 
@@ -223,6 +224,24 @@ static void print_advice(const DipCostReport *report, FILE *out) {
     }
 }
 
+static void print_interactions(const DipCostReport *report, FILE *out) {
+    DipCostInteraction list[DIP_COST_MAX_INTERACTIONS];
+    const int count = report->predicted.count == 0 ? dip_cost_interactions(report, list) : 0;
+    for (int i = 0; i < count; i++) {
+        char time[32] = "";
+        if (i == 0) {
+            fprintf(out, "\nTwo settings together, against each alone (last steps; mean over the "
+                         "combinations of the others):\n");
+        }
+        if (list[i].time > 0.0) {
+            snprintf(time, sizeof time, "time x %.3f, ", list[i].time);
+        }
+        fprintf(out, "  %s and %s: %sFLIP %+.5f  (%d combination%s)\n",
+                dip_setting_info(list[i].a)->key, dip_setting_info(list[i].b)->key, time,
+                list[i].flip, list[i].contexts, dip_cost_plural(list[i].contexts));
+    }
+}
+
 // Four budgets make the four tiers of a settings menu.
 static void print_tiers(const DipCostReport *report, FILE *out) {
     static const char *const tiers[] = {"low", "medium", "high", "ultra"};
@@ -270,6 +289,7 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
         fprintf(out, "%s  %s\n", i ? "" : "\nSteps left out, with the reason:\n",
                 report->refused[i]);
     }
+    print_interactions(report, out);
     print_prediction(report, out);
     print_front(report, out);
     print_advice(report, out);

@@ -2,6 +2,7 @@
 #include "app/cost/formats.h"
 
 #include "app/cost/fit.h"
+#include "app/cost/interaction.h"
 #include "app/cost/json_fields.h"
 #include "app/cost/json_memory.h"
 #include "app/files/whole_file.h"
@@ -139,6 +140,21 @@ static void add_same(cJSON *root, const DipCostReport *report) {
         cJSON_AddStringToObject(object, "settings", settings);
         cJSON_AddNumberToObject(object, "row", report->same[i].row);
         add_to_array(same, object);
+    }
+}
+
+static void add_interactions(cJSON *root, const DipCostReport *report) {
+    DipCostInteraction list[DIP_COST_MAX_INTERACTIONS];
+    const int count = dip_cost_interactions(report, list);
+    cJSON *array = cJSON_AddArrayToObject(root, "interactions");
+    for (int i = 0; i < count; i++) {
+        cJSON *object = cJSON_CreateObject();
+        cJSON_AddStringToObject(object, "a", dip_setting_info(list[i].a)->key);
+        cJSON_AddStringToObject(object, "b", dip_setting_info(list[i].b)->key);
+        cJSON_AddNumberToObject(object, "combinations", list[i].contexts);
+        cJSON_AddNumberToObject(object, "flip", list[i].flip);
+        cJSON_AddNumberToObject(object, "time", list[i].time);
+        add_to_array(array, object);
     }
 }
 
@@ -317,6 +333,7 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     add_rows(root, report);
     add_same(root, report);
     add_sweeps(root, report);
+    add_interactions(root, report);
     add_fit(root, report);
     add_predictions(root, report);
     add_advice(root, report);

@@ -2,6 +2,7 @@
 // choice of what to measure.
 #include "app/cost/combinations.h"
 #include "app/cost/fit.h"
+#include "app/cost/interaction.h"
 #include "app/cost/predict.h"
 #include "app/cost/prediction_counts.h"
 #include "app/cost/same_pictures.h"
@@ -254,6 +255,36 @@ static void counters_are_scaled_to_the_timed_frames(void **state) {
     dip_cost_report_free(&report);
 }
 
+// FLIP = .1 - .02 (aa) - .03 (af) + .005 if both, and time = 4 * 2 (aa) * 1.5 (af) * 1.1 if both.
+static void interactions_are_what_both_add(void **state) {
+    (void)state;
+    DipCostInteraction list[DIP_COST_MAX_INTERACTIONS];
+    DipCostReport report;
+    make_report(&report, courtyard_flip, 0.0, 1);
+    for (int i = 0; i < COMBINATIONS; i++) {
+        const DipQuality *q = &report.rows[i].quality;
+        const bool aa = q->step[DIP_SETTING_AA] != 0;
+        const bool af = q->step[DIP_SETTING_AF] != 0;
+        set_flip(&report.rows[i], 0.1 - 0.02 * aa - 0.03 * af + 0.005 * (aa && af));
+        report.rows[i].time.mean_ms.value =
+            4.0 * (aa ? 2.0 : 1.0) * (af ? 1.5 : 1.0) * (aa && af ? 1.1 : 1.0);
+    }
+    const int count = dip_cost_interactions(&report, list);
+    int found = 0;
+    for (int i = 0; i < count; i++) {
+        if (list[i].a == DIP_SETTING_AA && list[i].b == DIP_SETTING_AF) {
+            assert_true(fabs(list[i].flip - 0.005) < 1e-12);
+            assert_true(fabs(list[i].time - 1.1) < 1e-12);
+            assert_int_equal(list[i].contexts, 1); // aaa needs samples, aaf needs probes.
+            found++;
+        } else {
+            assert_true(fabs(list[i].flip) < 0.0051);
+        }
+    }
+    assert_int_equal(found, 1);
+    dip_cost_report_free(&report);
+}
+
 // --- rows with the same pictures -----------------------------------------------------------------
 
 static void combinations_with_the_same_pictures_are_one_row(void **state) {
@@ -308,6 +339,7 @@ int main(void) {
         cmocka_unit_test(the_front_is_found),
         cmocka_unit_test(combinations_without_effect_are_left_out),
         cmocka_unit_test(counters_are_scaled_to_the_timed_frames),
+        cmocka_unit_test(interactions_are_what_both_add),
         cmocka_unit_test(combinations_with_the_same_pictures_are_one_row),
         cmocka_unit_test(pictures_that_are_not_known_are_not_the_same),
     };
