@@ -108,6 +108,19 @@ static double ratio_error(const DipPairedTimes *times, int *drawn, double *logs,
     return deviation(logs, count) * sqrt((double)rounds / (rounds - 1));
 }
 
+bool dip_paired_ratio_value(const DipPairedTimes *times, double *ratio, DipError *err) {
+    int *every = malloc((size_t)times->rounds * sizeof *every);
+    double *scratch = malloc((size_t)times->rounds * sizeof *scratch);
+    const bool done = (every && scratch) || out_of_memory(err);
+    for (int r = 0; done && r < times->rounds; r++) {
+        every[r] = r;
+    }
+    *ratio = done ? ratio_of(times, every, scratch) : NAN;
+    free(every);
+    free(scratch);
+    return done;
+}
+
 bool dip_paired_ratio(const DipPairedTimes *times, DipStatsEstimate *ratio, DipError *err) {
     const int rounds = times->rounds;
     DIP_ASSERT(rounds > 0 && times->frames > 0);
@@ -115,10 +128,8 @@ bool dip_paired_ratio(const DipPairedTimes *times, DipStatsEstimate *ratio, DipE
     double *scratch = malloc((size_t)rounds * sizeof *scratch);
     double *logs = malloc(RESAMPLES * sizeof *logs);
     bool done = (drawn && scratch && logs) || out_of_memory(err);
-    for (int r = 0; done && r < rounds; r++) {
-        drawn[r] = r;
-    }
-    const double value = done ? ratio_of(times, drawn, scratch) : 0.0;
+    double value = 0.0;
+    done = done && dip_paired_ratio_value(times, &value, err);
     if (done && isnan(value)) {
         done = dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "timing",
                              "every pair of times was disturbed; time again on a quieter machine");

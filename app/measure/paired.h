@@ -47,6 +47,10 @@ typedef struct DipPairedTimes {
 // DIP_ERROR_RUNTIME if no pair is left.
 bool dip_paired_ratio(const DipPairedTimes *times, DipStatsEstimate *ratio, DipError *err);
 
+// Computes the ratio of dip_paired_ratio without its interval; NAN if no pair is left. Fails with
+// DIP_ERROR_MEMORY.
+bool dip_paired_ratio_value(const DipPairedTimes *times, double *ratio, DipError *err);
+
 // Returns how far the rounds' own ratios lie apart: 1.4826 times the median distance of the rounds'
 // log ratios (of the sums over the frames) from their median. Called for a base that is timed twice
 // (A/A), it tells how noisy the machine is. Returns a negative value if there are fewer than two
