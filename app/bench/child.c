@@ -126,6 +126,10 @@ DipBenchChild *dip_bench_child_start(const char *program, const DipBenchPlan *pl
     return child;
 }
 
+long dip_bench_child_pid(const DipBenchChild *child) {
+    return (long)child->pid;
+}
+
 void dip_bench_child_stop(DipBenchChild **child_pointer) {
     DipBenchChild *child = *child_pointer;
     if (!child) {

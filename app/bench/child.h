@@ -17,6 +17,9 @@ typedef struct DipBenchChild DipBenchChild;
 // differs from the plan's.
 DipBenchChild *dip_bench_child_start(const char *program, const DipBenchPlan *plan, DipError *err);
 
+// Returns the child's process.
+long dip_bench_child_pid(const DipBenchChild *child);
+
 // Closes the child's standard input and waits until it has ended.
 void dip_bench_child_stop(DipBenchChild **child);
 

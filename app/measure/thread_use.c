@@ -1,4 +1,4 @@
-// Reading /proc/self/task/*/schedstat and getrusage.
+// Reading /proc/PID/task/*/schedstat and getrusage.
 #define _DEFAULT_SOURCE 1 // for getrusage's ru_nivcsw with every C library
 #include "app/measure/thread_use.h"
 
@@ -29,9 +29,9 @@ static bool read_thread(int file, DipThreadUse *sum) {
     return true;
 }
 
-static bool add_thread(DipThreadWatch *watch, const char *thread) {
-    char name[64];
-    const int length = snprintf(name, sizeof name, "/proc/self/task/%.20s/schedstat", thread);
+static bool add_thread(DipThreadWatch *watch, const char *folder, const char *thread) {
+    char name[96];
+    const int length = snprintf(name, sizeof name, "%s/%.20s/schedstat", folder, thread);
     int *files = realloc(watch->files, ((size_t)watch->count + 1) * sizeof *files);
     if (!files || length >= (int)sizeof name) {
         return false;
@@ -46,12 +46,12 @@ static bool add_thread(DipThreadWatch *watch, const char *thread) {
     return read_thread(file, &sum);
 }
 
-DipThreadWatch *dip_thread_watch_open(void) {
-    DIR *threads = opendir("/proc/self/task");
+static DipThreadWatch *open_watch(const char *folder) {
+    DIR *threads = opendir(folder);
     DipThreadWatch *watch = threads ? calloc(1, sizeof *watch) : NULL;
     bool complete = watch != NULL;
     for (const struct dirent *entry; complete && (entry = readdir(threads)) != NULL;) {
-        complete = entry->d_name[0] == '.' || add_thread(watch, entry->d_name);
+        complete = entry->d_name[0] == '.' || add_thread(watch, folder, entry->d_name);
     }
     if (threads) {
         closedir(threads);
@@ -60,6 +60,20 @@ DipThreadWatch *dip_thread_watch_open(void) {
         dip_thread_watch_close(&watch);
     }
     return watch;
+}
+
+DipThreadWatch *dip_thread_watch_open(void) {
+    return open_watch("/proc/self/task");
+}
+
+DipThreadWatch *dip_thread_watch_open_process(long pid) {
+    char folder[48];
+    snprintf(folder, sizeof folder, "/proc/%ld/task", pid);
+    return open_watch(folder);
+}
+
+int dip_thread_watch_count(const DipThreadWatch *watch) {
+    return watch ? watch->count : 0;
 }
 
 void dip_thread_watch_close(DipThreadWatch **watch_pointer) {

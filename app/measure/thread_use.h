@@ -1,4 +1,4 @@
-// What the threads of this process got from the processor: time on a core, time spent waiting for
+// What the threads of a process got from the processor: time on a core, time spent waiting for
 // one, and how often another process took their core away.
 //
 // A frame whose threads waited was disturbed by another process, whatever its time says. On Linux
@@ -23,7 +23,8 @@ typedef struct DipThreadUse {
     bool has_wait;
 } DipThreadUse;
 
-// Watches the threads that exist when it is opened. Not thread-safe.
+// Watches the threads that exist when it is opened, of this process or of another one. Not
+// thread-safe.
 typedef struct DipThreadWatch DipThreadWatch;
 
 // Opens a watch. Threads that are started later are not seen, so open it after the thread pool.
@@ -31,8 +32,14 @@ typedef struct DipThreadWatch DipThreadWatch;
 DipThreadWatch *dip_thread_watch_open(void);
 void dip_thread_watch_close(DipThreadWatch **watch);
 
+// Opens a watch of another process of the same user.
+DipThreadWatch *dip_thread_watch_open_process(long pid);
+
+// Returns the number of threads that are watched; 0 without a watch.
+int dip_thread_watch_count(const DipThreadWatch *watch);
+
 // Reads the sums. Takes a few microseconds per thread. Without a watch only the processor time of
-// the whole process and its switches are known.
+// this process and its switches are known. The switches are always those of this process.
 DipThreadUse dip_thread_watch_read(const DipThreadWatch *watch);
 
 #ifdef __cplusplus
