@@ -10,10 +10,13 @@
 
 #include <stdio.h>
 
-enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_BAD_INPUT = 2 };
+enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_BAD_INPUT = 2, EXIT_BUSY = 3 };
 
 static int fail(const DipError *err) {
     dip_log_error(err);
+    if (err->code == DIP_ERROR_BUSY) {
+        return EXIT_BUSY;
+    }
     return err->origin == DIP_ORIGIN_INPUT ? EXIT_BAD_INPUT : EXIT_FAILED;
 }
 

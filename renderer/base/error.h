@@ -30,6 +30,7 @@ extern "C" {
     X(MISSING, "a key, value or file that is required is missing")                                 \
     X(CONFLICT, "two values contradict each other")                                                \
     X(UNSUPPORTED, "a feature that this version does not support")                                 \
+    X(BUSY, "other programs kept the machine too busy to measure")                                 \
     X(MEMORY, "out of memory")                                                                     \
     X(RUNTIME, "a failure while running")
 
@@ -39,7 +40,8 @@ typedef enum DipErrorCode {
 #undef DIP_ERROR_ENUM
 } DipErrorCode;
 
-// Who can mend the fault. The program's exit code follows from it: 2 for INPUT, 1 for RUNTIME.
+// Who can mend the fault. The program's exit code follows from it: 2 for INPUT, 1 for RUNTIME, but
+// 3 for the code BUSY.
 typedef enum DipOrigin {
     DIP_ORIGIN_INPUT,  // The user, who gave a wrong command line or a file that cannot be used.
     DIP_ORIGIN_RUNTIME // The machine: it is out of memory, a file cannot be written, ...
