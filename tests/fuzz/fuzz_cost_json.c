@@ -1,5 +1,6 @@
 // Fuzzes the reader of cost.json, which `diptych cost merge` joins with others. A report that was
 // read can be written in every format, and is the same when its JSON is read again.
+#include "app/cost/diff.h"
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
 #include "tests/fuzz/fuzz.h"
@@ -76,6 +77,21 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
     }
 }
 
+// A report does not differ from itself.
+static void compare_with_itself(const DipCostReport *report, FILE *nowhere) {
+    DipCostDiff diff = {.names = {"A", "B"}, .limit = 1.01, .fail_over = 1.01};
+    FUZZ_CHECK(dip_cost_diff_reports(report, report, &diff, NULL));
+    for (int r = 0; r < diff.row_count; r++) {
+        for (int q = 0; q < DIP_COST_DIFF_QUANTITY_COUNT; q++) {
+            FUZZ_CHECK(!dip_cost_diff_differs(&diff.rows[r], q));
+        }
+    }
+    FUZZ_CHECK(diff.slower + diff.faster + diff.failed_times + diff.failed_errors == 0);
+    FUZZ_CHECK(dip_cost_diff_print(&diff, nowhere, NULL));
+    FUZZ_CHECK(dip_cost_diff_write_json(&diff, fuzz_path("diff.json"), NULL));
+    dip_cost_diff_free(&diff);
+}
+
 static void check_accepted(const DipCostReport *report) {
     static FILE *nowhere;
     nowhere = nowhere ? nowhere : fopen("/dev/null", "w");
@@ -88,6 +104,7 @@ static void check_accepted(const DipCostReport *report) {
     FUZZ_CHECK(dip_cost_write_csv(report, fuzz_path("x.csv"), NULL));
     FUZZ_CHECK(dip_cost_write_html(report, NULL, fuzz_path("x.html"), NULL));
     dip_cost_print(report, nowhere);
+    compare_with_itself(report, nowhere);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {

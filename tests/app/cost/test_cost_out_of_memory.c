@@ -1,5 +1,7 @@
 // Tests what the writers and readers of reports do when memory runs out: a file is written whole or
 // stays as it was, and a journal never loses a measurement.
+#include "app/cost/diff.h"
+#include "app/cost/diff_cause.h"
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
 #include "app/cost/journal.h"
@@ -147,6 +149,82 @@ static void files_are_written_whole_or_stay(void **state) {
     dip_cost_report_free(&w.report);
 }
 
+// --- comparing -----------------------------------------------------------------------------------
+
+static DipCostReport other;
+static DipCostDiff diff;
+
+static void make_diff(void *context) {
+    (void)context;
+    hook_cjson();
+    diff = (DipCostDiff){.names = {"A", "B"}, .limit = 1.01};
+}
+
+static bool compare(void *context, DipError *err) {
+    (void)context;
+    return dip_cost_diff_reports(&w.report, &other, &diff, err);
+}
+
+static void check_diff(void *context, bool succeeded) {
+    (void)context;
+    assert_int_equal(diff.rows != NULL, succeeded);
+}
+
+static void free_diff(void *context) {
+    (void)context;
+    dip_cost_diff_free(&diff);
+}
+
+static void make_compared(void *context) {
+    make_diff(context);
+    assert_true(compare(context, NULL));
+}
+
+static bool print_diff(void *context, DipError *err) {
+    return dip_cost_diff_print(&diff, context, err);
+}
+
+static bool write_diff(void *context, DipError *err) {
+    (void)context;
+    return dip_cost_diff_write_json(&diff, w.file, err);
+}
+
+static bool find_cause(void *context, DipError *err) {
+    static const double per_start[4] = {1.0, 1.1, 2.0, 2.1}, work[2] = {1.0, 2.0};
+    (void)context;
+    DipCause cause;
+    return dip_cause_find(&(DipCauseData){2, 2, 1, per_start, work}, &cause, err);
+}
+
+static void comparisons_are_whole_or_fail(void **state) {
+    (void)state;
+    dip_made_report(&w.report, ROUNDS);
+    dip_made_report(&other, ROUNDS);
+    other.rows[2].counters[3] += 1.0;
+    FILE *nowhere = fopen("/dev/null", "w");
+    assert_non_null(nowhere);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "comparing reports",
+                                              .prepare = make_diff,
+                                              .run = compare,
+                                              .check = check_diff,
+                                              .finish = free_diff,
+                                              .needs_every_allocation = true});
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "printing a comparison",
+                                              .context = nowhere,
+                                              .prepare = make_compared,
+                                              .run = print_diff,
+                                              .finish = free_diff,
+                                              .needs_every_allocation = true});
+    dip_out_of_memory_check(&(DipOutOfMemory){
+        .name = "finding a cause", .run = find_cause, .needs_every_allocation = true});
+    make_compared(NULL);
+    check_writer("a comparison", "diff.json", write_diff, 100);
+    free_diff(NULL);
+    fclose(nowhere);
+    dip_cost_report_free(&w.report);
+    dip_cost_report_free(&other);
+}
+
 // --- reading a report ----------------------------------------------------------------------------
 
 static bool read_json(void *context, DipError *err) {
@@ -288,6 +366,7 @@ int main(int argc, char **argv) {
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_written_whole_or_stay),
+        cmocka_unit_test(comparisons_are_whole_or_fail),
         cmocka_unit_test(report_is_read_whole_or_not_at_all),
         cmocka_unit_test(journal_never_loses_a_measurement),
     };
