@@ -49,7 +49,7 @@ check "help lists every command" grep -q 'path convert' out.txt
 check "help lists settings" grep -q 'miplod' out.txt
 expect 0 '' "$diptych" dump --help
 check "help on dump gives an example" grep -q 'dump --out out --frames 0:8' out.txt
-for word in preview dump bench cost "cost merge" "cost assets" "path info" "path convert" verify; do
+for word in preview dump bench cost "cost merge" "cost diff" "cost assets" "path info" "path convert" verify; do
     expect 0 '' "$diptych" $word --help
     check "help on $word gives its usage and an example" sh -c \
         "grep -q '^Usage: diptych $word' out.txt && grep -q '^  diptych' out.txt"
@@ -351,6 +351,40 @@ check "errors are the same on one thread, without vectors" cmp once.txt other.tx
 sed 's/"samples":4,/"samples":9,/' part1/cost.json >else.json
 expect 2 'else.json: is not a part of the same report' \
     "$diptych" cost merge --out x part0/cost.json else.json
+
+# --- two reports, or two programs
+expect 2 "\[cost diff\] there is nothing to compare; give two reports or programs" "$diptych" cost diff once
+expect 2 "\[c\] is one argument too many" "$diptych" cost diff a b c
+expect 2 "\[--fail-over\] '3' is not a share from 0.1% to 1000%" "$diptych" cost diff once part0 --fail-over 3
+expect 2 'none.json: \[cost diff\] cannot be opened' "$diptych" cost diff once none.json
+expect 2 'empty.json: \[header\] is missing' "$diptych" cost diff once empty.json
+head -c 3000 once/cost.json >broken.json
+expect 2 'broken.json: is not a JSON file' "$diptych" cost diff broken.json once
+expect 2 "\[cost diff\] /bin/true has ended" "$diptych" cost diff /bin/true .
+expect 2 "\[cost diff\] /bin/echo did not answer as diptych's bench does" "$diptych" cost diff . /bin/echo
+expect 0 '' "$diptych" cost diff once one-thread --json same.json --fail-over 1%
+check "errors are the same on one thread" grep -q 'All errors and counters that both sides have are the same' out.txt
+check "a report without times is named" grep -q 'times and counters are not compared: B has none' out.txt
+check "the comparison is there as JSON" grep -q '"failed_errors":' same.json
+sed 's/"samples":4,/"samples":9,/' once/cost.json >else.json
+expect 0 '' "$diptych" cost diff one-thread else.json
+check "reports with other truths are not compared" grep -q 'errors are not compared: A has 2 viewpoints' out.txt
+sed -E '1s/("sums":\[[0-9.]+,)([0-9.]+)/\199\2/' one-thread/cost.json >worse.json
+expect 1 '\[--fail-over\] 0 rows are slower and 1 have a greater error in worse.json, by more than 3 %' \
+    "$diptych" cost diff one-thread worse.json --fail-over 3%
+duel="--model $source/tests/assets/data/square.gltf --starts 2 --rounds 2"
+"$diptych" cost diff . "$diptych" $duel --size 32x24 --frames 2 --sets "aa=none;aa=4" >out.txt 2>err.txt
+check "two programs are compared, or the machine is busy" test $? = 0 -o $? = 3
+check "the same program draws the same pictures" grep -q 'All pictures and counters are the same' out.txt
+"$diptych" cost diff once . $duel >out.txt 2>err.txt
+check "a report and a program are compared, or the machine is busy" test $? = 0 -o $? = 3
+check "the program counts what the report has" grep -q 'All errors and counters that both sides have are the same' out.txt
+"$diptych" cost diff . . --frames 100 --size 640x480 >out.txt 2>err.txt &
+sleep 1
+kill -INT $!
+wait $!
+check "Ctrl-C ends cost diff with code 1" test $? = 1
+check "Ctrl-C is named" grep -q '\[cost diff\] interrupted' err.txt
 
 expect 0 '' "$diptych" cost assets --model "$source/tests/assets/data/square.gltf"
 check "cost assets prints the forms of a mesh" grep -qE 'glTF, one binary file +[0-9.]+ +[0-9.]+ +[0-9.]+$' out.txt
