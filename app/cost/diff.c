@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const char *const error_titles[DIP_COST_DIFF_ERROR_COUNT] = {
 #define ERROR_TITLE(name, title, higher) title,
@@ -58,6 +59,43 @@ double dip_cost_diff_growth(const DipCostDiffRow *row, int quantity) {
 bool dip_cost_diff_is_busy(const DipCostDiff *diff) {
     return diff->has_times &&
            (diff->verdicts[0] == DIP_COST_RED || diff->verdicts[1] == DIP_COST_RED);
+}
+
+// Counts the rows in which a side's quantity is known, and those in which it is not 0.
+static void count_rows(const DipCostDiff *diff, int side, int quantity, int *known, int *used) {
+    *known = *used = 0;
+    for (int r = 0; r < diff->row_count; r++) {
+        const double value = diff->rows[r].values[side][quantity];
+        *known += !isnan(value);
+        *used += !isnan(value) && value != 0.0;
+    }
+}
+
+void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff) {
+    char names[2][DIP_COST_DIFF_NOTE / 2] = {"", ""};
+    for (int q = DIP_COST_DIFF_FIRST_COUNTER; q < DIP_COST_DIFF_QUANTITY_COUNT; q++) {
+        int known[2], used[2];
+        count_rows(diff, 0, q, &known[0], &used[0]);
+        count_rows(diff, 1, q, &known[1], &used[1]);
+        const int side = used[0] == 0 ? 0 : 1; // The side that may not count it.
+        if (used[side] > 0 || used[1 - side] == 0 || used[1 - side] < known[1 - side]) {
+            continue;
+        }
+        const size_t length = strlen(names[side]);
+        snprintf(names[side] + length, sizeof names[side] - length, "%s%s", length ? ", " : "",
+                 dip_cost_diff_title(q));
+        for (int r = 0; r < diff->row_count; r++) {
+            diff->rows[r].values[0][q] = diff->rows[r].values[1][q] = NAN;
+        }
+    }
+    for (int side = 0; side < 2; side++) {
+        if (*names[side]) {
+            dip_cost_diff_note(diff,
+                               "counters that are 0 in all rows of %s only, which perhaps "
+                               "does not count them: %s",
+                               side ? "B" : "A", names[side]);
+        }
+    }
 }
 
 static bool has_failed_error(const DipCostDiffRow *row, double limit) {

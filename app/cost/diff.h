@@ -114,6 +114,10 @@ bool dip_cost_diff_differs(const DipCostDiffRow *row, int quantity);
 // growth of the value.
 double dip_cost_diff_growth(const DipCostDiffRow *row, int quantity);
 
+// Leaves out the counters that are 0 in all rows of one side and in no row of the other, with a
+// note: an older build does not count what a newer one does.
+void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff);
+
 // Computes the rows' marks and the counts from the rows and the limits. A row is marked as slower
 // if surely_above is greater than the limit, and as faster if surely_below is less than its
 // inverse. Times are left out if the times may not be compared, if a machine is red, or if two

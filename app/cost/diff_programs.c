@@ -138,8 +138,8 @@ static void list_work(const DipCostSetup *setup, const DipCostDiff *diff, DipBen
         work[PER_FRAME * rows + r] = 1.0;
         work[STAGE_TIME * rows + r] = stage_ms(setup, r, stage);
         for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
-            work[(FIRST_COUNTER + c) * rows + r] =
-                diff->rows[r].values[0][DIP_COST_DIFF_FIRST_COUNTER + c];
+            const double value = diff->rows[r].values[0][DIP_COST_DIFF_FIRST_COUNTER + c];
+            work[(FIRST_COUNTER + c) * rows + r] = isnan(value) ? 0.0 : value;
         }
     }
 }
@@ -217,6 +217,7 @@ static bool compare_pairs(const DipCostSetup *setup, const DipCostDiffArguments 
     diff->same_machine = true;
     diff->has_times = true;
     if (done) {
+        dip_cost_diff_leave_out_uncounted(diff);
         dip_cost_diff_mark(diff);
         done = diff->slower == 0 || find_cause(setup, diff, err);
     }

@@ -323,6 +323,7 @@ bool dip_cost_diff_reports(const DipCostReport *a, const DipCostReport *b, DipCo
         compare_headers(a, b, &can, diff);
         compare_paths(a, b, &can, diff);
         compare_rows(reports, &can, taken, lonely, diff);
+        dip_cost_diff_leave_out_uncounted(diff);
         if (diff->has_times) {
             widen_bounds(diff, a->options.rounds < b->options.rounds ? a->options.rounds
                                                                      : b->options.rounds);

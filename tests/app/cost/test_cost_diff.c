@@ -114,6 +114,23 @@ static void one_counter_is_named_with_its_rows(void **state) {
     done();
 }
 
+static void counters_that_one_side_lacks_are_left_out(void **state) {
+    (void)state;
+    make();
+    for (int r = 0; r < b.row_count; r++) {
+        a.rows[r].counters[7] = 5.0;
+        b.rows[r].counters[7] = 0.0;
+        b.rows[r].counters[8] = 0.0;
+        a.rows[r].counters[8] = r == 2 ? 3.0 : 0.0; // Counted, but rarely used.
+    }
+    compare();
+    assert_true(has_note("counters that are 0 in all rows of B only"));
+    assert_int_equal(group(groups), 1);
+    assert_int_equal(groups[0].change_count, 1);
+    assert_int_equal(groups[0].changes[0].quantity, DIP_COST_DIFF_FIRST_COUNTER + 8);
+    done();
+}
+
 static void counters_of_one_path_are_one_group(void **state) {
     (void)state;
     make();
@@ -365,6 +382,7 @@ int main(void) {
         cmocka_unit_test(equal_reports_do_not_differ),
         cmocka_unit_test(one_error_is_named),
         cmocka_unit_test(one_counter_is_named_with_its_rows),
+        cmocka_unit_test(counters_that_one_side_lacks_are_left_out),
         cmocka_unit_test(counters_of_one_path_are_one_group),
         cmocka_unit_test(a_ratio_is_slower_beyond_the_luck_of_a_start),
         cmocka_unit_test(rows_and_paths_that_do_not_match_are_named),
