@@ -400,7 +400,9 @@ static void a_pass_samples_the_target_of_an_earlier_pass(void **state) {
     DipDraw draw = draw_of(mesh, turned_copy);
     draw.uniforms = &target;
     const DipPass pass = pass_of(&draw, 1, 1);
-    run(&pass);
+    const DipPipelineCounters counters = run(&pass);
+    assert_int_equal(counters.texture_probes, WIDTH * HEIGHT); // One bilinear read per fragment.
+    assert_int_equal(counters.texels_fetched, 4 * WIDTH * HEIGHT);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         assert_memory_equal(picture + 4 * i, before + 4 * (WIDTH * HEIGHT - 1 - i), 4);
     }
