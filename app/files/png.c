@@ -1,6 +1,7 @@
-// Encoding PNG and compressing with deflate in memory, both by stb_image_write.
+// Encoding PNG and JPEG and compressing with deflate in memory, all by stb_image_write.
 #include "app/files/png.h"
 
+#include "app/files/jpeg.h"
 #include "app/files/whole_file.h"
 #include "app/files/zip.h"
 
@@ -101,15 +102,17 @@ static uint8_t *packed_rgb(const uint8_t *rgba8, size_t stride_bytes, int width,
     return rgb;
 }
 
-// Fills the buffer. Returns false when memory runs out.
-static bool write_png(Buffer *buffer, const uint8_t *rgb, int width, int height) {
+// Fills the buffer with a PNG of rows without padding, of 1 or 3 channels. Returns false when
+// memory runs out.
+static bool write_png(Buffer *buffer, const uint8_t *pixels, int width, int height, int channels) {
     Memory own = {.first = {.next = NULL}};
     memory = &own;
     if (setjmp(own.ran_out) != 0) {
         free_blocks();
         return false;
     }
-    return stbi_write_png_to_func(append, buffer, width, height, 3, rgb, width * 3) &&
+    return stbi_write_png_to_func(append, buffer, width, height, channels, pixels,
+                                  width * channels) &&
            !buffer->failed;
 }
 
@@ -117,7 +120,7 @@ bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int he
                     unsigned char **bytes, size_t *size_bytes) {
     Buffer buffer = {0};
     uint8_t *rgb = packed_rgb(rgba8, stride_bytes, width, height);
-    const bool made = rgb && write_png(&buffer, rgb, width, height);
+    const bool made = rgb && write_png(&buffer, rgb, width, height, 3);
     free(rgb);
     if (!made) {
         free(buffer.bytes);
@@ -126,6 +129,46 @@ bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int he
     *bytes = buffer.bytes;
     *size_bytes = buffer.size;
     return true;
+}
+
+// Offsets and sizes in a PNG file: the signature, the chunk IHDR, then the next chunk.
+enum {
+    PNG_HEADER_TYPE = 12,  // The letters "IHDR".
+    PNG_COLOUR_TYPE = 25,  // Byte of IHDR: 0 for grey, 3 for indices into a palette.
+    PNG_HEADER_CRC = 29,   // Checksum of the bytes from PNG_HEADER_TYPE on.
+    PNG_AFTER_HEADER = 33, // Where the palette, the chunk PLTE, belongs.
+    PNG_PALETTE_BYTES = 3 * 256,
+    PNG_CHUNK_FRAME = 12 // Length, type and checksum of a chunk, 4 bytes each.
+};
+
+static void store_u32(unsigned char *to, unsigned value) {
+    for (int i = 0; i < 4; i++) {
+        to[i] = (unsigned char)(value >> (24 - 8 * i));
+    }
+}
+
+bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palette, int width, int height,
+                            unsigned char **bytes, size_t *size_bytes) {
+    Buffer grey = {0};
+    const bool written = write_png(&grey, indices, width, height, 1);
+    unsigned char *made = written ? malloc(grey.size + PNG_PALETTE_BYTES + PNG_CHUNK_FRAME) : NULL;
+    if (made) {
+        unsigned char *chunk = made + PNG_AFTER_HEADER;
+        memcpy(made, grey.bytes, PNG_AFTER_HEADER);
+        made[PNG_COLOUR_TYPE] = 3;
+        store_u32(made + PNG_HEADER_CRC,
+                  stbiw__crc32(made + PNG_HEADER_TYPE, PNG_HEADER_CRC - PNG_HEADER_TYPE));
+        store_u32(chunk, PNG_PALETTE_BYTES);
+        memcpy(chunk + 4, "PLTE", 4);
+        memcpy(chunk + 8, palette, PNG_PALETTE_BYTES);
+        store_u32(chunk + 8 + PNG_PALETTE_BYTES, stbiw__crc32(chunk + 4, 4 + PNG_PALETTE_BYTES));
+        memcpy(chunk + PNG_PALETTE_BYTES + PNG_CHUNK_FRAME, grey.bytes + PNG_AFTER_HEADER,
+               grey.size - PNG_AFTER_HEADER);
+        *bytes = made;
+        *size_bytes = grey.size + PNG_PALETTE_BYTES + PNG_CHUNK_FRAME;
+    }
+    free(grey.bytes);
+    return made != NULL;
 }
 
 bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
@@ -139,6 +182,28 @@ bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
     free(bytes);
     return written;
 }
+
+// --- JPEG ----------------------------------------------------------------------------------------
+
+bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height, int quality,
+                     unsigned char **bytes, size_t *size_bytes) {
+    Buffer buffer = {0};
+    uint8_t *rgb = packed_rgb(rgba8, stride_bytes, width, height);
+    // The encoder allocates nothing itself.
+    const bool made = rgb &&
+                      stbi_write_jpg_to_func(append, &buffer, width, height, 3, rgb, quality) &&
+                      !buffer.failed;
+    free(rgb);
+    if (!made) {
+        free(buffer.bytes);
+        return false;
+    }
+    *bytes = buffer.bytes;
+    *size_bytes = buffer.size;
+    return true;
+}
+
+// --- deflate -------------------------------------------------------------------------------------
 
 // Returns the size of the compressed bytes, or 0 when memory runs out. stb_image_write only reads
 // the bytes, although its parameter is not const.

@@ -10,6 +10,12 @@
 bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height,
                     unsigned char **bytes, size_t *size_bytes);
 
+// Encodes 8-bit indices into a palette of 256 sRGB colours, 3 bytes each, as a PNG in memory. The
+// rows of indices are packed, the top row first. The caller frees *bytes. Returns false when memory
+// runs out. Thread-safe.
+bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palette, int width, int height,
+                            unsigned char **bytes, size_t *size_bytes);
+
 // Writes a frame to a file, whole or not at all (whole_file.h). Fails with DIP_ERROR_IO or
 // DIP_ERROR_MEMORY.
 bool dip_png_write(const char *file, const DipFrame *frame, DipError *err);

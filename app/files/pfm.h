@@ -1,0 +1,14 @@
+// Pictures as PFM files ("portable float map"): 32-bit floating point, without loss.
+#ifndef DIP_APP_FILES_PFM_H
+#define DIP_APP_FILES_PFM_H
+
+#include "renderer/base/error.h"
+
+#include <stdbool.h>
+
+// Writes pixels of three values, rows packed, the top row first, whole or not at all. The file has
+// the type PF, the scale -1 (little-endian) and, as the format demands, its rows from the bottom
+// up. Fails with DIP_ERROR_IO or DIP_ERROR_MEMORY. Thread-safe for different files.
+bool dip_pfm_write(const char *file, const float *rgb, int width, int height, DipError *err);
+
+#endif
