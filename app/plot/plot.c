@@ -185,20 +185,20 @@ static void write_axes(FILE *out, const DipPlot *plot, const Axis *x, const Axis
     for (int i = 0; i < y->tick_count; i++) {
         const double at = pixel(y, y->ticks[i]);
         format_number(y->ticks[i], text);
-        write_line(out, LEFT, at, RIGHT, at, "stroke=\"#d8d8d8\"");
+        write_line(out, LEFT, at, RIGHT, at, "class=\"plot-grid\" stroke=\"#d8d8d8\"");
         write_text(out, LEFT - 8, at + 4.5, "text-anchor=\"end\"", text);
     }
     for (int i = 0; i < x->tick_count; i++) {
         const double at = pixel(x, x->ticks[i]);
         format_number(x->ticks[i], text);
-        write_line(out, at, TOP, at, BOTTOM + 5, "stroke=\"#d8d8d8\"");
+        write_line(out, at, TOP, at, BOTTOM + 5, "class=\"plot-grid\" stroke=\"#d8d8d8\"");
         if (at >= free_from) {
             write_text(out, at, BOTTOM + 21, "text-anchor=\"middle\"", text);
             free_from = at + TICK_ROOM;
         }
     }
-    write_line(out, LEFT, BOTTOM, RIGHT, BOTTOM, "stroke=\"#404040\"");
-    write_line(out, LEFT, TOP, LEFT, BOTTOM, "stroke=\"#404040\"");
+    write_line(out, LEFT, BOTTOM, RIGHT, BOTTOM, "class=\"plot-axis\" stroke=\"#404040\"");
+    write_line(out, LEFT, TOP, LEFT, BOTTOM, "class=\"plot-axis\" stroke=\"#404040\"");
     write_text(out, (LEFT + RIGHT) / 2.0, BOTTOM + 46, "text-anchor=\"middle\"", plot->x_title);
     fprintf(out, "<g transform=\"translate(20 %.1f) rotate(-90)\">", (TOP + BOTTOM) / 2.0);
     write_text(out, 0, 0, "text-anchor=\"middle\"", plot->y_title);
@@ -209,10 +209,24 @@ static const char *dash_of(int index) {
     return index < COLOUR_COUNT ? "" : " stroke-dasharray=\"7 4\"";
 }
 
+static void write_point(FILE *out, const DipPlotSeries *series, int index, double x, double y) {
+    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"", x, y);
+    if (series->rows) {
+        fprintf(out, " class=\"point\" data-row=\"%d\"", series->rows[index]);
+    }
+    if (series->titles) {
+        fprintf(out, "><title>");
+        dip_markup_text(out, series->titles[index]);
+        fprintf(out, "</title></circle>\n");
+    } else {
+        fprintf(out, "/>\n");
+    }
+}
+
 static void write_series(FILE *out, const DipPlotSeries *series, int index, bool bars,
                          const Axis *x, const Axis *y) {
     const char *colour = colours[index % COLOUR_COUNT];
-    fprintf(out, "<g stroke=\"%s\" fill=\"%s\">\n", colour, colour);
+    fprintf(out, "<g class=\"series-%d\" stroke=\"%s\" fill=\"%s\">\n", index, colour, colour);
     for (int i = 0; bars && series->low && series->high && i < series->count; i++) {
         const double at = pixel(x, series->x[i]);
         write_line(out, at, pixel(y, series->low[i]), at, pixel(y, series->high[i]),
@@ -227,8 +241,7 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, bool
         fprintf(out, "\"/>\n");
     }
     for (int i = 0; i < series->count; i++) {
-        fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/>\n", pixel(x, series->x[i]),
-                pixel(y, series->y[i]));
+        write_point(out, series, i, pixel(x, series->x[i]), pixel(y, series->y[i]));
     }
     fprintf(out, "</g>\n");
     for (int i = 0; series->labels && i < series->count; i++) {
@@ -242,7 +255,7 @@ static void write_legend_entry(FILE *out, const DipPlotSeries *series, int index
     const char *colour = colours[index % COLOUR_COUNT];
     const double x = LEFT + LEGEND_WIDTH * (index % 2);
     const double y = LEGEND_TOP + LEGEND_LINE * (index / 2);
-    fprintf(out, "<g stroke=\"%s\" fill=\"%s\">", colour, colour);
+    fprintf(out, "<g class=\"series-%d\" stroke=\"%s\" fill=\"%s\">", index, colour, colour);
     if (!series->marks_only) {
         fprintf(out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke-width=\"2\"%s/>",
                 x, y, x + 34, y, dash_of(index));
@@ -257,14 +270,16 @@ void dip_plot_print(FILE *out, const DipPlot *plot) {
     const int shown = shown_series(plot);
     const int left_out = plot->series_count - shown;
     const int height = LEGEND_TOP + LEGEND_LINE * ((shown + 1) / 2 + (left_out > 0)) + 2;
-    fprintf(out,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
-            "height=\"%d\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" "
-            "font-size=\"13\" fill=\"#202020\">\n<rect width=\"100%%\" height=\"100%%\" "
-            "fill=\"#ffffff\"/>\n",
-            WIDTH, height, WIDTH, height);
+    fprintf(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 %d %d\" "
+        "width=\"%d\" height=\"%d\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" "
+        "font-size=\"13\" fill=\"#202020\"%s%s%s>\n<rect class=\"plot-paper\" width=\"100%%\" "
+        "height=\"100%%\" fill=\"#ffffff\"/>\n",
+        WIDTH, height, WIDTH, height, plot->set ? " data-set=\"" : "", plot->set ? plot->set : "",
+        plot->set ? "\"" : "");
     write_text(out, LEFT, 27, "font-size=\"17\" font-weight=\"bold\"", plot->title);
-    write_text(out, LEFT, 47, "fill=\"#606060\"", plot->subtitle);
+    write_text(out, LEFT, 47, "class=\"plot-note\" fill=\"#606060\"", plot->subtitle);
     write_axes(out, plot, &x, &y);
     for (int s = 0; s < shown; s++) {
         write_series(out, &plot->series[s], s, shown <= MOST_BARRED, &x, &y);

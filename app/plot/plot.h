@@ -1,5 +1,6 @@
 // Line plots as self-contained SVG. Their background is white, so they are legible on light and
-// dark pages.
+// dark pages. A page may restyle them by their classes: plot, plot-paper, plot-grid, plot-axis,
+// plot-note, series-0 and so on, point.
 #ifndef DIP_APP_PLOT_PLOT_H
 #define DIP_APP_PLOT_PLOT_H
 
@@ -21,6 +22,10 @@ typedef struct DipPlotSeries {
     int count;
     bool marks_only;           // True: no line connects the points.
     const char *const *labels; // Texts below and left of the points; NULL for none.
+    // Numbers of the points, which a page's script finds in the attribute data-row, and titles,
+    // which browsers show beside the pointer; NULL for none.
+    const int *rows;
+    const char *const *titles;
 } DipPlotSeries;
 
 // All texts are borrowed. Values on a logarithmic axis must be above 0. A linear y axis begins at
@@ -35,6 +40,7 @@ typedef struct DipPlot {
     // Only the first DIP_PLOT_MAX_SERIES are drawn; the legend says how many are left out.
     const DipPlotSeries *series;
     int series_count; // At least 1. Each series has at least one point.
+    const char *set;  // Attribute data-set of the <svg> element; NULL for none.
 } DipPlot;
 
 // Prints only the <svg> element, for use in an HTML page.

@@ -37,7 +37,7 @@ static int count_of(const char *word) {
 }
 
 static DipPlot make(const DipPlotSeries *series, int count, bool logarithmic) {
-    return (DipPlot){"Title", "Sub", "pixels", "ms", logarithmic, logarithmic, series, count};
+    return (DipPlot){"Title", "Sub", "pixels", "ms", logarithmic, logarithmic, series, count, NULL};
 }
 
 static void plots_contain_names_and_marks(void **state) {
@@ -71,6 +71,23 @@ static void marks_without_a_line_have_labels(void **state) {
     assert_int_equal(count_of("<polyline"), 0);
     assert_int_equal(count_of("stroke-width=\"2\""), 0);
     assert_int_equal(count_of(">p<") + count_of(">&lt;q&gt;<") + count_of(">r<"), 3);
+}
+
+// A page finds points by their rows, and browsers show their titles. The legend's marks have none.
+static void points_have_rows_and_titles(void **state) {
+    (void)state;
+    const double x[] = {1, 2};
+    const int rows[] = {7, 12};
+    const char *const titles[] = {"a < b", "c"};
+    const DipPlotSeries series = {
+        .name = "s", .x = x, .y = x, .count = 2, .rows = rows, .titles = titles};
+    DipPlot plot = make(&series, 1, true);
+    plot.set = "front";
+    written(&plot);
+    assert_int_equal(count_of("class=\"point\""), 2);
+    assert_int_equal(count_of("data-row=\"7\"") + count_of("data-row=\"12\""), 2);
+    assert_int_equal(count_of("<title>a &lt; b</title></circle>"), 1);
+    assert_int_equal(count_of("data-set=\"front\""), 1);
 }
 
 // On logarithmic axes, equal factors give equal distances. So these three points lie on one line.
@@ -121,6 +138,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plots_contain_names_and_marks),
         cmocka_unit_test(marks_without_a_line_have_labels),
+        cmocka_unit_test(points_have_rows_and_titles),
         cmocka_unit_test(powers_lie_on_a_line),
         cmocka_unit_test(many_series_of_one_point_can_be_plotted),
         cmocka_unit_test(a_missing_folder_is_an_error),
