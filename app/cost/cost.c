@@ -71,6 +71,15 @@ static bool measure(DipCostContext *cost, DipError *err) {
            (options->errors_only || (dip_cost_time_rows(cost, err) && dip_cost_advise(cost, err)));
 }
 
+// Writes the time of day into the report.
+static void set_date(DipCostReport *report) {
+    const time_t now = time(NULL);
+    struct tm utc;
+    if (gmtime_r(&now, &utc)) {
+        strftime(report->date, sizeof report->date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    }
+}
+
 static bool run(DipSession *session, const DipCostArguments *arguments, DipCostReport *report,
                 DipError *err) {
     char plan[33];
@@ -88,6 +97,7 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     }
     bool done = measure(&cost, err);
     if (done) {
+        set_date(report);
         dip_cost_remember_level(report, cost.cache);
         done = write_report(&cost, arguments->out, err);
     }

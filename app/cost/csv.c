@@ -11,7 +11,7 @@ static void write_head(FILE *out) {
     fprintf(out,
             "kind,title,path,settings,ratio,ratio_low,ratio_high,ms,ms_low,ms_high,"
             "p95_ms,p95_ms_high,worst_ms,worst_ms_high,scene,width,height,processor,threads,isa,"
-            "version,verdict");
+            "version,date,verdict");
     for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
         const char *name = dip_metric_region_names[r];
         fprintf(out, ",%s_pixels,%s_rmse_lin,%s_psnr_db,%s_ssim,%s_flip", name, name, name, name,
@@ -43,13 +43,33 @@ static void write_errors(const DipCostReport *report, int row, FILE *out) {
             dip_cost_floor_mark(report, row));
 }
 
-// Writes one line. The settings are quoted, since they contain commas.
+// Writes a comma and a quoted text. Quotes within the text are doubled (RFC 4180).
+static void write_quoted(const char *text, FILE *out) {
+    fputs(",\"", out);
+    for (; *text; text++) {
+        *text == '"' ? fputs("\"\"", out) : fputc(*text, out);
+    }
+    fputc('"', out);
+}
+
+// What all lines of a report have in common.
+static void write_report(const DipCostReport *report, FILE *out) {
+    write_quoted(report->scene, out);
+    fprintf(out, ",%d,%d", report->width, report->height);
+    write_quoted(report->processor, out);
+    fprintf(out, ",%d,%s,%s,%s,%s", report->threads, report->isa, report->version, report->date,
+            report->rounds > 0 ? dip_cost_verdict_names[report->verdict] : "");
+}
+
+// Writes one line.
 static void write_row(const DipCostReport *report, const char *kind, const char *title, int row,
                       const DipStatsEstimate *ratio, FILE *out) {
     char settings[256];
     dip_quality_format(&report->rows[row].quality, settings, sizeof settings);
-    fprintf(out, "%s,\"%s\",%s,\"%s\"", kind, title, report->paths[report->rows[row].path],
-            settings);
+    fputs(kind, out);
+    write_quoted(title, out);
+    fprintf(out, ",%s", report->paths[report->rows[row].path]);
+    write_quoted(settings, out);
     if (dip_cost_is_timed(report, row)) {
         const DipPathEstimate *time = &report->rows[row].time;
         fprintf(out, ",%.6g,%.6g,%.6g,%.6g,%.6g,%.6g", ratio->value, ratio->low, ratio->high,
@@ -59,9 +79,7 @@ static void write_row(const DipCostReport *report, const char *kind, const char 
     } else {
         fprintf(out, ",,,,,,,,,,");
     }
-    fprintf(out, ",\"%s\",%d,%d,\"%s\",%d,%s,%s,%s", report->scene, report->width, report->height,
-            report->processor, report->threads, report->isa, report->version,
-            report->rounds > 0 ? dip_cost_verdict_names[report->verdict] : "");
+    write_report(report, out);
     write_errors(report, row, out);
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         fprintf(out, ",%.10g", report->rows[row].counters[c]);

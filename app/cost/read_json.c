@@ -8,6 +8,7 @@
 #include <cjson/cJSON.h>
 #include <limits.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -147,6 +148,10 @@ static bool read_header(const cJSON *root, DipCostReport *report) {
               &ok);
     DIP_COST_HEADER_TEXTS(READ_TEXT)
 #undef READ_TEXT
+    const cJSON *date = cJSON_GetObjectItemCaseSensitive(root, "date");
+    if (date) { // Older reports have no date.
+        copy_text(date, report->date, sizeof report->date, &ok);
+    }
 #define READ_NUMBER(field, most) report->field = integer(root, #field, 0, most, &ok);
     DIP_COST_HEADER_NUMBERS(READ_NUMBER)
 #undef READ_NUMBER
@@ -171,21 +176,32 @@ static bool read_header(const cJSON *root, DipCostReport *report) {
     return ok && report->path_count > 0;
 }
 
-static bool read_pairs(const cJSON *object, int frames, DipTimePair *pairs) {
-    double *values = malloc((size_t)frames * sizeof *values);
-    bool ok = values != NULL;
-#define READ_PAIRS(field)                                                                          \
-    ok = ok &&                                                                                     \
-         numbers(cJSON_GetObjectItemCaseSensitive(object, #field), frames, 0.0, max_ms, values);   \
-    for (int f = 0; ok && f < frames; f++) {                                                       \
-        pairs[f].field = values[f];                                                                \
+// Reads the array `name` into the field of each pair that is `offset` bytes from the pair's start.
+static bool read_pair_field(const cJSON *object, const char *name, int frames, DipTimePair *pairs,
+                            size_t offset) {
+    const cJSON *array = cJSON_GetObjectItemCaseSensitive(object, name);
+    const cJSON *item;
+    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != frames) {
+        return false;
     }
+    cJSON_ArrayForEach(item, array) {
+        if (!cJSON_IsNumber(item) || !(item->valuedouble >= 0.0 && item->valuedouble <= max_ms)) {
+            return false;
+        }
+        memcpy((char *)pairs++ + offset, &item->valuedouble, sizeof item->valuedouble);
+    }
+    return true;
+}
+
+static bool read_pairs(const cJSON *object, int frames, DipTimePair *pairs) {
+    bool ok = true;
+#define READ_PAIRS(field)                                                                          \
+    ok = ok && read_pair_field(object, #field, frames, pairs, offsetof(DipTimePair, field));
     DIP_COST_PAIR_FIELDS(READ_PAIRS)
 #undef READ_PAIRS
     for (int f = 0; ok && f < frames; f++) {
         ok = pairs[f].ms >= min_ms && pairs[f].base_ms >= min_ms;
     }
-    free(values);
     return ok;
 }
 

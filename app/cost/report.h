@@ -144,6 +144,7 @@ typedef struct DipCostReport {
     char isa[16];
     char version[32];
     char build[33]; // Hash of the program's file.
+    char date[24];  // When the measurement ended: ISO 8601, UTC; "" if unknown.
     int threads;
     int width;  // Pixels.
     int height; // Pixels.

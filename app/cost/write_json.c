@@ -300,6 +300,9 @@ static void add_header(cJSON *root, const DipCostReport *report) {
 #define ADD_TEXT(field) cJSON_AddStringToObject(root, #field, report->field);
     DIP_COST_HEADER_TEXTS(ADD_TEXT)
 #undef ADD_TEXT
+    if (report->date[0]) {
+        cJSON_AddStringToObject(root, "date", report->date);
+    }
 #define ADD_NUMBER(field, most) cJSON_AddNumberToObject(root, #field, report->field);
     DIP_COST_HEADER_NUMBERS(ADD_NUMBER)
 #undef ADD_NUMBER

@@ -50,6 +50,7 @@ void dip_made_report(DipCostReport *report, int rounds) {
         .processor = "none",
         .isa = "scalar",
         .build = "b",
+        .date = "2026-01-31T23:59:58Z",
         .version = "0",
         .threads = 2,
         .width = 64,
