@@ -109,6 +109,22 @@ static bool read_budget_of(void *fields, const DipOptionRow *row, const char *va
     return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, "p95, mean or worst");
 }
 
+const char *const dip_cost_picture_kind_names[3] = {
+    [DIP_COST_PICTURES_CROPS] = "crops",
+    [DIP_COST_PICTURES_FULL] = "full",
+    [DIP_COST_PICTURES_NONE] = "none",
+};
+
+static bool read_pictures(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    for (int i = 0; i < (int)DIP_ARRAY_COUNT(dip_cost_picture_kind_names); i++) {
+        if (strcmp(value, dip_cost_picture_kind_names[i]) == 0) {
+            ((DipCostOptions *)fields)->pictures = (DipCostPictureKind)i;
+            return true;
+        }
+    }
+    return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, "crops, full or none");
+}
+
 // --- the tables ----------------------------------------------------------------------------------
 
 static const DipOptionRow out_rows[] = {
@@ -165,6 +181,16 @@ static const DipOptionRow choice_rows[] = {
              "along the path), mean or worst. The default is p95.",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_budget_of},
+};
+
+static const DipOptionRow picture_rows[] = {
+    {.name = "--pictures",
+     .argument = "KIND",
+     .text = "The pictures in cost.html: crops (the part of each picture in which the steps differ "
+             "most), full (whole frames, as many as fit in 10 MB, and otherwise crops) or none. "
+             "The default is crops.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_pictures},
 };
 
 static const DipOptionRow error_rows[] = {
@@ -257,6 +283,8 @@ static const DipOptionTable out_table = {"What to measure", out_rows, DIP_ARRAY_
 static const DipOptionTable merge_table = {"Output", merge_rows, DIP_ARRAY_COUNT(merge_rows)};
 static const DipOptionTable choice_table = {"What to measure", choice_rows,
                                             DIP_ARRAY_COUNT(choice_rows)};
+static const DipOptionTable picture_table = {"Pictures", picture_rows,
+                                             DIP_ARRAY_COUNT(picture_rows)};
 static const DipOptionTable error_table = {"Errors", error_rows, DIP_ARRAY_COUNT(error_rows)};
 static const DipOptionTable time_table = {"Times", time_rows, DIP_ARRAY_COUNT(time_rows)};
 
@@ -265,6 +293,7 @@ static const DipOptionPart cost_parts[] = {
     {&choice_table, offsetof(DipCostArguments, cost)},
     {&error_table, offsetof(DipCostArguments, cost)},
     {&time_table, offsetof(DipCostArguments, cost)},
+    {&picture_table, offsetof(DipCostArguments, cost)},
     {&dip_scene_option_table, offsetof(DipCostArguments, session)},
     {&dip_path_option_table, offsetof(DipCostArguments, session)},
     {&dip_size_option_table, offsetof(DipCostArguments, session)},

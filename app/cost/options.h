@@ -24,6 +24,15 @@ typedef enum DipCostBudgetOf {
 
 extern const char *const dip_cost_budget_of_names[3]; // "p95", "mean", "worst"
 
+// The pictures in the page.
+typedef enum DipCostPictureKind {
+    DIP_COST_PICTURES_CROPS, // The part of each picture in which the rows differ most.
+    DIP_COST_PICTURES_FULL,  // Whole frames, as many as fit, otherwise crops.
+    DIP_COST_PICTURES_NONE
+} DipCostPictureKind;
+
+extern const char *const dip_cost_picture_kind_names[3]; // "crops", "full", "none"
+
 // What to measure. Texts are borrowed from argv.
 typedef struct DipCostOptions {
     DipQuality baseline;
@@ -45,8 +54,9 @@ typedef struct DipCostOptions {
     double budgets_ms[DIP_COST_MAX_BUDGETS];
     int budget_count;
     DipCostBudgetOf budget_of;
-    bool require_quiet; // Fail if the machine was too busy for the times to be believed.
-    const char *cache;  // Folder of the cached truths; NULL: the user's cache folder.
+    bool require_quiet;          // Fail if the machine was too busy for the times to be believed.
+    const char *cache;           // Folder of the cached truths; NULL: the user's cache folder.
+    DipCostPictureKind pictures; // The pictures in the page.
 } DipCostOptions;
 
 // The whole command line of `diptych cost`.

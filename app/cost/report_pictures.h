@@ -1,28 +1,29 @@
-// Pictures for the HTML page. Each sweep (all steps of one setting) is shown by a crop: the part of
-// the picture in which the steps differ most.
+// Pictures for the HTML page: a set for each sweep (all steps of one setting), and a set for the
+// combinations in the Pareto front of time and error.
 #ifndef DIP_APP_COST_REPORT_PICTURES_H
 #define DIP_APP_COST_REPORT_PICTURES_H
 
-#include "app/cost/context.h"
-
-enum { DIP_COST_CROP_WIDTH = 200, DIP_COST_CROP_HEIGHT = 150 }; // Pixels, at most.
-
-// The crops of one sweep: PNG files in base64, or NULL. Owned.
-typedef struct DipCostCrops {
-    char *truth;
-    char *steps[DIP_COST_MAX_SWEEP_ROWS];
-    char *maps[DIP_COST_MAX_SWEEP_ROWS]; // FLIP maps of the steps against the truth.
-    int x;                               // Upper left corner of the crop, pixels.
-    int y;
-    int viewpoint;
-} DipCostCrops;
+#include "app/cost/picture_set.h"
 
 typedef struct DipCostPictures {
-    DipCostCrops sweeps[DIP_COST_MAX_SWEEPS]; // In the order of the report's sweeps.
+    DipCostPictureSet sweeps[DIP_COST_MAX_SWEEPS]; // In the order of the report's sweeps.
+    DipCostPictureSet front;
+    int crops_left_out;  // Number of rows whose crops did not fit in the page.
+    int frames_left_out; // Number of rows whose whole frames did not fit, if they were asked for.
 } DipCostPictures;
 
-// Draws every sweep once more at one viewpoint and cuts out the crops.
+// The greatest size of a page, in bytes.
+#define DIP_COST_PAGE_BYTES 10000000.0
+
+// Draws every sweep and the front once more at one viewpoint and cuts out the crops, or with
+// --pictures full whole frames. Leaves out what does not fit in a page. With --pictures none, there
+// are no pictures.
 bool dip_cost_pictures_make(DipCostPictures *pictures, DipCostContext *cost, DipError *err);
 void dip_cost_pictures_free(DipCostPictures *pictures);
+
+// Frees the pictures that do not fit in `room` bytes and counts the rows concerned. Each row has
+// its crop first, the sweeps before the front. Then whole frames take the place of crops, the front
+// before the sweeps.
+void dip_cost_pictures_fit(DipCostPictures *pictures, double room);
 
 #endif

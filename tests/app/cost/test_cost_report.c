@@ -448,6 +448,7 @@ static void check_values(const void *a, const void *b, size_t size) {
 static void check_same(const DipCostReport *a, const DipCostReport *b) {
     assert_string_equal(a->scene, b->scene);
     assert_string_equal(a->scene_hash, b->scene_hash);
+    assert_string_equal(a->date, b->date);
     assert_int_equal(a->rounds, b->rounds);
     assert_int_equal(a->combined_first, b->combined_first);
     assert_string_equal(a->paths[1], b->paths[1]);
@@ -519,6 +520,28 @@ static void write_whole(const char *text, size_t size) {
     fclose(out);
 }
 
+// Reports of earlier versions have no date.
+static void json_without_a_date_is_read(void **state) {
+    (void)state;
+    DipCostReport report;
+    DipCostReport read;
+    DipError err = {0};
+    size_t size;
+    dip_made_report(&report, 2);
+    assert_true(dip_cost_write_json(&report, file, &err));
+    char *text = read_whole(&size);
+    char *date = strstr(text, "\"date\":\"2026-01-31T23:59:58Z\",");
+    assert_non_null(date);
+    memmove(date, strchr(date, ',') + 1, strlen(strchr(date, ',')));
+    write_whole(text, strlen(text));
+    assert_true(dip_cost_read_json(&read, file, &err));
+    assert_string_equal(read.date, "");
+    dip_cost_report_free(&read);
+    dip_cost_report_free(&report);
+    free(text);
+    remove(file);
+}
+
 // A file that is cut short anywhere, or that lacks a field, is refused, and the error names the
 // file.
 static void broken_json_is_refused(void **state) {
@@ -560,8 +583,12 @@ static void csv_and_page_are_complete(void **state) {
     DipError err = {0};
     size_t size;
     dip_made_report(&report, 2);
+    strcpy(report.scene, "a \"b\", c");
     assert_true(dip_cost_write_csv(&report, file, &err));
     char *text = read_whole(&size);
+    assert_non_null(strstr(text, ",\"a \"\"b\"\", c\",64,48,"));
+    assert_non_null(strstr(text, ",version,date,verdict,"));
+    assert_non_null(strstr(text, ",0,2026-01-31T23:59:58Z,green,"));
     int lines = 0, commas = 0, first = 0;
     bool quoted = false;
     for (const char *c = text; *c; c++) {
@@ -581,7 +608,12 @@ static void csv_and_page_are_complete(void **state) {
     assert_non_null(strstr(text, "opt=standard"));
     assert_non_null(strstr(text, "</html>"));
     assert_null(strstr(text, "http://www.w3.org/1999"));
-    assert_null(strstr(text, "href="));
+    for (const char *at = text; (at = strstr(at, "href=")) != NULL; at++) {
+        assert_int_equal(strncmp(at, "href=\"#", 7), 0); // a link within the page
+    }
+    assert_null(strstr(text, " src=\"h"));
+    assert_null(strstr(text, "@import"));
+    assert_non_null(strstr(text, "2026-01-31T23:59:58Z"));
     assert_null(strstr(text, "nan"));
     free(text);
     remove(file);
@@ -606,6 +638,7 @@ int main(void) {
         cmocka_unit_test(the_spread_of_runs_has_its_closed_form),
         cmocka_unit_test(runs_are_remembered_in_the_cache),
         cmocka_unit_test(json_keeps_everything),
+        cmocka_unit_test(json_without_a_date_is_read),
         cmocka_unit_test(broken_json_is_refused),
         cmocka_unit_test(csv_and_page_are_complete),
     };

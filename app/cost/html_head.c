@@ -1,0 +1,165 @@
+// The head of the HTML page: what was measured where, the verdict on the machine, the advice.
+#include "app/cost/html_parts.h"
+
+#include "app/plot/markup.h"
+
+static void write_fact(FILE *out, const char *title, const char *text) {
+    fprintf(out, "<div><dt>%s</dt><dd>", title);
+    dip_markup_text(out, text);
+    fprintf(out, "</dd></div>\n");
+}
+
+static void write_scene_facts(const DipCostReport *report, FILE *out) {
+    char text[2 * DIP_COST_TEXT];
+    snprintf(text, sizeof text, "%dx%d pixels", report->width, report->height);
+    write_fact(out, "Picture", text);
+    write_fact(out, "Processor", report->processor);
+    snprintf(text, sizeof text, "%d thread%s, %s", report->threads,
+             dip_cost_plural(report->threads), report->isa);
+    write_fact(out, "Renderer", text);
+    if (report->date[0]) {
+        write_fact(out, "Measured", report->date);
+    }
+    snprintf(text, sizeof text, "Diptych %s", report->version);
+    write_fact(out, "Version", text);
+}
+
+static void write_method_facts(const DipCostReport *report, FILE *out) {
+    const DipCostOptions *o = &report->options;
+    char text[2 * DIP_COST_TEXT];
+    char baseline[DIP_COST_TEXT];
+    dip_cost_settings_text(&o->baseline, baseline);
+    write_fact(out, "Settings of the baseline", baseline);
+    if (report->rounds > 0) {
+        snprintf(text, sizeof text,
+                 "%d frames along each path in %d rounds of random order, each beside the baseline",
+                 dip_cost_frame_count(report), report->rounds);
+        write_fact(out, "Times", text);
+    }
+    snprintf(text, sizeof text, "%d viewpoint%s on each path, %d successive frame%s at each",
+             o->places, dip_cost_plural(o->places), o->burst, dip_cost_plural(o->burst));
+    write_fact(out, "Errors", text);
+    snprintf(text, sizeof text, "two pictures of %d samples per pixel each", o->samples);
+    write_fact(out, "Truth (converged picture)", text);
+}
+
+// The verdict on the machine, and the A/A rows of all paths.
+static void write_verdict(const DipCostReport *report, FILE *out) {
+    const char *verdict = dip_cost_verdict_names[report->verdict];
+    fprintf(out, "<p class=\"verdict %s\"><b>The machine was %s.</b> ", verdict, verdict);
+    dip_markup_text(out, report->verdict_reason);
+    fprintf(out, "%s</p>\n",
+            report->verdict == DIP_COST_RED
+                ? " The times below are wrong, and no settings are advised."
+                : "");
+    dip_html_table_begin(out, "baseline-twice", "");
+    fprintf(out, "On each path, the baseline was timed a second time as if it were another setting "
+                 "(A/A). Differences between settings that are smaller than these are noise.");
+    dip_html_columns_begin(out);
+    dip_html_text_column(out, "path");
+    dip_html_column(out, "ratio", NULL);
+    dip_html_column(out, "95 % interval", NULL);
+    dip_html_columns_end(out);
+    for (int p = 0; p < report->path_count; p++) {
+        const DipStatsEstimate same = report->rows[report->same_rows[p]].time.ratio;
+        dip_html_line_begin(out, report->same_rows[p]);
+        fprintf(out, "<th scope=\"row\">%s</th><td>%.3f</td><td>%.3f to %.3f</td></tr>\n",
+                report->paths[p], same.value, same.low, same.high);
+    }
+    dip_html_table_end(out);
+}
+
+// The contents. The caller writes the sections that are named here.
+static void write_contents(const DipCostReport *report, FILE *out) {
+    fprintf(out, "<nav aria-label=\"Contents\"><ul>\n");
+    if (report->advice_count) {
+        fprintf(out, "<li><a href=\"#advice\">Best settings for a time budget</a></li>\n");
+    }
+    if (report->combined_first < report->row_count && report->rounds > 0) {
+        fprintf(out, "<li><a href=\"#front\">Time against error</a></li>\n");
+    }
+    fprintf(out, "<li><a href=\"#settings\">Each setting</a></li>\n"
+                 "<li><a href=\"#parts\">Where the errors are</a></li>\n");
+    if (report->rounds > 0) {
+        fprintf(out, "<li><a href=\"#work\">Work</a></li>\n");
+    }
+    fprintf(out, "<li><a href=\"#truth\">The truth</a></li>\n"
+                 "<li><a href=\"#words\">What the words mean</a></li>\n</ul></nav>\n");
+}
+
+void dip_html_head(const DipCostReport *report, FILE *out) {
+    fprintf(out, "<header>\n<h1>What accuracy costs: ");
+    dip_markup_text(out, report->scene);
+    fprintf(out, "</h1>\n<dl class=\"facts\">\n");
+    write_scene_facts(report, out);
+    write_method_facts(report, out);
+    fprintf(out, "</dl>\n");
+    if (report->rounds > 0) {
+        write_verdict(report, out);
+    }
+    write_contents(report, out);
+    fprintf(out, "</header>\n");
+}
+
+// --- advice ------------------------------------------------------------------------------------
+
+static void write_next_better(const DipCostReport *report, int row, double flip, FILE *out) {
+    const int next = dip_cost_step_up(report, row);
+    if (next < 0) {
+        fprintf(out, "<td class=\"l\">none</td><td></td><td></td></tr>\n");
+        return;
+    }
+    fprintf(out, "<td class=\"l\">");
+    dip_html_settings(report, next, out);
+    fprintf(out, "</td><td>%+.2f</td><td>%+.4f</td></tr>\n",
+            dip_cost_ms(report, next) - dip_cost_ms(report, row),
+            dip_cost_row_metrics(report, next, 0).flip - flip);
+}
+
+static void write_advice_line(const DipCostReport *report, const DipCostAdvice *advice, FILE *out) {
+    dip_html_line_begin(out, advice->row);
+    fprintf(out, "<th scope=\"row\">%g</th>", advice->budget_ms);
+    if (advice->row < 0) {
+        fprintf(out, "<td class=\"l\">no measured combination is surely that fast</td><td></td>"
+                     "<td></td><td></td><td></td><td class=\"l\"></td><td></td><td></td></tr>\n");
+        return;
+    }
+    const DipMetrics f = dip_cost_row_metrics(report, advice->row, 0);
+    fprintf(out, "<td class=\"l name\">");
+    dip_html_settings(report, advice->row, out);
+    fprintf(out, "</td><td>%.2f</td><td>%.2f to %.2f</td><td>%.4f</td><td>%.5f</td>", advice->ms,
+            advice->ms_low, advice->ms_high, f.flip, f.rmse_lin);
+    write_next_better(report, advice->row, f.flip, out);
+}
+
+void dip_html_advice(const DipCostReport *report, FILE *out) {
+    if (report->advice_count == 0) {
+        return;
+    }
+    const char *of = dip_cost_budget_of_names[report->options.budget_of];
+    fprintf(out,
+            "<h2 id=\"advice\">Best settings for a time budget</h2>\n"
+            "<p>For each time budget, the table shows the settings with the least FLIP that are "
+            "within the budget: the upper end of the interval of their %s time along the path is "
+            "at most the budget. &ldquo;Next better&rdquo; is the fastest combination whose FLIP "
+            "is at least 1 %% below that of the chosen settings.</p>\n",
+            of);
+    dip_html_table_begin(out, "advice-table", " data-set=\"front\"");
+    fprintf(out, "The best of %d combinations on path %s for each budget.",
+            report->row_count - report->combined_first, report->paths[0]);
+    dip_html_columns_begin(out);
+    dip_html_column(out, "budget", "ms");
+    dip_html_text_column(out, "settings");
+    dip_html_column(out, of, "ms");
+    dip_html_column(out, "95 % interval", "ms");
+    dip_html_column(out, "FLIP", NULL);
+    dip_html_column(out, "RMSE", "linear");
+    dip_html_text_column(out, "next better");
+    dip_html_column(out, "change of time", "ms");
+    dip_html_column(out, "change of FLIP", NULL);
+    dip_html_columns_end(out);
+    for (int i = 0; i < report->advice_count; i++) {
+        write_advice_line(report, &report->advice[i], out);
+    }
+    dip_html_table_end(out);
+}
