@@ -8,6 +8,7 @@
 #include "app/cost/report_pictures.h"
 #include "app/cost/same_pictures.h"
 #include "app/cost/steps.h"
+#include "app/cost/truth_files.h"
 #include "app/files/folder.h"
 #include "app/interrupt.h"
 
@@ -80,6 +81,12 @@ static void set_date(DipCostReport *report) {
     }
 }
 
+// Writes the truths if --save-truths asks for them.
+static bool save_truths(DipCostContext *cost, DipError *err) {
+    const char *folder = cost->report->options.truths;
+    return !folder || dip_cost_save_truths(cost, folder, err);
+}
+
 static bool run(DipSession *session, const DipCostArguments *arguments, DipCostReport *report,
                 DipError *err) {
     char plan[33];
@@ -99,7 +106,7 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     if (done) {
         set_date(report);
         dip_cost_remember_level(report, cost.cache);
-        done = write_report(&cost, arguments->out, err);
+        done = save_truths(&cost, err) && write_report(&cost, arguments->out, err);
     }
     dip_cost_context_close(&cost);
     dip_cost_journal_close(&journal, done);

@@ -191,6 +191,12 @@ static const DipOptionRow picture_rows[] = {
              "The default is crops.",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_pictures},
+    {.name = "--save-truths",
+     .argument = "DIR",
+     .text = "Also write the converged pictures into this folder, as PFM files in linear light. "
+             "Other programs can check the errors with them.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(truths)},
 };
 
 static const DipOptionRow error_rows[] = {

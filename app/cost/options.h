@@ -57,6 +57,7 @@ typedef struct DipCostOptions {
     bool require_quiet;          // Fail if the machine was too busy for the times to be believed.
     const char *cache;           // Folder of the cached truths; NULL: the user's cache folder.
     DipCostPictureKind pictures; // The pictures in the page.
+    const char *truths;          // Folder to write the truths to, as PFM; NULL: none are written.
 } DipCostOptions;
 
 // The whole command line of `diptych cost`.
