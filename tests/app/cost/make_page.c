@@ -1,0 +1,166 @@
+// Writes the page of a made-up report with made-up pictures, for page.py: make_page FILE.
+#include "app/cost/data_uri.h"
+#include "app/cost/html.h"
+#include "app/files/jpeg.h"
+#include "app/files/png.h"
+#include "tests/app/cost/made_report.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { COMBINATIONS = 50, WIDTH = 64, HEIGHT = 48, CROP = 24 };
+
+// --- rows ----------------------------------------------------------------------------------------
+
+// Gives all parts of the picture errors that differ from row to row.
+static void fill_errors(DipCostReport *report, DipCostRow *row, double error) {
+    for (int p = 0; p < report->options.places; p++) {
+        row->judged[p] = true;
+        row->viewpoints[p].bursts = 1.0;
+        row->viewpoints[p].squared_flicker = error * error / 9.0;
+        row->viewpoints[p].squared_two_mean = error * error / 2.0;
+        for (int r = 0; r < DIP_METRIC_REGION_COUNT; r++) {
+            const double pixels = r == 1 ? 0.0 : 100.0 + r;
+            row->viewpoints[p].regions[r] =
+                (DipMetricRegionSums){.pixels = pixels,
+                                      .squared_lin = pixels * error * error,
+                                      .squared_codes = pixels * 3000.0 * error * error,
+                                      .flip = pixels * error,
+                                      .ssim_pixels = pixels,
+                                      .ssim = pixels * (1.0 - error)};
+        }
+    }
+}
+
+static void add_combination(DipCostReport *report, int index) {
+    DipQuality quality = dip_quality_default();
+    quality.step[DIP_SETTING_AA] = (uint8_t)(index % 5);
+    quality.step[DIP_SETTING_AF] = (uint8_t)(index / 5 % 5);
+    quality.step[DIP_SETTING_MIPLOD] = (uint8_t)(3 - index / 25);
+    const int added = dip_cost_report_add_row(report, &quality, 0, NULL);
+    if (added < 0) {
+        abort();
+    }
+    DipCostRow *row = &report->rows[added];
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        row->counters[c] = c < 3 ? 7000.0 : 123456.7 * (1 + c + index % 7);
+    }
+    dip_made_times(report, added, 2.0 + 1.7 * (index % 5) + 0.23 * index);
+    fill_errors(report, row, 0.11 - 0.013 * (index % 5) - 0.0007 * index + 0.0031 * (index % 3));
+}
+
+static void add_combinations(DipCostReport *report) {
+    DipCostRow *rows = realloc(report->rows, DIP_COST_MAX_ROWS * sizeof *rows);
+    if (!rows) {
+        abort();
+    }
+    report->rows = rows;
+    report->combined_first = report->row_count;
+    for (int r = 0; r < report->row_count; r++) {
+        fill_errors(report, &rows[r], 0.09 - 0.01 * r);
+    }
+    for (int i = 0; i < COMBINATIONS; i++) {
+        add_combination(report, i);
+    }
+    report->sweeps[1] =
+        (DipCostSweep){.title = "Mip level of detail",
+                       .setting = DIP_SETTING_MIPLOD,
+                       .base = report->combined_first,
+                       .rows = {report->combined_first + 25, report->combined_first},
+                       .row_count = 2};
+    report->sweep_count = 2;
+    if (!dip_cost_estimate_times(report, NULL)) {
+        abort();
+    }
+}
+
+// --- pictures ------------------------------------------------------------------------------------
+
+static uint8_t pixels[WIDTH * HEIGHT * 4];
+
+// Draws stripes; the picture with number 0 is the truth.
+static void draw(int number) {
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            uint8_t *pixel = pixels + 4 * (y * WIDTH + x);
+            pixel[0] = (uint8_t)(3 * x + 5 * number);
+            pixel[1] = (uint8_t)(5 * y);
+            pixel[2] = (uint8_t)((x + y + number) / 4 % 2 ? 200 : 40);
+            pixel[3] = 255;
+        }
+    }
+}
+
+static char *uri(const char *type, bool made, unsigned char **bytes, const size_t *size) {
+    char *text = made ? dip_cost_data_uri(type, *bytes, *size) : NULL;
+    if (!text) {
+        abort();
+    }
+    free(*bytes);
+    return text;
+}
+
+static void fill_picture(DipCostPicture *picture, int row, int number, bool whole) {
+    uint8_t palette[3 * 256];
+    uint8_t indices[CROP * CROP];
+    unsigned char *bytes;
+    size_t size;
+    draw(number);
+    picture->row = row;
+    bool made = dip_png_encode(pixels, WIDTH * 4, CROP, CROP, &bytes, &size);
+    picture->crop = uri("image/png", made, &bytes, &size);
+    if (whole) {
+        made = dip_jpeg_encode(pixels, WIDTH * 4, WIDTH, HEIGHT, 95, &bytes, &size);
+        picture->frame = uri("image/jpeg", made, &bytes, &size);
+    }
+    if (row < 0) {
+        return;
+    }
+    for (int i = 0; i < 256; i++) {
+        palette[3 * i] = palette[3 * i + 1] = palette[3 * i + 2] = (uint8_t)(255 - i);
+    }
+    for (int i = 0; i < CROP * CROP; i++) {
+        indices[i] = (uint8_t)(i % 251 + number);
+    }
+    made = dip_png_encode_indexed(indices, palette, CROP, CROP, &bytes, &size);
+    picture->map = uri("image/png", made, &bytes, &size);
+}
+
+// The set of the combinations has whole frames, too.
+static void fill_set(DipCostPictureSet *set, const int *rows, int count, bool whole) {
+    fill_picture(&set->truth, -1, 0, whole);
+    set->count = count;
+    set->x = 8;
+    set->y = 16;
+    for (int i = 0; i < count; i++) {
+        fill_picture(&set->pictures[i], rows[i], i + 1, whole);
+    }
+}
+
+int main(int argc, char **argv) {
+    DipCostReport report;
+    DipCostPictures pictures = {0};
+    DipError err = {0};
+    if (argc != 2) {
+        fprintf(stderr, "usage: make_page FILE\n");
+        return 2;
+    }
+    dip_made_report(&report, 3);
+    add_combinations(&report);
+    const int first = report.combined_first;
+    report.options.pictures = DIP_COST_PICTURES_FULL;
+    report.advice[0] = (DipCostAdvice){0.5, -1, 0.0, 0.0, 0.0};
+    report.advice[1] = (DipCostAdvice){6.0, first + 1, 3.93, 3.9, 3.95};
+    report.advice_count = 2;
+    for (int s = 0; s < report.sweep_count; s++) {
+        fill_set(&pictures.sweeps[s], report.sweeps[s].rows, report.sweeps[s].row_count, false);
+    }
+    fill_set(&pictures.front, (const int[]){first, first + 1, first + 2, first + 49}, 4, true);
+    const bool written = dip_cost_write_html(&report, &pictures, argv[1], &err);
+    if (!written) {
+        fprintf(stderr, "%s\n", err.message);
+    }
+    dip_cost_pictures_free(&pictures);
+    dip_cost_report_free(&report);
+    return written ? 0 : 1;
+}
