@@ -3,7 +3,9 @@
 TOP=$PWD
 PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libfreetype-dev libfontconfig-dev
     fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcglm-dev libcjson-dev"
-PACKAGES_TEST="$PACKAGES_RUN g++ git doxygen clang clang-format libcmocka-dev xvfb xauth xdotool imagemagick"
+PACKAGES_TEST="$PACKAGES_RUN g++ git doxygen clang clang-format libcmocka-dev xvfb xauth xdotool imagemagick
+    python3"
+PACKAGES_LONG="chromium chromium-driver python3-selenium poppler-utils" # the cost report's page
 PACKAGES_FUZZ="clang libclang-rt-14-dev llvm" # llvm: names of functions in the findings
 
 is_installed() {

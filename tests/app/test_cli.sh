@@ -314,6 +314,7 @@ expect 2 "\[--budget-ms\] 'x' is not a number of milliseconds" "$diptych" cost -
 expect 2 "\[--budget-ms\] advice needs times" "$diptych" cost --out x --budget-ms 8 --errors-only
 expect 2 "\[--combine\] 'ab' is not a setting; give none, or some of aa, taa" "$diptych" cost --out x --combine aa,ab
 expect 2 "\[--pixels-per-degree\] '2' is not a number from 5 to 500" "$diptych" cost --out x --pixels-per-degree 2
+expect 2 "\[--pictures\] 'all' is not crops, full or none" "$diptych" cost --out x --pictures all
 expect 2 "\[cost merge\] there are no parts to join; give the cost.json of each" "$diptych" cost merge --out x
 expect 2 'none.json: cannot open report' "$diptych" cost merge --out x none.json
 echo '{}' >empty.json
@@ -334,8 +335,13 @@ fi
 check "the page contains its pictures" grep -q 'data:image/png;base64' whole/cost.html
 # The other checks use a scene that loads quickly.
 cost="$cost --model $source/tests/assets/data/square.gltf"
-expect 0 '' $cost --out part0 --part 0:1 --rounds 2 --combine aa
-expect 0 '' $cost --out part1 --part 1:2 --errors-only --rounds 2 --combine aa
+expect 0 '' $cost --out part0 --part 0:1 --rounds 2 --combine aa --pictures full
+check "the page has whole frames" grep -q 'data-part="frame"[^>]*data:image/jpeg;base64' part0/cost.html
+expect 0 '' $cost --out part1 --part 1:2 --errors-only --rounds 2 --combine aa \
+    --pictures none --save-truths pfm
+check "the page has no pictures" test "$(grep -c '<img' part1/cost.html)" = 0
+check "the truths of the part's viewpoints are saved" \
+    test "$(ls pfm | sort | head -n 2 | tr '\n' ' ')" = 'DEFAULT-1-0.pfm DEFAULT-1-1.pfm '
 expect 0 '' "$diptych" cost merge --out merged part1/cost.json part0/cost.json
 sums_of() {
     grep -oE '"(sums|half_against_half)":\[[^]]*\]' "$1/cost.json" | sort
