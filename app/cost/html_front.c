@@ -2,84 +2,26 @@
 #include "app/cost/html_parts.h"
 
 #include "app/cost/front.h"
-#include "app/plot/plot.h"
+#include "app/cost/html_points.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+// A row whose title a point shows.
+typedef struct Titled {
+    const DipCostReport *report;
+    int row;
+} Titled;
 
-enum { LABEL_ROOM = 12 };
-
-// What one series of the plot has for each of its points. All arrays are owned.
-typedef struct Points {
-    int *rows;
-    int count;
-    double *x;
-    double *y;
-    const char **labels;
-    char (*label_texts)[LABEL_ROOM];
-    char **titles;
-} Points;
-
-static void free_points(Points *points) {
-    for (int i = 0; points->titles && i < points->count; i++) {
-        free(points->titles[i]);
-    }
-    free(points->rows);
-    free(points->x);
-    free(points->y);
-    free(points->labels);
-    free(points->label_texts);
-    free(points->titles);
+static void write_title(const void *context, FILE *out) {
+    const Titled *titled = context;
+    dip_html_row_title(titled->report, titled->row, out);
 }
 
-static bool alloc_points(Points *points, int room) {
-    const size_t count = (size_t)room + 1;
-    points->rows = calloc(count, sizeof *points->rows);
-    points->x = calloc(count, sizeof *points->x);
-    points->y = calloc(count, sizeof *points->y);
-    points->labels = calloc(count, sizeof *points->labels);
-    points->label_texts = calloc(count, sizeof *points->label_texts);
-    points->titles = calloc(count, sizeof *points->titles);
-    return points->rows && points->x && points->y && points->labels && points->label_texts &&
-           points->titles;
+static bool add_row(const DipCostReport *report, DipHtmlPoints *points, int row) {
+    return dip_html_points_add(points, row, dip_cost_ms(report, row),
+                               dip_cost_row_metrics(report, row, 0).flip, write_title,
+                               &(Titled){report, row});
 }
 
-// Returns dip_html_row_title as a text. The caller frees it. Returns NULL when memory runs out.
-static char *make_title(const DipCostReport *report, int row) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out) {
-        return NULL;
-    }
-    dip_html_row_title(report, row, out);
-    const bool made = !ferror(out);
-    if (fclose(out) != 0 || !made) {
-        free(text);
-        return NULL;
-    }
-    return text;
-}
-
-// Fills in what belongs to the rows. The axes are logarithmic, so an error of 0 is plotted as the
-// least error that is told apart.
-static bool fill_points(const DipCostReport *report, Points *points) {
-    static const double least_flip = 1e-7;
-    bool made = true;
-    for (int i = 0; i < points->count; i++) {
-        const int row = points->rows[i];
-        points->x[i] = dip_cost_ms(report, row);
-        points->y[i] = fmax(dip_cost_row_metrics(report, row, 0).flip, least_flip);
-        snprintf(points->label_texts[i], LABEL_ROOM, "%d", i + 1);
-        points->labels[i] = points->label_texts[i];
-        points->titles[i] = make_title(report, row);
-        made = made && points->titles[i];
-    }
-    return made;
-}
-
-static bool contains(const Points *points, int row) {
+static bool contains(const DipHtmlPoints *points, int row) {
     for (int i = 0; i < points->count; i++) {
         if (points->rows[i] == row) {
             return true;
@@ -88,47 +30,51 @@ static bool contains(const Points *points, int row) {
     return false;
 }
 
-// Splits the combinations into the thinned Pareto front and all others.
-static bool split(const DipCostReport *report, Points *front, Points *others) {
+// The series of the plot.
+typedef struct Parts {
+    DipHtmlPoints front;     // The thinned Pareto front of the measured combinations.
+    DipHtmlPoints others;    // All other measured combinations.
+    DipHtmlPoints predicted; // Combinations that were only predicted.
+} Parts;
+
+static void free_parts(Parts *parts) {
+    dip_html_points_free(&parts->front);
+    dip_html_points_free(&parts->others);
+    dip_html_points_free(&parts->predicted);
+}
+
+// Returns false when memory runs out.
+static bool split(const DipCostReport *report, Parts *parts) {
     int all[DIP_COST_MAX_ROWS];
+    int front[DIP_COST_MAX_ROWS];
     const int count = dip_cost_list_plotted(report, all);
-    int kept[DIP_COST_MAX_ROWS];
-    const int kept_count = dip_cost_list_front(report, kept);
-    if (!alloc_points(front, kept_count) || !alloc_points(others, count)) {
-        return false;
+    const int front_count = dip_cost_list_front(report, front);
+    bool made = dip_html_points_alloc(&parts->front, front_count) &&
+                dip_html_points_alloc(&parts->others, count) &&
+                dip_html_predicted_points(report, &parts->predicted);
+    for (int i = 0; made && i < front_count; i++) {
+        made = add_row(report, &parts->front, front[i]);
     }
-    memcpy(front->rows, kept, (size_t)kept_count * sizeof *kept);
-    front->count = kept_count;
-    for (int i = 0; i < count; i++) {
-        if (!contains(front, all[i])) {
-            others->rows[others->count++] = all[i];
-        }
+    for (int i = 0; made && i < count; i++) {
+        made = contains(&parts->front, all[i]) || add_row(report, &parts->others, all[i]);
     }
-    return fill_points(report, front) && fill_points(report, others);
+    return made;
 }
 
-static DipPlotSeries series_of(const char *name, const Points *points) {
-    return (DipPlotSeries){.name = name,
-                           .x = points->x,
-                           .y = points->y,
-                           .count = points->count,
-                           .rows = points->rows,
-                           .titles = (const char *const *)points->titles};
-}
-
-static void write_plot(const DipCostReport *report, const Points *front, const Points *others,
-                       FILE *out) {
+static void write_plot(const DipCostReport *report, const Parts *parts, FILE *out) {
     char subtitle[DIP_COST_TEXT];
     snprintf(subtitle, sizeof subtitle,
              "%d combinations on path %s, %dx%d pixels; mean of %d frames",
-             front->count + others->count, report->paths[0], report->width, report->height,
-             dip_cost_frame_count(report));
-    DipPlotSeries series[2] = {series_of("other combinations", others),
-                               series_of("Pareto front", front)};
-    series[0].marks_only = true;
-    series[1].labels = front->labels;
-    // Every combination may be in the front; a series has at least one point.
-    const int first = others->count == 0;
+             parts->front.count + parts->others.count, report->paths[0], report->width,
+             report->height, dip_cost_frame_count(report));
+    DipPlotSeries series[] = {
+        dip_html_points_series(&parts->predicted, "predicted only", "series-predicted"),
+        dip_html_points_series(&parts->others, "other combinations", "series-others"),
+        dip_html_points_series(&parts->front, "Pareto front", "series-front"),
+    };
+    series[2].marks_only = false;
+    series[2].labels = parts->front.labels;
+    const int first = parts->predicted.count == 0;
     const DipPlot plot = {
         .title = "Time against error",
         .subtitle = subtitle,
@@ -137,7 +83,7 @@ static void write_plot(const DipCostReport *report, const Points *front, const P
         .log_x = true,
         .log_y = true,
         .series = series + first,
-        .series_count = 2 - first,
+        .series_count = 3 - first,
         .set = "front",
     };
     fprintf(out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Plot of time "
@@ -148,7 +94,7 @@ static void write_plot(const DipCostReport *report, const Points *front, const P
 
 // --- tables ------------------------------------------------------------------------------------
 
-static void write_front_table(const DipCostReport *report, const Points *front, FILE *out) {
+static void write_front_table(const DipCostReport *report, const DipHtmlPoints *front, FILE *out) {
     dip_html_table_begin(out, "pareto-front", " data-set=\"front\"");
     fprintf(out, "The Pareto front. The changes are those from the line before, in order of time.");
     dip_html_columns_begin(out);
@@ -224,25 +170,52 @@ static void write_all_table(const DipCostReport *report, FILE *out) {
     fprintf(out, "</details>\n");
 }
 
+// Says which combinations are missing because another one draws the same pictures.
+static void write_same(const DipCostReport *report, FILE *out) {
+    if (report->same_count == 0) {
+        return;
+    }
+    fprintf(out,
+            "<details><summary>%d more combinations with the same pictures</summary>\n"
+            "<p>Each of these combinations draws the same pictures as one with fewer settings off "
+            "their defaults, which stands for it.</p>\n",
+            report->same_count);
+    dip_html_table_begin(out, "same-pictures", "");
+    fprintf(out, "Combinations with the same pictures, by hash, at all viewpoints.");
+    dip_html_columns_begin(out);
+    dip_html_text_column(out, "settings");
+    dip_html_text_column(out, "draws the same as");
+    dip_html_columns_end(out);
+    for (int i = 0; i < report->same_count; i++) {
+        dip_html_line_begin(out, report->same[i].row);
+        fprintf(out, "<th scope=\"row\">");
+        dip_html_quality(&report->same[i].quality, out);
+        fprintf(out, "</th><td class=\"l name\">");
+        dip_html_settings(report, report->same[i].row, out);
+        fprintf(out, "</td></tr>\n");
+    }
+    dip_html_table_end(out);
+    fprintf(out, "</details>\n");
+}
+
 bool dip_html_front(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
-    Points front = {0};
-    Points others = {0};
-    const bool made = split(report, &front, &others);
-    if (made && front.count + others.count > 1) {
+    Parts parts = {0};
+    const bool made = split(report, &parts);
+    if (made && parts.front.count + parts.others.count > 1) {
         fprintf(out,
                 "<h2 id=\"front\">Time against error</h2>\n"
                 "<p>Both axes are logarithmic. The Pareto front consists of the combinations that "
                 "no other combination beats in both time and error. The FLIP of each numbered "
                 "combination is at least 1 %% below that of the combination with the number "
                 "before.</p>\n");
-        write_plot(report, &front, &others, out);
-        write_front_table(report, &front, out);
+        write_plot(report, &parts, out);
+        write_front_table(report, &parts.front, out);
         if (pictures) {
             dip_html_pictures(report, &pictures->front, "front", NULL, out);
         }
         write_all_table(report, out);
+        write_same(report, out);
     }
-    free_points(&front);
-    free_points(&others);
+    free_parts(&parts);
     return made;
 }

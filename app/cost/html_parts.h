@@ -4,6 +4,7 @@
 #ifndef DIP_APP_COST_HTML_PARTS_H
 #define DIP_APP_COST_HTML_PARTS_H
 
+#include "app/cost/html_points.h"
 #include "app/cost/report.h"
 #include "app/cost/report_pictures.h"
 
@@ -30,7 +31,8 @@ void dip_html_table_end(FILE *out);
 
 // --- rows (html_rows.c) ------------------------------------------------------------------------
 
-// Writes a row's settings, escaped.
+// Writes settings, or those of a row. They need not be escaped.
+void dip_html_quality(const DipQuality *quality, FILE *out);
 void dip_html_settings(const DipCostReport *report, int row, FILE *out);
 
 // Writes what a plot says about a row on one line, not escaped: settings, path, time and errors.
@@ -52,6 +54,12 @@ void dip_html_advice(const DipCostReport *report, FILE *out);
 // Time against error: the plot, the Pareto front, all combinations and the pictures of the front,
 // if `pictures` is not NULL. Returns false when memory runs out.
 bool dip_html_front(const DipCostReport *report, const DipCostPictures *pictures, FILE *out);
+
+// Predicted combinations. Nothing is written if there are none. Both functions return false when
+// memory runs out. The points are those of combinations that were only predicted; free them even
+// after a failure.
+bool dip_html_predictions(const DipCostReport *report, FILE *out);
+bool dip_html_predicted_points(const DipCostReport *report, DipHtmlPoints *points);
 void dip_html_sweeps(const DipCostReport *report, const DipCostPictures *pictures, FILE *out);
 void dip_html_regions(const DipCostReport *report, FILE *out);
 void dip_html_work(const DipCostReport *report, FILE *out);

@@ -3,12 +3,16 @@
 
 #include "app/plot/markup.h"
 
-void dip_html_settings(const DipCostReport *report, int row, FILE *out) {
+void dip_html_quality(const DipQuality *quality, FILE *out) {
     char settings[DIP_COST_TEXT];
-    dip_cost_settings_text(&report->rows[row].quality, settings);
-    for (char *c = settings; *c; c++) {
+    dip_cost_settings_text(quality, settings);
+    for (const char *c = settings; *c; c++) {
         *c == ',' ? fputs(", ", out) : fputc(*c, out);
     }
+}
+
+void dip_html_settings(const DipCostReport *report, int row, FILE *out) {
+    dip_html_quality(&report->rows[row].quality, out);
 }
 
 static void write_time(const DipCostReport *report, int row, FILE *out) {

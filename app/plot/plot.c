@@ -209,9 +209,20 @@ static const char *dash_of(int index) {
     return index < COLOUR_COUNT ? "" : " stroke-dasharray=\"7 4\"";
 }
 
+// Begins the group of a series' line and marks, or of its entry in the legend.
+static void begin_group(FILE *out, const DipPlotSeries *series, int index) {
+    const char *colour = colours[index % COLOUR_COUNT];
+    if (series->style) {
+        fprintf(out, "<g class=\"%s\"", series->style);
+    } else {
+        fprintf(out, "<g class=\"series-%d\"", index);
+    }
+    fprintf(out, " stroke=\"%s\" fill=\"%s\">", colour, colour);
+}
+
 static void write_point(FILE *out, const DipPlotSeries *series, int index, double x, double y) {
     fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"", x, y);
-    if (series->rows) {
+    if (series->rows && series->rows[index] >= 0) {
         fprintf(out, " class=\"point\" data-row=\"%d\"", series->rows[index]);
     }
     if (series->titles) {
@@ -225,8 +236,7 @@ static void write_point(FILE *out, const DipPlotSeries *series, int index, doubl
 
 static void write_series(FILE *out, const DipPlotSeries *series, int index, bool bars,
                          const Axis *x, const Axis *y) {
-    const char *colour = colours[index % COLOUR_COUNT];
-    fprintf(out, "<g class=\"series-%d\" stroke=\"%s\" fill=\"%s\">\n", index, colour, colour);
+    begin_group(out, series, index);
     for (int i = 0; bars && series->low && series->high && i < series->count; i++) {
         const double at = pixel(x, series->x[i]);
         write_line(out, at, pixel(y, series->low[i]), at, pixel(y, series->high[i]),
@@ -252,10 +262,9 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, bool
 
 // Writes an entry of the legend. The entries fill two columns, row by row.
 static void write_legend_entry(FILE *out, const DipPlotSeries *series, int index) {
-    const char *colour = colours[index % COLOUR_COUNT];
     const double x = LEFT + LEGEND_WIDTH * (index % 2);
     const double y = LEGEND_TOP + LEGEND_LINE * (index / 2);
-    fprintf(out, "<g class=\"series-%d\" stroke=\"%s\" fill=\"%s\">", index, colour, colour);
+    begin_group(out, series, index);
     if (!series->marks_only) {
         fprintf(out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke-width=\"2\"%s/>",
                 x, y, x + 34, y, dash_of(index));

@@ -22,10 +22,11 @@ typedef struct DipPlotSeries {
     int count;
     bool marks_only;           // True: no line connects the points.
     const char *const *labels; // Texts below and left of the points; NULL for none.
-    // Numbers of the points, which a page's script finds in the attribute data-row, and titles,
-    // which browsers show beside the pointer; NULL for none.
+    // Numbers of the points, which a page's script finds in the attribute data-row (-1: the point
+    // has none), and titles, which browsers show beside the pointer; NULL for none.
     const int *rows;
     const char *const *titles;
+    const char *style; // Class of the line instead of series-0, series-1, ...; NULL for these.
 } DipPlotSeries;
 
 // All texts are borrowed. Values on a logarithmic axis must be above 0. A linear y axis begins at
@@ -39,7 +40,7 @@ typedef struct DipPlot {
     bool log_y;
     // Only the first DIP_PLOT_MAX_SERIES are drawn; the legend says how many are left out.
     const DipPlotSeries *series;
-    int series_count; // At least 1. Each series has at least one point.
+    int series_count; // At least 1. At least one series has a point.
     const char *set;  // Attribute data-set of the <svg> element; NULL for none.
 } DipPlot;
 

@@ -74,6 +74,36 @@ static void add_combinations(DipCostReport *report) {
     }
 }
 
+// Combinations that were only predicted, one that was measured later, and one that another row
+// stands for.
+static void add_predictions(DipCostReport *report) {
+    enum { PREDICTED = 12 };
+    DipCostPredictions *p = &report->predicted;
+    p->list = calloc(PREDICTED, sizeof *p->list);
+    report->same = calloc(1, sizeof *report->same);
+    if (!p->list || !report->same) {
+        abort();
+    }
+    p->count = PREDICTED;
+    p->trained = 40;
+    p->times = p->errors = (DipCostMisses){0.0213, 0.0712, 0.95, 0.9, 1};
+    p->times_left_out = p->errors_left_out = (DipCostMisses){0.0318, 0.0817, 0.91, 0.8, 40};
+    for (int i = 0; i < PREDICTED; i++) {
+        DipQuality quality = dip_quality_default();
+        quality.step[DIP_SETTING_OPT] = 1;
+        quality.step[DIP_SETTING_AA] = (uint8_t)(i % 5);
+        quality.step[DIP_SETTING_AF] = (uint8_t)(i / 5);
+        p->list[i] = (DipCostPrediction){.quality = quality,
+                                         .ms = 1.51 + 1.37 * i,
+                                         .p95_ms = 1.63 + 1.41 * i,
+                                         .flip = 0.1234 - 0.00713 * i,
+                                         .row = i == 3 ? report->combined_first + 3 : -1};
+    }
+    report->same[0] = (DipCostSame){dip_quality_default(), report->combined_first + 7};
+    report->same[0].quality.step[DIP_SETTING_AAA] = 1;
+    report->same_count = 1;
+}
+
 // --- pictures ------------------------------------------------------------------------------------
 
 static uint8_t pixels[WIDTH * HEIGHT * 4];
@@ -147,6 +177,7 @@ int main(int argc, char **argv) {
     }
     dip_made_report(&report, 3);
     add_combinations(&report);
+    add_predictions(&report);
     const int first = report.combined_first;
     report.options.pictures = DIP_COST_PICTURES_FULL;
     report.advice[0] = (DipCostAdvice){0.5, -1, 0.0, 0.0, 0.0};
