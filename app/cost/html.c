@@ -79,11 +79,15 @@ static bool write_page(const DipCostReport *report, const DipCostPictures *pictu
     dip_html_advice(report, out);
     const bool has_front =
         dip_html_front(report, pictures, out) && dip_html_predictions(report, out);
-    dip_html_sweeps(report, pictures, out);
+    if (report->sweep_count) {
+        dip_html_sweeps(report, pictures, out);
+    }
     if (pictures) {
         write_left_out(report, pictures, out);
     }
-    dip_html_regions(report, out);
+    if (report->sweep_count) {
+        dip_html_regions(report, out);
+    }
     if (report->rounds > 0) {
         dip_html_work(report, out);
     }

@@ -46,12 +46,16 @@ static void write_method_facts(const DipCostReport *report, FILE *out) {
 // The verdict on the machine, and the A/A rows of all paths.
 static void write_verdict(const DipCostReport *report, FILE *out) {
     const char *verdict = dip_cost_verdict_names[report->verdict];
+    char level[DIP_COST_REASON];
+    dip_cost_level_text(report, level);
     fprintf(out, "<p class=\"verdict %s\"><b>The machine was %s.</b> ", verdict, verdict);
     dip_markup_text(out, report->verdict_reason);
-    fprintf(out, "%s</p>\n",
+    fprintf(out, "%s ",
             report->verdict == DIP_COST_RED
                 ? " The times below are wrong, and no settings are advised."
                 : "");
+    dip_markup_text(out, level);
+    fprintf(out, "</p>\n");
     dip_html_table_begin(out, "baseline-twice", "");
     fprintf(out, "On each path, the baseline was timed a second time as if it were another setting "
                  "(A/A). Differences between settings that are smaller than these are noise.");
@@ -78,8 +82,13 @@ static void write_contents(const DipCostReport *report, FILE *out) {
     if (report->combined_first < report->row_count && report->rounds > 0) {
         fprintf(out, "<li><a href=\"#front\">Time against error</a></li>\n");
     }
-    fprintf(out, "<li><a href=\"#settings\">Each setting</a></li>\n"
-                 "<li><a href=\"#parts\">Where the errors are</a></li>\n");
+    if (report->predicted.count) {
+        fprintf(out, "<li><a href=\"#predicted\">Predicted combinations</a></li>\n");
+    }
+    if (report->sweep_count) {
+        fprintf(out, "<li><a href=\"#settings\">Each setting</a></li>\n"
+                     "<li><a href=\"#parts\">Where the errors are</a></li>\n");
+    }
     if (report->rounds > 0) {
         fprintf(out, "<li><a href=\"#work\">Work</a></li>\n");
     }

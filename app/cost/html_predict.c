@@ -126,7 +126,7 @@ bool dip_html_predictions(const DipCostReport *report, FILE *out) {
     const int count = list_predictions(report, &list);
     if (list) {
         fprintf(out,
-                "<h2 id=\"predictions-head\">Predicted combinations</h2>\n"
+                "<h2 id=\"predicted\">Predicted combinations</h2>\n"
                 "<p>The times and errors of %d combinations were predicted from %d measured ones. "
                 "The %d combinations that the prediction found best were then measured.</p>\n",
                 p->count, p->trained, p->times.rows);

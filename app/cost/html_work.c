@@ -151,10 +151,12 @@ static void write_fit(const DipCostReport *report, FILE *out) {
 }
 
 void dip_html_work(const DipCostReport *report, FILE *out) {
-    fprintf(out, "<section class=\"wide\" aria-labelledby=\"work\">\n"
-                 "<h2 id=\"work\">Work</h2>\n");
-    write_counters(report, out);
-    write_constant_counters(report, out);
+    fprintf(out, "<section class=\"%s\" aria-labelledby=\"work\">\n<h2 id=\"work\">Work</h2>\n",
+            report->sweep_count ? "wide" : "");
+    if (report->sweep_count) {
+        write_counters(report, out);
+        write_constant_counters(report, out);
+    }
     fprintf(out, "</section>\n");
     write_fit(report, out);
 }

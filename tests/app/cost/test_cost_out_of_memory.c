@@ -2,10 +2,13 @@
 // stays as it was, and a journal never loses a measurement.
 #include "app/cost/diff.h"
 #include "app/cost/diff_cause.h"
+#include "app/cost/data_uri.h"
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
 #include "app/cost/journal.h"
 #include "app/dump/record.h"
+#include "app/files/jpeg.h"
+#include "app/files/pfm.h"
 #include "app/files/png.h"
 #include "tests/app/cost/made_report.h"
 #include "tests/support/out_of_memory.h"
@@ -81,6 +84,28 @@ static bool write_png(void *context, DipError *err) {
     return dip_png_write(w.file, &frame, err);
 }
 
+static bool write_pfm(void *context, DipError *err) {
+    static const float rgb[3 * 8 * 6] = {0.25f, 0.5f};
+    (void)context;
+    return dip_pfm_write(w.file, rgb, 8, 6, err);
+}
+
+// Encoders of pictures in memory have no error of their own.
+static bool encode_pictures(void *context, DipError *err) {
+    unsigned char *png = NULL;
+    unsigned char *jpeg = NULL;
+    size_t size;
+    static const uint8_t palette[3 * 256];
+    (void)context;
+    const bool made = dip_png_encode_indexed(w.rgba8, palette, 64, 48, &png, &size) &&
+                      dip_jpeg_encode(w.rgba8, 4 * 64, 64, 48, 95, &jpeg, &size);
+    char *uri = made ? dip_cost_data_uri("image/jpeg", jpeg, size) : NULL;
+    free(png);
+    free(jpeg);
+    free(uri);
+    return uri || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+}
+
 static bool write_record(void *context, DipError *err) {
     (void)context;
     const DipQuality quality = dip_quality_default();
@@ -144,6 +169,7 @@ static void files_are_written_whole_or_stay(void **state) {
     check_writer("cost.json", "cost.json", write_json, 200);
     check_writer("record.json", "record.json", write_record, 0);
     check_writer("a PNG", "picture.png", write_png, 0);
+    check_writer("a PFM", "picture.pfm", write_pfm, 0);
     check_writer("cost.csv", "cost.csv", write_csv, 0);
     check_writer("cost.html", "cost.html", write_html, 100);
     dip_cost_report_free(&w.report);
@@ -223,6 +249,12 @@ static void comparisons_are_whole_or_fail(void **state) {
     fclose(nowhere);
     dip_cost_report_free(&w.report);
     dip_cost_report_free(&other);
+}
+
+static void pictures_are_encoded_whole_or_not_at_all(void **state) {
+    (void)state;
+    dip_out_of_memory_check(
+        &(DipOutOfMemory){.name = "pictures in memory", .run = encode_pictures});
 }
 
 // --- reading a report ----------------------------------------------------------------------------
@@ -367,6 +399,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_written_whole_or_stay),
         cmocka_unit_test(comparisons_are_whole_or_fail),
+        cmocka_unit_test(pictures_are_encoded_whole_or_not_at_all),
         cmocka_unit_test(report_is_read_whole_or_not_at_all),
         cmocka_unit_test(journal_never_loses_a_measurement),
     };
