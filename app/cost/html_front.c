@@ -4,6 +4,8 @@
 #include "app/cost/front.h"
 #include "app/cost/html_points.h"
 
+#include <math.h>
+
 // A row whose title a point shows.
 typedef struct Titled {
     const DipCostReport *report;
@@ -94,33 +96,67 @@ static void write_plot(const DipCostReport *report, const Parts *parts, FILE *ou
 
 // --- tables ------------------------------------------------------------------------------------
 
+// Writes FLIP with its interval, which a single viewpoint does not have.
+static void write_flip(const DipCostReport *report, int row, FILE *out) {
+    const DipStatsEstimate flip = dip_cost_flip(report, row);
+    fprintf(out, "<td>%.4f</td>", flip.value);
+    if (isfinite(flip.low) && isfinite(flip.high)) {
+        fprintf(out, "<td>%.4f to %.4f</td>", flip.low, flip.high);
+    } else {
+        fprintf(out, "<td></td>");
+    }
+}
+
+// Writes the changes from the row before, and what each 1 % of FLIP cost.
+static void write_changes(const DipCostReport *report, int row, int before, FILE *out) {
+    const double ms = dip_cost_ms(report, row) - dip_cost_ms(report, before);
+    const double flip = dip_cost_row_metrics(report, row, 0).flip;
+    const double flip_before = dip_cost_row_metrics(report, before, 0).flip;
+    fprintf(out, "<td>%+.2f</td><td>%+.4f</td>", ms, flip - flip_before);
+    if (flip > 0.0) {
+        fprintf(out, "<td>%.3f</td>", ms / (100.0 * log(flip_before / flip)));
+    } else {
+        fprintf(out, "<td></td>");
+    }
+}
+
+static void write_front_row(const DipCostReport *report, const DipHtmlPoints *front, int index,
+                            bool is_knee, FILE *out) {
+    const int row = front->rows[index];
+    dip_html_line_begin(out, row);
+    fprintf(out, "<th scope=\"row\">");
+    dip_html_settings(report, row, out);
+    fprintf(out, "</th><td>%d%s</td><td>%.2f</td>", index + 1, is_knee ? ", knee" : "",
+            front->x[index]);
+    write_flip(report, row, out);
+    fprintf(out, "<td>%.5f</td>", dip_cost_row_metrics(report, row, 0).rmse_lin);
+    if (index > 0) {
+        write_changes(report, row, front->rows[index - 1], out);
+    } else {
+        fprintf(out, "<td></td><td></td><td></td>");
+    }
+    fprintf(out, "</tr>\n");
+}
+
 static void write_front_table(const DipCostReport *report, const DipHtmlPoints *front, FILE *out) {
+    const int knee = dip_cost_knee(report, front->rows, front->count);
     dip_html_table_begin(out, "pareto-front", " data-set=\"front\"");
-    fprintf(out, "The Pareto front. The changes are those from the line before, in order of time.");
+    fprintf(out,
+            "The Pareto front. The changes are those from the line before, in order of time.%s",
+            knee >= 0 ? " Beyond the knee, more time buys least." : "");
     dip_html_columns_begin(out);
     dip_html_text_column(out, "settings");
     dip_html_column(out, "number", "in the plot");
     dip_html_column(out, "mean", "ms");
     dip_html_column(out, "FLIP", NULL);
+    dip_html_column(out, "95 % interval", "of FLIP");
     dip_html_column(out, "RMSE", "linear");
     dip_html_column(out, "change of time", "ms");
     dip_html_column(out, "change of FLIP", NULL);
+    dip_html_column(out, "price of 1 % less FLIP", "ms");
     dip_html_columns_end(out);
     for (int i = 0; i < front->count; i++) {
-        const int row = front->rows[i];
-        const DipMetrics f = dip_cost_row_metrics(report, row, 0);
-        dip_html_line_begin(out, row);
-        fprintf(out, "<th scope=\"row\">");
-        dip_html_settings(report, row, out);
-        fprintf(out, "</th><td>%d</td><td>%.2f</td><td>%.4f</td><td>%.5f</td>", i + 1, front->x[i],
-                f.flip, f.rmse_lin);
-        if (i > 0) {
-            const double before = dip_cost_row_metrics(report, front->rows[i - 1], 0).flip;
-            fprintf(out, "<td>%+.2f</td><td>%+.4f</td></tr>\n", front->x[i] - front->x[i - 1],
-                    f.flip - before);
-        } else {
-            fprintf(out, "<td></td><td></td></tr>\n");
-        }
+        write_front_row(report, front, i, i == knee, out);
     }
     dip_html_table_end(out);
 }

@@ -1,4 +1,4 @@
-// The head of the HTML page: what was measured where, the verdict on the machine, the advice.
+// The head of the HTML page: what was measured where, and the verdict on the machine.
 #include "app/cost/html_parts.h"
 
 #include "app/plot/markup.h"
@@ -108,67 +108,4 @@ void dip_html_head(const DipCostReport *report, FILE *out) {
     }
     write_contents(report, out);
     fprintf(out, "</header>\n");
-}
-
-// --- advice ------------------------------------------------------------------------------------
-
-static void write_next_better(const DipCostReport *report, int row, double flip, FILE *out) {
-    const int next = dip_cost_step_up(report, row);
-    if (next < 0) {
-        fprintf(out, "<td class=\"l\">none</td><td></td><td></td></tr>\n");
-        return;
-    }
-    fprintf(out, "<td class=\"l\">");
-    dip_html_settings(report, next, out);
-    fprintf(out, "</td><td>%+.2f</td><td>%+.4f</td></tr>\n",
-            dip_cost_ms(report, next) - dip_cost_ms(report, row),
-            dip_cost_row_metrics(report, next, 0).flip - flip);
-}
-
-static void write_advice_line(const DipCostReport *report, const DipCostAdvice *advice, FILE *out) {
-    dip_html_line_begin(out, advice->row);
-    fprintf(out, "<th scope=\"row\">%g</th>", advice->budget_ms);
-    if (advice->row < 0) {
-        fprintf(out, "<td class=\"l\">no measured combination is surely that fast</td><td></td>"
-                     "<td></td><td></td><td></td><td class=\"l\"></td><td></td><td></td></tr>\n");
-        return;
-    }
-    const DipMetrics f = dip_cost_row_metrics(report, advice->row, 0);
-    fprintf(out, "<td class=\"l name\">");
-    dip_html_settings(report, advice->row, out);
-    fprintf(out, "</td><td>%.2f</td><td>%.2f to %.2f</td><td>%.4f</td><td>%.5f</td>", advice->ms,
-            advice->ms_low, advice->ms_high, f.flip, f.rmse_lin);
-    write_next_better(report, advice->row, f.flip, out);
-}
-
-void dip_html_advice(const DipCostReport *report, FILE *out) {
-    if (report->advice_count == 0) {
-        return;
-    }
-    const char *of = dip_cost_budget_of_names[report->options.budget_of];
-    fprintf(out,
-            "<h2 id=\"advice\">Best settings for a time budget</h2>\n"
-            "<p>For each time budget, the table shows the settings with the least FLIP that are "
-            "within the budget: the upper end of the interval of their %s time along the path is "
-            "at most the budget. &ldquo;Next better&rdquo; is the fastest combination whose FLIP "
-            "is at least 1 %% below that of the chosen settings.</p>\n",
-            of);
-    dip_html_table_begin(out, "advice-table", " data-set=\"front\"");
-    fprintf(out, "The best of %d combinations on path %s for each budget.",
-            report->row_count - report->combined_first, report->paths[0]);
-    dip_html_columns_begin(out);
-    dip_html_column(out, "budget", "ms");
-    dip_html_text_column(out, "settings");
-    dip_html_column(out, of, "ms");
-    dip_html_column(out, "95 % interval", "ms");
-    dip_html_column(out, "FLIP", NULL);
-    dip_html_column(out, "RMSE", "linear");
-    dip_html_text_column(out, "next better");
-    dip_html_column(out, "change of time", "ms");
-    dip_html_column(out, "change of FLIP", NULL);
-    dip_html_columns_end(out);
-    for (int i = 0; i < report->advice_count; i++) {
-        write_advice_line(report, &report->advice[i], out);
-    }
-    dip_html_table_end(out);
 }

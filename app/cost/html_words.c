@@ -20,16 +20,24 @@ void dip_html_truth(const DipCostReport *report, FILE *out) {
     fprintf(out, "<h2 id=\"truth\">The truth and its noise floor</h2>\n");
     dip_html_table_begin(out, "noise-floors", "");
     fprintf(out, "The truth (converged picture) is the mean of two independent halves. Half of "
-                 "their difference is its noise floor.");
+                 "their difference is its noise floor. Combinations whose FLIP is below the "
+                 "truth's rank alike.");
     dip_html_columns_begin(out);
     dip_html_text_column(out, "path");
     dip_html_column(out, "RMSE of the truth", "linear");
-    dip_html_column(out, "FLIP between the two halves", NULL);
+    dip_html_column(out, "FLIP of the truth", NULL);
+    dip_html_column(out, "PSNR between the halves", "dB");
+    dip_html_column(out, "SSIM between the halves", NULL);
+    dip_html_column(out, "FLIP between the halves", NULL);
     dip_html_columns_end(out);
     for (int p = 0; p < report->path_count; p++) {
         const DipMetricSums sums = dip_cost_floor(report, p);
-        fprintf(out, "<tr><th scope=\"row\">%s</th><td>%.5f</td><td>%.4f</td></tr>\n",
-                report->paths[p], dip_cost_floor_rmse(report, p, 0), dip_metrics_of(&sums, 0).flip);
+        const DipMetrics halves = dip_metrics_of(&sums, 0);
+        fprintf(out,
+                "<tr><th scope=\"row\">%s</th><td>%.5f</td><td>%.4f</td><td>%.2f</td>"
+                "<td>%.4f</td><td>%.4f</td></tr>\n",
+                report->paths[p], dip_cost_floor_rmse(report, p, 0), dip_cost_floor_flip(report, p),
+                halves.psnr_db, halves.ssim, halves.flip);
     }
     dip_html_table_end(out);
     write_left_out(report, out);
