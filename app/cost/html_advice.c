@@ -23,7 +23,8 @@ static void write_certainty(const DipCostReport *report, const DipCostAdvice *ad
     fprintf(out, "<td>%.0f</td><td class=\"l\">", 100.0 * advice->probability);
     if (advice->probability < 0.95 && advice->runner_up >= 0) {
         dip_html_settings(report, advice->runner_up, out);
-        fprintf(out, " (%.0f %%)", 100.0 * advice->runner_up_probability);
+        fprintf(out, " <span class=\"unbroken\">(%.0f %%)</span>",
+                100.0 * advice->runner_up_probability);
     }
     fprintf(out, "</td>");
 }
@@ -81,11 +82,11 @@ void dip_html_advice(const DipCostReport *report, FILE *out) {
     fprintf(
         out,
         "<h2 id=\"advice\">Best settings for a time budget</h2>\n"
-        "<p>For each time budget, the table shows the settings with the least FLIP that are "
-        "within the budget: the upper end of the interval of their %s time along the path is "
-        "at most the budget. &ldquo;Next better&rdquo; is the fastest combination whose FLIP "
-        "is at least 1 %% below that of the chosen settings. &ldquo;Surely the best&rdquo; is the "
-        "probability that the chosen settings are the best, given the noise of the times.</p>\n",
+        "<p>For each time budget, the table shows the settings with the least FLIP that are within "
+        "the budget: the upper end of the interval of their %s time along the path is at most the "
+        "budget. The probability is that of these settings being the best, given the noise of the "
+        "times. &ldquo;Next better&rdquo; is the fastest combination whose FLIP is at least 1 %% "
+        "below that of the chosen settings.</p>\n",
         of);
     dip_html_table_begin(out, "advice-table", " data-set=\"front\"");
     fprintf(out, "The best of %d combinations on path %s for each budget.",
@@ -97,7 +98,7 @@ void dip_html_advice(const DipCostReport *report, FILE *out) {
     dip_html_column(out, "95 % interval", "ms");
     dip_html_column(out, "FLIP", NULL);
     dip_html_column(out, "RMSE", "linear");
-    dip_html_column(out, "surely the best", "%");
+    dip_html_column(out, "probability", "%");
     dip_html_text_column(out, "otherwise the best");
     dip_html_text_column(out, "next better");
     dip_html_column(out, "change of time", "ms");

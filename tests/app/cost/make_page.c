@@ -187,7 +187,7 @@ int main(int argc, char **argv) {
                                            .ms = 3.14 * i,
                                            .ms_low = 3.07 * i,
                                            .ms_high = 3.21 * i,
-                                           .probability = 0.53 + 0.2 * i,
+                                           .probability = 0.53 + 0.13 * i,
                                            .runner_up = first + 9,
                                            .runner_up_probability = 0.17};
     }
