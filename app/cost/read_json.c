@@ -255,14 +255,17 @@ static bool read_rows(const cJSON *root, DipCostReport *report) {
     return ok;
 }
 
-static bool read_same(const cJSON *root, DipCostReport *report) {
+static bool read_same(const cJSON *root, DipCostReport *report, const char *file, DipError *err) {
     const cJSON *list = cJSON_GetObjectItemCaseSensitive(root, "same_pictures");
     const int count = cJSON_GetArraySize(list);
     if (count > DIP_COST_MAX_ROWS) {
-        return false;
+        return missing(file, "same_pictures", err);
     }
     report->same = calloc((size_t)count + 1, sizeof *report->same);
-    bool ok = report->same != NULL;
+    if (!report->same) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    }
+    bool ok = true;
     const cJSON *object;
     cJSON_ArrayForEach(object, list) {
         const cJSON *settings = cJSON_GetObjectItemCaseSensitive(object, "settings");
@@ -273,7 +276,7 @@ static bool read_same(const cJSON *root, DipCostReport *report) {
             same->row = integer(object, "row", 0, report->row_count - 1, &ok);
         }
     }
-    return ok;
+    return ok || missing(file, "same_pictures", err);
 }
 
 static bool read_sweep(const cJSON *object, DipCostReport *report, DipCostSweep *sweep) {
@@ -449,8 +452,8 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
     if (!read_rows(root, report)) {
         return missing(file, "rows", err);
     }
-    if (!read_same(root, report)) {
-        return missing(file, "same_pictures", err);
+    if (!read_same(root, report, file, err)) {
+        return false;
     }
     if (!read_sweeps(root, report)) {
         return missing(file, "sweeps", err);
@@ -459,7 +462,9 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
         return missing(file, "floors", err);
     }
     if (!read_predictions(root, report)) {
-        return missing(file, "predicted", err);
+        return report->predicted.list
+                   ? missing(file, "predicted", err)
+                   : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
     read_advice(root, report);
     if (report->rounds == 0) {

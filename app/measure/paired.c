@@ -158,7 +158,7 @@ double dip_paired_spread(const DipPairedTimes *times) {
             logs[count++] = log(total / base_total);
         }
     }
-    double spread = -1.0;
+    double spread = logs ? -1.0 : NAN;
     if (count >= 2) {
         const double middle = dip_stats_median(logs, count);
         for (int i = 0; i < count; i++) {

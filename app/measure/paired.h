@@ -54,7 +54,7 @@ bool dip_paired_ratio_value(const DipPairedTimes *times, double *ratio, DipError
 // Returns how far the rounds' own ratios lie apart: 1.4826 times the median distance of the rounds'
 // log ratios (of the sums over the frames) from their median. Called for a base that is timed twice
 // (A/A), it tells how noisy the machine is. Returns a negative value if there are fewer than two
-// rounds without dropped pairs or if memory runs out.
+// rounds without dropped pairs, and NAN if memory runs out.
 double dip_paired_spread(const DipPairedTimes *times);
 
 // --- frames along a path -----------------------------------------------------------------------
