@@ -79,6 +79,7 @@ static bool write_page(const DipCostReport *report, const DipCostPictures *pictu
     dip_html_advice(report, out);
     const bool has_front =
         dip_html_front(report, pictures, out) && dip_html_predictions(report, out);
+    dip_html_interactions(report, out);
     if (report->sweep_count) {
         dip_html_sweeps(report, pictures, out);
     }

@@ -60,6 +60,9 @@ bool dip_html_front(const DipCostReport *report, const DipCostPictures *pictures
 // after a failure.
 bool dip_html_predictions(const DipCostReport *report, FILE *out);
 bool dip_html_predicted_points(const DipCostReport *report, DipHtmlPoints *points);
+
+// Interactions of combined settings. Nothing is written if there are none.
+void dip_html_interactions(const DipCostReport *report, FILE *out);
 void dip_html_sweeps(const DipCostReport *report, const DipCostPictures *pictures, FILE *out);
 void dip_html_regions(const DipCostReport *report, FILE *out);
 void dip_html_work(const DipCostReport *report, FILE *out);
