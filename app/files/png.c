@@ -1,7 +1,6 @@
-// Encoding PNG and JPEG and compressing with deflate in memory, all by stb_image_write.
+// Encoding PNG and compressing with deflate in memory, both by stb_image_write.
 #include "app/files/png.h"
 
-#include "app/files/jpeg.h"
 #include "app/files/whole_file.h"
 #include "app/files/zip.h"
 
@@ -181,26 +180,6 @@ bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
     const bool written = dip_whole_file_write(file, bytes, size_bytes, err);
     free(bytes);
     return written;
-}
-
-// --- JPEG ----------------------------------------------------------------------------------------
-
-bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height, int quality,
-                     unsigned char **bytes, size_t *size_bytes) {
-    Buffer buffer = {0};
-    uint8_t *rgb = packed_rgb(rgba8, stride_bytes, width, height);
-    // The encoder allocates nothing itself.
-    const bool made = rgb &&
-                      stbi_write_jpg_to_func(append, &buffer, width, height, 3, rgb, quality) &&
-                      !buffer.failed;
-    free(rgb);
-    if (!made) {
-        free(buffer.bytes);
-        return false;
-    }
-    *bytes = buffer.bytes;
-    *size_bytes = buffer.size;
-    return true;
 }
 
 // --- deflate -------------------------------------------------------------------------------------

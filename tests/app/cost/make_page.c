@@ -79,6 +79,8 @@ static void add_combinations(DipCostReport *report) {
 static void add_predictions(DipCostReport *report) {
     enum { PREDICTED = 12 };
     DipCostPredictions *p = &report->predicted;
+    free(p->list);
+    free(report->same);
     p->list = calloc(PREDICTED, sizeof *p->list);
     report->same = calloc(1, sizeof *report->same);
     if (!p->list || !report->same) {
