@@ -70,7 +70,7 @@ static bool open_level(PathLevel *level, const DipCostReport *report, int path) 
     const size_t frames = (size_t)dip_cost_frame_count(report);
     double *scratch = malloc((size_t)report->row_count * frames * sizeof *scratch);
     *level = (PathLevel){.level_ms = malloc(3 * frames * sizeof(double))};
-    const bool made = scratch && level->level_ms;
+    bool made = scratch && level->level_ms;
     if (made) {
         level->ms = level->level_ms + frames;
         level->base_ms = level->ms + frames;
@@ -78,6 +78,7 @@ static bool open_level(PathLevel *level, const DipCostReport *report, int path) 
             level->level_ms[f] = level_of_frame(report, path, (int)f, scratch);
         }
         level->error = level_error(report, path, level->level_ms, scratch);
+        made = level->error >= 0.0;
     }
     free(scratch);
     return made;

@@ -330,7 +330,7 @@ double dip_level_error(const double *log_times, int count) {
     }
     double *group = malloc((size_t)count * sizeof *group);
     if (!group) {
-        return 0.0;
+        return -1.0;
     }
     double medians[LEVEL_GROUPS], mean = 0.0;
     for (int g = 0; g < LEVEL_GROUPS; g++) {

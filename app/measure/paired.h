@@ -97,7 +97,7 @@ bool dip_path_estimate(const DipPathTimes *times, DipPathEstimate *estimate, Dip
 // were taken: the timings are cut into 7 groups of successive ones, the groups' medians have the
 // spread s and the correlation r between neighbours, and the error is
 // s / sqrt(7) sqrt((1 + r) / (1 - r)). Each timing is the log of a time over the median time of the
-// same frame. Returns 0 for fewer than 14 timings.
+// same frame. Returns 0 for fewer than 14 timings, and a negative value if memory runs out.
 double dip_level_error(const double *log_times, int count);
 
 // --- Student's t -------------------------------------------------------------------------------

@@ -1,8 +1,8 @@
 // Tests what the writers and readers of reports do when memory runs out: a file is written whole or
 // stays as it was, and a journal never loses a measurement.
+#include "app/cost/data_uri.h"
 #include "app/cost/diff.h"
 #include "app/cost/diff_cause.h"
-#include "app/cost/data_uri.h"
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
 #include "app/cost/journal.h"
