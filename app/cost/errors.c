@@ -72,6 +72,8 @@ typedef struct Burst {
     uint8_t *rgba8; // owned; one frame after another, without padding between lines
     int row;
     char key[33]; // hash of the pictures and of their truths
+    char
+        journal[33]; // hash of the key and of the program's file: another build may judge otherwise
     DipMetricSums sums;
     bool failed;
 } Burst;
@@ -174,7 +176,7 @@ static bool judge_bursts(Judge *j, DipError *err) {
             return out_of_memory(err);
         }
         keep_errors(j, drawn);
-        if (!dip_cost_journal_add(j->cost->journal, drawn->key, &drawn->sums, err)) {
+        if (!dip_cost_journal_add(j->cost->journal, drawn->journal, &drawn->sums, err)) {
             return false;
         }
     }
@@ -208,6 +210,8 @@ static bool draw_burst(Judge *j, int row, Burst *drawn, DipError *err) {
         dip_hash_text(&hash, j->truths[f].key);
     }
     dip_hash_hex(&hash, drawn->key);
+    dip_hash_text(&hash, report->build);
+    dip_hash_hex(&hash, drawn->journal);
     return true;
 }
 
@@ -220,7 +224,7 @@ static bool judge_rows(Judge *j, DipError *err) {
         }
         Burst *drawn = &j->bursts[j->burst_count];
         judged = draw_burst(j, row, drawn, err);
-        if (judged && dip_cost_journal_find(j->cost->journal, drawn->key, &drawn->sums)) {
+        if (judged && dip_cost_journal_find(j->cost->journal, drawn->journal, &drawn->sums)) {
             keep_errors(j, drawn);
         } else if (judged && ++j->burst_count == j->burst_room) {
             judged = judge_bursts(j, err);

@@ -26,16 +26,25 @@ static bool out_of_memory(DipError *err) {
 
 // --- counters ----------------------------------------------------------------------------------
 
+// Adds a frame's counters to the row's sums. The sums are whole numbers, so that they do not depend
+// on the order of the frames: an interrupted run has another order.
 static void count_work(RowTiming *t, int row, int frame) {
     DipCostReport *report = t->cost->report;
     const int frames = dip_cost_frame_count(report);
     bool *counted = &t->counted[(size_t)row * (size_t)frames + (size_t)frame];
     double *value = report->rows[row].counters;
     if (!*counted) {
-#define ADD_COUNTER(name, text) *value++ += (double)t->frame.counters.name / frames;
+#define ADD_COUNTER(name, text) *value++ += (double)t->frame.counters.name;
         DIP_COUNTER_LIST(ADD_COUNTER)
 #undef ADD_COUNTER
         *counted = true;
+    }
+}
+
+// Makes means over the timed frames of the sums of count_work.
+static void average_work(DipCostReport *report, int row) {
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        report->rows[row].counters[c] /= dip_cost_frame_count(report);
     }
 }
 
@@ -158,6 +167,7 @@ bool dip_cost_time_rows(DipCostContext *cost, DipError *err) {
     done = done && run_timing(cost, &t, base_of, pairs, err);
     for (int r = 0; done && r < report->row_count; r++) {
         memcpy(report->rows[r].pairs, pairs + (size_t)r * frames, frames * sizeof *pairs);
+        average_work(report, r);
     }
     if (done) {
         report->rounds = report->options.rounds;
@@ -289,6 +299,7 @@ bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipEr
     for (int i = 0; done && i < count; i++) {
         memcpy(report->rows[rows[i]].pairs, t.pairs + (size_t)(i + 1) * frames,
                frames * sizeof *t.pairs);
+        average_work(report, rows[i]);
     }
     close_some(&t);
     return done;
