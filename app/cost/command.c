@@ -83,7 +83,8 @@ const DipCommand dip_cost_merge_command = {
     .text = "Cost merge joins reports that have the same scene, size, settings, number of "
             "viewpoints (--places) and samples. Each report has the errors of some of the "
             "viewpoints (--part). The times come from the first report that has times, because "
-            "times of different machines cannot be mixed.",
+            "times of different machines cannot be mixed. If several reports have times, a table "
+            "compares their machines.",
     .examples = merge_examples,
     .example_count = DIP_ARRAY_COUNT(merge_examples),
     .parts = &dip_cost_merge_option_parts,

@@ -3,6 +3,7 @@
 
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
+#include "app/cost/merge_machines.h"
 #include "app/cost/same_pictures.h"
 #include "app/files/folder.h"
 
@@ -51,10 +52,11 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
 // Reads all parts and joins them in one report. The report's times, advice and machine come from
 // the first part that has times, because times of several machines cannot be mixed.
 static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *report,
-                       DipError *err) {
+                       DipCostMachines *machines, DipError *err) {
     if (!dip_cost_read_json(report, arguments->parts[0], err)) {
         return false;
     }
+    dip_cost_machines_add(machines, report);
     for (int i = 1; i < arguments->part_count; i++) {
         DipCostReport part;
         if (!dip_cost_read_json(&part, arguments->parts[i], err)) {
@@ -67,6 +69,7 @@ static bool read_parts(const DipCostMergeArguments *arguments, DipCostReport *re
                                  "camera paths, viewpoints or samples differ)",
                                  arguments->parts[0]);
         }
+        dip_cost_machines_add(machines, &part);
         if (report->rounds == 0 && part.rounds > 0) {
             const DipCostReport swap = *report;
             *report = part;
@@ -88,9 +91,11 @@ static int count_missing(const DipCostReport *report) {
 
 bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err) {
     DipCostReport report = {0};
+    DipCostMachines machines = {0};
     char file[PATH_MAX];
     const char *const folder = arguments->out;
-    bool done = dip_folder_make(folder, "--out", err) && read_parts(arguments, &report, err);
+    bool done =
+        dip_folder_make(folder, "--out", err) && read_parts(arguments, &report, &machines, err);
     if (done && count_missing(&report) > 0) {
         printf("%d of %d viewpoints are missing: no part has them\n", count_missing(&report),
                report.options.places);
@@ -113,6 +118,7 @@ bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err) {
         done = dip_cost_write_html(&report, NULL, file, err);
     }
     if (done) {
+        dip_cost_machines_print(&machines, stdout);
         dip_cost_print(&report, stdout);
     }
     dip_cost_report_free(&report);
