@@ -70,6 +70,8 @@ kill_at() {
             landed=$((landed + 1))
             [ ! -e part/cost.json ] || [ -s part/cost.html ] || fail "an incomplete report is left"
             [ ! -s part/cost.state ] || cp part/cost.state "journal.$landed"
+            # The kill came after the report was complete: another run would begin a new one.
+            [ ! -e part/cost.json ] || [ -e part/cost.state ] || check_part
             return
         fi
         [ $code = 0 ] || fail "exit code $code after a kill: $(cat part.err)"
