@@ -70,13 +70,16 @@ static double budget_error(const DipCostReport *report, const DipPathEstimate *t
     return errors[report->options.budget_of];
 }
 
-// Fills in how sure the advised row is. Returns false when memory runs out.
-static bool add_odds(const DipCostReport *report, DipCostAdvice *advice) {
+// Fills in how sure the advised row is. Fails with DIP_ERROR_MEMORY.
+static bool add_odds(const DipCostReport *report, DipCostAdvice *advice, DipError *err) {
     const int first = report->combined_first;
     int rows[DIP_COST_MAX_ROWS];
     int count = 0, chosen = 0;
     DipChoice *choices = malloc(((size_t)report->row_count + 1) * sizeof *choices);
-    for (int r = first; choices && r < report->row_count; r++) {
+    if (!choices) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+    }
+    for (int r = first; r < report->row_count; r++) {
         int viewpoints;
         dip_cost_row_sums(report, r, &viewpoints);
         if (viewpoints > 0) {
@@ -89,16 +92,16 @@ static bool add_odds(const DipCostReport *report, DipCostAdvice *advice) {
             };
         }
     }
-    if (choices) {
-        const DipChoiceOdds odds =
-            dip_choice_odds(choices, count, chosen, advice->budget_ms,
-                            report->rows[advice->row].time.level_error, 0.01);
+    DipChoiceOdds odds;
+    const bool done = dip_choice_odds(choices, count, chosen, advice->budget_ms,
+                                      report->rows[advice->row].time.level_error, 0.01, &odds, err);
+    if (done) {
         advice->probability = odds.best;
         advice->runner_up = odds.runner_up >= 0 ? rows[odds.runner_up] : -1;
         advice->runner_up_probability = odds.runner_up_best;
     }
     free(choices);
-    return choices != NULL;
+    return done;
 }
 
 bool dip_cost_advise(DipCostContext *cost, DipError *err) {
@@ -131,8 +134,7 @@ bool dip_cost_advise(DipCostContext *cost, DipError *err) {
             .ms_high = time.high,
             .runner_up = -1,
         };
-        advised = row < 0 || add_odds(report, advice) ||
-                  dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+        advised = row < 0 || add_odds(report, advice, err);
     }
     free(candidates);
     return advised;

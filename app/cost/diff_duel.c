@@ -209,7 +209,8 @@ static bool drops(const DipCostDuel *duel, int pair) {
 
 // Fills ms[] with side 1's time of the frame as if only the given stage differed from side 0, so
 // that the ratio to side 0's time is the stage's share of the change.
-static void list_times(const DipCostDuel *duel, int pair, DipBenchStage stage, double *ms) {
+static DipPairedStarts list_times(const DipCostDuel *duel, int pair, DipBenchStage stage,
+                                  double *ms) {
     const double *base = dip_cost_duel_ms(duel, 0, pair, DIP_BENCH_STAGE_total);
     const double *from = dip_cost_duel_ms(duel, 0, pair, stage);
     const double *to = dip_cost_duel_ms(duel, 1, pair, stage);
@@ -218,6 +219,7 @@ static void list_times(const DipCostDuel *duel, int pair, DipBenchStage stage, d
     for (int i = 0; i < time_count(duel); i++) {
         ms[i] = drop && disturbed[i] ? NAN : fmax(base[i] + to[i] - from[i], 0.01 * base[i]);
     }
+    return (DipPairedStarts){ms, base, duel->def->starts, duel->def->rounds, frame_count(duel)};
 }
 
 bool dip_cost_duel_change(const DipCostDuel *duel, int pair, DipBenchStage stage,
@@ -226,9 +228,7 @@ bool dip_cost_duel_change(const DipCostDuel *duel, int pair, DipBenchStage stage
     if (!ms) {
         return out_of_memory(err);
     }
-    list_times(duel, pair, stage, ms);
-    const DipPairedStarts times = {ms, dip_cost_duel_ms(duel, 0, pair, DIP_BENCH_STAGE_total),
-                                   duel->def->starts, duel->def->rounds, frame_count(duel)};
+    const DipPairedStarts times = list_times(duel, pair, stage, ms);
     const bool done = dip_paired_starts_ratio(&times, change, err);
     free(ms);
     return done;
@@ -240,9 +240,7 @@ bool dip_cost_duel_difference(const DipCostDuel *duel, int pair, DipBenchStage s
     if (!ms) {
         return out_of_memory(err);
     }
-    list_times(duel, pair, stage, ms);
-    const DipPairedStarts times = {ms, dip_cost_duel_ms(duel, 0, pair, DIP_BENCH_STAGE_total),
-                                   duel->def->starts, duel->def->rounds, frame_count(duel)};
+    const DipPairedStarts times = list_times(duel, pair, stage, ms);
     const bool done = dip_paired_starts_difference(&times, difference, per_start, err);
     free(ms);
     return done;

@@ -1,4 +1,5 @@
-// The combinations that the page's plot of time against error shows.
+// The combinations with a time and an error, and their Pareto front, as the table and the page show
+// them.
 #ifndef DIP_APP_COST_FRONT_H
 #define DIP_APP_COST_FRONT_H
 

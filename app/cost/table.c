@@ -2,6 +2,7 @@
 #include "app/cost/formats.h"
 
 #include "app/cost/fit.h"
+#include "app/cost/front.h"
 #include "app/cost/interaction.h"
 #include "app/cost/order.h"
 #include "app/cost/prediction_counts.h"
@@ -97,32 +98,29 @@ static void print_front_row(const DipCostReport *report, int row, int before, bo
             is_knee ? "  <- knee" : "");
 }
 
+static void print_same(const DipCostReport *report, FILE *out) {
+    if (report->same_count > 0) {
+        fprintf(out,
+                "\n%d more combinations draw the same pictures as one with fewer settings off "
+                "their defaults; cost.json lists them.\n",
+                report->same_count);
+    }
+}
+
 static void print_front(const DipCostReport *report, FILE *out) {
-    const int count = report->row_count - report->combined_first;
-    int rows[2 * DIP_COST_MAX_ROWS];
+    int front[DIP_COST_MAX_ROWS];
+    const int count = dip_cost_list_plotted(report, front);
+    const int kept = dip_cost_list_front(report, front);
     if (count == 0) {
         return;
     }
-    int *front = rows + count;
-    for (int i = 0; i < count; i++) {
-        rows[i] = report->combined_first + i;
-    }
-    const int kept = dip_cost_pareto_front_thin(report, front,
-                                                dip_cost_pareto_front(report, rows, count, front));
     fprintf(out,
             "\n"
             "Pareto front of %d measured combinations on path %s: no other combination has less "
-            "time and less "
-            "FLIP.\n"
+            "time and less FLIP.\n"
             "A combination is listed only if its FLIP is at least 1 %% below the FLIP of the line "
             "above.\n",
             count, report->paths[0]);
-    if (report->same_count > 0) {
-        fprintf(out,
-                "%d more combinations draw the same pictures as one of these with fewer settings "
-                "off their defaults; cost.json lists them.\n",
-                report->same_count);
-    }
     const int knee = dip_cost_knee(report, front, kept);
     for (int i = 0; i < kept; i++) {
         print_front_row(report, front[i], i > 0 ? front[i - 1] : -1, i == knee, out);
@@ -291,6 +289,7 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
     }
     print_interactions(report, out);
     print_prediction(report, out);
+    print_same(report, out);
     print_front(report, out);
     print_advice(report, out);
     print_tiers(report, out);

@@ -35,26 +35,29 @@ static int draw_best(const DipChoice *choices, int count, int chosen, double bud
     return wins ? chosen : best;
 }
 
-DipChoiceOdds dip_choice_odds(const DipChoice *choices, int count, int chosen, double budget,
-                              double common_error, double tolerance) {
+bool dip_choice_odds(const DipChoice *choices, int count, int chosen, double budget,
+                     double common_error, double tolerance, DipChoiceOdds *odds, DipError *err) {
     DIP_ASSERT(chosen >= 0 && chosen < count);
-    DipChoiceOdds odds = {.runner_up = -1};
     uint64_t random = 1;
     int *wins = calloc((size_t)count, sizeof *wins);
-    for (int draw = 0; wins && draw < DRAWS; draw++) {
+    if (!wins) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "odds", "out of memory");
+    }
+    for (int draw = 0; draw < DRAWS; draw++) {
         const int best =
             draw_best(choices, count, chosen, budget, common_error, tolerance, &random);
-        wins[best < 0 ? chosen : best] += best >= 0;
+        if (best >= 0) {
+            wins[best]++;
+        }
     }
-    for (int i = 0; wins && i < count; i++) {
+    *odds = (DipChoiceOdds){.best = (double)wins[chosen] / DRAWS, .runner_up = -1};
+    for (int i = 0; i < count; i++) {
         const double share = (double)wins[i] / DRAWS;
-        if (i == chosen) {
-            odds.best = share;
-        } else if (share > odds.runner_up_best) {
-            odds.runner_up = i;
-            odds.runner_up_best = share;
+        if (i != chosen && share > odds->runner_up_best) {
+            odds->runner_up = i;
+            odds->runner_up_best = share;
         }
     }
     free(wins);
-    return odds;
+    return true;
 }

@@ -2,6 +2,10 @@
 #ifndef DIP_APP_MEASURE_CHOICE_H
 #define DIP_APP_MEASURE_CHOICE_H
 
+#include "renderer/base/error.h"
+
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -25,8 +29,9 @@ typedef struct DipChoiceOdds {
 // Draws the logarithms of the true times 2000 times from normal distributions around the measured
 // ones; `common_error` is the standard error that all candidates share, because they were measured
 // beside the same base. Starts from a fixed seed, so equal input gives equal odds. Thread-safe.
-DipChoiceOdds dip_choice_odds(const DipChoice *choices, int count, int chosen, double budget,
-                              double common_error, double tolerance);
+// Fails with DIP_ERROR_MEMORY.
+bool dip_choice_odds(const DipChoice *choices, int count, int chosen, double budget,
+                     double common_error, double tolerance, DipChoiceOdds *odds, DipError *err);
 
 #ifdef __cplusplus
 }
