@@ -357,7 +357,8 @@ static bool read_prediction(const cJSON *object, const DipCostReport *report,
 }
 
 // The counters of combinations that were not measured are not in the file.
-static bool read_predictions(const cJSON *root, DipCostReport *report) {
+static bool read_predictions(const cJSON *root, DipCostReport *report, const char *file,
+                             DipError *err) {
     DipCostPredictions *predicted = &report->predicted;
     const cJSON *object = cJSON_GetObjectItemCaseSensitive(root, "predicted");
     const cJSON *list = cJSON_GetObjectItemCaseSensitive(object, "combinations");
@@ -366,8 +367,14 @@ static bool read_predictions(const cJSON *root, DipCostReport *report) {
     if (!object) {
         return true;
     }
+    if (count > DIP_COST_MAX_ROWS) {
+        return missing(file, "predicted", err);
+    }
     predicted->list = calloc((size_t)count + 1, sizeof *predicted->list);
-    bool ok = predicted->list && count <= DIP_COST_MAX_ROWS;
+    if (!predicted->list) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    }
+    bool ok = true;
     predicted->trained = integer(object, "trained", 0, DIP_COST_MAX_ROWS, &ok);
     predicted->times = read_misses(misses, "times", &ok);
     predicted->errors = read_misses(misses, "flip", &ok);
@@ -377,7 +384,7 @@ static bool read_predictions(const cJSON *root, DipCostReport *report) {
     cJSON_ArrayForEach(item, list) {
         ok = ok && read_prediction(item, report, &predicted->list[predicted->count++]);
     }
-    return ok;
+    return ok || missing(file, "predicted", err);
 }
 
 static bool read_one_advice(const cJSON *object, const DipCostReport *report,
@@ -461,10 +468,8 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
     if (!read_floors(root, report)) {
         return missing(file, "floors", err);
     }
-    if (!read_predictions(root, report)) {
-        return report->predicted.list
-                   ? missing(file, "predicted", err)
-                   : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    if (!read_predictions(root, report, file, err)) {
+        return false;
     }
     read_advice(root, report);
     if (report->rounds == 0) {
