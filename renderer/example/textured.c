@@ -137,7 +137,10 @@ static bool draw(DipPipeline *pipeline, const DipMesh *floor, const DipMesh *cub
         .draw_count = 2,
         .sample_count = 4,
         .clear_lin = {0.35f, 0.5f, 0.75f},
-        .target = {rgba8, (size_t)WIDTH * 4, WIDTH, HEIGHT},
+        .target = {.rgba8 = rgba8,
+                   .stride_bytes = (size_t)WIDTH * 4,
+                   .width = WIDTH,
+                   .height = HEIGHT},
     };
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};

@@ -75,7 +75,10 @@ static bool draw(DipPipeline *pipeline, const DipMesh *mesh, uint8_t *rgba8, Dip
         .draw_count = 1,
         .sample_count = 8,
         .clear_lin = {0.02f, 0.02f, 0.03f},
-        .target = {rgba8, (size_t)WIDTH * 4, WIDTH, HEIGHT},
+        .target = {.rgba8 = rgba8,
+                   .stride_bytes = (size_t)WIDTH * 4,
+                   .width = WIDTH,
+                   .height = HEIGHT},
     };
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};

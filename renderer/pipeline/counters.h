@@ -25,9 +25,11 @@ extern "C" {
     X(fragments_clip_tested, "fragments of alpha-clipped surfaces whose clip map was read")        \
     X(clip_sample_groups, "sample groups drawn, summed over alpha-clipped triangles")              \
     X(fragments_shaded, "fragments shaded: one per pixel and visible patch")                       \
+    X(fragments_ordered, "fragments of ordered draws (state.h): one per pixel and triangle")       \
     X(samples_shown, "samples that show a surface: covered, nearest, kept by its clip map")        \
     X(pixels_resolved, "pixels whose samples show more than one fragment")                         \
     X(texture_probes, "texture probes in the finer mip level of each read")                        \
+    X(clip_probes, "texture probes of clip shaders; texture_probes holds them, too")               \
     X(texels_fetched, "texels read for all probes, in both levels")                                \
     X(target_bytes, "bytes of colour written to targets")
 

@@ -22,7 +22,8 @@ struct DipPipeline {
     DipGeometry geometry;
     DipTilePass tile_pass; // the pass being drawn
     DipTileWork *tile_work;
-    int draw_room; // number of draws for which the workers have lists
+    int draw_room;       // number of draws for which the workers have lists
+    uint8_t *is_ordered; // one per draw (draw_room)
     DipSrgbEncodeTable *srgb;
     float srgb_light[256]; // linear light of the 8-bit sRGB values
 };
@@ -56,6 +57,12 @@ static bool make_lists(DipPipeline *pipeline, int draw_count, DipError *err) {
         return true;
     }
     pipeline->draw_room = 0;
+    free(pipeline->is_ordered);
+    pipeline->is_ordered = calloc((size_t)draw_count, sizeof *pipeline->is_ordered);
+    if (!pipeline->is_ordered) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass", "no memory for %d draws",
+                             draw_count);
+    }
     for (int w = 0; w < pipeline->worker_count; w++) {
         if (!dip_tile_worker_make_lists(pipeline->workers[w], draw_count)) {
             return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass", "no memory for %d draws",
@@ -66,14 +73,37 @@ static bool make_lists(DipPipeline *pipeline, int draw_count, DipError *err) {
     return true;
 }
 
+// Allocates what merged passes need (merge/merge_tile.h).
+static bool make_merge(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
+    for (int w = 0; dip_pass_is_merged(pass) && w < pipeline->worker_count; w++) {
+        if (!dip_tile_worker_make_merge(pipeline->workers[w])) {
+            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "pass",
+                                 "no memory for the samples of a tile");
+        }
+    }
+    return true;
+}
+
 bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
     DIP_FP_MODE_SCOPE();
-    return make_lists(pipeline, pass->draw_count, err) &&
+    return make_lists(pipeline, pass->draw_count, err) && make_merge(pipeline, pass, err) &&
            dip_geometry_reserve(&pipeline->geometry, pass, err);
 }
 
+static void begin_merge(DipPipeline *pipeline, const DipPass *pass) {
+    DipTilePass *tile_pass = &pipeline->tile_pass;
+    tile_pass->merged = dip_pass_is_merged(pass);
+    if (tile_pass->merged) {
+        for (int d = 0; d < pass->draw_count; d++) {
+            pipeline->is_ordered[d] = dip_state_is_ordered(pass->draws[d].state);
+        }
+        tile_pass->merge.is_ordered = pipeline->is_ordered;
+        dip_merge_pass_begin(&tile_pass->merge, pass);
+    }
+}
+
 static bool begin_pass(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
-    if (!make_lists(pipeline, pass->draw_count, err)) {
+    if (!make_lists(pipeline, pass->draw_count, err) || !make_merge(pipeline, pass, err)) {
         return false;
     }
     DipTilePass *tile_pass = &pipeline->tile_pass;
@@ -82,6 +112,7 @@ static bool begin_pass(DipPipeline *pipeline, const DipPass *pass, DipError *err
     tile_pass->geometry = &pipeline->geometry;
     set_clear(tile_pass, pass->clear_lin);
     set_sample_groups(tile_pass, pass);
+    begin_merge(pipeline, pass);
     return true;
 }
 
@@ -122,12 +153,26 @@ static void add_tile_counters(const DipTileWork *work, DipPipelineCounters *coun
     counters->fragments_clip_tested += work->clip_tested;
     counters->clip_sample_groups += work->clip_sample_groups;
     counters->fragments_shaded += work->fragments;
+    counters->fragments_ordered += work->ordered_fragments;
     counters->samples_shown += work->samples;
     counters->pixels_resolved += work->multi_fragment_pixels;
     counters->texture_probes += work->sampling.probes;
+    counters->clip_probes += work->clip_probes;
     counters->texels_fetched += work->sampling.texels;
     for (int i = 0; i < DIP_SHADER_COUNT_MAX; i++) {
         counters->shader_counts[i] += work->sampling.counts[i];
+    }
+}
+
+// Returns the bytes that storing a pixel of the target writes.
+static uint64_t stored_bytes(const DipTarget *target) {
+    switch (target->format) {
+    case DIP_FORMAT_RGBA32F:
+        return target->floats ? 16 : 0;
+    case DIP_FORMAT_CALLER:
+        return 0; // the caller's memory is not known
+    default:
+        return target->rgba8 ? 4 : 0;
     }
 }
 
@@ -136,7 +181,8 @@ static void add_counters(const DipPipeline *pipeline, DipPipelineCounters *count
     const DipGeometry *geometry = pipeline->tile_pass.geometry;
     const int tiles = geometry->tile_count;
     counters->passes++;
-    counters->target_bytes += 4 * (uint64_t)target->width * (uint64_t)target->height;
+    counters->target_bytes +=
+        stored_bytes(target) * (uint64_t)target->width * (uint64_t)target->height;
     counters->tiles_drawn += (uint64_t)tiles;
     counters->tiles_spared += dip_geometry_tiles(geometry) - (uint64_t)tiles;
     add_geometry_counters(geometry, counters);
@@ -324,6 +370,9 @@ static void set_srgb_tables(DipPipeline *pipeline) {
     }
     pipeline->tile_pass.srgb = pipeline->srgb;
     pipeline->tile_pass.srgb_light = pipeline->srgb_light;
+    pipeline->tile_pass.merge.srgb = pipeline->srgb;
+    pipeline->tile_pass.merge.srgb_light = pipeline->srgb_light;
+    pipeline->tile_pass.merge.kernels = pipeline->tile_pass.kernels;
 }
 
 DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int height, DipError *err) {
@@ -366,6 +415,7 @@ void dip_pipeline_destroy(DipPipeline **pipeline_pointer) {
         dip_tile_worker_destroy(&pipeline->workers[w]);
     }
     dip_geometry_free(&pipeline->geometry);
+    free(pipeline->is_ordered);
     free(pipeline->workers);
     free(pipeline->tile_work);
     free(pipeline->srgb);

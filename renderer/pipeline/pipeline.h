@@ -11,9 +11,11 @@
 #include "renderer/base/isa.h"
 #include "renderer/base/pool.h"
 #include "renderer/pipeline/counters.h"
+#include "renderer/pipeline/depth.h"
 #include "renderer/pipeline/mesh.h"
 #include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/shader.h"
+#include "renderer/pipeline/state.h"
 #include "renderer/pipeline/target.h"
 #include "renderer/pipeline/texture.h"
 
@@ -40,9 +42,9 @@ typedef struct DipExactTransform {
 typedef struct DipDraw {
     const DipMesh *mesh;
     DipVertexShader *vertex_shader;
-    DipFragmentShader *fragment_shader;
-    DipFragmentShader *clip_shader; // cuts away parts of the surface; NULL: cuts nothing away
-    int varying_count;              // 0..DIP_MAX_VARYINGS
+    DipFragmentShader *fragment_shader; // may be NULL in a pass without colours
+    DipFragmentShader *clip_shader;     // cuts away parts of the surface; NULL: cuts nothing away
+    int varying_count;                  // 0..DIP_MAX_VARYINGS
     // The clip shader gets only the first clip_varying_count varyings, 0..varying_count.
     int clip_varying_count;
     // Fragment shaders get the last value_only_varying_count varyings, 0..varying_count, without
@@ -63,9 +65,40 @@ typedef struct DipDraw {
     // eye. NULL: new corners are computed from the vertex shader's positions.
     const DipExactTransform *exact_to_clip;
     DipCull cull;
+    const DipDrawState *state; // blending, depth, stencil, fill; NULL: the draw is plain (state.h)
 } DipDraw;
 
-// A render pass: draws into one target.
+// What an attachment of a pass (its colours, depths or stencil values) holds at the start.
+typedef enum DipLoad {
+    DIP_LOAD_CLEAR,   // the pass's clear value
+    DIP_LOAD_KEEP,    // what is there
+    DIP_LOAD_DISCARD, // anything: the caller promises to overwrite it
+} DipLoad;
+
+// What becomes of an attachment at the end of a pass.
+typedef enum DipStore {
+    DIP_STORE_KEEP,
+    DIP_STORE_DISCARD, // nothing reads it: it is undefined after the pass
+} DipStore;
+
+// The attachments of a pass beside its target. All 0 means what most passes need: colours are
+// cleared, and depths and stencil values are cleared and end with the pass.
+typedef struct DipAttachments {
+    DipLoad colour_load;
+    DipStore colour_store;
+    bool clear_transparent; // cleared pixels have the alpha 0 instead of 1
+    // Depths and stencil values that outlive the pass, borrowed, of the target's size and of the
+    // pass's sample_count. NULL: the pass has its own.
+    DipDepth *depth;
+    DipLoad depth_load;
+    DipStore depth_store;
+    float clear_depth; // 0..1; 0 is infinitely far
+    DipLoad stencil_load;
+    DipStore stencil_store;
+    uint8_t clear_stencil;
+} DipAttachments;
+
+// A render pass: draws into one target, or with attachments.depth into depths alone.
 typedef struct DipPass {
     const DipDraw *draws; // in submission order; where depths are equal, the earlier draw is shown
     int draw_count;
@@ -77,10 +110,12 @@ typedef struct DipPass {
     // return true for sample_count and this number. If the number is 0 or sample_count, the samples
     // are not divided, and these draws are shaded like any other draw.
     int samples_per_group;
-    float clear_lin[3]; // linear light, clamped to 0..1
+    float clear_lin[3]; // linear light; clamped to 0..1 for targets of 8 bits per channel
     // User clip planes in clip space. A surface is kept where dot(plane, clip position) >= 0.
     float clip_planes[DIP_MAX_CLIP_PLANES][4];
     int clip_plane_count;
+    // A target whose pixels are NULL, of any format but DIP_FORMAT_CALLER, is a pass without
+    // colours: it needs attachments.depth, and runs no fragment shader, only clip shaders.
     DipTarget target;
     // Only this rectangle is needed. Blocks of 8x8 pixels that lie outside it are left untouched.
     // The other blocks are the same to the bit as without a region.
@@ -88,6 +123,11 @@ typedef struct DipPass {
     // The rectangle that is needed of each tile of the target, row by row. Only pixels that are in
     // this rectangle and in `region` are needed. NULL: all of each tile.
     const DipTileRegion *tile_regions;
+    DipAttachments attachments;
+    // Pixels to which clip space maps, and beyond which nothing is drawn. All 0: the whole target.
+    DipTargetRegion viewport;
+    // Pixels outside this rectangle are left untouched, to the pixel. All 0: the whole target.
+    DipTargetRegion scissor;
 } DipPass;
 
 typedef struct DipPipeline DipPipeline;

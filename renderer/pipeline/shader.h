@@ -9,6 +9,7 @@
 #define DIP_RENDERER_PIPELINE_SHADER_H
 
 #include "renderer/pipeline/counters.h"
+#include "renderer/pipeline/depth.h"
 #include "renderer/pipeline/target.h"
 #include "renderer/pipeline/texture.h"
 
@@ -65,11 +66,20 @@ typedef void DipSampleColours(DipFragmentBatch *batch, const DipSampler *const s
 typedef void DipSampleAlpha(DipFragmentBatch *batch, const DipSampler *sampler, int u_varying,
                             float *out);
 
-// Reads a target that an earlier pass drew. u[i] and v[i] are fractions of the target's size,
-// measured from its top left corner; they are clamped to the target. The function filters
-// bilinearly in linear light and writes out[0..2][i].
+// Reads a target of format DIP_FORMAT_SRGB8 that an earlier pass drew. u[i] and v[i] are fractions
+// of the target's size, measured from its top left corner; they are clamped to the target. The
+// function filters bilinearly in linear light and writes out[0..2][i].
 typedef void DipSampleTarget(DipFragmentBatch *batch, const DipTarget *target, const float *u,
                              const float *v, float (*out)[DIP_FRAGMENT_BATCH]);
+
+// Compares depths with those that an earlier pass drew. u[i] and v[i] are fractions of the map's
+// size, measured from its top left corner. out[i] is the share of light, 0..1: of the stored depths
+// around the point, those that are not nearer than z[i] count as lit (z[i] >= stored). With
+// DIP_SHADOW_LINEAR, each of the four texels around the point is compared first, and the four
+// results are averaged with the weights of bilinear filtering, in 1/256. Points outside the map are
+// lit; texels beyond its border repeat the border.
+typedef void DipSampleShadow(DipFragmentBatch *batch, const DipShadowMap *map, const float *u,
+                             const float *v, const float *z, float *out);
 
 struct DipFragmentBatch {
     int count; // 1..DIP_FRAGMENT_BATCH
@@ -85,10 +95,13 @@ struct DipFragmentBatch {
     DipSampleColours *sample_colours;
     DipSampleAlpha *sample_alpha;
     DipSampleTarget *sample_target;
+    DipSampleShadow *sample_shadow;
     const float *srgb_light; // linear light of the 256 8-bit sRGB values, for sample_target
     DipShaderWork work;      // a shader may add to work.counts
-    // A fragment shader writes linear light, 0..1; the pipeline clamps it.
+    // A fragment shader writes linear light. The pipeline clamps it to 0..1 for targets of 8 bits.
     float colour[3][DIP_FRAGMENT_BATCH];
+    // A fragment shader of an ordered draw (state.h) may write an alpha; it is 1 if it does not.
+    float alpha[DIP_FRAGMENT_BATCH];
     // A clip shader writes 1 where the surface exists and 0 where it is cut away.
     uint8_t keep[DIP_FRAGMENT_BATCH];
 };

@@ -23,24 +23,34 @@
     X(BindSampler, BINDSAMPLER)                                                                    \
     X(BindTexture, BINDTEXTURE)                                                                    \
     X(BindVertexArray, BINDVERTEXARRAY)                                                            \
+    X(BlendColor, BLENDCOLOR)                                                                      \
+    X(BlendEquationSeparate, BLENDEQUATIONSEPARATE)                                                \
+    X(BlendFuncSeparate, BLENDFUNCSEPARATE)                                                        \
     X(BlitFramebuffer, BLITFRAMEBUFFER)                                                            \
     X(BufferData, BUFFERDATA)                                                                      \
     X(CheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS)                                              \
     X(Clear, CLEAR)                                                                                \
     X(ClearColor, CLEARCOLOR)                                                                      \
     X(ClearDepth, CLEARDEPTH)                                                                      \
+    X(ClearStencil, CLEARSTENCIL)                                                                  \
     X(ClipControl, CLIPCONTROL)                                                                    \
+    X(ColorMask, COLORMASK)                                                                        \
     X(CompileShader, COMPILESHADER)                                                                \
     X(CreateProgram, CREATEPROGRAM)                                                                \
     X(CreateShader, CREATESHADER)                                                                  \
+    X(CullFace, CULLFACE)                                                                          \
     X(DeleteShader, DELETESHADER)                                                                  \
     X(DepthFunc, DEPTHFUNC)                                                                        \
+    X(DepthMask, DEPTHMASK)                                                                        \
     X(Disable, DISABLE)                                                                            \
+    X(DrawArrays, DRAWARRAYS)                                                                      \
+    X(DrawBuffer, DRAWBUFFER)                                                                      \
     X(DrawElements, DRAWELEMENTS)                                                                  \
     X(Enable, ENABLE)                                                                              \
     X(EnableVertexAttribArray, ENABLEVERTEXATTRIBARRAY)                                            \
     X(Finish, FINISH)                                                                              \
     X(FramebufferRenderbuffer, FRAMEBUFFERRENDERBUFFER)                                            \
+    X(FramebufferTexture2D, FRAMEBUFFERTEXTURE2D)                                                  \
     X(FrontFace, FRONTFACE)                                                                        \
     X(GenBuffers, GENBUFFERS)                                                                      \
     X(GenFramebuffers, GENFRAMEBUFFERS)                                                            \
@@ -61,11 +71,17 @@
     X(RenderbufferStorageMultisample, RENDERBUFFERSTORAGEMULTISAMPLE)                              \
     X(SamplerParameterf, SAMPLERPARAMETERF)                                                        \
     X(SamplerParameteri, SAMPLERPARAMETERI)                                                        \
+    X(Scissor, SCISSOR)                                                                            \
     X(ShaderSource, SHADERSOURCE)                                                                  \
+    X(StencilFuncSeparate, STENCILFUNCSEPARATE)                                                    \
+    X(StencilMask, STENCILMASK)                                                                    \
+    X(StencilOpSeparate, STENCILOPSEPARATE)                                                        \
     X(TexImage2D, TEXIMAGE2D)                                                                      \
+    X(TexParameteri, TEXPARAMETERI)                                                                \
     X(Uniform1f, UNIFORM1F)                                                                        \
     X(Uniform1i, UNIFORM1I)                                                                        \
     X(Uniform3fv, UNIFORM3FV)                                                                      \
+    X(Uniform4fv, UNIFORM4FV)                                                                      \
     X(UniformMatrix3fv, UNIFORMMATRIX3FV)                                                          \
     X(UniformMatrix4fv, UNIFORMMATRIX4FV)                                                          \
     X(UseProgram, USEPROGRAM)                                                                      \

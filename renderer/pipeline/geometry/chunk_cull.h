@@ -9,8 +9,12 @@
 // outside one user clip plane. `visible` must have room for all chunks of the pass.
 uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible);
 
-// Returns the pixels that a pass draws: its region (the whole target if there is none), extended to
-// whole 8x8 blocks.
+// Returns the rectangle of pixels that clip space maps to: the pass's viewport, or the whole
+// target.
+DipTargetRegion dip_viewport(const DipPass *pass);
+
+// Returns the pixels that a pass draws: what its region, viewport and scissor have in common (the
+// whole target if there are none), extended to whole 8x8 blocks.
 DipTargetRegion dip_drawn_region(const DipPass *pass);
 
 #endif

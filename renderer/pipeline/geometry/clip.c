@@ -106,8 +106,9 @@ static void clip_by(DipClipPolygon *polygon, int32_t code, const DipScreenMappin
         if (inside[i] != inside[next]) {
             const int a = inside[i] ? i : next;
             const int b = inside[i] ? next : i;
-            intersect(&in.vertex[a], &in.vertex[b], side[a], side[b], varyings,
-                      &polygon->vertex[polygon->count++]);
+            DipClipVertex *added = &polygon->vertex[polygon->count++];
+            intersect(&in.vertex[a], &in.vertex[b], side[a], side[b], varyings, added);
+            added->edge = inside[next] && in.vertex[i].edge;
         }
     }
     if (polygon->count < 3) {

@@ -21,6 +21,8 @@ typedef struct DipClipVertex {
     // is far or lies on an edge that ends at a far vertex, and the precision of a float otherwise.
     double position[4];
     bool far;
+    // Whether the edge from this vertex to the next is part of an edge of the triangle.
+    bool edge;
     // The position that is projected. For a vertex of the triangle, it is the vertex shader's, so
     // that triangles that are not cut have the same vertex.
     float projected[4];

@@ -31,14 +31,39 @@ static int blocks_end(int end) {
     return (end + DIP_BLOCK - 1) / DIP_BLOCK * DIP_BLOCK;
 }
 
-DipTargetRegion dip_drawn_region(const DipPass *pass) {
-    const DipTargetRegion *region = &pass->region;
-    if (!region->x1) {
-        return (DipTargetRegion){0, 0, blocks_end(pass->target.width),
-                                 blocks_end(pass->target.height)};
+DipTargetRegion dip_viewport(const DipPass *pass) {
+    return pass->viewport.x1 ? pass->viewport
+                             : (DipTargetRegion){0, 0, pass->target.width, pass->target.height};
+}
+
+static int greater(int a, int b) {
+    return a > b ? a : b;
+}
+
+static int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
+// Returns what two rectangles have in common. `by` may be all 0, which stands for all pixels. If
+// they have nothing in common, the result is one pixel of `region`.
+static DipTargetRegion common(DipTargetRegion region, const DipTargetRegion *by) {
+    if (!by->x1) {
+        return region;
     }
-    return (DipTargetRegion){region->x0 / DIP_BLOCK * DIP_BLOCK, region->y0 / DIP_BLOCK * DIP_BLOCK,
-                             blocks_end(region->x1), blocks_end(region->y1)};
+    region.x0 = smaller(greater(region.x0, by->x0), region.x1 - 1);
+    region.y0 = smaller(greater(region.y0, by->y0), region.y1 - 1);
+    region.x1 = greater(smaller(region.x1, by->x1), region.x0 + 1);
+    region.y1 = greater(smaller(region.y1, by->y1), region.y0 + 1);
+    return region;
+}
+
+DipTargetRegion dip_drawn_region(const DipPass *pass) {
+    const DipTargetRegion target = {0, 0, pass->target.width, pass->target.height};
+    DipTargetRegion region = common(target, &pass->region);
+    region = common(region, &pass->viewport);
+    region = common(region, &pass->scissor);
+    return (DipTargetRegion){region.x0 / DIP_BLOCK * DIP_BLOCK, region.y0 / DIP_BLOCK * DIP_BLOCK,
+                             blocks_end(region.x1), blocks_end(region.y1)};
 }
 
 // A rectangle of the picture in normalised device coordinates, x / w and y / w.
@@ -49,14 +74,16 @@ typedef struct NdcRegion {
 static const NdcRegion whole = {-1.0f, 1.0f, -1.0f, 1.0f};
 
 static NdcRegion ndc_region(const DipPass *pass) {
-    if (!pass->region.x1) {
+    if (!pass->region.x1 && !pass->viewport.x1 && !pass->scissor.x1) {
         return whole;
     }
     const DipTargetRegion region = dip_drawn_region(pass);
-    const float x = 2.0f / (float)pass->target.width;
-    const float y = 2.0f / (float)pass->target.height;
-    return (NdcRegion){(float)region.x0 * x - 1.0f, (float)region.x1 * x - 1.0f,
-                       1.0f - (float)region.y1 * y, 1.0f - (float)region.y0 * y};
+    const DipTargetRegion viewport = dip_viewport(pass);
+    const float x = 2.0f / (float)(viewport.x1 - viewport.x0);
+    const float y = 2.0f / (float)(viewport.y1 - viewport.y0);
+    return (NdcRegion){
+        (float)(region.x0 - viewport.x0) * x - 1.0f, (float)(region.x1 - viewport.x0) * x - 1.0f,
+        1.0f - (float)(region.y1 - viewport.y0) * y, 1.0f - (float)(region.y0 - viewport.y0) * y};
 }
 
 static DipCullPlanes view_planes(const float *m, const NdcRegion *region) {

@@ -8,6 +8,7 @@
 #include "renderer/pipeline/geometry/mesh_layout.h"
 #include "renderer/pipeline/geometry/repeat.h"
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/merge/ordered.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,24 +35,29 @@ static float bounded(float ndc) {
 
 static void bound_picture(const DipPass *pass, DipScreenMapping *map) {
     const DipTargetRegion region = dip_drawn_region(pass);
-    map->left = bounded((float)(region.x0 - REJECT_MARGIN_PX) / map->half_width - 1.0f);
-    map->right = bounded((float)(region.x1 + REJECT_MARGIN_PX) / map->half_width - 1.0f);
-    map->top = bounded(1.0f - (float)(region.y0 - REJECT_MARGIN_PX) / map->half_height);
-    map->bottom = bounded(1.0f - (float)(region.y1 + REJECT_MARGIN_PX) / map->half_height);
+    const int x0 = region.x0 - map->first_x;
+    const int x1 = region.x1 - map->first_x;
+    const int y0 = region.y0 - map->first_y;
+    const int y1 = region.y1 - map->first_y;
+    map->left = bounded((float)(x0 - REJECT_MARGIN_PX) / map->half_width - 1.0f);
+    map->right = bounded((float)(x1 + REJECT_MARGIN_PX) / map->half_width - 1.0f);
+    map->top = bounded(1.0f - (float)(y0 - REJECT_MARGIN_PX) / map->half_height);
+    map->bottom = bounded(1.0f - (float)(y1 + REJECT_MARGIN_PX) / map->half_height);
 }
 
 DipScreenMapping dip_screen_mapping(const DipPass *pass) {
+    const DipTargetRegion viewport = dip_viewport(pass);
     DipScreenMapping map = {
-        .half_width = 0.5f * (float)pass->target.width,
-        .half_height = 0.5f * (float)pass->target.height,
+        .half_width = 0.5f * (float)(viewport.x1 - viewport.x0),
+        .half_height = 0.5f * (float)(viewport.y1 - viewport.y0),
+        .first_x = viewport.x0,
+        .first_y = viewport.y0,
         .clip_plane_count = pass->clip_plane_count,
     };
-    const float guard_x = DIP_GUARD_BAND_PX / map.half_width;
-    const float guard_y = DIP_GUARD_BAND_PX / map.half_height;
-    map.guard_left = guard_x + 1.0f;
-    map.guard_right = guard_x - 1.0f;
-    map.guard_top = guard_y + 1.0f;
-    map.guard_bottom = guard_y - 1.0f;
+    map.guard_left = (float)(DIP_GUARD_BAND_PX + viewport.x0) / map.half_width + 1.0f;
+    map.guard_right = (float)(DIP_GUARD_BAND_PX - viewport.x0) / map.half_width - 1.0f;
+    map.guard_top = (float)(DIP_GUARD_BAND_PX + viewport.y0) / map.half_height + 1.0f;
+    map.guard_bottom = (float)(DIP_GUARD_BAND_PX - viewport.y0) / map.half_height - 1.0f;
     memcpy(map.clip_planes, pass->clip_planes, sizeof map.clip_planes);
     bound_picture(pass, &map);
     return map;
@@ -308,6 +314,7 @@ typedef struct JobRun {
     DipTileBin *bins;
     const DipDraw *draw;
     DipSetupTarget target;
+    uint32_t all_edges[DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN]; // the flags of ordered draws
     const float *position[3]; // x, y and z of the current chunk's vertices
     uint32_t next_triangle;   // index of the next free triangle in the job's current run
     uint32_t triangle_end;
@@ -463,6 +470,15 @@ static void load_position(const JobRun *run, uint8_t v, DipClipVertex *vertex) {
     }
 }
 
+// Returns the flags of triangle i of a polygon's fan, which an ordered draw has instead of a patch.
+static uint32_t fan_edges(const DipClipPolygon *polygon, int i) {
+    const bool first = i == 0;
+    const bool last = i == polygon->count - 3;
+    return (uint32_t)(first && polygon->vertex[0].edge) |
+           (uint32_t)polygon->vertex[i + 1].edge << 1 |
+           (uint32_t)(last && polygon->vertex[i + 2].edge) << 2;
+}
+
 // Clips a triangle and sets up the polygon that remains as a fan of triangles.
 static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, int32_t codes) {
     const DipGeometryScratch *scratch = run->scratch;
@@ -470,6 +486,7 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
     DipClipPolygon polygon = {.count = 3};
     for (int i = 0; i < 3; i++) {
         load_position(run, corner[i], &polygon.vertex[i]);
+        polygon.vertex[i].edge = true;
         for (int s = 0; s < varying_count; s++) {
             polygon.vertex[i].varying[s] = scratch->varying[s][corner[i]];
         }
@@ -490,7 +507,8 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
     uint8_t fan[3][ROOM] = {{0}};
     uint32_t patches[ROOM];
     for (int i = 0; i < ROOM; i++) {
-        patches[i] = patch;
+        patches[i] =
+            run->target.front_flag && i < polygon.count - 2 ? fan_edges(&polygon, i) : patch;
     }
     float *const clip_rows[4] = {clip[0], clip[1], clip[2], clip[3]};
     for (int i = 0; i < polygon.count; i++) {
@@ -559,6 +577,7 @@ static void add_clipped_chunk(JobRun *run, const DipSetupBatch *chunk) {
 }
 
 static void add_chunk_triangles(JobRun *run, const DipChunk *chunk) {
+    const uint32_t *all_edges = run->all_edges;
     const DipScreenBatch *screen = &run->scratch->screen;
     const uint8_t *corner = run->draw->mesh->indices + chunk->first_index;
     const uint32_t stride = dip_corner_stride(chunk);
@@ -573,7 +592,9 @@ static void add_chunk_triangles(JobRun *run, const DipChunk *chunk) {
     }
     const DipSetupBatch batch = {.count = (int)chunk->triangle_count,
                                  .corner = {corner, corner + stride, corner + 2 * stride},
-                                 .patch = run->draw->mesh->patches + chunk->first_triangle,
+                                 .patch = run->target.front_flag
+                                              ? all_edges
+                                              : run->draw->mesh->patches + chunk->first_triangle,
                                  .screen = screen,
                                  .varyings = run->scratch->varying[0],
                                  .varying_stride = DIP_VERTEX_BATCH};
@@ -648,11 +669,16 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
         .job = *job,
     };
     memset(scratch->occupied, 0, words * sizeof *scratch->occupied);
+    for (int i = 0; i < DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN; i++) {
+        run.all_edges[i] = DIP_ORDERED_EDGES;
+    }
     for (uint32_t c = job->first_chunk; c < job->first_chunk + job->chunk_count; c++) {
         const DipVisibleChunk visible = geometry->visible[c];
         run.draw = &geometry->pass->draws[visible.draw];
         run.target.draw = visible.draw;
-        run.target.first_patch = geometry->first_patch[visible.draw];
+        const bool ordered = dip_state_is_ordered(run.draw->state);
+        run.target.first_patch = ordered ? 0 : geometry->first_patch[visible.draw];
+        run.target.front_flag = ordered ? DIP_ORDERED_FRONT : 0;
         run.target.cull = run.draw->cull;
         run.target.varying_count = run.draw->varying_count;
         run.target.repeating_varyings = run.draw->repeating_varyings;

@@ -46,8 +46,10 @@ enum {
 
 // How clip space maps to the target.
 typedef struct DipScreenMapping {
-    float half_width; // half of the target's width, in pixels
+    float half_width; // half of the viewport's width, in pixels
     float half_height;
+    int first_x; // column and row of the viewport's first pixel in the target
+    int first_y;
     // Bounds of x / w and y / w. A triangle that lies wholly beyond one of them cannot reach the
     // pass's region.
     float left, right, bottom, top;
@@ -69,7 +71,7 @@ typedef struct DipScreenBatch {
     int32_t code[DIP_VERTEX_BATCH];
 } DipScreenBatch;
 
-// Returns the mapping for a pass's target, region and user clip planes.
+// Returns the mapping for a pass's target, viewport, region and user clip planes.
 DipScreenMapping dip_screen_mapping(const DipPass *pass);
 
 #endif

@@ -48,6 +48,8 @@ void DIP_KERNEL(dip_kernel_project)(const DipScreenMapping *map, int count, floa
                                     DipScreenBatch *out) {
     const float half_x = map->half_width * 256.0f;
     const float half_y = map->half_height * 256.0f;
+    const Vi first_x = vi_splat(map->first_x * 256);
+    const Vi first_y = vi_splat(map->first_y * 256);
     for (int i = 0; i < count; i += DIP_LANES) {
         const Vf x = vf_load(clip[0] + i);
         const Vf y = vf_load(clip[1] + i);
@@ -55,8 +57,8 @@ void DIP_KERNEL(dip_kernel_project)(const DipScreenMapping *map, int count, floa
         const Vf w = vf_load(clip[3] + i);
         const Vi code = clip_code(map, x, y, z, w);
         vi_store(out->code + i, code);
-        vi_store(out->x + i, to_subpixels(x / w, half_x));
-        vi_store(out->y + i, to_subpixels(-y / w, half_y));
+        vi_store(out->x + i, to_subpixels(x / w, half_x) + first_x);
+        vi_store(out->y + i, to_subpixels(-y / w, half_y) + first_y);
         vf_store(out->z + i, z / w);
         vf_store(out->rw + i, vf_splat(1.0f) / w);
     }

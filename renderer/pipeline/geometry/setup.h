@@ -43,6 +43,7 @@ typedef struct DipSetupTarget {
     int plane_stride;            // floats per triangle, see dip_plane_stride
     uint32_t draw;
     uint32_t first_patch; // number of patch 0 of the draw's mesh
+    uint32_t front_flag;  // added to the patch of front faces; 0 unless the draw is ordered
     DipCull cull;
     const DipSamplePositions *samples;
     uint8_t sample_min[2]; // smallest x and y of the sample positions, 1/256 pixel

@@ -133,7 +133,8 @@ VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch
         hi_store_packed(out->y[k] + count, y[k], bits);
     }
     const Hi patch = hi_load((const int32_t *)batch->patch + at);
-    hi_store_packed(out->patch + count, patch + (int32_t)target->first_patch, bits);
+    const Hi flag = front & (int32_t)target->front_flag;
+    hi_store_packed(out->patch + count, patch + flag + (int32_t)target->first_patch, bits);
     hi_store_packed(out->first_pixel + count, first[0] | first[1] << 16, bits);
     hi_store_packed(out->last_pixel + count, last[0] | last[1] << 16, bits);
     return count + __builtin_popcount(bits);

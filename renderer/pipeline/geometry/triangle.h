@@ -19,9 +19,11 @@ typedef struct DipTriangle {
     int32_t b[3];
     int16_t x0, y0, x1, y1; // box of target pixels that may hold covered samples, inclusive
     uint32_t draw;          // index into the pass's draws
-    uint32_t patch;         // number of the triangle's patch among the patches of all draws, from 1
-    double z_origin;        // depth at the target's top left corner
-    double z_dx;            // change of depth per pixel
+    // Number of the triangle's patch among the patches of all draws, from 1. Triangles of ordered
+    // draws have flags instead (merge/ordered.h).
+    uint32_t patch;
+    double z_origin; // depth at the target's top left corner
+    double z_dx;     // change of depth per pixel
     double z_dy;
     float z_min; // smallest depth of the vertices; depth is clamped to z_min..z_max
     float z_max;

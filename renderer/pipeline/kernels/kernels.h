@@ -5,6 +5,7 @@
 #include "renderer/base/isa.h"
 #include "renderer/pipeline/geometry/project.h"
 #include "renderer/pipeline/geometry/setup.h"
+#include "renderer/pipeline/merge/ordered.h"
 #include "renderer/pipeline/raster/tile.h"
 #include "renderer/pipeline/shader.h"
 #include "renderer/pipeline/shading/tile_shading.h"
@@ -23,6 +24,18 @@
     /* Draws a triangle's coverage and depth in a tile that its box meets. clip NULL: opaque. */   \
     X(void, dip_kernel_draw_triangle,                                                              \
       (DipTile * tile, const DipTriangle *triangle, uint32_t id, const DipClipTest *clip))         \
+    /* Draws a triangle of an ordered draw in a tile that its box meets. */                        \
+    X(void, dip_kernel_draw_ordered,                                                               \
+      (DipTile * tile, const DipTriangle *triangle, uint32_t index, DipOrdered *ordered))          \
+    /* Blends the shaded fragments of an ordered draw's queue into the samples. */                 \
+    X(void, dip_kernel_blend,                                                                      \
+      (DipTileColours * colours, const DipOrdered *ordered, const DipFragmentBatch *batch))        \
+    /* Averages the samples of a block to bytes R, G, B, A. srgb_code NULL: linear codes. */       \
+    X(void, dip_kernel_resolve_codes,                                                              \
+      (const DipTileColours *colours, int block, const uint8_t *srgb_code, uint32_t *rgba8))       \
+    /* Averages the samples of a block to floats. */                                               \
+    X(void, dip_kernel_resolve_light,                                                              \
+      (const DipTileColours *colours, int block, float(*light)[DIP_BLOCK_PIXELS]))                 \
     /* Adds the fragments of a tile's pixels to the lists of their draws. */                       \
     X(void, dip_kernel_collect, (DipTileShading * shading))                                        \
     /* Interpolates varyings; the last value_only_count get no derivatives. */                     \
@@ -43,7 +56,10 @@
       (DipFragmentBatch * batch, const DipSampler *sampler, int u_varying, float *out))            \
     X(void, dip_kernel_sample_target,                                                              \
       (DipFragmentBatch * batch, const DipTarget *target, const float *u, const float *v,          \
-       float(*out)[DIP_FRAGMENT_BATCH]))
+       float(*out)[DIP_FRAGMENT_BATCH]))                                                           \
+    X(void, dip_kernel_sample_shadow,                                                              \
+      (DipFragmentBatch * batch, const DipShadowMap *map, const float *u, const float *v,          \
+       const float *z, float *out))
 
 typedef struct DipKernels {
     DIP_KERNEL_LIST(DIP_KERNEL_FIELD)

@@ -1,6 +1,8 @@
 // Finds a field of a pass that is wrong, and says what is accepted.
 #include "renderer/pipeline/run/pass_check.h"
 
+#include "renderer/pipeline/run/state_check.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -15,34 +17,49 @@ static bool is_set(const void *pointer, const char *field, DipError *err) {
            dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, field, "NULL, accepted a pointer");
 }
 
-static bool check_target(const DipTarget *target, int width, int height, DipError *err) {
-    if (!is_set(target->rgba8, "target.rgba8", err)) {
-        return false;
-    }
-    if (target->width != width || target->height != height) {
-        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "target.width",
-                             "%dx%d pixels, accepted the pipeline's %dx%d", target->width,
-                             target->height, width, height);
-    }
-    if (target->stride_bytes % 4 != 0 || target->stride_bytes < 4 * (size_t)width) {
+static bool has_colours(const DipTarget *target) {
+    return target->format == DIP_FORMAT_CALLER || target->rgba8;
+}
+
+// Returns the bytes of a pixel in the target's memory, or 0 if it has none.
+static size_t pixel_bytes(DipFormat format) {
+    static const size_t bytes[DIP_FORMAT_COUNT] = {
+        [DIP_FORMAT_SRGB8] = 4,
+        [DIP_FORMAT_LINEAR8] = 4,
+        [DIP_FORMAT_RGBA32F] = 16,
+        [DIP_FORMAT_R32F] = 4,
+    };
+    return bytes[format];
+}
+
+static bool check_memory(const DipTarget *target, DipError *err) {
+    const size_t row = pixel_bytes(target->format) * (size_t)target->width;
+    if (target->stride_bytes % 4 != 0 || target->stride_bytes < row) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "target.stride_bytes",
-                             "%zu, accepted multiples of 4 from %zu", target->stride_bytes,
-                             4 * (size_t)width);
+                             "%zu, accepted multiples of 4 from %zu", target->stride_bytes, row);
     }
     return (uintptr_t)target->rgba8 % 4 == 0 ||
            dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "target.rgba8",
                          "not aligned, accepted addresses that are multiples of 4");
 }
 
-static bool check_region(const DipTargetRegion *region, int width, int height, DipError *err) {
-    if (!region->x0 && !region->y0 && !region->x1 && !region->y1) {
-        return true;
+static bool check_target(const DipPass *pass, int width, int height, DipError *err) {
+    const DipTarget *target = &pass->target;
+    if (!in_range((int)target->format, 0, DIP_FORMAT_COUNT - 1, "target.format", err)) {
+        return false;
     }
-    return (region->x0 >= 0 && region->x0 < region->x1 && region->x1 <= width && region->y0 >= 0 &&
-            region->y0 < region->y1 && region->y1 <= height) ||
-           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "region",
-                         "x %d..%d, y %d..%d, accepted a rectangle within %dx%d pixels", region->x0,
-                         region->x1, region->y0, region->y1, width, height);
+    if (!has_colours(target) && !pass->attachments.depth) {
+        return is_set(NULL, "target.rgba8", err);
+    }
+    if (target->width != width || target->height != height) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "target.width",
+                             "%dx%d pixels, accepted the pipeline's %dx%d", target->width,
+                             target->height, width, height);
+    }
+    if (target->format == DIP_FORMAT_CALLER) {
+        return is_set((const void *)(uintptr_t)target->store, "target.store", err);
+    }
+    return !target->rgba8 || check_memory(target, err);
 }
 
 static bool check_samples(const DipPass *pass, DipError *err) {
@@ -62,28 +79,34 @@ static bool check_samples(const DipPass *pass, DipError *err) {
                pass->samples_per_group, count);
 }
 
-static bool check_draw(const DipDraw *draw, DipError *err) {
+// shades: the pass has colours, so that the draw needs a fragment shader.
+static bool check_draw(const DipDraw *draw, bool shades, DipError *err) {
     return is_set(draw->mesh, "draws.mesh", err) &&
            is_set((const void *)(uintptr_t)draw->vertex_shader, "draws.vertex_shader", err) &&
-           is_set((const void *)(uintptr_t)draw->fragment_shader, "draws.fragment_shader", err) &&
+           (!shades ||
+            is_set((const void *)(uintptr_t)draw->fragment_shader, "draws.fragment_shader", err)) &&
            in_range(draw->varying_count, 0, DIP_MAX_VARYINGS, "draws.varying_count", err) &&
            in_range(draw->clip_varying_count, 0, draw->varying_count, "draws.clip_varying_count",
                     err) &&
            in_range(draw->value_only_varying_count, 0, draw->varying_count,
                     "draws.value_only_varying_count", err) &&
-           in_range((int)draw->cull, DIP_CULL_NONE, DIP_CULL_FRONT, "draws.cull", err);
+           in_range((int)draw->cull, DIP_CULL_NONE, DIP_CULL_FRONT, "draws.cull", err) &&
+           dip_state_check(draw->state, err);
 }
 
 bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
-    if (!is_set(pass, "pass", err) || !check_target(&pass->target, width, height, err) ||
-        !check_region(&pass->region, width, height, err) || !check_samples(pass, err) ||
+    if (!is_set(pass, "pass", err) || !check_target(pass, width, height, err) ||
+        !dip_rectangle_check(&pass->region, &pass->target, "region", err) ||
+        !dip_rectangle_check(&pass->viewport, &pass->target, "viewport", err) ||
+        !dip_rectangle_check(&pass->scissor, &pass->target, "scissor", err) ||
+        !check_samples(pass, err) || !dip_attachments_check(pass, err) ||
         !in_range(pass->clip_plane_count, 0, DIP_MAX_CLIP_PLANES, "clip_plane_count", err) ||
         !in_range(pass->draw_count, 0, INT32_MAX, "draw_count", err) ||
         (pass->draw_count && !is_set(pass->draws, "draws", err))) {
         return false;
     }
     for (int d = 0; d < pass->draw_count; d++) {
-        if (!check_draw(&pass->draws[d], err)) {
+        if (!check_draw(&pass->draws[d], has_colours(&pass->target), err)) {
             return false;
         }
     }

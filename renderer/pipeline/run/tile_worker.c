@@ -26,12 +26,11 @@ static void bind_batch(const DipTileWorker *worker, const DipDraw *draw, DipFrag
     batch->sample_colours = worker->pass->kernels->dip_kernel_sample_colours;
     batch->sample_alpha = worker->pass->kernels->dip_kernel_sample_alpha;
     batch->sample_target = worker->pass->kernels->dip_kernel_sample_target;
+    batch->sample_shadow = worker->pass->kernels->dip_kernel_sample_shadow;
     batch->srgb_light = worker->pass->srgb_light;
 }
 
-// Shades the first fragments of a list, at most one batch. Their colours go to the worker's encoded
-// batch. Returns the number of these fragments.
-static int shade_batch(DipTileWorker *worker, uint32_t draw_index, DipFragmentList *list) {
+int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw_index, DipFragmentList *list) {
     const DipTilePass *pass = worker->pass;
     const DipDraw *draw = &pass->pass->draws[draw_index];
     DipFragmentBatch *batch = &worker->batch;
@@ -40,9 +39,25 @@ static int shade_batch(DipTileWorker *worker, uint32_t draw_index, DipFragmentLi
                                           draw->value_only_varying_count, batch);
     bind_batch(worker, draw, batch);
     draw->fragment_shader(batch);
-    pass->kernels->dip_kernel_encode(batch, pass->srgb->code, &worker->encoded);
-    worker->shading.fragments += (uint64_t)batch->count;
     return batch->count;
+}
+
+// Shades the first fragments of a list, at most one batch. Their colours go to the worker's encoded
+// batch. Returns the number of these fragments.
+static int shade_batch(DipTileWorker *worker, uint32_t draw, DipFragmentList *list) {
+    const DipTilePass *pass = worker->pass;
+    const int count = dip_tile_worker_shade(worker, draw, list);
+    pass->kernels->dip_kernel_encode(&worker->batch, pass->srgb->code, &worker->encoded);
+    worker->shading.fragments += (uint64_t)count;
+    return count;
+}
+
+void dip_fragment_list_drop(DipFragmentList *list, int count) {
+    list->count -= count;
+    const size_t left = (size_t)list->count;
+    memcpy(list->triangle, list->triangle + count, left * sizeof *list->triangle);
+    memcpy(list->position, list->position + count, left * sizeof *list->position);
+    memcpy(list->samples, list->samples + count, left * sizeof *list->samples);
 }
 
 static void flush_list(DipTileShading *shading, uint32_t draw) {
@@ -50,11 +65,7 @@ static void flush_list(DipTileShading *shading, uint32_t draw) {
     DipFragmentList *list = &shading->lists[draw];
     const int count = shade_batch(worker, draw, list);
     dip_store_fragments(shading, list, count, &worker->encoded);
-    list->count -= count;
-    const size_t left = (size_t)list->count;
-    memcpy(list->triangle, list->triangle + count, left * sizeof *list->triangle);
-    memcpy(list->position, list->position + count, left * sizeof *list->position);
-    memcpy(list->samples, list->samples + count, left * sizeof *list->samples);
+    dip_fragment_list_drop(list, count);
 }
 
 static void flush_whole_list(DipTileShading *shading, uint32_t draw) {
@@ -65,9 +76,7 @@ static void flush_whole_list(DipTileShading *shading, uint32_t draw) {
     list->count = 0;
 }
 
-// Runs the clip shader on the fragments in the worker's clip list. Returns a byte per fragment; 0
-// means that the surface is cut away.
-static const uint8_t *clip_test(void *context, const DipTriangle *triangle) {
+const uint8_t *dip_tile_worker_clip(void *context, const DipTriangle *triangle) {
     DipTileWorker *worker = context;
     const DipTilePass *pass = worker->pass;
     const DipDraw *draw = &pass->pass->draws[triangle->draw];
@@ -85,15 +94,18 @@ static int sample_group_count(const DipTilePass *pass) {
     return pass->groups ? pass->groups->count : 1;
 }
 
-static void draw_triangle(void *context, uint32_t index) {
-    DipTileWorker *worker = context;
+void dip_tile_worker_cover(DipTileWorker *worker, uint32_t index) {
     const DipTilePass *pass = worker->pass;
     const DipTriangle *triangle = &pass->geometry->triangles[index];
-    const DipClipTest clip = {&worker->clip_list, clip_test, worker, pass->groups};
+    const DipClipTest clip = {&worker->clip_list, dip_tile_worker_clip, worker, pass->groups};
     const bool clipped = pass->pass->draws[triangle->draw].clip_shader != NULL;
     worker->work->clip_sample_groups += clipped ? (uint64_t)sample_group_count(pass) : 0;
     pass->kernels->dip_kernel_draw_triangle(&worker->tile, triangle, index + 1,
                                             clipped ? &clip : NULL);
+}
+
+static void draw_triangle(void *context, uint32_t index) {
+    dip_tile_worker_cover(context, index);
 }
 
 static int greatest(int a, int b) {
@@ -109,6 +121,21 @@ static void set_margins(const DipTargetRegion *region, const DipTileRegion *need
     tile->top = greatest(region->y0 - tile->y0, needed->y0);
     tile->right = greatest(tile->x0 + DIP_TILE - region->x1, DIP_TILE - needed->x1);
     tile->bottom = greatest(tile->y0 + DIP_TILE - region->y1, DIP_TILE - needed->y1);
+}
+
+// Where the colours of plain draws go: into the target, or in a merged pass into the samples.
+static void set_destination(DipTileWorker *worker) {
+    const DipTarget *target = &worker->pass->pass->target;
+    DipTileShading *shading = &worker->shading;
+    if (worker->pass->merged) {
+        dip_merged_tile_begin(worker);
+        return;
+    }
+    shading->flush = flush_list;
+    shading->flush_whole = flush_whole_list;
+    shading->stride = target->stride_bytes / 4;
+    shading->pixels = (uint32_t *)(void *)target->rgba8 +
+                      (size_t)worker->tile.y0 * shading->stride + (size_t)worker->tile.x0;
 }
 
 static void begin_tile(DipTileWorker *worker, int index) {
@@ -131,14 +158,9 @@ static void begin_tile(DipTileWorker *worker, int index) {
                                        geometry->plane_stride, tile->x0, tile->y0};
     shading->draws = pass->pass->draws;
     shading->groups = pass->groups;
-    shading->flush = flush_list;
-    shading->flush_whole = flush_whole_list;
     shading->context = worker;
     shading->width = target->width - tile->x0 < DIP_TILE ? target->width - tile->x0 : DIP_TILE;
     shading->height = target->height - tile->y0 < DIP_TILE ? target->height - tile->y0 : DIP_TILE;
-    shading->stride = target->stride_bytes / 4;
-    shading->pixels =
-        (uint32_t *)(void *)target->rgba8 + (size_t)tile->y0 * shading->stride + (size_t)tile->x0;
     shading->clear_rgba8 = pass->clear_rgba8;
     memcpy(shading->clear_linear16, pass->clear_linear16, sizeof shading->clear_linear16);
     shading->multi_fragment_count = 0;
@@ -146,18 +168,34 @@ static void begin_tile(DipTileWorker *worker, int index) {
     shading->samples = 0;
     worker->batch.work = (DipShaderWork){0};
     worker->clip_batch.work = (DipShaderWork){0};
+    set_destination(worker);
 }
 
-static void shade_tile(DipTileWorker *worker) {
+// Covers, shades and resolves a tile of a pass that is not merged.
+static void draw_plain_tile(DipTileWorker *worker, int index) {
+    const DipTilePass *pass = worker->pass;
+    DipTileWork *work = worker->work;
+    const int64_t begin_ns = dip_clock_ns();
+    dip_geometry_visit(pass->geometry, index, draw_triangle, worker);
+    const int64_t covered_ns = dip_clock_ns();
+    dip_tile_worker_shade_tile(worker);
+    const int64_t shaded_ns = dip_clock_ns();
+    dip_resolve_multi_fragment(&worker->shading, pass->srgb->code);
+    work->stage_ns[DIP_TILE_STAGE_RASTER] += covered_ns - begin_ns;
+    work->stage_ns[DIP_TILE_STAGE_SHADING] = shaded_ns - covered_ns;
+    work->stage_ns[DIP_TILE_STAGE_RESOLVE] = dip_clock_ns() - shaded_ns;
+}
+
+void dip_tile_worker_shade_tile(DipTileWorker *worker) {
     DipTileShading *shading = &worker->shading;
     worker->pass->kernels->dip_kernel_collect(shading);
     for (int i = 0; i < shading->active_count; i++) {
         const uint32_t draw = shading->active[i];
         if (shading->whole_lists[draw].count) {
-            flush_whole_list(shading, draw);
+            shading->flush_whole(shading, draw);
         }
         if (shading->lists[draw].count) {
-            flush_list(shading, draw);
+            shading->flush(shading, draw);
         }
         shading->is_active[draw] = 0;
     }
@@ -173,27 +211,24 @@ static void add_shader_work(const DipShaderWork *from, DipShaderWork *to) {
 }
 
 void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work) {
-    const DipTilePass *pass = worker->pass;
     *work = (DipTileWork){.clip_tested = 0};
     worker->work = work;
     const int64_t begin_ns = dip_clock_ns();
     begin_tile(worker, index);
-    dip_geometry_visit(pass->geometry, index, draw_triangle, worker);
-    const int64_t covered_ns = dip_clock_ns();
-    shade_tile(worker);
-    const int64_t shaded_ns = dip_clock_ns();
-    dip_resolve_multi_fragment(&worker->shading, pass->srgb->code);
-    const int64_t resolved_ns = dip_clock_ns();
-    work->stage_ns[DIP_TILE_STAGE_RASTER] = covered_ns - begin_ns;
-    work->stage_ns[DIP_TILE_STAGE_SHADING] = shaded_ns - covered_ns;
-    work->stage_ns[DIP_TILE_STAGE_RESOLVE] = resolved_ns - shaded_ns;
+    work->stage_ns[DIP_TILE_STAGE_RASTER] = dip_clock_ns() - begin_ns;
+    if (worker->pass->merged) {
+        dip_merged_tile_draw(worker, index);
+    } else {
+        draw_plain_tile(worker, index);
+    }
     work->sub_blocks_tested = worker->tile.sub_blocks_tested;
     work->sub_blocks_accepted = worker->tile.sub_blocks_accepted;
     work->fragments = worker->shading.fragments;
     work->samples = worker->shading.samples;
-    work->multi_fragment_pixels = (uint64_t)worker->shading.multi_fragment_count;
+    work->multi_fragment_pixels += (uint64_t)worker->shading.multi_fragment_count;
     add_shader_work(&worker->batch.work, &work->sampling);
     add_shader_work(&worker->clip_batch.work, &work->sampling);
+    work->clip_probes = worker->clip_batch.work.probes;
 }
 
 // --- creating and destroying -------------------------------------------------------------------
@@ -224,6 +259,10 @@ DipTileWorker *dip_tile_worker_create(const DipTilePass *pass) {
     return worker;
 }
 
+bool dip_tile_worker_make_merge(DipTileWorker *worker) {
+    return dip_merge_tile_allocate(&worker->merge);
+}
+
 static void free_lists(DipTileShading *shading) {
     free(shading->lists);
     free(shading->whole_lists);
@@ -238,6 +277,7 @@ void dip_tile_worker_destroy(DipTileWorker **worker_pointer) {
         dip_lines_free(worker->tile.id);
         dip_lines_free(worker->shading.sum);
         dip_lines_free(worker->shading.multi_fragment);
+        dip_merge_tile_free(&worker->merge);
         free_lists(&worker->shading);
         dip_lines_free(worker);
         *worker_pointer = NULL;

@@ -6,6 +6,7 @@
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/geometry/geometry.h"
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/merge/merge_tile.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/pipeline/shading/tile_shading.h"
 
@@ -24,8 +25,10 @@ typedef struct DipTileWork {
     uint64_t sub_blocks_tested;
     uint64_t sub_blocks_accepted;
     uint64_t clip_tested;
+    uint64_t clip_probes;
     uint64_t clip_sample_groups;
     uint64_t fragments;
+    uint64_t ordered_fragments;
     uint64_t samples;
     uint64_t multi_fragment_pixels;
     int64_t stage_ns[DIP_TILE_STAGE_COUNT];
@@ -46,6 +49,8 @@ typedef struct DipTilePass {
     int32_t clear_linear16[3];
     const DipSrgbEncodeTable *srgb;
     const float *srgb_light; // linear light of the 256 8-bit sRGB values
+    bool merged;             // the pass is merged (merge/merge_tile.h)
+    DipMergePass merge;
 } DipTilePass;
 
 // The memory that one thread writes while it runs geometry jobs and draws tiles.
@@ -58,7 +63,9 @@ typedef struct DipTileWorker {
     DipFragmentBatch clip_batch;
     DipFragmentList clip_list;
     DipEncodedBatch encoded;
-    DipTileWork *work; // counters and times of the tile that is being drawn
+    DipMergeTile merge; // its arrays exist once a merged pass has been drawn
+    int64_t shading_ns; // merged passes: time of shading in the tile so far
+    DipTileWork *work;  // counters and times of the tile that is being drawn
 } DipTileWorker;
 
 // Creates the working memory of one thread. Each worker's memory is allocated separately, so that
@@ -69,6 +76,30 @@ void dip_tile_worker_destroy(DipTileWorker **worker);
 // Replaces the fragment lists by new ones for draw_count draws. The pipeline calls this for all its
 // workers when a pass has more draws than any pass before. Returns false if memory runs out.
 bool dip_tile_worker_make_lists(DipTileWorker *worker, int draw_count);
+
+// Allocates the memory for merged passes, if it does not exist. Returns false if memory runs out.
+bool dip_tile_worker_make_merge(DipTileWorker *worker);
+
+// Interpolates and shades the first fragments of a list, at most one batch, into worker->batch.
+// Returns the number of these fragments.
+int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw, DipFragmentList *list);
+
+// Removes the first `count` fragments of a list.
+void dip_fragment_list_drop(DipFragmentList *list, int count);
+
+// Covers a triangle of a plain draw.
+void dip_tile_worker_cover(DipTileWorker *worker, uint32_t triangle);
+
+// Runs the clip shader of a triangle's draw on the fragments in worker->clip_list, as DipClipTest
+// describes. context: the worker.
+const uint8_t *dip_tile_worker_clip(void *context, const DipTriangle *triangle);
+
+// Collects the fragments of all covered samples, and shades them.
+void dip_tile_worker_shade_tile(DipTileWorker *worker);
+
+// merged_tile.c: covers, shades and stores the tile of a merged pass that has begun.
+void dip_merged_tile_begin(DipTileWorker *worker);
+void dip_merged_tile_draw(DipTileWorker *worker, int index);
 
 // Draws the tile with this index (y * tiles_x + x) and fills in *work.
 void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work);

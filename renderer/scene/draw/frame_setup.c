@@ -93,7 +93,10 @@ typedef struct FrameSetup {
 } FrameSetup;
 
 static DipTarget target_of(const DipRenderer *renderer) {
-    return (DipTarget){renderer->rgba8, renderer->stride_bytes, renderer->width, renderer->height};
+    return (DipTarget){.rgba8 = renderer->rgba8,
+                       .stride_bytes = renderer->stride_bytes,
+                       .width = renderer->width,
+                       .height = renderer->height};
 }
 
 // Makes the pass that draws the mirrored scene above the water. The pass also draws a margin below

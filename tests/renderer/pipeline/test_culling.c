@@ -91,10 +91,12 @@ static DipPipelineCounters draw(const DipMesh *mesh, const float *matrix, bool c
                          .varying_count = 1,
                          .uniforms = matrix,
                          .bounds_to_clip = culled ? matrix : NULL};
-    DipPass pass = {.draws = &one,
-                    .draw_count = 1,
-                    .sample_count = 2,
-                    .target = {picture, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+    DipPass pass = {
+        .draws = &one,
+        .draw_count = 1,
+        .sample_count = 2,
+        .target = {
+            .rgba8 = picture, .stride_bytes = (size_t)WIDTH * 4, .width = WIDTH, .height = HEIGHT}};
     pass.region = region ? *region : (DipTargetRegion){0};
     if (user_plane) {
         memcpy(pass.clip_planes[0], user_plane, sizeof pass.clip_planes[0]);
@@ -302,7 +304,9 @@ static DipView random_view(Random *random) {
 }
 
 static DipPass random_part(Random *random, const DipView *view) {
-    DipPass pass = {.target = {NULL, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+    DipPass pass = {
+        .target = {
+            .rgba8 = NULL, .stride_bytes = (size_t)WIDTH * 4, .width = WIDTH, .height = HEIGHT}};
     if (random_int(random, 0, 3)) {
         const int x0 = random_int(random, 0, WIDTH - 1);
         const int y0 = random_int(random, 0, HEIGHT - 1);
@@ -449,7 +453,9 @@ enum { TILE = 64, TILES_X = WIDTH / TILE, PARTS = TILES_X * (HEIGHT / TILE), MAR
 // Returns true if a point, in world space, is in the picture. Also computes its position in the
 // picture, in pixels.
 static bool project_point(const DipView *view, const double world[3], double at[2]) {
-    const DipPass whole = {.target = {NULL, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+    const DipPass whole = {
+        .target = {
+            .rgba8 = NULL, .stride_bytes = (size_t)WIDTH * 4, .width = WIDTH, .height = HEIGHT}};
     double clip[4];
     for (int r = 0; r < 4; r++) {
         const double *m = view->world_to_clip + 4 * r;
@@ -578,7 +584,8 @@ static void each_plane_culls_by_itself(void **state) {
         assert_false(dip_cull_outside(&view, &box));
     }
     for (int p = 0; p < DIP_MAX_CLIP_PLANES; p++) {
-        DipPass pass = {.clip_plane_count = DIP_MAX_CLIP_PLANES, .target = {NULL, 256, 64, 64}};
+        DipPass pass = {.clip_plane_count = DIP_MAX_CLIP_PLANES,
+                        .target = {.rgba8 = NULL, .stride_bytes = 256, .width = 64, .height = 64}};
         for (int i = 0; i < DIP_MAX_CLIP_PLANES; i++) {
             pass.clip_planes[i][3] = 1.0f; // Cuts nothing away.
         }

@@ -103,7 +103,7 @@ static void passes_with_too_many_triangles_are_refused(void **state) {
     DipPass pass = {.draws = draws,
                     .draw_count = BIG_PASS_DRAWS,
                     .sample_count = 1,
-                    .target = {rgba8, 8 * 4, 8, 8}};
+                    .target = {.rgba8 = rgba8, .stride_bytes = 8 * 4, .width = 8, .height = 8}};
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     DipError err = {0};
@@ -164,10 +164,12 @@ static void the_largest_target_has_a_bin_for_every_tile(void **state) {
                           .vertex_shader = cover_and_corner,
                           .fragment_shader = varying_as_colour,
                           .varying_count = 1};
-    const DipPass pass = {.draws = &draw,
-                          .draw_count = 1,
-                          .sample_count = 1,
-                          .target = {rgba8, (size_t)SIZE * 4, SIZE, SIZE}};
+    const DipPass pass = {
+        .draws = &draw,
+        .draw_count = 1,
+        .sample_count = 1,
+        .target = {
+            .rgba8 = rgba8, .stride_bytes = (size_t)SIZE * 4, .width = SIZE, .height = SIZE}};
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     assert_true(dip_pipeline_draw(pipeline, &pass, &counters, &times, NULL));

@@ -98,7 +98,10 @@ static DipPass good_pass(const Stage *stage, int index) {
     return (DipPass){.draws = &stage->draw,
                      .draw_count = 1,
                      .sample_count = 4,
-                     .target = {pictures[0][index], (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+                     .target = {.rgba8 = pictures[0][index],
+                                .stride_bytes = (size_t)WIDTH * 4,
+                                .width = WIDTH,
+                                .height = HEIGHT}};
 }
 
 // A pass with one fault, and the error that the pipeline must report.

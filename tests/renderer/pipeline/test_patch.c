@@ -216,10 +216,12 @@ static uint64_t fragments_of(const DipMesh *mesh, int samples) {
                           .fragment_shader = red_ramp,
                           .varying_count = 1,
                           .cull = DIP_CULL_NONE};
-    const DipPass pass = {.draws = &draw,
-                          .draw_count = 1,
-                          .sample_count = samples,
-                          .target = {picture, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+    const DipPass pass = {
+        .draws = &draw,
+        .draw_count = 1,
+        .sample_count = samples,
+        .target = {
+            .rgba8 = picture, .stride_bytes = (size_t)WIDTH * 4, .width = WIDTH, .height = HEIGHT}};
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     DipPool *pool = dip_pool_create(1, NULL);

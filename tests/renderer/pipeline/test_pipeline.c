@@ -70,10 +70,12 @@ static DipDraw draw_of(const DipMesh *mesh, DipFragmentShader *shader) {
 }
 
 static DipPass pass_of(const DipDraw *draws, int count, int samples) {
-    return (DipPass){.draws = draws,
-                     .draw_count = count,
-                     .sample_count = samples,
-                     .target = {picture, (size_t)WIDTH * 4, WIDTH, HEIGHT}};
+    return (DipPass){
+        .draws = draws,
+        .draw_count = count,
+        .sample_count = samples,
+        .target = {
+            .rgba8 = picture, .stride_bytes = (size_t)WIDTH * 4, .width = WIDTH, .height = HEIGHT}};
 }
 
 static DipPipelineCounters run(const DipPass *pass) {
@@ -395,7 +397,8 @@ static void a_pass_samples_the_target_of_an_earlier_pass(void **state) {
     before[0] = 0; // the first row's red begins with 0 and 255 and ends with 200
     before[4] = 255;
     before[4 * (WIDTH - 1)] = 200;
-    const DipTarget target = {before, (size_t)WIDTH * 4, WIDTH, HEIGHT};
+    const DipTarget target = {
+        .rgba8 = before, .stride_bytes = (size_t)WIDTH * 4, .width = WIDTH, .height = HEIGHT};
     DipMesh *mesh = screen(0.5f);
     DipDraw draw = draw_of(mesh, turned_copy);
     draw.uniforms = &target;

@@ -222,7 +222,10 @@ static void draw_floor(const DipTestScene *scene) {
     const DipPass pass = {.draws = set.draws,
                           .draw_count = 1,
                           .sample_count = 1,
-                          .target = {(uint8_t *)pixels, 4 * WIDTH, WIDTH, HEIGHT}};
+                          .target = {.rgba8 = (uint8_t *)pixels,
+                                     .stride_bytes = 4 * WIDTH,
+                                     .width = WIDTH,
+                                     .height = HEIGHT}};
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     memset(seen, 0, sizeof seen);

@@ -350,12 +350,14 @@ static uint8_t picture[PIXELS * 4];
 
 static DipPipelineCounters run(DipIsa isa, const DipDraw *draws, int count, const int *pair,
                                DipPatternKind kind) {
-    const DipPass pass = {.draws = draws,
-                          .draw_count = count,
-                          .sample_count = pair[0],
-                          .pattern = kind,
-                          .samples_per_group = pair[1],
-                          .target = {picture, (size_t)SIDE * 4, SIDE, SIDE}};
+    const DipPass pass = {
+        .draws = draws,
+        .draw_count = count,
+        .sample_count = pair[0],
+        .pattern = kind,
+        .samples_per_group = pair[1],
+        .target = {
+            .rgba8 = picture, .stride_bytes = (size_t)SIDE * 4, .width = SIDE, .height = SIDE}};
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     DipPool *pool = dip_pool_create(1, NULL);

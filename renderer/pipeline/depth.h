@@ -1,0 +1,54 @@
+// Depth and stencil values that outlive a pass: a pass may start from them, leave its own there,
+// and later passes' shaders may read them, for example as a shadow map.
+#ifndef DIP_RENDERER_PIPELINE_DEPTH_H
+#define DIP_RENDERER_PIPELINE_DEPTH_H
+
+#include "renderer/base/api.h"
+#include "renderer/base/error.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// A depth and a stencil value for each sample. Only one pass at a time may draw to it; any number
+// of threads may read it while no pass draws to it.
+typedef struct DipDepth DipDepth;
+
+// Creates depths that are all 0 (infinitely far) and stencil values that are all 0. width, height:
+// 1..DIP_MAX_TARGET_SIZE. sample_count: 1, 2, 4, 6 or 8. It takes 5 bytes per sample. Fails with
+// RANGE or MEMORY.
+DIP_API DipDepth *dip_depth_create(int width, int height, int sample_count, DipError *err);
+// Frees depths that no pass uses any more. *depth may be NULL and becomes NULL.
+DIP_API void dip_depth_destroy(DipDepth **depth);
+
+DIP_API int dip_depth_width(const DipDepth *depth);
+DIP_API int dip_depth_height(const DipDepth *depth);
+DIP_API int dip_depth_sample_count(const DipDepth *depth);
+
+// Returns `width` depths of one row of pixels, z / w of the nearest surface in each pixel's sample
+// `sample`; 0 is infinitely far and 1 is the near plane. The caller may change them between passes.
+// Row 0 is the top one.
+DIP_API float *dip_depth_row(DipDepth *depth, int sample, int y);
+DIP_API uint8_t *dip_stencil_row(DipDepth *depth, int sample, int y);
+
+// How a shader compares with stored depths.
+typedef enum DipShadowFilter {
+    DIP_SHADOW_LINEAR,  // the bilinear mean of four comparisons
+    DIP_SHADOW_NEAREST, // one comparison
+} DipShadowFilter;
+
+// Depths that a shader compares with, usually a light's (DipSampleShadow in shader.h). Only sample
+// 0 of each pixel is read, so shadow maps are best drawn with one sample per pixel.
+typedef struct DipShadowMap {
+    const DipDepth *depth;
+    DipShadowFilter filter;
+} DipShadowMap;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

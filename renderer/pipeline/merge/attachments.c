@@ -1,0 +1,268 @@
+// Loads what a tile starts from, and stores what outlives its pass.
+#include "renderer/pipeline/merge/depth_planes.h"
+#include "renderer/pipeline/merge/merge_tile.h"
+
+#include <string.h>
+
+enum { CHANNELS = 4 };
+
+// A row of a block's pixels, cut to the pixels that the pass may change.
+typedef struct Row {
+    int x; // column and row of the first pixel in the target
+    int y;
+    int from; // first and last + 1 of the block's columns
+    int to;
+} Row;
+
+static Row row_of(const DipMergePass *pass, const DipTile *tile, int block, int y) {
+    const DipTargetRegion *stored = &pass->stored;
+    const int x0 = tile->x0 + block % DIP_TILE_BLOCKS * DIP_BLOCK;
+    const int row = tile->y0 + block / DIP_TILE_BLOCKS * DIP_BLOCK + y;
+    Row found = {.y = row, .from = 0, .to = DIP_BLOCK};
+    found.from = stored->x0 > x0 ? stored->x0 - x0 : 0;
+    found.to = stored->x1 < x0 + DIP_BLOCK ? stored->x1 - x0 : DIP_BLOCK;
+    if (row < stored->y0 || row >= stored->y1 || found.from > found.to) {
+        found.to = found.from;
+    }
+    found.x = x0 + found.from;
+    return found;
+}
+
+// Returns the index of a pixel in the order of a block (raster/tile.h).
+static int in_block(int x, int y) {
+    return y / DIP_SUB_BLOCK * 32 + x / DIP_SUB_BLOCK * 16 + y % DIP_SUB_BLOCK * 4 +
+           x % DIP_SUB_BLOCK;
+}
+
+static char *target_row(const DipTarget *target, int y) {
+    return (char *)target->rgba8 + (size_t)y * target->stride_bytes;
+}
+
+// --- colours -------------------------------------------------------------------------------------
+
+// Reads one row into light[c][0..count-1].
+static void load_row(const DipMergePass *pass, const Row *row, float light[CHANNELS][DIP_BLOCK]) {
+    const DipTarget *target = &pass->pass->target;
+    const int count = row->to - row->from;
+    if (target->format == DIP_FORMAT_CALLER) {
+        float *const rows[CHANNELS] = {light[0], light[1], light[2], light[3]};
+        target->load(target->context, row->x, row->y, count, rows);
+        return;
+    }
+    const char *from = target_row(target, row->y);
+    for (int i = 0; i < count; i++) {
+        const uint8_t *codes = (const uint8_t *)from + 4 * (size_t)(row->x + i);
+        const float *floats = (const float *)(const void *)from;
+        for (int c = 0; c < CHANNELS; c++) {
+            switch (target->format) {
+            case DIP_FORMAT_SRGB8:
+                light[c][i] = c < 3 ? pass->srgb_light[codes[c]] : (float)codes[c] / 255.0f;
+                break;
+            case DIP_FORMAT_LINEAR8:
+                light[c][i] = (float)codes[c] / 255.0f;
+                break;
+            case DIP_FORMAT_RGBA32F:
+                light[c][i] = floats[4 * (row->x + i) + c];
+                break;
+            default:
+                light[c][i] = c == 0 ? floats[row->x + i] : c == 3 ? 1.0f : 0.0f;
+                break;
+            }
+        }
+    }
+}
+
+void dip_load_colours(const DipMergePass *pass, const DipTile *tile, int block,
+                      float light[CHANNELS][DIP_BLOCK_PIXELS]) {
+    for (int c = 0; c < CHANNELS; c++) {
+        for (int i = 0; i < DIP_BLOCK_PIXELS; i++) {
+            light[c][i] = pass->clear[c];
+        }
+    }
+    for (int y = 0; pass->pass->attachments.colour_load == DIP_LOAD_KEEP && y < DIP_BLOCK; y++) {
+        const Row row = row_of(pass, tile, block, y);
+        float held[CHANNELS][DIP_BLOCK];
+        if (row.to > row.from) {
+            load_row(pass, &row, held);
+        }
+        for (int c = 0; c < CHANNELS; c++) {
+            for (int x = row.from; x < row.to; x++) {
+                light[c][in_block(x, y)] = held[c][x - row.from];
+            }
+        }
+    }
+}
+
+static void store_codes(const DipMergePass *pass, const DipTile *tile, int block,
+                        const uint32_t rgba8[DIP_BLOCK_PIXELS]) {
+    const DipTarget *target = &pass->pass->target;
+    for (int y = 0; y < DIP_BLOCK; y++) {
+        const Row row = row_of(pass, tile, block, y);
+        if (row.to <= row.from) {
+            continue;
+        }
+        uint32_t *to = (uint32_t *)(void *)target_row(target, row.y) + row.x;
+        for (int x = row.from; x < row.to; x++) {
+            to[x - row.from] = rgba8[in_block(x, y)];
+        }
+    }
+}
+
+static void store_light(const DipMergePass *pass, const DipTile *tile, int block,
+                        float light[CHANNELS][DIP_BLOCK_PIXELS]) {
+    const DipTarget *target = &pass->pass->target;
+    for (int y = 0; y < DIP_BLOCK; y++) {
+        const Row row = row_of(pass, tile, block, y);
+        const int count = row.to - row.from;
+        if (count <= 0) {
+            continue;
+        }
+        float line[CHANNELS][DIP_BLOCK];
+        for (int c = 0; c < CHANNELS; c++) {
+            for (int x = row.from; x < row.to; x++) {
+                line[c][x - row.from] = light[c][in_block(x, y)];
+            }
+        }
+        if (target->format == DIP_FORMAT_CALLER) {
+            const float *const rows[CHANNELS] = {line[0], line[1], line[2], line[3]};
+            target->store(target->context, row.x, row.y, count, rows);
+            continue;
+        }
+        const int channels = target->format == DIP_FORMAT_RGBA32F ? CHANNELS : 1;
+        float *to = (float *)(void *)target_row(target, row.y) + (size_t)(row.x * channels);
+        for (int i = 0; i < count; i++) {
+            for (int c = 0; c < channels; c++) {
+                to[i * channels + c] = line[c][i];
+            }
+        }
+    }
+}
+
+static void store_clear(const DipMergePass *pass, const DipTile *tile, int block) {
+    uint32_t rgba8[DIP_BLOCK_PIXELS];
+    for (int i = 0; i < DIP_BLOCK_PIXELS; i++) {
+        rgba8[i] = pass->clear_rgba8;
+    }
+    store_codes(pass, tile, block, rgba8);
+}
+
+static void store_colours(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
+                          int block) {
+    const bool ready = merge->colours.ready >> block & 1;
+    if (!ready && pass->pass->attachments.colour_load == DIP_LOAD_KEEP) {
+        return;
+    }
+    if (!ready && pass->clamps) {
+        store_clear(pass, tile, block);
+        return;
+    }
+    dip_merge_ready_block(pass, merge, tile, block);
+    if (pass->clamps) {
+        const bool srgb = pass->pass->target.format == DIP_FORMAT_SRGB8;
+        uint32_t rgba8[DIP_BLOCK_PIXELS];
+        pass->kernels->dip_kernel_resolve_codes(&merge->colours, block,
+                                                srgb ? pass->srgb->code : NULL, rgba8);
+        store_codes(pass, tile, block, rgba8);
+    } else {
+        float light[CHANNELS][DIP_BLOCK_PIXELS];
+        pass->kernels->dip_kernel_resolve_light(&merge->colours, block, light);
+        store_light(pass, tile, block, light);
+    }
+}
+
+// --- depths and stencil values -------------------------------------------------------------------
+
+void dip_load_depths(const DipMergePass *pass, DipTile *tile) {
+    const DipAttachments *a = &pass->pass->attachments;
+    const int count = tile->pattern->count;
+    const size_t values = (size_t)DIP_BLOCKS * (size_t)count * DIP_BLOCK_PIXELS;
+    for (size_t i = 0; i < values; i++) {
+        tile->depth[i] = a->clear_depth;
+    }
+    memset(tile->id, 0, values * sizeof *tile->id);
+    tile->touched = ~(uint64_t)0;
+    if (!a->depth || a->depth_load != DIP_LOAD_KEEP) {
+        return;
+    }
+    for (int block = 0; block < DIP_BLOCKS; block++) {
+        for (int y = 0; dip_block_is_drawn(tile, block) && y < DIP_BLOCK; y++) {
+            const Row row = row_of(pass, tile, block, y);
+            for (int s = 0; row.to > row.from && s < count; s++) {
+                const float *from = a->depth->depth + dip_depth_row_index(a->depth, s, row.y);
+                float *to = tile->depth + dip_tile_index(tile, block, s);
+                for (int x = row.from; x < row.to; x++) {
+                    to[in_block(x, y)] = from[row.x + x - row.from];
+                }
+            }
+        }
+    }
+}
+
+void dip_load_stencil(const DipMergePass *pass, const DipTile *tile, uint8_t *stencil) {
+    const DipAttachments *a = &pass->pass->attachments;
+    const int count = tile->pattern->count;
+    memset(stencil, a->clear_stencil, (size_t)DIP_BLOCKS * (size_t)count * DIP_BLOCK_PIXELS);
+    if (!a->depth || a->stencil_load != DIP_LOAD_KEEP) {
+        return;
+    }
+    for (int block = 0; block < DIP_BLOCKS; block++) {
+        for (int y = 0; dip_block_is_drawn(tile, block) && y < DIP_BLOCK; y++) {
+            const Row row = row_of(pass, tile, block, y);
+            for (int s = 0; row.to > row.from && s < count; s++) {
+                const uint8_t *from = a->depth->stencil + dip_depth_row_index(a->depth, s, row.y);
+                uint8_t *to = stencil + dip_tile_index(tile, block, s);
+                for (int x = row.from; x < row.to; x++) {
+                    to[in_block(x, y)] = from[row.x + x - row.from];
+                }
+            }
+        }
+    }
+}
+
+static void store_depths(const DipMergePass *pass, const DipTile *tile, int block) {
+    DipDepth *depth = pass->pass->attachments.depth;
+    const bool touched = tile->touched >> block & 1;
+    for (int y = 0; y < DIP_BLOCK; y++) {
+        const Row row = row_of(pass, tile, block, y);
+        for (int s = 0; row.to > row.from && s < tile->pattern->count; s++) {
+            const float *from = tile->depth + dip_tile_index(tile, block, s);
+            float *to = depth->depth + dip_depth_row_index(depth, s, row.y) + row.x;
+            for (int x = row.from; x < row.to; x++) {
+                to[x - row.from] = touched ? from[in_block(x, y)] : 0.0f;
+            }
+        }
+    }
+}
+
+static void store_stencil(const DipMergePass *pass, const DipMergeTile *merge, const DipTile *tile,
+                          int block) {
+    DipDepth *depth = pass->pass->attachments.depth;
+    for (int y = 0; y < DIP_BLOCK; y++) {
+        const Row row = row_of(pass, tile, block, y);
+        for (int s = 0; row.to > row.from && s < tile->pattern->count; s++) {
+            const uint8_t *from = merge->stencil + dip_tile_index(tile, block, s);
+            uint8_t *to = depth->stencil + dip_depth_row_index(depth, s, row.y) + row.x;
+            for (int x = row.from; x < row.to; x++) {
+                to[x - row.from] = from[in_block(x, y)];
+            }
+        }
+    }
+}
+
+void dip_store_attachments(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile) {
+    const DipAttachments *a = &pass->pass->attachments;
+    for (int block = 0; block < DIP_BLOCKS; block++) {
+        if (!dip_block_is_drawn(tile, block)) {
+            continue;
+        }
+        if (pass->has_colours && a->colour_store == DIP_STORE_KEEP) {
+            store_colours(pass, merge, tile, block);
+        }
+        if (a->depth && a->depth_store == DIP_STORE_KEEP) {
+            store_depths(pass, tile, block);
+        }
+        if (a->depth && a->stencil_store == DIP_STORE_KEEP) {
+            store_stencil(pass, merge, tile, block);
+        }
+    }
+}
