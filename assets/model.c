@@ -314,13 +314,14 @@ static bool load_parts(DipModel *model, const DipModelLoad *load, DipError *err)
     return ok;
 }
 
-// Loads a picture file as the scene's only texture.
+// Loads a picture file. Its levels become the scene's only textures.
 static bool load_picture(DipModel *model, const DipModelLoad *load, DipError *err) {
     const char *path = load->files[0];
     note(load, DIP_IMPORT_PICTURES, 0);
     model->pictures = calloc(1, sizeof *model->pictures);
-    model->textures = calloc(1, sizeof *model->textures);
-    if (!model->pictures || !model->textures) {
+    model->textures = calloc(DIP_MAX_LEVELS, sizeof *model->textures);
+    const char *name = dip_model_copy_text(model, path);
+    if (!model->pictures || !model->textures || !name) {
         return dip_model_out_of_memory(err, path);
     }
     DipPicture *picture = &model->pictures[0].picture;
@@ -328,12 +329,9 @@ static bool load_picture(DipModel *model, const DipModelLoad *load, DipError *er
     if (!dip_picture_read_file(path, picture, err)) {
         return false;
     }
-    model->textures[0] = (DipTextureDef){.name = dip_model_copy_text(model, path),
-                                         .width = picture->width,
-                                         .height = picture->height,
-                                         .rgba8 = picture->rgba8};
-    model->def.texture_count = 1;
-    return model->textures[0].name || dip_model_out_of_memory(err, path);
+    model->def.texture_count =
+        dip_picture_levels(picture, name, DIP_ENCODING_SRGB, model->textures);
+    return true;
 }
 
 DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
@@ -386,8 +384,9 @@ bool dip_picture_import(const char *path, const DipImporter *importer, DipPictur
     if (!model) {
         return false;
     }
-    const bool ok = model->def.texture_count == 1
-                        ? dip_picture_copy(&model->def.textures[0], picture, err)
+    const int levels = model->def.texture_count;
+    const bool ok = levels >= 1 && levels <= DIP_MAX_LEVELS
+                        ? dip_picture_copy(model->def.textures, levels, picture, err)
                         : dip_error_set(err, DIP_ERROR_FORMAT, path, 0, NULL,
                                         "the importer's result is malformed: it has no picture");
     dip_model_destroy(&model);

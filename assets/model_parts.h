@@ -129,7 +129,7 @@ typedef struct DipModelLoad {
     DipPool *pool;           // May be NULL.
     DipErrorList *warnings;  // May be NULL.
     int note_file;           // Pack file that gets a note of every step, or -1.
-    bool picture_only;       // The only file is a picture, which becomes the scene's only texture.
+    bool picture_only;       // The only file is a picture; its levels become the only textures.
 } DipModelLoad;
 
 // model.c: loads a model in this process. Returns NULL and fills *err if the load fails.

@@ -1,5 +1,6 @@
-// Decodes pictures with stb_image and adds the checks that it leaves out: the size of the picture,
-// truncated files, and the tables of JPEG files (jpeg_tables.c).
+// Decodes pictures: chooses the reader, and reads PNG, JPEG, BMP and TGA with stb_image. Adds the
+// checks that stb_image leaves out: the size of the picture, truncated files, and the tables of
+// JPEG files (jpeg_tables.c).
 #include "assets/picture.h"
 
 #include "assets/picture_private.h"
@@ -81,13 +82,23 @@ static int source_at_end(void *user) {
     return source->position >= source->size_bytes;
 }
 
-static bool check_size(long long width, long long height, const char *name, DipError *err) {
+bool dip_picture_check_size(const PictureFile *file, long long width, long long height) {
     if (width < 1 || height < 1 || width > DIP_MAX_PICTURE_SIZE || height > DIP_MAX_PICTURE_SIZE) {
-        return dip_error_set(err, DIP_ERROR_RANGE, name, 0, NULL,
+        return dip_error_set(file->err, DIP_ERROR_RANGE, file->name, 0, NULL,
                              "the picture has %lld x %lld pixels, accepted 1..%d in each direction",
                              width, height, DIP_MAX_PICTURE_SIZE);
     }
     return true;
+}
+
+bool dip_picture_truncated(const PictureFile *file) {
+    return dip_error_set(file->err, DIP_ERROR_TRUNCATED, file->name, 0, NULL,
+                         "the picture file ends too early");
+}
+
+bool dip_picture_out_of_memory(const PictureFile *file) {
+    return dip_error_set(file->err, DIP_ERROR_MEMORY, file->name, 0, NULL,
+                         "the picture cannot be read: out of memory");
 }
 
 static bool any_alpha(const DipPicture *picture) {
@@ -100,56 +111,79 @@ static bool any_alpha(const DipPicture *picture) {
     return false;
 }
 
-static bool decode(const uint8_t *bytes, size_t size_bytes, const char *name, DipPicture *picture,
-                   DipError *err) {
+// --- PNG, JPEG, BMP, TGA -------------------------------------------------------------------------
+
+static bool read_with_stb(const PictureFile *file, DipPicture *picture) {
     static const stbi_io_callbacks callbacks = {source_read, source_skip, source_at_end};
-    *picture = (DipPicture){0};
-    if (size_bytes == 0) {
-        return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL, "the picture file is empty");
-    }
-    if (!dip_jpeg_has_good_tables(bytes, size_bytes)) {
-        return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL,
+    if (!dip_jpeg_has_good_tables(file->bytes, file->size_bytes)) {
+        return dip_error_set(file->err, DIP_ERROR_FORMAT, file->name, 0, NULL,
                              "a Huffman or quantisation table of the JPEG file is malformed or "
                              "missing, accepted files with every table that they use");
     }
-    Source source = {.bytes = bytes, .size_bytes = size_bytes};
+    Source source = {.bytes = file->bytes, .size_bytes = file->size_bytes};
     int channels = 0;
     if (!stbi_info_from_callbacks(&callbacks, &source, &picture->width, &picture->height,
                                   &channels)) {
-        return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL,
-                             "the file is not a supported picture, accepted PNG, BMP, TGA and JPEG "
-                             "(not arithmetic-coded)");
+        return dip_error_set(file->err, DIP_ERROR_FORMAT, file->name, 0, NULL,
+                             "the file is not a supported picture, accepted PNG, BMP, TGA, DDS, "
+                             "PCX, PPM, PGM, HDR and JPEG (not arithmetic-coded)");
     }
-    if (!check_size(picture->width, picture->height, name, err)) {
+    if (!dip_picture_check_size(file, picture->width, picture->height)) {
         return false;
     }
-    source = (Source){.bytes = bytes, .size_bytes = size_bytes};
+    source = (Source){.bytes = file->bytes, .size_bytes = file->size_bytes};
+    picture->level_count = 1;
+    picture->has_alpha = channels == 2 || channels == 4;
     picture->rgba8 = stbi_load_from_callbacks(&callbacks, &source, &picture->width,
                                               &picture->height, &channels, 4);
-    if (!picture->rgba8 || source.passed_end) {
-        const char *reason = picture->rgba8 ? NULL : stbi_failure_reason();
-        dip_picture_free(picture);
-        if (source.passed_end) {
-            return dip_error_set(err, DIP_ERROR_TRUNCATED, name, 0, NULL,
-                                 "the picture file ends too early");
-        }
-        return dip_error_set(err, DIP_ERROR_FORMAT, name, 0, NULL, "the picture cannot be read: %s",
-                             reason ? reason : "stb_image gives no reason");
+    if (source.passed_end) {
+        return dip_picture_truncated(file);
     }
-    picture->has_alpha = (channels == 2 || channels == 4) && any_alpha(picture);
-    return true;
+    const char *reason = picture->rgba8 ? NULL : stbi_failure_reason();
+    return picture->rgba8 || dip_error_set(file->err, DIP_ERROR_FORMAT, file->name, 0, NULL,
+                                           "the picture cannot be read: %s",
+                                           reason ? reason : "stb_image gives no reason");
+}
+
+// --- all formats ---------------------------------------------------------------------------------
+
+static bool read_picture(const PictureFile *file, DipPicture *picture) {
+    static const struct {
+        bool (*is)(const PictureFile *file);
+        bool (*read)(const PictureFile *file, DipPicture *picture);
+    } readers[] = {
+        {dip_picture_is_dds, dip_picture_read_dds},
+        {dip_picture_is_pcx, dip_picture_read_pcx},
+        {dip_picture_is_pnm, dip_picture_read_pnm},
+        {dip_picture_is_hdr, dip_picture_read_hdr},
+    };
+    if (file->size_bytes == 0) {
+        return dip_error_set(file->err, DIP_ERROR_TRUNCATED, file->name, 0, NULL,
+                             "the picture file is empty");
+    }
+    for (size_t i = 0; i < sizeof readers / sizeof *readers; ++i) {
+        if (readers[i].is(file)) {
+            return readers[i].read(file, picture);
+        }
+    }
+    return read_with_stb(file, picture);
 }
 
 bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
                         DipPicture *picture, DipError *err) {
+    const PictureFile file = {bytes, size_bytes, name, err};
+    *picture = (DipPicture){0};
     ran_out = false;
-    const bool decoded = decode(bytes, size_bytes, name, picture, err);
+    bool decoded = read_picture(&file, picture);
     if (ran_out) {
-        dip_picture_free(picture);
-        return dip_error_set(err, DIP_ERROR_MEMORY, name, 0, NULL,
-                             "the picture cannot be read: out of memory");
+        decoded = dip_picture_out_of_memory(&file);
     }
-    return decoded;
+    if (!decoded) {
+        dip_picture_free(picture);
+        return false;
+    }
+    picture->has_alpha = picture->has_alpha && any_alpha(picture);
+    return true;
 }
 
 bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err) {
@@ -164,19 +198,59 @@ bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err)
     return ok;
 }
 
-static bool allocate(DipPicture *picture, int width, int height) {
-    *picture = (DipPicture){.width = width, .height = height};
-    picture->rgba8 = malloc(4 * (size_t)width * (size_t)height);
+// --- levels --------------------------------------------------------------------------------------
+
+static int half_size(int size, int level) {
+    return size >> level > 1 ? size >> level : 1;
+}
+
+// Returns the number of texels of the levels 0..level_count-1.
+static size_t texel_count(int width, int height, int level_count) {
+    size_t count = 0;
+    for (int level = 0; level < level_count; ++level) {
+        count += (size_t)half_size(width, level) * (size_t)half_size(height, level);
+    }
+    return count;
+}
+
+const uint8_t *dip_picture_level(const DipPicture *picture, int level, int *width, int *height) {
+    *width = half_size(picture->width, level);
+    *height = half_size(picture->height, level);
+    return picture->rgba8 + 4 * texel_count(picture->width, picture->height, level);
+}
+
+int dip_picture_levels(const DipPicture *picture, const char *name, DipEncoding encoding,
+                       DipTextureDef *levels) {
+    for (int level = 0; level < picture->level_count; ++level) {
+        DipTextureDef *to = &levels[level];
+        *to = (DipTextureDef){.name = name, .encoding = encoding};
+        to->rgba8 = dip_picture_level(picture, level, &to->width, &to->height);
+    }
+    return picture->level_count;
+}
+
+static bool allocate(DipPicture *picture, int width, int height, int level_count) {
+    *picture = (DipPicture){.width = width, .height = height, .level_count = level_count};
+    picture->rgba8 = malloc(4 * texel_count(width, height, level_count));
     return picture->rgba8 != NULL;
 }
 
+bool dip_picture_allocate(const PictureFile *file, int width, int height, int level_count,
+                          DipPicture *picture) {
+    return allocate(picture, width, height, level_count) || dip_picture_out_of_memory(file);
+}
+
+// --- pictures made from others -------------------------------------------------------------------
+
 bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_t height, const char *name,
                            DipPicture *picture, DipError *err) {
+    const PictureFile file = {.name = name, .err = err};
     *picture = (DipPicture){0};
-    if (!check_size(width, height, name, err)) {
+    if (!dip_picture_check_size(&file, width, height)) {
         return false;
     }
-    if (!allocate(picture, (int)width, (int)height)) {
+    if (!allocate(picture, (int)width, (int)height, 1)) {
+        *picture = (DipPicture){0};
         return dip_error_set(err, DIP_ERROR_MEMORY, name, 0, NULL, "out of memory");
     }
     const size_t count = (size_t)width * height;
@@ -190,12 +264,26 @@ bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_t height
     return true;
 }
 
-bool dip_picture_copy(const DipTextureDef *texture, DipPicture *picture, DipError *err) {
-    if (!allocate(picture, texture->width, texture->height)) {
-        *picture = (DipPicture){0};
-        return dip_error_set(err, DIP_ERROR_MEMORY, texture->name, 0, NULL, "out of memory");
+bool dip_picture_copy(const DipTextureDef *levels, int level_count, DipPicture *picture,
+                      DipError *err) {
+    *picture = (DipPicture){0};
+    for (int level = 0; level < level_count; ++level) {
+        if (levels[level].width != half_size(levels[0].width, level) ||
+            levels[level].height != half_size(levels[0].height, level)) {
+            return dip_error_set(err, DIP_ERROR_FORMAT, levels[0].name, 0, NULL,
+                                 "the textures are not the levels of one picture");
+        }
     }
-    memcpy(picture->rgba8, texture->rgba8, 4 * (size_t)texture->width * (size_t)texture->height);
+    if (!allocate(picture, levels[0].width, levels[0].height, level_count)) {
+        *picture = (DipPicture){0};
+        return dip_error_set(err, DIP_ERROR_MEMORY, levels[0].name, 0, NULL, "out of memory");
+    }
+    for (int level = 0; level < level_count; ++level) {
+        int width;
+        int height;
+        uint8_t *to = (uint8_t *)dip_picture_level(picture, level, &width, &height);
+        memcpy(to, levels[level].rgba8, 4 * (size_t)width * (size_t)height);
+    }
     picture->has_alpha = any_alpha(picture);
     return true;
 }
@@ -205,7 +293,7 @@ bool dip_picture_with_opacity(const DipPicture *colour, const DipPicture *opacit
     const DipPicture *size_of = colour ? colour : opacity;
     const int width = size_of->width;
     const int height = size_of->height;
-    if (!allocate(picture, width, height)) {
+    if (!allocate(picture, width, height, 1)) {
         return false;
     }
     for (int y = 0; y < height; ++y) {

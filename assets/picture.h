@@ -1,4 +1,13 @@
-// Decodes pictures (PNG, JPEG, BMP, TGA) to 8-bit RGBA texels.
+// Decodes pictures (PNG, JPEG, BMP, TGA, DDS, PCX, PPM, PGM, HDR) to 8-bit RGBA texels.
+//
+// A scene that needs one picture reads it with dip_picture_read_file, or with dip_picture_import
+// (importer.h) if the file is not trusted, and hands its levels to the pipeline:
+//     DipTextureDef levels[DIP_MAX_LEVELS];
+//     const int count = dip_picture_levels(&picture, "stone", DIP_ENCODING_SRGB, levels);
+//     DipTexture *texture = dip_texture_create_from_levels(levels, count, err); // levels of a DDS
+//     DipTexture *filtered = dip_texture_create(&levels[0], err); // Diptych's own mip chain
+//
+// Linear light of an HDR file is cut off at 1 and encoded as sRGB.
 //
 // Every function that fills a DipPicture gives the caller ownership of its texels, which
 // dip_picture_free frees. On failure it returns false, leaves rgba8 NULL and fills *err (may be
@@ -22,14 +31,27 @@ extern "C" {
 enum { DIP_MAX_PICTURE_SIZE = 8192 }; // greatest width and height, pixels
 
 typedef struct DipPicture {
-    uint8_t *rgba8; // texels, row-major, the top row first, rows tightly packed; owned
-    int width;      // pixels
-    int height;     // pixels
-    bool has_alpha; // true if the alpha of some texel is below 255
+    // Texels, row-major, the top row first, rows tightly packed; owned. The texels of level 0 come
+    // first, and those of every smaller level follow without a gap.
+    uint8_t *rgba8;
+    int width;       // Width of level 0, in pixels.
+    int height;      // Height of level 0, in pixels.
+    bool has_alpha;  // True if the alpha of some texel of level 0 is below 255.
+    int level_count; // Number of mip levels; 1 unless a DDS file stores more.
 } DipPicture;
 
+// Returns the texels of a level, and its size: half of the size of the level before, rounded down,
+// but at least 1. level: 0..level_count - 1.
+const uint8_t *dip_picture_level(const DipPicture *picture, int level, int *width, int *height);
+
+// Describes every level of the picture as a texture that repeats. `levels` has room for
+// level_count items; DIP_MAX_LEVELS are always enough. They point to the picture's texels and to
+// the name. Returns level_count.
+int dip_picture_levels(const DipPicture *picture, const char *name, DipEncoding encoding,
+                       DipTextureDef *levels);
+
 // Decodes the bytes of a picture file. Messages call the file `name`. Codes: FORMAT, TRUNCATED,
-// RANGE (size).
+// RANGE (size), UNSUPPORTED (a variant of DDS or PCX), MEMORY.
 bool dip_picture_decode(const uint8_t *bytes, size_t size_bytes, const char *name,
                         DipPicture *picture, DipError *err);
 
@@ -41,8 +63,10 @@ bool dip_picture_read_file(const char *path, DipPicture *picture, DipError *err)
 bool dip_picture_from_bgra(const uint8_t *bgra8, uint32_t width, uint32_t height, const char *name,
                            DipPicture *picture, DipError *err);
 
-// Copies the texels of a texture. Code: MEMORY.
-bool dip_picture_copy(const DipTextureDef *texture, DipPicture *picture, DipError *err);
+// Copies the texels of textures, which are the levels of one picture. Codes: FORMAT (the sizes are
+// not those of levels), MEMORY.
+bool dip_picture_copy(const DipTextureDef *levels, int level_count, DipPicture *picture,
+                      DipError *err);
 
 // Makes a new picture from the colours of one picture (NULL: white) and the opacity of another. The
 // opacity is the alpha channel of the opacity picture if it has one, otherwise its brightness. If

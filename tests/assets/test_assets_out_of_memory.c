@@ -132,6 +132,15 @@ static void picture_is_read_whole_or_not_at_all(void **state) {
                                 .finish = free_picture,
                                 .needs_every_allocation = true};
     dip_out_of_memory_check(&operation);
+    static const char *const formats[] = {"bc1.dds", "palette.pcx", "text.ppm", "light.hdr"};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i) {
+        char data_name[64];
+        snprintf(data_name, sizeof data_name, "pictures/%s", formats[i]);
+        operation.name = formats[i];
+        p.file = fixture_data(data_name);
+        dip_out_of_memory_check(&operation);
+    }
+    p.file = file;
     operation.name = "importing a picture";
     p.importer = &importer;
     operation.needs_every_allocation = false;

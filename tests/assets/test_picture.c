@@ -222,8 +222,8 @@ static void an_opacity_picture_becomes_the_alpha(void **state) {
     (void)state;
     uint8_t colours[16] = {10, 20, 30, 255, 40, 50, 60, 255, 70, 80, 90, 255, 1, 2, 3, 255};
     uint8_t greys[8] = {0, 0, 0, 255, 255, 255, 255, 255};
-    const DipPicture colour = {colours, 2, 2, false};
-    const DipPicture opacity = {greys, 2, 1, false};
+    const DipPicture colour = {.rgba8 = colours, .width = 2, .height = 2, .level_count = 1};
+    const DipPicture opacity = {.rgba8 = greys, .width = 2, .height = 1, .level_count = 1};
     const uint8_t expected[16] = {10, 20, 30, 0, 40, 50, 60, 255, 70, 80, 90, 0, 1, 2, 3, 255};
     DipPicture merged;
     assert_true(dip_picture_with_opacity(&colour, &opacity, &merged));

@@ -1,4 +1,4 @@
-// Fuzzes the decoder of pictures (PNG, JPEG, BMP, TGA).
+// Fuzzes the decoder of pictures (PNG, JPEG, BMP, TGA, DDS, PCX, PPM, PGM, HDR).
 #include "assets/picture.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -20,10 +20,22 @@ static bool is_jpeg_frame(const uint8_t *at) {
     return at[0] == 0xff && at[1] >= 0xc0 && at[1] <= 0xc2;
 }
 
+// True for DDS, PCX, PPM, PGM and HDR. Their readers compare the picture's size with the file's
+// before they allocate memory, so a short file gives no large picture.
+static bool is_bounded_by_file(const uint8_t bytes[26]) {
+    const bool is_pcx = bytes[0] == 10 && bytes[2] == 1 && bytes[1] <= 5 && bytes[1] != 1;
+    const bool is_pnm = bytes[0] == 'P' && bytes[1] >= '2' && bytes[1] <= '6';
+    return is_pcx || is_pnm || memcmp(bytes, "DDS ", 4) == 0 ||
+           memcmp(bytes, "#?RADIANCE", 10) == 0 || memcmp(bytes, "#?RGBE", 6) == 0;
+}
+
 // True if some field of the file that may hold the picture's size holds a large one.
 static bool may_be_large(const uint8_t *file, size_t size_bytes) {
     uint8_t bytes[26] = {0}; // The decoder, too, reads zeros beyond the end.
     memcpy(bytes, file, size_bytes < sizeof bytes ? size_bytes : sizeof bytes);
+    if (is_bounded_by_file(bytes)) {
+        return false;
+    }
     if (bytes[0] == 0x89) { // PNG
         return number(bytes + 16, 4, true) * number(bytes + 20, 4, true) > max_pixels;
     }
@@ -55,6 +67,12 @@ static void check_accepted(const DipPicture *picture) {
         clear |= picture->rgba8[4 * i + 3] < 255;
     }
     FUZZ_CHECK(picture->has_alpha == clear);
+    FUZZ_CHECK(picture->level_count >= 1 && picture->level_count <= DIP_MAX_LEVELS);
+    DipTextureDef levels[DIP_MAX_LEVELS];
+    DipPicture copy;
+    dip_picture_levels(picture, "fuzzed", DIP_ENCODING_SRGB, levels);
+    FUZZ_CHECK(dip_picture_copy(levels, picture->level_count, &copy, NULL)); // reads all texels
+    dip_picture_free(&copy);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
