@@ -205,6 +205,10 @@ float *dip_model_make_normals(DipModel *model, const struct aiMesh *mesh);
 int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, DipTag tag,
                        bool light_mapped, DipError *err);
 
+// pictures.c: finds a file that a model names. Returns the path of the file, or the first path
+// tried if there is no such file. The caller frees the path. Returns NULL when memory runs out.
+char *dip_model_find_file(const char *model_path, const char *file_path);
+
 // pictures.c: registers a picture of a material and returns its index, or DIP_NO_TEXTURE when
 // memory runs out.
 int dip_model_picture(DipModel *model, int file, const char *path);

@@ -61,12 +61,11 @@ static void decode_percent(char *path) {
     *to = '\0';
 }
 
-// Finds a picture file. Two names are tried in the model's folder: the path that the model gives,
-// and only the last part of this path, because some models contain absolute paths of another
-// machine. In BLEND files, "//" at the beginning stands for the model's folder. Each name is tried
-// as written and then with percent-encoding decoded. Returns the path of the file, or the first
-// path tried if there is no file. The caller frees the path. Returns NULL when memory runs out.
-static char *find_file(const char *model_path, const char *picture_path) {
+// Two names are tried in the model's folder: the path that the model gives, and only the last part
+// of this path, because some models contain absolute paths of another machine. In BLEND files, "//"
+// at the beginning stands for the model's folder. Each name is tried as written and then with
+// percent-encoding decoded.
+char *dip_model_find_file(const char *model_path, const char *picture_path) {
     const size_t folder_length = (size_t)(base_name(model_path) - model_path);
     const size_t size_bytes = folder_length + strlen(picture_path) + 1;
     char *name = strdup(picture_path);
@@ -142,7 +141,7 @@ static int register_picture(DipModel *model, int file, const char *path) {
     if (texture && texture->pcData) {
         return embedded_picture(model, file, path, texture);
     }
-    char *found = find_file(model->files[file].path, path);
+    char *found = dip_model_find_file(model->files[file].path, path);
     const int known = found ? find_picture(model, found, NULL) : DIP_NOT_FOUND;
     int index = known;
     if (found && known < 0) {

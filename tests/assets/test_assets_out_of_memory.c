@@ -1,5 +1,6 @@
 // Tests what loading models and pictures does when memory runs out: a model is loaded whole or not
 // at all, in this process and through the importer. This program is also its own importer.
+#include "assets/animation.h"
 #include "assets/importer.h"
 #include "assets/scene_pack.h"
 #include "tests/assets/fixture.h"
@@ -154,6 +155,49 @@ static void picture_is_read_whole_or_not_at_all(void **state) {
     dip_picture_free(&p.other);
 }
 
+// --- animated models -----------------------------------------------------------------------------
+
+typedef struct Animating {
+    const char *file;
+    DipAnimatedModel *model;
+    DipAnimatedPose *pose;
+} Animating;
+
+static bool load_and_pose(void *context, DipError *err) {
+    Animating *a = context;
+    a->model = dip_animated_model_load(a->file, NULL, NULL, err);
+    a->pose = a->model ? dip_animated_pose_create(a->model, err) : NULL;
+    return a->pose != NULL;
+}
+
+static void check_animated(void *context, bool succeeded) {
+    const Animating *a = context;
+    assert_int_equal(a->pose != NULL, succeeded);
+    if (succeeded) {
+        assert_int_equal(dip_animated_model_def(a->model)->texture_count, 1);
+    }
+}
+
+static void free_animated(void *context) {
+    Animating *a = context;
+    dip_animated_pose_destroy(&a->pose);
+    dip_animated_model_destroy(&a->model);
+}
+
+static void animated_model_is_loaded_whole_or_not_at_all(void **state) {
+    (void)state;
+    const char *const files[] = {fixture_data("motion.gltf"), DIP_ASSETS_DIR "/gallery/crab.md2"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+        Animating a = {.file = files[i]};
+        dip_out_of_memory_check(&(DipOutOfMemory){.name = files[i],
+                                                  .context = &a,
+                                                  .run = load_and_pose,
+                                                  .check = check_animated,
+                                                  .finish = free_animated,
+                                                  .short_count = 60});
+    }
+}
+
 // --- packs ---------------------------------------------------------------------------------------
 
 typedef struct Packing {
@@ -241,6 +285,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(model_is_loaded_whole_or_not_at_all),
         cmocka_unit_test(model_is_imported_whole_or_not_at_all),
         cmocka_unit_test(picture_is_read_whole_or_not_at_all),
+        cmocka_unit_test(animated_model_is_loaded_whole_or_not_at_all),
         cmocka_unit_test(pack_is_written_and_read_whole_or_not_at_all),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
