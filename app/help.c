@@ -84,7 +84,8 @@ static void print_exit_codes(FILE *out) {
           "  0  The command is done.\n"
           "  1  The command failed: a file cannot be written, there is no display, ...\n"
           "  2  The command line or an input file is wrong.\n"
-          "  3  Other programs kept the machine too busy to measure times (cost diff).\n",
+          "  3  Other programs kept the machine too busy to measure times (cost diff,\n"
+          "     cost advise).\n",
           out);
 }
 

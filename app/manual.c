@@ -189,6 +189,7 @@ void dip_manual_print(const DipCommandList *list, FILE *out) {
           ".TP\n.B 1\nThe command failed: a file cannot be written, there is no "
           "display, ...\n"
           ".TP\n.B 2\nThe command line or an input file is wrong.\n"
-          ".TP\n.B 3\nOther programs kept the machine too busy to measure times (cost diff).\n",
+          ".TP\n.B 3\nOther programs kept the machine too busy to measure times (cost diff, cost "
+          "advise).\n",
           out);
 }

@@ -1,4 +1,4 @@
-// The commands `diptych cost`, `diptych cost merge`, `diptych cost assets` and `diptych cost diff`.
+// The command `diptych cost` and the commands whose names begin with it.
 #ifndef DIP_APP_COST_COMMAND_H
 #define DIP_APP_COST_COMMAND_H
 
@@ -7,6 +7,7 @@
 extern const DipCommand dip_cost_command;
 extern const DipCommand dip_cost_merge_command;
 extern const DipCommand dip_cost_assets_command;
-extern const DipCommand dip_cost_diff_command; // in diff_command.c
+extern const DipCommand dip_cost_diff_command;   // in diff_command.c
+extern const DipCommand dip_cost_advise_command; // in advise_command.c
 
 #endif

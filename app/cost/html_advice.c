@@ -1,5 +1,6 @@
 // The best settings for time budgets in the HTML page.
 #include "app/cost/html_parts.h"
+#include "app/cost/tiers.h"
 
 static void write_next_better(const DipCostReport *report, int row, double flip, FILE *out) {
     const int next = dip_cost_step_up(report, row);
@@ -47,10 +48,20 @@ static void write_advice_line(const DipCostReport *report, const DipCostAdvice *
     write_next_better(report, advice->row, f.flip, out);
 }
 
+static void write_tier(const char *name, const DipCostTier *tier, FILE *out) {
+    char text[256] = "";
+    if (tier->quality) {
+        dip_quality_format(tier->quality, text, sizeof text);
+    }
+    dip_html_line_begin(out, tier->row);
+    fprintf(out, "<th scope=\"row\">%s</th><td>%g</td><td class=\"l code\">%s%s</td></tr>\n", name,
+            tier->budget_ms, tier->quality ? "REQUESTED: " : "nothing is surely that fast", text);
+}
+
 // Four budgets make the four tiers of a settings menu.
 static void write_tiers(const DipCostReport *report, FILE *out) {
-    static const char *const tiers[] = {"low", "medium", "high", "ultra"};
-    if (report->advice_count != 4) {
+    DipCostTier tiers[DIP_COST_TIER_COUNT];
+    if (report->advice_count != DIP_COST_TIER_COUNT) {
         return;
     }
     dip_html_table_begin(out, "tiers", "");
@@ -60,16 +71,14 @@ static void write_tiers(const DipCostReport *report, FILE *out) {
     dip_html_column(out, "budget", "ms");
     dip_html_text_column(out, "line of the ini");
     dip_html_columns_end(out);
-    for (int i = 0; i < 4; i++) {
-        const DipCostAdvice *advice = &report->advice[i];
-        char text[256] = "";
-        if (advice->row >= 0) {
-            dip_quality_format(&report->rows[advice->row].quality, text, sizeof text);
-        }
-        dip_html_line_begin(out, advice->row);
-        fprintf(out, "<th scope=\"row\">%s</th><td>%g</td><td class=\"l code\">%s%s</td></tr>\n",
-                tiers[i], advice->budget_ms,
-                advice->row >= 0 ? "REQUESTED: " : "nothing is surely that fast", text);
+    for (int i = 0; i < DIP_COST_TIER_COUNT; i++) {
+        const int row = report->advice[i].row;
+        tiers[i] = (DipCostTier){report->advice[i].budget_ms,
+                                 row >= 0 ? &report->rows[row].quality : NULL, row};
+    }
+    dip_cost_tiers_sort(tiers);
+    for (int i = 0; i < DIP_COST_TIER_COUNT; i++) {
+        write_tier(dip_cost_tier_names[i], &tiers[i], out);
     }
     dip_html_table_end(out);
 }

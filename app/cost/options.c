@@ -59,7 +59,8 @@ static bool read_combined(void *fields, const DipOptionRow *row, const char *val
            dip_option_each(fields, row, value, ',', add_combined, err);
 }
 
-static bool read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+bool dip_cost_read_budget(void *fields, const DipOptionRow *row, const char *value,
+                          DipError *err) {
     DipCostOptions *cost = fields;
     double ms;
     if (!dip_number_parse(value, strlen(value), &ms) || ms < 0.01 || ms > 100000.0) {
@@ -98,8 +99,8 @@ const char *const dip_cost_budget_of_names[3] = {
     [DIP_COST_BUDGET_WORST] = "worst",
 };
 
-static bool read_budget_of(void *fields, const DipOptionRow *row, const char *value,
-                           DipError *err) {
+bool dip_cost_read_budget_of(void *fields, const DipOptionRow *row, const char *value,
+                             DipError *err) {
     for (int i = 0; i < (int)DIP_ARRAY_COUNT(dip_cost_budget_of_names); i++) {
         if (strcmp(value, dip_cost_budget_of_names[i]) == 0) {
             ((DipCostOptions *)fields)->budget_of = (DipCostBudgetOf)i;
@@ -174,13 +175,13 @@ static const DipOptionRow choice_rows[] = {
      .count = FIELD(budget_count),
      .most = DIP_COST_MAX_BUDGETS,
      .separator = ',',
-     .read = read_budget},
+     .read = dip_cost_read_budget},
     {.name = "--budget-of",
      .argument = "TIME",
      .text = "The time that must be within the budget: p95 (the 95th percentile of the frames "
              "along the path), mean or worst. The default is p95.",
      .kind = DIP_OPTION_CUSTOM,
-     .read = read_budget_of},
+     .read = dip_cost_read_budget_of},
 };
 
 static const DipOptionRow picture_rows[] = {

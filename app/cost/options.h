@@ -86,6 +86,11 @@ extern const DipOptionParts dip_cost_option_parts;
 extern const DipOptionParts dip_cost_merge_option_parts;
 extern const DipOptionParts dip_cost_assets_option_parts;
 
+// Read a value of --budget-ms, and the value of --budget-of, into DipCostOptions.
+bool dip_cost_read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err);
+bool dip_cost_read_budget_of(void *fields, const DipOptionRow *row, const char *value,
+                             DipError *err);
+
 void dip_cost_options_default(void *arguments, int argc, char *const *argv);
 bool dip_cost_options_check(const void *arguments, DipError *err);
 bool dip_cost_merge_options_check(const void *arguments, DipError *err);

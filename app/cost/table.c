@@ -6,6 +6,7 @@
 #include "app/cost/interaction.h"
 #include "app/cost/order.h"
 #include "app/cost/prediction_counts.h"
+#include "app/cost/tiers.h"
 
 #include <math.h>
 
@@ -242,21 +243,16 @@ static void print_interactions(const DipCostReport *report, FILE *out) {
 
 // Four budgets make the four tiers of a settings menu.
 static void print_tiers(const DipCostReport *report, FILE *out) {
-    static const char *const tiers[] = {"low", "medium", "high", "ultra"};
-    if (report->advice_count != 4) {
+    DipCostTier tiers[DIP_COST_TIER_COUNT];
+    if (report->advice_count != DIP_COST_TIER_COUNT) {
         return;
     }
-    fprintf(out, "\nAs the tiers of a settings menu, and as lines for the ini:\n");
-    for (int i = 0; i < 4; i++) {
-        const DipCostAdvice *advice = &report->advice[i];
-        if (advice->row < 0) {
-            fprintf(out, "  %-7s nothing is surely within %g ms\n", tiers[i], advice->budget_ms);
-            continue;
-        }
-        char text[256];
-        dip_quality_format(&report->rows[advice->row].quality, text, sizeof text);
-        fprintf(out, "  %-7s REQUESTED: %s\n", tiers[i], text);
+    for (int i = 0; i < DIP_COST_TIER_COUNT; i++) {
+        const int row = report->advice[i].row;
+        tiers[i] = (DipCostTier){report->advice[i].budget_ms,
+                                 row >= 0 ? &report->rows[row].quality : NULL, row};
     }
+    dip_cost_tiers_print(tiers, out);
 }
 
 void dip_cost_print(const DipCostReport *report, FILE *out) {

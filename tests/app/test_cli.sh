@@ -49,7 +49,7 @@ check "help lists every command" grep -q 'path convert' out.txt
 check "help lists settings" grep -q 'miplod' out.txt
 expect 0 '' "$diptych" dump --help
 check "help on dump gives an example" grep -q 'dump --out out --frames 0:8' out.txt
-for word in preview dump bench cost "cost merge" "cost diff" "cost assets" "path info" "path convert" verify; do
+for word in preview dump bench cost "cost merge" "cost diff" "cost advise" "cost assets" "path info" "path convert" verify; do
     expect 0 '' "$diptych" $word --help
     check "help on $word gives its usage and an example" sh -c \
         "grep -q '^Usage: diptych $word' out.txt && grep -q '^  diptych' out.txt"
@@ -391,6 +391,23 @@ kill -INT $!
 wait $!
 check "Ctrl-C ends cost diff with code 1" test $? = 1
 check "Ctrl-C is named" grep -q '\[cost diff\] interrupted' err.txt
+
+# --- one choice for several reports
+expect 2 "\[cost advise\] there are no reports; give the cost.json of each" "$diptych" cost advise
+expect 2 "\[--budget-ms\] there is no budget" "$diptych" cost advise once
+expect 2 "\[--budget-of\] 'median' is not p95, mean or worst" "$diptych" cost advise once --budget-ms 8 --budget-of median
+expect 2 'none.json: cannot open report' "$diptych" cost advise none.json --budget-ms 8
+expect 2 'part1: has no times' "$diptych" cost advise part1 --budget-ms 8
+"$diptych" cost advise once merged/cost.json --budget-ms 1000 --json advice.json >out.txt 2>err.txt
+case $? in
+0)
+    check "common advice names both reports" grep -q ' 2  merged/cost.json: square.gltf, path DEFAULT' out.txt
+    check "something is within a large budget" grep -q '^1000 ms: ' out.txt
+    check "the common advice is there as JSON" grep -q '"mean_flip":' advice.json
+    ;;
+3) check "a report of a busy machine is named" grep -q 'has wrong times: the machine was too busy' err.txt ;;
+*) check "cost advise ends with code 0, or with 3 after a busy machine" false ;;
+esac
 
 expect 0 '' "$diptych" cost assets --model "$source/tests/assets/data/square.gltf"
 check "cost assets prints the forms of a mesh" grep -qE 'glTF, one binary file +[0-9.]+ +[0-9.]+ +[0-9.]+$' out.txt

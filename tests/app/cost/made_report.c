@@ -111,3 +111,22 @@ void dip_made_report(DipCostReport *report, int rounds) {
         fill_sums(&report->floors[path * report->options.places], 50 + path);
     }
 }
+
+int dip_made_combination(DipCostReport *report, const DipQuality *quality, double ms, double flip) {
+    DipCostRow *rows = realloc(report->rows, ((size_t)report->row_count + 1) * sizeof *rows);
+    if (!rows) {
+        abort();
+    }
+    report->rows = rows;
+    const int row = dip_cost_report_add_row(report, quality, 0, NULL);
+    if (row < 0) {
+        abort();
+    }
+    for (int p = 0; p < report->options.places; p++) {
+        rows[row].judged[p] = true;
+        fill_sums(&rows[row].viewpoints[p], row + p);
+        rows[row].viewpoints[p].regions[0].flip = flip * rows[row].viewpoints[p].regions[0].pixels;
+    }
+    dip_made_times(report, row, ms);
+    return row;
+}

@@ -13,4 +13,8 @@ void dip_made_report(DipCostReport *report, int rounds);
 // Gives a row the same time in all frames, beside a baseline of 1 ms.
 void dip_made_times(DipCostReport *report, int row, double ms);
 
+// Adds a combination of settings on path 0, with the same time in all frames and the same FLIP at
+// all viewpoints. Returns its row. The caller estimates the report's times afterwards.
+int dip_made_combination(DipCostReport *report, const DipQuality *quality, double ms, double flip);
+
 #endif

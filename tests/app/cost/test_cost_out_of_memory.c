@@ -1,5 +1,6 @@
 // Tests what the writers and readers of reports do when memory runs out: a file is written whole or
 // stays as it was, and a journal never loses a measurement.
+#include "app/cost/advise_output.h"
 #include "app/cost/data_uri.h"
 #include "app/cost/diff.h"
 #include "app/cost/diff_cause.h"
@@ -251,6 +252,48 @@ static void comparisons_are_whole_or_fail(void **state) {
     dip_cost_report_free(&other);
 }
 
+// --- advice for several reports ------------------------------------------------------------------
+
+static DipCostCommon common;
+
+static bool read_common(void *context, DipError *err) {
+    static const char *const files[2] = {"cost.json", "cost.json"};
+    (void)context;
+    return dip_cost_common_read(&common, files, 2, DIP_COST_BUDGET_P95, err);
+}
+
+static void free_common(void *context) {
+    (void)context;
+    dip_cost_common_free(&common);
+}
+
+static bool write_common(void *context, DipError *err) {
+    (void)context;
+    DipCostCommonAdvice advice;
+    dip_cost_common_advise(&common, 5.0, &advice);
+    return dip_cost_common_write_json(&common, &advice, 1, w.file, err);
+}
+
+static void common_advice_is_whole_or_fails(void **state) {
+    (void)state;
+    dip_made_report(&w.report, ROUNDS);
+    const DipQuality quality = dip_quality_default();
+    dip_made_combination(&w.report, &quality, 2.0, 0.1);
+    assert_true(dip_cost_estimate_times(&w.report, NULL));
+    assert_true(dip_cost_write_json(&w.report, "cost.json", NULL));
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "reading several reports",
+                                              .run = read_common,
+                                              .finish = free_common,
+                                              .needs_every_allocation = true,
+                                              .short_count = 200});
+    hook_cjson();
+    assert_true(read_common(NULL, NULL));
+    check_writer("common advice", "advice.json", write_common, 100);
+    free_common(NULL);
+    dip_cost_report_free(&w.report);
+    assert_int_equal(remove("cost.json"), 0);
+}
+
 static void pictures_are_encoded_whole_or_not_at_all(void **state) {
     (void)state;
     dip_out_of_memory_check(
@@ -399,6 +442,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_written_whole_or_stay),
         cmocka_unit_test(comparisons_are_whole_or_fail),
+        cmocka_unit_test(common_advice_is_whole_or_fails),
         cmocka_unit_test(pictures_are_encoded_whole_or_not_at_all),
         cmocka_unit_test(report_is_read_whole_or_not_at_all),
         cmocka_unit_test(journal_never_loses_a_measurement),

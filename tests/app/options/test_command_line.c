@@ -21,8 +21,17 @@ enum { MAX_WORDS = 16, TEXT_SIZE = 65536 };
 
 // The arguments that each command needs at least.
 static const char *const complete[] = {
-    "preview",       "dump --hash", "bench",       "cost --out x",         "cost merge --out x y",
-    "cost diff x y", "cost assets", "path info x", "path convert x y.pth", "verify",
+    "preview",
+    "dump --hash",
+    "bench",
+    "cost --out x",
+    "cost merge --out x y",
+    "cost diff x y",
+    "cost advise x --budget-ms 8",
+    "cost assets",
+    "path info x",
+    "path convert x y.pth",
+    "verify",
 };
 
 // Parses `words`, which are separated by blanks, and then the arguments `more` and `last` if they
