@@ -103,7 +103,8 @@ static void add_advice(cJSON *root, const DipCostCommon *common, const DipCostCo
 }
 
 bool dip_cost_common_write_json(const DipCostCommon *common, const DipCostCommonAdvice *advice,
-                                int count, const char *file, DipError *err) {
+                                int count, const DipCostSegmentList *by_segment, const char *file,
+                                DipError *err) {
     dip_json_memory_begin();
     cJSON *root = cJSON_CreateObject();
     const DipCostBudgetOf of = common->reports[0].options.budget_of;
@@ -111,6 +112,9 @@ bool dip_cost_common_write_json(const DipCostCommon *common, const DipCostCommon
     cJSON_AddNumberToObject(root, "combinations", common->count);
     add_reports(root, common);
     add_advice(root, common, advice, count);
+    if (by_segment) {
+        dip_cost_segments_add_json(by_segment, root);
+    }
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
     const bool complete = text && !dip_json_memory_ran_out();

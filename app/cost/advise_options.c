@@ -1,6 +1,7 @@
 // The options of `diptych cost advise`.
 #include "app/cost/advise_options.h"
 
+#include "app/cost/segments.h"
 #include "renderer/base/assert.h"
 
 static const DipOptionRow budget_rows[] = {
@@ -23,6 +24,16 @@ static const DipOptionRow budget_rows[] = {
 };
 
 static const DipOptionRow output_rows[] = {
+    {.name = "--segments",
+     .argument = "N",
+     .text = "With one report: also choose settings for each of N segments of the camera path. The "
+             "default is the number of viewpoints of the report, but at most 8. With 1, the path "
+             "is not divided.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = offsetof(DipCostAdviseArguments, segments),
+     .given = offsetof(DipCostAdviseArguments, has_segments),
+     .least = 1,
+     .most = DIP_COST_MAX_SEGMENTS},
     {.name = "--json",
      .argument = "FILE",
      .text = "Also write the advice to this file.",
@@ -31,7 +42,8 @@ static const DipOptionRow output_rows[] = {
 };
 
 static const DipOptionTable budget_table = {"Budgets", budget_rows, DIP_ARRAY_COUNT(budget_rows)};
-static const DipOptionTable output_table = {"Output", output_rows, DIP_ARRAY_COUNT(output_rows)};
+static const DipOptionTable output_table = {"Segments and output", output_rows,
+                                            DIP_ARRAY_COUNT(output_rows)};
 
 static const DipOptionPart parts[] = {
     {&budget_table, offsetof(DipCostAdviseArguments, cost)},
@@ -46,6 +58,11 @@ bool dip_cost_advise_options_check(const void *arguments, DipError *err) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost advise",
                              "there are no reports; give the cost.json of each: cost advise "
                              "REPORT... --budget-ms LIST");
+    }
+    if (advise->segments > 1 && advise->report_count > 1) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--segments",
+                             "only the path of a single report is divided; give one report, or "
+                             "leave out --segments");
     }
     return advise->cost.budget_count > 0 ||
            dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--budget-ms",

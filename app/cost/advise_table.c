@@ -62,7 +62,8 @@ static void print_limit(const DipCostCommon *common, const DipCostCommonAdvice *
         return;
     }
     dip_cost_settings_text(&common->qualities[advice->next], settings);
-    fprintf(out, "    next better: %s (mean FLIP %.1f %%), but it may take up to %.2f ms in report %d\n",
+    fprintf(out,
+            "    next better: %s (mean FLIP %.1f %%), but it may take up to %.2f ms in report %d\n",
             settings,
             100.0 * (dip_cost_common_mean_flip(common, advice->next) /
                          dip_cost_common_mean_flip(common, advice->chosen) -
@@ -118,8 +119,8 @@ static void print_tiers(const DipCostCommon *common, const DipCostCommonAdvice *
     DipCostTier tiers[DIP_COST_TIER_COUNT];
     for (int i = 0; i < DIP_COST_TIER_COUNT; i++) {
         const int chosen = advice[i].chosen;
-        tiers[i] = (DipCostTier){advice[i].budget_ms,
-                                 chosen >= 0 ? &common->qualities[chosen] : NULL, -1};
+        tiers[i] =
+            (DipCostTier){advice[i].budget_ms, chosen >= 0 ? &common->qualities[chosen] : NULL, -1};
     }
     dip_cost_tiers_print(tiers, out);
 }

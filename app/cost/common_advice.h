@@ -6,8 +6,6 @@
 
 #include "app/cost/report.h"
 
-#include <stdio.h>
-
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -32,8 +30,8 @@ typedef struct DipCostCommonAdvice {
     double budget_ms;
     int chosen;
     // The fastest combination whose mean FLIP is at least 1 % below that of the chosen one or, if
-    // none is chosen, the fastest of all. The fastest one has the least upper bound in the report in
-    // which it takes longest.
+    // none is chosen, the fastest of all. The fastest one has the least upper bound in the report
+    // in which it takes longest.
     int next;
     int limit; // The report in which `next` takes longest, or -1.
     // The combination of least mean FLIP that may be within the budget in every report, but is not

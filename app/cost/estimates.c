@@ -95,13 +95,12 @@ static int count_disturbed(const DipTimePair *row, const DipTimePair *base, int 
     return count;
 }
 
-// Estimates a time from pairs. If more than half of them were disturbed, all of them are used: the
-// verdict is then red.
-static bool estimate(const DipCostReport *report, PathLevel *level,
-                     double (*ms_of)(const DipTimePair *, const DipTimePair *),
-                     double (*base_ms_of)(const DipTimePair *, const DipTimePair *),
-                     const DipTimePair *row, const DipTimePair *base, DipPathEstimate *time,
-                     DipError *err) {
+// Returns the times of pairs, in the scratch memory of the level, without those that were
+// disturbed. If more than half of them were, all of them are used: the verdict is then red.
+static DipPathTimes times_of(const DipCostReport *report, PathLevel *level,
+                             double (*ms_of)(const DipTimePair *, const DipTimePair *),
+                             double (*base_ms_of)(const DipTimePair *, const DipTimePair *),
+                             const DipTimePair *row, const DipTimePair *base) {
     const int frames = dip_cost_frame_count(report);
     const bool most = 2 * count_disturbed(row, base, frames) > frames;
     for (int f = 0; f < frames; f++) {
@@ -110,7 +109,7 @@ static bool estimate(const DipCostReport *report, PathLevel *level,
         level->ms[f] = drop ? NAN : ms_of(&row[f], &base[f]);
         level->base_ms[f] = base_ms_of(&row[f], &base[f]);
     }
-    const DipPathTimes times = {
+    return (DipPathTimes){
         .ms = level->ms,
         .base_ms = level->base_ms,
         .level_ms = level->level_ms,
@@ -118,7 +117,6 @@ static bool estimate(const DipCostReport *report, PathLevel *level,
         .rounds = report->options.rounds,
         .level_error = level->error,
     };
-    return dip_path_estimate(&times, time, err);
 }
 
 static double own_ms(const DipTimePair *row, const DipTimePair *base) {
@@ -177,10 +175,29 @@ bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEsti
     for (int f = 0; done && f < dip_cost_frame_count(report); f++) {
         level.level_ms[f] *= b->time.ratio.value; // The level of the base row.
     }
-    done = done &&
-           estimate(report, &level, quotient_ms, quotient_base_ms, a->pairs, b->pairs, &time, err);
+    if (done) {
+        const DipPathTimes times =
+            times_of(report, &level, quotient_ms, quotient_base_ms, a->pairs, b->pairs);
+        done = dip_path_estimate(&times, &time, err);
+    }
     close_level(&level);
     *ratio = time.ratio;
+    return done;
+}
+
+bool dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms,
+                          DipError *err) {
+    PathLevel level;
+    bool done =
+        count == 0 || open_level(&level, report, report->rows[rows[0]].path) || out_of_memory(err);
+    for (int i = 0; done && i < count; i++) {
+        const DipTimePair *pairs = report->rows[rows[i]].pairs;
+        const DipPathTimes times = times_of(report, &level, own_ms, own_base_ms, pairs, pairs);
+        done = dip_path_frame_times(&times, ms + (size_t)i * (size_t)times.frames, err);
+    }
+    if (count > 0) {
+        close_level(&level);
+    }
     return done;
 }
 
@@ -231,8 +248,9 @@ bool dip_cost_estimate_times(DipCostReport *report, DipError *err) {
         for (int r = 0; done && r < report->row_count; r++) {
             DipCostRow *row = &report->rows[r];
             if (row->path == path) {
-                done = estimate(report, &level, own_ms, own_base_ms, row->pairs, row->pairs,
-                                &row->time, err);
+                const DipPathTimes times =
+                    times_of(report, &level, own_ms, own_base_ms, row->pairs, row->pairs);
+                done = dip_path_estimate(&times, &row->time, err);
                 divide_into_stages(report, &level, row);
             }
         }

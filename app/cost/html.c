@@ -77,8 +77,8 @@ static bool write_page(const DipCostReport *report, const DipCostPictures *pictu
     dip_html_head(report, out);
     fprintf(out, "<main>\n");
     dip_html_advice(report, out);
-    const bool has_front =
-        dip_html_front(report, pictures, out) && dip_html_predictions(report, out);
+    const bool has_front = dip_html_front(report, pictures, out) && dip_html_path(report, out) &&
+                           dip_html_predictions(report, out);
     dip_html_interactions(report, out);
     if (report->sweep_count) {
         dip_html_sweeps(report, pictures, out);

@@ -80,7 +80,8 @@ static void write_contents(const DipCostReport *report, FILE *out) {
         fprintf(out, "<li><a href=\"#advice\">Best settings for a time budget</a></li>\n");
     }
     if (report->combined_first < report->row_count && report->rounds > 0) {
-        fprintf(out, "<li><a href=\"#front\">Time against error</a></li>\n");
+        fprintf(out, "<li><a href=\"#front\">Time against error</a></li>\n"
+                     "<li><a href=\"#along\">Time and error along the path</a></li>\n");
     }
     if (report->predicted.count) {
         fprintf(out, "<li><a href=\"#predicted\">Predicted combinations</a></li>\n");

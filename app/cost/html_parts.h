@@ -55,6 +55,10 @@ void dip_html_advice(const DipCostReport *report, FILE *out);
 // if `pictures` is not NULL. Returns false when memory runs out.
 bool dip_html_front(const DipCostReport *report, const DipCostPictures *pictures, FILE *out);
 
+// Time and error along the default path, of the baseline and of the advised combinations. Nothing
+// is written without times or combinations. Returns false when memory runs out.
+bool dip_html_path(const DipCostReport *report, FILE *out);
+
 // Predicted combinations. Nothing is written if there are none. Both functions return false when
 // memory runs out. The points are those of combinations that were only predicted; free them even
 // after a failure.

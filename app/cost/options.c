@@ -59,8 +59,7 @@ static bool read_combined(void *fields, const DipOptionRow *row, const char *val
            dip_option_each(fields, row, value, ',', add_combined, err);
 }
 
-bool dip_cost_read_budget(void *fields, const DipOptionRow *row, const char *value,
-                          DipError *err) {
+bool dip_cost_read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     DipCostOptions *cost = fields;
     double ms;
     if (!dip_number_parse(value, strlen(value), &ms) || ms < 0.01 || ms > 100000.0) {

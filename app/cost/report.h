@@ -280,6 +280,12 @@ bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEsti
 // number. Rows without times or errors are left out.
 int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *front);
 
+// Computes the times of some rows of one path at every timed frame, in milliseconds:
+// ms[i * dip_cost_frame_count + frame] for rows[i]. The means over the frames are dip_cost_ms.
+// Fails with DIP_ERROR_MEMORY.
+bool dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms,
+                          DipError *err);
+
 // Thins a Pareto front: keeps the first row and every row whose FLIP is at least 1 % below the FLIP
 // of the row kept before. Returns the number of rows kept.
 int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int count);

@@ -324,6 +324,18 @@ bool dip_path_estimate(const DipPathTimes *times, DipPathEstimate *estimate, Dip
     return done;
 }
 
+bool dip_path_frame_times(const DipPathTimes *times, double *frame_ms, DipError *err) {
+    PathWork w;
+    const bool done = open_work(&w, times, err);
+    if (done) {
+        running_median(w.logs, w.used, w.smooth);
+        frame_times(&w, w.smooth);
+        memcpy(frame_ms, w.time_ms, (size_t)times->frames * sizeof *frame_ms);
+    }
+    close_work(&w);
+    return done;
+}
+
 double dip_level_error(const double *log_times, int count) {
     if (count < 2 * LEVEL_GROUPS) {
         return 0.0;

@@ -93,6 +93,10 @@ typedef struct DipPathEstimate {
 // Fails with DIP_ERROR_MEMORY, or with DIP_ERROR_RUNTIME if fewer than half of the pairs are left.
 bool dip_path_estimate(const DipPathTimes *times, DipPathEstimate *estimate, DipError *err);
 
+// Writes time_f of every frame, from which dip_path_estimate makes its values. Fails as that
+// function does.
+bool dip_path_frame_times(const DipPathTimes *times, double *frame_ms, DipError *err);
+
 // Computes the standard error of the logarithm of a level from timings in the order in which they
 // were taken: the timings are cut into 7 groups of successive ones, the groups' medians have the
 // spread s and the correlation r between neighbours, and the error is

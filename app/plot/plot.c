@@ -100,7 +100,7 @@ static void tick_linear(Axis *axis) {
         step = digits[i] * power;
     }
     for (double i = ceil(axis->least / step); i * step <= axis->most; i++) {
-        add_tick(axis, i * step);
+        add_tick(axis, i * step + 0.0); // Adding 0 turns -0 into 0.
     }
 }
 

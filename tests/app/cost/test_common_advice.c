@@ -333,7 +333,7 @@ static void files_become_advice(void **state) {
     dip_cost_common_advise(&common, 5.0, &advice);
     assert_int_equal(advice.chosen, 1);
     expect_near(dip_cost_common_time(&common, 1, 1).value, 4.0, 1e-9);
-    assert_true(dip_cost_common_write_json(&common, &advice, 1, "common.json", &err));
+    assert_true(dip_cost_common_write_json(&common, &advice, 1, NULL, "common.json", &err));
     char text[16384] = "";
     FILE *in = fopen("common.json", "rb");
     assert_non_null(in);
