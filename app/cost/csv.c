@@ -7,6 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+// Numbers of columns: those from the flicker to the mark of the floor, and the distribution of
+// FLIP.
+enum { FLICKER_FIELDS = 6, TAIL_FIELDS = 10 };
+
 static void write_head(FILE *out) {
     fprintf(out,
             "kind,title,path,settings,ratio,ratio_low,ratio_high,ms,ms_low,ms_high,"
@@ -18,11 +22,32 @@ static void write_head(FILE *out) {
                 name);
     }
     fprintf(out, ",static_rms_lin,flicker_rms_lin,step_rms_lin,two_frame_mean_rms_lin,"
-                 "floor_rmse_lin,at_floor");
+                 "floor_rmse_lin,at_floor,flip_p50,flip_p95,flip_p99,worst_flip,worst_viewpoint,"
+                 "worst_frame,worst_x,worst_y,worst_width,worst_height");
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         fprintf(out, ",%s", dip_cost_counter_names[c]);
     }
     fputc('\n', out);
+}
+
+static void write_empty(int fields, FILE *out) {
+    for (int i = 0; i < fields; i++) {
+        fputc(',', out);
+    }
+}
+
+// Viewpoints and frames count from 0.
+static void write_tail(const DipCostReport *report, int row, FILE *out) {
+    const DipCostTail tail = dip_cost_row_tail(report, row);
+    const DipFlipTail *flip = &tail.flip;
+    if (tail.viewpoints == 0) {
+        write_empty(TAIL_FIELDS, out);
+        return;
+    }
+    fprintf(out, ",%.6g,%.6g,%.6g,%.6g,%d", flip->p50, flip->p95, flip->p99, flip->worst,
+            tail.worst_viewpoint);
+    fprintf(out, ",%.0f,%.0f,%.0f,%.0f,%.0f", flip->worst_frame, flip->worst_x, flip->worst_y,
+            flip->worst_width, flip->worst_height);
 }
 
 static void write_errors(const DipCostReport *report, int row, FILE *out) {
@@ -41,6 +66,7 @@ static void write_errors(const DipCostReport *report, int row, FILE *out) {
     fprintf(out, ",%.8g,%.8g,%.8g,%.8g,%.8g,%s", flicker.steady, flicker.flicker, flicker.step,
             flicker.two_mean, dip_cost_floor_rmse(report, report->rows[row].path, 0),
             dip_cost_floor_mark(report, row));
+    write_tail(report, row, out);
 }
 
 // Writes a comma and a quoted text. Quotes within the text are doubled (RFC 4180).
@@ -87,6 +113,23 @@ static void write_row(const DipCostReport *report, const char *kind, const char 
     fputc('\n', out);
 }
 
+// Writes the line of a combination that was only predicted: its mean time, its 95th percentile and
+// its FLIP.
+static void write_prediction(const DipCostReport *report, const DipCostPrediction *prediction,
+                             FILE *out) {
+    char settings[256];
+    dip_quality_format(&prediction->quality, settings, sizeof settings);
+    fprintf(out, "predicted,\"\",%s", report->paths[0]);
+    write_quoted(settings, out);
+    fprintf(out, ",,,,%.6g,,,%.6g,,,", prediction->ms, prediction->p95_ms);
+    write_report(report, out);
+    fprintf(out, ",,,,,%.8g", prediction->flip);
+    write_empty(5 * (DIP_METRIC_REGION_COUNT - 1) + FLICKER_FIELDS + TAIL_FIELDS +
+                    DIP_COST_COUNTER_COUNT,
+                out);
+    fputc('\n', out);
+}
+
 bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError *err) {
     char *text = NULL;
     size_t size = 0;
@@ -107,6 +150,11 @@ bool dip_cost_write_csv(const DipCostReport *report, const char *file, DipError 
     }
     for (int r = report->combined_first; r < report->row_count; r++) {
         write_row(report, "combination", "", r, &report->rows[r].time.ratio, out);
+    }
+    for (int i = 0; i < report->predicted.count; i++) {
+        if (report->predicted.list[i].row < 0) {
+            write_prediction(report, &report->predicted.list[i], out);
+        }
     }
     bool made = !ferror(out);
     made = fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.

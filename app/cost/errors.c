@@ -74,7 +74,7 @@ typedef struct Burst {
     char key[33]; // hash of the pictures and of their truths
     char
         journal[33]; // hash of the key and of the program's file: another build may judge otherwise
-    DipMetricSums sums;
+    DipCostBurstErrors errors;
     bool failed;
 } Burst;
 
@@ -147,23 +147,25 @@ static void judge_burst(void *context, int index, int worker) {
     Judge *j = context;
     Burst *drawn = &j->bursts[index];
     DipMeter *meter = &j->meters[worker];
-    drawn->sums = (DipMetricSums){0};
+    drawn->errors = (DipCostBurstErrors){.sums = {.bursts = 0.0}};
     drawn->failed = false;
-    dip_flicker_restart(&meter->flicker);
+    dip_meter_begin_burst(meter);
     for (int f = 0; f < j->cost->report->options.burst; f++) {
         const DipSrgbPicture test = picture_of(j, drawn->rgba8 + (size_t)f * picture_bytes(j));
         const DipMeterStandard standard = {picture_of(j, j->truths[f].rgba8), j->truths[f].rgb_lin,
                                            &j->analyses[f], j->truths[f].classes};
-        if (!dip_meter_add(meter, &test, NULL, &standard, &drawn->sums)) {
+        if (!dip_meter_add(meter, &test, NULL, &standard, &drawn->errors.sums)) {
             drawn->failed = true;
         }
     }
-    dip_meter_end_burst(meter, &drawn->sums);
+    dip_meter_end_burst(meter, &drawn->errors.sums);
+    drawn->errors.tail = dip_flip_tail_result(&meter->tail);
 }
 
 static void keep_errors(const Judge *j, const Burst *drawn) {
     DipCostRow *row = &j->cost->report->rows[drawn->row];
-    row->viewpoints[j->viewpoint] = drawn->sums;
+    row->viewpoints[j->viewpoint] = drawn->errors.sums;
+    row->tails[j->viewpoint] = drawn->errors.tail;
     row->judged[j->viewpoint] = true;
     memcpy(row->pictures[j->viewpoint], drawn->key, sizeof drawn->key);
 }
@@ -176,7 +178,7 @@ static bool judge_bursts(Judge *j, DipError *err) {
             return out_of_memory(err);
         }
         keep_errors(j, drawn);
-        if (!dip_cost_journal_add(j->cost->journal, drawn->journal, &drawn->sums, err)) {
+        if (!dip_cost_journal_add(j->cost->journal, drawn->journal, &drawn->errors, err)) {
             return false;
         }
     }
@@ -224,7 +226,7 @@ static bool judge_rows(Judge *j, DipError *err) {
         }
         Burst *drawn = &j->bursts[j->burst_count];
         judged = draw_burst(j, row, drawn, err);
-        if (judged && dip_cost_journal_find(j->cost->journal, drawn->journal, &drawn->sums)) {
+        if (judged && dip_cost_journal_find(j->cost->journal, drawn->journal, &drawn->errors)) {
             keep_errors(j, drawn);
         } else if (judged && ++j->burst_count == j->burst_room) {
             judged = judge_bursts(j, err);

@@ -89,6 +89,7 @@ static bool write_page(const DipCostReport *report, const DipCostPictures *pictu
     if (report->sweep_count) {
         dip_html_regions(report, out);
     }
+    dip_html_tails(report, out);
     if (report->rounds > 0) {
         dip_html_work(report, out);
     }

@@ -90,6 +90,9 @@ static void write_contents(const DipCostReport *report, FILE *out) {
         fprintf(out, "<li><a href=\"#settings\">Each setting</a></li>\n"
                      "<li><a href=\"#parts\">Where the errors are</a></li>\n");
     }
+    if (dip_html_has_tails(report)) {
+        fprintf(out, "<li><a href=\"#tails\">Small parts with large errors</a></li>\n");
+    }
     if (report->rounds > 0) {
         fprintf(out, "<li><a href=\"#work\">Work</a></li>\n");
     }

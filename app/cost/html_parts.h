@@ -69,6 +69,10 @@ bool dip_html_predicted_points(const DipCostReport *report, DipHtmlPoints *point
 void dip_html_interactions(const DipCostReport *report, FILE *out);
 void dip_html_sweeps(const DipCostReport *report, const DipCostPictures *pictures, FILE *out);
 void dip_html_regions(const DipCostReport *report, FILE *out);
+
+// How FLIP is distributed over pixels. Nothing is written if that is known of no row.
+bool dip_html_has_tails(const DipCostReport *report);
+void dip_html_tails(const DipCostReport *report, FILE *out);
 void dip_html_work(const DipCostReport *report, FILE *out);
 void dip_html_truth(const DipCostReport *report, FILE *out);
 void dip_html_words(const DipCostReport *report, FILE *out);

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { KEY_LENGTH = 32 };
+enum { KEY_LENGTH = 32, ERROR_VALUES = DIP_METRIC_SUM_COUNT + DIP_FLIP_TAIL_COUNT };
 
 typedef struct Entry {
     bool is_round;
@@ -228,23 +228,23 @@ static bool append(DipCostJournal *journal, bool is_round, const char *key, cons
     return written || io_fault(journal, err);
 }
 
-bool dip_cost_journal_find(const DipCostJournal *journal, const char *key, DipMetricSums *sums) {
+bool dip_cost_journal_find(const DipCostJournal *journal, const char *key,
+                           DipCostBurstErrors *errors) {
     for (int i = 0; i < journal->count; i++) {
         const Entry *entry = &journal->entries[i];
-        if (!entry->is_round && entry->count == DIP_METRIC_SUM_COUNT &&
-            strcmp(entry->key, key) == 0) {
-            memcpy(sums, entry->values, sizeof *sums);
+        if (!entry->is_round && entry->count == ERROR_VALUES && strcmp(entry->key, key) == 0) {
+            memcpy(errors, entry->values, sizeof *errors);
             return true;
         }
     }
     return false;
 }
 
-bool dip_cost_journal_add(DipCostJournal *journal, const char *key, const DipMetricSums *sums,
-                          DipError *err) {
-    double values[DIP_METRIC_SUM_COUNT];
-    memcpy(values, sums, sizeof values);
-    return append(journal, false, key, values, DIP_METRIC_SUM_COUNT, err);
+bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
+                          const DipCostBurstErrors *errors, DipError *err) {
+    double values[ERROR_VALUES];
+    memcpy(values, errors, sizeof values);
+    return append(journal, false, key, values, ERROR_VALUES, err);
 }
 
 // The first value of a round's entry is the number of the round.

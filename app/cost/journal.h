@@ -7,10 +7,17 @@
 #ifndef DIP_APP_COST_JOURNAL_H
 #define DIP_APP_COST_JOURNAL_H
 
+#include "app/measure/flip_tail.h"
 #include "app/measure/metrics.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
+
+// The errors of a burst. Holds doubles only.
+typedef struct DipCostBurstErrors {
+    DipMetricSums sums;
+    DipFlipTail tail;
+} DipCostBurstErrors;
 
 // Not thread-safe.
 typedef struct DipCostJournal DipCostJournal;
@@ -25,9 +32,10 @@ void dip_cost_journal_close(DipCostJournal **journal, bool finished);
 // dip_cost_journal_find looks up the errors of a burst and returns false if the journal does not
 // have them. dip_cost_journal_add stores them. The key is a hash of the burst's pictures and
 // truths.
-bool dip_cost_journal_find(const DipCostJournal *journal, const char *key, DipMetricSums *sums);
-bool dip_cost_journal_add(DipCostJournal *journal, const char *key, const DipMetricSums *sums,
-                          DipError *err);
+bool dip_cost_journal_find(const DipCostJournal *journal, const char *key,
+                           DipCostBurstErrors *errors);
+bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
+                          const DipCostBurstErrors *errors, DipError *err);
 
 // Returns the values of the round with this number, or NULL if the journal has none with its own
 // plan hash and `count` values. The values are borrowed until the journal is closed.

@@ -35,6 +35,7 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
         for (int p = 0; p < places; p++) {
             if (!to->rows[r].judged[p] && from->rows[r].judged[p]) {
                 to->rows[r].viewpoints[p] = from->rows[r].viewpoints[p];
+                to->rows[r].tails[p] = from->rows[r].tails[p];
                 to->rows[r].judged[p] = true;
                 memcpy(to->rows[r].pictures[p], from->rows[r].pictures[p],
                        sizeof to->rows[r].pictures[p]);

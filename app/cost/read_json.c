@@ -3,6 +3,7 @@
 
 #include "app/cost/json_fields.h"
 #include "app/cost/json_memory.h"
+#include "app/cost/json_tail.h"
 #include "renderer/base/file.h"
 
 #include <cjson/cJSON.h>
@@ -214,7 +215,8 @@ static bool read_row(const cJSON *object, DipCostReport *report, DipCostRow *row
     const cJSON *viewpoint;
     cJSON_ArrayForEach(viewpoint, cJSON_GetObjectItemCaseSensitive(object, "places")) {
         const int p = integer(viewpoint, "place", 0, report->options.places - 1, &ok);
-        if (!ok || !read_sums(viewpoint, "sums", &row->viewpoints[p])) {
+        if (!ok || !read_sums(viewpoint, "sums", &row->viewpoints[p]) ||
+            !dip_cost_tail_read(viewpoint, &row->tails[p])) {
             return false;
         }
         row->judged[p] = true;

@@ -25,10 +25,11 @@ const char *const dip_cost_stage_names[DIP_COST_STAGE_COUNT] = {
 static bool alloc_row(const DipCostReport *report, DipCostRow *row) {
     const size_t viewpoints = (size_t)report->options.places;
     row->viewpoints = calloc(viewpoints, sizeof *row->viewpoints);
+    row->tails = calloc(viewpoints, sizeof *row->tails);
     row->judged = calloc(viewpoints, sizeof *row->judged);
     row->pictures = calloc(viewpoints, sizeof *row->pictures);
     row->pairs = calloc((size_t)dip_cost_frame_count(report), sizeof *row->pairs);
-    return row->viewpoints && row->judged && row->pictures && row->pairs;
+    return row->viewpoints && row->tails && row->judged && row->pictures && row->pairs;
 }
 
 bool dip_cost_report_alloc(DipCostReport *report, DipError *err) {
@@ -60,6 +61,7 @@ int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, in
 
 void dip_cost_row_free(DipCostRow *row) {
     free(row->viewpoints);
+    free(row->tails);
     free(row->judged);
     free(row->pictures);
     free(row->pairs);
@@ -144,6 +146,30 @@ DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
     return dip_metrics_of(&sums, region);
+}
+
+DipCostTail dip_cost_row_tail(const DipCostReport *report, int row) {
+    DipCostTail tail = {.viewpoints = 0};
+    DipFlipTail sum = {.p50 = 0.0};
+    for (int p = 0; p < report->options.places; p++) {
+        const DipFlipTail *flip = &report->rows[row].tails[p];
+        if (!report->rows[row].judged[p] || flip->worst_width == 0.0) {
+            continue;
+        }
+        sum.p50 += flip->p50;
+        sum.p95 += flip->p95;
+        sum.p99 += flip->p99;
+        if (tail.viewpoints++ == 0 || flip->worst > tail.flip.worst) {
+            tail.flip = *flip;
+            tail.worst_viewpoint = p;
+        }
+    }
+    if (tail.viewpoints > 0) {
+        tail.flip.p50 = sum.p50 / tail.viewpoints;
+        tail.flip.p95 = sum.p95 / tail.viewpoints;
+        tail.flip.p99 = sum.p99 / tail.viewpoints;
+    }
+    return tail;
 }
 
 DipMetricSums dip_cost_floor(const DipCostReport *report, int path) {

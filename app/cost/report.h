@@ -6,6 +6,7 @@
 #define DIP_APP_COST_REPORT_H
 
 #include "app/cost/options.h"
+#include "app/measure/flip_tail.h"
 #include "app/measure/metrics.h"
 #include "app/measure/paired.h"
 #include "app/measure/paired_timing.h"
@@ -51,6 +52,7 @@ typedef struct DipCostRow {
     DipQuality quality;
     int path;                  // Index of the camera path in the report.
     DipMetricSums *viewpoints; // Errors per viewpoint of the path. Owned.
+    DipFlipTail *tails;        // [viewpoint]: distribution of FLIP; all 0 if not known. Owned.
     bool *judged;              // [viewpoint]: its errors are known. Owned.
     char (*pictures)[33];      // [viewpoint]: hash of the row's pictures and truths, or "". Owned.
     DipTimePair *pairs;        // Times of the frames along the path. Owned.
@@ -234,6 +236,18 @@ DipStatsEstimate dip_cost_flip(const DipCostReport *report, int row);
 // than settings do. Only viewpoints that both rows have count.
 DipStatsEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base);
 
+// The distribution of a row's FLIP over pixels.
+typedef struct DipCostTail {
+    // The percentiles are means over the viewpoints. The worst block is that of the viewpoint with
+    // the worst one.
+    DipFlipTail flip;
+    int worst_viewpoint;
+    int viewpoints; // Number of viewpoints whose distribution is known; 0: the others are not
+                    // valid.
+} DipCostTail;
+
+DipCostTail dip_cost_row_tail(const DipCostReport *report, int row);
+
 // Returns the sum of the noise floors of a path's truths.
 DipMetricSums dip_cost_floor(const DipCostReport *report, int path);
 
@@ -266,6 +280,12 @@ bool dip_cost_is_timed(const DipCostReport *report, int row);
 // The mean time of a row over the frames along the path, in milliseconds per frame.
 double dip_cost_ms(const DipCostReport *report, int row);
 
+// Computes the times of some rows of one path at every timed frame, in milliseconds:
+// ms[i * dip_cost_frame_count + frame] for rows[i]. The means over the frames are dip_cost_ms.
+// Fails with DIP_ERROR_MEMORY.
+bool dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms,
+                          DipError *err);
+
 // The time of a row, of the kind that budgets are meant for (--budget-of).
 DipStatsEstimate dip_cost_budget_time(const DipCostReport *report, int row);
 
@@ -279,12 +299,6 @@ bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEsti
 // least as good in both. Writes the rows of the front to `front` in order of time and returns their
 // number. Rows without times or errors are left out.
 int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *front);
-
-// Computes the times of some rows of one path at every timed frame, in milliseconds:
-// ms[i * dip_cost_frame_count + frame] for rows[i]. The means over the frames are dip_cost_ms.
-// Fails with DIP_ERROR_MEMORY.
-bool dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms,
-                          DipError *err);
 
 // Thins a Pareto front: keeps the first row and every row whose FLIP is at least 1 % below the FLIP
 // of the row kept before. Returns the number of rows kept.

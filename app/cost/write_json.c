@@ -5,6 +5,7 @@
 #include "app/cost/interaction.h"
 #include "app/cost/json_fields.h"
 #include "app/cost/json_memory.h"
+#include "app/cost/json_tail.h"
 #include "app/files/whole_file.h"
 
 #include <cjson/cJSON.h>
@@ -74,6 +75,7 @@ static void add_errors(cJSON *object, const DipCostReport *report, int row) {
             cJSON_AddNumberToObject(viewpoint, "place", p);
             cJSON_AddStringToObject(viewpoint, "pictures", report->rows[row].pictures[p]);
             add_sums(viewpoint, "sums", &report->rows[row].viewpoints[p]);
+            dip_cost_tail_add(viewpoint, &report->rows[row].tails[p]);
             add_to_array(array, viewpoint);
         }
     }
@@ -83,6 +85,11 @@ static void add_errors(cJSON *object, const DipCostReport *report, int row) {
         const DipStatsEstimate flip = dip_cost_flip(report, row);
         if (viewpoints > 1) {
             add_estimate(object, "flip_of_viewpoints", &flip);
+        }
+        const DipCostTail tail = dip_cost_row_tail(report, row);
+        if (tail.viewpoints > 0) {
+            cJSON_AddNumberToObject(dip_cost_tail_add(object, &tail.flip), "worst_viewpoint",
+                                    tail.worst_viewpoint);
         }
         cJSON_AddBoolToObject(object, "at_floor", dip_cost_at_floor(report, row));
     }

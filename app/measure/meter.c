@@ -14,7 +14,8 @@ bool dip_meter_init(DipMeter *meter, int width, int height, double pixels_per_de
     const bool made = meter->map && meter->error_lin &&
                       dip_flip_init(&meter->flip, width, height, pixels_per_degree) &&
                       dip_flip_analysis_init(&meter->flip, &meter->analysis) &&
-                      dip_flicker_init(&meter->flicker, 3 * count);
+                      dip_flicker_init(&meter->flicker, 3 * count) &&
+                      dip_flip_tail_init(&meter->tail);
     if (!made) {
         dip_meter_free(meter);
     }
@@ -27,6 +28,7 @@ void dip_meter_free(DipMeter *meter) {
     dip_flip_analysis_free(&meter->analysis);
     dip_flip_free(&meter->flip);
     dip_flicker_free(&meter->flicker);
+    dip_flip_tail_free(&meter->tail);
     *meter = (DipMeter){0};
 }
 
@@ -65,6 +67,7 @@ static void add_map(const DipMeter *meter, const uint8_t *classes, AddTo *add,
 
 void dip_meter_begin_burst(DipMeter *meter) {
     dip_flicker_restart(&meter->flicker);
+    dip_flip_tail_restart(&meter->tail);
 }
 
 bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
@@ -89,6 +92,7 @@ bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *tes
     dip_flip_analyse(&meter->flip, test, &meter->analysis);
     dip_flip_compare(&meter->flip, &meter->analysis, standard->analysis, meter->map);
     add_map(meter, standard->classes, add_flip, sums);
+    dip_flip_tail_add(&meter->tail, meter->map, meter->flip.width, meter->flip.height);
     return true;
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/measure/flicker.h"
 #include "app/measure/flip.h"
+#include "app/measure/flip_tail.h"
 #include "app/measure/metrics.h"
 
 #ifdef __cplusplus
@@ -16,8 +17,9 @@ typedef struct DipMeter {
     DipFlip flip;
     DipFlipAnalysis analysis; // Analysis of the picture being judged.
     DipFlicker flicker;
-    float *map;       // One value per pixel.
-    float *error_lin; // Three values per pixel.
+    DipFlipTailMeter tail; // The distribution of FLIP in the burst so far.
+    float *map;            // One value per pixel.
+    float *error_lin;      // Three values per pixel.
 } DipMeter;
 
 // Returns false when memory runs out; *meter then owns nothing.
@@ -32,7 +34,7 @@ typedef struct DipMeterStandard {
     const uint8_t *classes;          // What each pixel shows (DipSeen).
 } DipMeterStandard;
 
-// Begins a burst, a series of successive frames (flicker.h).
+// Begins a burst, a series of successive frames (flicker.h). A new meter has begun its first burst.
 void dip_meter_begin_burst(DipMeter *meter);
 
 // Judges the next picture of the burst and adds its sums to *sums. If the caller has more precise

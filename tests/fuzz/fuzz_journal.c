@@ -34,11 +34,12 @@ static void check_same_numbers(const double *a, const double *b, int count) {
 
 // Compares the measurements that both journals have for the key and for rounds of several lengths.
 static void check_same(const DipCostJournal *a, const DipCostJournal *b) {
-    DipMetricSums sums_a, sums_b;
-    const bool found = dip_cost_journal_find(a, key, &sums_a);
-    FUZZ_CHECK(found == dip_cost_journal_find(b, key, &sums_b));
+    DipCostBurstErrors errors_a, errors_b;
+    const bool found = dip_cost_journal_find(a, key, &errors_a);
+    FUZZ_CHECK(found == dip_cost_journal_find(b, key, &errors_b));
     if (found) {
-        check_same_numbers((const double *)&sums_a, (const double *)&sums_b, DIP_METRIC_SUM_COUNT);
+        check_same_numbers((const double *)&errors_a, (const double *)&errors_b,
+                           (int)(sizeof errors_a / sizeof(double)));
     }
     for (int count = 0; count <= MOST_TIMES; count++) {
         for (int r = 0; r < MOST_ROUNDS; r++) {
@@ -49,9 +50,9 @@ static void check_same(const DipCostJournal *a, const DipCostJournal *b) {
 }
 
 static void add_all(const DipCostJournal *from, DipCostJournal *to) {
-    DipMetricSums sums;
-    if (dip_cost_journal_find(from, key, &sums)) {
-        FUZZ_CHECK(dip_cost_journal_add(to, key, &sums, NULL));
+    DipCostBurstErrors errors;
+    if (dip_cost_journal_find(from, key, &errors)) {
+        FUZZ_CHECK(dip_cost_journal_add(to, key, &errors, NULL));
     }
     for (int count = 1; count <= MOST_TIMES; count++) {
         for (int r = 0; r < MOST_ROUNDS; r++) {

@@ -34,6 +34,15 @@ static void fill_row(DipCostReport *report, int index) {
         row->judged[p] = p != 1; // another machine judged one of the viewpoints
         if (row->judged[p]) {
             fill_sums(&row->viewpoints[p], index * 3 + p);
+            row->tails[p] = (DipFlipTail){.p50 = 0.01 / (1 + index),
+                                          .p95 = 0.1 / (1 + index),
+                                          .p99 = 0.2 / (1 + index),
+                                          .worst = 0.3 / (1 + index + p),
+                                          .worst_frame = 1,
+                                          .worst_x = 32,
+                                          .worst_y = 16,
+                                          .worst_width = 32,
+                                          .worst_height = 32};
         }
     }
     dip_made_times(report, index, index + 1.0);

@@ -19,13 +19,13 @@ static const char key[] = "0123456789abcdef0123456789abcdef";
 static const char other_key[] = "1123456789abcdef0123456789abcdef";
 static const double round_ms[] = {1.0 / 3.0, 2e-9, 12345.678};
 
-static DipMetricSums make_sums(int seed) {
-    DipMetricSums sums;
-    double *values = (double *)&sums;
-    for (int i = 0; i < DIP_METRIC_SUM_COUNT; i++) {
-        values[i] = (i + seed) / 7.0;
+static DipCostBurstErrors make_errors(int seed) {
+    DipCostBurstErrors errors;
+    double *values = (double *)&errors;
+    for (size_t i = 0; i < sizeof errors / sizeof *values; i++) {
+        values[i] = ((double)i + seed) / 7.0;
     }
-    return sums;
+    return errors;
 }
 
 static DipCostJournal *open_journal(const char *name) {
@@ -37,8 +37,8 @@ static DipCostJournal *open_journal(const char *name) {
 
 static void write_some(void) {
     DipCostJournal *journal = open_journal(plan);
-    const DipMetricSums sums = make_sums(1);
-    assert_true(dip_cost_journal_add(journal, key, &sums, NULL));
+    const DipCostBurstErrors errors = make_errors(1);
+    assert_true(dip_cost_journal_add(journal, key, &errors, NULL));
     assert_true(dip_cost_journal_add_round(journal, 5, round_ms, 3, NULL));
     dip_cost_journal_close(&journal, false);
 }
@@ -53,11 +53,11 @@ static void stored_measurements_are_found_again(void **state) {
     (void)state;
     write_some();
     DipCostJournal *again = open_journal(plan);
-    const DipMetricSums expected = make_sums(1);
-    DipMetricSums sums;
-    assert_true(dip_cost_journal_find(again, key, &sums));
-    assert_memory_equal(&sums, &expected, sizeof sums);
-    assert_false(dip_cost_journal_find(again, other_key, &sums));
+    const DipCostBurstErrors expected = make_errors(1);
+    DipCostBurstErrors errors;
+    assert_true(dip_cost_journal_find(again, key, &errors));
+    assert_memory_equal(&errors, &expected, sizeof errors);
+    assert_false(dip_cost_journal_find(again, other_key, &errors));
     assert_memory_equal(dip_cost_journal_round(again, 5, 3), round_ms, sizeof round_ms);
     assert_null(dip_cost_journal_round(again, 4, 3)); // no such round
     assert_null(dip_cost_journal_round(again, 5, 4)); // a round of another size
@@ -70,8 +70,8 @@ static void times_of_another_plan_are_ignored(void **state) {
     (void)state;
     write_some();
     DipCostJournal *again = open_journal(other_plan);
-    DipMetricSums sums;
-    assert_true(dip_cost_journal_find(again, key, &sums));
+    DipCostBurstErrors errors;
+    assert_true(dip_cost_journal_find(again, key, &errors));
     assert_null(dip_cost_journal_round(again, 5, 3));
     dip_cost_journal_close(&again, false);
 }
@@ -91,21 +91,21 @@ static void an_incomplete_line_is_dropped(void **state) {
     (void)state;
     write_some();
     const size_t size = file_size();
-    DipMetricSums sums;
+    DipCostBurstErrors errors;
     for (size_t cut = 0; cut < size; cut += 31) {
         remove("cost.state");
         write_some();
         assert_int_equal(truncate("cost.state", (off_t)cut), 0);
         DipCostJournal *again = open_journal(plan);
         assert_null(dip_cost_journal_round(again, 5, 3));
-        const bool had_errors = dip_cost_journal_find(again, key, &sums);
-        const DipMetricSums more = make_sums(9);
+        const bool had_errors = dip_cost_journal_find(again, key, &errors);
+        const DipCostBurstErrors more = make_errors(9);
         assert_true(dip_cost_journal_add(again, other_key, &more, NULL));
         dip_cost_journal_close(&again, false);
         again = open_journal(plan);
-        assert_true(dip_cost_journal_find(again, other_key, &sums));
-        assert_memory_equal(&sums, &more, sizeof sums);
-        assert_int_equal(dip_cost_journal_find(again, key, &sums), had_errors);
+        assert_true(dip_cost_journal_find(again, other_key, &errors));
+        assert_memory_equal(&errors, &more, sizeof errors);
+        assert_int_equal(dip_cost_journal_find(again, key, &errors), had_errors);
         dip_cost_journal_close(&again, false);
     }
 }
@@ -125,10 +125,10 @@ static void a_changed_byte_drops_its_line(void **state) {
         fputc(byte == '1' ? '2' : '1', change);
         fclose(change);
         DipCostJournal *again = open_journal(plan);
-        DipMetricSums sums;
-        const bool errors = dip_cost_journal_find(again, key, &sums);
+        DipCostBurstErrors errors;
+        const bool has_errors = dip_cost_journal_find(again, key, &errors);
         const bool times = dip_cost_journal_round(again, 5, 3) != NULL;
-        assert_int_equal(errors + times, 1);
+        assert_int_equal(has_errors + times, 1);
         dip_cost_journal_close(&again, false);
     }
 }

@@ -375,8 +375,8 @@ static bool add_round(void *context, DipError *err) {
 
 static bool add_errors(void *context, DipError *err) {
     (void)context;
-    const DipMetricSums sums = {.bursts = 7.0};
-    return dip_cost_journal_add(journal, key, &sums, err);
+    const DipCostBurstErrors errors = {.sums = {.bursts = 7.0}};
+    return dip_cost_journal_add(journal, key, &errors, err);
 }
 
 static void close_journal(void *context) {
@@ -421,10 +421,10 @@ static void check_round(void *context, bool succeeded) {
 }
 
 static void check_errors(void *context, bool succeeded) {
-    DipMetricSums sums;
+    DipCostBurstErrors errors;
     for (int reopened = 0; reopened < 2; reopened++) {
         assert_round(0, first_ms);
-        assert_int_equal(dip_cost_journal_find(journal, key, &sums), succeeded);
+        assert_int_equal(dip_cost_journal_find(journal, key, &errors), succeeded);
         close_journal(context);
         assert_true(open_journal(context, NULL));
     }

@@ -460,6 +460,7 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
         assert_memory_equal(&x->quality, &y->quality, sizeof x->quality);
         assert_int_equal(x->path, y->path);
         assert_memory_equal(x->judged, y->judged, 3 * sizeof(bool));
+        check_values(x->tails, y->tails, 3 * sizeof *x->tails);
         check_values(x->viewpoints, y->viewpoints, 3 * sizeof *x->viewpoints);
         check_values(x->pairs, y->pairs, (size_t)a->rounds * 4 * sizeof *x->pairs);
         check_values(&x->time.ratio, &y->time.ratio, sizeof x->time.ratio);
@@ -600,7 +601,11 @@ static void csv_and_page_are_complete(void **state) {
             commas = 0;
         }
     }
-    assert_int_equal(lines, 1 + 2 + 3);
+    assert_int_equal(lines, 1 + 2 + 3 + 1); // One of two combinations was only predicted.
+    assert_non_null(strstr(text, "\npredicted,\"\",DEFAULT,\"aa=4,"));
+    assert_non_null(strstr(text, ",flip_p50,flip_p95,flip_p99,worst_flip,worst_viewpoint,"));
+    // aa=4 is row 3: the means of equal percentiles, and the worst block at the first viewpoint.
+    assert_non_null(strstr(text, ",0.0025,0.025,0.05,0.075,0,1,32,16,32,32,"));
     free(text);
     assert_true(dip_cost_write_html(&report, NULL, file, &err));
     text = read_whole(&size);
