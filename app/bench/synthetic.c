@@ -69,8 +69,8 @@ static DipSynthetic *allocate(uint32_t vertex_count, uint32_t index_count, bool 
         return NULL;
     }
     paint(s->rgba8);
-    s->texture = (DipTextureDef){"squares",         TEXTURE_SIZE,    TEXTURE_SIZE,   s->rgba8,
-                                 DIP_ENCODING_SRGB, DIP_WRAP_REPEAT, DIP_WRAP_REPEAT};
+    s->texture = (DipTextureDef){
+        .name = "squares", .width = TEXTURE_SIZE, .height = TEXTURE_SIZE, .rgba8 = s->rgba8};
     s->material = (DipMaterialDef){.name = "squares",
                                    .surface = DIP_SURFACE_OPAQUE,
                                    .base_colour_lin = {0.9f, 0.9f, 0.9f},

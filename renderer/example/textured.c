@@ -55,8 +55,8 @@ static DipTexture *make_texture(DipError *err) {
             rgba8[y][x][3] = 255;
         }
     }
-    const DipTextureDef def = {"chequers",        TEXELS,          TEXELS,         &rgba8[0][0][0],
-                               DIP_ENCODING_SRGB, DIP_WRAP_REPEAT, DIP_WRAP_REPEAT};
+    const DipTextureDef def = {
+        .name = "chequers", .width = TEXELS, .height = TEXELS, .rgba8 = &rgba8[0][0][0]};
     return dip_texture_create(&def, err);
 }
 

@@ -1,6 +1,6 @@
-// Meshes: the vertices and indices that the pipeline draws. A mesh is immutable. It is split into
-// chunks of triangles, and each chunk has a bounding box, so that chunks out of view are left out
-// early.
+// Meshes: the vertices and indices that the pipeline draws. A mesh is split into chunks of
+// triangles, and each chunk has a bounding box, so that chunks out of view are left out early. A
+// mesh is immutable, unless it is made by dip_mesh_create_updatable.
 #ifndef DIP_RENDERER_PIPELINE_MESH_H
 #define DIP_RENDERER_PIPELINE_MESH_H
 
@@ -34,10 +34,26 @@ typedef struct DipBox {
     float extent[3]; // half of the box's size along each axis
 } DipBox;
 
-// Makes a mesh from a copy of the data. Any thread may use the mesh. Fails with RANGE if an index
-// or attribute_count is out of range or a position is not finite, with FORMAT if index_count is not
-// a multiple of 3, with OVERSIZED if index_count is above 2^30, and with MEMORY.
+// Makes an immutable mesh from a copy of the data. Any thread may use the mesh. Fails with RANGE if
+// an index or attribute_count is out of range or a position is not finite, with FORMAT if
+// index_count is not a multiple of 3, with OVERSIZED if index_count is above 2^30, and with MEMORY.
 DIP_API DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err);
+
+// Makes a mesh that dip_mesh_update can change. It needs 4 more bytes for each vertex of its
+// chunks. Its triangles are not joined to patches (patch.h), because they may fold when their
+// vertices move: each triangle is shaded by itself, so pixels at edges between triangles are shaded
+// more than once. Fails as dip_mesh_create does.
+DIP_API DipMesh *dip_mesh_create_updatable(const DipMeshData *data, DipError *err);
+
+// Gives a mesh new attributes for the vertices that it was made from: as many rows of as many
+// floats as its data had. Triangles and their division into chunks stay; the chunks' boxes are
+// computed again. Afterwards, the mesh draws the same pictures as a new updatable mesh with these
+// attributes. The function allocates nothing. Its time is that of copying each attribute of each
+// chunk's vertices, of which there are more than the caller's, because neighbouring chunks have
+// copies of their common vertices. No draw and no other thread may use the mesh during the call.
+// Fails with CONFLICT if the mesh was made by dip_mesh_create, and with RANGE if a position is not
+// finite; the mesh is then unchanged.
+DIP_API bool dip_mesh_update(DipMesh *mesh, const float *attributes, DipError *err);
 
 // Returns a copy that shares no memory with the mesh, or NULL if memory runs out.
 DIP_API DipMesh *dip_mesh_copy(const DipMesh *mesh);

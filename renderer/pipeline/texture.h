@@ -1,6 +1,7 @@
 // Textures: pictures with mip chains, and the samplers that say how shaders read them.
 //
-// A texture is immutable. Any number of pipelines on any thread may read it.
+// Any number of pipelines on any thread may read a texture. It does not change, unless its owner
+// calls dip_texture_update.
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_H
 
@@ -22,7 +23,14 @@ enum {
     DIP_LEVEL_TABLE = 16         // length of a table that has one value per level
 };
 
-typedef enum DipWrap { DIP_WRAP_REPEAT, DIP_WRAP_CLAMP } DipWrap;
+// Address modes: what lies beyond the edges of a texture along an axis.
+typedef enum DipWrap {
+    DIP_WRAP_REPEAT, // copies of the texture
+    DIP_WRAP_CLAMP,  // the texels at the edge
+    DIP_WRAP_MIRROR, // copies of the texture, every second one mirrored
+    DIP_WRAP_BORDER, // the colour border_rgba8
+    DIP_WRAP_COUNT
+} DipWrap;
 
 // How a texture's colour channels are stored. Alpha is always linear.
 typedef enum DipEncoding { DIP_ENCODING_SRGB, DIP_ENCODING_LINEAR } DipEncoding;
@@ -37,29 +45,60 @@ typedef struct DipTextureDef {
     DipEncoding encoding;
     DipWrap wrap_u;
     DipWrap wrap_v;
+    // Colour beyond the edges of axes with DIP_WRAP_BORDER, encoded as the texels are.
+    uint8_t border_rgba8[4];
 } DipTextureDef;
 
 typedef struct DipTexture DipTexture;
 
 // Makes a texture with its whole mip chain from a copy of the texels. Runs on the caller's thread.
-// Fails with RANGE (the size is out of range) or MEMORY.
+// Fails with RANGE (a field is out of range), MISSING (no texels) or MEMORY.
 DIP_API DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err);
 
 // Makes textures[0..count-1] with their mip chains. Runs on the pool, or on the caller's thread if
-// the pool is NULL. The texels are the same for every number of threads. Fails with RANGE (a size
-// is out of range) or MEMORY; then it makes no texture at all.
-// used: textures[i] becomes NULL where used[i] is false; NULL means all are used.
-// keep_alpha: textures[i] has an alpha plane only if keep_alpha[i] is true and some texel is not
-// opaque; NULL means true for all.
+// the pool is NULL. The texels are the same for every number of threads. Fails as
+// dip_texture_create does; then it makes no texture at all. used: textures[i] becomes NULL where
+// used[i] is false; NULL means all are used. keep_alpha: textures[i] has an alpha plane only if
+// keep_alpha[i] is true and some texel is not opaque; NULL means true for all.
 DIP_API bool dip_textures_create(const DipTextureDef *defs, const bool *used,
                                  const bool *keep_alpha, int count, DipPool *pool,
                                  DipTexture **textures, DipError *err);
 
 // Makes a texture whose mip levels are the given pictures, instead of a filtered chain. The
-// pictures may have any sizes. level_count: 1..DIP_MAX_LEVELS. The texture has no alpha, and it
-// takes its address modes from levels[0]. Fails with RANGE (a size is out of range) or MEMORY.
+// pictures may have any sizes. level_count: 1..DIP_MAX_LEVELS. The texture takes its address modes
+// and its border from levels[0]; each level has its own encoding. It has an alpha plane if some
+// texel or the border is not opaque. Fails as dip_texture_create does.
 DIP_API DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
                                                    DipError *err);
+
+// Writes the texels of a level to rgba8, row by row and tightly packed, as the nearest 8-bit values
+// in the given encoding. Level 0 of a texture that was made from texels of the same encoding gives
+// exactly these texels; their alpha is 255 if the texture has no alpha plane. Fails with RANGE or
+// MEMORY.
+DIP_API bool dip_texture_read(const DipTexture *texture, int level, DipEncoding encoding,
+                              uint8_t *rgba8, DipError *err);
+
+// New texels for a rectangle of level 0.
+typedef struct DipTextureUpdate {
+    int x; // left column of the rectangle
+    int y; // top row of the rectangle
+    int width;
+    int height;
+    const uint8_t *rgba8; // 8-bit RGBA texels in the texture's encoding; the top row comes first
+    size_t stride_bytes;  // distance from one row to the next
+} DipTextureUpdate;
+
+// Replaces a rectangle of level 0 and makes the mip chain again. The texture has the same bits as a
+// new texture of the whole changed picture; it keeps its alpha plane even if all texels are opaque
+// now. Textures that were compressed from it keep their old colours. The time is that of making
+// such a texture, whatever the size of the rectangle; if the rectangle is not the whole of level 0,
+// the time of reading level 0 is added. Runs on the pool, or on the caller's thread if the pool is
+// NULL. No draw and no other thread may use the texture, or textures that were compressed from it,
+// during the call. Fails with RANGE (the rectangle is not inside the texture, or stride_bytes is
+// too small), MISSING (no texels), CONFLICT (the texture was made by dip_texture_create_from_levels
+// or dip_textures_compress) or MEMORY; the texture is then unchanged.
+DIP_API bool dip_texture_update(DipTexture *texture, const DipTextureUpdate *update, DipPool *pool,
+                                DipError *err);
 
 // Makes compressed[i], which shows textures[i] as BC1 would: the colours of every level are encoded
 // and decoded again. The result is as large in memory as the original. compressed[i] is NULL where
@@ -82,6 +121,14 @@ DIP_API void dip_texture_level_size(const DipTexture *texture, int level, int *w
 DIP_API uint64_t dip_texture_colour_bytes(const DipTexture *texture);
 DIP_API uint64_t dip_texture_alpha_bytes(const DipTexture *texture);
 
+// How the texels around a position are filtered. docs/picture.md (Textures) has the definitions.
+typedef enum DipFilter {
+    DIP_FILTER_TRILINEAR, // bilinearly in the two nearest mip levels, which are blended
+    DIP_FILTER_BILINEAR,  // bilinearly in the nearest mip level
+    DIP_FILTER_POINT,     // the nearest texel of the nearest mip level; max_anisotropy is not used
+    DIP_FILTER_COUNT
+} DipFilter;
+
 // How a shader reads a texture. A footprint is the area of the texture that a pixel covers. A read
 // takes probes (bilinear reads) along the footprint's long axis. Levels of detail are in units of
 // 1/256 level.
@@ -101,6 +148,8 @@ typedef struct DipSampler {
     // `shown`. If `shown` is NULL, it gets `texture` itself.
     const DipTexture *shown;
     int32_t shown_level[DIP_LEVEL_TABLE];
+    DipFilter filter;
+    bool no_mips; // True: only the level min_lod8 / 256, rounded down, is read.
 } DipSampler;
 
 #ifdef __cplusplus

@@ -4,11 +4,22 @@
 
 #include <math.h>
 
+enum { BORDER = -1 }; // index of every texel of a border
+
 // Maps a texel's index, which may lie outside the texture, into the texture by the axis' address
 // mode. The index is a whole number in a double, so that no coordinate is too large to convert.
 static int address(double texel, int size, DipWrap wrap) {
     if (!isfinite(texel)) {
         return 0;
+    }
+    if (wrap == DIP_WRAP_BORDER) {
+        return texel >= 0.0 && texel < size ? (int)texel : BORDER;
+    }
+    if (wrap == DIP_WRAP_MIRROR) {
+        const double period = 2.0 * size;
+        const double phase = fmod(texel, period); // exact
+        const double at = phase < 0.0 ? phase + period : phase;
+        return (int)(at < size ? at : period - 1.0 - at);
     }
     if (wrap == DIP_WRAP_CLAMP) {
         return (int)fmin(fmax(texel, 0.0), size - 1.0);
@@ -39,6 +50,21 @@ static Pair find_pair(double coordinate, int size, DipWrap wrap, double grain) {
                   isfinite(place) ? place - first : 0.0};
 }
 
+static void read_texel(const DipRefTexture *texture, bool compressed, int level, int x, int y,
+                       double rgba[4]) {
+    if (x == BORDER || y == BORDER) {
+        const uint8_t *border = texture->def->border_rgba8;
+        for (int c = 0; c < 3; c++) {
+            rgba[c] = texture->decode[border[c]];
+        }
+        rgba[3] = border[3] / 255.0;
+    } else if (compressed) {
+        dip_reference_compressed_texel(texture, level, x, y, rgba);
+    } else {
+        dip_reference_texel(texture, level, x, y, rgba);
+    }
+}
+
 static void sample_bilinear(const DipRefTexture *texture, bool compressed, int level,
                             const double uv[2], double grain, double rgba[4]) {
     const Pair x = find_pair(uv[0], texture->widths[level], texture->def->wrap_u, grain);
@@ -46,8 +72,7 @@ static void sample_bilinear(const DipRefTexture *texture, bool compressed, int l
     double corner[2][2][4];
     for (int j = 0; j < 2; j++) {
         for (int i = 0; i < 2; i++) {
-            (compressed ? dip_reference_compressed_texel : dip_reference_texel)(
-                texture, level, x.index[i], y.index[j], corner[j][i]);
+            read_texel(texture, compressed, level, x.index[i], y.index[j], corner[j][i]);
         }
     }
     for (int c = 0; c < 4; c++) {

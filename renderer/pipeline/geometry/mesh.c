@@ -27,6 +27,18 @@ typedef struct Splitter {
     uint8_t corner[3][DIP_CHUNK_TRIANGLES]; // corners of the current chunk
 } Splitter;
 
+static bool check_positions(const char *name, const float *attributes, size_t attribute_count,
+                            uint32_t vertex_count, DipError *err) {
+    for (uint32_t v = 0; v < vertex_count; v++) {
+        const float *position = attributes + v * attribute_count;
+        if (!isfinite(position[0]) || !isfinite(position[1]) || !isfinite(position[2])) {
+            return dip_error_set(err, DIP_ERROR_RANGE, name, 0, "vertices",
+                                 "the position of vertex %u is not finite", v);
+        }
+    }
+    return true;
+}
+
 static bool check_data(const DipMeshData *data, DipError *err) {
     if (data->attribute_count < 3 || data->attribute_count > DIP_MAX_ATTRIBUTES) {
         return dip_error_set(err, DIP_ERROR_RANGE, data->name, 0, "attributes",
@@ -48,14 +60,8 @@ static bool check_data(const DipMeshData *data, DipError *err) {
                                  i, data->vertex_count - 1);
         }
     }
-    for (uint32_t v = 0; v < data->vertex_count; v++) {
-        const float *position = data->attributes + (size_t)v * (size_t)data->attribute_count;
-        if (!isfinite(position[0]) || !isfinite(position[1]) || !isfinite(position[2])) {
-            return dip_error_set(err, DIP_ERROR_RANGE, data->name, 0, "vertices",
-                                 "the position of vertex %u is not finite", v);
-        }
-    }
-    return true;
+    return check_positions(data->name, data->attributes, (size_t)data->attribute_count,
+                           data->vertex_count, err);
 }
 
 // Starts a chunk at the next free index and the next free, aligned vertex.
@@ -131,11 +137,11 @@ static void split(Splitter *splitter) {
     }
 }
 
-static void fill_attributes(Splitter *splitter) {
-    DipMesh *mesh = splitter->mesh;
+// Copies the caller's attributes to the chunks. source: the caller's vertex of each chunk vertex.
+static void fill_attributes(DipMesh *mesh, const uint32_t *source, const float *attributes) {
     const size_t stride = (size_t)mesh->attribute_count;
     for (uint32_t v = 0; v < mesh->vertex_total; v++) {
-        const float *row = splitter->data->attributes + stride * splitter->source[v];
+        const float *row = attributes + stride * source[v];
         for (size_t a = 0; a < stride; a++) {
             mesh->attributes[a * mesh->vertex_total + v] = row[a];
         }
@@ -201,11 +207,35 @@ static void bound_chunks(DipMesh *mesh) {
     }
 }
 
-static bool find_patches(DipMesh *mesh, const DipMeshData *data) {
+static void *copy_array(const void *from, size_t size_bytes) {
+    void *copy = malloc(size_bytes + 1);
+    if (copy) {
+        memcpy(copy, from, size_bytes);
+    }
+    return copy;
+}
+
+// Finds the patches of triangles that join smoothly. In a mesh that can be updated, each triangle
+// is a patch.
+static bool find_patches(DipMesh *mesh, const DipMeshData *data, bool updatable) {
     mesh->patches = calloc((size_t)mesh->triangle_count + DIP_BATCH_ALIGN, sizeof *mesh->patches);
+    if (mesh->patches && updatable) {
+        mesh->patch_count = mesh->triangle_count;
+        for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+            mesh->patches[t] = t;
+        }
+        return true;
+    }
     return mesh->patches &&
            dip_patches_find(data->attributes, (size_t)data->attribute_count, data->vertex_count,
                             data->indices, data->index_count, mesh->patches, &mesh->patch_count);
+}
+
+// Keeps the source of each vertex, so that the mesh can be updated.
+static bool keep_source(DipMesh *mesh, const Splitter *splitter) {
+    mesh->source_count = splitter->data->vertex_count;
+    mesh->source = copy_array(splitter->source, mesh->vertex_total * sizeof *mesh->source);
+    return mesh->source != NULL;
 }
 
 // Allocates arrays for the worst split, in which no two triangles share a vertex.
@@ -220,8 +250,7 @@ static bool allocate_split(Splitter *splitter) {
     return splitter->local && splitter->source && splitter->mesh->chunks && splitter->mesh->indices;
 }
 
-DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err) {
-    DIP_FP_MODE_SCOPE();
+static DipMesh *create(const DipMeshData *data, bool updatable, DipError *err) {
     if (!check_data(data, err)) {
         return NULL;
     }
@@ -235,10 +264,11 @@ DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err) {
         const size_t floats = (size_t)mesh->vertex_total * (size_t)mesh->attribute_count;
         mesh->attributes = malloc((floats + 1) * sizeof *mesh->attributes);
         mesh->groups = malloc((mesh->chunk_count / DIP_GROUP_CHUNKS + 1) * sizeof *mesh->groups);
-        made = mesh->attributes && mesh->groups && find_patches(mesh, data);
+        made = mesh->attributes && mesh->groups && find_patches(mesh, data, updatable) &&
+               (!updatable || keep_source(mesh, &splitter));
     }
     if (made) {
-        fill_attributes(&splitter);
+        fill_attributes(mesh, splitter.source, data->attributes);
         bound_chunks(mesh);
     } else {
         dip_mesh_destroy(&mesh);
@@ -249,6 +279,31 @@ DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err) {
     return mesh;
 }
 
+DipMesh *dip_mesh_create(const DipMeshData *data, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    return create(data, false, err);
+}
+
+DipMesh *dip_mesh_create_updatable(const DipMeshData *data, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    return create(data, true, err);
+}
+
+bool dip_mesh_update(DipMesh *mesh, const float *attributes, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    if (!mesh->source) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "mesh",
+                             "a mesh that was not made to be updated");
+    }
+    if (!check_positions(NULL, attributes, (size_t)mesh->attribute_count, mesh->source_count,
+                         err)) {
+        return false;
+    }
+    fill_attributes(mesh, mesh->source, attributes);
+    bound_chunks(mesh);
+    return true;
+}
+
 // The sizes of a mesh's arrays in bytes.
 typedef struct MeshSizes {
     size_t chunks;
@@ -256,6 +311,7 @@ typedef struct MeshSizes {
     size_t attributes;
     size_t indices;
     size_t patches;
+    size_t source;
 } MeshSizes;
 
 static MeshSizes sizes_of(const DipMesh *mesh) {
@@ -265,19 +321,13 @@ static MeshSizes sizes_of(const DipMesh *mesh) {
         const DipChunk *last = &mesh->chunks[mesh->chunk_count - 1];
         indices = last->first_index + 3 * (size_t)dip_corner_stride(last);
     }
-    return (MeshSizes){mesh->chunk_count * sizeof *mesh->chunks, groups * sizeof *mesh->groups,
+    return (MeshSizes){mesh->chunk_count * sizeof *mesh->chunks,
+                       groups * sizeof *mesh->groups,
                        (size_t)mesh->vertex_total * (size_t)mesh->attribute_count *
                            sizeof *mesh->attributes,
                        indices * sizeof *mesh->indices,
-                       ((size_t)mesh->triangle_count + DIP_BATCH_ALIGN) * sizeof *mesh->patches};
-}
-
-static void *copy_array(const void *from, size_t size_bytes) {
-    void *copy = malloc(size_bytes + 1);
-    if (copy) {
-        memcpy(copy, from, size_bytes);
-    }
-    return copy;
+                       ((size_t)mesh->triangle_count + DIP_BATCH_ALIGN) * sizeof *mesh->patches,
+                       mesh->source ? mesh->vertex_total * sizeof *mesh->source : 0};
 }
 
 DipMesh *dip_mesh_copy(const DipMesh *mesh) {
@@ -291,7 +341,9 @@ DipMesh *dip_mesh_copy(const DipMesh *mesh) {
     copy->attributes = copy_array(mesh->attributes, sizes.attributes);
     copy->indices = copy_array(mesh->indices, sizes.indices);
     copy->patches = copy_array(mesh->patches, sizes.patches);
-    if (!copy->chunks || !copy->groups || !copy->attributes || !copy->indices || !copy->patches) {
+    copy->source = mesh->source ? copy_array(mesh->source, sizes.source) : NULL;
+    if (!copy->chunks || !copy->groups || !copy->attributes || !copy->indices || !copy->patches ||
+        (mesh->source && !copy->source)) {
         dip_mesh_destroy(&copy);
     }
     return copy;
@@ -300,7 +352,7 @@ DipMesh *dip_mesh_copy(const DipMesh *mesh) {
 size_t dip_mesh_bytes(const DipMesh *mesh) {
     const MeshSizes sizes = sizes_of(mesh);
     return sizeof *mesh + sizes.chunks + sizes.groups + sizes.attributes + sizes.indices +
-           sizes.patches;
+           sizes.patches + sizes.source;
 }
 
 void dip_mesh_destroy(DipMesh **mesh) {
@@ -310,6 +362,7 @@ void dip_mesh_destroy(DipMesh **mesh) {
         free((*mesh)->attributes);
         free((*mesh)->indices);
         free((*mesh)->patches);
+        free((*mesh)->source);
         free(*mesh);
         *mesh = NULL;
     }

@@ -41,6 +41,10 @@ struct DipMesh {
     // elements past the last triangle.
     uint32_t *patches;
     uint32_t patch_count;
+    // Only meshes that can be updated have these fields: the caller's vertex from which each of the
+    // vertex_total vertices is copied, and the number of the caller's vertices.
+    uint32_t *source;
+    uint32_t source_count;
     float min[3];
     float max[3];
 };

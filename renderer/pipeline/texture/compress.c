@@ -37,10 +37,11 @@ static void read_block(const DipRootCodes *codes, const DipTexture *texture, int
                        int y, uint8_t rgba8[64]) {
     const int width = texture->level_width[level];
     const int height = texture->level_height[level];
+    const size_t stride = dip_texture_stride(texture, level);
     const uint32_t *texels = texture->texels + texture->level_offset[level];
     for (int j = 0; j < DIP_BC1_SIDE; j++) {
         const int row_index = y + j < height ? y + j : height - 1;
-        const uint32_t *row = texels + (size_t)row_index * (size_t)(width + 1);
+        const uint32_t *row = texels + (size_t)row_index * stride;
         for (int i = 0; i < DIP_BC1_SIDE; i++, rgba8 += 4) {
             dip_root_codes_read(codes, row[x + i < width ? x + i : width - 1], rgba8);
             rgba8[3] = 255;
@@ -52,6 +53,7 @@ static void write_block(const DipBc1Light *light, DipTexture *texture, int level
                         const uint8_t block[DIP_BC1_BYTES]) {
     const int width = texture->level_width[level];
     const int height = texture->level_height[level];
+    const size_t stride = dip_texture_stride(texture, level);
     uint32_t *texels = texture->texels + texture->level_offset[level];
     uint32_t palette[4];
     dip_bc1_palette(light, block, palette);
@@ -59,8 +61,7 @@ static void write_block(const DipBc1Light *light, DipTexture *texture, int level
         const int column = x + (i & 3);
         const int row = y + (i >> 2);
         if (column < width && row < height) {
-            texels[(size_t)row * (size_t)(width + 1) + (size_t)column] =
-                palette[dip_bc1_choice(block, i)];
+            texels[(size_t)row * stride + (size_t)column] = palette[dip_bc1_choice(block, i)];
         }
     }
 }

@@ -21,6 +21,8 @@ typedef struct ReadMode {
     bool anisotropic; // several probes per level
     // Coordinates are 32-bit fixed-point fractions of the texture's size, which wrap by overflow.
     bool in_bits;
+    bool any_wrap; // all address modes, in floats; otherwise only repeat and clamp
+    bool nearest;  // the nearest texel, in floats, with all address modes
 } ReadMode;
 
 // The probes of a batch's footprints in one of their two levels. Only anisotropic reads use this.
@@ -105,6 +107,20 @@ VEC_INLINE void count_work(LaneWork *work, Vi near, Vi far, int lanes) {
     work->reads += vi_select(own, near + far, vi_splat(0));
 }
 
+// Replaces levels of detail that lie between two levels by one level: the nearest one, where halves
+// become the coarser level, or without mips the finest one that may be read.
+VEC_INLINE void choose_single_levels(const DipSampler *sampler, Vi *lod8, int count) {
+    const int32_t last = (sampler->texture->level_count - 1) * 256;
+    const int32_t finest = (sampler->min_lod8 < last ? sampler->min_lod8 : last) & ~255;
+    for (int n = 0; n < count; n++) {
+        if (sampler->no_mips) {
+            lod8[n] = vi_splat(finest);
+        } else {
+            lod8[n] = (lod8[n] + 128) & ~255;
+        }
+    }
+}
+
 // Computes the footprints of a batch. Short loops let the processor overlap long dependency chains.
 // textures: the number of textures that share these footprints.
 VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampler, ReadMode mode,
@@ -126,6 +142,9 @@ VEC_INLINE void find_footprints(DipFragmentBatch *batch, const DipSampler *sampl
     const int cheap = sampler->cheap;
     for (int n = 0; cheap && n < count; n++) {
         out->lod8[n] = narrow_blend(out->lod8[n]);
+    }
+    if (sampler->filter != DIP_FILTER_TRILINEAR || sampler->no_mips) {
+        choose_single_levels(sampler, out->lod8, count);
     }
     LaneWork work = {vi_splat(0), vi_splat(0)};
     for (int n = 0; n < count; n++) {
@@ -172,6 +191,11 @@ typedef struct Taps {
     Vi y8;
 } Taps;
 
+// Returns the distance between rows of a level of the given width.
+VEC_INLINE Vi row_stride(const DipTexture *texture, ReadMode mode, Vi width) {
+    return width + (mode.any_wrap || mode.nearest ? texture->padding : 1);
+}
+
 VEC_INLINE Level read_level(const DipTexture *texture, ReadMode mode, Vi level) {
     Level out;
     out.offset = vi_lookup16(texture->level_offset, level);
@@ -182,7 +206,7 @@ VEC_INLINE Level read_level(const DipTexture *texture, ReadMode mode, Vi level) 
     } else {
         out.width = vi_lookup16(texture->level_width, level);
         out.height = vi_lookup16(texture->level_height, level);
-        out.stride = out.width + 1;
+        out.stride = row_stride(texture, mode, out.width);
     }
     out.stride_pairs = vi_pair_order(out.stride);
     return out;
@@ -197,6 +221,48 @@ VEC_INLINE Vi address(Vf coordinate, DipWrap wrap, Vi size) {
     const Vi at = vi_from_float(unit * vf_from_int(size << 8)) - 128;
     const Vi before = at >> 31; // all bits set where negative
     return wrap == DIP_WRAP_REPEAT ? at + (before & (size << 8)) : at & ~before;
+}
+
+// Limits the coordinates of an axis with a border: beyond a texture's size before and behind the
+// texture, everything has the border's colour. NaN becomes the upper limit.
+VEC_INLINE Vf near_texture(Vf coordinate) {
+    return vf_max(vf_min(coordinate, vf_splat(2.0f)), vf_splat(-1.0f));
+}
+
+// Returns a coordinate within 0..1 at which an axis without a border has the same texels.
+VEC_INLINE Vf fold(Vf coordinate, DipWrap wrap) {
+    Vf folded = coordinate;
+    if (wrap == DIP_WRAP_REPEAT) {
+        folded = coordinate - vf_floor(coordinate);
+    } else if (wrap == DIP_WRAP_MIRROR) {
+        const Vf phase = coordinate - 2.0f * vf_floor(coordinate * 0.5f); // 0..2
+        folded = vf_min(phase, 2.0f - phase);
+    }
+    return vf_min(vf_max(folded, vf_splat(0.0f)), vf_splat(1.0f));
+}
+
+// Does what `address` does, for all address modes. Beyond a border's texel, positions stay at the
+// texel -1 or `size`, which the padding holds. A mirrored texel next to the edge is the texel at
+// the edge, so a mirrored axis continues like a clamped one.
+VEC_INLINE Vi any_address(Vf coordinate, DipWrap wrap, Vi size) {
+    const Vf scale = vf_from_int(size << 8);
+    if (wrap == DIP_WRAP_BORDER) {
+        const Vi at = vi_from_float(vf_floor(near_texture(coordinate) * scale)) - 128;
+        return vi_min(vi_max(at, vi_splat(-256)), size << 8);
+    }
+    const Vi at = vi_from_float(fold(coordinate, wrap) * scale) - 128;
+    const Vi before = at >> 31; // all bits set where negative
+    return wrap == DIP_WRAP_REPEAT ? at + (before & (size << 8)) : at & ~before;
+}
+
+// Returns the position of the nearest texel. Without a border, texel `size` has no row below it.
+VEC_INLINE Vi nearest_address(Vf coordinate, DipWrap wrap, Vi size) {
+    const Vf scale = vf_from_int(size << 8);
+    if (wrap == DIP_WRAP_BORDER) {
+        const Vi texel = vi_from_float(vf_floor(near_texture(coordinate) * scale)) >> 8;
+        return vi_min(vi_max(texel, vi_splat(-1)), size) << 8;
+    }
+    return vi_min(vi_from_float(fold(coordinate, wrap) * scale) >> 8, size - 1) << 8;
 }
 
 // A walk along the probes of one vector in a level.
@@ -248,8 +314,16 @@ VEC_INLINE Taps find_taps(const DipTexture *texture, ReadMode mode, const Walk *
         const float probe = (float)walk->probe;
         const Vf u = mode.anisotropic ? (Vf)walk->u + (Vf)walk->step_u * probe : (Vf)walk->u;
         const Vf v = mode.anisotropic ? (Vf)walk->v + (Vf)walk->step_v * probe : (Vf)walk->v;
-        taps.x8 = address(u, texture->wrap_u, level->width);
-        taps.y8 = address(v, texture->wrap_v, level->height);
+        if (mode.nearest) {
+            taps.x8 = nearest_address(u, texture->wrap_u, level->width);
+            taps.y8 = nearest_address(v, texture->wrap_v, level->height);
+        } else if (mode.any_wrap) {
+            taps.x8 = any_address(u, texture->wrap_u, level->width);
+            taps.y8 = any_address(v, texture->wrap_v, level->height);
+        } else {
+            taps.x8 = address(u, texture->wrap_u, level->width);
+            taps.y8 = address(v, texture->wrap_v, level->height);
+        }
         taps.index = (level->offset + (taps.x8 >> 8)) + (taps.y8 >> 8) * level->stride;
     }
     return taps;
@@ -510,24 +584,31 @@ VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler,
 // --- kernels -----------------------------------------------------------------------------------
 
 // Calls sample(batch, sampler, mode, ...) with a constant mode, so that each mode gets an inlined
-// copy of its own.
-#define SAMPLE_BY_MODE(sample, in_bits, ...)                                                       \
+// copy of its own. from: the texture that is read.
+#define SAMPLE_BY_MODE(sample, from, ...)                                                          \
     do {                                                                                           \
-        if (sampler->max_anisotropy > 1 && (in_bits)) {                                            \
-            sample(batch, sampler, (ReadMode){true, true}, __VA_ARGS__);                           \
-        } else if (sampler->max_anisotropy > 1) {                                                  \
-            sample(batch, sampler, (ReadMode){true, false}, __VA_ARGS__);                          \
-        } else if (in_bits) {                                                                      \
-            sample(batch, sampler, (ReadMode){false, true}, __VA_ARGS__);                          \
+        const bool anisotropic = sampler->max_anisotropy > 1;                                      \
+        if (sampler->filter == DIP_FILTER_POINT) {                                                 \
+            sample(batch, sampler, (ReadMode){false, false, false, true}, __VA_ARGS__);            \
+        } else if ((from)->special_wrap && anisotropic) {                                          \
+            sample(batch, sampler, (ReadMode){true, false, true, false}, __VA_ARGS__);             \
+        } else if ((from)->special_wrap) {                                                         \
+            sample(batch, sampler, (ReadMode){false, false, true, false}, __VA_ARGS__);            \
+        } else if (anisotropic && (from)->wraps_in_bits) {                                         \
+            sample(batch, sampler, (ReadMode){true, true, false, false}, __VA_ARGS__);             \
+        } else if (anisotropic) {                                                                  \
+            sample(batch, sampler, (ReadMode){true, false, false, false}, __VA_ARGS__);            \
+        } else if ((from)->wraps_in_bits) {                                                        \
+            sample(batch, sampler, (ReadMode){false, true, false, false}, __VA_ARGS__);            \
         } else {                                                                                   \
-            sample(batch, sampler, (ReadMode){false, false}, __VA_ARGS__);                         \
+            sample(batch, sampler, (ReadMode){false, false, false, false}, __VA_ARGS__);           \
         }                                                                                          \
     } while (false)
 
 void DIP_KERNEL(dip_kernel_sample_colour)(DipFragmentBatch *batch, const DipSampler *sampler,
                                           int u_varying, float (*out)[DIP_FRAGMENT_BATCH]) {
     const DipTexture *texture = sampler->shown ? sampler->shown : sampler->texture;
-    SAMPLE_BY_MODE(sample_colour, texture->wraps_in_bits, u_varying, out);
+    SAMPLE_BY_MODE(sample_colour, texture, u_varying, out);
 }
 
 // Returns whether two samplers read textures of the same layout with the same footprints.
@@ -536,8 +617,9 @@ static bool reads_alike(const DipSampler *a, const DipSampler *b) {
     const DipTexture *t = b->texture;
     return !a->shown && !b->shown && a->max_anisotropy == b->max_anisotropy &&
            a->exact_footprint == b->exact_footprint && a->bias_lod8 == b->bias_lod8 &&
-           a->min_lod8 == b->min_lod8 && a->cheap == b->cheap && s->wrap_u == t->wrap_u &&
-           s->wrap_v == t->wrap_v && s->level_count == t->level_count &&
+           a->min_lod8 == b->min_lod8 && a->cheap == b->cheap && a->filter == b->filter &&
+           a->no_mips == b->no_mips && s->wrap_u == t->wrap_u && s->wrap_v == t->wrap_v &&
+           s->level_count == t->level_count &&
            memcmp(s->level_width, t->level_width, sizeof s->level_width) == 0 &&
            memcmp(s->level_height, t->level_height, sizeof s->level_height) == 0;
 }
@@ -552,7 +634,7 @@ void DIP_KERNEL(dip_kernel_sample_colours)(DipFragmentBatch *batch,
     }
     const DipSampler *sampler = samplers[0];
     const Read read = {{sampler->texture, samplers[1]->texture}, 2};
-    SAMPLE_BY_MODE(sample_read, sampler->texture->wraps_in_bits, read, u_varying, out);
+    SAMPLE_BY_MODE(sample_read, sampler->texture, read, u_varying, out);
 }
 
 void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampler *sampler,
@@ -563,5 +645,5 @@ void DIP_KERNEL(dip_kernel_sample_alpha)(DipFragmentBatch *batch, const DipSampl
         }
         return;
     }
-    SAMPLE_BY_MODE(sample_alpha, sampler->texture->wraps_in_bits, u_varying, out);
+    SAMPLE_BY_MODE(sample_alpha, sampler->texture, u_varying, out);
 }

@@ -3,7 +3,6 @@
 #include "renderer/pipeline/texture/texture_layout.h"
 
 #include "renderer/base/fp_mode.h"
-#include "renderer/base/assert.h"
 #include "renderer/base/pages.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/bc1.h"
@@ -46,6 +45,12 @@ uint32_t dip_texel_pack(const double rgb_lin[3]) {
     return pack_texel(rgb_lin);
 }
 
+static bool check_wrap(const DipTextureDef *def, const char *key, DipWrap wrap, DipError *err) {
+    return (unsigned)wrap < DIP_WRAP_COUNT ||
+           dip_error_set(err, DIP_ERROR_RANGE, def->name, 0, key, "%d, accepted 0..%d", (int)wrap,
+                         DIP_WRAP_COUNT - 1);
+}
+
 static bool check_def(const DipTextureDef *def, DipError *err) {
     if (def->width < 1 || def->height < 1 || def->width > DIP_MAX_TEXTURE_SIZE ||
         def->height > DIP_MAX_TEXTURE_SIZE) {
@@ -53,12 +58,19 @@ static bool check_def(const DipTextureDef *def, DipError *err) {
                              "%dx%d texels, accepted 1x1 to %dx%d", def->width, def->height,
                              DIP_MAX_TEXTURE_SIZE, DIP_MAX_TEXTURE_SIZE);
     }
-    return true;
+    if (!def->rgba8) {
+        return dip_error_set(err, DIP_ERROR_MISSING, def->name, 0, "rgba8", "NULL");
+    }
+    if ((unsigned)def->encoding > DIP_ENCODING_LINEAR) {
+        return dip_error_set(err, DIP_ERROR_RANGE, def->name, 0, "encoding", "%d, accepted 0..%d",
+                             (int)def->encoding, DIP_ENCODING_LINEAR);
+    }
+    return check_wrap(def, "wrap_u", def->wrap_u, err) &&
+           check_wrap(def, "wrap_v", def->wrap_v, err);
 }
 
-// Returns whether some texel is not opaque. It checks a few thousand texels at a time, so that the
-// inner loop has no branches.
-static bool has_alpha(const DipTextureDef *def) {
+// A few thousand texels are checked at a time, so that the inner loop has no branches.
+bool dip_texture_has_alpha(const DipTextureDef *def) {
     const size_t count = (size_t)def->width * (size_t)def->height;
     uint8_t all = 255;
     for (size_t i = 0; i < count && all == 255;) {
@@ -70,53 +82,17 @@ static bool has_alpha(const DipTextureDef *def) {
     return all != 255;
 }
 
-static bool repeats(const DipTextureDef *def) {
-    return def->wrap_u == DIP_WRAP_REPEAT && def->wrap_v == DIP_WRAP_REPEAT;
-}
-
-static int floor_log2(int size) {
-    return 31 - __builtin_clz((unsigned)size);
-}
-
-static bool is_power_of_two(int size) {
-    return (size & (size - 1)) == 0;
-}
-
-// Enters a level's size and offset into the texture's tables. Returns the number of texels that the
-// level takes.
-static size_t add_level(DipTexture *texture, int level, int width, int height, size_t offset) {
-    texture->level_width[level] = width;
-    texture->level_height[level] = height;
-    texture->level_offset[level] = (int32_t)offset;
-    texture->level_log2_width[level] = floor_log2(width);
-    texture->level_log2_height[level] = floor_log2(height);
-    texture->wraps_in_bits =
-        texture->wraps_in_bits && is_power_of_two(width) && is_power_of_two(height);
-    return (size_t)(width + 1) * (size_t)(height + 1);
-}
-
 static void add_levels(DipTexture *texture) {
     int width = texture->width;
     int height = texture->height;
     for (;;) {
-        texture->texel_count +=
-            add_level(texture, texture->level_count++, width, height, texture->texel_count);
+        dip_texture_add_level(texture, width, height);
         if (width == 1 && height == 1) {
             return;
         }
         width = dip_mip_next_size(width);
         height = dip_mip_next_size(height);
     }
-}
-
-// Allocates the texels and the alpha plane. Reads may run past the last texel; 8 spare texels and
-// 32 spare bytes of alpha keep such reads inside the arrays.
-static bool allocate_texels(DipTexture *texture, bool with_alpha) {
-    texture->texels = dip_pages_alloc((texture->texel_count + 8) * sizeof *texture->texels);
-    if (with_alpha) {
-        texture->alpha = calloc(texture->texel_count + 32, 1);
-    }
-    return texture->texels && (texture->alpha || !with_alpha);
 }
 
 // Tables for the 256 possible values (codes) of a picture's channel: the linear light or alpha for
@@ -141,33 +117,26 @@ static void fill_code_tables(CodeTables *tables, DipEncoding encoding) {
     }
 }
 
-// Returns the column (or row) of a level from which column (or row) i takes its texels. This is i
-// itself, except in the padding (i == size), which repeats the first or the last column (or row).
-static int padding_source(int i, int size, DipWrap wrap) {
-    return i < size ? i : wrap == DIP_WRAP_REPEAT ? 0 : size - 1;
+static uint32_t pack_code(const CodeTables *tables, const uint8_t *code) {
+    return join_codes(tables->code16[code[0]], tables->code16[code[1]], tables->code10[code[2]]);
 }
 
-// Packs rows first..end-1 of a level, including their padding columns, directly from the 8-bit
-// values of the level's picture. Row `height` is the padding row.
+// Packs rows first..end-1 of a level, and the padding that repeats their texels, directly from the
+// 8-bit values of the level's picture.
 static void pack_codes(DipTexture *texture, int level, const DipTextureDef *def,
                        const CodeTables *tables, int first, int end) {
-    const size_t position =
-        (size_t)texture->level_offset[level] + (size_t)first * (size_t)(def->width + 1);
-    uint32_t *texels = texture->texels + position;
-    uint8_t *alpha = texture->alpha ? texture->alpha + position : NULL;
     for (int y = first; y < end; y++) {
-        const uint8_t *row = def->rgba8 + (size_t)padding_source(y, def->height, texture->wrap_v) *
-                                              (size_t)def->width * 4;
-        for (int x = 0; x <= def->width; x++) {
-            const uint8_t *code =
-                x < def->width ? row + 4 * (size_t)x
-                               : row + (size_t)padding_source(x, def->width, texture->wrap_u) * 4;
-            *texels++ = join_codes(tables->code16[code[0]], tables->code16[code[1]],
-                                   tables->code10[code[2]]);
-            if (alpha) {
-                *alpha++ = code[3];
-            }
+        const size_t position =
+            (size_t)texture->level_offset[level] + (size_t)y * dip_texture_stride(texture, level);
+        const uint8_t *code = def->rgba8 + (size_t)y * (size_t)def->width * 4;
+        uint32_t *texels = texture->texels + position;
+        for (int x = 0; x < def->width; x++) {
+            texels[x] = pack_code(tables, code + 4 * (size_t)x);
         }
+        for (int x = 0; texture->alpha && x < def->width; x++) {
+            texture->alpha[position + (size_t)x] = code[4 * (size_t)x + 3];
+        }
+        dip_texture_pad_row(texture, level, y);
     }
 }
 
@@ -219,31 +188,11 @@ static void decode_row(const uint8_t *codes, int width, const CodeTables *tables
     }
 }
 
-void dip_texture_pad_row(DipTexture *texture, int level, int y) {
-    const int width = texture->level_width[level];
-    const int height = texture->level_height[level];
-    const size_t stride = (size_t)width + 1;
-    const size_t base = (size_t)texture->level_offset[level];
-    const size_t position = base + (size_t)y * stride;
-    const size_t source = position + (size_t)padding_source(width, width, texture->wrap_u);
-    const size_t below = base + (size_t)height * stride;
-    const bool repeated = y == padding_source(height, height, texture->wrap_v);
-    texture->texels[position + (size_t)width] = texture->texels[source];
-    if (repeated) {
-        memcpy(texture->texels + below, texture->texels + position, stride * sizeof(uint32_t));
-    }
-    if (texture->alpha) {
-        texture->alpha[position + (size_t)width] = texture->alpha[source];
-        if (repeated) {
-            memcpy(texture->alpha + below, texture->alpha + position, stride);
-        }
-    }
-}
-
 // Packs a row of a filtered level, and the padding that repeats its texels.
 static void store_row(DipTexture *texture, int level, int y, const float *row) {
     const int width = texture->level_width[level];
-    const size_t position = (size_t)texture->level_offset[level] + (size_t)y * ((size_t)width + 1);
+    const size_t position =
+        (size_t)texture->level_offset[level] + (size_t)y * dip_texture_stride(texture, level);
     pack_row(row, width, texture->texels + position,
              texture->alpha ? texture->alpha + position : NULL);
     dip_texture_pad_row(texture, level, y);
@@ -259,8 +208,7 @@ static void make_band(const Chain *chain, int band, float *scratch) {
     const int end = last_band ? next_height : first + chain->band_rows;
     pack_codes(texture, 0, chain->def, chain->tables,
                dip_mip_tap(first, texture->height, next_height).first,
-               last_band ? texture->height + 1
-                         : dip_mip_tap(end, texture->height, next_height).first);
+               last_band ? texture->height : dip_mip_tap(end, texture->height, next_height).first);
     for (int y = first; y < end; y++) {
         const DipMipTap tap = dip_mip_tap(y, texture->height, next_height);
         const float *rows[DIP_MIP_MAX_TAPS] = {0};
@@ -310,32 +258,37 @@ static DipTexture *out_of_memory(DipTexture *texture, const char *name, DipError
     return NULL;
 }
 
+static bool border_shows_through(const DipTextureDef *def) {
+    return (def->wrap_u == DIP_WRAP_BORDER || def->wrap_v == DIP_WRAP_BORDER) &&
+           def->border_rgba8[3] != 255;
+}
+
 // Creates a texture with the layout of its levels. Its texels are not yet filled in.
-static DipTexture *begin_texture(const DipTextureDef *def, bool keep_alpha, DipError *err) {
-    if (!check_def(def, err)) {
-        return NULL;
-    }
+static DipTexture *begin_texture(const DipTextureDef *def, bool keep_alpha,
+                                 const CodeTables *tables, DipError *err) {
     DipTexture *texture = calloc(1, sizeof *texture);
     if (!texture) {
         return out_of_memory(NULL, def->name, err);
     }
     texture->width = def->width;
     texture->height = def->height;
-    texture->wrap_u = def->wrap_u;
-    texture->wrap_v = def->wrap_v;
-    texture->wraps_in_bits = repeats(def);
+    texture->encoding = def->encoding;
+    texture->keeps_alpha = keep_alpha;
+    texture->border = pack_code(tables, def->border_rgba8);
+    texture->border_alpha = def->border_rgba8[3];
+    dip_texture_set_wrap(texture, def);
     add_levels(texture);
-    return allocate_texels(texture, keep_alpha && has_alpha(def))
-               ? texture
-               : out_of_memory(texture, def->name, err);
+    const bool with_alpha = keep_alpha && (border_shows_through(def) || dip_texture_has_alpha(def));
+    return dip_texture_allocate(texture, with_alpha) ? texture
+                                                     : out_of_memory(texture, def->name, err);
 }
 
-static bool begin_chain(Chain *chain, const DipTextureDef *def, bool keep_alpha,
-                        const CodeTables tables[2], DipError *err) {
-    DipTexture *texture = begin_texture(def, keep_alpha, err);
+// Allocates the rows of floats from which a chain is filtered, and divides it into bands.
+static bool begin_chain(Chain *chain, const DipTextureDef *def, DipTexture *texture,
+                        const CodeTables tables[2]) {
     *chain = (Chain){def, texture, &tables[def->encoding], NULL, NULL, 0, 0};
-    if (!texture || texture->level_count == 1) {
-        return texture != NULL;
+    if (texture->level_count == 1) {
+        return true;
     }
     size_t floats[2] = {0, 0};
     for (int i = 0; i < 2 && i + 1 < texture->level_count; i++) {
@@ -344,13 +297,30 @@ static bool begin_chain(Chain *chain, const DipTextureDef *def, bool keep_alpha,
     }
     chain->level1 = malloc((floats[0] + floats[1]) * sizeof(float));
     if (!chain->level1) {
-        chain->texture = out_of_memory(texture, def->name, err);
         return false;
     }
     chain->level2 = chain->level1 + floats[0];
     const int rows = BAND_TEXELS / 2 / def->width;
     chain->band_rows = rows > 1 ? rows : 1;
     chain->band_count = (texture->level_height[1] + chain->band_rows - 1) / chain->band_rows;
+    return true;
+}
+
+// Creates a texture and the chain that fills it.
+static bool begin(Chain *chain, const DipTextureDef *def, bool keep_alpha,
+                  const CodeTables tables[2], DipError *err) {
+    chain->texture = NULL;
+    if (!check_def(def, err)) {
+        return false;
+    }
+    DipTexture *texture = begin_texture(def, keep_alpha, &tables[def->encoding], err);
+    if (!texture) {
+        return false;
+    }
+    if (!begin_chain(chain, def, texture, tables)) {
+        chain->texture = out_of_memory(texture, def->name, err);
+        return false;
+    }
     return true;
 }
 
@@ -385,6 +355,16 @@ static void run_chains(ChainJobs *jobs, DipPool *pool) {
     jobs->bands = NULL;
 }
 
+// Makes level 0 of a chain and, if it has one, level 1; and the rest of the chain before it.
+static void run_first_levels(ChainJobs *jobs, Chain *chain, DipPool *pool) {
+    if (chain->level1) {
+        jobs->bands = chain;
+        run_chains(jobs, pool);
+    } else {
+        pack_codes(chain->texture, 0, chain->def, chain->tables, 0, chain->def->height);
+    }
+}
+
 bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool *keep_alpha,
                          int count, DipPool *pool, DipTexture **textures, DipError *err) {
     DIP_FP_MODE_SCOPE();
@@ -402,15 +382,12 @@ bool dip_textures_create(const DipTextureDef *defs, const bool *used, const bool
         if (used && !used[i]) {
             continue;
         }
-        Chain *chain = &chains[turn++ & 1];
-        made = begin_chain(chain, &defs[i], !keep_alpha || keep_alpha[i], tables, err);
+        Chain *chain = &chains[turn & 1];
+        made = begin(chain, &defs[i], !keep_alpha || keep_alpha[i], tables, err);
         textures[i] = chain->texture;
-        if (made && chain->level1) {
-            jobs.bands = chain;
-            run_chains(&jobs, pool);
-        } else if (made) {
-            pack_codes(chain->texture, 0, chain->def, chain->tables, 0, chain->def->height + 1);
-            turn--;
+        if (made) {
+            turn += chain->level1 != NULL;
+            run_first_levels(&jobs, chain, pool);
         }
     }
     run_chains(&jobs, pool);
@@ -427,37 +404,73 @@ DipTexture *dip_texture_create(const DipTextureDef *def, DipError *err) {
     return dip_textures_create(def, NULL, NULL, 1, NULL, &texture, err) ? texture : NULL;
 }
 
+static bool check_levels(const DipTextureDef *levels, int level_count, DipError *err) {
+    if (level_count < 1 || level_count > DIP_MAX_LEVELS) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "level_count", "%d, accepted 1..%d",
+                             level_count, DIP_MAX_LEVELS);
+    }
+    for (int i = 0; i < level_count; i++) {
+        if (!check_def(&levels[i], err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 DipTexture *dip_texture_create_from_levels(const DipTextureDef *levels, int level_count,
                                            DipError *err) {
     DIP_FP_MODE_SCOPE();
-    DIP_ASSERT(level_count >= 1 && level_count <= DIP_MAX_LEVELS);
+    if (!check_levels(levels, level_count, err)) {
+        return NULL;
+    }
     DipTexture *texture = calloc(1, sizeof *texture);
     if (!texture) {
         return out_of_memory(NULL, levels[0].name, err);
     }
+    CodeTables tables;
+    fill_code_tables(&tables, levels[0].encoding);
     texture->width = levels[0].width;
     texture->height = levels[0].height;
-    texture->wrap_u = levels[0].wrap_u;
-    texture->wrap_v = levels[0].wrap_v;
-    texture->wraps_in_bits = repeats(&levels[0]);
-    texture->level_count = level_count;
+    texture->encoding = levels[0].encoding;
+    texture->stored_levels = true;
+    texture->border = pack_code(&tables, levels[0].border_rgba8);
+    texture->border_alpha = levels[0].border_rgba8[3];
+    dip_texture_set_wrap(texture, &levels[0]);
+    bool with_alpha = border_shows_through(&levels[0]);
     for (int i = 0; i < level_count; i++) {
-        if (!check_def(&levels[i], err)) {
-            dip_texture_destroy(&texture);
-            return NULL;
-        }
-        texture->texel_count +=
-            add_level(texture, i, levels[i].width, levels[i].height, texture->texel_count);
+        dip_texture_add_level(texture, levels[i].width, levels[i].height);
+        with_alpha = with_alpha || dip_texture_has_alpha(&levels[i]);
     }
-    if (!allocate_texels(texture, false)) {
+    if (!dip_texture_allocate(texture, with_alpha)) {
         return out_of_memory(texture, levels[0].name, err);
     }
     for (int i = 0; i < level_count; i++) {
-        CodeTables tables;
         fill_code_tables(&tables, levels[i].encoding);
-        pack_codes(texture, i, &levels[i], &tables, 0, levels[i].height + 1);
+        pack_codes(texture, i, &levels[i], &tables, 0, levels[i].height);
     }
     return texture;
+}
+
+bool dip_texture_rebuild(DipTexture *texture, const DipTextureDef *def, DipPool *pool,
+                         DipError *err) {
+    ChainJobs jobs = {NULL, NULL, NULL, 0};
+    CodeTables *tables = NULL;
+    Chain chain = {.level1 = NULL};
+    const bool needs_alpha = texture->keeps_alpha && !texture->alpha && dip_texture_has_alpha(def);
+    uint8_t *alpha = needs_alpha ? dip_texture_allocate_alpha(texture) : NULL;
+    const bool made = (alpha || !needs_alpha) && begin_jobs(&jobs, &tables, def, NULL, 1, pool) &&
+                      begin_chain(&chain, def, texture, tables);
+    if (made) {
+        texture->alpha = needs_alpha ? alpha : texture->alpha;
+        run_first_levels(&jobs, &chain, pool);
+        run_chains(&jobs, pool);
+    } else {
+        free(alpha);
+        out_of_memory(NULL, def->name, err);
+    }
+    free(jobs.rows);
+    free(tables);
+    return made;
 }
 
 void dip_texture_destroy(DipTexture **texture) {

@@ -10,8 +10,11 @@
 // Alpha is a separate plane of bytes, which exists only if some texel is not opaque.
 //
 // Every level is stored with one padding column and one padding row. The padding repeats the first
-// column or row (DIP_WRAP_REPEAT) or the last one (DIP_WRAP_CLAMP). So the four texels of a
-// bilinear read are always at offset, offset + 1, offset + stride and offset + stride + 1.
+// column or row (DIP_WRAP_REPEAT) or the last one (other modes). So the four texels of a bilinear
+// read are always at offset, offset + 1, offset + stride and offset + stride + 1. If an axis has
+// DIP_WRAP_BORDER, every level has one padding column before its first column, one padding row
+// above its first row, and two of each behind the last one; along axes with DIP_WRAP_BORDER, the
+// padding has the border's colour.
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_TEXTURE_LAYOUT_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_TEXTURE_LAYOUT_H
 
@@ -30,8 +33,16 @@ struct DipTexture {
     int level_count;
     DipWrap wrap_u;
     DipWrap wrap_v;
-    int32_t level_offset[DIP_LEVEL_TABLE]; // index of the level's first texel
-    int32_t level_width[DIP_LEVEL_TABLE];  // width in texels, without the padding column
+    DipEncoding encoding; // of the codes that the texture was made from
+    int32_t padding;      // number of padding columns, and of padding rows: 1, or 3 with a border
+    // True if an axis mirrors or has a border. The kernels then use their general addresses.
+    bool special_wrap;
+    bool keeps_alpha;   // texels that are not opaque get an alpha plane
+    bool stored_levels; // the levels are given pictures, not a filtered chain
+    uint32_t border;    // colour of the border, packed
+    uint8_t border_alpha;
+    int32_t level_offset[DIP_LEVEL_TABLE]; // index of the level's texel (0, 0)
+    int32_t level_width[DIP_LEVEL_TABLE];  // width in texels, without padding
     int32_t level_height[DIP_LEVEL_TABLE];
     // True if both axes repeat and the sizes of every level are powers of two. Coordinates can then
     // be 32-bit fixed-point fractions of the texture's size, which wrap by overflow.
@@ -46,8 +57,33 @@ struct DipTexture {
     size_t texel_count; // number of texels of all levels, padding included
 };
 
-// Fills in the padding that repeats texels of row y of a level. The caller must have written the
-// row's own texels.
+// Returns the distance from a texel of a level to the texel below it.
+static inline size_t dip_texture_stride(const DipTexture *texture, int level) {
+    return (size_t)(texture->level_width[level] + texture->padding);
+}
+
+// Sets the address modes of a texture that has no levels yet.
+void dip_texture_set_wrap(DipTexture *texture, const DipTextureDef *def);
+
+// Appends a level to the texture's tables.
+void dip_texture_add_level(DipTexture *texture, int width, int height);
+
+// Allocates the texels and the alpha plane of all levels. Returns false if memory runs out.
+bool dip_texture_allocate(DipTexture *texture, bool with_alpha);
+
+// Allocates an alpha plane; the texture does not own it yet. Returns NULL if memory runs out.
+uint8_t *dip_texture_allocate_alpha(const DipTexture *texture);
+
+// Fills in the padding that repeats texels of row y of a level, and with row 0 also the rows of the
+// border. The caller must have written the row's own texels.
 void dip_texture_pad_row(DipTexture *texture, int level, int y);
+
+// Returns whether some texel of a picture is not opaque.
+bool dip_texture_has_alpha(const DipTextureDef *def);
+
+// Makes the whole chain of an existing texture again, from a picture of the same size and encoding.
+// Fails with MEMORY; the texture is then unchanged.
+bool dip_texture_rebuild(DipTexture *texture, const DipTextureDef *def, DipPool *pool,
+                         DipError *err);
 
 #endif

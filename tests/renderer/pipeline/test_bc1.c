@@ -204,10 +204,11 @@ static void compressed_textures_equal_their_decoded_blocks(void **state) {
     }
     DipPool *pool = dip_pool_create(2, NULL);
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
-        const DipTextureDef def = {"noise",           sizes[s][0],
-                                   sizes[s][1],       rgba8,
-                                   DIP_ENCODING_SRGB, s & 1 ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT,
-                                   DIP_WRAP_REPEAT};
+        const DipTextureDef def = {.name = "noise",
+                                   .width = sizes[s][0],
+                                   .height = sizes[s][1],
+                                   .rgba8 = rgba8,
+                                   .wrap_u = s & 1 ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT};
         expect_texture(&def, s & 1 ? NULL : pool);
     }
     dip_pool_destroy(&pool);

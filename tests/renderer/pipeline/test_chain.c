@@ -132,13 +132,13 @@ static void check_all(DipPool *pool) {
     bool used[COUNT];
     DipTexture *textures[COUNT];
     for (int i = 0; i < COUNT; i++) {
-        defs[i] = (DipTextureDef){"noise",
-                                  sizes[i][0],
-                                  sizes[i][1],
-                                  noise(sizes[i][0], sizes[i][1], i % 3 == 0),
-                                  i % 2 ? DIP_ENCODING_LINEAR : DIP_ENCODING_SRGB,
-                                  i % 2 ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT,
-                                  i % 4 < 2 ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT};
+        defs[i] = (DipTextureDef){.name = "noise",
+                                  .width = sizes[i][0],
+                                  .height = sizes[i][1],
+                                  .rgba8 = noise(sizes[i][0], sizes[i][1], i % 3 == 0),
+                                  .encoding = i % 2 ? DIP_ENCODING_LINEAR : DIP_ENCODING_SRGB,
+                                  .wrap_u = i % 2 ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT,
+                                  .wrap_v = i % 4 < 2 ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT};
         used[i] = i != 4;
     }
     assert_true(dip_textures_create(defs, used, NULL, COUNT, pool, textures, NULL));
@@ -172,10 +172,9 @@ static void chains_are_exact_on_many_threads(void **state) {
 static void one_bad_texture_prevents_the_creation_of_all(void **state) {
     (void)state;
     const uint8_t codes[4 * 4] = {0};
-    const DipTextureDef defs[] = {
-        {"a", 2, 2, codes, DIP_ENCODING_SRGB, DIP_WRAP_REPEAT, DIP_WRAP_REPEAT},
-        {"b", 2, 0, codes, DIP_ENCODING_SRGB, DIP_WRAP_REPEAT, DIP_WRAP_REPEAT},
-        {"c", 2, 2, codes, DIP_ENCODING_SRGB, DIP_WRAP_REPEAT, DIP_WRAP_REPEAT}};
+    const DipTextureDef defs[] = {{.name = "a", .width = 2, .height = 2, .rgba8 = codes},
+                                  {.name = "b", .width = 2, .height = 0, .rgba8 = codes},
+                                  {.name = "c", .width = 2, .height = 2, .rgba8 = codes}};
     DipTexture *textures[3];
     DipError err = {0};
     assert_false(dip_textures_create(defs, NULL, NULL, 3, NULL, textures, &err));

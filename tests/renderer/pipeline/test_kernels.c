@@ -184,8 +184,9 @@ static DipTexture *random_texture(Random *random) {
         .width = sizes[random_int(random, 0, 5)],
         .height = sizes[random_int(random, 0, 5)],
         .rgba8 = rgba8,
-        .wrap_u = random_int(random, 0, 1) ? DIP_WRAP_REPEAT : DIP_WRAP_CLAMP,
-        .wrap_v = random_int(random, 0, 1) ? DIP_WRAP_REPEAT : DIP_WRAP_CLAMP,
+        .wrap_u = (DipWrap)random_int(random, 0, DIP_WRAP_COUNT - 1),
+        .wrap_v = (DipWrap)random_int(random, 0, DIP_WRAP_COUNT - 1),
+        .border_rgba8 = {200, 30, 90, 128},
     };
     DipTexture *texture = dip_texture_create(&def, NULL);
     assert_non_null(texture);
@@ -217,6 +218,8 @@ static void compare_sampling(const DipKernels *scalar, const DipKernels *other, 
         .bias_lod8 = random_int(random, -256, 512),
         .min_lod8 = 256 * random_int(random, 0, 2),
         .cheap = random_int(random, 0, 1) != 0,
+        .filter = (DipFilter)random_int(random, 0, DIP_FILTER_COUNT - 1),
+        .no_mips = random_int(random, 0, 3) == 0,
     };
     random_coordinates(&batch, random);
     scalar->dip_kernel_sample_colour(&batch, &sampler, 0, expected);
@@ -256,6 +259,9 @@ static void compare_two_textures(const DipKernels *scalar, const DipKernels *oth
     samplers[1] = samplers[0];
     samplers[1].texture = textures[1];
     samplers[1].cheap = random_int(random, 0, 7) == 0;
+    samplers[0].filter = samplers[1].filter =
+        (DipFilter)random_int(random, 0, DIP_FILTER_COUNT - 1);
+    samplers[1].no_mips = random_int(random, 0, 7) == 0;
     random_coordinates(&batch, random);
     for (int t = 0; t < 2; t++) {
         scalar->dip_kernel_sample_colour(&batch, &samplers[t], 0, expected[t]);

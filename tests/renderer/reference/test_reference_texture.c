@@ -18,7 +18,13 @@ enum { MAX_TEXELS = 1024 * 1024 };
 static uint8_t texels[4 * MAX_TEXELS];
 
 static DipTextureDef make_def(int width, int height, DipEncoding encoding, DipWrap wrap) {
-    return (DipTextureDef){"test", width, height, texels, encoding, wrap, wrap};
+    return (DipTextureDef){.name = "test",
+                           .width = width,
+                           .height = height,
+                           .rgba8 = texels,
+                           .encoding = encoding,
+                           .wrap_u = wrap,
+                           .wrap_v = wrap};
 }
 
 static void open_texture(DipRefTexture *texture, const DipTextureDef *def) {
