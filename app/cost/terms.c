@@ -30,12 +30,14 @@ typedef struct Work {
     X("sub-block accepted, per sample", C(sub_blocks_accepted) * w->samples)                       \
     X("fragment clip tested", C(fragments_clip_tested))                                            \
     X("sample group of a clipped triangle", C(clip_sample_groups))                                 \
+    X("texture probe of a clip map", C(clip_probes))                                               \
+    X("texture probe of a clip map, advanced AF", C(clip_probes) * w->exact)                       \
     X("sample shown", C(samples_shown))
 
 #define SHADING_TERMS(X)                                                                           \
     X("frame", 1.0)                                                                                \
     X("fragment shaded", C(fragments_shaded))                                                      \
-    X("texture probe", C(texture_probes))                                                          \
+    X("texture probe", C(texture_probes) - C(clip_probes))                                         \
     X("texel fetched", C(texels_fetched))                                                          \
     X("fragment with a normal map", C(fragments_normal_mapped))                                    \
     X("fragment of the sky", C(fragments_sky))                                                     \
@@ -45,8 +47,8 @@ typedef struct Work {
     X("texel fetched from compressed textures", C(texels_fetched) * (1.0 - w->raw))                \
     X("texel fetched from all mip levels", C(texels_fetched) * w->full_levels)                     \
     X("texel fetched from uncompressed textures", C(texels_fetched) * w->raw)                      \
-    X("texture probe with opt=advanced", C(texture_probes) * w->advanced)                          \
-    X("texture probe of advanced AF", C(texture_probes) * w->exact)
+    X("texture probe with opt=advanced", (C(texture_probes) - C(clip_probes)) * w->advanced)       \
+    X("texture probe of advanced AF", (C(texture_probes) - C(clip_probes)) * w->exact)
 
 #define RESOLVE_TERMS(X)                                                                           \
     X("frame", 1.0)                                                                                \

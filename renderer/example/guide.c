@@ -1,0 +1,404 @@
+// The pictures of docs/pipeline.md, from the first triangle to a shadow map. The document quotes
+// this file.
+//
+// Usage: guide FOLDER (writes guide_1.ppm to guide_6.ppm into the folder)
+#include "renderer/pipeline/pipeline.h"
+#include "renderer/shapes/camera.h"
+#include "renderer/shapes/shapes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { WIDTH = 320, HEIGHT = 240, MAP = 512 };
+
+static uint8_t picture[HEIGHT][WIDTH][4];
+
+// Ends the program if something failed.
+static void require(bool done, const DipError *err) {
+    if (!done) {
+        fprintf(stderr, "%s: %s\n", err->key, err->message);
+        exit(1);
+    }
+}
+
+// --- 1. a triangle -------------------------------------------------------------------------------
+
+// Attributes 0..2 are clip coordinates, attributes 3..5 a colour, which becomes varyings 0..2.
+static void flat_vertex(const DipVertexBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->clip[0][i] = batch->in[0][i];
+        batch->clip[1][i] = batch->in[1][i];
+        batch->clip[2][i] = batch->in[2][i];
+        batch->clip[3][i] = 1.0f;
+        for (int c = 0; c < 3; c++) {
+            batch->varying[c][i] = batch->in[3 + c][i];
+        }
+    }
+}
+
+static void show_colour(DipFragmentBatch *batch) {
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            batch->colour[c][i] = batch->varying[c][i];
+        }
+    }
+}
+
+static void draw_triangle(DipPipeline *pipeline) {
+    static const float vertices[3][6] = {{-0.8f, -0.7f, 0.5f, 1.0f, 0.0f, 0.0f},
+                                         {0.8f, -0.7f, 0.5f, 0.0f, 1.0f, 0.0f},
+                                         {0.0f, 0.8f, 0.5f, 0.0f, 0.0f, 1.0f}};
+    static const uint32_t indices[3] = {0, 1, 2};
+    DipError err = {0};
+    DipMesh *mesh =
+        dip_mesh_create(&(DipMeshData){"triangle", &vertices[0][0], 6, 3, indices, 3}, &err);
+    require(mesh != NULL, &err);
+    const DipDraw draw = {.mesh = mesh,
+                          .vertex_shader = flat_vertex,
+                          .fragment_shader = show_colour,
+                          .varying_count = 3};
+    const DipPass pass = {
+        .draws = &draw,
+        .draw_count = 1,
+        .sample_count = 4,
+        .clear_lin = {0.02f, 0.02f, 0.03f},
+        .target = {.rgba8 = &picture[0][0][0],
+                   .stride_bytes = WIDTH * 4,
+                   .width = WIDTH,
+                   .height = HEIGHT},
+    };
+    DipPipelineCounters counters = {0};
+    DipStageTimes times = {0};
+    require(dip_pipeline_draw(pipeline, &pass, &counters, &times, &err), &err);
+    dip_mesh_destroy(&mesh);
+}
+
+// --- 2. a lit scene ------------------------------------------------------------------------------
+
+// What the shaders of the lit scene need.
+typedef struct Lit {
+    float to_clip[16];
+    float place[3]; // added to the positions of the mesh
+    float colour[3];
+    float alpha;
+    float to_light[3]; // unit vector
+    // Step 6: the light's view, and the depths that it sees.
+    float to_light_clip[16];
+    DipShadowMap shadows;
+} Lit;
+
+static float row_times(const float *row, const float p[3]) {
+    return ((row[0] * p[0] + row[1] * p[1]) + row[2] * p[2]) + row[3];
+}
+
+// Varyings 0..2 are the normal, varyings 3..5 the position in the world.
+static void lit_vertex(const DipVertexBatch *batch) {
+    const Lit *lit = batch->uniforms;
+    for (int i = 0; i < batch->count; i++) {
+        float p[3];
+        for (int c = 0; c < 3; c++) {
+            p[c] = batch->in[DIP_SHAPE_POSITION + c][i] + lit->place[c];
+            batch->varying[c][i] = batch->in[DIP_SHAPE_NORMAL + c][i];
+            batch->varying[3 + c][i] = p[c];
+        }
+        for (int c = 0; c < 4; c++) {
+            batch->clip[c][i] = row_times(lit->to_clip + 4 * c, p);
+        }
+    }
+}
+
+// Returns the light that falls on fragment i, without shadows: 0..1.
+static float diffuse(const DipFragmentBatch *batch, const Lit *lit, int i) {
+    const float n[3] = {batch->varying[0][i], batch->varying[1][i], batch->varying[2][i]};
+    const float length = sqrtf((n[0] * n[0] + n[1] * n[1]) + n[2] * n[2]);
+    const float *l = lit->to_light;
+    const float cosine = ((n[0] * l[0] + n[1] * l[1]) + n[2] * l[2]) / length;
+    return cosine > 0.0f ? cosine : 0.0f;
+}
+
+static void lit_fragment(DipFragmentBatch *batch) {
+    const Lit *lit = batch->uniforms;
+    for (int i = 0; i < batch->count; i++) {
+        const float light = 0.12f + 0.88f * diffuse(batch, lit, i);
+        for (int c = 0; c < 3; c++) {
+            batch->colour[c][i] = lit->colour[c] * light;
+        }
+        batch->alpha[i] = lit->alpha;
+    }
+}
+
+typedef struct World {
+    DipPipeline *pipeline;
+    DipPipeline *map_pipeline; // of the size of the shadow map
+    DipMesh *ball;
+    DipMesh *ground;
+    DipMatrix to_clip;
+    DipMatrix to_light_clip;
+} World;
+
+static DipMesh *mesh_of(DipShape *shape, const char *name) {
+    DipError err = {0};
+    const DipMeshData data = dip_shape_data(shape, name);
+    DipMesh *mesh = dip_mesh_create(&data, &err);
+    require(mesh != NULL, &err);
+    dip_shape_free(shape);
+    return mesh;
+}
+
+static void make_camera(World *world) {
+    const double eye[3] = {3.0, 2.6, 5.0}, target[3] = {0.0, 0.6, 0.0}, up[3] = {0.0, 1.0, 0.0};
+    const DipPerspective lens = {
+        .fov_deg = 40.0, .aspect = (double)WIDTH / HEIGHT, .near_distance = 0.1};
+    DipMatrix view, projection;
+    DipError err = {0};
+    require(dip_camera_look_at(&view, eye, target, up, &err), &err);
+    require(dip_camera_perspective(&projection, &lens, &err), &err);
+    world->to_clip = dip_matrix_multiply(&projection, &view);
+}
+
+static Lit lit_at(const World *world, float x, float y, float z, const float colour[3]) {
+    Lit lit = {.place = {x, y, z}, .alpha = 1.0f, .to_light = {0.48f, 0.8f, 0.36f}};
+    for (int c = 0; c < 3; c++) {
+        lit.colour[c] = colour[c];
+    }
+    dip_matrix_floats(&world->to_clip, lit.to_clip);
+    dip_matrix_floats(&world->to_light_clip, lit.to_light_clip);
+    return lit;
+}
+
+static DipDraw lit_draw(const DipMesh *mesh, const Lit *lit) {
+    return (DipDraw){.mesh = mesh,
+                     .vertex_shader = lit_vertex,
+                     .fragment_shader = lit_fragment,
+                     .varying_count = 6,
+                     .value_only_varying_count = 6,
+                     .uniforms = lit,
+                     .cull = DIP_CULL_BACK};
+}
+
+static const float red[3] = {0.75f, 0.12f, 0.08f};
+static const float stone[3] = {0.45f, 0.47f, 0.5f};
+
+static void draw_world(World *world, const DipDraw *draws, int count) {
+    const DipPass pass = {
+        .draws = draws,
+        .draw_count = count,
+        .sample_count = 4,
+        .clear_lin = {0.25f, 0.42f, 0.65f},
+        .target = {.rgba8 = &picture[0][0][0],
+                   .stride_bytes = WIDTH * 4,
+                   .width = WIDTH,
+                   .height = HEIGHT},
+    };
+    DipPipelineCounters counters = {0};
+    DipStageTimes times = {0};
+    DipError err = {0};
+    require(dip_pipeline_draw(world->pipeline, &pass, &counters, &times, &err), &err);
+}
+
+static void draw_lit(World *world) {
+    const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
+    const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
+    const DipDraw draws[2] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball)};
+    draw_world(world, draws, 2);
+}
+
+// --- 3. blending ---------------------------------------------------------------------------------
+
+static void draw_glass(World *world) {
+    static const DipDrawState glass = {.blend = DIP_BLEND_MODE_ALPHA, .keep_depth = true};
+    static const float green[3] = {0.1f, 0.6f, 0.3f};
+    const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
+    const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
+    Lit bubble = lit_at(world, 0.9f, 0.9f, 1.2f, green);
+    bubble.alpha = 0.4f;
+    DipDraw draws[3] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball),
+                        lit_draw(world->ball, &bubble)};
+    draws[2].state = &glass;
+    draw_world(world, draws, 3);
+}
+
+// --- 4. stencil ----------------------------------------------------------------------------------
+
+// Moves the positions outwards along the normals.
+static void grown_vertex(const DipVertexBatch *batch) {
+    const Lit *lit = batch->uniforms;
+    for (int i = 0; i < batch->count; i++) {
+        float p[3];
+        for (int c = 0; c < 3; c++) {
+            p[c] = batch->in[DIP_SHAPE_POSITION + c][i] + lit->place[c] +
+                   0.06f * batch->in[DIP_SHAPE_NORMAL + c][i];
+        }
+        for (int c = 0; c < 4; c++) {
+            batch->clip[c][i] = row_times(lit->to_clip + 4 * c, p);
+        }
+    }
+}
+
+static void one_colour(DipFragmentBatch *batch) {
+    const Lit *lit = batch->uniforms;
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            batch->colour[c][i] = lit->colour[c];
+        }
+    }
+}
+
+static void draw_outline(World *world) {
+    static const DipDrawState marks = {
+        .stencil = {.enabled = true,
+                    .reference = 1,
+                    .read_mask = 255,
+                    .write_mask = 255,
+                    .front = {.function = DIP_COMPARE_ALWAYS, .passed = DIP_STENCIL_REPLACE}}};
+    static const DipDrawState outside = {.depth_test = DIP_DEPTH_ALWAYS,
+                                         .stencil = {.enabled = true,
+                                                     .reference = 1,
+                                                     .read_mask = 255,
+                                                     .front = {.function = DIP_COMPARE_NOT_EQUAL}}};
+    static const float gold[3] = {1.0f, 0.7f, 0.1f};
+    const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
+    const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
+    const Lit line = lit_at(world, 0.0f, 1.0f, 0.0f, gold);
+    DipDraw draws[3] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball),
+                        lit_draw(world->ball, &line)};
+    draws[1].state = &marks;
+    draws[2].state = &outside;
+    draws[2].vertex_shader = grown_vertex;
+    draws[2].fragment_shader = one_colour;
+    draws[2].varying_count = draws[2].value_only_varying_count = 0;
+    draw_world(world, draws, 3);
+}
+
+// --- 5. wireframe --------------------------------------------------------------------------------
+
+static void draw_wires(World *world) {
+    static const DipDrawState wires = {
+        .fill = DIP_FILL_WIREFRAME, .line_width = 1.5f, .depth_test = DIP_DEPTH_NEARER_OR_EQUAL};
+    static const float white[3] = {1.0f, 1.0f, 1.0f};
+    const Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
+    const Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
+    const Lit lines = lit_at(world, 0.0f, 1.0f, 0.0f, white);
+    DipDraw draws[3] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball),
+                        lit_draw(world->ball, &lines)};
+    draws[2].state = &wires;
+    draw_world(world, draws, 3);
+}
+
+// --- 6. a shadow map -----------------------------------------------------------------------------
+
+static void make_light(World *world) {
+    const double at[3] = {4.8, 8.0, 3.6}, target[3] = {0.0, 0.0, 0.0}, up[3] = {0.0, 1.0, 0.0};
+    const DipOrthographic box = {-4.0, 4.0, -4.0, 4.0, .near_distance = 1.0, .far_distance = 20.0};
+    DipMatrix view, projection;
+    DipError err = {0};
+    require(dip_camera_look_at(&view, at, target, up, &err), &err);
+    require(dip_camera_orthographic(&projection, &box, &err), &err);
+    world->to_light_clip = dip_matrix_multiply(&projection, &view);
+}
+
+static void shadowed_fragment(DipFragmentBatch *batch) {
+    const Lit *lit = batch->uniforms;
+    float u[DIP_FRAGMENT_BATCH], v[DIP_FRAGMENT_BATCH], z[DIP_FRAGMENT_BATCH];
+    float open[DIP_FRAGMENT_BATCH];
+    for (int i = 0; i < batch->count; i++) {
+        const float p[3] = {batch->varying[3][i], batch->varying[4][i], batch->varying[5][i]};
+        u[i] = 0.5f + 0.5f * row_times(lit->to_light_clip, p);
+        v[i] = 0.5f - 0.5f * row_times(lit->to_light_clip + 4, p);
+        z[i] = row_times(lit->to_light_clip + 8, p);
+    }
+    batch->sample_shadow(batch, &lit->shadows, u, v, z, open);
+    for (int i = 0; i < batch->count; i++) {
+        const float light = 0.12f + 0.88f * diffuse(batch, lit, i) * open[i];
+        for (int c = 0; c < 3; c++) {
+            batch->colour[c][i] = lit->colour[c] * light;
+        }
+    }
+}
+
+// Draws what the light sees: depths alone.
+static void draw_map(World *world, DipDepth *depth) {
+    static const DipDrawState away = {.depth_bias = {.slope = -2.0f, .relative = -8.0f}};
+    Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
+    dip_matrix_floats(&world->to_light_clip, ball.to_clip);
+    DipDraw draw = lit_draw(world->ball, &ball);
+    draw.fragment_shader = NULL;
+    draw.state = &away;
+    const DipPass pass = {.draws = &draw,
+                          .draw_count = 1,
+                          .sample_count = 1,
+                          .target = {.width = MAP, .height = MAP},
+                          .attachments = {.depth = depth}};
+    DipPipelineCounters counters = {0};
+    DipStageTimes times = {0};
+    DipError err = {0};
+    require(dip_pipeline_draw(world->map_pipeline, &pass, &counters, &times, &err), &err);
+}
+
+static void draw_shadow(World *world) {
+    DipError err = {0};
+    DipDepth *depth = dip_depth_create(MAP, MAP, 1, &err);
+    require(depth != NULL, &err);
+    draw_map(world, depth);
+    Lit ground = lit_at(world, 0.0f, 0.0f, 0.0f, stone);
+    Lit ball = lit_at(world, 0.0f, 1.0f, 0.0f, red);
+    ground.shadows = ball.shadows = (DipShadowMap){depth, DIP_SHADOW_LINEAR};
+    DipDraw draws[2] = {lit_draw(world->ground, &ground), lit_draw(world->ball, &ball)};
+    draws[0].fragment_shader = draws[1].fragment_shader = shadowed_fragment;
+    draw_world(world, draws, 2);
+    dip_depth_destroy(&depth);
+}
+
+// --- the program ---------------------------------------------------------------------------------
+
+static void write_picture(const char *folder, int number) {
+    char file[512];
+    snprintf(file, sizeof file, "%s/guide_%d.ppm", folder, number);
+    FILE *out = fopen(file, "wb");
+    if (!out) {
+        perror(file);
+        exit(1);
+    }
+    fprintf(out, "P6\n%d %d\n255\n", WIDTH, HEIGHT);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        fwrite(&picture[0][0][0] + 4 * i, 1, 3, out);
+    }
+    fclose(out);
+}
+
+int main(int argc, char **argv) {
+    if (argc != 2) {
+        fprintf(stderr, "usage: guide FOLDER\n");
+        return 2;
+    }
+    DipError err = {0};
+    DipPool *pool = dip_pool_create(0, &err);
+    require(pool != NULL, &err);
+    World world = {.pipeline = dip_pipeline_create(pool, dip_isa_best(), WIDTH, HEIGHT, &err)};
+    require(world.pipeline != NULL, &err);
+    world.map_pipeline = dip_pipeline_create(pool, dip_isa_best(), MAP, MAP, &err);
+    require(world.map_pipeline != NULL, &err);
+    DipShape shape;
+    require(dip_shape_sphere(&shape, 1.0f, 32, 16, &err), &err);
+    world.ball = mesh_of(&shape, "ball");
+    require(dip_shape_plane(&shape, 8.0f, 8.0f, 1, 1, &err), &err);
+    world.ground = mesh_of(&shape, "ground");
+    make_camera(&world);
+    make_light(&world);
+
+    draw_triangle(world.pipeline);
+    write_picture(argv[1], 1);
+    static void (*const steps[])(World *) = {draw_lit, draw_glass, draw_outline, draw_wires,
+                                             draw_shadow};
+    for (int i = 0; i < 5; i++) {
+        steps[i](&world);
+        write_picture(argv[1], 2 + i);
+    }
+    dip_mesh_destroy(&world.ball);
+    dip_mesh_destroy(&world.ground);
+    dip_pipeline_destroy(&world.pipeline);
+    dip_pipeline_destroy(&world.map_pipeline);
+    dip_pool_destroy(&pool);
+    return 0;
+}
