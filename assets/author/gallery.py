@@ -2,6 +2,7 @@
 """Makes the art of the gallery: gallery.py FOLDER
 
 crab.md2, crab.pcx   a model with three sequences of key frames, and its skin (crab.py)
+penguin.md2, .pcx    the model of the gallery's scene `model`, and its skin (penguin.py)
 pump.glb             a machine with node animation, morph targets and a skin (pump.py)
 tiles.dds            a texture in BC1 with its mip levels (block_texture.py)
 
@@ -13,6 +14,7 @@ import sys
 
 import block_texture
 import crab
+import penguin
 import pump
 
 
@@ -28,6 +30,8 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "crab.md2").write_bytes(crab.md2(crab.normals_of_md2(normal_table()), "crab.pcx"))
     crab.skin().save(folder / "crab.pcx", "PCX")
+    penguin.write_pcx(folder / "penguin.pcx")
+    penguin.write_md2(folder / "penguin.md2")
     (folder / "pump.glb").write_bytes(pump.glb())
     (folder / "tiles.dds").write_bytes(block_texture.dds(block_texture.tiles()))
 

@@ -1,0 +1,111 @@
+// The gallery: scenes that show what the pipeline can do. Each scene is one file in scenes/,
+// written against the public headers of renderer/pipeline and renderer/shapes, and is example code
+// for users of these libraries.
+//
+// A gallery plays one scene, or the tour, which plays all of them in turn. A pane is a picture with
+// its own size and image-quality settings. The panes of a gallery share the scene's meshes and
+// textures, so only one of them may draw at a time.
+//
+// docs/gallery.md describes the scenes and says what each setting does to them.
+#ifndef DIP_APP_GALLERY_GALLERY_H
+#define DIP_APP_GALLERY_GALLERY_H
+
+#include "renderer/base/error.h"
+#include "renderer/base/isa.h"
+#include "renderer/base/pool.h"
+#include "renderer/scene/frame.h"
+#include "renderer/scene/pose.h"
+#include "renderer/scene/quality.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// Every scene lasts this long; its camera and its motion then start again.
+enum { DIP_GALLERY_SECONDS = 15 };
+
+// Vertical field of view of the scenes' cameras, in degrees.
+#define DIP_GALLERY_FOV_Y_DEG 45.0
+
+// Describes a scene. All strings are static.
+typedef struct DipGalleryInfo {
+    const char *name;  // "blend"; the name that --scene takes
+    const char *title; // "Blend modes"
+    const char *seed;  // the document that describes the scene or its technique
+    const char *text;  // what the scene shows, in one or two sentences
+    // The scene's variants, which a key chooses: "flat", "Gouraud", "Phong". At least one.
+    const char *const *looks;
+    int look_count;
+} DipGalleryInfo;
+
+enum { DIP_GALLERY_TOUR = -1 }; // stands for the tour instead of the index of a scene
+
+int dip_gallery_scene_count(void);
+const DipGalleryInfo *dip_gallery_info(int scene); // scene: 0..dip_gallery_scene_count() - 1
+
+// Finds a scene by its name, or DIP_GALLERY_TOUR by the name "tour". If there is no such scene,
+// fails with UNKNOWN and names all scenes.
+bool dip_gallery_find(const char *name, int *scene, DipError *err);
+
+// Returns the scene that plays at a time: `scene` itself, or the tour's scene at that time.
+int dip_gallery_scene_at(int scene, int64_t time_ns);
+
+// Returns how long `scene` or the tour lasts before it starts again.
+int64_t dip_gallery_duration_ns(int scene);
+
+// Writes the pose of the scene's own camera at a time.
+void dip_gallery_pose(int scene, int64_t time_ns, DipPose *pose);
+
+// --- galleries -----------------------------------------------------------------------------------
+
+typedef struct DipGallery DipGallery;
+
+typedef struct DipGalleryDef {
+    int scene;          // index of a scene, or DIP_GALLERY_TOUR
+    DipPool *pool;      // borrowed; must outlive the gallery
+    DipIsa isa;         // instruction set of the passes that the scene draws besides the picture
+    const char *assets; // folder of the shipped assets; borrowed
+} DipGalleryDef;
+
+// Opens a scene, or the first scene of the tour. Fails as the scene does: MEMORY, or the error of
+// an asset.
+DipGallery *dip_gallery_create(const DipGalleryDef *def, DipError *err);
+// No pane of the gallery may exist any more. *gallery may be NULL and becomes NULL.
+void dip_gallery_destroy(DipGallery **gallery);
+
+// Chooses a variant of the scene. Values beyond the scene's last look wrap around.
+void dip_gallery_set_look(DipGallery *gallery, int look);
+
+// --- panes ---------------------------------------------------------------------------------------
+
+typedef struct DipGalleryPane DipGalleryPane;
+
+typedef struct DipGalleryPaneDef {
+    DipGallery *gallery; // borrowed
+    DipIsa isa;
+    int width; // pixels, 1..DIP_MAX_FRAME_SIZE
+    int height;
+    DipQuality quality;
+} DipGalleryPaneDef;
+
+// Fails with RANGE, CONFLICT (see dip_quality_check), UNSUPPORTED or MEMORY.
+DipGalleryPane *dip_gallery_pane_create(const DipGalleryPaneDef *def, DipError *err);
+void dip_gallery_pane_destroy(DipGalleryPane **pane);
+
+// Both take effect in the next frame. If they fail, they change nothing.
+bool dip_gallery_pane_set_quality(DipGalleryPane *pane, const DipQuality *quality, DipError *err);
+bool dip_gallery_pane_resize(DipGalleryPane *pane, int width, int height, DipError *err);
+
+DipQuality dip_gallery_pane_quality(const DipGalleryPane *pane);
+
+// Sets the number of the frame that is drawn next. Temporal antialiasing alternates by it.
+void dip_gallery_pane_set_frame_index(DipGalleryPane *pane, uint64_t frame_index);
+
+// Draws the scene from a pose at a time. The frame is the same to the bit for any number of threads
+// and any instruction set. The pane owns the frame's pixels until it draws again. Fails with RANGE
+// (a pose that is not finite or has no orientation, a field of view out of range), MEMORY, or the
+// error of an asset that the tour's next scene needs.
+bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t time_ns,
+                           DipFrame *frame, DipError *err);
+
+#endif

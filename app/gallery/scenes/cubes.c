@@ -1,0 +1,371 @@
+// The gallery scene "cubes": the sample scene of seed 004.
+//
+// Three objects have two kinds of vertices and a shader each: cubes with a colour per corner, and a
+// cube with texture coordinates. Two of them turn in place while the long one moves to the right
+// and leaves the view. Before each pass, bounding boxes decide which objects are drawn; once the
+// long cube is culled, the first cube changes its mesh. The same draws also go to a target of
+// characters: the caller's function stores each pixel as a char, and a second pass shows the chars.
+#include "app/gallery/kit/kit.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/trig.h"
+#include "renderer/pipeline/cull.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { CUBE, GEM, TEXTURED, QUAD, MESHES, OBJECTS = 3, SIDES = 6 };
+enum { SIMPLE_ATTRIBUTES = 6, TEXTURE_ATTRIBUTES = 5, GLYPHS = 10, CELL = 8 };
+
+typedef struct Uniforms {
+    float to_clip[16];
+} Uniforms;
+
+// Characters as a target: one char for each pixel of the pass.
+typedef struct CharTarget {
+    char *chars;
+    int columns;
+    int rows;
+    int cell; // pixels of the picture along each side of a character
+} CharTarget;
+
+typedef struct Content {
+    DipGalleryRoom room;
+    DipMesh *meshes[MESHES];
+    DipKitTexture wood;
+    DipPipeline *char_pipeline;
+    CharTarget target;
+    Uniforms uniforms[OBJECTS];
+} Content;
+
+static const char *const looks[] = {"colour target", "character target"};
+
+// From dark to bright, and how each of them looks in 8 by 8 dots; bit 7 is the left column.
+static const char ramp[GLYPHS + 1] = " .:-=+*#%@";
+static const uint8_t glyphs[GLYPHS][CELL] = {
+    {0, 0, 0, 0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 0, 0x18, 0x18, 0},
+    {0, 0x18, 0x18, 0, 0, 0x18, 0x18, 0},
+    {0, 0, 0, 0x7e, 0, 0, 0, 0},
+    {0, 0, 0x7e, 0, 0x7e, 0, 0, 0},
+    {0, 0x18, 0x18, 0x7e, 0x18, 0x18, 0, 0},
+    {0, 0x66, 0x3c, 0xff, 0x3c, 0x66, 0, 0},
+    {0x24, 0x24, 0x7e, 0x24, 0x7e, 0x24, 0x24, 0},
+    {0x62, 0x64, 0x08, 0x10, 0x26, 0x46, 0, 0},
+    {0x3c, 0x42, 0x9a, 0xaa, 0xbc, 0x40, 0x3e, 0},
+};
+
+// --- shaders -------------------------------------------------------------------------------------
+
+static void transform(const DipVertexBatch *batch, int varyings) {
+    const float *m = ((const Uniforms *)batch->uniforms)->to_clip;
+    for (int r = 0; r < 4; r++) {
+        for (int i = 0; i < batch->count; i++) {
+            batch->clip[r][i] = m[4 * r] * batch->in[0][i] + m[4 * r + 1] * batch->in[1][i] +
+                                m[4 * r + 2] * batch->in[2][i] + m[4 * r + 3];
+        }
+    }
+    for (int v = 0; v < varyings; v++) {
+        memcpy(batch->varying[v], batch->in[3 + v], (size_t)batch->count * sizeof(float));
+    }
+}
+
+// SimpleVertex of the seed: a position and a colour.
+static void simple_vertex(const DipVertexBatch *batch) {
+    transform(batch, 3);
+}
+
+// TextureVertex of the seed: a position, and u and v.
+static void texture_vertex(const DipVertexBatch *batch) {
+    transform(batch, 2);
+}
+
+// For a quad that fills the picture: its corners are positions in clip space.
+static void screen_vertex(const DipVertexBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->clip[0][i] = batch->in[0][i];
+        batch->clip[1][i] = batch->in[1][i];
+        batch->clip[2][i] = 0.5f;
+        batch->clip[3][i] = 1.0f;
+    }
+}
+
+static void shade_colour(DipFragmentBatch *batch) {
+    for (int c = 0; c < 3; c++) {
+        memcpy(batch->colour[c], batch->varying[c], (size_t)batch->count * sizeof(float));
+    }
+}
+
+static void shade_texture(DipFragmentBatch *batch) {
+    batch->sample_colour(batch, &batch->samplers[0], 0, batch->colour);
+}
+
+// Shows the characters, green on black, as a screen of the time would.
+static void shade_chars(DipFragmentBatch *batch) {
+    const CharTarget *target = batch->uniforms;
+    for (int i = 0; i < batch->count; i++) {
+        const int x = (int)batch->x[i];
+        const int y = (int)batch->y[i];
+        const int column =
+            x / target->cell < target->columns ? x / target->cell : target->columns - 1;
+        const int row = y / target->cell < target->rows ? y / target->cell : target->rows - 1;
+        const char *found = strchr(ramp, target->chars[row * target->columns + column]);
+        const int glyph = found ? (int)(found - ramp) : 0;
+        const int dot_x = x % target->cell * CELL / target->cell;
+        const int dot_y = y % target->cell * CELL / target->cell;
+        const float lit = glyph < GLYPHS && glyphs[glyph][dot_y] >> (7 - dot_x) & 1 ? 1.0f : 0.0f;
+        batch->colour[0][i] = 0.004f + 0.10f * lit;
+        batch->colour[1][i] = 0.008f + 0.75f * lit;
+        batch->colour[2][i] = 0.006f + 0.16f * lit;
+    }
+}
+
+// Stores a row of pixels as characters, by their luminance.
+static void store_chars(void *context, int x, int y, int count, const float *const colour[4]) {
+    const CharTarget *target = context;
+    for (int i = 0; i < count; i++) {
+        const float light =
+            0.2126f * colour[0][i] + 0.7152f * colour[1][i] + 0.0722f * colour[2][i];
+        const float step = sqrtf(light > 0.0f ? light : 0.0f) * 1.15f * GLYPHS;
+        const int glyph = step < 0.0f ? 0 : step >= GLYPHS ? GLYPHS - 1 : (int)step;
+        target->chars[y * target->columns + x + i] = ramp[glyph];
+    }
+}
+
+// --- content -------------------------------------------------------------------------------------
+
+// Makes a mesh of SimpleVertex: a cube, or the same cube with its faces drawn out to points.
+static DipMesh *make_simple(bool gem, DipError *err) {
+    static const float size[3] = {2.0f, 2.0f, 2.0f};
+    float vertices[SIDES * 5][SIMPLE_ATTRIBUTES];
+    uint32_t indices[SIDES * 12];
+    uint32_t count = 0;
+    DipShape box;
+    if (!dip_shape_box(&box, size, err)) {
+        return NULL;
+    }
+    for (uint32_t f = 0; f < SIDES; f++) {
+        float *middle = vertices[5 * f + 4];
+        const float *normal = box.attributes + (size_t)(4 * f) * DIP_SHAPE_ATTRIBUTES + 3;
+        for (uint32_t k = 0; k < 4; k++) {
+            const float *corner = box.attributes + (size_t)(4 * f + k) * DIP_SHAPE_ATTRIBUTES;
+            for (int i = 0; i < 3; i++) {
+                vertices[5 * f + k][i] = gem ? 0.62f * corner[i] : corner[i];
+                vertices[5 * f + k][3 + i] = 0.08f + 0.42f * (corner[i] + 1.0f);
+            }
+            const uint32_t triangle[3] = {5 * f + k, 5 * f + (k + 1) % 4, 5 * f + 4};
+            memcpy(indices + count, triangle, sizeof triangle);
+            count += 3;
+        }
+        for (int i = 0; i < 3; i++) {
+            middle[i] = normal[i] * (gem ? 1.75f : 1.0f);
+            middle[3 + i] = gem ? 0.95f : 0.08f + 0.42f * (normal[i] + 1.0f);
+        }
+    }
+    dip_shape_free(&box);
+    const DipMeshData data = {
+        gem ? "gem" : "cube", &vertices[0][0], SIMPLE_ATTRIBUTES, SIDES * 5, indices, count};
+    return dip_mesh_create(&data, err);
+}
+
+// Makes a mesh of TextureVertex: a cube whose faces show the whole texture.
+static DipMesh *make_textured(DipError *err) {
+    static const float size[3] = {2.0f, 2.0f, 2.0f};
+    float vertices[SIDES * 4][TEXTURE_ATTRIBUTES];
+    DipShape box;
+    if (!dip_shape_box(&box, size, err)) {
+        return NULL;
+    }
+    for (uint32_t v = 0; v < box.vertex_count; v++) {
+        const float *corner = box.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES;
+        memcpy(vertices[v], corner, 3 * sizeof(float));
+        memcpy(vertices[v] + 3, corner + DIP_SHAPE_TEXTURE, 2 * sizeof(float));
+    }
+    const DipMeshData data = {"textured",       &vertices[0][0], TEXTURE_ATTRIBUTES,
+                              box.vertex_count, box.indices,     box.index_count};
+    DipMesh *mesh = dip_mesh_create(&data, err);
+    dip_shape_free(&box);
+    return mesh;
+}
+
+// A wooden crate: boards, a frame around them and a diagonal.
+static void paint_crate(const void *context, float u, float v, float rgba[4]) {
+    (void)context;
+    const float to_u = u < 0.5f ? u : 1.0f - u;
+    const float to_v = v < 0.5f ? v : 1.0f - v;
+    const bool frame = to_u < 0.12f || to_v < 0.12f || fabsf(u - v) < 0.085f;
+    const float board = v * 6.0f;
+    const float joint = board - dip_kit_floor(board);
+    const float gap =
+        frame ? 1.0f : dip_kit_smooth(0.0f, 0.08f, joint < 0.5f ? joint : 1.0f - joint);
+    const float grain = dip_kit_turbulence(frame && to_u < 0.12f ? v * 4.0f : u * 4.0f,
+                                           frame && to_u < 0.12f ? u * 48.0f : v * 48.0f, 48, 4, 5);
+    const float light = (frame ? 0.92f : 0.62f) * (0.62f + 0.5f * grain) * (0.35f + 0.65f * gap);
+    rgba[0] = 0.86f * light;
+    rgba[1] = 0.66f * light;
+    rgba[2] = 0.42f * light;
+}
+
+static void destroy(void *pointer) {
+    Content *content = pointer;
+    for (int m = 0; m < MESHES; m++) {
+        dip_mesh_destroy(&content->meshes[m]);
+    }
+    dip_kit_texture_free(&content->wood);
+    dip_pipeline_destroy(&content->char_pipeline);
+    free(content->target.chars);
+    free(content);
+}
+
+static void *create(const DipGalleryRoom *room, DipError *err) {
+    DipShape quad;
+    Content *content = dip_kit_content(sizeof *content, "cubes", err);
+    if (!content) {
+        return NULL;
+    }
+    content->room = *room;
+    DipMesh **meshes = content->meshes;
+    meshes[CUBE] = make_simple(false, err);
+    meshes[GEM] = make_simple(true, err);
+    meshes[TEXTURED] = make_textured(err);
+    meshes[QUAD] = dip_kit_mesh("quad", &quad, dip_shape_quad(&quad, 2.0f, 2.0f, err), err);
+    if (!meshes[CUBE] || !meshes[GEM] || !meshes[TEXTURED] || !meshes[QUAD] ||
+        !dip_kit_texture(&content->wood, "crate", 256, 256, true, paint_crate, NULL, err)) {
+        destroy(content);
+        return NULL;
+    }
+    return content;
+}
+
+// Makes the characters for a picture of this size, unless the last frame had the same size.
+static bool prepare_chars(Content *content, int width, int height, DipError *err) {
+    CharTarget *target = &content->target;
+    const int cell = height / 60 > CELL ? height / 60 : CELL;
+    const int columns = (width + cell - 1) / cell;
+    const int rows = (height + cell - 1) / cell;
+    if (target->chars && columns == target->columns && rows == target->rows) {
+        target->cell = cell;
+        return true;
+    }
+    dip_pipeline_destroy(&content->char_pipeline);
+    free(target->chars);
+    *target = (CharTarget){calloc((size_t)columns, (size_t)rows), columns, rows, cell};
+    content->char_pipeline =
+        dip_pipeline_create(content->room.pool, content->room.isa, columns, rows, err);
+    return content->char_pipeline &&
+           (target->chars || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cubes",
+                                           "no memory for %dx%d characters", columns, rows));
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static void camera(double phase, double eye[3], double target[3]) {
+    const double turn = 2.0 * DIP_PI * phase;
+    eye[0] = 0.6 * dip_sin(turn);
+    eye[1] = 1.5 + 0.4 * dip_cos(turn);
+    eye[2] = 9.6;
+    target[0] = target[1] = target[2] = 0.0;
+}
+
+// Two objects turn in place; the long one, index 1, moves to the right and comes back at the end.
+static DipMatrix place(int index, double time_s) {
+    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+    if (index == 1) {
+        const double way = 0.5 - 0.5 * dip_cos(turn);
+        const DipMatrix move = dip_matrix_translation(11.0 * way, -0.2, -1.0);
+        const DipMatrix spin = dip_matrix_rotation(1, 0.4);
+        const DipMatrix size = dip_matrix_scaling(0.55, 1.7, 0.55);
+        return dip_matrix_multiply3(&move, &spin, &size);
+    }
+    const DipMatrix move = dip_matrix_translation(index ? 2.9 : -2.9, 0.0, index ? 0.6 : 0.0);
+    const DipMatrix spin = dip_matrix_rotation(1, (index ? -2.0 : 3.0) * turn + 0.6);
+    const DipMatrix tilt = dip_matrix_rotation(0, 0.5);
+    return dip_matrix_multiply3(&move, &tilt, &spin);
+}
+
+// Returns whether some part of a mesh may be in view.
+static bool in_view(const DipMesh *mesh, const DipMatrix *to_clip) {
+    const DipCullPlanes planes = dip_cull_view_planes(to_clip->m);
+    const DipBox box = dip_mesh_box(mesh);
+    return !dip_cull_outside(&planes, &box);
+}
+
+// Fills in the draws of the objects in view and returns their number.
+static int list_objects(Content *content, const DipKitCamera *seen, double time_s,
+                        const DipSampler *wood, DipDraw draws[OBJECTS]) {
+    int count = 0;
+    bool long_cube_seen = true;
+    for (int i = OBJECTS - 1; i >= 0; i--) { // the first cube comes last: it depends on the others
+        const DipMatrix model = place(i, time_s);
+        const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &model);
+        const int mesh = i == 2 ? TEXTURED : i == 1 || long_cube_seen ? CUBE : GEM;
+        if (!in_view(content->meshes[mesh], &to_clip)) {
+            long_cube_seen = long_cube_seen && i != 1;
+            continue;
+        }
+        dip_matrix_floats(&to_clip, content->uniforms[i].to_clip);
+        draws[count++] = (DipDraw){
+            .mesh = content->meshes[mesh],
+            .vertex_shader = mesh == TEXTURED ? texture_vertex : simple_vertex,
+            .fragment_shader = mesh == TEXTURED ? shade_texture : shade_colour,
+            .varying_count = mesh == TEXTURED ? 2 : 3,
+            .value_only_varying_count = mesh == TEXTURED ? 0 : 3,
+            .uniforms = &content->uniforms[i],
+            .samplers = wood,
+            .cull = DIP_CULL_BACK,
+        };
+    }
+    return count;
+}
+
+static bool draw_chars(Content *content, const DipGalleryView *view, DipPass *pass, DipError *err) {
+    static const float black[3] = {0.0f, 0.0f, 0.0f};
+    CharTarget *chars = &content->target;
+    if (!prepare_chars(content, view->target.width, view->target.height, err)) {
+        return false;
+    }
+    memcpy(pass->clear_lin, black, sizeof black);
+    pass->target = (DipTarget){.width = chars->columns,
+                               .height = chars->rows,
+                               .format = DIP_FORMAT_CALLER,
+                               .store = store_chars,
+                               .context = chars};
+    if (!dip_kit_draw(view, content->char_pipeline, pass, err)) {
+        return false;
+    }
+    const DipDraw screen = {.mesh = content->meshes[QUAD],
+                            .vertex_shader = screen_vertex,
+                            .fragment_shader = shade_chars,
+                            .uniforms = chars};
+    const DipPass show = dip_kit_pass(view, &screen, 1, black);
+    return dip_kit_draw(view, view->pipeline, &show, err);
+}
+
+static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+    static const float clear_lin[3] = {0.10f, 0.13f, 0.18f};
+    Content *content = pointer;
+    DipKitCamera seen;
+    DipDraw draws[OBJECTS];
+    const DipSampler wood = dip_kit_sampler(view, &content->wood);
+    if (!dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err)) {
+        return false;
+    }
+    const int count = list_objects(content, &seen, view->time_s, &wood, draws);
+    DipPass pass = dip_kit_pass(view, draws, count, clear_lin);
+    return view->look == 1 ? draw_chars(content, view, &pass, err)
+                           : dip_kit_draw(view, view->pipeline, &pass, err);
+}
+
+const DipGalleryScene dip_gallery_cubes = {
+    .info = {.name = "cubes",
+             .title = "Cubes on two targets",
+             .seed = "seed 004",
+             .text =
+                 "Objects with their own vertex types and shaders, culled by their bounds. When "
+                 "the long cube has left the view, the left one changes its mesh.",
+             .looks = looks,
+             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .camera = camera,
+    .create = create,
+    .destroy = destroy,
+    .draw = draw,
+};

@@ -1,0 +1,400 @@
+// The gallery scene "model": an MD2 model with key-frame animation, lit in several ways.
+//
+// As in seed 000: flat, Gouraud and Phong shading are nothing but different vertex and fragment
+// shaders; directional, point and spot lights shine on it; it is shown textured, plain, and as a
+// lit wireframe. Each vertex of a mesh holds its positions and normals in two successive key
+// frames, and the vertex shader blends them.
+#include "app/gallery/kit/kit.h"
+#include "app/gallery/kit/light.h"
+#include "assets/animation.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/trig.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_FRAMES = 64, COPIES = 3, LIGHTS = 3 };
+// Attributes: position and normal in a key frame, the same in the next one, and u, v.
+enum { NEXT = 6, UV = 12, ATTRIBUTES = 14 };
+// Varyings of Gouraud and flat shading: u, v, then the light.
+enum { LIGHT = 2, LIT_VARYINGS = 5 };
+
+typedef struct Uniforms {
+    DipKitObject object;
+    float blend; // share of the next key frame
+    DipKitMaterial material;
+    DipKitLight lights[LIGHTS];
+    bool textured;
+} Uniforms;
+
+typedef struct Content {
+    DipAnimatedModel *model;
+    DipAnimatedPose *pose;
+    int frames;
+    DipMesh *smooth[MAX_FRAMES]; // by the first key frame of each pair
+    DipMesh *flat[MAX_FRAMES];   // the same triangles, without shared vertices
+    DipKitTexture skin;
+    DipMesh *floor;
+    Uniforms uniforms[COPIES + 1];
+} Content;
+
+typedef struct Look {
+    bool flat;
+    bool gouraud; // light at the vertices; otherwise at the fragments
+    bool textured;
+    bool wireframe;
+} Look;
+
+static const Look model_looks[] = {{false, false, true, false}, {false, true, true, false},
+                                   {true, true, true, false},   {false, false, false, false},
+                                   {true, true, false, false},  {false, false, true, true}};
+static const char *const looks[] = {"Phong",        "Gouraud",     "flat",
+                                    "Phong, plain", "flat, plain", "lit wireframe"};
+
+// --- shaders -------------------------------------------------------------------------------------
+
+// Blends two key frames and takes positions and normals to world space.
+static void blend_frames(const DipVertexBatch *batch, float *const world[3],
+                         float *const normal[3]) {
+    const Uniforms *uniforms = batch->uniforms;
+    const DipKitObject *object = &uniforms->object;
+    const float share = uniforms->blend;
+    for (int i = 0; i < batch->count; i++) {
+        float p[6];
+        for (int a = 0; a < 6; a++) {
+            p[a] = dip_kit_mix(batch->in[a][i], batch->in[NEXT + a][i], share);
+        }
+        for (int r = 0; r < 4; r++) {
+            const float *row = object->to_clip + 4 * r;
+            batch->clip[r][i] = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
+        }
+        for (int r = 0; r < 3; r++) {
+            const float *row = object->to_world + 4 * r;
+            const float *turn = object->normals + 3 * r;
+            world[r][i] = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
+            normal[r][i] = turn[0] * p[3] + turn[1] * p[4] + turn[2] * p[5];
+        }
+        batch->varying[DIP_KIT_UV][i] = batch->in[UV][i];
+        batch->varying[DIP_KIT_UV + 1][i] = batch->in[UV + 1][i];
+    }
+}
+
+// Phong: position and normal become varyings, and the fragment shader computes the light.
+static void phong_vertex(const DipVertexBatch *batch) {
+    blend_frames(batch, batch->varying + DIP_KIT_WORLD, batch->varying + DIP_KIT_NORMAL);
+}
+
+static void add_lights(const Uniforms *uniforms, const DipKitPoints *points,
+                       float (*out)[DIP_FRAGMENT_BATCH]) {
+    static const float ambient[3] = {0.10f, 0.12f, 0.16f};
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < points->count; i++) {
+            out[c][i] = ambient[c] * uniforms->material.diffuse[c];
+        }
+    }
+    for (int l = 0; l < LIGHTS; l++) {
+        dip_kit_light_add(&uniforms->lights[l], &uniforms->material, points, NULL, out);
+    }
+}
+
+// Gouraud: the light is computed at the vertices and becomes a varying. Flat shading is the same
+// with vertices that no two triangles share and that have the normal of their triangle.
+static void gouraud_vertex(const DipVertexBatch *batch) {
+    static const int slice = DIP_FRAGMENT_BATCH;
+    const Uniforms *uniforms = batch->uniforms;
+    float values[6][DIP_VERTEX_BATCH];
+    float *const world[3] = {values[0], values[1], values[2]};
+    float *const normal[3] = {values[3], values[4], values[5]};
+    blend_frames(batch, world, normal);
+    for (int first = 0; first < batch->count; first += slice) {
+        float unit[3][DIP_FRAGMENT_BATCH];
+        float light[3][DIP_FRAGMENT_BATCH];
+        const int count = batch->count - first < slice ? batch->count - first : slice;
+        const float *const in[3] = {normal[0] + first, normal[1] + first, normal[2] + first};
+        dip_kit_normalise(in, count, unit);
+        const DipKitPoints points = {
+            .count = count,
+            .position = {world[0] + first, world[1] + first, world[2] + first},
+            .normal = {unit[0], unit[1], unit[2]},
+            .eye = uniforms->object.eye};
+        add_lights(uniforms, &points, light);
+        for (int c = 0; c < 3; c++) {
+            memcpy(batch->varying[LIGHT + c] + first, light[c], (size_t)count * sizeof(float));
+        }
+    }
+}
+
+static void multiply_by_skin(DipFragmentBatch *batch, float (*light)[DIP_FRAGMENT_BATCH]) {
+    const Uniforms *uniforms = batch->uniforms;
+    if (uniforms->textured) {
+        batch->sample_colour(batch, &batch->samplers[0], DIP_KIT_UV, batch->colour);
+    }
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            const float own = uniforms->textured ? batch->colour[c][i] : 0.62f;
+            batch->colour[c][i] = own * light[c][i];
+        }
+    }
+}
+
+static void shade_phong(DipFragmentBatch *batch) {
+    const Uniforms *uniforms = batch->uniforms;
+    float normals[3][DIP_FRAGMENT_BATCH];
+    float light[3][DIP_FRAGMENT_BATCH];
+    const DipKitPoints points = dip_kit_fragment_points(batch, uniforms->object.eye, normals);
+    add_lights(uniforms, &points, light);
+    multiply_by_skin(batch, light);
+}
+
+static void shade_gouraud(DipFragmentBatch *batch) {
+    float light[3][DIP_FRAGMENT_BATCH];
+    for (int c = 0; c < 3; c++) {
+        memcpy(light[c], batch->varying[LIGHT + c], (size_t)batch->count * sizeof(float));
+    }
+    multiply_by_skin(batch, light);
+}
+
+// --- content -------------------------------------------------------------------------------------
+
+// Writes a vertex in two key frames. flat_normals: the face's normal in both frames, or NULL for
+// the vertex's own.
+static void write_vertex(const DipAnimatedMesh *mesh, uint32_t v, int frame, int next,
+                         const float flat_normals[2][3], float *out) {
+    const int frames[2] = {frame, next};
+    for (int f = 0; f < 2; f++) {
+        const size_t at = ((size_t)frames[f] * mesh->vertex_count + v) * 3;
+        memcpy(out + NEXT * f, mesh->positions + at, 3 * sizeof(float));
+        memcpy(out + NEXT * f + 3, flat_normals ? flat_normals[f] : mesh->normals + at,
+               3 * sizeof(float));
+    }
+    out[UV] = mesh->uv0 ? mesh->uv0[2 * v] : 0.0f;
+    out[UV + 1] = mesh->uv0 ? mesh->uv0[2 * v + 1] : 0.0f;
+}
+
+static void face_normal(const DipAnimatedMesh *mesh, const uint32_t corner[3], int frame,
+                        float normal[3]) {
+    const float *all = mesh->positions + (size_t)frame * mesh->vertex_count * 3;
+    float edge[2][3];
+    for (int e = 0; e < 2; e++) {
+        for (int i = 0; i < 3; i++) {
+            edge[e][i] = all[3 * corner[e + 1] + (uint32_t)i] - all[3 * corner[0] + (uint32_t)i];
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        const int k = (i + 2) % 3;
+        normal[i] = edge[0][j] * edge[1][k] - edge[0][k] * edge[1][j];
+    }
+    const float scale = 1.0f / sqrtf(normal[0] * normal[0] + normal[1] * normal[1] +
+                                     normal[2] * normal[2] + 1e-30f);
+    for (int i = 0; i < 3; i++) {
+        normal[i] *= scale;
+    }
+}
+
+// Makes the smooth and the flat mesh of a pair of key frames.
+static bool make_pair(Content *content, const DipAnimatedMesh *mesh, int frame, DipError *err) {
+    const int next = (frame + 1) % content->frames;
+    const size_t row_bytes = ATTRIBUTES * sizeof(float);
+    float *rows = malloc((mesh->vertex_count + mesh->index_count) * row_bytes);
+    uint32_t *order = malloc(mesh->index_count * sizeof *order);
+    if (!rows || !order) {
+        free(rows);
+        free(order);
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "model", "out of memory");
+    }
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        write_vertex(mesh, v, frame, next, NULL, rows + (size_t)v * ATTRIBUTES);
+    }
+    float *flat = rows + (size_t)mesh->vertex_count * ATTRIBUTES;
+    for (uint32_t k = 0; k < mesh->index_count; k++) {
+        float normals[2][3];
+        face_normal(mesh, mesh->indices + k - k % 3, frame, normals[0]);
+        face_normal(mesh, mesh->indices + k - k % 3, next, normals[1]);
+        write_vertex(mesh, mesh->indices[k], frame, next, (const float(*)[3])normals,
+                     flat + (size_t)k * ATTRIBUTES);
+        order[k] = k;
+    }
+    const DipMeshData smooth_data = {"smooth",           rows,          ATTRIBUTES,
+                                     mesh->vertex_count, mesh->indices, mesh->index_count};
+    const DipMeshData flat_data = {"flat",           flat, ATTRIBUTES, mesh->index_count, order,
+                                   mesh->index_count};
+    content->smooth[frame] = dip_mesh_create(&smooth_data, err);
+    content->flat[frame] = content->smooth[frame] ? dip_mesh_create(&flat_data, err) : NULL;
+    free(rows);
+    free(order);
+    return content->flat[frame] != NULL;
+}
+
+static void destroy(void *pointer) {
+    Content *content = pointer;
+    for (int f = 0; f < MAX_FRAMES; f++) {
+        dip_mesh_destroy(&content->smooth[f]);
+        dip_mesh_destroy(&content->flat[f]);
+    }
+    dip_mesh_destroy(&content->floor);
+    dip_kit_texture_free(&content->skin);
+    dip_animated_pose_destroy(&content->pose);
+    dip_animated_model_destroy(&content->model);
+    free(content);
+}
+
+static bool load(Content *content, const char *assets, DipError *err) {
+    char file[PATH_MAX];
+    const int length = snprintf(file, sizeof file, "%s/gallery/penguin.md2", assets);
+    if (length < 0 || (size_t)length >= sizeof file) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, assets, 0, "model",
+                             "the name of the folder is too long");
+    }
+    content->model = dip_animated_model_load(file, NULL, NULL, err);
+    content->pose = content->model ? dip_animated_pose_create(content->model, err) : NULL;
+    if (!content->pose) {
+        return false;
+    }
+    const DipAnimatedDef *def = dip_animated_model_def(content->model);
+    if (def->texture_count < 1 || def->key_frame_count < 1 || def->key_frame_count > MAX_FRAMES) {
+        return dip_error_set(err, DIP_ERROR_RANGE, file, 0, "model",
+                             "the model needs a skin and 1 to %d key frames", MAX_FRAMES);
+    }
+    content->frames = def->key_frame_count;
+    DipTextureDef skin = def->textures[0];
+    skin.wrap_u = skin.wrap_v = DIP_WRAP_CLAMP;
+    content->skin.plain = dip_texture_create(&skin, err);
+    bool made = content->skin.plain != NULL;
+    for (int f = 0; made && f < content->frames; f++) {
+        made = make_pair(content, &def->meshes[0], f, err);
+    }
+    return made;
+}
+
+static void *create(const DipGalleryRoom *room, DipError *err) {
+    DipShape shape;
+    Content *content = dip_kit_content(sizeof *content, "model", err);
+    if (!content) {
+        return NULL;
+    }
+    content->floor =
+        dip_kit_mesh("floor", &shape, dip_shape_plane(&shape, 24.0f, 24.0f, 48, 48, err), err);
+    if (!content->floor || !load(content, room->assets, err)) {
+        destroy(content);
+        return NULL;
+    }
+    return content;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static void camera(double phase, double eye[3], double target[3]) {
+    const double turn = 2.0 * DIP_PI * phase;
+    eye[0] = 3.9 * dip_sin(0.5 * dip_sin(turn));
+    eye[1] = 1.6 + 0.3 * dip_cos(turn);
+    eye[2] = 3.9 * dip_cos(0.5 * dip_sin(turn));
+    target[0] = 0.0;
+    target[1] = 0.78;
+    target[2] = 0.0;
+}
+
+// A white light from above, an orange point that circles, and a blue spot that sweeps.
+static void set_lights(DipKitLight lights[LIGHTS], double time_s) {
+    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+    lights[0] = (DipKitLight){.kind = DIP_KIT_DIRECTIONAL,
+                              .direction = {-0.36f, -0.80f, -0.48f},
+                              .colour = {0.75f, 0.74f, 0.70f}};
+    lights[1] = (DipKitLight){
+        .kind = DIP_KIT_POINT,
+        .position = {(float)(2.0 * dip_cos(2.0 * turn)), 1.1f, (float)(2.0 * dip_sin(2.0 * turn))},
+        .colour = {1.6f, 0.75f, 0.25f},
+        .reach = 1.2f};
+    lights[2] = (DipKitLight){.kind = DIP_KIT_SPOT,
+                              .position = {-2.0f, 4.0f, 1.0f},
+                              .colour = {0.5f, 1.0f, 2.6f},
+                              .reach = 5.0f,
+                              .inner_cos = 0.975f,
+                              .outer_cos = 0.94f};
+    const double x = 2.0 + 1.4 * dip_sin(turn);
+    const double z = -1.0 + 0.5 * dip_cos(3.0 * turn);
+    const double size = sqrt(x * x + 16.0 + z * z);
+    lights[2].direction[0] = (float)(x / size);
+    lights[2].direction[1] = (float)(-4.0 / size);
+    lights[2].direction[2] = (float)(z / size);
+}
+
+static void fill_uniforms(Uniforms *uniforms, const DipGalleryView *view, bool is_floor) {
+    uniforms->textured = !is_floor && model_looks[view->look].textured;
+    uniforms->material = is_floor ? (DipKitMaterial){{0.36f, 0.44f, 0.54f}, {0.25f, 0.25f, 0.3f}, 5}
+                                  : (DipKitMaterial){{1.0f, 1.0f, 1.0f}, {0.55f, 0.55f, 0.55f}, 5};
+    set_lights(uniforms->lights, view->time_s);
+}
+
+// Draws one copy of the model. The copies are at different times of the animation.
+static bool add_copy(Content *content, int copy, const DipGalleryView *view,
+                     const DipKitCamera *seen, DipDraw *draw, DipError *err) {
+    const Look *look = &model_looks[view->look];
+    dip_animated_pose_set(content->pose, 0, view->time_s + 0.37 * copy);
+    const DipObjectPose *posed = dip_animated_pose_object(content->pose, 0);
+    const double turn = 2.0 * DIP_PI * view->time_s / DIP_GALLERY_SECONDS;
+    const DipMatrix move = dip_matrix_translation(1.45 * (copy - 1), 0.0, copy == 1 ? 0.4 : -0.5);
+    const DipMatrix spin = dip_matrix_rotation(1, -0.5 * DIP_PI + 0.6 * dip_sin(turn + copy) -
+                                                      0.3 * (copy - 1)); // it looks along +x
+    DipMatrix own = dip_matrix_identity();
+    for (int i = 0; i < 12; i++) {
+        own.m[i] = (double)posed->transform[i];
+    }
+    const DipMatrix model = dip_matrix_multiply3(&move, &spin, &own);
+    Uniforms *uniforms = &content->uniforms[copy];
+    fill_uniforms(uniforms, view, false);
+    uniforms->blend = posed->blend;
+    if (!dip_kit_object(&uniforms->object, seen, &model, err)) {
+        return false;
+    }
+    DipMesh *const *meshes = look->flat ? content->flat : content->smooth;
+    *draw = dip_kit_object_draw(meshes[posed->key_frame], uniforms,
+                                look->gouraud ? shade_gouraud : shade_phong);
+    draw->vertex_shader = look->gouraud ? gouraud_vertex : phong_vertex;
+    draw->varying_count = look->gouraud ? LIT_VARYINGS : DIP_KIT_VARYINGS;
+    draw->value_only_varying_count = look->gouraud ? 3 : DIP_KIT_VALUES_ONLY;
+    draw->bounds_to_clip = NULL; // the mesh's box holds the first key frame of the pair only
+    return true;
+}
+
+static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+    static const float clear_lin[3] = {0.05f, 0.07f, 0.10f};
+    Content *content = pointer;
+    const DipDrawState wireframe = {
+        .fill = DIP_FILL_WIREFRAME,
+        .line_width = dip_kit_clamp((float)view->target.height / 320.0f, 1.0f, 8.0f)};
+    const DipSampler skin = dip_kit_sampler(view, &content->skin);
+    const DipMatrix identity = dip_matrix_identity();
+    DipKitCamera seen;
+    DipDraw draws[COPIES + 1];
+    Uniforms *ground = &content->uniforms[COPIES];
+    fill_uniforms(ground, view, true);
+    bool made =
+        dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err) &&
+        dip_kit_object(&ground->object, &seen, &identity, err);
+    draws[COPIES] = dip_kit_object_draw(content->floor, ground, shade_phong);
+    for (int copy = 0; made && copy < COPIES; copy++) {
+        made = add_copy(content, copy, view, &seen, &draws[copy], err);
+        draws[copy].samplers = &skin;
+        draws[copy].state = model_looks[view->look].wireframe ? &wireframe : NULL;
+    }
+    const DipPass pass = dip_kit_pass(view, draws, COPIES + 1, clear_lin);
+    return made && dip_kit_draw(view, view->pipeline, &pass, err);
+}
+
+const DipGalleryScene dip_gallery_model = {
+    .info = {.name = "model",
+             .title = "Animated model",
+             .seed = "seed 000, MD2 Model File Loader and Demo Application",
+             .text =
+                 "An MD2 model with key-frame animation under a directional, a point and a spot "
+                 "light. The looks change the shading.",
+             .looks = looks,
+             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .camera = camera,
+    .create = create,
+    .destroy = destroy,
+    .draw = draw,
+};

@@ -1,0 +1,267 @@
+// The gallery scene "phone": the mobile phone of seed 001, with a die in the background.
+//
+// The phone is a box like the die, with other dimensions; all its faces show the same texture, so
+// its narrow sides stretch it. Its display is a quad of its own just above the box. What the seed
+// calls a taken picture is taken live here: a first pass draws the die as the phone's camera sees
+// it, and the display's shader samples that target.
+#include "app/gallery/kit/die.h"
+#include "app/gallery/kit/kit.h"
+#include "app/gallery/kit/light.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/pages.h"
+#include "renderer/base/trig.h"
+
+#include <stdlib.h>
+
+enum { PHOTO_WIDTH = 288, PHOTO_HEIGHT = 512 };
+enum { DIE, TABLE, BODY, DISPLAY, OBJECTS, PHOTO_OBJECTS = BODY };
+
+static const float body_size[3] = {0.92f, 1.72f, 0.10f};
+
+typedef struct Uniforms {
+    DipKitObject object;
+    DipTarget photo; // the display's picture
+} Uniforms;
+
+typedef struct Content {
+    DipMesh *meshes[OBJECTS];
+    DipKitTexture textures[BODY + 1];
+    DipPipeline *pipeline; // of the photo's size
+    DipTarget photo;
+    Uniforms seen[OBJECTS];
+    Uniforms taken[PHOTO_OBJECTS];
+} Content;
+
+static const char *const looks[] = {"live picture"};
+
+// --- shaders -------------------------------------------------------------------------------------
+
+static void shade(DipFragmentBatch *batch) {
+    static const DipKitLight lights[2] = {{.kind = DIP_KIT_DIRECTIONAL,
+                                           .direction = {-0.48f, -0.64f, -0.60f},
+                                           .colour = {0.92f, 0.86f, 0.76f}},
+                                          {.kind = DIP_KIT_POINT,
+                                           .position = {-3.0f, 2.5f, 2.5f},
+                                           .colour = {0.35f, 0.5f, 0.8f},
+                                           .reach = 3.0f}};
+    static const DipKitMaterial white = {{1.0f, 1.0f, 1.0f}, {0.22f, 0.22f, 0.22f}, 5};
+    const Uniforms *uniforms = batch->uniforms;
+    float normals[3][DIP_FRAGMENT_BATCH];
+    float light[3][DIP_FRAGMENT_BATCH];
+    const DipKitPoints points = dip_kit_fragment_points(batch, uniforms->object.eye, normals);
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            light[c][i] = 0.16f;
+        }
+    }
+    for (int l = 0; l < 2; l++) {
+        dip_kit_light_add(&lights[l], &white, &points, NULL, light);
+    }
+    batch->sample_colour(batch, &batch->samplers[0], DIP_KIT_UV, batch->colour);
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            batch->colour[c][i] *= light[c][i];
+        }
+    }
+}
+
+// Shows the photo, with a black frame around it and a shutter button over it.
+static void shade_display(DipFragmentBatch *batch) {
+    const Uniforms *uniforms = batch->uniforms;
+    const float *u = batch->varying[DIP_KIT_UV];
+    const float *v = batch->varying[DIP_KIT_UV + 1];
+    batch->sample_target(batch, &uniforms->photo, u, v, batch->colour);
+    for (int i = 0; i < batch->count; i++) {
+        const float du = (u[i] - 0.5f) * 0.5f;
+        const float dv = v[i] - 0.91f;
+        const float from_button = sqrtf(du * du + dv * dv);
+        const float button = dip_kit_smooth(0.040f, 0.036f, from_button) -
+                             0.7f * dip_kit_smooth(0.032f, 0.030f, from_button) +
+                             0.7f * dip_kit_smooth(0.027f, 0.025f, from_button);
+        const float bar = v[i] > 0.82f ? 0.35f : 1.0f;
+        for (int c = 0; c < 3; c++) {
+            batch->colour[c][i] = dip_kit_mix(batch->colour[c][i] * bar, 0.9f, button);
+        }
+    }
+}
+
+// --- content -------------------------------------------------------------------------------------
+
+// Dark brushed metal with a lens and a lamp, as on a phone's back.
+static void paint_body(const void *context, float u, float v, float rgba[4]) {
+    (void)context;
+    const float brushed = dip_kit_turbulence(u * 4.0f, v * 96.0f, 96, 3, 2);
+    const float x = (u - 0.5f) * 0.55f;
+    const float lens = sqrtf(x * x + (v - 0.14f) * (v - 0.14f));
+    const float lamp = sqrtf((x - 0.1f) * (x - 0.1f) + (v - 0.14f) * (v - 0.14f));
+    const float ring = dip_kit_smooth(0.060f, 0.056f, lens);
+    const float glass = dip_kit_smooth(0.046f, 0.042f, lens);
+    const float light = 0.17f + 0.10f * brushed;
+    rgba[0] = dip_kit_mix(dip_kit_mix(light, 0.55f, ring), 0.03f, glass);
+    rgba[1] = dip_kit_mix(dip_kit_mix(light, 0.55f, ring), 0.05f, glass);
+    rgba[2] = dip_kit_mix(dip_kit_mix(1.1f * light, 0.57f, ring), 0.11f, glass);
+    for (int c = 0; c < 3; c++) {
+        rgba[c] = dip_kit_mix(rgba[c], 0.92f, dip_kit_smooth(0.018f, 0.015f, lamp));
+    }
+}
+
+// Planks of a table.
+static void paint_table(const void *context, float u, float v, float rgba[4]) {
+    (void)context;
+    const float plank = u * 8.0f;
+    const float gap = plank - dip_kit_floor(plank);
+    const float edge = dip_kit_smooth(0.0f, 0.02f, gap < 0.5f ? gap : 1.0f - gap);
+    const float grain = dip_kit_turbulence(u * 128.0f, v * 8.0f, 128, 4, 9);
+    const float light = (0.5f + 0.2f * dip_kit_random((int)plank, 1, 1) + 0.25f * (grain - 0.5f)) *
+                        (0.3f + 0.7f * edge);
+    rgba[0] = 1.20f * light;
+    rgba[1] = 0.86f * light;
+    rgba[2] = 0.58f * light;
+}
+
+static void destroy(void *pointer) {
+    Content *content = pointer;
+    for (int i = 0; i < OBJECTS; i++) {
+        dip_mesh_destroy(&content->meshes[i]);
+    }
+    for (int i = 0; i <= BODY; i++) {
+        dip_kit_texture_free(&content->textures[i]);
+    }
+    dip_pipeline_destroy(&content->pipeline);
+    dip_lines_free(content->photo.rgba8);
+    free(content);
+}
+
+static bool make_meshes(Content *content, DipError *err) {
+    DipShape shape;
+    DipMesh **meshes = content->meshes;
+    meshes[DIE] = dip_kit_die_mesh(err);
+    meshes[TABLE] =
+        dip_kit_mesh("table", &shape, dip_shape_plane(&shape, 12.0f, 12.0f, 8, 8, err), err);
+    meshes[BODY] = dip_kit_mesh("body", &shape, dip_shape_box(&shape, body_size, err), err);
+    meshes[DISPLAY] =
+        dip_kit_mesh("display", &shape, dip_shape_quad(&shape, 0.84f, 1.50f, err), err);
+    return meshes[DIE] && meshes[TABLE] && meshes[BODY] && meshes[DISPLAY];
+}
+
+static void *create(const DipGalleryRoom *room, DipError *err) {
+    Content *content = dip_kit_content(sizeof *content, "phone", err);
+    if (!content) {
+        return NULL;
+    }
+    DipTarget *photo = &content->photo;
+    *photo = (DipTarget){
+        .stride_bytes = (size_t)PHOTO_WIDTH * 4, .width = PHOTO_WIDTH, .height = PHOTO_HEIGHT};
+    photo->rgba8 = dip_lines_alloc(photo->stride_bytes * PHOTO_HEIGHT);
+    if (!photo->rgba8) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "phone", "out of memory");
+        destroy(content);
+        return NULL;
+    }
+    content->pipeline = dip_pipeline_create(room->pool, room->isa, PHOTO_WIDTH, PHOTO_HEIGHT, err);
+    DipKitTexture *textures = content->textures;
+    if (!content->pipeline || !make_meshes(content, err) ||
+        !dip_kit_die_texture(&textures[DIE], err) ||
+        !dip_kit_texture(&textures[TABLE], "table", 512, 512, true, paint_table, NULL, err) ||
+        !dip_kit_texture(&textures[BODY], "body", 256, 512, true, paint_body, NULL, err)) {
+        destroy(content);
+        return NULL;
+    }
+    return content;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static void camera(double phase, double eye[3], double target[3]) {
+    const double turn = 2.0 * DIP_PI * phase;
+    eye[0] = 1.1 * dip_sin(turn);
+    eye[1] = 1.75 + 0.25 * dip_cos(turn);
+    eye[2] = 3.6;
+    target[0] = 0.15;
+    target[1] = 0.72;
+    target[2] = 0.0;
+}
+
+// Returns where an object stands. The phone leans a little and sways; the display lies on it.
+static DipMatrix place(int object, double time_s) {
+    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+    if (object == TABLE) {
+        return dip_matrix_identity();
+    }
+    if (object == DIE) {
+        const DipMatrix move =
+            dip_matrix_translation(1.35, 0.92 + 0.12 * dip_sin(3.0 * turn), -1.35);
+        const DipMatrix spin = dip_matrix_rotation(1, 2.0 * turn);
+        const DipMatrix tilt = dip_matrix_rotation(0, 0.7);
+        return dip_matrix_multiply3(&move, &tilt, &spin);
+    }
+    const double lift = object == DISPLAY ? 0.5 * (double)body_size[2] + 0.002 : 0.0;
+    const DipMatrix move = dip_matrix_translation(-0.45, 0.5 * (double)body_size[1], 0.55);
+    const DipMatrix sway = dip_matrix_rotation(1, 0.25 + 0.45 * dip_sin(turn));
+    const DipMatrix out = dip_matrix_translation(0.0, 0.0, lift);
+    return dip_matrix_multiply3(&move, &sway, &out);
+}
+
+// Draws the die and the table as the phone's camera sees them, always with four samples.
+static bool take_photo(Content *content, const DipGalleryView *view, DipError *err) {
+    static const float clear_lin[3] = {0.30f, 0.38f, 0.50f};
+    static const double eye[3] = {-0.45, 1.45, 1.0};
+    static const double target[3] = {1.30, 0.80, -1.35};
+    const DipPerspective lens = {
+        .fov_deg = 50.0, .aspect = (double)PHOTO_WIDTH / PHOTO_HEIGHT, .near_distance = 0.1};
+    DipKitCamera seen;
+    DipDraw draws[PHOTO_OBJECTS];
+    DipSampler samplers[PHOTO_OBJECTS];
+    bool made = dip_kit_look_at(&seen, eye, target, &lens, err);
+    for (int i = 0; made && i < PHOTO_OBJECTS; i++) {
+        const DipMatrix model = place(i, view->time_s);
+        made = dip_kit_object(&content->taken[i].object, &seen, &model, err);
+        samplers[i] = dip_kit_sampler(view, &content->textures[i]);
+        draws[i] = dip_kit_object_draw(content->meshes[i], &content->taken[i], shade);
+        draws[i].samplers = &samplers[i];
+    }
+    DipPass pass = dip_kit_pass(view, draws, PHOTO_OBJECTS, clear_lin);
+    pass.target = content->photo;
+    pass.sample_count = 4;
+    pass.samples_per_group = 0;
+    return made && dip_kit_draw(view, content->pipeline, &pass, err);
+}
+
+static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+    static const float clear_lin[3] = {0.10f, 0.12f, 0.16f};
+    Content *content = pointer;
+    DipKitCamera seen;
+    DipDraw draws[OBJECTS];
+    DipSampler samplers[BODY + 1];
+    bool made =
+        take_photo(content, view, err) &&
+        dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err);
+    for (int i = 0; made && i < OBJECTS; i++) {
+        const DipMatrix model = place(i, view->time_s);
+        content->seen[i].photo = content->photo;
+        made = dip_kit_object(&content->seen[i].object, &seen, &model, err);
+        draws[i] = dip_kit_object_draw(content->meshes[i], &content->seen[i],
+                                       i == DISPLAY ? shade_display : shade);
+        if (i != DISPLAY) {
+            samplers[i] = dip_kit_sampler(view, &content->textures[i]);
+            draws[i].samplers = &samplers[i];
+        }
+    }
+    const DipPass pass = dip_kit_pass(view, draws, OBJECTS, clear_lin);
+    return made && dip_kit_draw(view, view->pipeline, &pass, err);
+}
+
+const DipGalleryScene dip_gallery_phone = {
+    .info = {.name = "phone",
+             .title = "Mobile phone",
+             .seed = "seed 001, Rendering the phone",
+             .text =
+                 "A phone made of one box and one quad. Its display shows a target that another "
+                 "pass has drawn.",
+             .looks = looks,
+             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .camera = camera,
+    .create = create,
+    .destroy = destroy,
+    .draw = draw,
+};

@@ -1,0 +1,233 @@
+// The gallery scene "prism": the tessellated and twisted prism of seed 001.
+//
+// The sides and bases of a plain prism are patches. Tessellation divides them, and the domain
+// function turns each new vertex about the axis by an angle that grows with its height. The factor
+// breathes, so fractional partitioning lets the new vertices slide apart instead of appearing
+// suddenly. A lit wireframe of the same mesh lies over the surface.
+#include "app/gallery/kit/kit.h"
+#include "app/gallery/kit/light.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/trig.h"
+#include "renderer/shapes/tessellate.h"
+
+#include <stdlib.h>
+
+typedef struct Look {
+    int sides;
+    float factor; // 0: it breathes
+    DipPartitioning partitioning;
+    float line_px; // width of the wireframe's lines in a picture of 480 rows
+} Look;
+
+static const Look prism_looks[] = {
+    {6, 0.0f, DIP_PARTITIONING_FRACTIONAL_ODD, 1.2f},
+    {6, 64.0f, DIP_PARTITIONING_FRACTIONAL_ODD, 0.3f},
+    {3, 0.0f, DIP_PARTITIONING_FRACTIONAL_ODD, 1.2f},
+    {24, 9.0f, DIP_PARTITIONING_FRACTIONAL_ODD, 0.5f},
+    {6, 0.0f, DIP_PARTITIONING_INTEGER, 1.2f},
+};
+static const char *const looks[] = {"6 slices, fractional factor", "6 slices, factor 64",
+                                    "3 slices, fractional factor", "24 slices, factor 9",
+                                    "6 slices, whole factor"};
+
+static const float height = 3.0f;
+
+typedef struct Uniforms {
+    DipKitObject object;
+    float tint[3];
+    float base;     // light without any lamp
+    float line_mix; // share of `tint` in the colour
+} Uniforms;
+
+typedef struct Content {
+    DipMesh *mesh; // of the frame made last
+    double mesh_time_s;
+    int mesh_look; // -1: there is no mesh yet
+    DipMesh *floor;
+    Uniforms solid;
+    Uniforms wire;
+    Uniforms ground;
+} Content;
+
+// --- tessellation --------------------------------------------------------------------------------
+
+// Interpolates the control points linearly, then twists position and normal about the y axis. The
+// uniform is the twist in radians per unit of height.
+static void twist(const DipDomainBatch *batch) {
+    const double rate = *(const double *)batch->uniforms;
+    dip_domain_linear(batch);
+    for (int i = 0; i < batch->count; i++) {
+        float *vertex = batch->out + (size_t)i * DIP_SHAPE_ATTRIBUTES;
+        float *normal = vertex + DIP_SHAPE_NORMAL;
+        const double angle = rate * (double)vertex[1];
+        const float turn_cos = (float)dip_cos(angle);
+        const float turn_sin = (float)dip_sin(angle);
+        const float x = vertex[0] * turn_cos - vertex[2] * turn_sin;
+        const float z = vertex[2] * turn_cos + vertex[0] * turn_sin;
+        const float nx = normal[0] * turn_cos - normal[2] * turn_sin;
+        const float nz = normal[2] * turn_cos + normal[0] * turn_sin;
+        vertex[0] = x;
+        vertex[2] = z;
+        normal[0] = nx;
+        normal[1] += (float)rate * (z * nx - x * nz);
+        normal[2] = nz;
+    }
+}
+
+static float factor_at(const Look *look, double time_s) {
+    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+    return look->factor > 0.0f ? look->factor : (float)(7.0 - 6.0 * dip_cos(2.0 * turn));
+}
+
+// Makes the mesh of a time and look, unless the other pane has made it already.
+static bool prepare_mesh(Content *content, double time_s, int look_index, DipError *err) {
+    if (content->mesh && content->mesh_time_s == time_s && content->mesh_look == look_index) {
+        return true;
+    }
+    const Look *look = &prism_looks[look_index];
+    const float factor = factor_at(look, time_s);
+    const DipTessellationFactors factors = {{factor, factor, factor, factor}, {factor, factor}};
+    const double rate = 0.9 * dip_sin(2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS);
+    DipShape prism;
+    DipShape pieces = {0};
+    if (!dip_shape_prism(&prism, 1.0f, height, look->sides, false, err)) {
+        return false;
+    }
+    const DipTessellationDef def = {.domain = DIP_DOMAIN_TRIANGLE,
+                                    .partitioning = look->partitioning,
+                                    .attributes = prism.attributes,
+                                    .attribute_count = prism.attribute_count,
+                                    .vertex_count = prism.vertex_count,
+                                    .indices = prism.indices,
+                                    .index_count = prism.index_count,
+                                    .factors = &factors,
+                                    .same_factors = true,
+                                    .function = twist,
+                                    .out_attribute_count = DIP_SHAPE_ATTRIBUTES,
+                                    .uniforms = &rate};
+    DipMesh *mesh = dip_kit_mesh("prism", &pieces, dip_tessellate(&pieces, &def, err), err);
+    dip_shape_free(&prism);
+    if (!mesh) {
+        return false;
+    }
+    dip_mesh_destroy(&content->mesh);
+    content->mesh = mesh;
+    content->mesh_time_s = time_s;
+    content->mesh_look = look_index;
+    return true;
+}
+
+// --- shaders -------------------------------------------------------------------------------------
+
+// The seed colours corner i of n by i / n in red and blue.
+static void shade(DipFragmentBatch *batch) {
+    static const DipKitLight lights[2] = {{.kind = DIP_KIT_DIRECTIONAL,
+                                           .direction = {-0.36f, -0.48f, -0.80f},
+                                           .colour = {0.95f, 0.90f, 0.82f}},
+                                          {.kind = DIP_KIT_POINT,
+                                           .position = {-4.0f, 1.5f, -2.0f},
+                                           .colour = {0.3f, 0.6f, 1.4f},
+                                           .reach = 4.0f}};
+    static const DipKitMaterial white = {{1.0f, 1.0f, 1.0f}, {0.35f, 0.35f, 0.35f}, 5};
+    const Uniforms *uniforms = batch->uniforms;
+    float normals[3][DIP_FRAGMENT_BATCH];
+    float light[3][DIP_FRAGMENT_BATCH];
+    const DipKitPoints points = dip_kit_fragment_points(batch, uniforms->object.eye, normals);
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            light[c][i] = uniforms->base;
+        }
+    }
+    for (int l = 0; l < 2; l++) {
+        dip_kit_light_add(&lights[l], &white, &points, NULL, light);
+    }
+    for (int i = 0; i < batch->count; i++) {
+        const float around = batch->varying[DIP_KIT_UV][i];
+        const float own[3] = {0.10f + 0.80f * around, 0.42f - 0.20f * around,
+                              0.20f + 0.65f * (1.0f - around)};
+        for (int c = 0; c < 3; c++) {
+            batch->colour[c][i] =
+                light[c][i] * dip_kit_mix(own[c], uniforms->tint[c], uniforms->line_mix);
+        }
+    }
+}
+
+// --- content -------------------------------------------------------------------------------------
+
+static void destroy(void *pointer) {
+    Content *content = pointer;
+    dip_mesh_destroy(&content->mesh);
+    dip_mesh_destroy(&content->floor);
+    free(content);
+}
+
+static void *create(const DipGalleryRoom *room, DipError *err) {
+    (void)room;
+    DipShape shape;
+    Content *content = dip_kit_content(sizeof *content, "prism", err);
+    if (!content) {
+        return NULL;
+    }
+    content->floor =
+        dip_kit_mesh("floor", &shape, dip_shape_prism(&shape, 2.6f, 0.3f, 96, true, err), err);
+    if (!content->floor || !prepare_mesh(content, 0.0, 0, err)) {
+        destroy(content);
+        return NULL;
+    }
+    return content;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static void camera(double phase, double eye[3], double target[3]) {
+    const double turn = 2.0 * DIP_PI * phase;
+    eye[0] = 5.4 * dip_sin(turn);
+    eye[1] = 1.6 + 0.7 * dip_sin(turn);
+    eye[2] = 5.4 * dip_cos(turn);
+    target[0] = 0.0;
+    target[1] = -0.1;
+    target[2] = 0.0;
+}
+
+static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+    static const float clear_lin[3] = {0.03f, 0.035f, 0.05f};
+    const DipDrawState wireframe = {
+        .depth_test = DIP_DEPTH_NEARER_OR_EQUAL,
+        .fill = DIP_FILL_WIREFRAME,
+        .line_width = dip_kit_clamp(
+            prism_looks[view->look].line_px * (float)view->target.height / 480.0f, 0.25f, 8.0f)};
+    Content *content = pointer;
+    DipKitCamera seen;
+    const DipMatrix identity = dip_matrix_identity();
+    const DipMatrix below = dip_matrix_translation(0.0, -0.5 * height - 0.16, 0.0);
+    content->solid.base = content->ground.base = 0.12f;
+    content->wire = (Uniforms){.tint = {1.0f, 0.95f, 0.8f}, .base = 0.55f, .line_mix = 0.85f};
+    content->ground = (Uniforms){.tint = {0.16f, 0.17f, 0.20f}, .base = 0.12f, .line_mix = 1.0f};
+    if (!prepare_mesh(content, view->time_s, view->look, err) ||
+        !dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err) ||
+        !dip_kit_object(&content->solid.object, &seen, &identity, err) ||
+        !dip_kit_object(&content->wire.object, &seen, &identity, err) ||
+        !dip_kit_object(&content->ground.object, &seen, &below, err)) {
+        return false;
+    }
+    DipDraw draws[3] = {dip_kit_object_draw(content->mesh, &content->solid, shade),
+                        dip_kit_object_draw(content->floor, &content->ground, shade),
+                        dip_kit_object_draw(content->mesh, &content->wire, shade)};
+    draws[2].state = &wireframe;
+    const DipPass pass = dip_kit_pass(view, draws, 3, clear_lin);
+    return dip_kit_draw(view, view->pipeline, &pass, err);
+}
+
+const DipGalleryScene dip_gallery_prism = {
+    .info = {.name = "prism",
+             .title = "Tessellated prism",
+             .seed = "seed 001, Primitives",
+             .text = "A prism whose sides are tessellated and twisted, with a lit wireframe over "
+                     "it. The looks change slices and factors.",
+             .looks = looks,
+             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .camera = camera,
+    .create = create,
+    .destroy = destroy,
+    .draw = draw,
+};

@@ -1,0 +1,261 @@
+// The gallery scene "shadow": shadow mapping as seed 000 describes it.
+//
+// A first pass draws the scene as the lamp sees it, without a colour target: it leaves depths
+// alone. The second pass draws the picture. Its fragment shader takes each point to the lamp's clip
+// space and compares its depth there with the stored one. The looks change the map's resolution
+// and its filter: nearest shows the texels of the map, linear averages four comparisons.
+#include "app/gallery/kit/kit.h"
+#include "app/gallery/kit/light.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/trig.h"
+
+#include <stdlib.h>
+
+enum { SPHERE, BOX, COLUMN, FLOOR, MESHES, OBJECTS = 12 };
+
+typedef struct Look {
+    int texels;
+    DipShadowFilter filter;
+} Look;
+
+static const Look shadow_looks[] = {
+    {1024, DIP_SHADOW_LINEAR},
+    {256, DIP_SHADOW_LINEAR},
+    {256, DIP_SHADOW_NEAREST},
+    {2048, DIP_SHADOW_NEAREST},
+};
+static const char *const looks[] = {"map of 1024x1024, 2x2 filter", "map of 256x256, 2x2 filter",
+                                    "map of 256x256, nearest", "map of 2048x2048, nearest"};
+
+// What all objects share in a frame.
+typedef struct Lamp {
+    float to_clip[16]; // from world space to the lamp's clip space
+    DipKitLight light;
+    DipShadowMap map;
+} Lamp;
+
+typedef struct Uniforms {
+    DipKitObject object;
+    DipKitMaterial material;
+    const Lamp *lamp;
+} Uniforms;
+
+typedef struct Content {
+    DipGalleryRoom room;
+    DipMesh *meshes[MESHES];
+    DipPipeline *pipeline; // of the shadow map's size
+    DipDepth *depth;
+    Lamp lamp;
+    Uniforms seen[OBJECTS];
+    DipKitObject casting[OBJECTS]; // the same objects with the lamp as the camera
+} Content;
+
+// --- shaders -------------------------------------------------------------------------------------
+
+// Writes the share of the lamp's light that reaches each fragment.
+static void find_lit(DipFragmentBatch *batch, const Lamp *lamp, float *lit) {
+    float u[DIP_FRAGMENT_BATCH];
+    float v[DIP_FRAGMENT_BATCH];
+    float depth[DIP_FRAGMENT_BATCH];
+    const float *m = lamp->to_clip;
+    for (int i = 0; i < batch->count; i++) {
+        const float x = batch->varying[DIP_KIT_WORLD][i];
+        const float y = batch->varying[DIP_KIT_WORLD + 1][i];
+        const float z = batch->varying[DIP_KIT_WORLD + 2][i];
+        const float w = m[12] * x + m[13] * y + m[14] * z + m[15];
+        const float scale = 1.0f / (w > 0.01f ? w : 0.01f);
+        u[i] = 0.5f + 0.5f * scale * (m[0] * x + m[1] * y + m[2] * z + m[3]);
+        v[i] = 0.5f - 0.5f * scale * (m[4] * x + m[5] * y + m[6] * z + m[7]);
+        depth[i] = scale * (m[8] * x + m[9] * y + m[10] * z + m[11]);
+    }
+    batch->sample_shadow(batch, &lamp->map, u, v, depth, lit);
+}
+
+static void shade(DipFragmentBatch *batch) {
+    static const float sky[3] = {0.035f, 0.045f, 0.075f};
+    const Uniforms *uniforms = batch->uniforms;
+    float normals[3][DIP_FRAGMENT_BATCH];
+    float lit[DIP_FRAGMENT_BATCH];
+    const DipKitPoints points = dip_kit_fragment_points(batch, uniforms->object.eye, normals);
+    find_lit(batch, uniforms->lamp, lit);
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            const float open = 0.7f + 0.3f * normals[1][i];
+            batch->colour[c][i] = sky[c] * open * uniforms->material.diffuse[c] * 4.0f;
+        }
+    }
+    dip_kit_light_add(&uniforms->lamp->light, &uniforms->material, &points, lit, batch->colour);
+}
+
+// --- content -------------------------------------------------------------------------------------
+
+static void destroy(void *pointer) {
+    Content *content = pointer;
+    for (int m = 0; m < MESHES; m++) {
+        dip_mesh_destroy(&content->meshes[m]);
+    }
+    dip_pipeline_destroy(&content->pipeline);
+    dip_depth_destroy(&content->depth);
+    free(content);
+}
+
+static void *create(const DipGalleryRoom *room, DipError *err) {
+    static const float box[3] = {1.0f, 1.0f, 1.0f};
+    DipShape shape;
+    Content *content = dip_kit_content(sizeof *content, "shadow", err);
+    if (!content) {
+        return NULL;
+    }
+    content->room = *room;
+    DipMesh **meshes = content->meshes;
+    meshes[SPHERE] =
+        dip_kit_mesh("sphere", &shape, dip_shape_sphere(&shape, 1.0f, 64, 32, err), err);
+    meshes[BOX] = dip_kit_mesh("box", &shape, dip_shape_box(&shape, box, err), err);
+    meshes[COLUMN] =
+        dip_kit_mesh("column", &shape, dip_shape_prism(&shape, 1.0f, 1.0f, 32, true, err), err);
+    meshes[FLOOR] =
+        dip_kit_mesh("floor", &shape, dip_shape_plane(&shape, 40.0f, 40.0f, 20, 20, err), err);
+    if (!meshes[SPHERE] || !meshes[BOX] || !meshes[COLUMN] || !meshes[FLOOR]) {
+        destroy(content);
+        return NULL;
+    }
+    return content;
+}
+
+// Makes the shadow map of the chosen resolution, unless the last frame had the same.
+static bool prepare_map(Content *content, int texels, DipError *err) {
+    if (content->depth && dip_depth_width(content->depth) == texels) {
+        return true;
+    }
+    dip_pipeline_destroy(&content->pipeline);
+    dip_depth_destroy(&content->depth);
+    content->pipeline =
+        dip_pipeline_create(content->room.pool, content->room.isa, texels, texels, err);
+    content->depth = content->pipeline ? dip_depth_create(texels, texels, 1, err) : NULL;
+    return content->depth != NULL;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static void camera(double phase, double eye[3], double target[3]) {
+    const double turn = 2.0 * DIP_PI * phase;
+    eye[0] = 8.5 * dip_sin(0.6 * dip_sin(turn));
+    eye[1] = 4.6 + 0.8 * dip_cos(turn);
+    eye[2] = 8.5 * dip_cos(0.6 * dip_sin(turn));
+    target[0] = 0.0;
+    target[1] = 0.7;
+    target[2] = 0.0;
+}
+
+// Returns where object `index` stands, and sets its mesh and colour.
+static DipMatrix place(int index, double time_s, int *mesh, DipKitMaterial *material) {
+    static const float colours[][3] = {
+        {0.80f, 0.30f, 0.16f}, {0.18f, 0.42f, 0.72f}, {0.85f, 0.62f, 0.20f}, {0.30f, 0.55f, 0.28f}};
+    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+    *material = (DipKitMaterial){{0.62f, 0.60f, 0.56f}, {0.1f, 0.1f, 0.1f}, 5};
+    if (index == 0) {
+        *mesh = FLOOR;
+        return dip_matrix_identity();
+    }
+    if (index < 9) { // a ring of columns
+        const double angle = 2.0 * DIP_PI * (index - 1) / 8.0;
+        const DipMatrix move =
+            dip_matrix_translation(3.6 * dip_cos(angle), 1.1, 3.6 * dip_sin(angle));
+        const DipMatrix size = dip_matrix_scaling(0.2, 2.2, 0.2);
+        *mesh = COLUMN;
+        return dip_matrix_multiply(&move, &size);
+    }
+    for (int c = 0; c < 3; c++) {
+        material->diffuse[c] = colours[index - 9][c];
+        material->specular[c] = 0.5f;
+    }
+    const double angle = turn + 2.0 * DIP_PI * (index - 9) / 3.0;
+    const double height = 0.95 + 0.35 * dip_sin(3.0 * turn + 2.0 * index);
+    const DipMatrix move =
+        dip_matrix_translation(1.5 * dip_cos(angle), height, 1.5 * dip_sin(angle));
+    const DipMatrix spin_y = dip_matrix_rotation(1, 2.0 * turn);
+    const DipMatrix spin_x = dip_matrix_rotation(0, 3.0 * turn);
+    const DipMatrix spin = dip_matrix_multiply(&spin_y, &spin_x);
+    const double size = index == 9 ? 0.62 : index == 10 ? 0.95 : 0.5;
+    const DipMatrix scale = dip_matrix_scaling(size, index == 11 ? 1.1 : size, size);
+    *mesh = index == 9 ? SPHERE : index == 10 ? BOX : COLUMN;
+    return dip_matrix_multiply3(&move, &spin, &scale);
+}
+
+// Moves the lamp on a circle above the ring, shining at its middle.
+static bool set_lamp(Lamp *lamp, double time_s, DipKitCamera *from_lamp, DipError *err) {
+    static const double middle[3] = {0.0, 0.4, 0.0};
+    const DipPerspective lens = {.fov_deg = 84.0, .aspect = 1.0, .near_distance = 0.5};
+    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+    const double eye[3] = {4.4 * dip_cos(-turn), 6.2, 4.4 * dip_sin(-turn)};
+    lamp->light = (DipKitLight){.kind = DIP_KIT_SPOT,
+                                .colour = {3.4f, 3.0f, 2.4f},
+                                .reach = 7.0f,
+                                .inner_cos = 0.86f,
+                                .outer_cos = 0.76f};
+    double length = 0.0;
+    for (int i = 0; i < 3; i++) {
+        lamp->light.position[i] = (float)eye[i];
+        length += (middle[i] - eye[i]) * (middle[i] - eye[i]);
+    }
+    for (int i = 0; i < 3; i++) {
+        lamp->light.direction[i] = (float)((middle[i] - eye[i]) / sqrt(length));
+    }
+    if (!dip_kit_look_at(from_lamp, eye, middle, &lens, err)) {
+        return false;
+    }
+    dip_matrix_floats(&from_lamp->to_clip, lamp->to_clip);
+    return true;
+}
+
+static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+    static const float clear_lin[3] = {0.015f, 0.02f, 0.035f};
+    // The bias that 2x2 comparisons need: twice the slope, and a few units for rounding.
+    static const DipDrawState caster = {.depth_bias = {.slope = -2.0f, .relative = -8.0f}};
+    const Look *look = &shadow_looks[view->look];
+    Content *content = pointer;
+    DipKitCamera seen;
+    DipKitCamera from_lamp;
+    DipDraw draws[OBJECTS];
+    DipDraw shadows[OBJECTS];
+    bool made =
+        prepare_map(content, look->texels, err) &&
+        set_lamp(&content->lamp, view->time_s, &from_lamp, err) &&
+        dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err);
+    content->lamp.map = (DipShadowMap){content->depth, look->filter};
+    for (int i = 0; made && i < OBJECTS; i++) {
+        Uniforms *uniforms = &content->seen[i];
+        int mesh;
+        const DipMatrix model = place(i, view->time_s, &mesh, &uniforms->material);
+        uniforms->lamp = &content->lamp;
+        made = dip_kit_object(&uniforms->object, &seen, &model, err) &&
+               dip_kit_object(&content->casting[i], &from_lamp, &model, err);
+        draws[i] = dip_kit_object_draw(content->meshes[mesh], uniforms, shade);
+        shadows[i] = dip_kit_object_draw(content->meshes[mesh], &content->casting[i], NULL);
+        shadows[i].state = &caster;
+    }
+    const DipPass shadow_pass = {
+        .draws = shadows,
+        .draw_count = OBJECTS,
+        .sample_count = 1,
+        .target = {.width = look->texels, .height = look->texels},
+        .attachments = {.depth = content->depth},
+    };
+    const DipPass pass = dip_kit_pass(view, draws, OBJECTS, clear_lin);
+    return made && dip_kit_draw(view, content->pipeline, &shadow_pass, err) &&
+           dip_kit_draw(view, view->pipeline, &pass, err);
+}
+
+const DipGalleryScene dip_gallery_shadow = {
+    .info = {.name = "shadow",
+             .title = "Shadow mapping",
+             .seed = "seed 000, Render Targets and Depth Buffers",
+             .text = "Shadows of a moving lamp from a depth-only pass. The looks change the map's "
+                     "resolution and filter.",
+             .looks = looks,
+             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .camera = camera,
+    .create = create,
+    .destroy = destroy,
+    .draw = draw,
+};

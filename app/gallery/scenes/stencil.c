@@ -1,0 +1,308 @@
+// The gallery scene "stencil": a mirror and an outline, drawn with stencil masks as in seed 001.
+//
+// The mirror in the floor: (1) its surface writes 1 into the stencil buffer and no colour. (2) The
+// objects are drawn upside down, but only where the stencil value is 1. (3) The glass is blended
+// over them. The outline: the middle object writes 2, and is then drawn a little larger and in one
+// colour where the stencil value is not 2. The inset draws the same masks by themselves and then
+// fills each value with a colour.
+#include "app/gallery/kit/kit.h"
+#include "app/gallery/kit/light.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/trig.h"
+
+#include <stdlib.h>
+
+enum { SPHERE, BOX, PRISM, PLANE, QUAD, MESHES };
+enum { OBJECTS = 5, OUTLINED = 0, DRAWS = 2 * OBJECTS + 6, MIRROR_VALUE = 1, OUTLINE_VALUE = 2 };
+
+typedef struct Uniforms {
+    DipKitObject object;
+    DipKitMaterial material;
+    float alpha;
+} Uniforms;
+
+typedef struct Content {
+    DipMesh *meshes[MESHES];
+    Uniforms uniforms[DRAWS];
+} Content;
+
+static const char *const looks[] = {"mirror, outline and mask", "the masks alone"};
+
+#define FACE(test, result)                                                                         \
+    { test, DIP_STENCIL_KEEP, DIP_STENCIL_KEEP, result }
+#define STENCIL(value, test, result)                                                               \
+    { true, value, 0xff, 0xff, FACE(test, result), FACE(test, result) }
+
+enum { NO_COLOUR = DIP_CHANNEL_RED | DIP_CHANNEL_GREEN | DIP_CHANNEL_BLUE | DIP_CHANNEL_ALPHA };
+
+// Writes the mirror's mask and the depth of infinity is left, so that mirrored objects are drawn
+// into the floor.
+static const DipDrawState mark_mirror = {
+    .kept_channels = NO_COLOUR,
+    .keep_depth = true,
+    .stencil = STENCIL(MIRROR_VALUE, DIP_COMPARE_ALWAYS, DIP_STENCIL_REPLACE)};
+static const DipDrawState inside_mirror = {
+    .stencil = STENCIL(MIRROR_VALUE, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)};
+// The glass replaces the depths of the mirrored objects by its own.
+static const DipDrawState glass = {.blend = DIP_BLEND_MODE_ALPHA,
+                                   .depth_test = DIP_DEPTH_ALWAYS,
+                                   .stencil =
+                                       STENCIL(MIRROR_VALUE, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)};
+static const DipDrawState mark_object = {
+    .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_ALWAYS, DIP_STENCIL_REPLACE)};
+static const DipDrawState outside_object = {
+    .blend = DIP_BLEND_MODE_ALPHA,
+    .keep_depth = true,
+    .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_NOT_EQUAL, DIP_STENCIL_KEEP)};
+static const DipDrawState plain_ordered = {.ordered = true};
+// For the inset: fills the pixels of one stencil value.
+static const DipDrawState fill_none = {.depth_test = DIP_DEPTH_ALWAYS,
+                                       .stencil = STENCIL(0, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)};
+static const DipDrawState fill_mirror = {
+    .depth_test = DIP_DEPTH_ALWAYS,
+    .stencil = STENCIL(MIRROR_VALUE, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)};
+static const DipDrawState fill_object = {
+    .depth_test = DIP_DEPTH_ALWAYS,
+    .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_EQUAL, DIP_STENCIL_KEEP)};
+
+// --- shaders -------------------------------------------------------------------------------------
+
+static void shade(DipFragmentBatch *batch) {
+    static const DipKitLight sun = {.kind = DIP_KIT_DIRECTIONAL,
+                                    .direction = {-0.48f, -0.80f, -0.36f},
+                                    .colour = {0.85f, 0.80f, 0.72f}};
+    static const float sky[3] = {0.20f, 0.24f, 0.30f};
+    const Uniforms *uniforms = batch->uniforms;
+    float normals[3][DIP_FRAGMENT_BATCH];
+    const DipKitPoints points = dip_kit_fragment_points(batch, uniforms->object.eye, normals);
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            batch->colour[c][i] =
+                sky[c] * (0.75f + 0.25f * normals[1][i]) * uniforms->material.diffuse[c];
+        }
+    }
+    dip_kit_light_add(&sun, &uniforms->material, &points, NULL, batch->colour);
+}
+
+static void shade_flat(DipFragmentBatch *batch) {
+    const Uniforms *uniforms = batch->uniforms;
+    for (int i = 0; i < batch->count; i++) {
+        for (int c = 0; c < 3; c++) {
+            batch->colour[c][i] = uniforms->material.diffuse[c];
+        }
+        batch->alpha[i] = uniforms->alpha;
+    }
+}
+
+// --- content -------------------------------------------------------------------------------------
+
+static void destroy(void *pointer) {
+    Content *content = pointer;
+    for (int m = 0; m < MESHES; m++) {
+        dip_mesh_destroy(&content->meshes[m]);
+    }
+    free(content);
+}
+
+static void *create(const DipGalleryRoom *room, DipError *err) {
+    static const float box[3] = {1.2f, 1.2f, 1.2f};
+    (void)room;
+    DipShape shape;
+    Content *content = dip_kit_content(sizeof *content, "stencil", err);
+    if (!content) {
+        return NULL;
+    }
+    DipMesh **meshes = content->meshes;
+    meshes[SPHERE] =
+        dip_kit_mesh("sphere", &shape, dip_shape_sphere(&shape, 0.8f, 64, 32, err), err);
+    meshes[BOX] = dip_kit_mesh("box", &shape, dip_shape_box(&shape, box, err), err);
+    meshes[PRISM] =
+        dip_kit_mesh("prism", &shape, dip_shape_prism(&shape, 0.7f, 1.4f, 6, false, err), err);
+    meshes[PLANE] =
+        dip_kit_mesh("plane", &shape, dip_shape_plane(&shape, 1.0f, 1.0f, 16, 16, err), err);
+    meshes[QUAD] = dip_kit_mesh("quad", &shape, dip_shape_quad(&shape, 2.0f, 2.0f, err), err);
+    for (int m = 0; m < MESHES; m++) {
+        if (!meshes[m]) {
+            destroy(content);
+            return NULL;
+        }
+    }
+    return content;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static void camera(double phase, double eye[3], double target[3]) {
+    const double turn = 2.0 * DIP_PI * phase;
+    eye[0] = 7.0 * dip_sin(turn);
+    eye[1] = 4.3 + 0.5 * dip_sin(2.0 * turn);
+    eye[2] = 7.0 * dip_cos(turn);
+    target[0] = 0.0;
+    target[1] = 0.6;
+    target[2] = 0.0;
+}
+
+// Returns where object `index` stands, and sets its mesh and material.
+static DipMatrix place(int index, double time_s, int *mesh, DipKitMaterial *material) {
+    static const float colours[OBJECTS][3] = {{0.80f, 0.16f, 0.13f},
+                                              {0.16f, 0.42f, 0.75f},
+                                              {0.86f, 0.60f, 0.14f},
+                                              {0.22f, 0.58f, 0.34f},
+                                              {0.60f, 0.30f, 0.68f}};
+    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+    const double angle = 2.0 * DIP_PI * (index - 1) / (OBJECTS - 1) + 2.0 * turn + 0.4;
+    const double radius = index == OUTLINED ? 0.0 : 2.35;
+    const double height = index == OUTLINED ? 1.9 : 1.3;
+    const DipMatrix move = dip_matrix_translation(radius * dip_cos(angle),
+                                                  height + 0.25 * dip_sin(3.0 * turn + 1.6 * index),
+                                                  radius * dip_sin(angle));
+    const DipMatrix spin_x = dip_matrix_rotation(0, 0.5 + 2.0 * turn);
+    const DipMatrix spin_y = dip_matrix_rotation(1, 3.0 * turn + index);
+    *mesh = index == OUTLINED ? PRISM : index % 2 ? SPHERE : BOX;
+    *material = (DipKitMaterial){.specular = {0.5f, 0.5f, 0.5f}, .exponent_doubled = 6};
+    for (int c = 0; c < 3; c++) {
+        material->diffuse[c] = colours[index][c];
+    }
+    return dip_matrix_multiply3(&move, &spin_y, &spin_x);
+}
+
+// The draws of a pass while they are put together.
+typedef struct List {
+    Content *content;
+    const DipKitCamera *camera;
+    DipDraw draws[DRAWS];
+    int count;
+    DipError *err;
+} List;
+
+// Appends a draw and returns its uniforms.
+static bool add(List *list, int mesh, const DipMatrix *model, const Uniforms *look,
+                DipFragmentShader *shader, const DipDrawState *state) {
+    Uniforms *uniforms = &list->content->uniforms[list->count];
+    *uniforms = *look;
+    if (!dip_kit_object(&uniforms->object, list->camera, model, list->err)) {
+        return false;
+    }
+    DipDraw *draw = &list->draws[list->count++];
+    *draw = dip_kit_object_draw(list->content->meshes[mesh], uniforms, shader);
+    draw->state = state;
+    return true;
+}
+
+// Adds the objects; `outside` is applied to them last. In the mirror they wind the other way round.
+static bool add_objects(List *list, double time_s, const DipMatrix *outside, bool mirrored) {
+    bool added = true;
+    for (int i = OBJECTS - 1; added && i >= 0; i--) {
+        int mesh;
+        Uniforms look = {.alpha = 1.0f};
+        const DipMatrix place_now = place(i, time_s, &mesh, &look.material);
+        const DipMatrix model = dip_matrix_multiply(outside, &place_now);
+        added = add(list, mesh, &model, &look, shade,
+                    mirrored        ? &inside_mirror
+                    : i == OUTLINED ? &mark_object
+                                    : &plain_ordered);
+        list->draws[list->count - 1].cull = mirrored ? DIP_CULL_FRONT : DIP_CULL_BACK;
+    }
+    return added;
+}
+
+static const Uniforms mirror_look = {.material = {.diffuse = {0.10f, 0.13f, 0.17f}},
+                                     .alpha = 0.30f};
+
+static bool draw_picture(List *list, const DipGalleryView *view) {
+    static const float clear_lin[3] = {0.36f, 0.43f, 0.52f};
+    static const double up[3] = {0.0, 1.0, 0.0};
+    static const Uniforms floor_look = {.material = {{0.52f, 0.47f, 0.40f}, {0, 0, 0}, 1}};
+    static const Uniforms rim_look = {.material = {{0.10f, 0.09f, 0.08f}, {0.3f, 0.3f, 0.3f}, 4}};
+    static const Uniforms outline_look = {.material = {.diffuse = {1.0f, 0.85f, 0.25f}},
+                                          .alpha = 1.0f};
+    const DipMatrix identity = dip_matrix_identity();
+    const DipMatrix upside_down = dip_matrix_reflection(up, 0.0);
+    const DipMatrix mirror = dip_matrix_scaling(6.2, 1.0, 6.2);
+    const DipMatrix low = dip_matrix_translation(0.0, -0.06, 0.0);
+    const DipMatrix wide = dip_matrix_scaling(6.6, 1.0, 6.6);
+    const DipMatrix rim = dip_matrix_multiply(&low, &wide);
+    const DipMatrix lower = dip_matrix_translation(0.0, -0.12, 0.0);
+    const DipMatrix wider = dip_matrix_scaling(60.0, 1.0, 60.0);
+    const DipMatrix ground = dip_matrix_multiply(&lower, &wider);
+    int mesh;
+    DipKitMaterial material;
+    const DipMatrix outlined = place(OUTLINED, view->time_s, &mesh, &material);
+    const DipMatrix grow = dip_matrix_scaling(1.09, 1.09, 1.09);
+    const DipMatrix grown = dip_matrix_multiply(&outlined, &grow);
+    // The mirrored objects lie below the floor. They must be drawn before it, and the glass then
+    // covers their depths, so that the floor around the mirror hides nothing of them.
+    const bool made = add(list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror) &&
+                      add_objects(list, view->time_s, &upside_down, true) &&
+                      add(list, PLANE, &mirror, &mirror_look, shade_flat, &glass) &&
+                      add(list, PLANE, &rim, &rim_look, shade, &plain_ordered) &&
+                      add(list, PLANE, &ground, &floor_look, shade, &plain_ordered) &&
+                      add_objects(list, view->time_s, &identity, false) &&
+                      add(list, mesh, &grown, &outline_look, shade_flat, &outside_object);
+    const DipPass pass = dip_kit_pass(view, list->draws, list->count, clear_lin);
+    return made && dip_kit_draw(view, view->pipeline, &pass, list->err);
+}
+
+// Draws the masks into a rectangle of the picture: first the stencil values without any colour,
+// then a quad over everything for each value.
+static bool draw_mask(List *list, const DipGalleryView *view, const DipTargetRegion *inset) {
+    static const DipDrawState mark_object_only = {
+        .kept_channels = NO_COLOUR,
+        .stencil = STENCIL(OUTLINE_VALUE, DIP_COMPARE_ALWAYS, DIP_STENCIL_REPLACE)};
+    static const Uniforms fills[3] = {{.material = {.diffuse = {0.02f, 0.02f, 0.03f}}},
+                                      {.material = {.diffuse = {0.20f, 0.55f, 0.85f}}},
+                                      {.material = {.diffuse = {1.0f, 0.85f, 0.25f}}}};
+    static const DipDrawState *const states[3] = {&fill_none, &fill_mirror, &fill_object};
+    static const float black[3] = {0.0f, 0.0f, 0.0f};
+    const DipKitCamera flat = {.to_clip = dip_matrix_identity()};
+    const DipKitCamera *const seen = list->camera;
+    const DipMatrix mirror = dip_matrix_scaling(6.2, 1.0, 6.2);
+    const DipMatrix front = dip_matrix_translation(0.0, 0.0, 0.5);
+    int mesh;
+    Uniforms look = {.alpha = 1.0f};
+    const DipMatrix outlined = place(OUTLINED, view->time_s, &mesh, &look.material);
+    bool made = add(list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror) &&
+                add(list, mesh, &outlined, &look, shade_flat, &mark_object_only);
+    list->camera = &flat;
+    for (int value = 0; made && value < 3; value++) {
+        made = add(list, QUAD, &front, &fills[value], shade_flat, states[value]);
+    }
+    list->camera = seen;
+    DipPass pass = dip_kit_pass(view, list->draws, list->count, black);
+    pass.attachments.colour_load = DIP_LOAD_KEEP;
+    pass.viewport = pass.scissor = pass.region = *inset;
+    return made && dip_kit_draw(view, view->pipeline, &pass, list->err);
+}
+
+static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+    const int width = view->target.width;
+    const int height = view->target.height;
+    const DipTargetRegion whole = {0, 0, width, height};
+    const DipTargetRegion corner = {width - width / 4 - width / 40, height / 30, width - width / 40,
+                                    height / 30 + height / 4};
+    const bool alone = view->look == 1 || corner.x1 <= corner.x0 || corner.y1 <= corner.y0;
+    DipKitCamera seen;
+    if (!dip_kit_camera(&seen, view->pose, width, height, 0.1, err)) {
+        return false;
+    }
+    List list = {.content = pointer, .camera = &seen, .err = err};
+    if (!draw_picture(&list, view)) {
+        return false;
+    }
+    list.count = 0;
+    return draw_mask(&list, view, alone ? &whole : &corner);
+}
+
+const DipGalleryScene dip_gallery_stencil = {
+    .info = {.name = "stencil",
+             .title = "Stencil: mirror and outline",
+             .seed = "seed 001, Stenciling",
+             .text = "A mirror in the floor and an outline, each masked by the stencil buffer. The "
+                     "inset shows the masks.",
+             .looks = looks,
+             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .camera = camera,
+    .create = create,
+    .destroy = destroy,
+    .draw = draw,
+};

@@ -1,0 +1,292 @@
+// The gallery scene "toon": toon shading as in seed 001, with an outline.
+//
+// The fragment shader replaces the smooth intensity of the light by steps: the seed's four, or a
+// number of equal bands. The highlight has steps, too. The outline needs no stencil: each object is
+// drawn once more, a little larger and in a dark colour, and only its back faces.
+#include "app/gallery/kit/kit.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/trig.h"
+
+#include <stdlib.h>
+
+enum { KNOT, SPHERE, COLUMN, FLOOR, MESHES, OBJECTS = 6, ALONG = 320, AROUND = 24 };
+
+typedef struct Uniforms {
+    DipKitObject object;
+    float colour[3];
+    float light[3]; // unit vector towards the light
+    int step_size;  // 256 intensities are divided into bands of this size; 0: the seed's four steps
+    float grow;     // outline: distance by which vertices move along their normals
+} Uniforms;
+
+typedef struct Content {
+    DipMesh *meshes[MESHES];
+    Uniforms uniforms[2 * OBJECTS];
+} Content;
+
+static const char *const looks[] = {"four steps", "8 bands", "5 bands", "16 bands"};
+static const int step_sizes[] = {0, 32, 52, 16};
+
+// --- shaders -------------------------------------------------------------------------------------
+
+// The seed's steps, which the author chose by trying.
+static float four_steps(float intensity) {
+    return intensity > 0.95f ? 0.75f : intensity > 0.5f ? 0.7f : intensity > 0.1f ? 0.35f : 0.05f;
+}
+
+// The seed's variable banding: intensity 0..1 becomes one of 256 / step_size values.
+static float banded(float intensity, int step_size) {
+    const int band = (int)(intensity * 256.0f + 0.1f) / step_size;
+    return (float)(band * step_size) / 256.0f;
+}
+
+static void shade(DipFragmentBatch *batch) {
+    const Uniforms *uniforms = batch->uniforms;
+    const float *eye = uniforms->object.eye;
+    for (int i = 0; i < batch->count; i++) {
+        const float x = batch->varying[DIP_KIT_NORMAL][i];
+        const float y = batch->varying[DIP_KIT_NORMAL + 1][i];
+        const float z = batch->varying[DIP_KIT_NORMAL + 2][i];
+        const float unit = 1.0f / sqrtf(x * x + y * y + z * z + 1e-30f);
+        const float toward =
+            unit * (x * uniforms->light[0] + y * uniforms->light[1] + z * uniforms->light[2]);
+        const float ex = eye[0] - batch->varying[DIP_KIT_WORLD][i];
+        const float ey = eye[1] - batch->varying[DIP_KIT_WORLD + 1][i];
+        const float ez = eye[2] - batch->varying[DIP_KIT_WORLD + 2][i];
+        const float e = 1.0f / sqrtf(ex * ex + ey * ey + ez * ez);
+        // The eye's vector is compared with the light's mirrored vector, 2 (n.l) n - l.
+        const float along = unit * (x * ex + y * ey + z * ez) * e;
+        const float across =
+            (uniforms->light[0] * ex + uniforms->light[1] * ey + uniforms->light[2] * ez) * e;
+        const float mirrored = 2.0f * toward * along - across;
+        const float peak = dip_kit_power(mirrored > 0.0f ? mirrored : 0.0f, 5);
+        const float lit = toward > 0.0f ? toward : 0.0f;
+        const int step = uniforms->step_size;
+        const float diffuse = step ? banded(lit, step) : four_steps(lit);
+        const float highlight = step ? banded(peak, step) : peak > 0.1f ? four_steps(peak) : 0.0f;
+        for (int c = 0; c < 3; c++) {
+            batch->colour[c][i] =
+                uniforms->colour[c] * (0.18f + 0.95f * diffuse) + 0.55f * highlight;
+        }
+    }
+}
+
+static void shade_outline(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->colour[0][i] = 0.012f;
+        batch->colour[1][i] = 0.010f;
+        batch->colour[2][i] = 0.022f;
+    }
+}
+
+// Moves each vertex along its normal. The distance grows with that of the eye, so that lines have
+// the same width everywhere.
+static void outline_vertex(const DipVertexBatch *batch) {
+    const Uniforms *uniforms = batch->uniforms;
+    const float *m = uniforms->object.to_clip;
+    for (int i = 0; i < batch->count; i++) {
+        const float w =
+            m[12] * batch->in[0][i] + m[13] * batch->in[1][i] + m[14] * batch->in[2][i] + m[15];
+        const float grow = uniforms->grow * w;
+        const float x = batch->in[0][i] + grow * batch->in[DIP_SHAPE_NORMAL][i];
+        const float y = batch->in[1][i] + grow * batch->in[DIP_SHAPE_NORMAL + 1][i];
+        const float z = batch->in[2][i] + grow * batch->in[DIP_SHAPE_NORMAL + 2][i];
+        for (int r = 0; r < 4; r++) {
+            batch->clip[r][i] = m[4 * r] * x + m[4 * r + 1] * y + m[4 * r + 2] * z + m[4 * r + 3];
+        }
+    }
+}
+
+// --- content -------------------------------------------------------------------------------------
+
+// Writes a point of the trefoil knot's centre line.
+static void knot_point(double t, double p[3]) {
+    const double radius = 1.0 + 0.42 * dip_cos(3.0 * t);
+    p[0] = radius * dip_cos(2.0 * t);
+    p[1] = radius * dip_sin(2.0 * t);
+    p[2] = 0.62 * dip_sin(3.0 * t);
+}
+
+static void normalise(double v[3]) {
+    const double scale = 1.0 / sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int i = 0; i < 3; i++) {
+        v[i] *= scale;
+    }
+}
+
+static void cross(const double a[3], const double b[3], double out[3]) {
+    for (int i = 0; i < 3; i++) {
+        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+    }
+}
+
+// Writes a ring of vertices around the centre line at t.
+static void knot_ring(double t, float (*vertices)[DIP_SHAPE_ATTRIBUTES]) {
+    double middle[3];
+    double ahead[3];
+    double side[3];
+    double up[3];
+    knot_point(t, middle);
+    knot_point(t + 0.001, ahead);
+    for (int i = 0; i < 3; i++) {
+        side[i] = ahead[i] + middle[i]; // points away from the knot's middle
+        ahead[i] -= middle[i];
+    }
+    cross(ahead, side, up);
+    normalise(up);
+    cross(up, ahead, side);
+    normalise(side);
+    for (int a = 0; a <= AROUND; a++) {
+        const double angle = 2.0 * DIP_PI * a / AROUND;
+        float *vertex = vertices[a];
+        for (int i = 0; i < 3; i++) {
+            const double out = dip_cos(angle) * side[i] + dip_sin(angle) * up[i];
+            vertex[i] = (float)(middle[i] + 0.26 * out);
+            vertex[DIP_SHAPE_NORMAL + i] = (float)out;
+        }
+        vertex[DIP_SHAPE_TEXTURE] = (float)(t / (2.0 * DIP_PI));
+        vertex[DIP_SHAPE_TEXTURE + 1] = (float)a / AROUND;
+    }
+}
+
+static DipMesh *make_knot(DipError *err) {
+    enum { COLUMNS = AROUND + 1 };
+    static float vertices[(ALONG + 1) * COLUMNS][DIP_SHAPE_ATTRIBUTES];
+    static uint32_t indices[ALONG * AROUND * 6];
+    uint32_t count = 0;
+    for (int l = 0; l <= ALONG; l++) {
+        knot_ring(2.0 * DIP_PI * l / ALONG, vertices + l * COLUMNS);
+    }
+    for (uint32_t l = 0; l < ALONG; l++) {
+        for (uint32_t a = 0; a < AROUND; a++) {
+            const uint32_t corner = l * COLUMNS + a;
+            const uint32_t quad[6] = {corner,     corner + 1,           corner + COLUMNS,
+                                      corner + 1, corner + COLUMNS + 1, corner + COLUMNS};
+            for (int k = 0; k < 6; k++) {
+                indices[count++] = quad[k];
+            }
+        }
+    }
+    const DipMeshData data = {
+        "knot", &vertices[0][0], DIP_SHAPE_ATTRIBUTES, (ALONG + 1) * COLUMNS, indices, count};
+    return dip_mesh_create(&data, err);
+}
+
+static void destroy(void *pointer) {
+    Content *content = pointer;
+    for (int m = 0; m < MESHES; m++) {
+        dip_mesh_destroy(&content->meshes[m]);
+    }
+    free(content);
+}
+
+static void *create(const DipGalleryRoom *room, DipError *err) {
+    (void)room;
+    DipShape shape;
+    Content *content = dip_kit_content(sizeof *content, "toon", err);
+    if (!content) {
+        return NULL;
+    }
+    DipMesh **meshes = content->meshes;
+    meshes[KNOT] = make_knot(err);
+    meshes[SPHERE] =
+        dip_kit_mesh("sphere", &shape, dip_shape_sphere(&shape, 0.55f, 64, 32, err), err);
+    meshes[COLUMN] =
+        dip_kit_mesh("column", &shape, dip_shape_prism(&shape, 1.3f, 0.5f, 48, true, err), err);
+    meshes[FLOOR] =
+        dip_kit_mesh("floor", &shape, dip_shape_plane(&shape, 40.0f, 40.0f, 8, 8, err), err);
+    for (int m = 0; m < MESHES; m++) {
+        if (!meshes[m]) {
+            destroy(content);
+            return NULL;
+        }
+    }
+    return content;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static void camera(double phase, double eye[3], double target[3]) {
+    const double turn = 2.0 * DIP_PI * phase;
+    eye[0] = 1.8 * dip_sin(turn);
+    eye[1] = 1.7 + 0.4 * dip_cos(turn);
+    eye[2] = 6.4;
+    target[0] = 0.0;
+    target[1] = 0.55;
+    target[2] = 0.0;
+}
+
+static DipMatrix place(int index, double time_s, int *mesh, float colour[3]) {
+    static const float colours[OBJECTS][3] = {{0.78f, 0.07f, 0.05f}, {0.05f, 0.28f, 0.75f},
+                                              {0.90f, 0.48f, 0.03f}, {0.08f, 0.45f, 0.13f},
+                                              {0.28f, 0.18f, 0.48f}, {0.60f, 0.68f, 0.70f}};
+    const double turn = 2.0 * DIP_PI * time_s / DIP_GALLERY_SECONDS;
+    for (int c = 0; c < 3; c++) {
+        colour[c] = colours[index][c];
+    }
+    if (index == 0) {
+        const DipMatrix spin = dip_matrix_rotation(1, turn);
+        const DipMatrix tilt = dip_matrix_rotation(0, 0.5 * dip_sin(turn));
+        const DipMatrix lift = dip_matrix_translation(0.0, 1.05, 0.0);
+        *mesh = KNOT;
+        return dip_matrix_multiply3(&lift, &spin, &tilt);
+    }
+    if (index < 4) {
+        const double angle = -turn + 2.0 * DIP_PI * index / 3.0;
+        const double jump = dip_sin(4.0 * turn + index);
+        *mesh = SPHERE;
+        return dip_matrix_translation(2.5 * dip_cos(angle), -0.45 + 0.7 * jump * jump,
+                                      2.5 * dip_sin(angle));
+    }
+    *mesh = index == 4 ? COLUMN : FLOOR;
+    return dip_matrix_translation(0.0, index == 4 ? -0.75 : -1.0, 0.0);
+}
+
+static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+    static const float clear_lin[3] = {0.62f, 0.74f, 0.80f};
+    Content *content = pointer;
+    DipDraw draws[2 * OBJECTS];
+    DipKitCamera seen;
+    const double turn = 2.0 * DIP_PI * view->time_s / DIP_GALLERY_SECONDS;
+    int count = 0;
+    bool made =
+        dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err);
+    for (int i = 0; made && i < OBJECTS; i++) {
+        Uniforms *uniforms = &content->uniforms[i];
+        int mesh;
+        const DipMatrix model = place(i, view->time_s, &mesh, uniforms->colour);
+        const double side = 0.55 * dip_sin(turn);
+        const double size = sqrt(side * side + 0.64 + 0.49);
+        uniforms->light[0] = (float)(side / size);
+        uniforms->light[1] = (float)(0.8 / size);
+        uniforms->light[2] = (float)(0.7 / size);
+        uniforms->step_size = step_sizes[view->look];
+        uniforms->grow = 0.0042f;
+        made = dip_kit_object(&uniforms->object, &seen, &model, err);
+        draws[count++] = dip_kit_object_draw(content->meshes[mesh], uniforms, shade);
+        if (mesh != FLOOR) {
+            DipDraw *outline = &draws[count++];
+            *outline = dip_kit_object_draw(content->meshes[mesh], uniforms, shade_outline);
+            outline->vertex_shader = outline_vertex;
+            outline->varying_count = outline->value_only_varying_count = 0;
+            outline->bounds_to_clip = NULL; // the vertices leave the mesh's box
+            outline->cull = DIP_CULL_FRONT;
+        }
+    }
+    const DipPass pass = dip_kit_pass(view, draws, count, clear_lin);
+    return made && dip_kit_draw(view, view->pipeline, &pass, err);
+}
+
+const DipGalleryScene dip_gallery_toon = {
+    .info = {.name = "toon",
+             .title = "Toon shading",
+             .seed = "seed 001, Lighting",
+             .text = "Light in steps: the seed's four, or a number of equal bands, for the diffuse "
+                     "part and for the highlight. Outlines are grown back faces.",
+             .looks = looks,
+             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .camera = camera,
+    .create = create,
+    .destroy = destroy,
+    .draw = draw,
+};

@@ -1,0 +1,173 @@
+// The gallery scene "tunnel": the anisotropy tunnel, which seed 002's filtering settings call for.
+//
+// The camera flies through a long tube of stone. Its wall meets the picture at every angle, and far
+// away its texels are very long and narrow. The colours show which mip level each pixel reads: red
+// is the sharpest, then orange, yellow, green and blue. With anisotropic filtering the sharp levels
+// reach farther. Without advanced filtering they reach less far at the diagonals, because the
+// level then depends on the angle; with it, every ring has one colour.
+#include "app/gallery/kit/kit.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/trig.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIDES = 96, TEXELS = 512, ROUND = 6 };
+
+// The tube lies along z. Its texture repeats ROUND times around it and once every REPEAT units.
+static const float length = 120.0f;
+static const float repeat = 1.0f;
+
+typedef struct Uniforms {
+    DipKitObject object;
+    float tint; // share of the mip colours in the picture
+} Uniforms;
+
+typedef struct Content {
+    DipMesh *tube;
+    DipKitTexture stone;
+    Uniforms uniforms;
+} Content;
+
+static const char *const looks[] = {"mip colours over stone", "stone", "mip colours"};
+
+// --- shaders -------------------------------------------------------------------------------------
+
+// Reads the stone and the mip colours in one call. Light falls off with the distance.
+static void shade(DipFragmentBatch *batch) {
+    const Uniforms *uniforms = batch->uniforms;
+    const DipSampler *const samplers[2] = {&batch->samplers[0], &batch->samplers[1]};
+    float levels[3][DIP_FRAGMENT_BATCH];
+    float(*const out[2])[DIP_FRAGMENT_BATCH] = {batch->colour, levels};
+    batch->sample_colours(batch, samplers, DIP_KIT_UV, out);
+    const float *z = batch->varying[DIP_KIT_WORLD + 2];
+    for (int i = 0; i < batch->count; i++) {
+        const float distance = uniforms->object.eye[2] - z[i];
+        const float light = 1.25f / (1.0f + 0.0035f * distance * distance);
+        const float stone =
+            (batch->colour[0][i] + batch->colour[1][i] + batch->colour[2][i]) * 1.1f;
+        for (int c = 0; c < 3; c++) {
+            const float tinted = levels[c][i] * dip_kit_mix(stone, 0.8f, uniforms->tint - 0.5f);
+            const float shown = uniforms->tint > 0.0f ? tinted : batch->colour[c][i];
+            batch->colour[c][i] = shown * light;
+        }
+    }
+}
+
+// --- content -------------------------------------------------------------------------------------
+
+// Blocks of stone in courses, with dark joints and a different shade for each block.
+static void paint_stone(const void *context, float u, float v, float rgba[4]) {
+    (void)context;
+    const int course = (int)(v * 4.0f);
+    const float along = u * 4.0f + (course % 2 ? 0.5f : 0.0f);
+    const float du = along - dip_kit_floor(along);
+    const float dv = v * 4.0f - (float)course;
+    const float edge_u = du < 0.5f ? du : 1.0f - du;
+    const float edge_v = dv < 0.5f ? dv : 1.0f - dv;
+    const float edge = edge_u < edge_v ? edge_u : edge_v;
+    const float block = dip_kit_random((int)along % 4, course, 7);
+    const float grain = dip_kit_turbulence(u * 16.0f, v * 16.0f, 16, 5, 3);
+    const float light =
+        (0.50f + 0.22f * block + 0.35f * (grain - 0.5f)) * dip_kit_smooth(0.01f, 0.06f, edge) +
+        0.12f;
+    rgba[0] = light * 1.03f;
+    rgba[1] = light * 0.97f;
+    rgba[2] = light * 0.88f;
+}
+
+// Makes the tube from the sides of a prism: turned to lie along z, seen from inside.
+static DipMesh *make_tube(DipError *err) {
+    DipShape shape;
+    if (!dip_shape_prism(&shape, 1.0f, length, SIDES, true, err)) {
+        return NULL;
+    }
+    shape.vertex_count = 4 * SIDES; // the two bases come after the sides
+    shape.index_count = 6 * SIDES;
+    for (uint32_t v = 0; v < shape.vertex_count; v++) {
+        float *vertex = shape.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES;
+        const float along = vertex[1];
+        vertex[1] = vertex[2];
+        vertex[2] = -along - 0.5f * length + 2.0f;
+        vertex[DIP_SHAPE_TEXTURE] *= ROUND;
+        vertex[DIP_SHAPE_TEXTURE + 1] *= length / repeat;
+    }
+    return dip_kit_mesh("tube", &shape, true, err);
+}
+
+static void destroy(void *pointer) {
+    Content *content = pointer;
+    dip_mesh_destroy(&content->tube);
+    dip_kit_texture_free(&content->stone);
+    free(content);
+}
+
+static void *create(const DipGalleryRoom *room, DipError *err) {
+    (void)room;
+    Content *content = dip_kit_content(sizeof *content, "tunnel", err);
+    if (!content) {
+        return NULL;
+    }
+    content->tube = make_tube(err);
+    if (!content->tube ||
+        !dip_kit_texture(&content->stone, "stone", TEXELS, TEXELS, false, paint_stone, NULL, err)) {
+        destroy(content);
+        return NULL;
+    }
+    return content;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+// The camera stands near the middle and looks along the tube, a little to the side. The tube moves
+// instead of the camera, by whole repeats of the texture in a loop.
+static void camera(double phase, double eye[3], double target[3]) {
+    const double turn = 2.0 * DIP_PI * phase;
+    eye[0] = 0.25 * dip_cos(turn);
+    eye[1] = 0.25 * dip_sin(turn);
+    eye[2] = 0.0;
+    target[0] = 0.6 * dip_sin(turn);
+    target[1] = 0.4 * dip_sin(2.0 * turn);
+    target[2] = -10.0;
+}
+
+static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+    static const float clear_lin[3] = {0.0f, 0.0f, 0.0f};
+    static const float tints[] = {0.5f, 0.0f, 1.5f};
+    Content *content = pointer;
+    const double travelled = 12.0 * view->time_s / DIP_GALLERY_SECONDS;
+    const DipMatrix forwards = dip_matrix_translation(0.0, 0.0, travelled - (int)travelled);
+    const DipMatrix turned =
+        dip_matrix_rotation(2, 2.0 * DIP_PI * view->time_s / DIP_GALLERY_SECONDS);
+    const DipMatrix model = dip_matrix_multiply(&forwards, &turned);
+    DipKitCamera camera_now;
+    DipSampler samplers[2];
+    samplers[0] = samplers[1] = dip_kit_sampler(view, &content->stone);
+    dip_kit_show_mip_colours(&samplers[1], view);
+    content->uniforms.tint = tints[view->look];
+    if (!dip_kit_camera(&camera_now, view->pose, view->target.width, view->target.height, 0.02,
+                        err) ||
+        !dip_kit_object(&content->uniforms.object, &camera_now, &model, err)) {
+        return false;
+    }
+    DipDraw tube = dip_kit_object_draw(content->tube, &content->uniforms, shade);
+    tube.cull = DIP_CULL_FRONT; // seen from inside
+    tube.repeating_varyings = 1u << DIP_KIT_UV | 1u << (DIP_KIT_UV + 1);
+    tube.samplers = samplers;
+    const DipPass pass = dip_kit_pass(view, &tube, 1, clear_lin);
+    return dip_kit_draw(view, view->pipeline, &pass, err);
+}
+
+const DipGalleryScene dip_gallery_tunnel = {
+    .info = {.name = "tunnel",
+             .title = "Anisotropy tunnel",
+             .seed = "seed 002, anisotropic filtering and its dependence on angle",
+             .text = "A tube whose colours show the mip level of each pixel. Compare af=16 with "
+                     "af=none, and af=16,aaf=on with af=16.",
+             .looks = looks,
+             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .camera = camera,
+    .create = create,
+    .destroy = destroy,
+    .draw = draw,
+};

@@ -1,0 +1,645 @@
+// The gallery scene "water": the pools of the courtyard's fountain, seen through.
+//
+// The first pass draws the courtyard with its light map, and a mosaic on the floor of the pool. It
+// keeps its depths. The second pass starts from these depths and draws the water: either blended
+// over the picture, or with refraction, where it reads the first pass's picture a little beside the
+// pixel, displaced by the waves of a normal map. Fresnel's term mixes in the sky.
+#include "app/gallery/kit/kit.h"
+#include "assets/model.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/pages.h"
+#include "renderer/base/trig.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Attributes of the courtyard's vertices: position, coordinates of the colours and of the light
+// map.
+enum { UV0 = 3, UV1 = 5, ATTRIBUTES = 7, VARYINGS = 4 };
+// Varyings of the water: two layers of waves, then the position.
+enum { WAVE0 = 0, WAVE1 = 2, POSITION = 4, WATER_VARYINGS = 7 };
+
+typedef struct Uniforms {
+    float to_clip[16];
+    float to_world[12];
+    float colour[3];
+    float light_scale; // 0: there is no light map
+    float cutoff;
+} Uniforms;
+
+// An object of the courtyard, as far as it does not change from frame to frame.
+typedef struct Object {
+    DipMatrix model;
+    int mesh;
+    int material;
+    DipCull cull;
+} Object;
+
+// What the water's shader needs of a frame.
+typedef struct Water {
+    float to_clip[16];
+    float eye[3];
+    float scroll[2]; // of both layers of waves
+    DipTarget picture;
+    bool refracts;
+} Water;
+
+typedef struct Content {
+    DipModel *model;
+    const DipSceneDef *def; // belongs to the model
+    DipTexture **textures;
+    DipTexture **compressed;
+    DipMesh **meshes;
+    Object *objects;
+    Uniforms *uniforms; // one for each object and one for the floor of the pool
+    DipSampler (*samplers)[2];
+    DipDraw *draws;
+    DipMesh *pool_floor;
+    DipMesh *screen;
+    DipKitTexture mosaic;
+    DipTarget picture;                     // of the first pass
+    DipDepth *depths[DIP_MAX_SAMPLES + 1]; // by the number of samples
+    float caustics;                        // time of the light on the pool's floor, in turns
+    Water water;
+} Content;
+
+static const char *const looks[] = {"refracted", "blended"};
+
+// --- shaders of the courtyard --------------------------------------------------------------------
+
+static void court_vertex(const DipVertexBatch *batch) {
+    const float *m = ((const Uniforms *)batch->uniforms)->to_clip;
+    for (int r = 0; r < 4; r++) {
+        for (int i = 0; i < batch->count; i++) {
+            batch->clip[r][i] = m[4 * r] * batch->in[0][i] + m[4 * r + 1] * batch->in[1][i] +
+                                m[4 * r + 2] * batch->in[2][i] + m[4 * r + 3];
+        }
+    }
+    for (int v = 0; v < VARYINGS; v++) {
+        memcpy(batch->varying[v], batch->in[UV0 + v], (size_t)batch->count * sizeof(float));
+    }
+}
+
+static void shade_court(DipFragmentBatch *batch) {
+    const Uniforms *uniforms = batch->uniforms;
+    float light[3][DIP_FRAGMENT_BATCH];
+    batch->sample_colour(batch, &batch->samplers[0], 0, batch->colour);
+    if (uniforms->light_scale > 0.0f) {
+        batch->sample_colour(batch, &batch->samplers[1], 2, light);
+    }
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            const float lit =
+                uniforms->light_scale > 0.0f ? light[c][i] * uniforms->light_scale : 0.85f;
+            batch->colour[c][i] *= uniforms->colour[c] * lit;
+        }
+    }
+}
+
+static void clip_court(DipFragmentBatch *batch) {
+    const Uniforms *uniforms = batch->uniforms;
+    float alpha[DIP_FRAGMENT_BATCH];
+    batch->sample_alpha(batch, &batch->samplers[0], 0, alpha);
+    for (int i = 0; i < batch->count; i++) {
+        batch->keep[i] = alpha[i] >= uniforms->cutoff;
+    }
+}
+
+// A clear sky, brighter towards the horizon. The texture coordinates of the dome give the height.
+static void shade_sky(DipFragmentBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        const float u = batch->varying[0][i];
+        const float v = batch->varying[1][i];
+        const float cloud = 0.5f + 0.25f * dip_kit_wave(1.3f * u + 0.4f * v) +
+                            0.25f * dip_kit_wave(2.1f * v - 0.7f * u);
+        batch->colour[0][i] = 0.16f + 0.20f * cloud;
+        batch->colour[1][i] = 0.30f + 0.18f * cloud;
+        batch->colour[2][i] = 0.58f + 0.12f * cloud;
+    }
+}
+
+// The mosaic under water, with the light that the waves focus on it.
+static void shade_pool_floor(DipFragmentBatch *batch) {
+    const Uniforms *uniforms = batch->uniforms;
+    const float turns = uniforms->light_scale;
+    batch->sample_colour(batch, &batch->samplers[0], 0, batch->colour);
+    for (int i = 0; i < batch->count; i++) {
+        const float x = 5.0f * batch->varying[0][i];
+        const float z = 5.0f * batch->varying[1][i];
+        const float bend = 0.22f * dip_kit_wave(0.5f * z + 4.0f * turns);
+        const float a = dip_kit_wave(1.1f * x + 0.45f * z + bend + 5.0f * turns);
+        const float b = dip_kit_wave(0.5f * x - 1.2f * z - bend - 6.0f * turns);
+        const float c = dip_kit_wave(0.8f * (x + z) + 2.0f * bend - 3.0f * turns);
+        const float line = 1.0f - fabsf(a + b + c) * 0.5f;
+        const float caustic = dip_kit_power(line > 0.0f ? line : 0.0f, 2);
+        for (int k = 0; k < 3; k++) {
+            batch->colour[k][i] *= 0.55f + 0.75f * caustic;
+        }
+    }
+}
+
+// --- shaders of the water ------------------------------------------------------------------------
+
+static void water_vertex(const DipVertexBatch *batch) {
+    const Water *water = batch->uniforms;
+    const float *m = water->to_clip;
+    for (int r = 0; r < 4; r++) {
+        for (int i = 0; i < batch->count; i++) {
+            batch->clip[r][i] = m[4 * r] * batch->in[0][i] + m[4 * r + 1] * batch->in[1][i] +
+                                m[4 * r + 2] * batch->in[2][i] + m[4 * r + 3];
+        }
+    }
+    for (int i = 0; i < batch->count; i++) {
+        const float x = batch->in[0][i];
+        const float z = batch->in[2][i];
+        batch->varying[WAVE0][i] = 0.45f * x + water->scroll[0];
+        batch->varying[WAVE0 + 1][i] = 0.45f * z;
+        batch->varying[WAVE1][i] = 0.35f * z + 0.31f * x;
+        batch->varying[WAVE1 + 1][i] = 0.35f * x - 0.31f * z + water->scroll[1];
+    }
+    for (int a = 0; a < 3; a++) {
+        memcpy(batch->varying[POSITION + a], batch->in[a], (size_t)batch->count * sizeof(float));
+    }
+}
+
+// Schlick's approximation for water seen from air.
+static inline float fresnel(float cosine) {
+    const float left = 1.0f - dip_kit_clamp(cosine, 0.0f, 1.0f);
+    return 0.02f + 0.98f * left * left * left * left * left;
+}
+
+// Writes the picture under the water, read beside each fragment by its wave.
+static void refract_picture(DipFragmentBatch *batch, const Water *water,
+                            float (*waves)[DIP_FRAGMENT_BATCH],
+                            float (*under)[DIP_FRAGMENT_BATCH]) {
+    float u[DIP_FRAGMENT_BATCH];
+    float v[DIP_FRAGMENT_BATCH];
+    const float width = (float)water->picture.width;
+    const float height = (float)water->picture.height;
+    for (int i = 0; i < batch->count; i++) {
+        u[i] = batch->x[i] / width + 0.030f * waves[0][i];
+        v[i] = batch->y[i] / height + 0.040f * waves[1][i];
+    }
+    batch->sample_target(batch, &water->picture, u, v, under);
+}
+
+static void shade_water(DipFragmentBatch *batch) {
+    static const float deep[3] = {0.015f, 0.075f, 0.085f};
+    static const float pass_share[3] = {0.62f, 0.86f, 0.88f}; // light that the water lets through
+    static const float sun[3] = {0.46f, 0.72f, 0.52f};
+    const Water *water = batch->uniforms;
+    float waves[3][DIP_FRAGMENT_BATCH];
+    float second[3][DIP_FRAGMENT_BATCH];
+    float under[3][DIP_FRAGMENT_BATCH] = {{0}};
+    batch->sample_colour(batch, &batch->samplers[0], WAVE0, waves);
+    batch->sample_colour(batch, &batch->samplers[0], WAVE1, second);
+    for (int c = 0; c < 2; c++) {
+        for (int i = 0; i < batch->count; i++) {
+            waves[c][i] = 0.45f * (waves[c][i] + second[c][i] - 1.0f);
+        }
+    }
+    if (water->refracts) {
+        refract_picture(batch, water, waves, under);
+    }
+    for (int i = 0; i < batch->count; i++) {
+        const float ex = water->eye[0] - batch->varying[POSITION][i];
+        const float ey = water->eye[1] - batch->varying[POSITION + 1][i];
+        const float ez = water->eye[2] - batch->varying[POSITION + 2][i];
+        const float e = 1.0f / sqrtf(ex * ex + ey * ey + ez * ez);
+        const float nx = waves[0][i];
+        const float nz = waves[1][i];
+        const float n = 1.0f / sqrtf(nx * nx + 1.0f + nz * nz);
+        const float facing = n * e * (nx * ex + ey + nz * ez);
+        const float share = fresnel(facing);
+        const float rx = 2.0f * facing * n * nx - e * ex;
+        const float ry = 2.0f * facing * n - e * ey;
+        const float rz = 2.0f * facing * n * nz - e * ez;
+        const float toward = rx * sun[0] + ry * sun[1] + rz * sun[2];
+        const float glint = dip_kit_power(toward > 0.0f ? toward : 0.0f, 8);
+        const float up = dip_kit_clamp(ry, 0.0f, 1.0f);
+        const float sky[3] = {0.62f - 0.42f * up, 0.70f - 0.34f * up, 0.80f - 0.18f * up};
+        // The bowls above the pool have no floor of their own, so their water is deep.
+        const float seen = batch->varying[POSITION + 1][i] > 1.0f ? 0.25f : 1.0f;
+        for (int c = 0; c < 3; c++) {
+            const float through = dip_kit_mix(deep[c], under[c][i] * pass_share[c], 0.92f * seen);
+            const float body = water->refracts ? through : deep[c];
+            batch->colour[c][i] = dip_kit_mix(body, sky[c], share) + 1.6f * glint;
+        }
+        batch->alpha[i] = dip_kit_clamp(share + 1.0f - 0.72f * seen + glint, 0.0f, 1.0f);
+    }
+}
+
+// Copies the first pass's picture, pixel by pixel.
+static void screen_vertex(const DipVertexBatch *batch) {
+    for (int i = 0; i < batch->count; i++) {
+        batch->clip[0][i] = batch->in[0][i];
+        batch->clip[1][i] = batch->in[1][i];
+        batch->clip[2][i] = 0.0f;
+        batch->clip[3][i] = 1.0f;
+    }
+}
+
+static void shade_screen(DipFragmentBatch *batch) {
+    const Water *water = batch->uniforms;
+    float u[DIP_FRAGMENT_BATCH];
+    float v[DIP_FRAGMENT_BATCH];
+    for (int i = 0; i < batch->count; i++) { // the middle of the pixel, also at an edge
+        u[i] = (dip_kit_floor(batch->x[i]) + 0.5f) / (float)water->picture.width;
+        v[i] = (dip_kit_floor(batch->y[i]) + 0.5f) / (float)water->picture.height;
+    }
+    batch->sample_target(batch, &water->picture, u, v, batch->colour);
+}
+
+// --- content -------------------------------------------------------------------------------------
+
+// Rings of tiles around the pedestal: white and blue, with a wave in gold.
+static void paint_mosaic(const void *context, float u, float v, float rgba[4]) {
+    (void)context;
+    const float tiles = 44.0f;
+    const float x = u * tiles;
+    const float z = v * tiles;
+    const float gap_x = x - dip_kit_floor(x);
+    const float gap_z = z - dip_kit_floor(z);
+    const float edge_x = gap_x < 0.5f ? gap_x : 1.0f - gap_x;
+    const float edge_z = gap_z < 0.5f ? gap_z : 1.0f - gap_z;
+    const float joint = dip_kit_smooth(0.03f, 0.09f, edge_x < edge_z ? edge_x : edge_z);
+    const float cx = (dip_kit_floor(x) + 0.5f) / tiles - 0.5f;
+    const float cz = (dip_kit_floor(z) + 0.5f) / tiles - 0.5f;
+    const float radius = sqrtf(cx * cx + cz * cz);
+    const float shade_of = 0.82f + 0.18f * dip_kit_random((int)x, (int)z, 21);
+    const int ring = (int)(radius * 15.0f);
+    static const float colours[4][3] = {
+        {0.80f, 0.84f, 0.82f}, {0.16f, 0.42f, 0.62f}, {0.30f, 0.66f, 0.70f}, {0.86f, 0.66f, 0.24f}};
+    const float *own = colours[ring == 5 ? 3 : ring % 2 ? 1 : ring % 4 ? 2 : 0];
+    for (int c = 0; c < 3; c++) {
+        rgba[c] = dip_kit_mix(0.35f, own[c] * shade_of, joint);
+    }
+}
+
+static void forget_size(Content *content) {
+    for (int s = 0; s <= DIP_MAX_SAMPLES; s++) {
+        dip_depth_destroy(&content->depths[s]);
+    }
+    dip_lines_free(content->picture.rgba8);
+    content->picture = (DipTarget){0};
+}
+
+static void destroy(void *pointer) {
+    Content *content = pointer;
+    const DipSceneDef *def = content->def;
+    for (int t = 0; content->compressed && t < def->texture_count; t++) {
+        dip_texture_destroy(&content->compressed[t]);
+    }
+    for (int t = 0; content->textures && t < def->texture_count; t++) {
+        dip_texture_destroy(&content->textures[t]);
+    }
+    for (int m = 0; content->meshes && m < def->mesh_count; m++) {
+        dip_mesh_destroy(&content->meshes[m]);
+    }
+    forget_size(content);
+    dip_mesh_destroy(&content->pool_floor);
+    dip_mesh_destroy(&content->screen);
+    dip_kit_texture_free(&content->mosaic);
+    free(content->textures);
+    free(content->compressed);
+    free(content->meshes);
+    free(content->objects);
+    free(content->uniforms);
+    free(content->samplers);
+    free(content->draws);
+    dip_model_destroy(&content->model);
+    free(content);
+}
+
+static DipMesh *make_mesh(const DipMeshDef *def, DipError *err) {
+    float *rows = calloc((size_t)def->vertex_count, ATTRIBUTES * sizeof(float));
+    if (!rows) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water", "out of memory");
+        return NULL;
+    }
+    for (size_t v = 0; v < def->vertex_count; v++) {
+        float *row = rows + v * ATTRIBUTES;
+        memcpy(row, def->positions + 3 * v, 3 * sizeof(float));
+        if (def->uv0) {
+            memcpy(row + UV0, def->uv0 + 2 * v, 2 * sizeof(float));
+        }
+        if (def->uv1) {
+            memcpy(row + UV1, def->uv1 + 2 * v, 2 * sizeof(float));
+        }
+    }
+    const DipMeshData data = {def->name,         rows,         ATTRIBUTES,
+                              def->vertex_count, def->indices, def->index_count};
+    DipMesh *mesh = dip_mesh_create(&data, err);
+    free(rows);
+    return mesh;
+}
+
+// The floor of the pool: the upper base of an eight-sided prism, with the courtyard's attributes.
+static DipMesh *make_pool_floor(DipError *err) {
+    float rows[64][ATTRIBUTES];
+    DipShape prism;
+    if (!dip_shape_prism(&prism, 2.74f, 0.02f, 8, false, err)) {
+        return NULL;
+    }
+    const DipMatrix turn = dip_matrix_rotation(1, DIP_PI / 8.0);
+    for (uint32_t v = 0; v < prism.vertex_count; v++) {
+        const float *in = prism.attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES;
+        const double point[4] = {(double)in[0], (double)in[1] + 0.31, (double)in[2], 1.0};
+        double turned[4];
+        dip_matrix_apply(&turn, point, turned);
+        for (int i = 0; i < 3; i++) {
+            rows[v][i] = (float)turned[i];
+        }
+        rows[v][UV0] = 0.5f + rows[v][0] / 5.6f;
+        rows[v][UV0 + 1] = 0.5f + rows[v][2] / 5.6f;
+        rows[v][UV1] = rows[v][UV1 + 1] = 0.0f;
+    }
+    const DipMeshData data = {"pool floor",       &rows[0][0],   ATTRIBUTES,
+                              prism.vertex_count, prism.indices, prism.index_count};
+    DipMesh *mesh = dip_mesh_create(&data, err);
+    dip_shape_free(&prism);
+    return mesh;
+}
+
+static void place_objects(Content *content) {
+    const DipSceneDef *def = content->def;
+    for (int o = 0; o < def->object_count; o++) {
+        const float *t = def->objects[o].transform;
+        Object *object = &content->objects[o];
+        object->model = dip_matrix_identity();
+        for (int i = 0; i < 12; i++) {
+            object->model.m[i] = (double)t[i];
+        }
+        const float determinant = t[0] * (t[5] * t[10] - t[6] * t[9]) -
+                                  t[1] * (t[4] * t[10] - t[6] * t[8]) +
+                                  t[2] * (t[4] * t[9] - t[5] * t[8]);
+        object->mesh = def->objects[o].mesh;
+        object->material = def->meshes[object->mesh].material;
+        object->cull = def->materials[object->material].double_sided ? DIP_CULL_NONE
+                       : determinant < 0.0f                          ? DIP_CULL_FRONT
+                                                                     : DIP_CULL_BACK;
+    }
+}
+
+static bool make_textures(Content *content, DipPool *pool, DipError *err) {
+    const DipSceneDef *def = content->def;
+    bool *colours = calloc((size_t)def->texture_count, sizeof *colours);
+    bool made = colours && dip_textures_create(def->textures, NULL, NULL, def->texture_count, pool,
+                                               content->textures, err);
+    for (int m = 0; made && m < def->material_count; m++) {
+        const int texture = def->materials[m].colour_texture;
+        if (texture != DIP_NO_TEXTURE && def->materials[m].surface != DIP_SURFACE_SKY) {
+            colours[texture] = true;
+        }
+    }
+    made = made && dip_textures_compress(content->textures, colours, def->texture_count, pool,
+                                         content->compressed, err);
+    free(colours);
+    return made;
+}
+
+static bool load(Content *content, const DipGalleryRoom *room, DipError *err) {
+    char file[PATH_MAX];
+    const char *files[1] = {file};
+    const DipModelOptions options = {.normal_maps = true};
+    const int length = snprintf(file, sizeof file, "%s/courtyard/court.gltf", room->assets);
+    if (length < 0 || (size_t)length >= sizeof file) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, room->assets, 0, "water",
+                             "the name of the folder is too long");
+    }
+    content->model = dip_model_load_with(files, 1, &options, room->pool, NULL, err);
+    if (!content->model) {
+        return false;
+    }
+    const DipSceneDef *def = content->def = dip_model_scene_def(content->model);
+    const size_t objects = (size_t)def->object_count + 1;
+    content->textures = calloc((size_t)def->texture_count, sizeof *content->textures);
+    content->compressed = calloc((size_t)def->texture_count, sizeof *content->compressed);
+    content->meshes = calloc((size_t)def->mesh_count, sizeof *content->meshes);
+    content->objects = calloc(objects, sizeof *content->objects);
+    content->uniforms = calloc(objects, sizeof *content->uniforms);
+    content->samplers = calloc(objects, sizeof *content->samplers);
+    content->draws = calloc(objects, sizeof *content->draws);
+    if (!content->textures || !content->compressed || !content->meshes || !content->objects ||
+        !content->uniforms || !content->samplers || !content->draws) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water", "out of memory");
+    }
+    bool made = make_textures(content, room->pool, err);
+    for (int m = 0; made && m < def->mesh_count; m++) {
+        content->meshes[m] = make_mesh(&def->meshes[m], err);
+        made = content->meshes[m] != NULL;
+    }
+    place_objects(content);
+    return made;
+}
+
+static void *create(const DipGalleryRoom *room, DipError *err) {
+    DipShape quad;
+    Content *content = dip_kit_content(sizeof *content, "water", err);
+    if (!content) {
+        return NULL;
+    }
+    content->pool_floor = make_pool_floor(err);
+    content->screen = dip_kit_mesh("screen", &quad, dip_shape_quad(&quad, 2.0f, 2.0f, err), err);
+    if (!content->pool_floor || !content->screen ||
+        !dip_kit_texture(&content->mosaic, "mosaic", 512, 512, true, paint_mosaic, NULL, err) ||
+        !load(content, room, err)) {
+        destroy(content);
+        return NULL;
+    }
+    return content;
+}
+
+// Makes the first pass's picture and depths, unless a frame of this size and number of samples had
+// them already.
+static bool prepare_target(Content *content, const DipTarget *size, int samples, DipError *err) {
+    DipTarget *picture = &content->picture;
+    if (picture->width != size->width || picture->height != size->height) {
+        forget_size(content);
+        picture->stride_bytes = size->stride_bytes;
+        picture->rgba8 = dip_lines_alloc(size->stride_bytes * (size_t)size->height);
+        if (!picture->rgba8) {
+            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "water",
+                                 "no memory for %dx%d pixels", size->width, size->height);
+        }
+        picture->width = size->width;
+        picture->height = size->height;
+    }
+    if (!content->depths[samples]) {
+        content->depths[samples] = dip_depth_create(size->width, size->height, samples, err);
+    }
+    return content->depths[samples] != NULL;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static void camera(double phase, double eye[3], double target[3]) {
+    const double turn = 2.0 * DIP_PI * phase;
+    const double angle = 0.785 + 0.3 * dip_sin(turn);
+    const double radius = 4.7 + 0.3 * dip_cos(turn);
+    eye[0] = radius * dip_sin(angle);
+    eye[1] = 2.9 + 0.4 * dip_cos(2.0 * turn);
+    eye[2] = radius * dip_cos(angle);
+    target[0] = 0.45 * dip_cos(angle);
+    target[1] = 0.62;
+    target[2] = -0.45 * dip_sin(angle);
+}
+
+// Sets a sampler to a texture of the courtyard, compressed if the settings say so.
+static DipSampler court_sampler(const Content *content, const DipGalleryView *view, int texture) {
+    const DipKitTexture both = {content->textures[texture], content->compressed[texture]};
+    return dip_kit_sampler(view, &both);
+}
+
+static void fill_draw(Content *content, const DipGalleryView *view, int index, DipDraw *draw) {
+    const Object *object = &content->objects[index];
+    const DipMaterialDef *material = &content->def->materials[object->material];
+    Uniforms *uniforms = &content->uniforms[index];
+    DipSampler *samplers = content->samplers[index];
+    memcpy(uniforms->colour, material->base_colour_lin, sizeof uniforms->colour);
+    uniforms->light_scale =
+        material->light_map != DIP_NO_TEXTURE ? material->light_map_scale : 0.0f;
+    uniforms->cutoff = material->alpha_cutoff;
+    if (material->light_map != DIP_NO_TEXTURE) {
+        samplers[1] =
+            (DipSampler){.texture = content->textures[material->light_map], .max_anisotropy = 1};
+    }
+    const bool textured = material->colour_texture != DIP_NO_TEXTURE;
+    if (textured) {
+        samplers[0] = court_sampler(content, view, material->colour_texture);
+    }
+    const bool clipped = material->surface == DIP_SURFACE_CLIPPED && textured;
+    *draw = (DipDraw){
+        .mesh = content->meshes[object->mesh],
+        .vertex_shader = court_vertex,
+        .fragment_shader =
+            material->surface == DIP_SURFACE_SKY || !textured ? shade_sky : shade_court,
+        .clip_shader = clipped ? clip_court : NULL,
+        .varying_count = VARYINGS,
+        .clip_varying_count = clipped ? 2 : 0,
+        .uniforms = uniforms,
+        .samplers = samplers,
+        .bounds_to_clip = uniforms->to_clip,
+        .cull = object->cull,
+    };
+}
+
+// Lists everything but the water. Returns the number of draws.
+static int list_court(Content *content, const DipGalleryView *view, const DipKitCamera *seen,
+                      const DipSampler *mosaic) {
+    const DipSceneDef *def = content->def;
+    int count = 0;
+    for (int o = 0; o < def->object_count; o++) {
+        const Object *object = &content->objects[o];
+        if (def->materials[object->material].surface != DIP_SURFACE_WATER) {
+            const DipMatrix to_clip = dip_matrix_multiply(&seen->to_clip, &object->model);
+            dip_matrix_floats(&to_clip, content->uniforms[o].to_clip);
+            fill_draw(content, view, o, &content->draws[count++]);
+        }
+    }
+    Uniforms *floor_uniforms = &content->uniforms[def->object_count];
+    dip_matrix_floats(&seen->to_clip, floor_uniforms->to_clip);
+    floor_uniforms->light_scale = (float)(view->time_s / DIP_GALLERY_SECONDS);
+    content->draws[count++] = (DipDraw){.mesh = content->pool_floor,
+                                        .vertex_shader = court_vertex,
+                                        .fragment_shader = shade_pool_floor,
+                                        .varying_count = 2,
+                                        .uniforms = floor_uniforms,
+                                        .samplers = mosaic,
+                                        .cull = DIP_CULL_BACK};
+    return count;
+}
+
+// Lists the water's draws after those in `draws`. Returns their number.
+static int list_water(Content *content, const DipGalleryView *view, const DipKitCamera *seen,
+                      const DipDrawState *state, DipSampler *waves, DipDraw *draws) {
+    const DipSceneDef *def = content->def;
+    Water *water = &content->water;
+    int count = 0;
+    dip_matrix_floats(&seen->to_clip, water->to_clip);
+    memcpy(water->eye, seen->eye, sizeof water->eye);
+    const float turns = (float)(view->time_s / DIP_GALLERY_SECONDS);
+    water->scroll[0] = turns;
+    water->scroll[1] = -turns;
+    water->picture = content->picture;
+    water->refracts = view->look == 0;
+    for (int o = 0; o < def->object_count; o++) {
+        const Object *object = &content->objects[o];
+        const DipMaterialDef *material = &def->materials[object->material];
+        if (material->surface != DIP_SURFACE_WATER || material->normal_map == DIP_NO_TEXTURE) {
+            continue;
+        }
+        *waves = view->filter;
+        waves->texture = content->textures[material->normal_map];
+        draws[count++] = (DipDraw){.mesh = content->meshes[object->mesh],
+                                   .vertex_shader = water_vertex,
+                                   .fragment_shader = shade_water,
+                                   .varying_count = WATER_VARYINGS,
+                                   .value_only_varying_count = 3,
+                                   .repeating_varyings = 0xf,
+                                   .uniforms = water,
+                                   .samplers = waves,
+                                   .bounds_to_clip = water->to_clip,
+                                   .cull = DIP_CULL_BACK,
+                                   .state = state};
+    }
+    return count;
+}
+
+static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
+    static const float clear_lin[3] = {0.30f, 0.42f, 0.62f};
+    static const DipDrawState copies = {.depth_test = DIP_DEPTH_ALWAYS, .keep_depth = true};
+    static const DipDrawState blended = {.blend = DIP_BLEND_MODE_ALPHA, .keep_depth = true};
+    Content *content = pointer;
+    const bool refracts = view->look == 0;
+    const int samples = dip_quality_sample_count(view->quality);
+    const DipSampler mosaic = dip_kit_sampler(view, &content->mosaic);
+    DipKitCamera seen;
+    if (!prepare_target(content, &view->target, samples, err) ||
+        !dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err)) {
+        return false;
+    }
+    const int court_count = list_court(content, view, &seen, &mosaic);
+    DipPass court = dip_kit_pass(view, content->draws, court_count, clear_lin);
+    court.attachments.depth = content->depths[samples];
+    if (refracts) {
+        court.target = content->picture;
+    }
+    if (!dip_kit_draw(view, view->pipeline, &court, err)) {
+        return false;
+    }
+    DipSampler waves;
+    content->draws[0] = (DipDraw){.mesh = content->screen,
+                                  .vertex_shader = screen_vertex,
+                                  .fragment_shader = shade_screen,
+                                  .uniforms = &content->water,
+                                  .state = &copies};
+    const int first = refracts ? 1 : 0;
+    const int count = list_water(content, view, &seen, refracts ? NULL : &blended, &waves,
+                                 content->draws + first);
+    DipPass water = dip_kit_pass(view, content->draws, first + count, clear_lin);
+    water.attachments = (DipAttachments){
+        .colour_load = refracts ? DIP_LOAD_DISCARD : DIP_LOAD_KEEP,
+        .depth = content->depths[samples],
+        .depth_load = DIP_LOAD_KEEP,
+        .stencil_load = DIP_LOAD_KEEP,
+    };
+    return dip_kit_draw(view, view->pipeline, &water, err);
+}
+
+const DipGalleryScene dip_gallery_water = {
+    .info = {.name = "water",
+             .title = "Water seen through",
+             .seed = "seed 002, the fountain; seed 001, Blending",
+             .text =
+                 "The fountain's pool over a mosaic, with waves that refract it, or blended over "
+                 "it.",
+             .looks = looks,
+             .look_count = (int)DIP_ARRAY_COUNT(looks)},
+    .camera = camera,
+    .create = create,
+    .destroy = destroy,
+    .draw = draw,
+};
