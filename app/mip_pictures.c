@@ -39,7 +39,7 @@ bool dip_mip_pictures_load(DipSession *session, DipErrorList *faults) {
     bool loaded = read_pictures(session, &all, faults);
     for (int p = 0; loaded && all.any && p < DIP_PANE_COUNT; p++) {
         DipError err;
-        if (!dip_renderer_set_mip_pictures(session->renderers[p], all.given, &err)) {
+        if (!dip_painter_set_mip_pictures(session->renderers[p], all.given, &err)) {
             loaded = dip_session_add_fault(faults, &err);
         }
     }

@@ -123,7 +123,8 @@ static bool prepare_scene(DipSession *session, DipErrorList *faults) {
         compresses |= dip_quality_compresses(&quality);
     }
     DipError err;
-    return !compresses || dip_scene_compress_textures(session->scene, session->pool, &err) ||
+    return !compresses || !session->scene ||
+           dip_scene_compress_textures(session->scene, session->pool, &err) ||
            dip_session_add_fault(faults, &err);
 }
 
@@ -145,6 +146,12 @@ static void set_reflection(DipSession *session) {
 
 static bool make_renderers(DipSession *session, DipErrorList *faults) {
     DipError err;
+    if (session->shows_gallery) {
+        session->gallery = dip_session_open_gallery(session, session->pool, session->isa, &err);
+        if (!session->gallery) {
+            return dip_session_add_fault(faults, &err);
+        }
+    }
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         const DipRendererDef def = {
             .pool = session->pool,
@@ -155,7 +162,7 @@ static bool make_renderers(DipSession *session, DipErrorList *faults) {
             .reflection = session->reflection,
             .force_all_effects = session->force_all_effects,
         };
-        session->renderers[p] = dip_renderer_create(&def, &err);
+        session->renderers[p] = dip_painter_create(&def, session->gallery, &err);
         if (!session->renderers[p]) {
             return dip_session_add_fault(faults, &err);
         }
@@ -181,9 +188,11 @@ static bool make_pool(DipSession *session, DipErrorList *faults) {
 // Loads the scene and the camera paths. Loads the paths even if the scene fails, so that one run
 // shows the faults of both.
 static bool load_what_is_drawn(DipSession *session, bool keep_model, DipErrorList *faults) {
-    const bool scene = dip_session_load_scene(session, keep_model, faults);
+    const bool scene =
+        session->shows_gallery || dip_session_load_scene(session, keep_model, faults);
     const int64_t begin_ns = dip_clock_ns();
-    const bool paths = dip_session_load_paths(session, faults);
+    const bool paths = session->shows_gallery ? dip_session_load_gallery_path(session, faults)
+                                              : dip_session_load_paths(session, faults);
     session->times.paths_ms = dip_start_times_since_ms(begin_ns);
     return scene && paths;
 }
@@ -202,7 +211,8 @@ bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorLis
     *session =
         (DipSession){.options = def->options, .importer = def->importer, .isa = DIP_ISA_SCALAR};
     session->times.begin_ns = def->begin_ns;
-    bool opened = load_config(session, def->log, faults) && make_pool(session, faults);
+    bool opened = load_config(session, def->log, faults) &&
+                  dip_session_choose_gallery(session, faults) && make_pool(session, faults);
     session->times.ini_ms = dip_start_times_since_ms(def->begin_ns);
     session->pane_size = pane_size_of(session);
     opened = opened && (!def->scene || load_what_is_drawn(session, def->keep_model, faults));
@@ -219,8 +229,11 @@ bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorLis
 
 void dip_session_close(DipSession *session) {
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        dip_renderer_destroy(&session->renderers[p]);
+        dip_painter_destroy(&session->renderers[p]);
     }
+    dip_gallery_destroy(&session->gallery);
+    dip_campath_destroy(&session->gallery_path);
+    free(session->assets);
     for (int i = 0; i < session->path_count; i++) {
         dip_campath_destroy(&session->paths[i]);
     }
@@ -246,8 +259,8 @@ static DipFrame copy_of(const DipFrame *frame) {
 static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_ns,
                         DipSessionFrame *frame, DipError *err) {
     DipFrame *pane = &frame->panes[DIP_PANE_CURRENT];
-    if (!dip_renderer_draw(session->renderers[DIP_PANE_CURRENT], session->scene, pose, play_ns,
-                           pane, err)) {
+    if (!dip_painter_draw(session->renderers[DIP_PANE_CURRENT], session->scene, pose, play_ns, pane,
+                          err)) {
         return false;
     }
     frame->panes[DIP_PANE_REQUESTED] = copy_of(pane);
@@ -256,19 +269,19 @@ static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_n
 
 bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err) {
-    const DipQuality current = dip_renderer_quality(session->renderers[DIP_PANE_CURRENT]);
-    const DipQuality requested = dip_renderer_quality(session->renderers[DIP_PANE_REQUESTED]);
+    const DipQuality current = dip_painter_quality(session->renderers[DIP_PANE_CURRENT]);
+    const DipQuality requested = dip_painter_quality(session->renderers[DIP_PANE_REQUESTED]);
     frame->copied =
         !session->force_all_effects && memcmp(&current, &requested, sizeof current) == 0;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        dip_renderer_set_frame_index(session->renderers[p], frame_index);
+        dip_painter_set_frame_index(session->renderers[p], frame_index);
     }
     DipFrame *const panes[DIP_PANE_COUNT] = {&frame->panes[0], &frame->panes[1]};
     const int64_t begin_ns = dip_clock_ns();
     const bool drawn = frame->copied
                            ? draw_copied(session, pose, play_ns, frame, err)
-                           : dip_renderer_draw_frames(session->renderers, DIP_PANE_COUNT,
-                                                      session->scene, pose, play_ns, panes, err);
+                           : dip_painter_draw_frames(session->renderers, DIP_PANE_COUNT,
+                                                     session->scene, pose, play_ns, panes, err);
     frame->ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
     return drawn;
 }

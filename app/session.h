@@ -1,8 +1,10 @@
 // A session: everything that a command needs to draw. It holds the settings of the ini file, the
-// scene, the camera track and both renderers.
+// scene, the camera track and the painters of both panes.
 #ifndef DIP_APP_SESSION_H
 #define DIP_APP_SESSION_H
 
+#include "app/gallery/gallery.h"
+#include "app/painter.h"
 #include "app/session_options.h"
 #include "app/start_times.h"
 #include "assets/importer.h"
@@ -43,7 +45,15 @@ typedef struct DipSession {
     DipCamTrack track;     // The camera path of each category of the ini.
     DipCamPath **paths;    // The loaded paths; a file that two categories name is loaded once.
     int path_count;
-    DipRenderer *renderers[DIP_PANE_COUNT]; // NULL unless the def asks for renderers.
+    DipPainter *renderers[DIP_PANE_COUNT]; // NULL unless the def asks for renderers.
+    // The session shows a scene of the gallery. If it began so, `scene` is NULL, because no models
+    // are loaded.
+    bool shows_gallery;
+    int gallery_scene;   // Index of the scene, or DIP_GALLERY_TOUR.
+    DipGallery *gallery; // What the renderers draw; NULL without renderers.
+    DipCamPath *gallery_path;
+    DipCamTrack models_track; // Track of the models' paths while the gallery shows.
+    char *assets;             // Folder of the shipped assets.
     DipStartTimes times;
     bool orbiting; // The camera orbits the model, because no camera path was given.
 } DipSession;
@@ -59,6 +69,22 @@ bool dip_session_keep_model(DipSession *session, DipError *err);
 
 // File of the first model, from the command line or the ini; "" if there is none.
 const char *dip_session_scene_file(const DipSession *session);
+
+// Opens the session's scene of the gallery for drawing with a pool. The caller destroys the
+// gallery. Returns NULL on failure.
+DipGallery *dip_session_open_gallery(const DipSession *session, DipPool *pool, DipIsa isa,
+                                     DipError *err);
+
+// Shows the next scene in a ring of all scenes of the gallery and, if they are loaded, the models.
+// step: 1 for the next one, -1 for the one before. The session must have renderers, whose settings
+// and size are kept. If opening the scene fails, nothing changes.
+bool dip_session_step_scene(DipSession *session, int step, DipError *err);
+
+// Name of what the session shows: "Blend modes", or "Models".
+const char *dip_session_scene_title(const DipSession *session, int64_t play_ns);
+
+// Name of a variant of the gallery's scene. `look` wraps around.
+const char *dip_session_scene_look(const DipSession *session, int look, int64_t play_ns);
 
 // Name of a category of the ini's camera paths: "DEFAULT", "AA", ...
 const char *dip_session_category(int category);

@@ -40,6 +40,17 @@ static bool read_isa(void *fields, const DipOptionRow *row, const char *value, D
     return dip_option_isa(row, value, &options->isa, err);
 }
 
+static bool read_look(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    int number;
+    if (dip_option_integers(value, ':', 1, &number) != 1 || number < 1 || number > 99) {
+        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
+                                 "a number of a variant from 1 to 99");
+    }
+    options->look = number - 1;
+    return true;
+}
+
 #define UP_AXIS(name, text) " `" #name "` " text "."
 #define UP_AXES             DIP_UP_AXIS_LIST(UP_AXIS)
 
@@ -73,6 +84,20 @@ static const DipOptionRow scene_rows[] = {
      .field = FIELD(models),
      .count = FIELD(model_count),
      .most = DIP_MAX_MODELS},
+    {.name = "--scene",
+     .argument = "NAME",
+     .text = "Show this scene of the gallery instead of models: model, shadow, prism, blend, "
+             "stencil, toon, dice, phone, quads, cubes, tunnel or water. `tour` shows all of them, "
+             "15 seconds each. `models` shows the ini's models even if the ini names a scene.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(scene)},
+    {.name = "--look",
+     .argument = "N",
+     .text = "Show the N-th variant of the gallery's scene, such as another resolution of the "
+             "shadow map. The first one is 1, which is also the default; docs/gallery.md lists "
+             "them.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_look},
     {.name = "--up",
      .argument = "AXIS",
      .text = "The axis of the model files that points up:" UP_AXES " The default is auto.",
@@ -169,6 +194,23 @@ const DipOptionTable dip_threads_option_table = {drawing_title, threads_rows,
                                                  DIP_ARRAY_COUNT(threads_rows)};
 
 bool dip_session_options_check(const DipSessionOptions *options, DipError *err) {
+    if (options->scene && options->model_count) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--scene",
+                             "'%.40s' replaces the models, and so does --model; leave out one of "
+                             "the two options",
+                             options->scene);
+    }
+    if (options->look && options->model_count) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--look",
+                             "chooses a variant of a scene of the gallery, but --model replaces "
+                             "the scene; leave out one of the two options");
+    }
+    if (options->scene && options->category && strcmp(options->scene, "models") != 0) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--category",
+                             "'%.40s' names one of the ini's paths, but the scene '%.40s' has a "
+                             "path of its own; leave out one of the two options",
+                             options->category, options->scene);
+    }
     if (options->category && (options->path || options->model_count)) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--category",
                              "'%.40s' names one of the ini's paths, but the camera follows %s; "

@@ -17,4 +17,11 @@ bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *
 // session_paths.c: loads the camera paths, or makes an orbit around the model.
 bool dip_session_load_paths(DipSession *session, DipErrorList *faults);
 
+// session_gallery.c: finds out whether the session shows a scene of the gallery, and which one.
+bool dip_session_choose_gallery(DipSession *session, DipErrorList *faults);
+
+// Makes the camera path of the gallery's scene and a track that plays it, unless the user has given
+// a path.
+bool dip_session_load_gallery_path(DipSession *session, DipErrorList *faults);
+
 #endif

@@ -90,12 +90,22 @@ static DipModel *load_model(const DipSession *session, DipErrorList *faults, Dip
 }
 
 const char *dip_session_scene_file(const DipSession *session) {
+    if (session->shows_gallery) {
+        return session->gallery_scene == DIP_GALLERY_TOUR
+                   ? "tour"
+                   : dip_gallery_info(session->gallery_scene)->name;
+    }
     return session->options->model_count ? session->options->models[0]
            : session->config.xfile.count ? session->config.xfile.items[0].path
                                          : "";
 }
 
 bool dip_session_keep_model(DipSession *session, DipError *err) {
+    if (session->shows_gallery) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--scene",
+                             "a scene of the gallery has no models that the reference renderer "
+                             "could draw");
+    }
     if (!session->model) {
         DipErrorList warnings = {0}; // The first load has already reported these warnings.
         session->model = load_model(session, &warnings, &session->scene_def, err);

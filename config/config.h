@@ -27,6 +27,7 @@ enum {
     DIP_CONFIG_MAX_FILE_BYTES = 1 << 20, // Bytes in an ini.
     DIP_CONFIG_MAX_FAULTS = 100,         // Reading stops after this many faults.
     DIP_CONFIG_MAX_MODELS = 64,          // XFILE keys in an ini.
+    DIP_CONFIG_MAX_NAME = 32,            // Bytes in a NAME, with the final 0.
     DIP_CONFIG_ISA_AUTO = -1             // The best instruction set that the processor has.
 };
 
@@ -90,6 +91,11 @@ typedef struct DipConfigCamera {
     double fov_y_deg;   // vertical field of view, 1..170; 0 without a path, except for DEFAULT
 } DipConfigCamera;
 
+// A word; "" if the ini does not give it.
+typedef struct DipConfigName {
+    char text[DIP_CONFIG_MAX_NAME];
+} DipConfigName;
+
 typedef DipConfigSize DipConfigFieldSIZE;
 typedef double DipConfigFieldNUMBER;
 typedef int DipConfigFieldINTEGER;
@@ -98,6 +104,7 @@ typedef DipConfigFile DipConfigFieldFILE;
 typedef DipConfigFiles DipConfigFieldFILES;
 typedef DipQuality DipConfigFieldSETTINGS;
 typedef DipConfigColor DipConfigFieldCOLOR;
+typedef DipConfigName DipConfigFieldNAME;
 typedef int DipConfigFieldISA; // a DipIsa or DIP_CONFIG_ISA_AUTO
 
 typedef struct DipConfig {

@@ -13,9 +13,9 @@
 //
 // Types and their fields: SIZE DipConfigSize, NUMBER double, INTEGER int, FLAG bool, FILE
 // DipConfigFile, FILES DipConfigFiles (the key may be repeated), SETTINGS DipQuality, COLOR
-// DipConfigColor, ISA int. The range applies to every number of a SIZE, NUMBER, INTEGER or COLOR.
-// The default "" leaves a FILE unnamed, a NUMBER at 0 and every setting of SETTINGS at its own
-// default.
+// DipConfigColor, ISA int, NAME DipConfigName. The range applies to every number of a SIZE, NUMBER,
+// INTEGER or COLOR. The default "" leaves a FILE unnamed, a NAME empty, a NUMBER at 0 and every
+// setting of SETTINGS at its own default.
 #define DIP_CONFIG_LIST(KEY, CAMERA, PICTURE)                                                      \
     KEY(RES, res, SIZE, DIP_CONFIG_REQUIRED, 1, 8192, "resolution of each of the two panes")       \
     KEY(REFLECTION_RES, reflection_res, SIZE, "320x240", 1, 8192,                                  \
@@ -93,6 +93,8 @@
         "speed of the second layer, texture widths per minute; negative: the opposite way")        \
     KEY(SKY_LAYER2_PERTURBATION, sky_layer2_perturbation, NUMBER, "0.05", -1, 1,                   \
         "greatest displacement of the second layer's clouds, texture widths")                      \
-    KEY(LOG, log, FILE, "", 0, 0, "file that receives a copy of all warnings and errors")
+    KEY(LOG, log, FILE, "", 0, 0, "file that receives a copy of all warnings and errors")          \
+    KEY(SCENE, scene, NAME, "", 0, 0,                                                              \
+        "scene of the gallery that is shown instead of the models, or `tour` (docs/gallery.md)")
 
 #endif

@@ -16,7 +16,8 @@ typedef enum DipConfigType {
     DIP_TYPE_FILES,
     DIP_TYPE_SETTINGS,
     DIP_TYPE_COLOR,
-    DIP_TYPE_ISA
+    DIP_TYPE_ISA,
+    DIP_TYPE_NAME
 } DipConfigType;
 
 typedef struct DipConfigKeyInfo {

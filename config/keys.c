@@ -148,6 +148,9 @@ void dip_config_describe(DipConfigKey key, char *buffer, size_t size_bytes) {
 #undef ISA_NAME
         );
         break;
+    case DIP_TYPE_NAME:
+        snprintf(buffer, size_bytes, "a name of at most %d letters", DIP_CONFIG_MAX_NAME - 1);
+        break;
     }
 }
 

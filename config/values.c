@@ -131,6 +131,16 @@ static bool set_settings(DipConfigKey key, const char *text, DipQuality *quality
                          inner.message);
 }
 
+static bool set_name(DipConfigKey key, const char *text, DipConfigName *name, DipError *err) {
+    if (strlen(text) >= sizeof name->text) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, dip_config_key_name(key),
+                             "'%.40s...' is too long, accepted at most %d letters", text,
+                             DIP_CONFIG_MAX_NAME - 1);
+    }
+    strcpy(name->text, text);
+    return true;
+}
+
 static void free_file(DipConfigFile *file) {
     free(file->path);
     free(file->text);
@@ -210,6 +220,8 @@ bool dip_config_set_value(DipConfig *config, DipConfigKey key, const char *text,
         return set_color(key, text, field, err);
     case DIP_TYPE_ISA:
         return set_isa(key, text, field, err);
+    case DIP_TYPE_NAME:
+        return set_name(key, text, field, err);
     }
     return false;
 }

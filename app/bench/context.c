@@ -22,8 +22,9 @@ struct DipBenchContext {
     DipPool **pools; // one per number of threads
     View *views;
     int view_count;
-    DipRenderer **renderers; // one per combination
-    int *view_of;            // index of each combination's view
+    DipPainter **renderers; // one per combination
+    DipGallery **galleries; // one per combination; all NULL unless the session shows the gallery
+    int *view_of;           // index of each combination's view
 };
 
 static bool out_of_memory(DipError *err) {
@@ -114,7 +115,14 @@ static bool make_renderer(DipBenchContext *bench, int index, const DipSession *s
         .reflection = session->reflection,
         .force_all_effects = session->force_all_effects,
     };
-    bench->renderers[index] = def.pool ? dip_renderer_create(&def, err) : NULL;
+    if (def.pool && session->shows_gallery && !options->grid_count) {
+        bench->galleries[index] = dip_session_open_gallery(session, def.pool, def.isa, err);
+        if (!bench->galleries[index]) {
+            return false;
+        }
+    }
+    bench->renderers[index] =
+        def.pool ? dip_painter_create(&def, bench->galleries[index], err) : NULL;
     return bench->renderers[index] != NULL;
 }
 
@@ -129,10 +137,12 @@ DipBenchContext *dip_bench_context_create(const DipBenchPlan *plan, const DipSes
     bench->plan = plan;
     bench->pools = calloc((size_t)plan->options.threads_count, sizeof(DipPool *));
     bench->views = calloc(count, sizeof(View));
-    bench->renderers = calloc(count, sizeof(DipRenderer *));
+    bench->renderers = calloc(count, sizeof(DipPainter *));
+    bench->galleries = calloc(count, sizeof(DipGallery *));
     bench->view_of = calloc(count, sizeof(int));
     bool made =
-        (bench->pools && bench->views && bench->renderers && bench->view_of) || out_of_memory(err);
+        (bench->pools && bench->views && bench->renderers && bench->galleries && bench->view_of) ||
+        out_of_memory(err);
     for (int i = 0; made && i < plan->count; i++) {
         made = choose_view(bench, i, session, err) && make_renderer(bench, i, session, err);
     }
@@ -148,7 +158,10 @@ void dip_bench_context_destroy(DipBenchContext **context_pointer) {
         return;
     }
     for (int i = 0; bench->renderers && i < bench->plan->count; i++) {
-        dip_renderer_destroy(&bench->renderers[i]);
+        dip_painter_destroy(&bench->renderers[i]);
+    }
+    for (int i = 0; bench->galleries && i < bench->plan->count; i++) {
+        dip_gallery_destroy(&bench->galleries[i]);
     }
     for (int i = 0; i < bench->view_count; i++) {
         dip_scene_destroy(&bench->views[i].own);
@@ -160,6 +173,7 @@ void dip_bench_context_destroy(DipBenchContext **context_pointer) {
     free(bench->pools);
     free(bench->views);
     free(bench->renderers);
+    free(bench->galleries);
     free(bench->view_of);
     free(bench);
     *context_pointer = NULL;
@@ -172,11 +186,12 @@ bool dip_bench_context_draw(DipBenchContext *bench, int combination, int frame, 
         dip_campath_info(view->path).duration_ns / bench->plan->options.frames * frame;
     DipPose pose = {.fov_y_deg = view->fov_y_deg};
     dip_campath_sample(view->path, time_ns, &pose);
-    dip_renderer_set_frame_index(bench->renderers[combination], (uint64_t)frame);
-    return dip_renderer_draw(bench->renderers[combination], view->scene, &pose, time_ns, picture,
-                             err);
+    dip_painter_set_frame_index(bench->renderers[combination], (uint64_t)frame);
+    return dip_painter_draw(bench->renderers[combination], view->scene, &pose, time_ns, picture,
+                            err);
 }
 
 uint64_t dip_bench_context_triangles(const DipBenchContext *bench, int combination) {
-    return dip_scene_triangle_count(bench->views[bench->view_of[combination]].scene);
+    const DipScene *scene = bench->views[bench->view_of[combination]].scene;
+    return scene ? dip_scene_triangle_count(scene) : 0;
 }

@@ -211,10 +211,11 @@ static bool varies_in_samples(const DipBenchOptions *bench) {
 static bool check_scene(const DipBenchArguments *arguments, DipError *err) {
     const DipSessionOptions *session = &arguments->session;
     if (arguments->bench.grid_count &&
-        (session->model_count || session->path || session->category)) {
+        (session->model_count || session->scene || session->path || session->category)) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--grid",
                              "a grid replaces the scene and its path; leave out --grid or %s",
                              session->model_count ? "--model"
+                             : session->scene     ? "--scene"
                              : session->path      ? "--path"
                                                   : "--category");
     }

@@ -29,6 +29,10 @@ static void print_scene(const DipBenchPlan *plan, const DipSession *session, FIL
     if (session->scene) {
         fprintf(out, ", %" PRIu64 " triangles", dip_scene_triangle_count(session->scene));
     }
+    if (session->shows_gallery) {
+        fprintf(out, ", a scene of the gallery\n");
+        return;
+    }
     if (!options->model_count && !options->path) {
         fprintf(out, ", path %s", dip_session_category(session->track.active));
     } else if (options->path) {

@@ -16,6 +16,11 @@ static bool run_merge(DipSession *session, const void *arguments, DipError *err)
 
 static bool run_assets(DipSession *session, const void *arguments, DipError *err) {
     (void)arguments;
+    if (session->shows_gallery) {
+        return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "--scene",
+                             "cost assets measures the files of models, and a scene of the gallery "
+                             "has none");
+    }
     return dip_cost_assets_run(session, err);
 }
 

@@ -2,6 +2,7 @@
 // is one combination of settings on a camera path.
 #include "app/cost/context.h"
 
+#include "app/cost/gallery_truth.h"
 #include "app/interrupt.h"
 
 // Compresses the textures if the settings of any row of the report need it. This is done before any
@@ -14,8 +15,23 @@ static bool prepare_textures(const DipCostContext *cost, DipError *err) {
     for (int i = 0; i < cost->report->predicted.count; i++) {
         compresses |= dip_quality_compresses(&cost->report->predicted.list[i].quality);
     }
-    return !compresses ||
+    return !compresses || !cost->session->scene ||
            dip_scene_compress_textures(cost->session->scene, cost->session->pool, err);
+}
+
+// Opens what the pictures are drawn from: the gallery, or the reference renderer, which draws the
+// truths of models.
+static bool open_source(DipCostContext *cost, DipError *err) {
+    const DipSession *session = cost->session;
+    if (session->shows_gallery) {
+        cost->gallery = dip_session_open_gallery(session, session->pool, session->isa, err);
+        return cost->gallery != NULL;
+    }
+    cost->reference = dip_reference_create(&session->scene_def, err);
+    if (cost->reference) {
+        dip_reference_set_reflection(cost->reference, &session->reflection);
+    }
+    return cost->reference != NULL;
 }
 
 bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipCostReport *report,
@@ -31,13 +47,9 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
         .reflection = session->reflection,
         .force_all_effects = session->force_all_effects,
     };
-    cost->reference = dip_reference_create(&session->scene_def, err);
-    bool opened = cost->reference != NULL;
-    if (opened) {
-        dip_reference_set_reflection(cost->reference, &session->reflection);
-    }
+    bool opened = open_source(cost, err);
     for (int gi = 0; opened && gi < 2; gi++) {
-        cost->renderers[gi] = dip_renderer_create(&def, err);
+        cost->renderers[gi] = dip_painter_create(&def, cost->gallery, err);
         opened = cost->renderers[gi] != NULL;
     }
     opened = opened && prepare_textures(cost, err);
@@ -49,17 +61,18 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
 
 void dip_cost_context_close(DipCostContext *cost) {
     dip_reference_destroy(&cost->reference);
-    dip_renderer_destroy(&cost->renderers[0]);
-    dip_renderer_destroy(&cost->renderers[1]);
+    dip_painter_destroy(&cost->renderers[0]);
+    dip_painter_destroy(&cost->renderers[1]);
+    dip_gallery_destroy(&cost->gallery);
 }
 
 static bool draw(DipCostContext *cost, const DipQuality *quality, int path, int64_t time_ns,
                  int frame_index, DipFrame *frame, DipError *err) {
     const DipPose pose = dip_cost_pose(cost->report, cost->session, path, time_ns);
-    DipRenderer *renderer = cost->renderers[quality->step[DIP_SETTING_GI] != 0];
-    dip_renderer_set_frame_index(renderer, (uint64_t)frame_index);
-    return dip_renderer_set_quality(renderer, quality, err) &&
-           dip_renderer_draw(renderer, cost->session->scene, &pose, time_ns, frame, err);
+    DipPainter *renderer = cost->renderers[quality->step[DIP_SETTING_GI] != 0];
+    dip_painter_set_frame_index(renderer, (uint64_t)frame_index);
+    return dip_painter_set_quality(renderer, quality, err) &&
+           dip_painter_draw(renderer, cost->session->scene, &pose, time_ns, frame, err);
 }
 
 bool dip_cost_draw(DipCostContext *cost, int row, int64_t time_ns, int frame_index, DipFrame *frame,
@@ -89,8 +102,11 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
     const DipCostReport *report = cost->report;
     const int64_t time_ns =
         dip_cost_viewpoint_time_ns(report, cost->session, path, viewpoint, frame);
+    DipGalleryTruth gallery = {.gallery = cost->gallery, .isa = cost->session->isa};
     const DipTruthDef def = {
         .reference = cost->reference,
+        .draw = cost->gallery ? dip_gallery_truth_draw : NULL,
+        .context = &gallery,
         .scene_hash = report->scene_hash,
         .pose = dip_cost_pose(report, cost->session, path, time_ns),
         .time_ns = time_ns,

@@ -15,12 +15,13 @@ typedef struct DipCostContext {
     const DipSession *session;
     DipCostReport *report;
     DipCostJournal *journal;
-    const char *cache; // Folder of the cached truths; NULL for no cache.
-    DipReference *reference;
+    const char *cache;       // Folder of the cached truths; NULL for no cache.
+    DipReference *reference; // NULL for scenes of the gallery
+    DipGallery *gallery;     // NULL for models
     // Indexed by the step of the setting gi (instancing). Renderer [0] draws the rows with gi=off
     // and keeps the copies of meshes that these rows need. Renderer [1] draws all other rows.
     // They share one renderer so that they are all drawn in the same memory.
-    DipRenderer *renderers[2];
+    DipPainter *renderers[2];
 } DipCostContext;
 
 bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipCostReport *report,

@@ -43,6 +43,10 @@ static void add_session(DipCostSetup *setup, const DipSessionOptions *session) {
     for (int m = 0; m < session->model_count; m++) {
         add_option(setup, "--model", session->models[m]);
     }
+    add_option(setup, "--scene", session->scene);
+    if (session->look) {
+        add_number(setup, "--look", session->look + 1);
+    }
     add_option(setup, "--up", session->up ? dip_up_axis_names[session->up] : NULL);
     if (session->import_seconds) {
         add_number(setup, "--import-seconds", session->import_seconds);

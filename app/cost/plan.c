@@ -265,13 +265,33 @@ static bool plan_combinations(DipCostReport *report, DipError *err) {
 
 void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]) {
     const char *file = dip_session_scene_file(session);
+    if (session->shows_gallery) {
+        snprintf(name, DIP_COST_TEXT, "gallery %s, %s (truth: same pipeline, larger picture)", file,
+                 dip_session_scene_look(session, session->options->look, 0));
+        return;
+    }
     const char *slash = strrchr(file, '/');
     snprintf(name, DIP_COST_TEXT, "%s", slash ? slash + 1 : file);
 }
 
+// Hashes what stands for a scene of the gallery: its name and the build of the program, whose code
+// the scene is.
+static void hash_gallery(const char *name, char hex[33]) {
+    char build[33];
+    DipHash hash = dip_hash_begin(0);
+    dip_machine_build(build);
+    dip_hash_text(&hash, name);
+    dip_hash_text(&hash, build);
+    dip_hash_hex(&hash, hex);
+}
+
 static void describe(DipCostReport *report, const DipSession *session) {
     dip_cost_scene_name(session, report->scene);
-    dip_cost_scene_hash(&session->scene_def, &session->reflection, report->scene_hash);
+    if (session->shows_gallery) {
+        hash_gallery(report->scene, report->scene_hash);
+    } else {
+        dip_cost_scene_hash(&session->scene_def, &session->reflection, report->scene_hash);
+    }
     dip_machine_processor(report->processor, sizeof report->processor);
     snprintf(report->isa, sizeof report->isa, "%s", dip_isa_name(session->isa));
     snprintf(report->version, sizeof report->version, "%s", DIP_VERSION);

@@ -40,7 +40,7 @@ static bool dump_frame(DipSession *session, const DipDumpOptions *options, int i
     }
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         dip_frame_hash(&frame.panes[p], hashes[p]);
-        qualities[p] = dip_renderer_quality(session->renderers[p]);
+        qualities[p] = dip_painter_quality(session->renderers[p]);
         panes[p] = (DipRecordPane){&qualities[p], &frame.panes[p], hashes[p],
                                    p == DIP_PANE_REQUESTED && frame.copied};
         if (options->hash) {

@@ -144,14 +144,13 @@ static bool measure_floor(DipTruth *truth, const DipTruthDef *def, double *const
     return measured || out_of_memory(err);
 }
 
-static bool make_truth(DipTruth *truth, const DipTruthDef *def, DipPool *pool,
-                       DipTruthProgress *progress, void *context, DipError *err) {
-    const size_t values = (size_t)truth->width * (size_t)truth->height * 3;
-    double *halves[HALVES] = {calloc(values, sizeof(double)), calloc(values, sizeof(double))};
+// Draws both halves with the reference renderer.
+static bool draw_halves(DipTruth *truth, const DipTruthDef *def, double *const halves[HALVES],
+                        DipPool *pool, DipTruthProgress *progress, void *context, DipError *err) {
     dip_reference_set_time(def->reference, def->time_ns);
     DipConvergence *convergence =
         dip_convergence_create(def->reference, &def->pose, def->width, def->height, err);
-    bool made = convergence && ((halves[0] && halves[1]) || out_of_memory(err));
+    bool made = convergence != NULL;
     for (int h = 0; made && h < HALVES; h++) {
         Half drawn = {.def = def,
                       .convergence = convergence,
@@ -159,6 +158,32 @@ static bool make_truth(DipTruth *truth, const DipTruthDef *def, DipPool *pool,
                       .classes = h == 0 ? truth->classes : NULL};
         made = draw_half(&drawn, h, pool, progress, context, err);
     }
+    dip_convergence_destroy(&convergence);
+    return made;
+}
+
+// Draws both halves with the caller's function, which does not say what the pixels show.
+static bool draw_own_halves(DipTruth *truth, const DipTruthDef *def, double *const halves[HALVES],
+                            DipTruthProgress *progress, void *context, DipError *err) {
+    memset(truth->classes, DIP_SEEN_TEXTURED, (size_t)truth->width * (size_t)truth->height);
+    for (int h = 0; h < HALVES; h++) {
+        if (!def->draw(def, h, halves[h], err)) {
+            return false;
+        }
+        if (!progress(context, (h + 1.0) / HALVES)) {
+            return dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "truth", "interrupted");
+        }
+    }
+    return true;
+}
+
+static bool make_truth(DipTruth *truth, const DipTruthDef *def, DipPool *pool,
+                       DipTruthProgress *progress, void *context, DipError *err) {
+    const size_t values = (size_t)truth->width * (size_t)truth->height * 3;
+    double *halves[HALVES] = {calloc(values, sizeof(double)), calloc(values, sizeof(double))};
+    bool made = (halves[0] && halves[1]) || out_of_memory(err);
+    made = made && (def->draw ? draw_own_halves(truth, def, halves, progress, context, err)
+                              : draw_halves(truth, def, halves, pool, progress, context, err));
     made = made && measure_floor(truth, def, halves, err);
     for (size_t i = 0; made && i < values; i++) {
         halves[0][i] = 0.5 * (halves[0][i] + halves[1][i]);
@@ -167,7 +192,6 @@ static bool make_truth(DipTruth *truth, const DipTruthDef *def, DipPool *pool,
         round_to_floats(halves[0], values, truth->rgb_lin);
         encode(halves[0], values / 3, truth->rgba8);
     }
-    dip_convergence_destroy(&convergence);
     free(halves[0]);
     free(halves[1]);
     return made;

@@ -33,16 +33,25 @@ typedef struct DipTruth {
     char key[33];        // Hash of everything that the truth depends on; names its file.
 } DipTruth;
 
+struct DipTruthDef;
+
+// Draws one half (0 or 1) of a truth, for scenes that the reference renderer cannot draw. Adds the
+// colours to rgb_lin, which is all 0: 3 values per pixel in linear light.
+typedef bool DipTruthDraw(const struct DipTruthDef *def, int half, double *rgb_lin, DipError *err);
+
 // Everything that a truth depends on.
 typedef struct DipTruthDef {
-    struct DipReference *reference; // Borrowed; its time is set to time_ns.
-    const char *scene_hash;         // Borrowed; stands for the scene in the key.
+    struct DipReference
+        *reference;         // Borrowed; its time is set to time_ns. Unused if `draw` is set.
+    const char *scene_hash; // Borrowed; stands for the scene in the key.
     DipPose pose;
     int64_t time_ns;
     int width;
     int height;
     int samples;              // Samples per pixel of each half; a square number, 1..4096.
     double pixels_per_degree; // For the FLIP of the noise floor.
+    DipTruthDraw *draw;       // NULL: the reference renderer draws.
+    void *context;            // For `draw`.
 } DipTruthDef;
 
 // Receives how much of the picture is done, 0..1. Returns false to stop the work.

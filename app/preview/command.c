@@ -20,6 +20,7 @@ static const DipExample examples[] = {
     {"diptych", "opens the courtyard with the ini's settings"},
     {"diptych --current aa=none --requested aa=8,af=16", "compares two settings side by side"},
     {"diptych model.glb", "orbits a model of yours"},
+    {"diptych --scene tour", "shows the scenes of the gallery, 15 seconds each"},
     {"diptych --cost report/cost.json", "also shows what `diptych cost` measured"},
 };
 

@@ -39,6 +39,8 @@ const DipKeyRow dip_key_rows[] = {
     PATH_KEY(7),
     PATH_KEY(8),
     {'9', DIP_KEYCODE_NONE, DIP_ACTION_PATH, 9, false, "0 .. 9", "Path made for a setting"},
+    {'n', DIP_KEYCODE_PAGE_DOWN, DIP_ACTION_NEXT_SCENE, 0, false, "N", "Next scene of the gallery"},
+    {'y', DIP_KEYCODE_NONE, DIP_ACTION_LOOK, 0, false, "Y", "The scene's next variant"},
     {'c', DIP_KEYCODE_NONE, DIP_ACTION_CAMERA, 0, false, "C", "Free camera"},
     {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_CAMERA, 0, false, "W A S D Q E",
      "Move it (with Shift: turn)"},

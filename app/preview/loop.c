@@ -7,6 +7,7 @@
 #include "app/preview/keys.h"
 #include "app/preview/prefetch.h"
 #include "app/preview/view.h"
+#include "app/session.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +25,8 @@ typedef struct Drawn {
     DipQuality quality[DIP_PANE_COUNT];
     int width;
     int height;
+    int look;
+    const void *gallery;
 } Drawn;
 
 struct DipPreview {
@@ -48,6 +51,7 @@ struct DipPreview {
     uint64_t frame_index;
     unsigned drawn_changes;                   // Value of state.scene_changes at the last frame.
     DipQuality drawn_quality[DIP_PANE_COUNT]; // Settings of the renderers.
+    int drawn_look;
     Drawn drawn;
     unsigned picture_number; // Number of the current pictures; grows when `drawn` changes.
 };
@@ -69,10 +73,14 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     }
     preview->def = *def;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        preview->drawn_quality[p] = dip_renderer_quality(def->session->renderers[p]);
+        preview->drawn_quality[p] = dip_painter_quality(def->session->renderers[p]);
     }
     preview->state = dip_preview_state_make(preview->drawn_quality, &def->session->track);
     preview->state.costs = def->costs;
+    preview->state.shows_gallery = def->session->shows_gallery;
+    if (def->session->shows_gallery) {
+        preview->state.look = preview->drawn_look = def->session->options->look;
+    }
     preview->resized = true;
     preview->figures.outdated = true;
     preview->turn_ns = clock_ns(preview);
@@ -176,7 +184,7 @@ static bool follow_settings(DipPreview *preview, DipError *err) {
         if (memcmp(wanted, &preview->drawn_quality[p], sizeof *wanted) == 0) {
             continue;
         }
-        if (!dip_renderer_set_quality(preview->def.session->renderers[p], wanted, err)) {
+        if (!dip_painter_set_quality(preview->def.session->renderers[p], wanted, err)) {
             return false;
         }
         preview->drawn_quality[p] = *wanted;
@@ -201,7 +209,7 @@ static bool fail(const DipError *failure, DipError *err) {
 
 static bool resize_panes(DipPreview *preview, int width, int height, DipError *err) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        if (!dip_renderer_resize(preview->def.session->renderers[p], width, height, err)) {
+        if (!dip_painter_resize(preview->def.session->renderers[p], width, height, err)) {
             return false;
         }
     }
@@ -247,6 +255,8 @@ static void number_picture(DipPreview *preview) {
     drawn.play_ns = preview->state.play_ns;
     drawn.width = preview->frame.panes[0].width;
     drawn.height = preview->frame.panes[0].height;
+    drawn.look = preview->drawn_look;
+    drawn.gallery = preview->def.session->gallery;
     memcpy(drawn.quality, preview->drawn_quality, sizeof drawn.quality);
     if (memcmp(&drawn, &preview->drawn, sizeof drawn) != 0) {
         preview->drawn = drawn;
@@ -273,12 +283,48 @@ static bool take_back_settings(DipPreview *preview, DipError *err) {
     return draw_with_settings(preview, err);
 }
 
+// Shows the scene that the user has asked for. If it cannot be opened, a notice says why and the
+// old scene stays.
+static void follow_scene(DipPreview *preview, int64_t now_ns) {
+    DipSession *session = preview->def.session;
+    DipPreviewState *state = &preview->state;
+    const int step = state->scene_step;
+    DipError failure;
+    state->scene_step = 0;
+    if (step == 0) {
+        if (session->gallery && state->look != preview->drawn_look) {
+            dip_gallery_set_look(session->gallery, state->look);
+            preview->drawn_look = state->look;
+        }
+        return;
+    }
+    if (!dip_session_step_scene(session, step, &failure)) {
+        report(preview, &failure, now_ns);
+        return;
+    }
+    state->shows_gallery = session->shows_gallery;
+    preview->tried_width = 0; // the new renderers do not have the panes' size yet
+    state->look = preview->drawn_look = 0;
+    state->play_ns = 0;
+    state->manual = false;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        dip_figures_forget(&preview->figures, p);
+    }
+    dip_preview_notice(state, now_ns, "Scene: %s", dip_session_scene_title(session, 0));
+    ++state->scene_changes;
+}
+
 static bool draw_panes(DipPreview *preview, DipError *err) {
     DipSession *session = preview->def.session;
     const int64_t play_ns = preview->state.play_ns;
     if (!follow_size(preview, err)) {
         return false;
     }
+    preview->state.scene_title =
+        session->shows_gallery ? dip_session_scene_title(session, play_ns) : NULL;
+    preview->state.scene_look = session->shows_gallery
+                                    ? dip_session_scene_look(session, preview->state.look, play_ns)
+                                    : NULL;
     if (!preview->state.manual && !dip_camtrack_pose(&session->track, play_ns, &preview->pose)) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
     }
@@ -339,8 +385,12 @@ static DipStill still_of(const DipPreview *preview) {
 // Measures errors while the panel shows and the camera rests. Returns whether there are new errors
 // to show.
 static bool measure_errors(DipPreview *preview, int64_t now_ns) {
+    const bool gallery = preview->def.session->shows_gallery;
     const bool measures =
-        preview->state.panel && dip_preview_rests(&preview->state, preview->flying);
+        !gallery && preview->state.panel && dip_preview_rests(&preview->state, preview->flying);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        preview->figures.shown[p].no_errors = gallery;
+    }
     if (!preview->errors && !(measures && create_errors(preview, now_ns))) {
         return false;
     }
@@ -407,7 +457,9 @@ static bool show(DipPreview *preview, int64_t now_ns, DipError *err) {
         return false;
     }
     dip_start_times_frame(&preview->def.session->times);
-    dip_prefetch_begin(&preview->prefetch, preview->def.session->scene);
+    if (preview->def.session->scene) {
+        dip_prefetch_begin(&preview->prefetch, preview->def.session->scene);
+    }
     dip_figures_count_presented(&preview->figures, clock_ns(preview));
     return true;
 }
@@ -434,6 +486,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     fly(preview, elapsed_ns);
     dip_preview_advance(state, elapsed_ns, now_ns);
     follow_full_screen(preview);
+    follow_scene(preview, now_ns);
     if (preview->resized) {
         follow_refresh(preview);
     }

@@ -192,6 +192,11 @@ static void format_place(const DipPreviewState *state, char *text, size_t size_b
         snprintf(text, size_bytes, "Free camera");
         return;
     }
+    if (state->scene_title) {
+        snprintf(text, size_bytes, "%s: %s   %.1f s%s", state->scene_title, state->scene_look,
+                 1e-9 * (double)state->play_ns, state->paused ? "   paused" : "");
+        return;
+    }
     snprintf(text, size_bytes, "Path: %s   %.1f s%s",
              dip_preview_category_title(state->track->active),
              1e-9 * (double)dip_camtrack_time(state->track, state->play_ns),

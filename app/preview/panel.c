@@ -98,7 +98,9 @@ int dip_panel_lines(const DipPaneFigures *figures, int pane,
     } else {
         add_times(&all, figures);
     }
-    add_error(&all, &figures->errors, pane);
+    if (!figures->no_errors) {
+        add_error(&all, &figures->errors, pane);
+    }
     if (!figures->copied) {
         add_work(&all, &figures->counters);
     }

@@ -23,6 +23,7 @@ typedef struct DipPaneFigures {
     DipCounters counters;
     bool copied; // The pane shows the other pane's picture, since the settings are the same.
     DipErrorReading errors;
+    bool no_errors; // The scene has no reference pictures, so the panel leaves errors out.
 } DipPaneFigures;
 
 typedef struct DipPanelLine {

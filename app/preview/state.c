@@ -137,6 +137,11 @@ static void choose_path(DipPreviewState *state, int category, int64_t now_ns) {
 // Chooses the next category, in the given direction, whose path is not the current one. Several
 // categories may share a path.
 static void next_path(DipPreviewState *state, int direction, int64_t now_ns) {
+    if (state->shows_gallery) { // each scene has one path
+        state->scene_step = direction;
+        ++state->scene_changes;
+        return;
+    }
     const int from = state->track->active;
     const DipCamPath *playing = state->track->categories[from].path;
     for (int i = 1; i < DIP_CATEGORY_COUNT; ++i) {
@@ -199,6 +204,15 @@ static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
     }
 }
 
+static void change_look(DipPreviewState *state, bool reverse, int64_t now_ns) {
+    if (!state->shows_gallery) {
+        dip_preview_notice(state, now_ns, "Only scenes of the gallery have variants");
+        return;
+    }
+    state->look += reverse ? -1 : 1;
+    ++state->scene_changes;
+}
+
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns) {
     switch (action) {
@@ -229,6 +243,13 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         break;
     case DIP_ACTION_PATH:
         choose_path(state, argument, now_ns);
+        break;
+    case DIP_ACTION_NEXT_SCENE:
+        state->scene_step = reverse ? -1 : 1;
+        ++state->scene_changes;
+        break;
+    case DIP_ACTION_LOOK:
+        change_look(state, reverse, now_ns);
         break;
     case DIP_ACTION_CAMERA:
         state->manual = !state->manual;

@@ -23,6 +23,8 @@ typedef enum DipAction {
     DIP_ACTION_NEXT_PATH,
     DIP_ACTION_PREVIOUS_PATH,
     DIP_ACTION_PATH,
+    DIP_ACTION_NEXT_SCENE,
+    DIP_ACTION_LOOK,
     DIP_ACTION_CAMERA,
     DIP_ACTION_HELP,
     DIP_ACTION_PANEL,
@@ -42,12 +44,17 @@ typedef struct DipPreviewState {
     int64_t play_ns;             // Time on the path, never below 0.
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
-    bool manual;           // The user flies the camera; time stands still.
-    bool help;             // The help shows.
-    bool panel;            // Each pane shows its times, errors and work.
-    const DipCosts *costs; // Borrowed; NULL if there is no cost report.
-    bool show_costs;       // The table of costs shows.
-    int next_advice;       // Index in costs->advice of the next advice to give.
+    bool manual;             // The user flies the camera; time stands still.
+    bool shows_gallery;      // The panes show a scene of the gallery.
+    int scene_step;          // The scene that the user asked for: 1 the next, -1 the one before.
+    int look;                // The scene's variant; the scene wraps it around.
+    const char *scene_title; // Of the gallery's scene; NULL if the panes show models.
+    const char *scene_look;  // Name of its variant.
+    bool help;               // The help shows.
+    bool panel;              // Each pane shows its times, errors and work.
+    const DipCosts *costs;   // Borrowed; NULL if there is no cost report.
+    bool show_costs;         // The table of costs shows.
+    int next_advice;         // Index in costs->advice of the next advice to give.
     bool quit;
     bool full_screen;
     bool screenshot;              // The user asked for a screenshot. Cleared when it is saved.

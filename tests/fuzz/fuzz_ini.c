@@ -53,6 +53,9 @@ static void write_value(FILE *out, DipConfigType type, const void *field) {
     case DIP_TYPE_ISA:
         write_isa(out, *(const int *)field);
         break;
+    case DIP_TYPE_NAME:
+        fputs(((const DipConfigName *)field)->text, out);
+        break;
     case DIP_TYPE_FILE:
     case DIP_TYPE_FILES:
         fputs(((const DipConfigFile *)field)->text, out);
@@ -114,6 +117,8 @@ static bool same_value(DipConfigType type, const void *a, const void *b) {
         return memcmp(a, b, sizeof(DipQuality)) == 0;
     case DIP_TYPE_COLOR:
         return memcmp(a, b, sizeof(DipConfigColor)) == 0;
+    case DIP_TYPE_NAME:
+        return strcmp(((const DipConfigName *)a)->text, ((const DipConfigName *)b)->text) == 0;
     case DIP_TYPE_FILE:
         return same_file(a, b);
     case DIP_TYPE_FILES:

@@ -35,7 +35,8 @@ static bool count_call(void *context, double done) {
 
 static DipTruthDef make_def(int samples) {
     return (DipTruthDef){reference, "scene", scene.pose, 0,
-                         WIDTH,     HEIGHT,  samples,    DIP_FLIP_PIXELS_PER_DEGREE};
+                         WIDTH,     HEIGHT,  samples,    DIP_FLIP_PIXELS_PER_DEGREE,
+                         NULL,      NULL};
 }
 
 static bool get(DipTruth *truth, const DipTruthDef *def, const char *cache) {

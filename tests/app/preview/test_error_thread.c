@@ -32,7 +32,8 @@ static bool go_on(void *context, double done) {
 
 static DipTruth truth_of(const DipPose *pose, int samples) {
     const DipTruthDef def = {reference, "scene", *pose,   0,
-                             WIDTH,     HEIGHT,  samples, DIP_FLIP_PIXELS_PER_DEGREE};
+                             WIDTH,     HEIGHT,  samples, DIP_FLIP_PIXELS_PER_DEGREE,
+                             NULL,      NULL};
     DipTruth truth;
     assert_true(dip_truth_get(&truth, &def, NULL, NULL, go_on, NULL, NULL));
     return truth;

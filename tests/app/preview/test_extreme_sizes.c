@@ -51,7 +51,7 @@ static int set_up(void **state) {
         DipRendererDef def = dip_renderer_default_def();
         def.pool = session.pool;
         assert_true(dip_quality_parse(p ? "aa=8,af=16" : "aa=none", &def.quality, NULL));
-        session.renderers[p] = dip_renderer_create(&def, NULL);
+        session.renderers[p] = dip_painter_create(&def, NULL, NULL);
         assert_non_null(session.renderers[p]);
     }
     make_path();
@@ -71,7 +71,7 @@ static int tear_down(void **state) {
     display.close(display.context);
     dip_campath_destroy(&path);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        dip_renderer_destroy(&session.renderers[p]);
+        dip_painter_destroy(&session.renderers[p]);
     }
     dip_scene_destroy(&session.scene);
     dip_pool_destroy(&session.pool);
@@ -168,7 +168,7 @@ static void compare_pane(void) {
     DipFrame frame;
     DipPose pose = scene.pose;
     pose.fov_y_deg = 60.0;
-    assert_true(dip_renderer_draw(session.renderers[DIP_PANE_CURRENT], session.scene, &pose,
+    assert_true(dip_painter_draw(session.renderers[DIP_PANE_CURRENT], session.scene, &pose,
                                   dip_preview_state(preview)->play_ns, &frame, NULL));
     assert_int_equal(frame.width, DIP_MAX_FRAME_SIZE);
     assert_int_equal(frame.height, DIP_MAX_FRAME_SIZE);

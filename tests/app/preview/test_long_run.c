@@ -282,7 +282,7 @@ static void draw_panes(int number, int64_t later_ns, DipSessionFrame *frame) {
     DipError err = {0};
     DipPose pose;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        const DipQuality drawn = dip_renderer_quality(run.session.renderers[p]);
+        const DipQuality drawn = dip_painter_quality(run.session.renderers[p]);
         assert_memory_equal(&drawn, &state->quality[p], sizeof drawn);
     }
     if (!dip_session_draw(&run.session, state->play_ns + later_ns, (uint64_t)number, &pose, frame,

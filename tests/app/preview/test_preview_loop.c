@@ -64,7 +64,7 @@ static int set_up(void **state) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         DipRendererDef def = dip_renderer_default_def();
         def.pool = session.pool;
-        session.renderers[p] = dip_renderer_create(&def, NULL);
+        session.renderers[p] = dip_painter_create(&def, NULL, NULL);
         assert_non_null(session.renderers[p]);
     }
     make_path();
@@ -84,7 +84,7 @@ static int tear_down(void **state) {
     display.close(display.context);
     dip_campath_destroy(&path);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        dip_renderer_destroy(&session.renderers[p]);
+        dip_painter_destroy(&session.renderers[p]);
     }
     dip_scene_destroy(&session.scene);
     dip_pool_destroy(&session.pool);

@@ -73,7 +73,7 @@ static void open_session(void *context) {
         def.pool = session.pool;
         def.width = 200;
         def.height = HEIGHT;
-        session.renderers[p] = dip_renderer_create(&def, NULL);
+        session.renderers[p] = dip_painter_create(&def, NULL, NULL);
         assert_non_null(session.renderers[p]);
     }
     make_path();
@@ -87,7 +87,7 @@ static void close_all(void *context) {
     display.close(display.context);
     dip_campath_destroy(&path);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        dip_renderer_destroy(&session.renderers[p]);
+        dip_painter_destroy(&session.renderers[p]);
     }
     dip_scene_destroy(&session.scene);
     dip_pool_destroy(&session.pool);
