@@ -169,7 +169,7 @@ static void compare_pane(void) {
     DipPose pose = scene.pose;
     pose.fov_y_deg = 60.0;
     assert_true(dip_painter_draw(session.renderers[DIP_PANE_CURRENT], session.scene, &pose,
-                                  dip_preview_state(preview)->play_ns, &frame, NULL));
+                                 dip_preview_state(preview)->play_ns, &frame, NULL));
     assert_int_equal(frame.width, DIP_MAX_FRAME_SIZE);
     assert_int_equal(frame.height, DIP_MAX_FRAME_SIZE);
     for (int y = 2000; y < 8000; y += 61) {
