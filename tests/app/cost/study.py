@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures whether reports of `diptych cost` can be believed. It needs a quiet machine and hours.
 
-    study.py repeat DIPTYCH OUT --count 5 [--load 2]   sweeps into OUT/quiet-1.. or OUT/loaded-1..
+    study.py repeat [--count 5] [--load 2] DIPTYCH OUT   sweeps into OUT/quiet-1.. or OUT/loaded-1..
     study.py coverage OUT/quiet-*                      do intervals of ratios hold between runs?
     study.py verdicts OUT/*                            verdict, sign by sign, of each run
     study.py order OUT/*                               do green runs rank the steps alike?
@@ -114,65 +114,76 @@ def order(options):
 
 
 def advice(options):
-    """Compares advice with the best combination by the times of all green runs together."""
+    """Compares advice with the best combination by the ratios of all green runs together.
+
+    The milliseconds of a run are those of its own machine level, so a combination's time in a run
+    is its usual ratio to the baseline, times the run's own baseline.
+    """
     reports = green(options.reports)
     if not reports:
         sys.exit("no run is green")
-    settings = {}
-    for report in reports:
-        for row in report["rows"][report["combined_first"]:]:
-            settings.setdefault(row["settings"], []).append(row)
     kind = ["p95_ms", "ms", "worst_ms"][reports[0]["budget_of"]]
-    time = {key: statistics.median(row[kind] for row in rows) for key, rows in settings.items()}
-    error = {key: flip(rows[0]) for key, rows in settings.items()}
+    ratios = {}
     for report in reports:
+        rows = report["rows"][report["combined_first"]:]
+        report["base_ms"] = next(row[kind] for row in rows if row["text"] == "defaults")
+        for row in rows:
+            ratios.setdefault(row["settings"], []).append(row[kind] / report["base_ms"])
+    usual = {key: statistics.median(values) for key, values in ratios.items()}
+    for report in reports:
+        rows = {row["settings"]: row for row in report["rows"][report["combined_first"]:]}
         for item in report["advice"]:
-            fitting = [key for key in time if time[key] <= item["budget_ms"]]
-            best = min((error[key] for key in fitting), default=None)
-            if item["row"] < 0:
+            time = {key: usual[key] * report["base_ms"] for key in rows}
+            fitting = [key for key in rows if time[key] <= item["budget_ms"]]
+            if item["row"] < 0 or not fitting:
                 print("%s %6g ms: none; %d fit" % (report["folder"], item["budget_ms"],
                                                    len(fitting)))
                 continue
-            key = report["rows"][item["row"]]["settings"]
-            print("%s %6g ms: time of all runs %.2f ms, FLIP %.5f, best %.5f (%+.1f %%)" % (
-                report["folder"], item["budget_ms"], time[key], error[key], best or 0,
-                100 * (error[key] / best - 1) if best else 0))
+            best = rows[min(fitting, key=lambda key: flip(rows[key]))]
+            row = report["rows"][item["row"]]
+            print("%s %6g ms: %s, %.2f ms, FLIP %.5f; best %s, %.2f ms, %.5f (%+.1f %%)" % (
+                report["folder"], item["budget_ms"], row["text"], time[row["settings"]], flip(row),
+                best["text"], time[best["settings"]], flip(best),
+                100 * (flip(row) / flip(best) - 1)))
 
 
-def p95_by_bench(diptych, sets, arguments):
-    """Times settings by `bench`. Returns the 95th percentile of the frames' medians of each."""
-    with tempfile.TemporaryDirectory() as folder:
-        table = os.path.join(folder, "bench.csv")
-        subprocess.run([diptych, "bench", "--sets", ";".join(sets), "--frames", "64", "--rounds",
-                        "8", "--csv", table, *arguments], stdout=subprocess.DEVNULL, check=True)
-        times = {}
-        for line in csv.DictReader(open(table)):
-            times.setdefault(line["settings"], {}).setdefault(line["frame"], []).append(
-                float(line["total_ms"]))
-    result = []
-    for frames in times.values():
-        medians = sorted(statistics.median(values) for values in frames.values())
-        place = 0.95 * (len(medians) - 1)
-        below = int(place)
-        above = min(below + 1, len(medians) - 1)
-        result.append(medians[below] + (place - below) * (medians[above] - medians[below]))
-    return result
+def set_of(row):
+    return "aa=none" if row["text"] == "defaults" else row["text"]
+
+
+def fastest_better(report, item):
+    """Returns the fastest combination with a FLIP of over 1 % less than the advised one's, or None."""
+    kind = ["p95_ms", "ms", "worst_ms"][report["budget_of"]]
+    limit = 0.99 * flip(report["rows"][item["row"]])
+    better = [row for row in report["rows"][report["combined_first"]:] if flip(row) < limit]
+    return min(better, key=lambda row: row[kind], default=None)
 
 
 def bench(options):
     report = read(options.report)
-    held = 0
+    held = beaten = 0
     for item in report["advice"]:
         if item["row"] < 0:
             print("%6g ms: none" % item["budget_ms"])
             continue
         row = report["rows"][item["row"]]
-        p95 = p95_by_bench(options.diptych, ["aa=none", row["settings"]], options.arguments)[-1]
-        held += p95 <= item["budget_ms"]
+        rival = fastest_better(report, item)
+        sets = ["gi=off", set_of(row)] + ([set_of(rival)] if rival else [])
+        times = p95_by_bench(options.diptych, sets, options.arguments)
+        held += times[1] <= item["budget_ms"]
+        # The machine's level in the report: the advised row takes item["ms"] there.
+        level = item["ms"] / times[1]
+        fits = bool(rival) and level * times[2] <= item["budget_ms"]
+        beaten += fits
         print("%6g ms: %s: %.2f ms by bench, %.2f ms (up to %.2f) in the report%s" % (
-            item["budget_ms"], row["text"], p95, item["ms"], item["ms_high"],
-            "" if p95 <= item["budget_ms"] else "  OVER"), flush=True)
-    print("%d of %d budgets hold" % (held, len(report["advice"])))
+            item["budget_ms"], row["text"], times[1], item["ms"], item["ms_high"],
+            "" if times[1] <= item["budget_ms"] else "  OVER"))
+        if rival:
+            print("           the fastest one with less FLIP, %s: %.2f ms by bench, %.2f ms at the "
+                  "report's level%s" % (rival["text"], times[2], level * times[2],
+                                        "  FITS" if fits else ""), flush=True)
+    print("%d of %d budgets hold, %d have a better combination within them" % (
+        held, len(report["advice"]), beaten))
 
 
 def main():
