@@ -49,6 +49,18 @@ static void append(char *line, size_t size_bytes, const char *between, const cha
     }
 }
 
+// Returns the reason for which no effect ran, if all have the same one, or NULL.
+static const char *common_reason(const DipEffects *effects) {
+    const char *reason = effects->reflection.why;
+    bool common = reason != NULL;
+#define COMPARE_REASON(name, text)                                                                 \
+    common = common && !effects->name.run && effects->name.why &&                                  \
+             strcmp(effects->name.why, reason) == 0;
+    DIP_EFFECT_LIST(COMPARE_REASON)
+#undef COMPARE_REASON
+    return common ? reason : NULL;
+}
+
 // Names the effects that ran, then the effects that did not run. If `reasons` is set, says why each
 // effect did not run.
 static void list_effects(const DipEffects *effects, bool reasons, char *line, size_t size_bytes) {
@@ -77,6 +89,11 @@ static void list_effects(const DipEffects *effects, bool reasons, char *line, si
 
 static void format_effects(DipFont *font, int size, int room, const DipEffects *effects, char *line,
                            size_t size_bytes) {
+    const char *reason = common_reason(effects);
+    if (reason) {
+        snprintf(line, size_bytes, "Effects: none; %s", reason);
+        return;
+    }
     list_effects(effects, true, line, size_bytes);
     if (dip_font_width(font, size, line) > room) {
         list_effects(effects, false, line, size_bytes);
