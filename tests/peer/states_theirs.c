@@ -1,6 +1,8 @@
 // Draws the scenes of draw states by llvmpipe. The shaders compute what those of states_ours.c do.
 #include "tests/peer/states_theirs.h"
 
+#include <stdint.h>
+
 static const char *const vertex_source = "#version 330 core\n"
                                          "in vec3 position;\n"
                                          "in vec3 normal;\n"
@@ -83,7 +85,7 @@ static void make_meshes(DipStatesTheirs *theirs) {
         for (GLuint a = 0; a < 2; a++) {
             gl->EnableVertexAttribArray(a);
             gl->VertexAttribPointer(a, 3, GL_FLOAT, GL_FALSE, stride,
-                                    (const char *)NULL + 3 * a * sizeof(float));
+                                    (const void *)(uintptr_t)(3 * a * sizeof(float)));
         }
     }
 }
