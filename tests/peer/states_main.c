@@ -1,6 +1,7 @@
 // dip_peer_states: times three scenes with draw states by our pipeline and by llvmpipe, in turn.
 //
-// Usage: dip_peer_states [ROUNDS]     (default 40)
+// Then it prints the time of a blended fragment beside that of an opaque one.
+// Usage: dip_peer_states [ROUNDS [SCENE]]     (default: 40 rounds, all scenes)
 #include "app/measure/statistics.h"
 #include "renderer/base/clock.h"
 #include "tests/peer/likeness.h"
@@ -9,6 +10,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { WIDTH = 640, HEIGHT = 480, THREADS = 2, MAX_ROUNDS = 1000 };
 
@@ -78,6 +80,52 @@ static bool measure(DipStatesOurs *ours, const DipStatesTheirs *theirs, int roun
     return true;
 }
 
+// Returns the median time of a frame of the first `parts` layers, in milliseconds, or -1.
+static double layers_ms(DipStatesData *data, int parts, int samples, int rounds, double *fragments,
+                        DipError *err) {
+    static double ms[MAX_ROUNDS];
+    double scratch[MAX_ROUNDS];
+    DipStatesOurs ours;
+    data->part_count = parts;
+    if (!dip_states_ours_open(&ours, data, WIDTH, HEIGHT, samples, THREADS, err)) {
+        return -1.0;
+    }
+    bool done = true;
+    for (int r = -1; done && r < rounds; r++) { // the first frame warms the caches
+        const int64_t begin_ns = dip_clock_ns();
+        done = dip_states_ours_draw(&ours, err);
+        ms[r < 0 ? 0 : r] = ms_since(begin_ns);
+    }
+    *fragments =
+        (double)(data->opaque ? ours.counters.fragments_shaded : ours.counters.fragments_ordered);
+    dip_states_ours_close(&ours);
+    return done ? dip_stats_quantile(ms, rounds, 0.5, scratch) : -1.0;
+}
+
+// Prints what a blended fragment costs: the time that the upper half of the layers adds, for each
+// of their fragments. Beside it, prints the time of a frame of opaque layers for each fragment that
+// it shades.
+static bool measure_fragments(int samples, int rounds, DipError *err) {
+    DipStatesData data;
+    double all, half, shaded;
+    if (!dip_states_make(DIP_STATES_BLEND, (double)WIDTH / HEIGHT, &data, err)) {
+        return false;
+    }
+    const int parts = data.part_count;
+    const double half_ms = layers_ms(&data, parts / 2, samples, rounds, &half, err);
+    const double all_ms = layers_ms(&data, parts, samples, rounds, &all, err);
+    data.opaque = true;
+    const double opaque_ms = layers_ms(&data, parts, samples, rounds, &shaded, err);
+    dip_states_free(&data);
+    if (half_ms < 0.0 || all_ms < 0.0 || opaque_ms < 0.0) {
+        return false;
+    }
+    printf("%dx: a blended fragment takes %.2f ns; a frame of opaque layers takes %.2f ns for each "
+           "fragment that it shades\n",
+           samples, 1e6 * (all_ms - half_ms) / (all - half), 1e6 * opaque_ms / shaded);
+    return true;
+}
+
 static bool run_scene(const DipGl *gl, DipStatesScene kind, int samples, int rounds,
                       DipError *err) {
     DipStatesData data;
@@ -107,9 +155,15 @@ int main(int argc, char **argv) {
     }
     bool done = true;
     for (int kind = 0; done && kind < DIP_STATES_COUNT; kind++) {
+        if (argc > 2 && strcmp(argv[2], dip_states_names[kind]) != 0) {
+            continue;
+        }
         for (int samples = 1; done && samples <= 4; samples += 3) {
             done = run_scene(&gl, (DipStatesScene)kind, samples, rounds, &err);
         }
+    }
+    for (int samples = 1; done && samples <= 4; samples += 3) {
+        done = measure_fragments(samples, rounds, &err);
     }
     if (!done) {
         fprintf(stderr, "%s: %s\n", err.key, err.message);

@@ -99,7 +99,7 @@ static DipDraw draw_of(const DipStatesOurs *ours, const Uniforms *uniforms) {
         draw.vertex_shader = plain_vertex;
         draw.fragment_shader = flat_fragment;
         draw.varying_count = draw.value_only_varying_count = 0;
-        draw.state = &layers[part->mode];
+        draw.state = ours->data->opaque ? NULL : &layers[part->mode];
     } else if (ours->data->kind == DIP_STATES_SHADOW) {
         draw.fragment_shader = shadowed_fragment;
     } else {
@@ -152,9 +152,9 @@ bool dip_states_ours_draw(DipStatesOurs *ours, DipError *err) {
                                      .stride_bytes = 4 * (size_t)ours->width,
                                      .width = ours->width,
                                      .height = ours->height}};
-    DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
-    return dip_pipeline_draw(ours->pipeline, &pass, &counters, &times, err);
+    ours->counters = (DipPipelineCounters){0};
+    return dip_pipeline_draw(ours->pipeline, &pass, &ours->counters, &times, err);
 }
 
 bool dip_states_ours_open(DipStatesOurs *ours, const DipStatesData *data, int width, int height,

@@ -15,7 +15,8 @@ typedef struct DipStatesOurs {
     int width;
     int height;
     int sample_count;
-    uint8_t *rgba8; // owned
+    uint8_t *rgba8;               // owned
+    DipPipelineCounters counters; // of the last frame
 } DipStatesOurs;
 
 bool dip_states_ours_open(DipStatesOurs *ours, const DipStatesData *data, int width, int height,

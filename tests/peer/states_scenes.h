@@ -30,6 +30,7 @@ typedef struct DipStatesPart {
 
 typedef struct DipStatesData {
     DipStatesScene kind;
+    bool opaque; // layers do not blend: each hides those behind it
     DipShape shapes[2];
     int shape_count;
     DipStatesPart parts[DIP_STATES_MAX_PARTS];

@@ -27,9 +27,10 @@
     /* Draws a triangle of an ordered draw in a tile that its box meets. */                        \
     X(void, dip_kernel_draw_ordered,                                                               \
       (DipTile * tile, const DipTriangle *triangle, uint32_t index, DipOrdered *ordered))          \
-    /* Blends the shaded fragments of an ordered draw's queue into the samples. */                 \
+    /* Blends a shaded batch of fragments of an ordered draw into the samples. */                  \
     X(void, dip_kernel_blend,                                                                      \
-      (DipTileColours * colours, const DipOrdered *ordered, const DipFragmentBatch *batch))        \
+      (DipTileColours * colours, const DipDrawState *state, const DipOrderedBatch *ordered,        \
+       const DipFragmentBatch *batch))                                                             \
     /* Averages the samples of a block to bytes R, G, B, A. srgb_code NULL: linear codes. */       \
     X(void, dip_kernel_resolve_codes,                                                              \
       (const DipTileColours *colours, int block, const uint8_t *srgb_code, uint32_t *rgba8))       \

@@ -34,6 +34,34 @@ static int in_block(int x, int y) {
            x % DIP_SUB_BLOCK;
 }
 
+// Copies a row's values of 4 bytes out of a block's order, or into it. `of_block`: the values of
+// the block's 64 pixels; `of_row`: those of the row's pixels.
+static void copy_row_out(const Row *row, int y, const void *of_block, void *of_row) {
+    const uint32_t *from = of_block;
+    uint32_t *to = of_row;
+    if (row->to - row->from == DIP_BLOCK) {
+        memcpy(to, from + in_block(0, y), DIP_SUB_BLOCK * sizeof *to);
+        memcpy(to + DIP_SUB_BLOCK, from + in_block(DIP_SUB_BLOCK, y), DIP_SUB_BLOCK * sizeof *to);
+        return;
+    }
+    for (int x = row->from; x < row->to; x++) {
+        to[x - row->from] = from[in_block(x, y)];
+    }
+}
+
+static void copy_row_in(const Row *row, int y, const void *of_row, void *of_block) {
+    const uint32_t *from = of_row;
+    uint32_t *to = of_block;
+    if (row->to - row->from == DIP_BLOCK) {
+        memcpy(to + in_block(0, y), from, DIP_SUB_BLOCK * sizeof *to);
+        memcpy(to + in_block(DIP_SUB_BLOCK, y), from + DIP_SUB_BLOCK, DIP_SUB_BLOCK * sizeof *to);
+        return;
+    }
+    for (int x = row->from; x < row->to; x++) {
+        to[in_block(x, y)] = from[x - row->from];
+    }
+}
+
 static char *target_row(const DipTarget *target, int y) {
     return (char *)target->rgba8 + (size_t)y * target->stride_bytes;
 }
@@ -86,9 +114,7 @@ void dip_load_colours(const DipMergePass *pass, const DipTile *tile, int block,
             load_row(pass, &row, held);
         }
         for (int c = 0; c < CHANNELS; c++) {
-            for (int x = row.from; x < row.to; x++) {
-                light[c][in_block(x, y)] = held[c][x - row.from];
-            }
+            copy_row_in(&row, y, held[c], light[c]);
         }
     }
 }
@@ -101,10 +127,7 @@ static void store_codes(const DipMergePass *pass, const DipTile *tile, int block
         if (row.to <= row.from) {
             continue;
         }
-        uint32_t *to = (uint32_t *)(void *)target_row(target, row.y) + row.x;
-        for (int x = row.from; x < row.to; x++) {
-            to[x - row.from] = rgba8[in_block(x, y)];
-        }
+        copy_row_out(&row, y, rgba8, (uint32_t *)(void *)target_row(target, row.y) + row.x);
     }
 }
 
@@ -119,9 +142,7 @@ static void store_light(const DipMergePass *pass, const DipTile *tile, int block
         }
         float line[CHANNELS][DIP_BLOCK];
         for (int c = 0; c < CHANNELS; c++) {
-            for (int x = row.from; x < row.to; x++) {
-                line[c][x - row.from] = light[c][in_block(x, y)];
-            }
+            copy_row_out(&row, y, light[c], line[c]);
         }
         if (target->format == DIP_FORMAT_CALLER) {
             const float *const rows[CHANNELS] = {line[0], line[1], line[2], line[3]};
@@ -189,10 +210,7 @@ void dip_load_depths(const DipMergePass *pass, DipTile *tile) {
             const Row row = row_of(pass, tile, block, y);
             for (int s = 0; row.to > row.from && s < count; s++) {
                 const float *from = a->depth->depth + dip_depth_row_index(a->depth, s, row.y);
-                float *to = tile->depth + dip_tile_index(tile, block, s);
-                for (int x = row.from; x < row.to; x++) {
-                    to[in_block(x, y)] = from[row.x + x - row.from];
-                }
+                copy_row_in(&row, y, from + row.x, tile->depth + dip_tile_index(tile, block, s));
             }
         }
     }
@@ -220,6 +238,7 @@ void dip_load_stencil(const DipMergePass *pass, const DipTile *tile, uint8_t *st
 }
 
 static void store_depths(const DipMergePass *pass, const DipTile *tile, int block) {
+    static const float cleared[DIP_BLOCK];
     DipDepth *depth = pass->pass->attachments.depth;
     const bool touched = tile->touched >> block & 1;
     for (int y = 0; y < DIP_BLOCK; y++) {
@@ -227,8 +246,10 @@ static void store_depths(const DipMergePass *pass, const DipTile *tile, int bloc
         for (int s = 0; row.to > row.from && s < tile->pattern->count; s++) {
             const float *from = tile->depth + dip_tile_index(tile, block, s);
             float *to = depth->depth + dip_depth_row_index(depth, s, row.y) + row.x;
-            for (int x = row.from; x < row.to; x++) {
-                to[x - row.from] = touched ? from[in_block(x, y)] : 0.0f;
+            if (touched) {
+                copy_row_out(&row, y, from, to);
+            } else {
+                memcpy(to, cleared, (size_t)(row.to - row.from) * sizeof *to);
             }
         }
     }

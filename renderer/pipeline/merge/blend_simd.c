@@ -10,9 +10,16 @@ typedef struct Colour {
     Vf channel[CHANNELS];
 } Colour;
 
-// The colours of a sub-block's fragments. Pixels without a fragment have any colour.
-typedef struct Source {
+// The colours of a sub-block's fragments, spread to its pixels. Pixels without a fragment have any
+// colour.
+typedef struct Spread {
     float channel[CHANNELS][DIP_SUB_BLOCK_PIXELS];
+} Spread;
+
+// The colours of a sub-block's 16 pixels: of a Spread, or of the batch if all pixels have a
+// fragment.
+typedef struct Source {
+    const float *channel[CHANNELS];
 } Source;
 
 VEC_INLINE Vf one_minus(Vf v) {
@@ -78,59 +85,58 @@ VEC_INLINE Vf clamped(Vf v) {
     return vf_min(vf_max(v, vf_splat(0.0f)), vf_splat(1.0f));
 }
 
+// How a draw's fragments change the colours.
+typedef struct Blending {
+    const DipBlend *blend;
+    unsigned kept_channels;
+    bool clamps;
+} Blending;
+
 // Blends one vector of one sample's colours. first: index of the vector's first value.
-VEC_INLINE void blend_vector(DipTileColours *colours, const DipDrawState *state,
-                             const Source *source, int v, int first, unsigned bits) {
+VEC_INLINE void blend_vector(DipTileColours *colours, const Blending *how, const Source *source,
+                             int v, int first, unsigned bits) {
     const Mask mask = mask_from_bits(bits);
     Colour s;
     Colour t;
+#pragma GCC unroll 4
     for (int c = 0; c < CHANNELS; c++) {
-        s.channel[c] = vf_load(source->channel[c] + v * DIP_LANES);
+        const Vf from = vf_load(source->channel[c] + v * DIP_LANES);
+        s.channel[c] = how->clamps ? clamped(from) : from;
         t.channel[c] = vf_load(colours->channel[c] + first);
     }
+#pragma GCC unroll 4
     for (int c = 0; c < CHANNELS; c++) {
-        if (state->kept_channels >> c & 1) {
+        if (how->kept_channels >> c & 1) {
             continue;
         }
-        Vf result = state->blend.enabled ? blend_channel(&state->blend, &s, &t, c) : s.channel[c];
-        if (colours->clamps) {
-            result = clamped(result);
+        Vf result = s.channel[c];
+        if (how->blend->enabled) {
+            result = blend_channel(how->blend, &s, &t, c);
+            result = how->clamps ? clamped(result) : result;
         }
         vf_store_lanes(colours->channel[c] + first, mask, result, t.channel[c]);
     }
 }
 
-static void blend_sample(DipTileColours *colours, const DipDrawState *state, const Source *source,
-                         int first, unsigned pixels) {
+VEC_INLINE void blend_sample(DipTileColours *colours, const Blending *how, const Source *source,
+                             int first, unsigned pixels) {
     for (int v = 0; v < VECTORS; v++) {
         const unsigned bits = pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
         if (bits) {
-            blend_vector(colours, state, source, v, first + v * DIP_LANES, bits);
+            blend_vector(colours, how, source, v, first + v * DIP_LANES, bits);
         }
     }
 }
 
-// Spreads the batch's next colours to the pixels of a sub-block. Returns their number.
-static int spread(const DipFragmentBatch *batch, int at, unsigned pixels, bool clamps,
-                  Source *source) {
-    const float *from[CHANNELS] = {batch->colour[0], batch->colour[1], batch->colour[2],
-                                   batch->alpha};
-    const int count = __builtin_popcount(pixels);
+// Spreads the colours of a sub-block's fragments, `from`, to their pixels.
+static void spread(const Source *from, unsigned pixels, Spread *to) {
     for (int c = 0; c < CHANNELS; c++) {
-        const float *next = from[c] + at;
-        if (count == DIP_SUB_BLOCK_PIXELS) {
-            memcpy(source->channel[c], next, sizeof source->channel[c]);
-        } else {
-            memset(source->channel[c], 0, sizeof source->channel[c]);
-            for (unsigned left = pixels; left; left &= left - 1) {
-                source->channel[c][__builtin_ctz(left)] = *next++;
-            }
-        }
-        for (int i = 0; clamps && i < DIP_SUB_BLOCK_PIXELS; i += DIP_LANES) {
-            vf_store(source->channel[c] + i, clamped(vf_load(source->channel[c] + i)));
+        const float *next = from->channel[c];
+        memset(to->channel[c], 0, sizeof to->channel[c]);
+        for (unsigned left = pixels; left; left &= left - 1) {
+            to->channel[c][__builtin_ctz(left)] = *next++;
         }
     }
-    return count;
 }
 
 // Whether every pixel of a sub-block shows its fragment in all samples or in none.
@@ -143,26 +149,80 @@ static bool is_uniform(const DipOrderedSubBlock *sub_block, int sample_count) {
     return true;
 }
 
-void DIP_KERNEL(dip_kernel_blend)(DipTileColours *colours, const DipOrdered *ordered,
-                                  const DipFragmentBatch *batch) {
+// Blends the colours of one sub-block, whose fragments begin at index `at` of the batch.
+VEC_INLINE void blend_sub_block(DipTileColours *colours, const Blending *how,
+                                const DipOrderedSubBlock *sub_block, const DipFragmentBatch *batch,
+                                int at) {
     const int sample_count = colours->sample_count;
+    Spread pixels;
+    Source source = {
+        {batch->colour[0] + at, batch->colour[1] + at, batch->colour[2] + at, batch->alpha + at}};
+    if (sub_block->pixels != 0xffff) {
+        spread(&source, sub_block->pixels, &pixels);
+        for (int c = 0; c < CHANNELS; c++) {
+            source.channel[c] = pixels.channel[c];
+        }
+    }
+    if (!dip_is_split(colours, sub_block->number)) {
+        if (is_uniform(sub_block, sample_count)) {
+            blend_sample(colours, how, &source, sub_block->first, sub_block->visible[0]);
+            return;
+        }
+        dip_split(colours, sub_block->number);
+    }
+    for (int s = 0; s < sample_count; s++) {
+        blend_sample(colours, how, &source, sub_block->first + s * DIP_BLOCK_PIXELS,
+                     sub_block->visible[s]);
+    }
+}
+
+VEC_INLINE void blend_batch(DipTileColours *colours, const Blending *how,
+                            const DipOrderedBatch *ordered, const DipFragmentBatch *batch) {
     int at = 0;
     for (int i = 0; i < ordered->count; i++) {
         const DipOrderedSubBlock *sub_block = &ordered->waiting[i];
-        const int number = dip_sub_block_number(sub_block->first, sample_count);
-        Source source;
-        at += spread(batch, at, sub_block->pixels, colours->clamps, &source);
-        if (!dip_is_split(colours, number)) {
-            if (is_uniform(sub_block, sample_count)) {
-                blend_sample(colours, ordered->state, &source, sub_block->first,
-                             sub_block->visible[0]);
-                continue;
-            }
-            dip_split(colours, number);
-        }
-        for (int s = 0; s < sample_count; s++) {
-            blend_sample(colours, ordered->state, &source, sub_block->first + s * DIP_BLOCK_PIXELS,
-                         sub_block->visible[s]);
-        }
+        blend_sub_block(colours, how, sub_block, batch, at);
+        at += __builtin_popcount(sub_block->pixels);
     }
+}
+
+static bool same_equation(const DipBlendEquation *a, const DipBlendEquation *b) {
+    return a->source == b->source && a->target == b->target && a->op == b->op;
+}
+
+// Blends with a mode that the compiler knows, if the draw has it. Returns whether it has.
+VEC_INLINE bool blend_as(const DipBlend *mode, DipTileColours *colours, const DipDrawState *state,
+                         const DipOrderedBatch *ordered, const DipFragmentBatch *batch) {
+    const DipBlend *blend = &state->blend;
+    if (state->kept_channels || blend->enabled != mode->enabled ||
+        (mode->enabled && !(same_equation(&blend->colour, &mode->colour) &&
+                            same_equation(&blend->alpha, &mode->alpha)))) {
+        return false;
+    }
+    const Blending clamping = {mode, 0, true};
+    const Blending free_range = {mode, 0, false};
+    if (colours->clamps) {
+        blend_batch(colours, &clamping, ordered, batch);
+    } else {
+        blend_batch(colours, &free_range, ordered, batch);
+    }
+    return true;
+}
+
+void DIP_KERNEL(dip_kernel_blend)(DipTileColours *colours, const DipDrawState *state,
+                                  const DipOrderedBatch *ordered, const DipFragmentBatch *batch) {
+    static const DipBlend none = {0};
+    static const DipBlend alpha = DIP_BLEND_MODE_ALPHA;
+    static const DipBlend additive = DIP_BLEND_MODE_ADDITIVE;
+    static const DipBlend multiplicative = DIP_BLEND_MODE_MULTIPLICATIVE;
+    static const DipBlend double_multiplicative = DIP_BLEND_MODE_DOUBLE_MULTIPLICATIVE;
+    if (blend_as(&none, colours, state, ordered, batch) ||
+        blend_as(&alpha, colours, state, ordered, batch) ||
+        blend_as(&additive, colours, state, ordered, batch) ||
+        blend_as(&multiplicative, colours, state, ordered, batch) ||
+        blend_as(&double_multiplicative, colours, state, ordered, batch)) {
+        return;
+    }
+    const Blending how = {&state->blend, state->kept_channels, colours->clamps};
+    blend_batch(colours, &how, ordered, batch);
 }

@@ -126,8 +126,11 @@ void dip_merge_begin(const DipMergePass *pass, DipMergeTile *merge, DipTile *til
     merge->draw = -1;
     merge->plain_left = false;
     merge->ordered.stencil = merge->stencil;
-    merge->ordered.list.count = 0;
-    merge->ordered.count = 0;
+    for (int i = 0; i < DIP_ORDERED_BATCHES; i++) {
+        merge->ordered.batches[i].list.count = 0;
+        merge->ordered.batches[i].count = 0;
+    }
+    merge->ordered.full = 0;
     if (pass->starts_from_depth) {
         dip_load_depths(pass, tile);
     }

@@ -45,9 +45,22 @@ void dip_split(DipTileColours *colours, int sub_block);
 // A sub-block with fragments that wait to be shaded.
 typedef struct DipOrderedSubBlock {
     int first;                         // index of the sub-block's first value in the arrays
+    int number;                        // see dip_sub_block_number
     uint16_t pixels;                   // pixels with a fragment in the list, in the list's order
     uint16_t visible[DIP_MAX_SAMPLES]; // pixels in which each sample takes the fragment's colour
 } DipOrderedSubBlock;
+
+// A batch of fragments to shade, in submission order, and the sub-blocks that they lie in. One
+// pixel may have several fragments of different triangles.
+typedef struct DipOrderedBatch {
+    DipFragmentList list;
+    int count; // number of sub-blocks
+    DipOrderedSubBlock waiting[DIP_FRAGMENT_BATCH];
+} DipOrderedBatch;
+
+// How many batches wait until they are shaded together. Reading the clock, which tells the time of
+// shading from that of coverage, takes as long as blending half a batch.
+enum { DIP_ORDERED_BATCHES = 8 };
 
 // One ordered draw in one tile.
 typedef struct DipOrdered {
@@ -55,14 +68,19 @@ typedef struct DipOrdered {
     bool shades;             // the draw writes colours
     const DipClipTest *clip; // NULL: the draw has no clip shader
     uint8_t *stencil;        // [block][sample][64]
-    // Fragments to shade, in submission order, and the sub-blocks that they lie in. One pixel may
-    // have several fragments of different triangles.
-    DipFragmentList list;
-    int count; // number of sub-blocks
-    DipOrderedSubBlock waiting[DIP_FRAGMENT_BATCH];
-    // Shades the waiting fragments and blends them; the queue is empty afterwards.
+    int full;                // batches that are full; the next batch is being filled
+    DipOrderedBatch batches[DIP_ORDERED_BATCHES];
+    // Shades the waiting fragments and blends them; all batches are empty afterwards.
     void (*flush)(void *context);
     void *context;
 } DipOrdered;
+
+// Returns the batch after the current one, which is full. It is empty.
+static inline DipOrderedBatch *dip_ordered_next_batch(DipOrdered *ordered) {
+    if (++ordered->full == DIP_ORDERED_BATCHES) {
+        ordered->flush(ordered->context);
+    }
+    return &ordered->batches[ordered->full];
+}
 
 #endif

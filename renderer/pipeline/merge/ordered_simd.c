@@ -20,6 +20,7 @@ typedef struct OrderedTriangle {
 // The covered samples of a sub-block.
 typedef struct Cover {
     int first;                         // index of the sub-block's first value in the tile's arrays
+    int number;                        // see dip_sub_block_number
     float depth;                       // depth at the sub-block's corner
     uint16_t pixels;                   // pixels with a covered sample
     uint16_t samples[DIP_MAX_SAMPLES]; // pixels in which each sample is covered
@@ -31,6 +32,14 @@ typedef struct ClipQueue {
     int count;
     Cover waiting[DIP_FRAGMENT_BATCH];
 } ClipQueue;
+
+// How much of the draw's state a loop has to look at. Each kind has a loop of its own, in which the
+// compiler leaves out what the kind does not have.
+typedef enum OrderedKind {
+    KIND_SINGLE,  // as KIND_SIMPLE, with one sample per pixel
+    KIND_SIMPLE,  // solid, no clip shader, no stencil test, no depth bias, nearer samples pass
+    KIND_GENERAL, // any state
+} OrderedKind;
 
 // --- set-up --------------------------------------------------------------------------------------
 
@@ -81,14 +90,42 @@ VEC_INLINE Mask lines_lanes(const OrderedTriangle *tri, const PixelEdges *edges,
     return vi_not_negative(near);
 }
 
+// Returns the index of a sub-block's first pixel in the tile, y * DIP_TILE + x.
+VEC_INLINE int corner_of(const Region *region, int n) {
+    return (region->y + n / REGION) * DIP_SUB_BLOCK * DIP_TILE +
+           (region->x + n % REGION) * DIP_SUB_BLOCK;
+}
+
+// Returns the number of a sub-block (dip_sub_block_number).
+VEC_INLINE int number_of(const Region *region, int n) {
+    const int x = region->x + n % REGION;
+    const int y = region->y + n / REGION;
+    return (y / 2 * DIP_TILE_BLOCKS + x / 2) * 4 + y % 2 * 2 + x % 2;
+}
+
+// Fills in the cover of sub-block n, which lies wholly inside the triangle: every sample is
+// covered, and every fragment is shaded at the centre of its pixel.
+VEC_INLINE void cover_whole_sub_block(const Region *region, int n, int sample_count, Cover *cover) {
+    for (int s = 0; s < sample_count; s++) {
+        cover->samples[s] = 0xffff;
+    }
+    const Vi first = sub_position(128, 128) + vi_splat(corner_of(region, n));
+    for (int v = 0; v < VECTORS; v++) {
+        const Vi pixel =
+            (vi_load(lane_y + v * DIP_LANES) << DIP_POSITION_Y) + vi_load(lane_x + v * DIP_LANES);
+        vi_store((int32_t *)cover->positions + v * DIP_LANES, first + pixel);
+    }
+    cover->pixels = 0xffff;
+    cover->depth = region->depth[n];
+}
+
 // Finds the covered samples of sub-block n. A fragment is shaded at the centre of its pixel if all
 // samples are covered, and otherwise at the first covered sample.
 VEC_INLINE void cover_sub_block(const OrderedTriangle *tri, const Region *region, int n,
                                 const DipTile *tile, Cover *cover) {
     const DipSamplePattern *pattern = tile->pattern;
     const int sample_count = pattern->count;
-    const int corner = (region->y + n / REGION) * DIP_SUB_BLOCK * DIP_TILE +
-                       (region->x + n % REGION) * DIP_SUB_BLOCK;
+    const int corner = corner_of(region, n);
     unsigned pixels = 0;
     for (int s = 0; s < sample_count; s++) {
         cover->samples[s] = 0;
@@ -187,42 +224,49 @@ static unsigned test_stencil(const DipStencil *stencil, const DipStencilFace *fa
 }
 
 // Returns the depth of sample s in each lane of vector v, with the draw's bias.
-VEC_INLINE Vf ordered_depth(const OrderedTriangle *tri, float corner, int v, int s) {
+VEC_INLINE Vf ordered_depth(const OrderedTriangle *tri, OrderedKind kind, float corner, int v,
+                            int s) {
     const Vf depth = depth_lanes(&tri->in, corner, v, s);
-    if (!tri->biased) {
+    if (kind != KIND_GENERAL || !tri->biased) {
         return depth;
     }
     const Vf moved = (depth + tri->bias) + depth * tri->relative_bias;
     return vf_min(vf_max(moved, vf_splat(0.0f)), vf_splat(1.0f));
 }
 
+// Returns the pixels in which the depth of sample s is nearer than the stored one, or farther.
+VEC_INLINE unsigned compare_depths(const OrderedTriangle *tri, const float *depths, float corner,
+                                   int s, bool nearer) {
+    unsigned pixels = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        const Vf old = vf_load(depths + v * DIP_LANES);
+        const Vf depth = ordered_depth(tri, KIND_GENERAL, corner, v, s);
+        const Mask mask = nearer ? vf_lt(old, depth) : vf_lt(depth, old);
+        pixels |= mask_bits(mask) << (v * DIP_LANES);
+    }
+    return pixels;
+}
+
 // Returns the pixels whose sample s passes the depth test.
 VEC_INLINE unsigned test_depth(const OrderedTriangle *tri, DipDepthTest test, const float *depths,
                                float corner, int s) {
-    if (test == DIP_DEPTH_ALWAYS) {
-        return 0xffff;
-    }
-    unsigned nearer = 0;
-    unsigned farther = 0;
-    for (int v = 0; v < VECTORS; v++) {
-        const Vf old = vf_load(depths + v * DIP_LANES);
-        const Vf depth = ordered_depth(tri, corner, v, s);
-        nearer |= mask_bits(vf_lt(old, depth)) << (v * DIP_LANES);
-        farther |= mask_bits(vf_lt(depth, old)) << (v * DIP_LANES);
-    }
     switch (test) {
     case DIP_DEPTH_NEARER:
-        return nearer;
+        return compare_depths(tri, depths, corner, s, true);
     case DIP_DEPTH_NEARER_OR_EQUAL:
-        return ~farther;
+        return ~compare_depths(tri, depths, corner, s, false);
     case DIP_DEPTH_EQUAL:
-        return ~(nearer | farther);
+        return ~(compare_depths(tri, depths, corner, s, true) |
+                 compare_depths(tri, depths, corner, s, false));
     case DIP_DEPTH_NOT_EQUAL:
-        return nearer | farther;
+        return compare_depths(tri, depths, corner, s, true) |
+               compare_depths(tri, depths, corner, s, false);
     case DIP_DEPTH_FARTHER:
-        return farther;
+        return compare_depths(tri, depths, corner, s, false);
     case DIP_DEPTH_FARTHER_OR_EQUAL:
-        return ~nearer;
+        return ~compare_depths(tri, depths, corner, s, true);
+    case DIP_DEPTH_ALWAYS:
+        return 0xffff;
     default:
         return 0;
     }
@@ -232,33 +276,63 @@ VEC_INLINE void store_depth(const OrderedTriangle *tri, float *depths, float cor
                             unsigned pixels) {
     for (int v = 0; v < VECTORS; v++) {
         const Mask mask = mask_from_bits(pixels >> (v * DIP_LANES) & VEC_ALL_LANES);
-        vf_store_lanes(depths + v * DIP_LANES, mask, ordered_depth(tri, corner, v, s),
+        vf_store_lanes(depths + v * DIP_LANES, mask, ordered_depth(tri, KIND_GENERAL, corner, v, s),
                        vf_load(depths + v * DIP_LANES));
     }
 }
 
-// Tests the covered samples in the pixels `keep`, and stores the stencil values and depths of those
-// that pass. Fills in visible[s] and returns the pixels with a sample that passed.
-VEC_INLINE unsigned test_samples(const DipOrdered *ordered, const OrderedTriangle *tri,
-                                 DipTile *tile, const Cover *cover, unsigned keep,
-                                 uint16_t visible[DIP_MAX_SAMPLES]) {
+// Tests sample s in the pixels `covered` for being nearer than what is stored, which is what most
+// draws ask for, and stores the depths of those that are unless `keep_depth` is set. Returns the
+// pixels that pass.
+VEC_INLINE unsigned pass_nearer(const OrderedTriangle *tri, OrderedKind kind, float *depths,
+                                float corner, int s, unsigned covered, bool keep_depth) {
+    unsigned passed = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        const Vf old = vf_load(depths + v * DIP_LANES);
+        const Vf depth = ordered_depth(tri, kind, corner, v, s);
+        const Mask nearer =
+            vf_lt(old, depth) & mask_from_bits(covered >> (v * DIP_LANES) & VEC_ALL_LANES);
+        passed |= mask_bits(nearer) << (v * DIP_LANES);
+        if (!keep_depth) {
+            vf_store_lanes(depths + v * DIP_LANES, nearer, depth, old);
+        }
+    }
+    return passed;
+}
+
+// Tests sample s in the pixels `covered`, and stores the stencil values and depths of those that
+// pass. first: index of the sub-block's first value of this sample. Returns the pixels that pass.
+VEC_INLINE unsigned test_sample(const DipOrdered *ordered, const OrderedTriangle *tri,
+                                OrderedKind kind, float *depths, int first, float corner, int s,
+                                unsigned covered) {
     const DipDrawState *state = ordered->state;
+    if (kind != KIND_GENERAL) {
+        return pass_nearer(tri, kind, depths, corner, s, covered, state->keep_depth);
+    }
+    unsigned passed = covered & test_depth(tri, state->depth_test, depths, corner, s);
+    if (state->stencil.enabled) {
+        passed &=
+            test_stencil(&state->stencil, tri->face, ordered->stencil + first, covered, passed);
+    }
+    if (passed && !state->keep_depth) {
+        store_depth(tri, depths, corner, s, passed);
+    }
+    return passed;
+}
+
+// Tests the covered samples in the pixels `keep`. Fills in visible[s] and returns the pixels with a
+// sample that passed.
+VEC_INLINE unsigned test_samples(const DipOrdered *ordered, const OrderedTriangle *tri,
+                                 OrderedKind kind, DipTile *tile, const Cover *cover, unsigned keep,
+                                 uint16_t visible[DIP_MAX_SAMPLES]) {
+    const int sample_count = kind == KIND_SINGLE ? 1 : tile->pattern->count;
     unsigned pixels = 0;
-    for (int s = 0; s < tile->pattern->count; s++) {
+    for (int s = 0; s < sample_count; s++) {
         const int first = cover->first + s * DIP_BLOCK_PIXELS;
         const unsigned covered = cover->samples[s] & keep;
-        unsigned passed = 0;
-        if (covered) {
-            float *depths = tile->depth + first;
-            passed = covered & test_depth(tri, state->depth_test, depths, cover->depth, s);
-            if (state->stencil.enabled) {
-                passed &= test_stencil(&state->stencil, tri->face, ordered->stencil + first,
-                                       covered, passed);
-            }
-            if (passed && !state->keep_depth) {
-                store_depth(tri, depths, cover->depth, s, passed);
-            }
-        }
+        const unsigned passed = covered ? test_sample(ordered, tri, kind, tile->depth + first,
+                                                      first, cover->depth, s, covered)
+                                        : 0;
         visible[s] = (uint16_t)passed;
         pixels |= passed;
     }
@@ -267,16 +341,16 @@ VEC_INLINE unsigned test_samples(const DipOrdered *ordered, const OrderedTriangl
 
 // --- queues --------------------------------------------------------------------------------------
 
-// Adds the fragments of a sub-block's visible pixels to the draw's queue.
-VEC_INLINE void queue_visible(DipOrdered *ordered, const OrderedTriangle *tri, const Cover *cover,
-                              const DipOrderedSubBlock *sub_block) {
-    DipFragmentList *list = &ordered->list;
-    if (list->count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
-        ordered->flush(ordered->context);
-    }
-    ordered->waiting[ordered->count++] = *sub_block;
+// Adds the fragments of the batch's next sub-block to the batch's list.
+VEC_INLINE void queue_sub_block(DipOrderedBatch *batch, const OrderedTriangle *tri,
+                                const Cover *cover, unsigned pixels) {
+    DipOrderedSubBlock *sub_block = &batch->waiting[batch->count++];
+    DipFragmentList *list = &batch->list;
+    sub_block->first = cover->first;
+    sub_block->number = cover->number;
+    sub_block->pixels = (uint16_t)pixels;
     for (int v = 0; v < VECTORS; v++) {
-        const unsigned bits = (unsigned)sub_block->pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
+        const unsigned bits = pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
         vi_store((int32_t *)list->triangle + list->count, vi_splat((int32_t)tri->index));
         const Vi position = vi_load((const int32_t *)cover->positions + v * DIP_LANES);
         list->count += vu_compress(list->position + list->count, bits, (Vu)position);
@@ -284,12 +358,21 @@ VEC_INLINE void queue_visible(DipOrdered *ordered, const OrderedTriangle *tri, c
 }
 
 // Tests a sub-block and queues what is visible in the pixels `keep`.
-VEC_INLINE void merge_sub_block(DipOrdered *ordered, const OrderedTriangle *tri, DipTile *tile,
-                                const Cover *cover, unsigned keep) {
-    DipOrderedSubBlock sub_block = {.first = cover->first};
-    sub_block.pixels = (uint16_t)test_samples(ordered, tri, tile, cover, keep, sub_block.visible);
-    if (sub_block.pixels && ordered->shades) {
-        queue_visible(ordered, tri, cover, &sub_block);
+VEC_INLINE void merge_sub_block(DipOrdered *ordered, const OrderedTriangle *tri, OrderedKind kind,
+                                DipTile *tile, const Cover *cover, unsigned keep) {
+    if (!ordered->shades) {
+        uint16_t visible[DIP_MAX_SAMPLES];
+        test_samples(ordered, tri, kind, tile, cover, keep, visible);
+        return;
+    }
+    DipOrderedBatch *batch = &ordered->batches[ordered->full];
+    if (batch->list.count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
+        batch = dip_ordered_next_batch(ordered);
+    }
+    const unsigned pixels =
+        test_samples(ordered, tri, kind, tile, cover, keep, batch->waiting[batch->count].visible);
+    if (pixels) {
+        queue_sub_block(batch, tri, cover, pixels);
     }
 }
 
@@ -310,7 +393,7 @@ static void flush_clip_queue(ClipQueue *queue, DipOrdered *ordered, const Ordere
         for (unsigned left = cover->pixels; left; left &= left - 1) {
             keep |= left & -left & (0u - (*kept++ != 0));
         }
-        merge_sub_block(ordered, tri, tile, cover, keep);
+        merge_sub_block(ordered, tri, KIND_GENERAL, tile, cover, keep);
     }
     list->count = 0;
     queue->count = 0;
@@ -334,21 +417,36 @@ VEC_INLINE void queue_for_clip_test(ClipQueue *queue, DipOrdered *ordered,
 // --- a triangle ----------------------------------------------------------------------------------
 
 VEC_INLINE void merge_region(ClipQueue *queue, DipOrdered *ordered, const OrderedTriangle *tri,
-                             const DipTriangle *triangle, const Region *region, DipTile *tile) {
+                             OrderedKind kind, const DipTriangle *triangle, const Region *region,
+                             DipTile *tile) {
+    const int sample_count = kind == KIND_SINGLE ? 1 : tile->pattern->count;
     for (unsigned left = region->reached; left; left &= left - 1) {
         const int n = __builtin_ctz(left);
         Cover cover;
-        cover.first = touch_sub_block(tile, region, n, tile->pattern->count);
-        cover_sub_block(tri, region, n, tile, &cover);
+        cover.first = touch_sub_block(tile, region, n, sample_count);
+        cover.number = number_of(region, n);
+        if (region->inside >> n & 1 && !(kind == KIND_GENERAL && tri->wireframe)) {
+            cover_whole_sub_block(region, n, sample_count, &cover);
+        } else {
+            cover_sub_block(tri, region, n, tile, &cover);
+        }
         if (!cover.pixels) {
             continue;
         }
-        if (ordered->clip) {
+        if (kind == KIND_GENERAL && ordered->clip) {
             queue_for_clip_test(queue, ordered, tri, triangle, tile, &cover);
         } else {
-            merge_sub_block(ordered, tri, tile, &cover, 0xffff);
+            merge_sub_block(ordered, tri, kind, tile, &cover, 0xffff);
         }
     }
+}
+
+static OrderedKind kind_of(const DipOrdered *ordered, const OrderedTriangle *tri,
+                           const DipTile *tile) {
+    const DipDrawState *state = ordered->state;
+    const bool simple = !tri->biased && !tri->wireframe && !ordered->clip &&
+                        !state->stencil.enabled && state->depth_test == DIP_DEPTH_NEARER;
+    return !simple ? KIND_GENERAL : tile->pattern->count == 1 ? KIND_SINGLE : KIND_SIMPLE;
 }
 
 void DIP_KERNEL(dip_kernel_draw_ordered)(DipTile *tile, const DipTriangle *triangle, uint32_t index,
@@ -356,6 +454,7 @@ void DIP_KERNEL(dip_kernel_draw_ordered)(DipTile *tile, const DipTriangle *trian
     const Box box = box_of(triangle, tile);
     OrderedTriangle tri;
     set_up(&tri, tile, triangle, index, ordered->state);
+    const OrderedKind kind = kind_of(ordered, &tri, tile);
     ClipQueue queue;
     queue.count = 0;
     if (ordered->clip) {
@@ -366,7 +465,17 @@ void DIP_KERNEL(dip_kernel_draw_ordered)(DipTile *tile, const DipTriangle *trian
             Region region;
             if (region_at(&tri.in, triangle, tile, &box, x, y, &region)) {
                 tile->sub_blocks_accepted += (uint64_t)__builtin_popcount(region.inside);
-                merge_region(&queue, ordered, &tri, triangle, &region, tile);
+                switch (kind) {
+                case KIND_SINGLE:
+                    merge_region(&queue, ordered, &tri, KIND_SINGLE, triangle, &region, tile);
+                    break;
+                case KIND_SIMPLE:
+                    merge_region(&queue, ordered, &tri, KIND_SIMPLE, triangle, &region, tile);
+                    break;
+                case KIND_GENERAL:
+                    merge_region(&queue, ordered, &tri, KIND_GENERAL, triangle, &region, tile);
+                    break;
+                }
             }
         }
     }

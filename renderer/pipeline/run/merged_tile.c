@@ -44,35 +44,40 @@ static void shade_plain_draws(DipTileWorker *worker) {
 
 // --- ordered draws -------------------------------------------------------------------------------
 
-// Shades the queued fragments of the current ordered draw, and blends them.
-static void shade_queue(void *context) {
-    DipTileWorker *worker = context;
+static void shade_ordered_batch(DipTileWorker *worker, DipOrderedBatch *batch) {
     const DipMergePass *pass = &worker->pass->merge;
-    DipOrdered *ordered = &worker->merge.ordered;
-    if (!ordered->count) {
-        return;
-    }
-    const int64_t begin_ns = dip_clock_ns();
-    const int samples = worker->tile.pattern->count;
-    for (int i = 0; i < ordered->count; i++) {
-        const int block = ordered->waiting[i].first / (samples * DIP_BLOCK_PIXELS);
-        dip_merge_ready_block(pass, &worker->merge, &worker->tile, block);
+    for (int i = 0; i < batch->count; i++) {
+        dip_merge_ready_block(pass, &worker->merge, &worker->tile, batch->waiting[i].number / 4);
     }
     for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
         worker->batch.alpha[i] = 1.0f;
     }
-    const int count = dip_tile_worker_shade(worker, (uint32_t)worker->merge.draw, &ordered->list);
+    const int count = dip_tile_worker_shade(worker, (uint32_t)worker->merge.draw, &batch->list);
     worker->work->ordered_fragments += (uint64_t)count;
-    pass->kernels->dip_kernel_blend(&worker->merge.colours, ordered, &worker->batch);
-    ordered->list.count = 0;
-    ordered->count = 0;
+    pass->kernels->dip_kernel_blend(&worker->merge.colours, worker->merge.ordered.state, batch,
+                                    &worker->batch);
+    batch->list.count = 0;
+    batch->count = 0;
+}
+
+// Shades the queued fragments of the current ordered draw, and blends them.
+static void shade_queue(void *context) {
+    DipTileWorker *worker = context;
+    DipOrdered *ordered = &worker->merge.ordered;
+    const int64_t begin_ns = dip_clock_ns();
+    for (int i = 0; i < DIP_ORDERED_BATCHES && ordered->batches[i].count; i++) {
+        shade_ordered_batch(worker, &ordered->batches[i]);
+    }
+    ordered->full = 0;
     worker->shading_ns += dip_clock_ns() - begin_ns;
 }
 
 // Ends the current ordered draw, if there is one.
 static void end_ordered_draw(DipTileWorker *worker) {
     if (worker->merge.draw >= 0) {
-        shade_queue(worker);
+        if (worker->merge.ordered.batches[0].count) {
+            shade_queue(worker);
+        }
         worker->merge.draw = -1;
     }
 }

@@ -107,6 +107,9 @@ void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipF
                                        position >> DIP_POSITION_SUB_Y & 255, input->y0);
         vf_store(batch->x + i, x);
         vf_store(batch->y + i, y);
+        if (varying_count == 0) {
+            continue;
+        }
         const uint32_t *triangle = list->triangle + i;
         const Vi ids = vi_load((const int32_t *)triangle);
         const unsigned others =
