@@ -104,6 +104,31 @@ static bool add_odds(const DipCostReport *report, DipCostAdvice *advice, DipErro
     return done;
 }
 
+// Chooses a row for a budget and fills in the advice.
+static bool choose(const DipCostReport *report, double budget_ms, DipCostAdvice *advice,
+                   DipError *err) {
+    const int row = dip_cost_choose(report, budget_ms);
+    const DipStatsEstimate time =
+        row >= 0 ? dip_cost_budget_time(report, row) : (DipStatsEstimate){0};
+    *advice = (DipCostAdvice){
+        .budget_ms = budget_ms,
+        .row = row,
+        .ms = time.value,
+        .ms_low = time.low,
+        .ms_high = time.high,
+        .runner_up = -1,
+    };
+    return row < 0 || add_odds(report, advice, err);
+}
+
+bool dip_cost_choose_again(DipCostReport *report, DipError *err) {
+    bool chosen = true;
+    for (int i = 0; chosen && report->rounds > 0 && i < report->advice_count; i++) {
+        chosen = choose(report, report->advice[i].budget_ms, &report->advice[i], err);
+    }
+    return chosen;
+}
+
 bool dip_cost_advise(DipCostContext *cost, DipError *err) {
     DipCostReport *report = cost->report;
     const int budgets = report->options.budget_count;
@@ -121,20 +146,8 @@ bool dip_cost_advise(DipCostContext *cost, DipError *err) {
         dip_progress_end(&progress, budgets);
     }
     for (int i = 0; advised && i < budgets && report->verdict != DIP_COST_RED; i++) {
-        const double budget_ms = report->options.budgets_ms[i];
-        const int row = dip_cost_choose(report, budget_ms);
-        const DipStatsEstimate time =
-            row >= 0 ? dip_cost_budget_time(report, row) : (DipStatsEstimate){0};
         DipCostAdvice *advice = &report->advice[report->advice_count++];
-        *advice = (DipCostAdvice){
-            .budget_ms = budget_ms,
-            .row = row,
-            .ms = time.value,
-            .ms_low = time.low,
-            .ms_high = time.high,
-            .runner_up = -1,
-        };
-        advised = row < 0 || add_odds(report, advice, err);
+        advised = choose(report, report->options.budgets_ms[i], advice, err);
     }
     free(candidates);
     return advised;

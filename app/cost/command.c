@@ -89,7 +89,8 @@ const DipCommand dip_cost_merge_command = {
             "viewpoints (--places) and samples. Each report has the errors of some of the "
             "viewpoints (--part). The times come from the first report that has times, because "
             "times of different machines cannot be mixed. If several reports have times, a table "
-            "compares their machines.",
+            "compares their machines. The pictures of the page are made from the frames that each "
+            "part keeps in the folder `frames` beside its cost.json.",
     .examples = merge_examples,
     .example_count = DIP_ARRAY_COUNT(merge_examples),
     .parts = &dip_cost_merge_option_parts,

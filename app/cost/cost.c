@@ -2,6 +2,7 @@
 // report.
 #include "app/cost/cost.h"
 
+#include "app/cost/drawn_frames.h"
 #include "app/cost/formats.h"
 #include "app/cost/html.h"
 #include "app/cost/levels.h"
@@ -31,11 +32,12 @@ static bool write_file(const DipCostReport *report, const char *folder, const ch
 static bool write_page(DipCostContext *cost, const char *folder, DipError *err) {
     char file[PATH_MAX];
     DipCostPictures pictures;
+    const DipCostFrameSource source = dip_cost_drawn_frames(cost);
     if (snprintf(file, sizeof file, "%s/cost.html", folder) >= (int)sizeof file) {
         return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
                                      "the name is too long");
     }
-    if (!dip_cost_pictures_make(&pictures, cost, err)) {
+    if (!dip_cost_pictures_make(&pictures, cost->report, &source, err)) {
         return false;
     }
     const bool written = dip_cost_write_html(cost->report, &pictures, file, err);
@@ -44,7 +46,7 @@ static bool write_page(DipCostContext *cost, const char *folder, DipError *err) 
 }
 
 static bool write_report(DipCostContext *cost, const char *folder, DipError *err) {
-    return write_page(cost, folder, err) &&
+    return dip_cost_keep_frames(cost, folder, err) && write_page(cost, folder, err) &&
            write_file(cost->report, folder, "cost.csv", dip_cost_write_csv, err) &&
            write_file(cost->report, folder, "cost.json", dip_cost_write_json, err);
 }

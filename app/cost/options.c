@@ -115,14 +115,24 @@ const char *const dip_cost_picture_kind_names[3] = {
     [DIP_COST_PICTURES_NONE] = "none",
 };
 
-static bool read_pictures(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+static bool read_kind(DipCostPictureKind *kind, const DipOptionRow *row, const char *value,
+                      DipError *err) {
     for (int i = 0; i < (int)DIP_ARRAY_COUNT(dip_cost_picture_kind_names); i++) {
         if (strcmp(value, dip_cost_picture_kind_names[i]) == 0) {
-            ((DipCostOptions *)fields)->pictures = (DipCostPictureKind)i;
+            *kind = (DipCostPictureKind)i;
             return true;
         }
     }
     return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, "crops, full or none");
+}
+
+static bool read_pictures(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    return read_kind(&((DipCostOptions *)fields)->pictures, row, value, err);
+}
+
+static bool read_merged_pictures(void *fields, const DipOptionRow *row, const char *value,
+                                 DipError *err) {
+    return read_kind(&((DipCostMergeArguments *)fields)->pictures, row, value, err);
 }
 
 // --- the tables ----------------------------------------------------------------------------------
@@ -142,6 +152,12 @@ static const DipOptionRow merge_rows[] = {
      .text = "Write the joined cost.json, cost.csv and cost.html into this folder.",
      .kind = DIP_OPTION_TEXT,
      .field = offsetof(DipCostMergeArguments, out)},
+    {.name = "--pictures",
+     .argument = "KIND",
+     .text = "The pictures in the joined cost.html, made from the frames that the parts keep: "
+             "crops, full or none. The default is crops.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_merged_pictures},
 };
 
 static const DipOptionRow choice_rows[] = {
@@ -188,7 +204,8 @@ static const DipOptionRow picture_rows[] = {
      .argument = "KIND",
      .text = "The pictures in cost.html: crops (the part of each picture in which the steps differ "
              "most), full (whole frames, as many as fit in 10 MB, and otherwise crops) or none. "
-             "The default is crops.",
+             "The default is crops. Unless it is none, a part (--part) keeps whole frames in "
+             "DIR/frames, from which cost merge makes the pictures of its page.",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_pictures},
     {.name = "--save-truths",

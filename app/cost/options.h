@@ -72,6 +72,7 @@ typedef struct DipCostArguments {
 typedef struct DipCostMergeArguments {
     DipProgramOptions program;
     const char *out;
+    DipCostPictureKind pictures; // The pictures in the page.
     const char *parts[DIP_COST_MAX_PARTS];
     int part_count;
 } DipCostMergeArguments;

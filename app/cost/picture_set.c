@@ -1,5 +1,5 @@
-// Drawing the rows of a set at one viewpoint, finding the crop (the part of the picture) in which
-// the rows differ most, and cutting this crop out.
+// Comparing the frames of a set's rows at one viewpoint, finding the crop (the part of the picture)
+// in which the rows differ most, and cutting this crop out.
 #include "app/cost/picture_set.h"
 
 #include "app/cost/data_uri.h"
@@ -20,35 +20,36 @@ static bool out_of_memory(DipError *err) {
 }
 
 static size_t pixel_count(const DipCostCutter *c) {
-    return (size_t)c->cost->report->width * (size_t)c->cost->report->height;
+    return (size_t)c->report->width * (size_t)c->report->height;
 }
 
 static size_t row_bytes(const DipCostCutter *c) {
-    return (size_t)c->cost->report->width * 4;
+    return (size_t)c->report->width * 4;
 }
 
 void dip_cost_cutter_close(DipCostCutter *cutter) {
     dip_flip_analysis_free(&cutter->truth_side);
     dip_flip_analysis_free(&cutter->side);
     dip_flip_free(&cutter->flip);
+    free(cutter->truth);
     free(cutter->frames);
     free(cutter->maps);
     free(cutter->map);
     free(cutter->crop);
 }
 
-bool dip_cost_cutter_open(DipCostCutter *cutter, DipCostContext *cost, int most_rows,
-                          DipError *err) {
-    const DipCostReport *report = cost->report;
+bool dip_cost_cutter_open(DipCostCutter *cutter, const DipCostReport *report,
+                          const DipCostFrameSource *source, int most_rows, DipError *err) {
     DipCostCutter *c = cutter;
-    *c = (DipCostCutter){.cost = cost};
+    *c = (DipCostCutter){.report = report, .source = source};
     const size_t pixels = pixel_count(c) * (size_t)most_rows;
+    c->truth = malloc(pixel_count(c) * 4);
     c->frames = malloc(pixels * 4);
     c->maps = malloc(pixels);
     c->map = malloc(pixel_count(c) * sizeof *c->map);
     c->crop = malloc((size_t)DIP_COST_CROP_WIDTH * DIP_COST_CROP_HEIGHT);
     const bool made =
-        c->frames && c->maps && c->map && c->crop &&
+        c->truth && c->frames && c->maps && c->map && c->crop &&
         dip_flip_init(&c->flip, report->width, report->height, report->options.pixels_per_degree) &&
         dip_flip_analysis_init(&c->flip, &c->truth_side) &&
         dip_flip_analysis_init(&c->flip, &c->side);
@@ -59,23 +60,29 @@ bool dip_cost_cutter_open(DipCostCutter *cutter, DipCostContext *cost, int most_
     return true;
 }
 
-// --- drawing -------------------------------------------------------------------------------------
+// --- comparing -----------------------------------------------------------------------------------
 
-// Draws a row's frame and computes its FLIP map.
-static bool draw_frame(DipCostCutter *c, const DipCostPictureSet *set, int index, int64_t time_ns,
-                       DipError *err) {
-    const DipCostReport *report = c->cost->report;
-    uint8_t *to = c->frames + (size_t)index * pixel_count(c) * 4;
-    uint8_t *map = c->maps + (size_t)index * pixel_count(c);
-    DipFrame frame;
-    if (!dip_cost_draw(c->cost, set->pictures[index].row, time_ns, 0, &frame, err)) {
+static DipSrgbPicture picture_of(const DipCostCutter *c, const uint8_t *rgba8) {
+    return (DipSrgbPicture){rgba8, row_bytes(c), c->report->width, c->report->height};
+}
+
+static bool read_truth(DipCostCutter *c, const DipCostPictureSet *set, DipError *err) {
+    if (!c->source->read(c->source->context, set, -1, c->truth, err)) {
         return false;
     }
-    for (int y = 0; y < report->height; y++) {
-        memcpy(to + (size_t)y * row_bytes(c), frame.rgba8 + (size_t)y * frame.stride_bytes,
-               row_bytes(c));
+    const DipSrgbPicture picture = picture_of(c, c->truth);
+    dip_flip_analyse(&c->flip, &picture, &c->truth_side);
+    return true;
+}
+
+// Gets a row's frame and computes its FLIP map.
+static bool read_frame(DipCostCutter *c, const DipCostPictureSet *set, int index, DipError *err) {
+    uint8_t *to = c->frames + (size_t)index * pixel_count(c) * 4;
+    uint8_t *map = c->maps + (size_t)index * pixel_count(c);
+    if (!c->source->read(c->source->context, set, set->pictures[index].row, to, err)) {
+        return false;
     }
-    const DipSrgbPicture picture = {to, row_bytes(c), report->width, report->height};
+    const DipSrgbPicture picture = picture_of(c, to);
     dip_flip_analyse(&c->flip, &picture, &c->side);
     dip_flip_compare(&c->flip, &c->truth_side, &c->side, c->map);
     for (size_t i = 0; i < pixel_count(c); i++) {
@@ -88,7 +95,7 @@ static bool draw_frame(DipCostCutter *c, const DipCostPictureSet *set, int index
 
 // Returns the sum over the crop's pixels of the greatest error of any row minus the least.
 static int64_t judge_crop(const DipCostCutter *c, const DipCostPictureSet *set, int x0, int y0) {
-    const size_t width = (size_t)c->cost->report->width;
+    const size_t width = (size_t)c->report->width;
     int64_t sum = 0;
     for (int y = y0; y < y0 + set->crop_height; y += SKIP) {
         for (int x = x0; x < x0 + set->crop_width; x += SKIP) {
@@ -106,7 +113,7 @@ static int64_t judge_crop(const DipCostCutter *c, const DipCostPictureSet *set, 
 
 // Finds the crop in which the rows' errors differ most, among crops at a grid of positions.
 static void find_crop(const DipCostCutter *c, DipCostPictureSet *set) {
-    const int width = c->cost->report->width, height = c->cost->report->height;
+    const int width = c->report->width, height = c->report->height;
     int64_t most = -1;
     set->crop_width = width < DIP_COST_CROP_WIDTH ? width : DIP_COST_CROP_WIDTH;
     set->crop_height = height < DIP_COST_CROP_HEIGHT ? height : DIP_COST_CROP_HEIGHT;
@@ -149,7 +156,7 @@ static char *cut_crop(const DipCostCutter *c, const DipCostPictureSet *set, cons
 }
 
 static char *cut_frame(const DipCostCutter *c, const uint8_t *rgba8) {
-    const DipCostReport *report = c->cost->report;
+    const DipCostReport *report = c->report;
     Encoded jpeg = {0};
     jpeg.made = dip_jpeg_encode(rgba8, row_bytes(c), report->width, report->height,
                                 DIP_COST_FRAME_QUALITY, &jpeg.bytes, &jpeg.size);
@@ -158,7 +165,7 @@ static char *cut_frame(const DipCostCutter *c, const uint8_t *rgba8) {
 
 static char *cut_map(const DipCostCutter *c, const DipCostPictureSet *set, const uint8_t *map) {
     uint8_t palette[3 * 256];
-    const size_t width = (size_t)c->cost->report->width;
+    const size_t width = (size_t)c->report->width;
     for (int i = 0; i < 256; i++) {
         dip_magma((float)i / 255.0f, palette + 3 * i);
     }
@@ -180,9 +187,8 @@ static bool cut_picture(const DipCostCutter *c, const DipCostPictureSet *set, co
     return picture->crop && (!whole || picture->frame);
 }
 
-static bool cut_all(const DipCostCutter *c, DipCostPictureSet *set, const DipTruth *truth,
-                    bool whole) {
-    bool cut = cut_picture(c, set, truth->rgba8, whole, &set->truth);
+static bool cut_all(const DipCostCutter *c, DipCostPictureSet *set, bool whole) {
+    bool cut = cut_picture(c, set, c->truth, whole, &set->truth);
     for (int i = 0; cut && i < set->count; i++) {
         DipCostPicture *picture = &set->pictures[i];
         picture->map = cut_map(c, set, c->maps + (size_t)i * pixel_count(c));
@@ -194,37 +200,17 @@ static bool cut_all(const DipCostCutter *c, DipCostPictureSet *set, const DipTru
 
 // --- sets ----------------------------------------------------------------------------------------
 
-static bool go_on(void *context, double done) {
-    (void)context;
-    (void)done;
-    return true;
-}
-
 bool dip_cost_picture_set_make(DipCostPictureSet *set, DipCostCutter *cutter, bool whole,
                                DipError *err) {
-    const DipCostReport *report = cutter->cost->report;
-    DipTruth truth;
     set->truth.row = -1;
-    // Use the middle one of the viewpoints whose errors are known.
-    set->viewpoint = (report->options.first_place + report->options.end_place - 1) / 2;
-    const int64_t time_ns =
-        dip_cost_viewpoint_time_ns(report, cutter->cost->session, set->path, set->viewpoint, 0);
-    if (!dip_cost_context_truth(cutter->cost, set->path, set->viewpoint, 0, go_on, NULL, &truth,
-                                err)) {
-        dip_cost_picture_set_free(set);
-        return false;
-    }
-    const DipSrgbPicture picture = {truth.rgba8, row_bytes(cutter), report->width, report->height};
-    dip_flip_analyse(&cutter->flip, &picture, &cutter->truth_side);
-    bool made = true;
+    bool made = read_truth(cutter, set, err);
     for (int i = 0; made && i < set->count; i++) {
-        made = draw_frame(cutter, set, i, time_ns, err);
+        made = read_frame(cutter, set, i, err);
     }
     if (made) {
         find_crop(cutter, set);
-        made = cut_all(cutter, set, &truth, whole) || out_of_memory(err);
+        made = cut_all(cutter, set, whole) || out_of_memory(err);
     }
-    dip_truth_free(&truth);
     if (!made) {
         dip_cost_picture_set_free(set);
     }

@@ -3,7 +3,7 @@
 #ifndef DIP_APP_COST_PICTURE_SET_H
 #define DIP_APP_COST_PICTURE_SET_H
 
-#include "app/cost/context.h"
+#include "app/cost/report.h"
 #include "app/measure/flip.h"
 
 #include <stdint.h>
@@ -30,18 +30,33 @@ typedef struct DipCostPictureSet {
     int count; // Number of rows; 0 if the set has no pictures at all.
     int path;
     int viewpoint;
+    int missing[DIP_COST_SET_ROWS]; // Rows of the report whose frames the source does not have.
+    int missing_count;
     int x; // Upper left corner of the crops, pixels.
     int y;
     int crop_width; // Pixels.
     int crop_height;
 } DipCostPictureSet;
 
-// Scratch memory for making sets, and the renderers.
+// Where the frames of the sets come from: the renderers, or the parts of a merged report.
+typedef struct DipCostFrameSource {
+    void *context;
+    // Chooses the viewpoint that a set shows. Takes out the rows of which the source has no frame
+    // there and lists them as missing.
+    void (*choose)(void *context, DipCostPictureSet *set);
+    // Writes the packed rgba8 pixels of a row's frame, or those of the truth if `row` is -1.
+    bool (*read)(void *context, const DipCostPictureSet *set, int row, uint8_t *rgba8,
+                 DipError *err);
+} DipCostFrameSource;
+
+// Scratch memory for making sets, and the source of their frames.
 typedef struct DipCostCutter {
-    DipCostContext *cost; // Borrowed.
+    const DipCostReport *report;      // Borrowed.
+    const DipCostFrameSource *source; // Borrowed.
     DipFlip flip;
     DipFlipAnalysis truth_side;
     DipFlipAnalysis side;
+    uint8_t *truth;  // The truth's pixels, rgba8.
     uint8_t *frames; // Frames, [picture of the set][pixel], rgba8.
     uint8_t *maps;   // FLIP maps in 1/255, [picture of the set][pixel].
     float *map;      // FLIP map of one frame.
@@ -50,13 +65,13 @@ typedef struct DipCostCutter {
 
 // `most_rows` is the greatest number of rows in a set. Fails with DIP_ERROR_MEMORY; the cutter is
 // then closed.
-bool dip_cost_cutter_open(DipCostCutter *cutter, DipCostContext *cost, int most_rows,
-                          DipError *err);
+bool dip_cost_cutter_open(DipCostCutter *cutter, const DipCostReport *report,
+                          const DipCostFrameSource *source, int most_rows, DipError *err);
 void dip_cost_cutter_close(DipCostCutter *cutter);
 
-// Draws the rows and cuts their pictures out. The caller fills in set->path, set->count and the
-// rows of set->pictures. `whole` asks for whole frames, too. On success the caller frees the set;
-// on failure the set is empty.
+// Gets the rows' frames from the source and cuts their pictures out. The caller fills in set->path,
+// set->count and the rows of set->pictures, and has the source choose the viewpoint. `whole` asks
+// for whole frames, too. On success the caller frees the set; on failure the set is empty.
 bool dip_cost_picture_set_make(DipCostPictureSet *set, DipCostCutter *cutter, bool whole,
                                DipError *err);
 void dip_cost_picture_set_free(DipCostPictureSet *set);

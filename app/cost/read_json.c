@@ -2,6 +2,7 @@
 #include "app/cost/formats.h"
 
 #include "app/cost/json_fields.h"
+#include "app/cost/json_frames.h"
 #include "app/cost/json_memory.h"
 #include "app/cost/json_read.h"
 #include "app/cost/read_parts.h"
@@ -219,7 +220,8 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
     if (!read_floors(root, report)) {
         return dip_json_missing(file, "floors", err);
     }
-    if (!dip_cost_read_predictions(root, report, file, err)) {
+    if (!dip_cost_read_predictions(root, report, file, err) ||
+        !dip_cost_frames_read(root, report, file, err)) {
         return false;
     }
     dip_cost_read_advice(root, report);

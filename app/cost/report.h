@@ -5,6 +5,7 @@
 #ifndef DIP_APP_COST_REPORT_H
 #define DIP_APP_COST_REPORT_H
 
+#include "app/cost/kept_frames.h"
 #include "app/cost/options.h"
 #include "app/measure/flip_tail.h"
 #include "app/measure/metrics.h"
@@ -180,6 +181,7 @@ typedef struct DipCostReport {
     DipCostAdvice advice[DIP_COST_MAX_BUDGETS];
     int advice_count;
     DipCostPredictions predicted; // Empty without --predict.
+    DipCostKeptFrames kept;       // Frames that a part keeps for the merged page. Owned.
 } DipCostReport;
 
 // Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in
@@ -318,5 +320,9 @@ int dip_cost_step_up(const DipCostReport *report, int row);
 // takes the fastest one, and among those whose intervals overlap with it, the one with the fewest
 // settings that differ from their defaults. Returns -1 if no combination is within the budget.
 int dip_cost_choose(const DipCostReport *report, double budget_ms);
+
+// Chooses anew for the budgets of the report's advice (advice.c), after other viewpoints have been
+// joined to it. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_choose_again(DipCostReport *report, DipError *err);
 
 #endif

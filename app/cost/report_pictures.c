@@ -147,25 +147,28 @@ static void plan_sweep(const DipCostSweep *sweep, DipCostPictureSet *set) {
 }
 
 // Makes all sets that have rows.
-static bool make_sets(DipCostPictures *pictures, DipCostContext *cost, DipError *err) {
+static bool make_sets(DipCostPictures *pictures, const DipCostReport *report,
+                      const DipCostFrameSource *source, DipError *err) {
     DipCostPictureSet *sets[SET_COUNT];
     int total = 0, most = 1, done = 0;
     for (int s = 0; s < SET_COUNT; s++) {
         sets[s] = s < DIP_COST_MAX_SWEEPS ? &pictures->sweeps[s] : &pictures->front;
+        if (sets[s]->count > 0) {
+            source->choose(source->context, sets[s]);
+        }
         total += sets[s]->count;
         most = sets[s]->count > most ? sets[s]->count : most;
     }
     DipCostCutter cutter;
-    if (!dip_cost_cutter_open(&cutter, cost, most, err)) {
+    if (!dip_cost_cutter_open(&cutter, report, source, most, err)) {
         return false;
     }
-    const bool whole = cost->report->options.pictures == DIP_COST_PICTURES_FULL;
+    const bool whole = report->options.pictures == DIP_COST_PICTURES_FULL;
     DipProgress progress = dip_progress_begin("pictures cut out", total);
     bool made = true;
     for (int s = 0; made && s < SET_COUNT; s++) {
         const int count = sets[s]->count;
-        made = !dip_cost_interrupted(cost, err) &&
-               (count == 0 || dip_cost_picture_set_make(sets[s], &cutter, whole, err));
+        made = count == 0 || dip_cost_picture_set_make(sets[s], &cutter, whole, err);
         dip_progress_show(&progress, done += count);
     }
     dip_progress_end(&progress, done);
@@ -173,8 +176,8 @@ static bool make_sets(DipCostPictures *pictures, DipCostContext *cost, DipError 
     return made;
 }
 
-bool dip_cost_pictures_make(DipCostPictures *pictures, DipCostContext *cost, DipError *err) {
-    const DipCostReport *report = cost->report;
+bool dip_cost_pictures_make(DipCostPictures *pictures, const DipCostReport *report,
+                            const DipCostFrameSource *source, DipError *err) {
     memset(pictures, 0, sizeof *pictures);
     if (report->options.pictures == DIP_COST_PICTURES_NONE) {
         return true;
@@ -183,7 +186,7 @@ bool dip_cost_pictures_make(DipCostPictures *pictures, DipCostContext *cost, Dip
         plan_sweep(&report->sweeps[s], &pictures->sweeps[s]);
     }
     plan_front(report, &pictures->front);
-    if (!make_sets(pictures, cost, err)) {
+    if (!make_sets(pictures, report, source, err)) {
         dip_cost_pictures_free(pictures);
         return false;
     }

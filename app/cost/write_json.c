@@ -4,6 +4,7 @@
 #include "app/cost/fit.h"
 #include "app/cost/interaction.h"
 #include "app/cost/json_fields.h"
+#include "app/cost/json_frames.h"
 #include "app/cost/json_memory.h"
 #include "app/cost/json_tail.h"
 #include "app/files/whole_file.h"
@@ -347,6 +348,7 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     add_fit(root, report);
     add_predictions(root, report);
     add_advice(root, report);
+    dip_cost_frames_add(root, report);
     char *text = cJSON_PrintUnformatted(root);
     cJSON_Delete(root);
     const bool complete = !dip_json_memory_ran_out();

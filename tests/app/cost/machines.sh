@@ -2,7 +2,7 @@
 # Runs the commands of docs/cost.md, section "On several machines", as they stand there: those for
 # GNU parallel on this machine instead of four others, and the Slurm script on a Slurm of one node
 # that this test starts. One Slurm job is killed and queued again. The merged reports must equal an
-# undivided one in everything but the times.
+# undivided one in everything but the times, and their pages must show the same pictures.
 # Usage: machines.sh DIPTYCH COMPARE_REPORTS SOURCE_FOLDER
 # Exit code 77: skipped, since a package is missing or the test does not run as root.
 set -u
@@ -80,11 +80,53 @@ PATH="$work/bin:$PATH"
 export PATH
 export XDG_CACHE_HOME="$work/cache" SCRATCH="$work/scratch" PARALLEL_HOME="$work"
 
+# figures REPORT: prints the pictures of the page's sweeps, each with what it shows, one on a line.
+figures() {
+    grep '^<figure' "$1/cost.html" | grep -v 'data-set="front"'
+}
+
+# front_figure REPORT ROW: prints the picture of a row of the Pareto front, if the page has it.
+front_figure() {
+    grep "^<figure.* data-set=\"front\" data-row=\"$2\"" "$1/cost.html"
+}
+
+# expect_pictures REPORT: the page must have the pictures of the undivided report. The Pareto front
+# depends on times, so only those rows of the front are compared that both pages have. (A crop is the
+# whole picture here, so that it does not depend on the other rows.)
+expect_pictures() {
+    figures "$work/undivided" >"$work/expected"
+    figures "$1" >"$work/found"
+    [ "$(wc -l <"$work/expected")" -gt 30 ] || fail "the undivided report lacks pictures"
+    cmp "$work/expected" "$work/found" || fail "$1 has other pictures than the undivided report"
+    compared=0
+    for row in $(sed -n 's/^<figure.* data-set="front" data-row="\([0-9]*\)".*/\1/p' "$1/cost.html"); do
+        front_figure "$work/undivided" "$row" >"$work/expected" || continue
+        front_figure "$1" "$row" >"$work/found"
+        cmp "$work/expected" "$work/found" || fail "$1 has another picture of row $row of the front"
+        compared=$((compared + 1))
+    done
+    [ $compared -gt 0 ] || fail "no picture of the front of $1 was compared"
+}
+
 # expect_undivided REPORT: the report must be that of one machine, and its page must be there.
 expect_undivided() {
     "$compare" same "$work/undivided/cost.json" "$1/cost.json" 1e-12 ||
         fail "$1 is not the undivided report"
     [ -s "$1/cost.html" ] && [ -s "$1/cost.csv" ] || fail "$1 lacks its page or its table"
+    [ "$(wc -c <"$1/cost.html")" -lt 10000000 ] || fail "the page of $1 has more than 10 MB"
+    expect_pictures "$1"
+}
+
+# With the times of the undivided report, the Pareto front is the same, too. The undivided report
+# keeps no frames, so all pictures come from the parts of this folder.
+expect_same_front() {
+    grep -q '"same_pictures":\[\]' "$work/undivided/cost.json" ||
+        fail "the undivided report joins rows, so it cannot be merged with parts"
+    diptych cost merge --out again "$work/undivided/cost.json" part*/cost.json >again.out 2>&1 ||
+        fail "the parts cannot be merged with the undivided report: $(tail -5 again.out)"
+    grep '^<figure' "$work/undivided/cost.html" >"$work/expected"
+    grep '^<figure' again/cost.html >"$work/found"
+    cmp "$work/expected" "$work/found" || fail "with equal times, the front has other pictures"
 }
 
 # --- GNU parallel ------------------------------------------------------------------------------
@@ -98,6 +140,31 @@ test_parallel() {
     sed 's|--sshlogin a,b,c,d|--sshlogin 2/:|' commands >script
     sh -eu script >script.out 2>&1 || fail "the commands for GNU parallel: $(tail -5 script.out)"
     expect_undivided report
+    expect_same_front
+}
+
+# The part with the middle viewpoint, 3 of 0 to 7, loses a picture, and all others are damaged. The
+# parts must merge all the same, with one line that says so, and the page must show others.
+test_damaged_pictures() {
+    cd "$work/parallel" || exit 1
+    set -- part2/frames/*.png
+    rm "$1"
+    shift
+    for frame; do
+        printf x >>"$frame"
+    done
+    diptych cost merge --out damaged times/cost.json part*/cost.json >damaged.out 2>damaged.err ||
+        fail "parts with damaged pictures do not merge: $(tail -5 damaged.err)"
+    [ "$(grep -c '' damaged.err)" = 1 ] &&
+        grep -q 'warning: part2/cost.json: \[frames\] .* missing and .* damaged' damaged.err ||
+        fail "damaged pictures are not named on one line: $(cat damaged.err)"
+    "$compare" same "$work/undivided/cost.json" damaged/cost.json 1e-12 ||
+        fail "damaged pictures change the report"
+    grep -q 'other viewpoints are shown: ' damaged/cost.html ||
+        fail "the page does not say that it shows other viewpoints"
+    figures "$work/undivided" >"$work/expected"
+    figures damaged >"$work/found"
+    cmp -s "$work/expected" "$work/found" && fail "other pictures are not seen as others"
 }
 
 # --- Slurm -------------------------------------------------------------------------------------
@@ -207,12 +274,14 @@ test_slurm() {
     sed '/^sbatch/d' commands >script
     sh -eu script >script.out 2>&1 || fail "the commands after Slurm: $(tail -5 script.out)"
     expect_undivided report
+    expect_same_front
     [ $failures = 0 ] || tail -n 5 slurm-*.out
 }
 
 diptych cost --out "$work/undivided" --places 8 >"$work/undivided.out" 2>&1 ||
     fail "the undivided report: $(tail -5 "$work/undivided.out")"
 test_parallel
+test_damaged_pictures
 test_slurm
-[ $failures = 0 ] && echo "the merged reports of GNU parallel and of Slurm equal the undivided one"
+[ $failures = 0 ] && echo "the merged reports of GNU parallel and of Slurm equal the undivided one, with its pictures"
 [ $failures = 0 ]
