@@ -1,15 +1,16 @@
 // Writing a report as comma-separated values.
 #include "app/cost/formats.h"
 
+#include "app/cost/viewpoints.h"
 #include "app/files/whole_file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Numbers of columns: those from the flicker to the mark of the floor, and the distribution of
-// FLIP.
-enum { FLICKER_FIELDS = 6, TAIL_FIELDS = 10 };
+// Numbers of columns: those from the flicker to the mark of the floor, the intervals over the
+// viewpoints, and the distribution of FLIP.
+enum { FLICKER_FIELDS = 9, INTERVAL_FIELDS = 2 * DIP_COST_METRIC_COUNT, TAIL_FIELDS = 10 };
 
 static void write_head(FILE *out) {
     fprintf(out,
@@ -22,7 +23,11 @@ static void write_head(FILE *out) {
                 name);
     }
     fprintf(out, ",static_rms_lin,flicker_rms_lin,step_rms_lin,two_frame_mean_rms_lin,"
-                 "floor_rmse_lin,at_floor,flip_p50,flip_p95,flip_p99,worst_flip,worst_viewpoint,"
+                 "floor_rmse_lin,floor_psnr_db,floor_ssim,floor_flip,at_floor");
+    for (int m = 0; m < DIP_COST_METRIC_COUNT; m++) {
+        fprintf(out, ",%s_low,%s_high", dip_cost_metric_names[m], dip_cost_metric_names[m]);
+    }
+    fprintf(out, ",flip_p50,flip_p95,flip_p99,worst_flip,worst_viewpoint,"
                  "worst_frame,worst_x,worst_y,worst_width,worst_height");
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         fprintf(out, ",%s", dip_cost_counter_names[c]);
@@ -33,6 +38,18 @@ static void write_head(FILE *out) {
 static void write_empty(int fields, FILE *out) {
     for (int i = 0; i < fields; i++) {
         fputc(',', out);
+    }
+}
+
+// Writes the intervals over the viewpoints, which a single viewpoint does not have.
+static void write_intervals(const DipCostReport *report, int row, FILE *out) {
+    for (int m = 0; m < DIP_COST_METRIC_COUNT; m++) {
+        const DipStatsEstimate estimate = dip_cost_metric(report, row, (DipCostMetric)m);
+        if (isfinite(estimate.low) && isfinite(estimate.high)) {
+            fprintf(out, ",%.8g,%.8g", estimate.low, estimate.high);
+        } else {
+            write_empty(2, out);
+        }
     }
 }
 
@@ -63,9 +80,12 @@ static void write_errors(const DipCostReport *report, int row, FILE *out) {
             fprintf(out, ",0,,,,");
         }
     }
-    fprintf(out, ",%.8g,%.8g,%.8g,%.8g,%.8g,%s", flicker.steady, flicker.flicker, flicker.step,
-            flicker.two_mean, dip_cost_floor_rmse(report, report->rows[row].path, 0),
+    const DipMetrics noise = dip_cost_floor_metrics(report, report->rows[row].path);
+    fprintf(out, ",%.8g,%.8g,%.8g,%.8g", flicker.steady, flicker.flicker, flicker.step,
+            flicker.two_mean);
+    fprintf(out, ",%.8g,%.6g,%.8g,%.8g,%s", noise.rmse_lin, noise.psnr_db, noise.ssim, noise.flip,
             dip_cost_floor_mark(report, row));
+    write_intervals(report, row, out);
     write_tail(report, row, out);
 }
 
@@ -124,7 +144,7 @@ static void write_prediction(const DipCostReport *report, const DipCostPredictio
     fprintf(out, ",,,,%.6g,,,%.6g,,,", prediction->ms, prediction->p95_ms);
     write_report(report, out);
     fprintf(out, ",,,,,%.8g", prediction->flip);
-    write_empty(5 * (DIP_METRIC_REGION_COUNT - 1) + FLICKER_FIELDS + TAIL_FIELDS +
+    write_empty(5 * (DIP_METRIC_REGION_COUNT - 1) + FLICKER_FIELDS + INTERVAL_FIELDS + TAIL_FIELDS +
                     DIP_COST_COUNTER_COUNT,
                 out);
     fputc('\n', out);

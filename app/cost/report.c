@@ -205,39 +205,6 @@ double dip_cost_ranking_flip(const DipCostReport *report, int row) {
                 dip_cost_floor_flip(report, report->rows[row].path));
 }
 
-// The mean of a row's FLIP minus that of another row (-1: of none), over the viewpoints that both
-// have, with Student's interval.
-static DipStatsEstimate flip_over_viewpoints(const DipCostReport *report, int row, int base) {
-    double sum = 0.0, squares = 0.0;
-    int count = 0;
-    for (int p = 0; p < report->options.places; p++) {
-        const DipCostRow *a = &report->rows[row];
-        const DipCostRow *b = base >= 0 ? &report->rows[base] : a;
-        if (a->judged[p] && b->judged[p]) {
-            const double other = base >= 0 ? dip_metrics_of(&b->viewpoints[p], 0).flip : 0.0;
-            const double flip = dip_metrics_of(&a->viewpoints[p], 0).flip - other;
-            sum += flip;
-            squares += flip * flip;
-            count++;
-        }
-    }
-    const double mean = count > 0 ? sum / count : NAN;
-    if (count < 2) {
-        return (DipStatsEstimate){mean, NAN, NAN};
-    }
-    const double variance = fmax(squares - sum * mean, 0.0) / (count - 1);
-    const double half = dip_student_quantile(0.975, count - 1) * sqrt(variance / count);
-    return (DipStatsEstimate){mean, mean - half, mean + half};
-}
-
-DipStatsEstimate dip_cost_flip(const DipCostReport *report, int row) {
-    return flip_over_viewpoints(report, row, -1);
-}
-
-DipStatsEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base) {
-    return flip_over_viewpoints(report, row, base);
-}
-
 // --- choosing ----------------------------------------------------------------------------------
 
 typedef struct Candidate {

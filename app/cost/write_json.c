@@ -7,6 +7,7 @@
 #include "app/cost/json_frames.h"
 #include "app/cost/json_memory.h"
 #include "app/cost/json_tail.h"
+#include "app/cost/viewpoints.h"
 #include "app/files/whole_file.h"
 
 #include <cjson/cJSON.h>
@@ -66,6 +67,15 @@ static void add_estimate(cJSON *to, const char *name, const DipStatsEstimate *es
     cJSON_AddNumberToObject(to, high, estimate->high);
 }
 
+// Adds an estimate of a metric. Without an interval, nothing is added.
+static void add_metric(cJSON *to, const char *what, int metric, DipStatsEstimate estimate) {
+    char name[40];
+    if (isfinite(estimate.low) && isfinite(estimate.high)) {
+        snprintf(name, sizeof name, "%s_%s", dip_cost_metric_names[metric], what);
+        add_estimate(to, name, &estimate);
+    }
+}
+
 static void add_errors(cJSON *object, const DipCostReport *report, int row) {
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
@@ -83,9 +93,8 @@ static void add_errors(cJSON *object, const DipCostReport *report, int row) {
     if (viewpoints > 0) {
         add_figures(cJSON_AddObjectToObject(object, "figures"), &sums);
         add_flicker(cJSON_AddObjectToObject(object, "over_time"), &sums);
-        const DipStatsEstimate flip = dip_cost_flip(report, row);
-        if (viewpoints > 1) {
-            add_estimate(object, "flip_of_viewpoints", &flip);
+        for (int m = 0; viewpoints > 1 && m < DIP_COST_METRIC_COUNT; m++) {
+            add_metric(object, "of_viewpoints", m, dip_cost_metric(report, row, (DipCostMetric)m));
         }
         const DipCostTail tail = dip_cost_row_tail(report, row);
         if (tail.viewpoints > 0) {
@@ -182,10 +191,10 @@ static void add_sweeps(cJSON *root, const DipCostReport *report) {
             if (dip_cost_is_timed(report, sweep->rows[i])) {
                 add_estimate(step, "ratio", &sweep->ratios[i]);
             }
-            const DipStatsEstimate change =
-                dip_cost_flip_change(report, sweep->rows[i], sweep->base);
-            if (isfinite(change.low)) {
-                add_estimate(step, "flip_change", &change);
+            for (int m = 0; m < DIP_COST_METRIC_COUNT; m++) {
+                add_metric(
+                    step, "change", m,
+                    dip_cost_metric_change(report, sweep->rows[i], sweep->base, (DipCostMetric)m));
             }
             add_to_array(steps, step);
         }
@@ -302,6 +311,16 @@ static void add_machine(cJSON *root, const DipCostReport *report) {
     cJSON_AddNumberToObject(level, "factor", report->level_spread.factor);
 }
 
+// Adds the noise floor of a path's truths in every metric.
+static void add_floor(cJSON *to, const DipCostReport *report, int path) {
+    const DipMetrics noise = dip_cost_floor_metrics(report, path);
+    cJSON *object = cJSON_AddObjectToObject(to, "floor");
+    cJSON_AddNumberToObject(object, "rmse_lin", noise.rmse_lin);
+    cJSON_AddNumberToObject(object, "psnr_db", noise.psnr_db);
+    cJSON_AddNumberToObject(object, "ssim", noise.ssim);
+    cJSON_AddNumberToObject(object, "flip", noise.flip);
+}
+
 static void add_header(cJSON *root, const DipCostReport *report) {
     char baseline[256];
     cJSON_AddNumberToObject(root, "format", DIP_COST_JSON_FORMAT);
@@ -327,6 +346,7 @@ static void add_header(cJSON *root, const DipCostReport *report) {
         cJSON_AddStringToObject(path, "poses", report->path_hashes[p]);
         cJSON_AddNumberToObject(path, "base_row", report->base_rows[p]);
         cJSON_AddNumberToObject(path, "same_row", report->same_rows[p]);
+        add_floor(path, report, p);
         add_to_array(paths, path);
     }
     add_machine(root, report);

@@ -314,6 +314,7 @@ expect 2 "\[--budget-ms\] 'x' is not a number of milliseconds" "$diptych" cost -
 expect 2 "\[--budget-ms\] advice needs times" "$diptych" cost --out x --budget-ms 8 --errors-only
 expect 2 "\[--combine\] 'ab' is not a setting; give none, or some of aa, taa" "$diptych" cost --out x --combine aa,ab
 expect 2 "\[--pixels-per-degree\] '2' is not a number from 5 to 500" "$diptych" cost --out x --pixels-per-degree 2
+expect 2 "\[--viewing\] 'tv' is not phone, monitor, uhd or headset" "$diptych" cost --out x --viewing tv
 expect 2 "\[--pictures\] 'all' is not crops, full or none" "$diptych" cost --out x --pictures all
 expect 2 "\[cost merge\] there are no parts to join; give the cost.json of each" "$diptych" cost merge --out x
 expect 2 'none.json: cannot open report' "$diptych" cost merge --out x none.json
