@@ -107,6 +107,12 @@ static void write_flip(const DipCostReport *report, int row, FILE *out) {
     }
 }
 
+static double flicker_of(const DipCostReport *report, int row) {
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    return dip_flicker_metrics_of(&sums).flicker;
+}
+
 // Writes the changes from the row before, and what each 1 % of FLIP cost.
 static void write_changes(const DipCostReport *report, int row, int before, FILE *out) {
     const double ms = dip_cost_ms(report, row) - dip_cost_ms(report, before);
@@ -129,7 +135,8 @@ static void write_front_row(const DipCostReport *report, const DipHtmlPoints *fr
     fprintf(out, "</th><td>%d%s</td><td>%.2f</td>", index + 1, is_knee ? ", knee" : "",
             front->x[index]);
     write_flip(report, row, out);
-    fprintf(out, "<td>%.5f</td>", dip_cost_row_metrics(report, row, 0).rmse_lin);
+    fprintf(out, "<td>%.5f</td><td>%.5f</td>", flicker_of(report, row),
+            dip_cost_row_metrics(report, row, 0).rmse_lin);
     if (index > 0) {
         write_changes(report, row, front->rows[index - 1], out);
     } else {
@@ -150,6 +157,7 @@ static void write_front_table(const DipCostReport *report, const DipHtmlPoints *
     dip_html_column(out, "mean", "ms");
     dip_html_column(out, "FLIP", NULL);
     dip_html_column(out, "95 % interval", "of FLIP");
+    dip_html_column(out, "flicker", "linear");
     dip_html_column(out, "RMSE", "linear");
     dip_html_column(out, "change of time", "ms");
     dip_html_column(out, "change of FLIP", NULL);
@@ -170,11 +178,11 @@ static void write_combination(const DipCostReport *report, int row, FILE *out) {
     dip_html_settings(report, row, out);
     fprintf(out,
             "</th><td>%.2f</td><td>%.2f to %.2f</td><td>%.2f</td><td>%.3f</td><td>%.3f to "
-            "%.3f</td><td>%.4f</td><td>%.2f</td><td>%.4f</td><td>%.5f</td><td "
+            "%.3f</td><td>%.4f</td><td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.5f</td><td "
             "class=\"l\">%s</td></tr>\n",
             time->mean_ms.value, time->mean_ms.low, time->mean_ms.high, time->p95_ms.value,
-            time->ratio.value, time->ratio.low, time->ratio.high, f.flip, f.psnr_db, f.ssim,
-            f.rmse_lin, dip_cost_floor_mark(report, row));
+            time->ratio.value, time->ratio.low, time->ratio.high, f.flip, flicker_of(report, row),
+            f.psnr_db, f.ssim, f.rmse_lin, dip_cost_floor_mark(report, row));
 }
 
 static void write_all_table(const DipCostReport *report, FILE *out) {
@@ -194,6 +202,7 @@ static void write_all_table(const DipCostReport *report, FILE *out) {
     dip_html_column(out, "ratio", NULL);
     dip_html_column(out, "95 % interval of the ratio", NULL);
     dip_html_column(out, "FLIP", NULL);
+    dip_html_column(out, "flicker", "linear");
     dip_html_column(out, "PSNR", "dB");
     dip_html_column(out, "SSIM", NULL);
     dip_html_column(out, "RMSE", "linear");
