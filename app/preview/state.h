@@ -4,6 +4,7 @@
 #define DIP_APP_PREVIEW_STATE_H
 
 #include "app/preview/costs.h"
+#include "app/preview/tools.h"
 #include "app/session.h"
 #include "campaths/camtrack.h"
 #include "renderer/scene/quality.h"
@@ -30,12 +31,35 @@ typedef enum DipAction {
     DIP_ACTION_PANEL,
     DIP_ACTION_COSTS,
     DIP_ACTION_ADVICE,
+    DIP_ACTION_TAB,    // Opens the dock at the tab `argument`; folds it if that tab shows already.
+    DIP_ACTION_DOCK,   // Folds or opens the dock.
+    DIP_ACTION_BARE,   // Shows the panes without anything over or beneath them, or all again.
+    DIP_ACTION_UNDO,   // Takes the last change of settings back; reverse: makes it again.
+    DIP_ACTION_PRESET, // Gives the requested pane a preset; the argument is a DipPreset.
+    DIP_ACTION_SEEK,   // Moves the time on the path by `argument` milliseconds.
+    DIP_ACTION_LOUPE,
+    DIP_ACTION_ZOOM,       // The loupe's next zoom.
+    DIP_ACTION_COMPARISON, // The next comparison.
+    DIP_ACTION_MAP,        // The next map.
+    DIP_ACTION_ADJUST,     // Moves the divider, or changes gain or brightness of what shows.
+    DIP_ACTION_BLINK,
     DIP_ACTION_SCREENSHOT,
     DIP_ACTION_FULL_SCREEN,
     DIP_ACTION_QUIT
 } DipAction;
 
-enum { DIP_NOTICE_SIZE = 160 };
+enum { DIP_NOTICE_SIZE = 160, DIP_UNDO_DEPTH = 32 };
+
+// Settings that a user can ask for by name.
+typedef enum DipPreset {
+    DIP_PRESET_PERFORMANCE,
+    DIP_PRESET_BALANCED,
+    DIP_PRESET_QUALITY,
+    DIP_PRESET_BEST,
+    DIP_PRESET_INI,     // The settings that the preview began with.
+    DIP_PRESET_CURRENT, // The current pane's settings.
+    DIP_PRESET_COUNT
+} DipPreset;
 
 typedef struct DipPreviewState {
     DipQuality quality[DIP_PANE_COUNT];
@@ -57,6 +81,11 @@ typedef struct DipPreviewState {
     int next_advice;         // Index in costs->advice of the next advice to give.
     bool quit;
     bool full_screen;
+    DipToolState tools;
+    DipQuality undo[DIP_UNDO_DEPTH][DIP_PANE_COUNT]; // Settings before each change, a ring.
+    int undo_first;
+    int undo_count;
+    int redo_count;
     bool screenshot;              // The user asked for a screenshot. Cleared when it is saved.
     char notice[DIP_NOTICE_SIZE]; // What just happened, for the status line; may be empty.
     int64_t notice_end_ns;        // Time at which the notice goes away, on the clock of `now_ns`.
@@ -71,6 +100,18 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
 // Carries out an action. reverse: Shift is held, so that steps and paths go backwards.
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns);
+
+// Gives a setting of the panes whose settings the keys change one step. If the step does not fit
+// the other settings, a notice says why and nothing changes.
+void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, int64_t now_ns);
+
+// Gives a pane new settings as one change that UNDO takes back.
+void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
+                             int64_t now_ns);
+
+// Returns a preset's settings, and its name for a button ("Balanced").
+DipQuality dip_preview_preset(const DipPreviewState *state, DipPreset preset);
+const char *dip_preview_preset_name(DipPreset preset);
 
 // Returns whether camera and scene stand still. flying: the user is moving the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);

@@ -1,0 +1,34 @@
+// Where the panes and the dock lie in a window of any size.
+//
+// The dock holds the preview's controls. It lies beneath the panes, or to their right if the window
+// is wide, and never covers them. In windows that are too small for both, the open dock becomes a
+// drawer that covers the current pane only, since the requested pane shows what a control changes.
+#ifndef DIP_APP_PREVIEW_LAYOUT_H
+#define DIP_APP_PREVIEW_LAYOUT_H
+
+#include "app/canvas/pixels.h"
+#include "app/session.h"
+
+enum { DIP_PANE_GAP_PX = 2 }; // Width of the gap between the panes.
+
+typedef enum DipDockSide { DIP_DOCK_BELOW, DIP_DOCK_RIGHT, DIP_DOCK_DRAWER } DipDockSide;
+
+typedef struct DipLayout {
+    int width;
+    int height;
+    double scale;
+    DipRect panes[DIP_PANE_COUNT]; // Where the pictures show. Both have the same size.
+    DipDockSide side;
+    DipRect bar;  // The dock's tabs and time line: one row, also while the dock is folded.
+    DipRect body; // The chosen tab's contents; empty while the dock is folded.
+} DipLayout;
+
+// Lays a window out. scale: the display's scale times that of --ui-scale. open: the dock shows a
+// tab. bare: the window shows nothing but the panes.
+DipLayout dip_layout_make(int width, int height, double scale, bool open, bool bare);
+
+// Returns the height of the dock below panes at scale 1, with its bar, for a window that opens with
+// the dock.
+int dip_layout_dock_height(void);
+
+#endif
