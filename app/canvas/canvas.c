@@ -1,6 +1,7 @@
 // Draws into memory. Blending works on 8-bit sRGB values, as desktops blend their windows.
 #include "app/canvas/canvas.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -84,6 +85,44 @@ void dip_canvas_fill(DipCanvas *canvas, DipRect rect, DipColour colour) {
     }
     for (int y = inside.y; y < inside.y + inside.height; ++y) {
         blend_row(pixel_at(canvas, inside.x, y), inside.width, colour);
+    }
+}
+
+// Returns how much of the pixel x, y lies in a rectangle of the given size with rounded corners, 0
+// to 1. The edge of a corner is smoothed by the distance of the pixel's centre from it.
+static double round_coverage(int x, int y, int width, int height, int radius) {
+    if (x < 0 || y < 0 || x >= width || y >= height) {
+        return 0.0;
+    }
+    const double dx = fmax(fmax(radius - (x + 0.5), x + 0.5 - (width - radius)), 0.0);
+    const double dy = fmax(fmax(radius - (y + 0.5), y + 0.5 - (height - radius)), 0.0);
+    if (dx == 0.0 || dy == 0.0) {
+        return 1.0;
+    }
+    return fmin(fmax(radius + 0.5 - sqrt(dx * dx + dy * dy), 0.0), 1.0);
+}
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+void dip_canvas_round(DipCanvas *canvas, DipRect rect, int radius, int ring, DipColour colour) {
+    const DipRect inside = dip_rect_intersect(rect, canvas->clip);
+    radius = least(radius, least(rect.width, rect.height) / 2);
+    for (int y = inside.y; y < inside.y + inside.height && inside.width > 0; ++y) {
+        for (int x = inside.x; x < inside.x + inside.width; ++x) {
+            const int px = x - rect.x, py = y - rect.y;
+            double coverage = round_coverage(px, py, rect.width, rect.height, radius);
+            if (ring > 0) {
+                coverage -=
+                    round_coverage(px - ring, py - ring, rect.width - 2 * ring,
+                                   rect.height - 2 * ring, radius > ring ? radius - ring : 0);
+            }
+            if (coverage > 0.0) {
+                blend_pixel(pixel_at(canvas, x, y), colour,
+                            (unsigned)(coverage * colour.alpha + 0.5));
+            }
+        }
     }
 }
 

@@ -32,6 +32,11 @@ DipPixels dip_canvas_pixels(const DipCanvas *canvas);
 // Blends a colour over a rectangle by the colour's alpha.
 void dip_canvas_fill(DipCanvas *canvas, DipRect rect, DipColour colour);
 
+// Blends a colour over a rectangle with rounded corners, whose edge is smoothed. radius: in pixels;
+// at most half of the shorter side counts. ring: width of an outline within the rectangle, or 0 to
+// fill it.
+void dip_canvas_round(DipCanvas *canvas, DipRect rect, int radius, int ring, DipColour colour);
+
 // Copies a picture into a rectangle; the picture's alpha is ignored. If the sizes differ, the
 // picture is scaled to the rectangle: each pixel shows the nearest pixel of the picture.
 void dip_canvas_copy(DipCanvas *canvas, DipRect rect, const DipPixels *picture);

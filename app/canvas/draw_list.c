@@ -7,7 +7,7 @@
 
 enum { MAX_LINE_BYTES = 512 };
 
-typedef enum CommandKind { COMMAND_FILL, COMMAND_PICTURE, COMMAND_TEXT } CommandKind;
+typedef enum CommandKind { COMMAND_FILL, COMMAND_ROUND, COMMAND_PICTURE, COMMAND_TEXT } CommandKind;
 
 typedef struct Command {
     CommandKind kind;
@@ -15,8 +15,8 @@ typedef struct Command {
     DipColour colour;
     uint64_t version;  // Version of the picture, for COMMAND_PICTURE.
     DipPixels picture; // Not compared: the version stands for the pixels.
-    int size;          // Em size of the text; this and the fields below are for COMMAND_TEXT.
-    int x;
+    int size;          // Em size of the text, or the radius of COMMAND_ROUND.
+    int x;             // Left end of the text, or the ring of COMMAND_ROUND.
     int y;
     size_t text; // Offset of the line in the frame's texts.
 } Command;
@@ -158,6 +158,11 @@ void dip_draw_list_fill(DipDrawList *list, DipRect rect, DipColour colour) {
     add_command(&list->recorded, &(Command){COMMAND_FILL, .box = rect, .colour = colour});
 }
 
+void dip_draw_list_round(DipDrawList *list, DipRect rect, int radius, int ring, DipColour colour) {
+    add_command(&list->recorded, &(Command){COMMAND_ROUND, .box = rect, .colour = colour,
+                                            .size = radius, .x = ring});
+}
+
 void dip_draw_list_picture(DipDrawList *list, DipRect rect, const DipPixels *picture,
                            uint64_t version) {
     add_command(&list->recorded,
@@ -242,6 +247,9 @@ static void paint_command(DipDrawList *list, const Command *command, DipCanvas *
     switch (command->kind) {
     case COMMAND_FILL:
         dip_canvas_fill(canvas, command->box, command->colour);
+        break;
+    case COMMAND_ROUND:
+        dip_canvas_round(canvas, command->box, command->size, command->x, command->colour);
         break;
     case COMMAND_PICTURE:
         dip_canvas_copy(canvas, command->box, &command->picture);

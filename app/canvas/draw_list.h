@@ -40,10 +40,13 @@ void dip_draw_list_begin(DipDrawList *list, int width, int height);
 int dip_draw_list_width(const DipDrawList *list);
 int dip_draw_list_height(const DipDrawList *list);
 
-// Each of the next three functions records one command. If memory runs out, the command is left out
+// Each of the next functions records one command. If memory runs out, the command is left out
 // of the frame, and dip_draw_list_paint fails.
 
 void dip_draw_list_fill(DipDrawList *list, DipRect rect, DipColour colour);
+
+// Fills a rectangle with rounded corners or draws its outline: see dip_canvas_round.
+void dip_draw_list_round(DipDrawList *list, DipRect rect, int radius, int ring, DipColour colour);
 
 // Shows a picture, scaled to the rectangle. The pixels are borrowed until the next frame begins.
 // The caller numbers the picture's contents with `version`: equal versions mean equal pixels.

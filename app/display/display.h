@@ -131,6 +131,10 @@ typedef struct DipDisplay {
     // Turns full-screen mode on or off. NULL if the display has no such mode.
     void (*set_full_screen)(void *context, bool on);
 
+    // Gives the clipboard a text. Returns false if that failed. NULL if the display has no
+    // clipboard.
+    bool (*set_clipboard)(void *context, const char *text);
+
     // Closes the display and frees the context.
     void (*close)(void *context);
 } DipDisplay;

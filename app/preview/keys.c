@@ -20,10 +20,13 @@ const DipKeyRow dip_key_rows[] = {
     SETTING_KEY('l', DIP_KEYCODE_F9, MIPLOD, "L  F9"),
     SETTING_KEY('i', DIP_KEYCODE_F10, GI, "I  F10"),
     SETTING_KEY('m', DIP_KEYCODE_NONE, MIPDEBUG, "M"),
-    {DIP_KEYCODE_TAB, DIP_KEYCODE_NONE, DIP_ACTION_NEXT_PANE, 0, false, "Tab  Click",
+    {'`', DIP_KEYCODE_INSERT, DIP_ACTION_NEXT_PANE, 0, false, "`  Insert  Click",
      "Choose the pane"},
     {DIP_KEYCODE_ENTER, DIP_KEYCODE_NONE, DIP_ACTION_APPLY, 0, false, "Enter",
      "Copy requested to current"},
+    {'y', DIP_KEYCODE_NONE, DIP_ACTION_DOCK, 0, false, "Y", "Open or fold the panel"},
+    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_DOCK, 0, false, "Tab  Arrows",
+     "Controls of the panel"},
     {DIP_KEYCODE_SPACE, DIP_KEYCODE_NONE, DIP_ACTION_PAUSE, 0, false, "Space", "Pause or play"},
     {'.', DIP_KEYCODE_NONE, DIP_ACTION_STEP, 0, true, ".  ,", "Step one frame"},
     {',', DIP_KEYCODE_NONE, DIP_ACTION_STEP_BACK, 0, true, NULL, NULL},
@@ -39,8 +42,18 @@ const DipKeyRow dip_key_rows[] = {
     PATH_KEY(7),
     PATH_KEY(8),
     {'9', DIP_KEYCODE_NONE, DIP_ACTION_PATH, 9, false, "0 .. 9", "Path made for a setting"},
-    {'n', DIP_KEYCODE_PAGE_DOWN, DIP_ACTION_NEXT_SCENE, 0, false, "N", "Next scene of the gallery"},
-    {'y', DIP_KEYCODE_NONE, DIP_ACTION_LOOK, 0, false, "Y", "The scene's next variant"},
+    {DIP_KEYCODE_PAGE_DOWN, DIP_KEYCODE_NONE, DIP_ACTION_SEEK, 5000, true, "PageUp  PageDown",
+     "5 s back or on"},
+    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_NEXT_SCENE, 0, false, "Ctrl+PageDown",
+     "Next scene of the gallery"},
+    {'\'', DIP_KEYCODE_NONE, DIP_ACTION_LOOK, 0, false, "'", "The scene's next variant"},
+    {'z', DIP_KEYCODE_NONE, DIP_ACTION_LOUPE, 0, false, "Z", "Loupe"},
+    {'=', DIP_KEYCODE_NONE, DIP_ACTION_ZOOM, 0, true, "=  -", "Loupe: zoom"},
+    {'j', DIP_KEYCODE_NONE, DIP_ACTION_COMPARISON, 0, false, "J", "Next comparison"},
+    {'n', DIP_KEYCODE_NONE, DIP_ACTION_MAP, 0, false, "N", "Next map of error or work"},
+    {']', DIP_KEYCODE_NONE, DIP_ACTION_ADJUST, 0, true, "[  ]", "Divider, gain, brightness"},
+    {';', DIP_KEYCODE_NONE, DIP_ACTION_BLINK, 0, false, ";", "Blink"},
+    {'/', DIP_KEYCODE_NONE, DIP_ACTION_BARE, 0, false, "/", "Panes only"},
     {'c', DIP_KEYCODE_NONE, DIP_ACTION_CAMERA, 0, false, "C", "Free camera"},
     {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_CAMERA, 0, false, "W A S D Q E",
      "Move it (with Shift: turn)"},
@@ -62,12 +75,60 @@ static bool stands_for(const DipKeyRow *row, DipKeycode key) {
     return row->key != DIP_KEYCODE_NONE && (row->key == (int)key || row->other == (int)key);
 }
 
-static bool press_with_modifier(DipPreviewState *state, const DipEvent *event, int64_t now_ns) {
-    const bool quits = (event->modifiers & DIP_MODIFIER_CTRL) && event->key == (DipKeycode)'q';
-    if (quits) {
-        dip_preview_act(state, DIP_ACTION_QUIT, 0, false, now_ns);
+// Keys that act while Ctrl is held, and keys that act backwards without Shift.
+typedef struct OtherKey {
+    int key;
+    DipAction action;
+    int argument;
+    bool reverse;
+} OtherKey;
+
+static const OtherKey ctrl_keys[] = {
+    {'q', DIP_ACTION_QUIT, 0, false},
+    {'z', DIP_ACTION_UNDO, 0, false},
+    {'y', DIP_ACTION_UNDO, 0, true},
+    {DIP_KEYCODE_ENTER, DIP_ACTION_APPLY, 0, false},
+    {DIP_KEYCODE_PAGE_DOWN, DIP_ACTION_NEXT_SCENE, 0, false},
+    {DIP_KEYCODE_PAGE_UP, DIP_ACTION_NEXT_SCENE, 0, true},
+};
+
+static const OtherKey backward_keys[] = {
+    {DIP_KEYCODE_PAGE_UP, DIP_ACTION_SEEK, 5000, true},
+    {'-', DIP_ACTION_ZOOM, 0, true},
+    {'[', DIP_ACTION_ADJUST, 0, true},
+};
+
+static bool press_other(DipPreviewState *state, const OtherKey *keys, int count,
+                        const DipEvent *event, int64_t now_ns) {
+    for (int i = 0; i < count; ++i) {
+        if (keys[i].key == (int)event->key) {
+            dip_preview_act(state, keys[i].action, keys[i].argument, keys[i].reverse, now_ns);
+            return true;
+        }
     }
-    return quits;
+    return false;
+}
+
+static bool press_with_modifier(DipPreviewState *state, const DipEvent *event, int64_t now_ns) {
+    if (!(event->modifiers & DIP_MODIFIER_CTRL)) {
+        return false;
+    }
+    if (event->key == (DipKeycode)'c') {
+        state->copy_settings = true;
+        return true;
+    }
+    return press_other(state, ctrl_keys, (int)DIP_ARRAY_COUNT(ctrl_keys), event, now_ns);
+}
+
+// Leaves the tool that shows, as Escape does. Returns false if none shows.
+static bool leave_tool(DipPreviewState *state) {
+    DipToolState *tools = &state->tools;
+    const bool shows = tools->bare || tools->loupe || tools->map != DIP_MAP_NONE ||
+                       tools->comparison != DIP_COMPARE_SIDE_BY_SIDE;
+    tools->bare = tools->loupe = false;
+    tools->map = DIP_MAP_NONE;
+    tools->comparison = DIP_COMPARE_SIDE_BY_SIDE;
+    return shows;
 }
 
 bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_ns) {
@@ -80,6 +141,12 @@ bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_n
     // If a sheet covers the panes, Escape closes the sheet; otherwise it quits the program.
     if (event->key == DIP_KEYCODE_ESCAPE && (state->help || state->show_costs)) {
         state->help = state->show_costs = false;
+        return true;
+    }
+    if (event->key == DIP_KEYCODE_ESCAPE && leave_tool(state)) {
+        return true;
+    }
+    if (press_other(state, backward_keys, (int)DIP_ARRAY_COUNT(backward_keys), event, now_ns)) {
         return true;
     }
     for (int i = 0; i < dip_key_row_count; ++i) {

@@ -1,8 +1,8 @@
 // Where the panes and the dock lie in a window of any size.
 //
-// The dock holds the preview's controls. It lies beneath the panes, or to their right if the window
-// is wide, and never covers them. In windows that are too small for both, the open dock becomes a
-// drawer that covers the current pane only, since the requested pane shows what a control changes.
+// The dock holds the preview's controls. It lies beneath the panes and does not cover them. In
+// windows that are too small for both, the open dock becomes a drawer that covers the current pane
+// only, since the requested pane shows what a control changes.
 #ifndef DIP_APP_PREVIEW_LAYOUT_H
 #define DIP_APP_PREVIEW_LAYOUT_H
 
@@ -11,7 +11,7 @@
 
 enum { DIP_PANE_GAP_PX = 2 }; // Width of the gap between the panes.
 
-typedef enum DipDockSide { DIP_DOCK_BELOW, DIP_DOCK_RIGHT, DIP_DOCK_DRAWER } DipDockSide;
+typedef enum DipDockSide { DIP_DOCK_BELOW, DIP_DOCK_DRAWER } DipDockSide;
 
 typedef struct DipLayout {
     int width;

@@ -33,6 +33,8 @@ struct DipPreview {
     DipPreviewDef def;
     DipPreviewState state;
     DipView *view;
+    DipPrices *prices;
+    DipTools *tools;
     DipFigures figures;
     DipPrefetch prefetch;
     DipErrorThread *errors; // NULL until the user first asks for errors.
@@ -86,7 +88,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->turn_ns = clock_ns(preview);
     follow_refresh(preview);
     preview->view = dip_view_create(err);
-    if (!preview->view) {
+    preview->prices = preview->view ? dip_prices_create(err) : NULL;
+    preview->tools = preview->prices ? dip_tools_create(err) : NULL;
+    if (!preview->tools) {
         dip_preview_destroy(&preview);
     }
     return preview;
@@ -100,32 +104,39 @@ void dip_preview_destroy(DipPreview **preview_pointer) {
     *preview_pointer = NULL;
     dip_error_thread_destroy(&preview->errors);
     dip_prefetch_end(&preview->prefetch);
+    dip_tools_destroy(&preview->tools);
+    dip_prices_destroy(&preview->prices);
     dip_view_destroy(&preview->view);
     free(preview);
 }
 
 // --- events ------------------------------------------------------------------------------------
 
-static int pane_at(const DipPreview *preview, int x) {
-    const DipPixels picture = dip_view_picture(preview->view);
-    DipRect panes[DIP_PANE_COUNT];
-    dip_view_panes(picture.width, picture.height, panes);
-    return x < panes[DIP_PANE_REQUESTED].x ? DIP_PANE_CURRENT : DIP_PANE_REQUESTED;
+// What the window shows now, and where.
+static DipViewInput view_input(DipPreview *preview, int64_t now_ns) {
+    const DipDisplay *display = &preview->def.display;
+    DipViewInput input = {
+        .scale = display->scale(display->context),
+        .now_ns = now_ns,
+        .state = &preview->state,
+        .figures = preview->figures.shown,
+        .prices = preview->prices,
+        .tools = preview->tools,
+        .still = dip_preview_rests(&preview->state, preview->flying),
+    };
+    display->size(display->context, &input.width, &input.height);
+    return input;
 }
 
-static void press_mouse(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
-    DipPreviewState *state = &preview->state;
-    if (event->button != DIP_MOUSE_LEFT) {
-        return;
-    }
-    if (event->clicks == 2) {
-        dip_preview_act(state, DIP_ACTION_FULL_SCREEN, 0, false, now_ns);
-    } else {
-        const int pane = pane_at(preview, event->x);
-        state->edited[pane] = true;
-        state->edited[1 - pane] = false;
-    }
+// Hands an event to the window's controls. Returns whether one of them took it. The panes change
+// their size if the dock was opened or folded.
+static bool handle_in_window(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    const DipViewInput input = view_input(preview, now_ns);
+    const DipToolState before = preview->state.tools;
+    const bool taken = dip_view_handle(preview->view, &input, event);
+    preview->resized |= before.open != preview->state.tools.open;
     preview->redraw = true;
+    return taken;
 }
 
 static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
@@ -135,13 +146,20 @@ static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now
         break;
     case DIP_EVENT_KEY_DOWN:
         dip_keys_hold(&preview->held, event);
+        if (handle_in_window(preview, event, now_ns)) {
+            break;
+        }
+        preview->resized = true; // A key may open or fold the dock.
         preview->redraw = dip_keys_press(&preview->state, event, now_ns) || preview->redraw;
         break;
     case DIP_EVENT_KEY_UP:
         dip_keys_hold(&preview->held, event);
         break;
     case DIP_EVENT_MOUSE_DOWN:
-        press_mouse(preview, event, now_ns);
+    case DIP_EVENT_MOUSE_UP:
+    case DIP_EVENT_MOUSE_MOVE:
+    case DIP_EVENT_MOUSE_WHEEL:
+        handle_in_window(preview, event, now_ns);
         break;
     case DIP_EVENT_RESIZE:
         preview->resized = true;
@@ -229,13 +247,10 @@ static bool keep_size(DipPreview *preview, DipError *err) {
 // Sets the renderers to the panes' size. A frame's size is limited; if the display is larger, the
 // view scales the frame up.
 static bool follow_size(DipPreview *preview, DipError *err) {
-    const DipDisplay *display = &preview->def.display;
-    DipRect panes[DIP_PANE_COUNT];
-    int width, height;
-    display->size(display->context, &width, &height);
-    dip_view_panes(width, height, panes);
-    width = panes[0].width < DIP_MAX_FRAME_SIZE ? panes[0].width : DIP_MAX_FRAME_SIZE;
-    height = panes[0].height < DIP_MAX_FRAME_SIZE ? panes[0].height : DIP_MAX_FRAME_SIZE;
+    const DipViewInput input = view_input(preview, clock_ns(preview));
+    const DipRect pane = dip_view_layout(&input).panes[0];
+    const int width = pane.width < DIP_MAX_FRAME_SIZE ? pane.width : DIP_MAX_FRAME_SIZE;
+    const int height = pane.height < DIP_MAX_FRAME_SIZE ? pane.height : DIP_MAX_FRAME_SIZE;
     if (width == preview->tried_width && height == preview->tried_height) {
         return true;
     }
@@ -411,11 +426,8 @@ static bool measure_errors(DipPreview *preview, int64_t now_ns) {
 // --- showing -----------------------------------------------------------------------------------
 
 static bool draw_view(DipPreview *preview, DipError *err) {
-    const DipDisplay *display = &preview->def.display;
-    int width, height;
-    display->size(display->context, &width, &height);
-    return dip_view_draw(preview->view, width, height, display->scale(display->context),
-                         &preview->state, preview->figures.shown, err);
+    const DipViewInput input = view_input(preview, clock_ns(preview));
+    return dip_view_draw(preview->view, &input, err);
 }
 
 static void save_picture(DipPreview *preview, int64_t now_ns) {
@@ -438,6 +450,22 @@ static bool present(DipPreview *preview, DipError *err) {
     const DipPixels picture = dip_view_picture(preview->view);
     const DipDamage damage = dip_view_take_damage(preview->view);
     return display->present(display->context, &picture, damage.rects, damage.count, err);
+}
+
+// Copies the requested settings as text, if the user asked for it.
+static void copy_settings(DipPreview *preview, int64_t now_ns) {
+    const DipDisplay *display = &preview->def.display;
+    char text[256];
+    if (!preview->state.copy_settings) {
+        return;
+    }
+    preview->state.copy_settings = false;
+    dip_quality_format(&preview->state.quality[DIP_PANE_REQUESTED], text, sizeof text);
+    if (display->set_clipboard && display->set_clipboard(display->context, text)) {
+        dip_preview_notice(&preview->state, now_ns, "Copied: %s", text);
+    } else {
+        dip_preview_notice(&preview->state, now_ns, "This display has no clipboard: %s", text);
+    }
 }
 
 static bool show(DipPreview *preview, int64_t now_ns, DipError *err) {
@@ -486,6 +514,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     fly(preview, elapsed_ns);
     dip_preview_advance(state, elapsed_ns, now_ns);
     follow_full_screen(preview);
+    copy_settings(preview, now_ns);
     follow_scene(preview, now_ns);
     if (preview->resized) {
         follow_refresh(preview);
@@ -497,7 +526,8 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     }
     const bool news = measure_errors(preview, now_ns);
     *shown = new_frame || news || preview->redraw || preview->exposed || state->screenshot ||
-             (had_notice && !state->notice[0]);
+             (had_notice && !state->notice[0]) ||
+             now_ns >= dip_ui_wakes_ns(dip_view_ui(preview->view));
     if (*shown && !show(preview, now_ns, err)) {
         preview->redraw = preview->exposed = true; // The next turn shows what this one could not.
         return false;

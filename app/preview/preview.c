@@ -72,7 +72,7 @@ bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipE
     DipDisplay display;
     bool done = load_costs(session, options->cost_report, &costs, err) &&
                 dip_sdl_display_open(&display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
-                                     session->pane_size.height, err);
+                                     session->pane_size.height + dip_layout_dock_height(), err);
     if (done) {
         done = run_loop(session, &display, costs, err);
         display.close(display.context);

@@ -2,6 +2,7 @@
 #include "app/preview/state.h"
 
 #include "config/config.h"
+#include "renderer/base/assert.h"
 
 #include <ctype.h>
 #include <stdarg.h>
@@ -17,6 +18,9 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
     state.quality[DIP_PANE_CURRENT] = quality[DIP_PANE_CURRENT];
     state.quality[DIP_PANE_REQUESTED] = quality[DIP_PANE_REQUESTED];
     state.edited[DIP_PANE_REQUESTED] = true;
+    state.ini_quality = quality[DIP_PANE_REQUESTED];
+    state.tools = (DipToolState){
+        .open = true, .ui_scale = 1.0, .zoom = 16, .divider = 0.5, .gain = 8, .brightness = 1.0};
     return state;
 }
 
@@ -72,6 +76,127 @@ int dip_preview_category_of(DipSetting setting) {
     }
 }
 
+// --- undo --------------------------------------------------------------------------------------
+
+static int undo_slot(const DipPreviewState *state, int index) {
+    return (state->undo_first + index) % DIP_UNDO_DEPTH;
+}
+
+// Remembers both panes' settings before a change. Forgets what has been undone.
+static void remember(DipPreviewState *state) {
+    if (state->undo_count == DIP_UNDO_DEPTH) {
+        state->undo_first = undo_slot(state, 1);
+        state->undo_count--;
+    }
+    memcpy(state->undo[undo_slot(state, state->undo_count)], state->quality, sizeof state->quality);
+    state->undo_count++;
+    state->redo_count = 0;
+}
+
+static void swap_settings(DipPreviewState *state, int slot) {
+    DipQuality held[DIP_PANE_COUNT];
+    memcpy(held, state->undo[slot], sizeof held);
+    memcpy(state->undo[slot], state->quality, sizeof held);
+    memcpy(state->quality, held, sizeof held);
+    ++state->scene_changes;
+}
+
+static void undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
+    if (reverse ? state->redo_count == 0 : state->undo_count == 0) {
+        dip_preview_notice(state, now_ns, reverse ? "Nothing to do again" : "Nothing to undo");
+        return;
+    }
+    if (reverse) {
+        swap_settings(state, undo_slot(state, state->undo_count));
+        state->undo_count++;
+        state->redo_count--;
+    } else {
+        state->undo_count--;
+        state->redo_count++;
+        swap_settings(state, undo_slot(state, state->undo_count));
+    }
+    dip_preview_notice(state, now_ns, reverse ? "Made the change again" : "Took the change back");
+}
+
+// --- settings ----------------------------------------------------------------------------------
+
+// Follows the path that shows a setting best, as a change of the setting asks for.
+static void follow_setting(DipPreviewState *state, DipSetting setting) {
+    const int path = dip_preview_category_of(setting);
+    if (path >= 0 && !state->manual) {
+        dip_camtrack_switch(state->track, path, state->play_ns);
+    }
+    ++state->scene_changes;
+}
+
+void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, int64_t now_ns) {
+    DipQuality wanted[DIP_PANE_COUNT];
+    DipError err;
+    memcpy(wanted, state->quality, sizeof wanted);
+    for (int pane = 0; pane < DIP_PANE_COUNT; ++pane) {
+        if (!state->edited[pane]) {
+            continue;
+        }
+        wanted[pane].step[setting] = (uint8_t)step;
+        if (setting == DIP_SETTING_AA && !dip_quality_check(&wanted[pane], NULL)) {
+            wanted[pane].step[DIP_SETTING_ASD] = dip_quality_default().step[DIP_SETTING_ASD];
+        }
+        if (!dip_quality_check(&wanted[pane], &err)) {
+            dip_preview_notice(state, now_ns, "%s", err.message);
+            return;
+        }
+    }
+    if (memcmp(wanted, state->quality, sizeof wanted) == 0) {
+        return;
+    }
+    remember(state);
+    memcpy(state->quality, wanted, sizeof wanted);
+    dip_preview_notice(state, now_ns, "%s: %s", dip_setting_info(setting)->title,
+                       dip_setting_info(setting)->steps[step]);
+    follow_setting(state, setting);
+}
+
+void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
+                             int64_t now_ns) {
+    (void)now_ns;
+    if (memcmp(&state->quality[pane], quality, sizeof *quality) != 0) {
+        remember(state);
+        state->quality[pane] = *quality;
+        ++state->scene_changes;
+    }
+}
+
+DipQuality dip_preview_preset(const DipPreviewState *state, DipPreset preset) {
+    static const char *const texts[] = {
+        [DIP_PRESET_PERFORMANCE] = "opt=advanced,miplod=performance",
+        [DIP_PRESET_BALANCED] = "aa=2,af=4",
+        [DIP_PRESET_QUALITY] = "aa=4,aaa=on,asd=2,af=16",
+        [DIP_PRESET_BEST] = "aa=8,aaa=on,af=16,aaf=on",
+    };
+    DipQuality quality = dip_quality_default();
+    switch (preset) {
+    case DIP_PRESET_INI:
+        return state->ini_quality;
+    case DIP_PRESET_CURRENT:
+        return state->quality[DIP_PANE_CURRENT];
+    default:
+        DIP_ASSERT(dip_quality_parse(texts[preset], &quality, NULL));
+        return quality;
+    }
+}
+
+const char *dip_preview_preset_name(DipPreset preset) {
+    static const char *const names[DIP_PRESET_COUNT] = {"Performance", "Balanced",    "Quality",
+                                                        "Best",        "As at start", "As current"};
+    return names[preset];
+}
+
+static void choose_preset(DipPreviewState *state, DipPreset preset, int64_t now_ns) {
+    const DipQuality quality = dip_preview_preset(state, preset);
+    dip_preview_set_quality(state, DIP_PANE_REQUESTED, &quality, now_ns);
+    dip_preview_notice(state, now_ns, "Requested: %s", dip_preview_preset_name(preset));
+}
+
 // Sets a setting to its next step that is valid with the other settings. If a new number of samples
 // does not fit the group size of adaptive AA, resets the group size to its default. Returns false
 // if no other step is valid.
@@ -99,6 +224,8 @@ static void change_setting(DipPreviewState *state, DipSetting setting, bool reve
     const DipSettingInfo *info = dip_setting_info(setting);
     bool changed = false;
     const char *step = "";
+    DipQuality before[DIP_PANE_COUNT];
+    memcpy(before, state->quality, sizeof before);
     for (int pane = 0; pane < DIP_PANE_COUNT; ++pane) {
         if (state->edited[pane] && cycle(&state->quality[pane], setting, reverse)) {
             changed = true;
@@ -109,12 +236,13 @@ static void change_setting(DipPreviewState *state, DipSetting setting, bool reve
         dip_preview_notice(state, now_ns, "%s: no other step fits the other settings", info->title);
         return;
     }
-    const int path = dip_preview_category_of(setting);
-    if (path >= 0 && !state->manual) {
-        dip_camtrack_switch(state->track, path, state->play_ns);
-    }
+    DipQuality after[DIP_PANE_COUNT];
+    memcpy(after, state->quality, sizeof after);
+    memcpy(state->quality, before, sizeof before);
+    remember(state);
+    memcpy(state->quality, after, sizeof after);
     dip_preview_notice(state, now_ns, "%s: %s", info->title, step);
-    ++state->scene_changes;
+    follow_setting(state, setting);
 }
 
 static bool has_path(const DipPreviewState *state, int category) {
@@ -154,6 +282,30 @@ static void next_path(DipPreviewState *state, int direction, int64_t now_ns) {
     dip_preview_notice(state, now_ns, "There is only one path");
 }
 
+// The path that plays: that of the active category or of category 0.
+static const DipCamPath *playing_path(const DipPreviewState *state) {
+    const DipCamPath *path = state->track->categories[state->track->active].path;
+    return path ? path : state->track->categories[0].path;
+}
+
+int64_t dip_preview_path_length_ns(const DipPreviewState *state) {
+    const DipCamPath *path = playing_path(state);
+    return path ? dip_campath_info(path).duration_ns : 0;
+}
+
+int64_t dip_preview_path_ns(const DipPreviewState *state) {
+    const int64_t length_ns = dip_preview_path_length_ns(state);
+    const int64_t at_ns = dip_camtrack_time(state->track, state->play_ns);
+    return length_ns > 0 ? ((at_ns % length_ns) + length_ns) % length_ns : 0;
+}
+
+void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns) {
+    const int64_t to_ns = state->play_ns + path_ns - dip_preview_path_ns(state);
+    const int64_t length_ns = dip_preview_path_length_ns(state);
+    state->play_ns = to_ns >= 0 ? to_ns : to_ns + length_ns;
+    ++state->scene_changes;
+}
+
 static void step_time(DipPreviewState *state, int direction, int64_t now_ns) {
     const int64_t to_ns = state->play_ns + direction * state->step_ns;
     state->paused = true;
@@ -177,7 +329,7 @@ static void choose_pane(DipPreviewState *state, int64_t now_ns) {
 }
 
 static void apply(DipPreviewState *state, int64_t now_ns) {
-    state->quality[DIP_PANE_CURRENT] = state->quality[DIP_PANE_REQUESTED];
+    dip_preview_set_quality(state, DIP_PANE_CURRENT, &state->quality[DIP_PANE_REQUESTED], now_ns);
     dip_preview_notice(state, now_ns, "Copied requested to current");
     ++state->scene_changes;
 }
@@ -199,7 +351,7 @@ static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
     state->notice_end_ns = now_ns + 2 * notice_ns; // This text is longer than other notices.
     state->next_advice = (index + 1) % count;
     if (advice->found) {
-        state->quality[DIP_PANE_REQUESTED] = advice->quality;
+        dip_preview_set_quality(state, DIP_PANE_REQUESTED, &advice->quality, now_ns);
         ++state->scene_changes;
     }
 }
@@ -213,9 +365,109 @@ static void change_look(DipPreviewState *state, bool reverse, int64_t now_ns) {
     ++state->scene_changes;
 }
 
+// --- the dock and its tools ----------------------------------------------------------------------
+
+static void open_tab(DipPreviewState *state, DipTab tab) {
+    DipToolState *tools = &state->tools;
+    tools->open = !(tools->open && tools->tab == tab);
+    tools->bare = false;
+    tools->tab = tab;
+    state->panel = tools->open && tab == DIP_TAB_TIMES;
+}
+
+// Chooses the next value of a tool in a ring of `count`, and opens its tab.
+static int next_of(DipPreviewState *state, DipTab tab, int value, int count, bool reverse) {
+    state->tools.tab = tab;
+    state->tools.open = true;
+    state->tools.bare = false;
+    return (value + (reverse ? count - 1 : 1)) % count;
+}
+
+static void zoom(DipPreviewState *state, bool out) {
+    const int zoom = out ? state->tools.zoom / 2 : state->tools.zoom * 2;
+    if (zoom >= DIP_LOUPE_MIN_ZOOM && zoom <= DIP_LOUPE_MAX_ZOOM) {
+        state->tools.zoom = zoom;
+    }
+}
+
+// Moves the wipe's divider by 5 %, doubles or halves the gain of the difference, or the brightness
+// of the map that shows.
+static void adjust(DipPreviewState *state, bool down) {
+    enum { MAX_GAIN = 64 };
+    DipToolState *tools = &state->tools;
+    if (tools->map != DIP_MAP_NONE) {
+        const double brightness = tools->brightness * (down ? 0.5 : 2.0);
+        tools->brightness = brightness < 0.125 ? 0.125 : brightness > 64.0 ? 64.0 : brightness;
+    } else if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
+        const int gain = down ? tools->gain / 2 : tools->gain * 2;
+        tools->gain = gain < 1 ? 1 : gain > MAX_GAIN ? MAX_GAIN : gain;
+    } else {
+        const double divider = tools->divider + (down ? -0.05 : 0.05);
+        tools->divider = divider < 0.0 ? 0.0 : divider > 1.0 ? 1.0 : divider;
+    }
+}
+
+static void seek(DipPreviewState *state, int milliseconds) {
+    const int64_t to_ns = state->play_ns + (int64_t)milliseconds * 1000000;
+    state->play_ns = to_ns > 0 ? to_ns : 0;
+    ++state->scene_changes;
+}
+
+// Carries out an action of the dock or of a tool. Returns false if the action is none of these.
+static bool act_on_tools(DipPreviewState *state, DipAction action, int argument, bool reverse) {
+    DipToolState *tools = &state->tools;
+    switch (action) {
+    case DIP_ACTION_TAB:
+        open_tab(state, (DipTab)argument);
+        return true;
+    case DIP_ACTION_DOCK:
+        tools->open = !tools->open;
+        tools->bare = false;
+        return true;
+    case DIP_ACTION_BARE:
+        tools->bare = !tools->bare;
+        return true;
+    case DIP_ACTION_LOUPE:
+        tools->loupe = !tools->loupe;
+        tools->open = tools->loupe || tools->open;
+        tools->tab = tools->loupe ? DIP_TAB_LOUPE : DIP_TAB_SETTINGS;
+        return true;
+    case DIP_ACTION_ZOOM:
+        zoom(state, reverse);
+        return true;
+    case DIP_ACTION_COMPARISON:
+        tools->comparison = (DipComparison)next_of(state, DIP_TAB_COMPARE, (int)tools->comparison,
+                                                   DIP_COMPARISON_COUNT, reverse);
+        return true;
+    case DIP_ACTION_MAP:
+        tools->map = (DipMap)next_of(state, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT, reverse);
+        return true;
+    case DIP_ACTION_ADJUST:
+        adjust(state, reverse);
+        return true;
+    case DIP_ACTION_BLINK:
+        tools->blinked = !tools->blinked;
+        return true;
+    case DIP_ACTION_SEEK:
+        seek(state, reverse ? -argument : argument);
+        return true;
+    default:
+        return false;
+    }
+}
+
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns) {
+    if (act_on_tools(state, action, argument, reverse)) {
+        return;
+    }
     switch (action) {
+    case DIP_ACTION_UNDO:
+        undo(state, reverse, now_ns);
+        break;
+    case DIP_ACTION_PRESET:
+        choose_preset(state, (DipPreset)argument, now_ns);
+        break;
     case DIP_ACTION_SETTING:
         change_setting(state, (DipSetting)argument, reverse, now_ns);
         break;
@@ -262,7 +514,7 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         state->help = !state->help;
         break;
     case DIP_ACTION_PANEL:
-        state->panel = !state->panel;
+        open_tab(state, DIP_TAB_TIMES);
         break;
     case DIP_ACTION_COSTS:
         state->show_costs = !state->show_costs;
@@ -278,6 +530,8 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         break;
     case DIP_ACTION_QUIT:
         state->quit = true;
+        break;
+    default:
         break;
     }
 }

@@ -56,13 +56,14 @@ typedef enum DipPreset {
     DIP_PRESET_BALANCED,
     DIP_PRESET_QUALITY,
     DIP_PRESET_BEST,
-    DIP_PRESET_INI,     // The settings that the preview began with.
+    DIP_PRESET_INI,     // The settings that the requested pane began with.
     DIP_PRESET_CURRENT, // The current pane's settings.
     DIP_PRESET_COUNT
 } DipPreset;
 
 typedef struct DipPreviewState {
     DipQuality quality[DIP_PANE_COUNT];
+    DipQuality ini_quality;      // Settings that the requested pane began with.
     bool edited[DIP_PANE_COUNT]; // The panes whose settings the keys change.
     DipCamTrack *track;          // Borrowed.
     int64_t play_ns;             // Time on the path, never below 0.
@@ -86,7 +87,8 @@ typedef struct DipPreviewState {
     int undo_first;
     int undo_count;
     int redo_count;
-    bool screenshot;              // The user asked for a screenshot. Cleared when it is saved.
+    bool copy_settings; // The user asked to copy the requested settings. Cleared when done.
+    bool screenshot;    // The user asked for a screenshot. Cleared when it is saved.
     char notice[DIP_NOTICE_SIZE]; // What just happened, for the status line; may be empty.
     int64_t notice_end_ns;        // Time at which the notice goes away, on the clock of `now_ns`.
     unsigned scene_changes;       // Grows whenever the panes' pictures have to change.
@@ -119,6 +121,13 @@ bool dip_preview_rests(const DipPreviewState *state, bool flying);
 // Lets time pass. Moves on along the path unless the preview is paused or the user flies the
 // camera. Removes a notice that has ended.
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);
+
+// Time on the active camera path, from 0 to below its length, and its length; 0 without a path.
+int64_t dip_preview_path_ns(const DipPreviewState *state);
+int64_t dip_preview_path_length_ns(const DipPreviewState *state);
+
+// Moves the time on the active path to `path_ns` (0 to below its length).
+void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns);
 
 // Shows a notice for a few seconds.
 void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *format, ...)

@@ -14,6 +14,18 @@ static const DipColour dip_style_panel = {12, 14, 18, 190};    // Background of 
 static const DipColour dip_style_sheet = {14, 16, 21, 236};    // Background of the sheets.
 static const DipColour dip_style_shade = {0, 0, 0, 90};        // Darkens the window around a sheet.
 
+static const DipColour dip_style_dock = {20, 22, 26, 255};
+static const DipColour dip_style_bar = {27, 30, 36, 255};      // Background of the dock's bar.
+static const DipColour dip_style_raised = {32, 36, 43, 255};   // Buttons and steps.
+static const DipColour dip_style_line = {51, 58, 68, 255};     // Lines and outlines.
+static const DipColour dip_style_well = {12, 14, 17, 255};     // Background of plots.
+static const DipColour dip_style_glass = {10, 12, 15, 199};    // Background of labels on pictures.
+static const DipColour dip_style_dim = {152, 162, 174, 255};   // Notes on the dock.
+static const DipColour dip_style_gain = {95, 214, 189, 255};   // Less error.
+static const DipColour dip_style_worse = {255, 154, 139, 255}; // More error.
+static const DipColour dip_style_focus = {109, 184, 255, 255}; // Ring of the control with focus.
+static const DipColour dip_style_on_accent = {26, 18, 6, 255}; // Text on the accent.
+
 static inline int dip_style_min(int a, int b) {
     return a < b ? a : b;
 }

@@ -122,6 +122,10 @@ DipFont *dip_ui_font(const DipUi *ui);
 double dip_ui_scale(const DipUi *ui);
 int64_t dip_ui_now_ns(const DipUi *ui);
 
+// Where the pointer was last seen, in pixels of the window.
+int dip_ui_pointer_x(const DipUi *ui);
+int dip_ui_pointer_y(const DipUi *ui);
+
 // Converts a length at scale 1 to pixels.
 int dip_ui_px(const DipUi *ui, int length);
 

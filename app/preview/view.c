@@ -2,7 +2,6 @@
 #include "app/preview/view.h"
 
 #include "app/files/png.h"
-#include "app/preview/overlay.h"
 #include "app/preview/style.h"
 
 #include <stdio.h>
@@ -13,6 +12,7 @@ enum { MAX_SCREENSHOTS = 9999 };
 
 struct DipView {
     DipFont *font;
+    DipUi *ui;
     DipDrawList *list;
     DipCanvas canvas;
     DipDamage damage; // Changes since dip_view_take_damage was last called.
@@ -29,7 +29,8 @@ DipView *dip_view_create(DipError *err) {
     }
     view->font = dip_font_create(err);
     view->list = view->font ? dip_draw_list_create(view->font, err) : NULL;
-    if (!view->list) {
+    view->ui = view->list ? dip_ui_create(err) : NULL;
+    if (!view->ui) {
         dip_view_destroy(&view);
     }
     return view;
@@ -41,16 +42,11 @@ void dip_view_destroy(DipView **view_pointer) {
         return;
     }
     *view_pointer = NULL;
+    dip_ui_destroy(&view->ui);
     dip_draw_list_destroy(&view->list);
     dip_font_destroy(&view->font);
     dip_canvas_free(&view->canvas);
     free(view);
-}
-
-void dip_view_panes(int width, int height, DipRect panes[DIP_PANE_COUNT]) {
-    const int pane_width = width > DIP_PANE_GAP_PX + 2 ? (width - DIP_PANE_GAP_PX) / 2 : 1;
-    panes[DIP_PANE_CURRENT] = (DipRect){0, 0, pane_width, height};
-    panes[DIP_PANE_REQUESTED] = (DipRect){width - pane_width, 0, pane_width, height};
 }
 
 void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame) {
@@ -59,20 +55,40 @@ void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame) {
     view->versions[pane] = ++view->frame_count;
 }
 
-bool dip_view_draw(DipView *view, int width, int height, double scale, const DipPreviewState *state,
-                   const DipPaneFigures figures[DIP_PANE_COUNT], DipError *err) {
-    DipRect panes[DIP_PANE_COUNT];
+DipLayout dip_view_layout(const DipViewInput *input) {
+    const DipToolState *tools = &input->state->tools;
+    return dip_layout_make(input->width, input->height, input->scale * tools->ui_scale, tools->open,
+                           tools->bare);
+}
+
+// Runs one pass over all controls. Returns what dip_ui_end returns.
+static bool pass_over(DipView *view, const DipViewInput *input, DipDrawList *list,
+                      const DipEvent *event) {
+    const DipLayout layout = dip_view_layout(input);
+    DipWindow window = {
+        .state = input->state,
+        .layout = &layout,
+        .frames = {view->frames[0], view->frames[1]},
+        .versions = {view->versions[0], view->versions[1]},
+        .still = input->still,
+        .figures = input->figures,
+        .prices = input->prices,
+        .tools = input->tools,
+    };
+    const DipUiPass pass = {view->font, layout.scale, input->now_ns, list, event};
+    dip_ui_begin(view->ui, &pass);
+    dip_window_declare(view->ui, &window);
+    return dip_ui_end(view->ui);
+}
+
+bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *event) {
+    return pass_over(view, input, NULL, event);
+}
+
+bool dip_view_draw(DipView *view, const DipViewInput *input, DipError *err) {
     DipDamage changed;
-    dip_view_panes(width, height, panes);
-    dip_draw_list_begin(view->list, width, height);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        dip_draw_list_picture(view->list, panes[p], &view->frames[p], view->versions[p]);
-    }
-    const int divider_x = panes[DIP_PANE_CURRENT].width;
-    dip_draw_list_fill(view->list,
-                       (DipRect){divider_x, 0, panes[DIP_PANE_REQUESTED].x - divider_x, height},
-                       dip_style_background);
-    dip_overlay_draw(view->list, state, panes, figures, scale);
+    dip_draw_list_begin(view->list, input->width, input->height);
+    pass_over(view, input, view->list, NULL);
     if (!dip_draw_list_paint(view->list, &view->canvas, &changed, err)) {
         return false;
     }
@@ -80,6 +96,10 @@ bool dip_view_draw(DipView *view, int width, int height, double scale, const Dip
         dip_damage_add(&view->damage, changed.rects[i]);
     }
     return true;
+}
+
+DipUi *dip_view_ui(DipView *view) {
+    return view->ui;
 }
 
 DipPixels dip_view_picture(const DipView *view) {

@@ -4,10 +4,7 @@
 #define DIP_APP_PREVIEW_VIEW_H
 
 #include "app/canvas/draw_list.h"
-#include "app/preview/panel.h"
-#include "app/preview/state.h"
-
-enum { DIP_PANE_GAP_PX = 2 }; // Width of the gap between the panes.
+#include "app/preview/tabs.h"
 
 typedef struct DipView DipView;
 
@@ -15,15 +12,34 @@ typedef struct DipView DipView;
 DipView *dip_view_create(DipError *err);
 void dip_view_destroy(DipView **view);
 
-// Fills in the panes' rectangles for a picture of the given size.
-void dip_view_panes(int width, int height, DipRect panes[DIP_PANE_COUNT]);
-
 // Sets a pane's frame. The frame's pixels are borrowed until the pane's next frame is set.
 void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame);
 
+// What the window shows besides the panes' frames. All of it is borrowed for a call.
+typedef struct DipViewInput {
+    int width; // Size of the window in pixels.
+    int height;
+    double scale; // The display's scale.
+    int64_t now_ns;
+    DipPreviewState *state;
+    const DipPaneFigures *figures; // [DIP_PANE_COUNT]
+    const DipPrices *prices;
+    DipTools *tools;
+    bool still; // Camera and scene stand still.
+} DipViewInput;
+
+// Returns where panes and dock lie.
+DipLayout dip_view_layout(const DipViewInput *input);
+
+// Hands an event to the window's controls, which change input->state. Returns whether one of them
+// took the event.
+bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *event);
+
 // Draws what has changed since the last call, or everything if the size has changed.
-bool dip_view_draw(DipView *view, int width, int height, double scale, const DipPreviewState *state,
-                   const DipPaneFigures figures[DIP_PANE_COUNT], DipError *err);
+bool dip_view_draw(DipView *view, const DipViewInput *input, DipError *err);
+
+// The controls: their focus, and when the window must be drawn again (ui.h).
+DipUi *dip_view_ui(DipView *view);
 
 // Returns the picture, which is valid until the next dip_view_draw.
 DipPixels dip_view_picture(const DipView *view);

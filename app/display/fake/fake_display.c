@@ -90,8 +90,8 @@ DipFakeDisplay *dip_fake_display_open(DipDisplay *display, int width, int height
         return NULL;
     }
     fake->scale = 1.0;
-    *display = (DipDisplay){fake,       present, next_event,      size,         scale,
-                            refresh_hz, now_ns,  set_full_screen, close_display};
+    *display = (DipDisplay){fake,       present, next_event,      size, scale,
+                            refresh_hz, now_ns,  set_full_screen, NULL, close_display};
     return fake;
 }
 

@@ -219,6 +219,11 @@ static int64_t now_ns(void *context) {
     return dip_clock_ns();
 }
 
+static bool set_clipboard(void *context, const char *text) {
+    (void)context;
+    return SDL_SetClipboardText(text) == 0;
+}
+
 static void set_full_screen(void *context, bool on) {
     const SdlDisplay *sdl = context;
     SDL_SetWindowFullscreen(sdl->window, on ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
@@ -233,7 +238,7 @@ bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *
         close_display(sdl);
         return false;
     }
-    *display = (DipDisplay){sdl,        present, next_event,      size,         scale,
-                            refresh_hz, now_ns,  set_full_screen, close_display};
+    *display = (DipDisplay){sdl,        present, next_event,      size,          scale,
+                            refresh_hz, now_ns,  set_full_screen, set_clipboard, close_display};
     return true;
 }

@@ -1,0 +1,86 @@
+// The labels over the panes, and notices.
+#include "app/preview/labels.h"
+
+#include "app/preview/style.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { LABEL_SIZE = 13, LABEL_HEIGHT = 24, LABEL_MARGIN = 8, LABEL_PAD = 8 };
+
+// Writes the time of a pane's frames: "4.6 ms", or that the pane is a copy.
+static void format_time(const DipPaneFigures *figures, char *text, size_t size_bytes) {
+    if (figures->copied) {
+        snprintf(text, size_bytes, "same as current");
+    } else if (figures->fps > 0) {
+        snprintf(text, size_bytes, "%.1f ms  %d fps", figures->ms, figures->fps);
+    } else {
+        snprintf(text, size_bytes, "%.1f ms", figures->ms);
+    }
+}
+
+// Writes the settings with the words that fit: in full, briefly, or not at all.
+static void format_settings(const DipUi *ui, const DipQuality *quality, int room, char *text,
+                            size_t size_bytes) {
+    dip_preview_describe(quality, false, text, size_bytes);
+    if (dip_ui_text_width(ui, LABEL_SIZE, text) > room) {
+        dip_preview_describe(quality, true, text, size_bytes);
+    }
+    if (dip_ui_text_width(ui, LABEL_SIZE, text) > room) {
+        text[0] = '\0';
+    }
+}
+
+static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
+    static const char *const titles[DIP_PANE_COUNT] = {"Current", "Requested"};
+    const DipRect rect = window->layout->panes[pane];
+    const bool edited = window->state->edited[pane];
+    const int margin = dip_ui_px(ui, LABEL_MARGIN), pad = dip_ui_px(ui, LABEL_PAD);
+    const int height = dip_ui_px(ui, LABEL_HEIGHT);
+    const int title_width = dip_ui_text_width(ui, LABEL_SIZE, titles[pane]);
+    char time[64], settings[400];
+    format_time(&window->figures[pane], time, sizeof time);
+    const int time_width = dip_ui_text_width(ui, LABEL_SIZE, time);
+    const int used = title_width + time_width + 3 * pad;
+    const int room = rect.width - 2 * margin - used - pad;
+    format_settings(ui, &window->state->quality[pane], room, settings, sizeof settings);
+    const int settings_width = settings[0] ? dip_ui_text_width(ui, LABEL_SIZE, settings) + pad : 0;
+    const DipRect strip = {rect.x + margin, rect.y + margin,
+                           dip_style_min(used + settings_width, rect.width - 2 * margin), height};
+    const int y = strip.y + (height - dip_ui_line_height(ui, LABEL_SIZE)) / 2;
+    dip_ui_fill_round(ui, strip, dip_ui_px(ui, 4), dip_style_glass);
+    dip_ui_text(ui, LABEL_SIZE, edited ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT,
+                strip.x + pad, y, strip.width - 2 * pad, titles[pane]);
+    dip_ui_text(ui, LABEL_SIZE, dip_style_white, DIP_ALIGN_LEFT, strip.x + 2 * pad + title_width, y,
+                strip.width - 3 * pad - title_width, time);
+    dip_ui_text(ui, LABEL_SIZE, dip_style_soft, DIP_ALIGN_LEFT, strip.x + used, y,
+                strip.width - used, settings);
+    if (edited && pane == DIP_PANE_REQUESTED) {
+        dip_ui_fill(ui, (DipRect){rect.x - DIP_PANE_GAP_PX, rect.y, DIP_PANE_GAP_PX, rect.height},
+                    dip_style_accent);
+    }
+}
+
+void dip_labels_draw(DipUi *ui, DipWindow *window) {
+    for (int p = 0; dip_ui_is_drawing(ui) && p < DIP_PANE_COUNT; ++p) {
+        draw_label(ui, window, p);
+    }
+}
+
+void dip_labels_draw_notice(DipUi *ui, DipWindow *window) {
+    const char *notice = window->state->notice;
+    if (!notice[0] || !dip_ui_is_drawing(ui)) {
+        return;
+    }
+    const DipLayout *layout = window->layout;
+    const int pad = dip_ui_px(ui, LABEL_PAD), margin = dip_ui_px(ui, LABEL_MARGIN);
+    const int height = dip_ui_px(ui, LABEL_HEIGHT);
+    const int room = layout->width - 2 * margin;
+    const int width = dip_style_min(room, dip_ui_text_width(ui, LABEL_SIZE, notice) + 2 * pad);
+    const DipRect strip = {(layout->width - width) / 2,
+                           layout->panes[0].y + layout->panes[0].height - margin - height, width,
+                           height};
+    dip_ui_fill_round(ui, strip, dip_ui_px(ui, 4), dip_style_glass);
+    dip_ui_text(ui, LABEL_SIZE, dip_style_accent, DIP_ALIGN_CENTRE, layout->width / 2,
+                strip.y + (height - dip_ui_line_height(ui, LABEL_SIZE)) / 2, width - pad, notice);
+}

@@ -1,0 +1,61 @@
+// Declares the whole window, from the back to the front.
+#include "app/preview/labels.h"
+#include "app/preview/sheet.h"
+#include "app/preview/style.h"
+#include "app/preview/tabs.h"
+
+// Declares one pane as a control: a click chooses the pane, a double click shows it alone.
+static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
+    DipPreviewState *state = window->state;
+    const DipUiControl control = {.id = DIP_UI_ID(DIP_UI_PANES, pane),
+                                  .rect = window->layout->panes[pane],
+                                  .skips_focus = true,
+                                  .takes_wheel = state->tools.loupe};
+    const DipUiInput input = dip_ui_control(ui, &control);
+    if (input.began) {
+        state->edited[pane] = true;
+        state->edited[1 - pane] = false;
+        dip_ui_blur(ui);
+    }
+    if (input.began && input.clicks == 2) {
+        dip_preview_act(state, DIP_ACTION_FULL_SCREEN, 0, false, dip_ui_now_ns(ui));
+    }
+    return input;
+}
+
+static void declare_tab(DipUi *ui, DipWindow *window, DipRect body) {
+    static void (*const tabs[DIP_TAB_COUNT])(DipUi *, DipWindow *, DipRect) = {
+        [DIP_TAB_SETTINGS] = dip_tab_settings, [DIP_TAB_LOUPE] = dip_tab_loupe,
+        [DIP_TAB_COMPARE] = dip_tab_compare,   [DIP_TAB_MAPS] = dip_tab_maps,
+        [DIP_TAB_ADVICE] = dip_tab_advice,     [DIP_TAB_TIMES] = dip_tab_times,
+    };
+    dip_ui_fill(ui, body, dip_style_dock);
+    tabs[window->state->tools.tab](ui, window, body);
+}
+
+void dip_window_declare(DipUi *ui, DipWindow *window) {
+    const DipLayout *layout = window->layout;
+    DipPreviewState *state = window->state;
+    DipUiInput panes[DIP_PANE_COUNT];
+    dip_ui_fill(ui, (DipRect){0, 0, layout->width, layout->height}, dip_style_background);
+    dip_compare_pictures(ui, window);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        panes[p] = declare_pane(ui, window, p);
+    }
+    dip_maps_over_panes(ui, window, panes);
+    dip_compare_over_panes(ui, window, panes);
+    dip_loupe_over_panes(ui, window, panes);
+    if (!state->tools.bare) {
+        dip_labels_draw(ui, window);
+        dip_bar_declare(ui, window);
+        if (!dip_rect_is_empty(layout->body)) {
+            declare_tab(ui, window, layout->body);
+        }
+        dip_labels_draw_notice(ui, window);
+    }
+    if (dip_ui_is_drawing(ui) && state->help) {
+        dip_sheet_draw_help(dip_ui_list(ui), dip_ui_scale(ui));
+    } else if (dip_ui_is_drawing(ui) && state->show_costs) {
+        dip_sheet_draw_costs(dip_ui_list(ui), state, dip_ui_scale(ui));
+    }
+}
