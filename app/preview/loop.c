@@ -67,6 +67,8 @@ static void follow_refresh(DipPreview *preview) {
     preview->refresh_ns = (int64_t)(1e9 / hz);
 }
 
+static DipViewInput view_input(DipPreview *preview, int64_t now_ns);
+
 DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     DipPreview *preview = calloc(1, sizeof *preview);
     if (!preview) {
@@ -92,7 +94,10 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->tools = preview->prices ? dip_tools_create(err) : NULL;
     if (!preview->tools) {
         dip_preview_destroy(&preview);
+        return NULL;
     }
+    // An open drawer would cover the current pane.
+    preview->state.tools.open = dip_preview_layout(preview).side == DIP_DOCK_BELOW;
     return preview;
 }
 
@@ -128,15 +133,26 @@ static DipViewInput view_input(DipPreview *preview, int64_t now_ns) {
     return input;
 }
 
+// Whether two states of the tools give the panes the same size.
+static bool same_layout(const DipToolState *a, const DipToolState *b) {
+    return a->open == b->open && a->bare == b->bare && a->ui_scale == b->ui_scale;
+}
+
 // Hands an event to the window's controls. Returns whether one of them took it. The panes change
 // their size if the dock was opened or folded.
 static bool handle_in_window(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
     const DipViewInput input = view_input(preview, now_ns);
     const DipToolState before = preview->state.tools;
     const bool taken = dip_view_handle(preview->view, &input, event);
-    preview->resized |= before.open != preview->state.tools.open;
+    preview->resized |= !same_layout(&before, &preview->state.tools);
     preview->redraw = true;
     return taken;
+}
+
+static void press_key(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    const DipToolState before = preview->state.tools;
+    preview->redraw = dip_keys_press(&preview->state, event, now_ns) || preview->redraw;
+    preview->resized |= !same_layout(&before, &preview->state.tools);
 }
 
 static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
@@ -149,8 +165,7 @@ static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now
         if (handle_in_window(preview, event, now_ns)) {
             break;
         }
-        preview->resized = true; // A key may open or fold the dock.
-        preview->redraw = dip_keys_press(&preview->state, event, now_ns) || preview->redraw;
+        press_key(preview, event, now_ns);
         break;
     case DIP_EVENT_KEY_UP:
         dip_keys_hold(&preview->held, event);
@@ -379,7 +394,9 @@ static bool create_errors(DipPreview *preview, int64_t now_ns) {
     }
     if (!preview->errors) {
         report(preview, &err, now_ns);
-        preview->state.panel = false;
+        preview->state.tools.open = false;
+        preview->resized = true;
+        dip_preview_follow_dock(&preview->state);
     }
     return preview->errors != NULL;
 }
@@ -573,4 +590,9 @@ const DipPreviewState *dip_preview_state(const DipPreview *preview) {
 
 DipPixels dip_preview_picture(const DipPreview *preview) {
     return dip_view_picture(preview->view);
+}
+
+DipLayout dip_preview_layout(DipPreview *preview) {
+    const DipViewInput input = view_input(preview, clock_ns(preview));
+    return dip_view_layout(&input);
 }

@@ -7,6 +7,7 @@
 #define DIP_APP_PREVIEW_LOOP_H
 
 #include "app/display/display.h"
+#include "app/preview/layout.h"
 #include "app/preview/panel.h"
 #include "app/preview/state.h"
 #include "app/session.h"
@@ -36,6 +37,9 @@ bool dip_preview_turn(DipPreview *preview, DipError *err);
 bool dip_preview_has_quit(const DipPreview *preview);
 
 const DipPreviewState *dip_preview_state(const DipPreview *preview);
+
+// Returns where the panes and the dock lie now.
+DipLayout dip_preview_layout(DipPreview *preview);
 
 // Returns the picture that was drawn last. It has the display's size.
 DipPixels dip_preview_picture(const DipPreview *preview);

@@ -162,8 +162,8 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
     if (memcmp(&state->quality[pane], quality, sizeof *quality) != 0) {
         remember(state);
         state->quality[pane] = *quality;
-        ++state->scene_changes;
     }
+    ++state->scene_changes;
 }
 
 DipQuality dip_preview_preset(const DipPreviewState *state, DipPreset preset) {
@@ -331,7 +331,6 @@ static void choose_pane(DipPreviewState *state, int64_t now_ns) {
 static void apply(DipPreviewState *state, int64_t now_ns) {
     dip_preview_set_quality(state, DIP_PANE_CURRENT, &state->quality[DIP_PANE_REQUESTED], now_ns);
     dip_preview_notice(state, now_ns, "Copied requested to current");
-    ++state->scene_changes;
 }
 
 // Gives the requested pane the settings with the least error within a time budget. Each press of
@@ -352,7 +351,6 @@ static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
     state->next_advice = (index + 1) % count;
     if (advice->found) {
         dip_preview_set_quality(state, DIP_PANE_REQUESTED, &advice->quality, now_ns);
-        ++state->scene_changes;
     }
 }
 
@@ -372,7 +370,6 @@ static void open_tab(DipPreviewState *state, DipTab tab) {
     tools->open = !(tools->open && tools->tab == tab);
     tools->bare = false;
     tools->tab = tab;
-    state->panel = tools->open && tab == DIP_TAB_TIMES;
 }
 
 // Chooses the next value of a tool in a ring of `count`, and opens its tab.
@@ -459,6 +456,7 @@ static bool act_on_tools(DipPreviewState *state, DipAction action, int argument,
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns) {
     if (act_on_tools(state, action, argument, reverse)) {
+        dip_preview_follow_dock(state);
         return;
     }
     switch (action) {
@@ -515,6 +513,7 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         break;
     case DIP_ACTION_PANEL:
         open_tab(state, DIP_TAB_TIMES);
+        dip_preview_follow_dock(state);
         break;
     case DIP_ACTION_COSTS:
         state->show_costs = !state->show_costs;
@@ -534,6 +533,11 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
     default:
         break;
     }
+}
+
+void dip_preview_follow_dock(DipPreviewState *state) {
+    const DipToolState *tools = &state->tools;
+    state->panel = tools->open && !tools->bare && tools->tab == DIP_TAB_TIMES;
 }
 
 bool dip_preview_rests(const DipPreviewState *state, bool flying) {

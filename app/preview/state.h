@@ -115,6 +115,9 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
 DipQuality dip_preview_preset(const DipPreviewState *state, DipPreset preset);
 const char *dip_preview_preset_name(DipPreset preset);
 
+// Sets state->panel by what the dock shows. Call it after a change of state->tools.
+void dip_preview_follow_dock(DipPreviewState *state);
+
 // Returns whether camera and scene stand still. flying: the user is moving the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);
 

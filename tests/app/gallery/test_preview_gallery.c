@@ -84,14 +84,14 @@ static void keys_change_the_scene(void **state) {
     turn();
     const int begin = session.gallery_scene;
     press(DIP_KEYCODE_SPACE, 0);
-    press('n', 0);
+    press(DIP_KEYCODE_PAGE_DOWN, DIP_MODIFIER_CTRL);
     assert_int_equal(session.gallery_scene, begin + 1);
     assert_string_equal(dip_preview_state(preview)->scene_title,
                         dip_gallery_info(begin + 1)->title);
     press(DIP_KEYCODE_RIGHT, 0);
     assert_int_equal(session.gallery_scene, begin + 2);
     press(DIP_KEYCODE_LEFT, 0);
-    press('n', DIP_MODIFIER_SHIFT);
+    press(DIP_KEYCODE_PAGE_UP, DIP_MODIFIER_CTRL);
     assert_int_equal(session.gallery_scene, begin);
 }
 
@@ -101,11 +101,11 @@ static void a_key_changes_the_look(void **state) {
     turn();
     press(DIP_KEYCODE_SPACE, 0);
     const uint64_t first = look_at();
-    press('y', 0);
+    press('\'', 0);
     const uint64_t second = look_at();
     assert_true(first != second);
     assert_string_equal(dip_preview_state(preview)->scene_look, "8 bands");
-    press('y', DIP_MODIFIER_SHIFT);
+    press('\'', DIP_MODIFIER_SHIFT);
     assert_true(look_at() == first);
 }
 
@@ -135,7 +135,7 @@ static void the_tour_goes_from_scene_to_scene(void **state) {
         turn();
     }
     assert_string_equal(dip_preview_state(preview)->scene_title, dip_gallery_info(1)->title);
-    press('n', 0);
+    press(DIP_KEYCODE_PAGE_DOWN, DIP_MODIFIER_CTRL);
     assert_int_equal(session.gallery_scene, 0);
 }
 

@@ -155,8 +155,8 @@ static void small_displays_show_and_leave_nothing_behind(void **state) {
 // Returns the pixel of a pane that shows the pixel (x, y) of the pane's frame.
 static const uint8_t *pane_pixel(int pane, int frame_width, int frame_height, int x, int y) {
     const DipPixels shown = dip_fake_display_picture(fake);
-    DipRect panes[DIP_PANE_COUNT];
-    dip_view_panes(shown.width, shown.height, panes);
+    const DipLayout layout = dip_preview_layout(preview);
+    const DipRect *panes = layout.panes;
     const int64_t to_x =
         panes[pane].x + (2 * (int64_t)x + 1) * panes[pane].width / (2 * frame_width);
     const int64_t to_y = (2 * (int64_t)y + 1) * panes[pane].height / (2 * frame_height);

@@ -21,7 +21,7 @@
 
 // The rows FIRST_ROW..LAST_ROW are covered neither by a label nor by the status line, at every size
 // used here.
-enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 80, LAST_ROW = 270 };
+enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 80, LAST_ROW = 230 };
 
 static DipTestScene scene;
 static DipSession session;
@@ -133,8 +133,8 @@ typedef struct Pane {
 
 static Pane look(int pane) {
     const DipPixels shown = dip_fake_display_picture(fake);
-    DipRect panes[DIP_PANE_COUNT];
-    dip_view_panes(shown.width, shown.height, panes);
+    const DipLayout layout = dip_preview_layout(preview);
+    const DipRect *panes = layout.panes;
     const size_t row_bytes = 4 * (size_t)panes[pane].width;
     Pane copy = {row_bytes * (LAST_ROW - FIRST_ROW), malloc(row_bytes * (LAST_ROW - FIRST_ROW))};
     assert_non_null(copy.rgba8);
@@ -235,11 +235,11 @@ static void click(int x, int clicks) {
     turn();
 }
 
-// A setting's key changes the pane that Tab or a click has chosen.
-static void tab_and_clicks_choose_the_pane(void **state) {
+// A setting's key changes the pane that the key ` or a click has chosen.
+static void a_key_and_clicks_choose_the_pane(void **state) {
     (void)state;
     rest();
-    press(DIP_KEYCODE_TAB);
+    press((DipKeycode)'`');
     Pane requested = look(DIP_PANE_REQUESTED);
     press('x');
     assert_true(pane_is(DIP_PANE_REQUESTED, requested));
@@ -457,7 +457,7 @@ int main(void) {
         PREVIEW_TEST(the_picture_moves_until_it_is_paused),
         PREVIEW_TEST(a_setting_changes_the_requested_pane),
         PREVIEW_TEST(enter_copies_requested_to_current),
-        PREVIEW_TEST(tab_and_clicks_choose_the_pane),
+        PREVIEW_TEST(a_key_and_clicks_choose_the_pane),
         PREVIEW_TEST(sheets_cover_the_panes_until_closed),
         PREVIEW_TEST(the_panes_follow_the_display),
         PREVIEW_TEST(text_follows_the_scale),

@@ -20,7 +20,7 @@
 #include <cmocka.h>
 
 // No label and no notice covers the rows FIRST_ROW..LAST_ROW.
-enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 80, LAST_ROW = 250 };
+enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 80, LAST_ROW = 230 };
 enum { PANE_BYTES = 4 * 200 * (LAST_ROW - FIRST_ROW) };
 
 static DipTestScene scene;
@@ -119,8 +119,8 @@ static void open_resting(void *context) {
 // Copies the rows of the requested pane that no text covers.
 static void look(uint8_t pane[PANE_BYTES]) {
     const DipPixels shown = dip_fake_display_picture(fake);
-    DipRect panes[DIP_PANE_COUNT];
-    dip_view_panes(shown.width, shown.height, panes);
+    const DipLayout layout = dip_preview_layout(preview);
+    const DipRect *panes = layout.panes;
     const DipRect *rect = &panes[DIP_PANE_REQUESTED];
     const size_t row_bytes = 4 * (size_t)(rect->width < 200 ? rect->width : 200);
     memset(pane, 0, PANE_BYTES);
