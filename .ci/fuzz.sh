@@ -5,7 +5,7 @@
 # from there. Inputs that show a fault, and the output of each fuzzer, are in build/fuzz/found and
 # build/fuzz/READER.log.
 
-FUZZERS=${FUZZERS:-ini pth bth settings picture animation journal cost_json scene_pack frame model}
+FUZZERS=${FUZZERS:-ini pth bth settings control picture animation journal cost_json scene_pack frame model}
 
 # run_fuzzer READER SECONDS
 run_fuzzer() {

@@ -1,0 +1,53 @@
+// Where clients of the control channel come from: the program's standard input and output, or a
+// Unix domain socket that Diptych listens on. No function here waits.
+#ifndef DIP_APP_CONTROL_ENDPOINT_PRIVATE_H
+#define DIP_APP_CONTROL_ENDPOINT_PRIVATE_H
+
+#include "renderer/base/error.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <sys/types.h>
+
+// A connection to a client. Zero-initialised it is not valid; -1 marks a closed descriptor.
+typedef struct DipWire {
+    int in;
+    int out;
+    bool socket; // Both descriptors are one socket.
+} DipWire;
+
+// Reads at most `size` bytes. Returns their number, 0 if there are none now, or -1 at the end of
+// the input or after an error.
+ptrdiff_t dip_wire_read(const DipWire *wire, void *bytes, size_t size);
+
+// Writes as many bytes as fit now. Returns their number, or -1 if nobody reads any more.
+ptrdiff_t dip_wire_write(const DipWire *wire, const void *bytes, size_t size);
+
+// Returns whether the other side has closed both directions.
+bool dip_wire_is_cut(const DipWire *wire);
+
+void dip_wire_close(DipWire *wire);
+
+typedef struct DipEndpoint {
+    int listener; // Listening socket, or -1 with standard input and output.
+    char path[128];
+    dev_t device; // The socket's file, so that only this file is removed.
+    ino_t inode;
+    int stdout_copy; // With standard output: the descriptor that stdout had before, or -1.
+} DipEndpoint;
+
+// Takes over standard input and output. What the program prints on standard output from now on goes
+// to standard error. From now on, the process ignores SIGPIPE.
+bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *err);
+
+// Listens on a socket that only this user can open. A file of this name is replaced only if it is a
+// socket that nobody listens on. Fails with CONFLICT, OVERSIZED or IO.
+bool dip_endpoint_listen(DipEndpoint *endpoint, const char *path, DipError *err);
+
+// Accepts a client. Returns false if none waits.
+bool dip_endpoint_accept(const DipEndpoint *endpoint, DipWire *wire);
+
+// Removes the socket's file, or gives standard output back.
+void dip_endpoint_close(DipEndpoint *endpoint);
+
+#endif

@@ -1,0 +1,136 @@
+// Requests of the control channel: one line of JSON becomes one checked struct.
+//
+// docs/embedding.md describes the protocol. A request is an object such as
+// {"id": 7, "request": "seek", "time_s": 2.5}. Reading a request changes nothing; whoever carries
+// it out does.
+#ifndef DIP_APP_CONTROL_REQUEST_H
+#define DIP_APP_CONTROL_REQUEST_H
+
+#include "renderer/base/error.h"
+#include "renderer/scene/quality.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// Changes when a client of the previous version would misread a reply or an event. New requests,
+// fields and topics do not change the number.
+enum { DIP_CONTROL_PROTOCOL = 1 };
+
+enum {
+    DIP_CONTROL_MAX_LINE_BYTES = 65536, // Longest line that is read, without its line feed.
+    DIP_CONTROL_TEXT_SIZE = 512,        // Sizes of texts, with their final 0.
+    DIP_CONTROL_FILE_SIZE = 1024,
+    DIP_CONTROL_NAME_SIZE = 64,
+    DIP_CONTROL_MAX_SIZE_PX = 8192 // Largest width and height of a pane.
+};
+
+// The requests. X(name, NAME)
+#define DIP_CONTROL_VERB_LIST(X)                                                                   \
+    X(set, SET)                                                                                    \
+    X(apply, APPLY)                                                                                \
+    X(path, PATH)                                                                                  \
+    X(pause, PAUSE)                                                                                \
+    X(play, PLAY)                                                                                  \
+    X(seek, SEEK)                                                                                  \
+    X(scene, SCENE)                                                                                \
+    X(size, SIZE)                                                                                  \
+    X(subscribe, SUBSCRIBE)                                                                        \
+    X(unsubscribe, UNSUBSCRIBE)                                                                    \
+    X(pick, PICK)                                                                                  \
+    X(get, GET)                                                                                    \
+    X(screenshot, SCREENSHOT)                                                                      \
+    X(quit, QUIT)
+
+typedef enum DipControlVerb {
+#define DIP_CONTROL_ENUM(name, NAME) DIP_CONTROL_##NAME,
+    DIP_CONTROL_VERB_LIST(DIP_CONTROL_ENUM)
+#undef DIP_CONTROL_ENUM
+        DIP_CONTROL_VERB_COUNT
+} DipControlVerb;
+
+// What a client can subscribe to. Every event of a topic has the topic's name. X(name, NAME)
+#define DIP_CONTROL_TOPIC_LIST(X)                                                                  \
+    X(times, TIMES)                                                                                \
+    X(errors, ERRORS)                                                                              \
+    X(settings, SETTINGS)                                                                          \
+    X(prices, PRICES)                                                                              \
+    X(picks, PICKS)                                                                                \
+    X(notices, NOTICES)                                                                            \
+    X(polls, POLLS)
+
+typedef enum DipControlTopic {
+#define DIP_CONTROL_ENUM(name, NAME) DIP_CONTROL_TOPIC_##NAME,
+    DIP_CONTROL_TOPIC_LIST(DIP_CONTROL_ENUM)
+#undef DIP_CONTROL_ENUM
+        DIP_CONTROL_TOPIC_COUNT
+} DipControlTopic;
+
+// The parts of the answer to `get`. X(name, NAME)
+#define DIP_CONTROL_PART_LIST(X)                                                                   \
+    X(state, STATE)                                                                                \
+    X(settings, SETTINGS)                                                                          \
+    X(times, TIMES)                                                                                \
+    X(errors, ERRORS)                                                                              \
+    X(paths, PATHS)                                                                                \
+    X(scenes, SCENES)                                                                              \
+    X(steps, STEPS)
+
+typedef enum DipControlPart {
+#define DIP_CONTROL_ENUM(name, NAME) DIP_CONTROL_PART_##NAME,
+    DIP_CONTROL_PART_LIST(DIP_CONTROL_ENUM)
+#undef DIP_CONTROL_ENUM
+        DIP_CONTROL_PART_COUNT
+} DipControlPart;
+
+const char *dip_control_verb_name(int verb);   // "set"
+const char *dip_control_topic_name(int topic); // "times"
+const char *dip_control_part_name(int part);   // "state"
+
+// The panes by their names, as bits.
+enum { DIP_CONTROL_PANE_CURRENT = 1, DIP_CONTROL_PANE_REQUESTED = 2 };
+
+// The id that a client gives a request, and that the reply repeats.
+typedef enum DipControlIdKind {
+    DIP_CONTROL_ID_NONE, // The reply's id is null.
+    DIP_CONTROL_ID_NUMBER,
+    DIP_CONTROL_ID_TEXT
+} DipControlIdKind;
+
+typedef struct DipControlId {
+    DipControlIdKind kind;
+    double number; // A whole number between -2^53 and 2^53.
+    char text[DIP_CONTROL_NAME_SIZE];
+} DipControlId;
+
+// A request. A field that the request does not have is zero. Texts are UTF-8.
+typedef struct DipControlRequest {
+    DipControlId id;
+    DipControlVerb verb;
+    unsigned panes; // SET: DIP_CONTROL_PANE_... bits, at least one.
+    // SET: exactly one of the two is not empty. `settings` are whole settings, which the reader has
+    // checked; `change` names only the settings to change (dip_control_change_settings).
+    char settings[DIP_CONTROL_TEXT_SIZE];
+    char change[DIP_CONTROL_TEXT_SIZE];
+    char category[DIP_CONTROL_NAME_SIZE]; // PATH: a category of camera paths.
+    char name[DIP_CONTROL_NAME_SIZE];     // SCENE: name of a scene.
+    char file[DIP_CONTROL_FILE_SIZE];     // SCREENSHOT.
+    double time_s;                        // SEEK: 0..86400.
+    int width;                            // SIZE: size of a pane, in pixels.
+    int height;
+    int x; // PICK: a pixel of a pane.
+    int y;
+    unsigned topics; // SUBSCRIBE and UNSUBSCRIBE: bits 1 << DipControlTopic, at least one.
+    unsigned parts;  // GET: bits 1 << DipControlPart, at least one.
+} DipControlRequest;
+
+// Reads a line without its line feed. On failure, *err says which field was found and what is
+// accepted, and request->id holds the line's id if the line has a good one. Thread-safe.
+bool dip_control_request_read(const char *line, size_t length, DipControlRequest *request,
+                              DipError *err);
+
+// Changes the settings that the text names ("aa=4,af=16") and keeps the others. Fails as
+// dip_quality_parse does. On failure *to is unchanged. `to` may point to the same struct as `from`.
+bool dip_control_change_settings(const DipQuality *from, const char *change, DipQuality *to,
+                                 DipError *err);
+
+#endif
