@@ -1,7 +1,7 @@
 # Installs packages and builds. ./run and ./test source this file from the repository's top folder.
 
 TOP=$PWD
-PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libfreetype-dev libfontconfig-dev
+PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libx11-dev libfreetype-dev libfontconfig-dev
     fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcglm-dev libcjson-dev"
 PACKAGES_TEST="$PACKAGES_RUN g++ git doxygen clang clang-format libcmocka-dev xvfb xauth xdotool imagemagick
     python3"

@@ -135,6 +135,10 @@ typedef struct DipDisplay {
     // clipboard.
     bool (*set_clipboard)(void *context, const char *text);
 
+    // Asks for another size of the picture, in pixels. The display may take another size than the
+    // one asked for. NULL if someone else decides about the size.
+    void (*set_size)(void *context, int width, int height);
+
     // Closes the display and frees the context.
     void (*close)(void *context);
 } DipDisplay;

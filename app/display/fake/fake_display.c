@@ -83,6 +83,10 @@ static bool set_size(DipFakeDisplay *fake, int width, int height) {
     return true;
 }
 
+static void change_size(void *context, int width, int height) {
+    dip_fake_display_resize(context, width, height);
+}
+
 DipFakeDisplay *dip_fake_display_open(DipDisplay *display, int width, int height) {
     DipFakeDisplay *fake = calloc(1, sizeof *fake);
     if (!fake || !set_size(fake, width, height)) {
@@ -90,8 +94,18 @@ DipFakeDisplay *dip_fake_display_open(DipDisplay *display, int width, int height
         return NULL;
     }
     fake->scale = 1.0;
-    *display = (DipDisplay){fake,       present, next_event,      size, scale,
-                            refresh_hz, now_ns,  set_full_screen, NULL, close_display};
+    *display = (DipDisplay){
+        .context = fake,
+        .present = present,
+        .next_event = next_event,
+        .size = size,
+        .scale = scale,
+        .refresh_hz = refresh_hz,
+        .now_ns = now_ns,
+        .set_full_screen = set_full_screen,
+        .set_size = change_size,
+        .close = close_display,
+    };
     return fake;
 }
 

@@ -2,6 +2,7 @@
 #include "app/display/sdl/sdl_display.h"
 
 #include "app/display/sdl/sdl_event.h"
+#include "app/display/sdl/sdl_host.h"
 #include "renderer/base/clock.h"
 
 #include <SDL2/SDL.h>
@@ -19,6 +20,7 @@ enum {
 
 typedef struct SdlDisplay {
     SDL_Window *window;
+    DipSdlHost *host;   // The window of another program that holds this one, or NULL.
     char *dropped_file; // File name of the last event, if that event was a DROP; otherwise NULL.
     bool sdl_open;
 } SdlDisplay;
@@ -41,7 +43,12 @@ static bool has_display(void) {
     return !shows_nothing || SDL_getenv("SDL_VIDEODRIVER");
 }
 
-static bool open_sdl(SdlDisplay *sdl, DipError *err) {
+static bool open_sdl(SdlDisplay *sdl, bool in_host, DipError *err) {
+    if (in_host) {
+        // A click that gives the window the focus is still a click.
+        SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
+        SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11");
+    }
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) {
         return sdl_failed(err);
@@ -88,12 +95,24 @@ static bool open_window(SdlDisplay *sdl, int width, int height, DipError *err) {
     return SDL_GetWindowSurface(sdl->window) || sdl_failed(err);
 }
 
+// Makes a child of the host's window and an SDL window of it.
+static bool open_in_host(SdlDisplay *sdl, unsigned long window_id, DipError *err) {
+    sdl->host = dip_sdl_host_open(window_id, err);
+    if (!sdl->host) {
+        return false;
+    }
+    sdl->window = SDL_CreateWindowFrom((void *)(uintptr_t)dip_sdl_host_child(sdl->host));
+    return (sdl->window && dip_sdl_host_select(sdl->window) && SDL_GetWindowSurface(sdl->window)) ||
+           sdl_failed(err);
+}
+
 static void close_display(void *context) {
     SdlDisplay *sdl = context;
     SDL_free(sdl->dropped_file);
     if (sdl->window) {
         SDL_DestroyWindow(sdl->window);
     }
+    dip_sdl_host_close(&sdl->host);
     if (sdl->sdl_open) {
         SDL_Quit();
     }
@@ -167,7 +186,9 @@ static bool present(void *context, const DipPixels *picture, const DipRect *dama
         shown = show_rects(sdl->window, surface, picture, damage + i,
                            left < MAX_RECTS ? left : MAX_RECTS);
     }
-    return shown || dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "preview", "%s", SDL_GetError());
+    // A host may close its window at any time. The next event then says so.
+    return shown || (sdl->host && dip_sdl_host_is_gone(sdl->host)) ||
+           dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "preview", "%s", SDL_GetError());
 }
 
 // --- the display's other functions --------------------------------------------------------------
@@ -177,12 +198,19 @@ static bool next_event(void *context, int timeout_ms, DipEvent *event) {
     SDL_Event sdl_event;
     SDL_free(sdl->dropped_file);
     sdl->dropped_file = NULL;
+    if (sdl->host && !dip_sdl_host_follow(sdl->host)) {
+        *event = (DipEvent){.kind = DIP_EVENT_QUIT};
+        return true;
+    }
     const int found =
         timeout_ms > 0 ? SDL_WaitEventTimeout(&sdl_event, timeout_ms) : SDL_PollEvent(&sdl_event);
     if (!found) {
         return false;
     }
     *event = dip_sdl_event_translate(&sdl_event);
+    if (sdl->host && event->kind == DIP_EVENT_MOUSE_DOWN) {
+        dip_sdl_host_take_focus(sdl->host);
+    }
     if (event->kind == DIP_EVENT_DROP) {
         sdl->dropped_file = sdl_event.drop.file;
     }
@@ -229,16 +257,64 @@ static void set_full_screen(void *context, bool on) {
     SDL_SetWindowFullscreen(sdl->window, on ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
 }
 
-bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *err) {
+static void set_size(void *context, int width, int height) {
+    const SdlDisplay *sdl = context;
+    SDL_SetWindowSize(sdl->window, width, height);
+}
+
+static SdlDisplay *create(DipError *err) {
     SdlDisplay *sdl = calloc(1, sizeof *sdl);
     if (!sdl) {
-        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
     }
-    if (!open_sdl(sdl, err) || !has_enough_colours(err) || !open_window(sdl, width, height, err)) {
+    return sdl;
+}
+
+static DipDisplay display_of(SdlDisplay *sdl) {
+    return (DipDisplay){
+        .context = sdl,
+        .present = present,
+        .next_event = next_event,
+        .size = size,
+        .scale = scale,
+        .refresh_hz = refresh_hz,
+        .now_ns = now_ns,
+        // The host decides about the size of its windows.
+        .set_full_screen = sdl->host ? NULL : set_full_screen,
+        .set_size = sdl->host ? NULL : set_size,
+        .close = close_display,
+    };
+}
+
+bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *err) {
+    SdlDisplay *sdl = create(err);
+    if (!sdl) {
+        return false;
+    }
+    if (!open_sdl(sdl, false, err) || !has_enough_colours(err) ||
+        !open_window(sdl, width, height, err)) {
         close_display(sdl);
         return false;
     }
-    *display = (DipDisplay){sdl,        present, next_event,      size,          scale,
-                            refresh_hz, now_ns,  set_full_screen, set_clipboard, close_display};
+    *display = display_of(sdl);
     return true;
+}
+
+bool dip_sdl_display_open_in(DipDisplay *display, unsigned long window_id, DipError *err) {
+    SdlDisplay *sdl = create(err);
+    if (!sdl) {
+        return false;
+    }
+    if (!open_sdl(sdl, true, err) || !has_enough_colours(err) ||
+        !open_in_host(sdl, window_id, err)) {
+        close_display(sdl);
+        return false;
+    }
+    *display = display_of(sdl);
+    return true;
+}
+
+bool dip_sdl_display_has_lost_host(const DipDisplay *display) {
+    const SdlDisplay *sdl = display->context;
+    return sdl->host && dip_sdl_host_is_gone(sdl->host);
 }

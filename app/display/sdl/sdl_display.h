@@ -9,4 +9,13 @@
 // colours; the message says which. The caller closes the display.
 bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *err);
 
+// Shows the picture inside an X11 window of another program, the host. The display is a child of
+// the host's window, keeps that window's size and takes its own keyboard and mouse events. A click
+// gives it the keyboard focus. When the host's window goes away, the display sends QUIT. Fails with
+// MISSING if there is no such window, or as dip_sdl_display_open does.
+bool dip_sdl_display_open_in(DipDisplay *display, unsigned long window_id, DipError *err);
+
+// Returns whether the host's window has gone away.
+bool dip_sdl_display_has_lost_host(const DipDisplay *display);
+
 #endif

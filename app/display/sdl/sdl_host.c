@@ -1,0 +1,133 @@
+// Follows the host's window with Xlib.
+#include "app/display/sdl/sdl_host.h"
+
+#include <SDL2/SDL_syswm.h>
+#include <X11/Xlib.h>
+
+#include <stdlib.h>
+
+struct DipSdlHost {
+    Display *display; // A connection for the host's window; SDL has another.
+    Window window;    // The host's window.
+    Window child;
+    int width; // Size of the child.
+    int height;
+    bool gone;
+};
+
+static int ignore_error(Display *display, XErrorEvent *event) {
+    (void)display;
+    (void)event;
+    return 0;
+}
+
+static bool get_size(const DipSdlHost *host, int *width, int *height) {
+    XWindowAttributes attributes;
+    if (!XGetWindowAttributes(host->display, host->window, &attributes)) {
+        return false;
+    }
+    *width = attributes.width > 1 ? attributes.width : 1;
+    *height = attributes.height > 1 ? attributes.height : 1;
+    return true;
+}
+
+static bool make_child(DipSdlHost *host, DipError *err) {
+    if (!get_size(host, &host->width, &host->height)) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--window-id",
+                             "there is no window %lu on the display %s", host->window,
+                             DisplayString(host->display));
+    }
+    XSetWindowAttributes attributes = {.background_pixel = 0, .bit_gravity = NorthWestGravity};
+    // Events of the size are selected before the child is made, so that no change is missed.
+    XSelectInput(host->display, host->window, StructureNotifyMask);
+    host->child = XCreateWindow(host->display, host->window, 0, 0, (unsigned)host->width,
+                                (unsigned)host->height, 0, CopyFromParent, InputOutput,
+                                CopyFromParent, CWBackPixel | CWBitGravity, &attributes);
+    XStoreName(host->display, host->child, "Diptych");
+    XMapWindow(host->display, host->child);
+    XSync(host->display, False); // SDL's connection must find the child.
+    return true;
+}
+
+DipSdlHost *dip_sdl_host_open(unsigned long window_id, DipError *err) {
+    DipSdlHost *host = calloc(1, sizeof *host);
+    if (!host) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--window-id", "out of memory");
+        return NULL;
+    }
+    XSetErrorHandler(ignore_error);
+    host->window = window_id;
+    host->display = XOpenDisplay(NULL);
+    if (!host->display) {
+        dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "--window-id", "there is no X11 display");
+    }
+    if (!host->display || !make_child(host, err)) {
+        dip_sdl_host_close(&host);
+        return NULL;
+    }
+    return host;
+}
+
+void dip_sdl_host_close(DipSdlHost **host_pointer) {
+    DipSdlHost *host = *host_pointer;
+    if (!host) {
+        return;
+    }
+    *host_pointer = NULL;
+    if (host->display) {
+        if (host->child) {
+            XDestroyWindow(host->display, host->child);
+        }
+        XCloseDisplay(host->display);
+    }
+    free(host);
+}
+
+unsigned long dip_sdl_host_child(const DipSdlHost *host) {
+    return host->child;
+}
+
+bool dip_sdl_host_select(SDL_Window *window) {
+    SDL_SysWMinfo info;
+    SDL_VERSION(&info.version);
+    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11) {
+        return false;
+    }
+    XSelectInput(info.info.x11.display, info.info.x11.window,
+                 KeyPressMask | KeyReleaseMask | ButtonPressMask | ButtonReleaseMask |
+                     PointerMotionMask | EnterWindowMask | LeaveWindowMask | FocusChangeMask |
+                     ExposureMask | StructureNotifyMask | PropertyChangeMask);
+    XSync(info.info.x11.display, False);
+    return true;
+}
+
+bool dip_sdl_host_is_gone(DipSdlHost *host) {
+    int width, height;
+    host->gone = host->gone || !get_size(host, &width, &height);
+    return host->gone;
+}
+
+bool dip_sdl_host_follow(DipSdlHost *host) {
+    int width = host->width, height = host->height;
+    while (!host->gone && XPending(host->display) > 0) {
+        XEvent event;
+        XNextEvent(host->display, &event);
+        if (event.type == ConfigureNotify && event.xconfigure.window == host->window) {
+            width = event.xconfigure.width > 1 ? event.xconfigure.width : 1;
+            height = event.xconfigure.height > 1 ? event.xconfigure.height : 1;
+        }
+        host->gone = event.type == DestroyNotify && event.xdestroywindow.window == host->window;
+    }
+    if (!host->gone && (width != host->width || height != host->height)) {
+        host->width = width;
+        host->height = height;
+        XResizeWindow(host->display, host->child, (unsigned)width, (unsigned)height);
+        XFlush(host->display);
+    }
+    return !host->gone;
+}
+
+void dip_sdl_host_take_focus(const DipSdlHost *host) {
+    XSetInputFocus(host->display, host->child, RevertToParent, CurrentTime);
+    XFlush(host->display);
+}
