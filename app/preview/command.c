@@ -21,6 +21,7 @@ static const DipExample examples[] = {
     {"diptych --current aa=none --requested aa=8,af=16", "compares two settings side by side"},
     {"diptych model.glb", "orbits a model of yours"},
     {"diptych --scene tour", "shows the scenes of the gallery, 15 seconds each"},
+    {"diptych --window-id 0x2800003 --control -", "shows inside a window of another program"},
     {"diptych --cost report/cost.json", "also shows what `diptych cost` measured"},
 };
 

@@ -14,11 +14,34 @@
 
 typedef struct DipPreview DipPreview;
 
+// What a control of the preview sees between two turns.
+typedef struct DipPreviewMoment {
+    DipPreviewState *state; // The control may change it, as keys do.
+    DipSession *session;
+    const DipDisplay *display;
+    const DipPaneFigures *figures; // One for each pane.
+    const DipFrame *panes; // The frames drawn last, one for each pane; no pixels before the first.
+    DipPixels picture;     // The picture presented last.
+    bool drawn;            // The frames and the picture show what the state asks for.
+    int64_t now_ns;
+} DipPreviewMoment;
+
+// A further source of events beside the display: another program that controls the preview
+// (app/preview/control.h). NULL functions are not called.
+typedef struct DipPreviewControl {
+    void *context;
+    // Called once in each turn, before drawing. Returns whether the overlay may have changed.
+    bool (*turn)(void *context, const DipPreviewMoment *moment);
+    // Called when the user presses a mouse button, before the preview acts on it.
+    void (*press)(void *context, const DipPreviewMoment *moment, const DipEvent *event);
+} DipPreviewControl;
+
 typedef struct DipPreviewDef {
     DipSession *session;         // Borrowed.
     DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
     const DipCosts *costs;       // Borrowed; NULL if there is no cost report.
     double flying_speed_m_per_s; // Speed of the free camera.
+    DipPreviewControl control;   // Its context is borrowed.
 
     // Loads session->scene_def, which is needed to measure errors. Called when the user first asks
     // for errors, since the load takes time and memory.

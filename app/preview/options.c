@@ -3,7 +3,26 @@
 
 #include "renderer/base/assert.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #define FIELD(name) offsetof(DipPreviewOptions, name)
+
+// Reads an X11 identifier, 29 bits in decimal or, after 0x, in hexadecimal.
+static bool read_window(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    const bool hexadecimal = value[0] == '0' && (value[1] == 'x' || value[1] == 'X');
+    const char *digits = hexadecimal ? value + 2 : value;
+    const size_t length = strspn(digits, hexadecimal ? "0123456789abcdefABCDEF" : "0123456789");
+    const unsigned long id = length > 0 && length <= 10 && !digits[length]
+                                 ? strtoul(digits, NULL, hexadecimal ? 16 : 10)
+                                 : 0;
+    if (id == 0 || id > 0x1ffffffful) {
+        return dip_option_refuse(err, DIP_ERROR_TYPE, row->name, value,
+                                 "an X11 window such as 12582914 or 0xc00002");
+    }
+    *(unsigned long *)((char *)fields + row->field) = id;
+    return true;
+}
 
 static const DipOptionRow rows[] = {
     {.name = "--cost",
@@ -12,6 +31,20 @@ static const DipOptionRow rows[] = {
              "what each setting costs and advises the best settings for a time budget.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(cost_report)},
+    {.name = "--control",
+     .argument = "PATH|-",
+     .text = "Let other programs control the preview: it reads requests as lines of JSON and "
+             "answers each of them. With a path, it listens on a Unix domain socket; with -, it "
+             "uses standard input and output. docs/embedding.md describes the requests.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(control)},
+    {.name = "--window-id",
+     .argument = "ID",
+     .text = "Show the preview inside this X11 window of another program, in the window's size, "
+             "until that program closes the window.",
+     .kind = DIP_OPTION_CUSTOM,
+     .field = FIELD(window_id),
+     .read = read_window},
 };
 
 static const DipOptionTable table = {"Drawing", rows, DIP_ARRAY_COUNT(rows)};

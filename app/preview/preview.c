@@ -3,6 +3,8 @@
 
 #include "app/cost/plan.h"
 #include "app/display/sdl/sdl_display.h"
+#include "app/log.h"
+#include "app/preview/control.h"
 #include "app/preview/loop.h"
 #include "app/preview/view.h"
 #include "renderer/base/clock.h"
@@ -48,12 +50,13 @@ static bool load_costs(const DipSession *session, const char *file, DipCosts **c
 }
 
 static bool run_loop(DipSession *session, const DipDisplay *display, const DipCosts *costs,
-                     DipError *err) {
+                     DipRemote *remote, DipError *err) {
     const DipPreviewDef def = {
         .session = session,
         .display = *display,
         .costs = costs,
         .flying_speed_m_per_s = flying_speed(session),
+        .control = remote ? dip_remote_control(remote) : (DipPreviewControl){0},
         .load_scene_def = load_scene_def,
         .context = session,
     };
@@ -67,16 +70,36 @@ static bool run_loop(DipSession *session, const DipDisplay *display, const DipCo
     return done;
 }
 
+// Opens the channel of --control. Without the option, *remote stays NULL.
+static bool open_remote(const char *where, DipRemote **remote, DipError *err) {
+    if (where) {
+        *remote = dip_remote_open(where, err);
+    }
+    return !where || *remote;
+}
+
+static bool open_display(DipDisplay *display, const DipSession *session, unsigned long window_id,
+                         DipError *err) {
+    return window_id ? dip_sdl_display_open_in(display, window_id, err)
+                     : dip_sdl_display_open(display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
+                                            session->pane_size.height, err);
+}
+
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err) {
     DipCosts *costs = NULL;
+    DipRemote *remote = NULL;
     DipDisplay display;
     bool done = load_costs(session, options->cost_report, &costs, err) &&
-                dip_sdl_display_open(&display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
-                                     session->pane_size.height + dip_layout_dock_height(), err);
+                open_remote(options->control, &remote, err) &&
+                open_display(&display, session, options->window_id, err);
     if (done) {
-        done = run_loop(session, &display, costs, err);
+        done = run_loop(session, &display, costs, remote, err);
+        if (options->window_id && dip_sdl_display_has_lost_host(&display)) {
+            dip_log_note("the program that owns window %lu has closed it", options->window_id);
+        }
         display.close(display.context);
     }
+    dip_remote_close(&remote);
     free(costs);
     return done;
 }

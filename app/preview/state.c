@@ -158,10 +158,13 @@ void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, 
 
 void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
                              int64_t now_ns) {
-    (void)now_ns;
+    char text[96];
     if (memcmp(&state->quality[pane], quality, sizeof *quality) != 0) {
         remember(state);
         state->quality[pane] = *quality;
+        dip_preview_describe(quality, true, text, sizeof text);
+        dip_preview_notice(state, now_ns, "%s: %s",
+                           pane == DIP_PANE_CURRENT ? "Current" : "Requested", text);
     }
     ++state->scene_changes;
 }
@@ -538,6 +541,11 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
 void dip_preview_follow_dock(DipPreviewState *state) {
     const DipToolState *tools = &state->tools;
     state->panel = tools->open && !tools->bare && tools->tab == DIP_TAB_TIMES;
+}
+
+void dip_preview_seek(DipPreviewState *state, int64_t play_ns) {
+    state->play_ns = play_ns > 0 ? play_ns : 0;
+    ++state->scene_changes;
 }
 
 bool dip_preview_rests(const DipPreviewState *state, bool flying) {

@@ -80,6 +80,7 @@ typedef struct DipPreviewState {
     const DipCosts *costs;   // Borrowed; NULL if there is no cost report.
     bool show_costs;         // The table of costs shows.
     int next_advice;         // Index in costs->advice of the next advice to give.
+    bool wants_errors;       // Another program has asked for the errors, shown or not.
     bool quit;
     bool full_screen;
     DipToolState tools;
@@ -117,6 +118,9 @@ const char *dip_preview_preset_name(DipPreset preset);
 
 // Sets state->panel by what the dock shows. Call it after a change of state->tools.
 void dip_preview_follow_dock(DipPreviewState *state);
+
+// Goes to a play time.
+void dip_preview_seek(DipPreviewState *state, int64_t play_ns);
 
 // Returns whether camera and scene stand still. flying: the user is moving the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);

@@ -282,6 +282,7 @@ static DipDisplay display_of(SdlDisplay *sdl) {
         // The host decides about the size of its windows.
         .set_full_screen = sdl->host ? NULL : set_full_screen,
         .set_size = sdl->host ? NULL : set_size,
+        .set_clipboard = set_clipboard,
         .close = close_display,
     };
 }

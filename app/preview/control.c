@@ -1,0 +1,459 @@
+// Turns requests into actions of the preview, and changes of the preview into events.
+#include "app/preview/control.h"
+
+#include "app/control/control.h"
+#include "app/files/png.h"
+#include "app/preview/control_reply.h"
+#include "app/preview/view.h"
+#include "config/config.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const int64_t period_ns = 250000000; // Between two events of times or polls.
+
+// What the last events said.
+typedef struct Told {
+    int64_t times_ns; // When times were last sent.
+    int64_t polls_ns;
+    double ms[DIP_PANE_COUNT];
+    int fps[DIP_PANE_COUNT];
+    int64_t play_ns;
+    int width;
+    int height;
+    DipQuality quality[DIP_PANE_COUNT];
+    DipErrorStatus error_status;
+    int error_samples;
+    bool no_errors;
+    int64_t notice_end_ns;
+} Told;
+
+struct DipRemote {
+    DipControl *control;
+    const DipPreviewMoment *moment; // Of the call that is running; NULL between calls.
+    bool acted;                     // A request has been carried out in this turn.
+    unsigned topics;
+    unsigned subscriptions;
+    Told told;
+};
+
+// --- settings, paths and time --------------------------------------------------------------------
+
+// Finds the new settings of both panes before it changes either, so that a mistake changes nothing.
+static bool set(const DipPreviewMoment *moment, const DipControlRequest *request, DipError *err) {
+    DipPreviewState *state = moment->state;
+    DipQuality quality[DIP_PANE_COUNT];
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        quality[p] = state->quality[p];
+        const bool wanted = (request->panes >> p & 1) != 0;
+        const bool done =
+            request->settings[0]
+                ? dip_quality_parse(request->settings, &quality[p], err)
+                : !wanted || dip_control_change_settings(&state->quality[p], request->change,
+                                                         &quality[p], err);
+        if (!done) {
+            return false;
+        }
+    }
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        if (request->panes >> p & 1) {
+            dip_preview_set_quality(state, p, &quality[p], moment->now_ns);
+        }
+    }
+    return true;
+}
+
+static bool choose_path(const DipPreviewMoment *moment, const char *name, DipError *err) {
+    DipPreviewState *state = moment->state;
+    char accepted[160] = "";
+    for (int c = 0; c < DIP_CATEGORY_COUNT; ++c) {
+        if (!state->track->categories[c].path) {
+            continue;
+        }
+        if (strcmp(name, dip_preview_category_name(c)) == 0) {
+            dip_preview_act(state, DIP_ACTION_PATH, c, false, moment->now_ns);
+            return true;
+        }
+        strncat(accepted, " ", sizeof accepted - strlen(accepted) - 1);
+        strncat(accepted, dip_preview_category_name(c), sizeof accepted - strlen(accepted) - 1);
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "category",
+                         "'%s' is no category with a camera path, accepted%s", name,
+                         accepted[0] ? accepted : " none, because the scene has one path");
+}
+
+static void set_paused(const DipPreviewMoment *moment, bool paused) {
+    if (moment->state->paused != paused) {
+        dip_preview_act(moment->state, DIP_ACTION_PAUSE, 0, false, moment->now_ns);
+    }
+}
+
+// --- scene and size ------------------------------------------------------------------------------
+
+// Finds a scene in the ring that dip_session_step_scene goes through.
+static bool find_scene(const DipSession *session, const char *name, int *scene, DipError *err) {
+    if (strcmp(name, "models") == 0) {
+        *scene = dip_gallery_scene_count();
+        return session->scene || dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "name",
+                                               "the preview was started without models");
+    }
+    DipError failure;
+    if (!dip_gallery_find(name, scene, &failure)) {
+        return dip_error_set(err, failure.code, NULL, 0, "name", "%s", failure.message);
+    }
+    return *scene != DIP_GALLERY_TOUR ||
+           dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "name",
+                         "the tour can only be chosen by the option --scene tour");
+}
+
+// The first attempt asks for the scene. The second one, after a picture has been drawn, finds out
+// whether the scene could be opened.
+static DipControlAnswer show_scene(const DipPreviewMoment *moment, const char *name, int attempt,
+                                   DipError *err) {
+    const DipSession *session = moment->session;
+    DipPreviewState *state = moment->state;
+    int scene;
+    if (!find_scene(session, name, &scene, err)) {
+        return DIP_CONTROL_REFUSED;
+    }
+    const int now = session->shows_gallery ? session->gallery_scene : dip_gallery_scene_count();
+    if (scene == now) {
+        return DIP_CONTROL_DONE;
+    }
+    if (attempt > 0) {
+        dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "name", "the scene does not open: %s",
+                      state->notice);
+        return DIP_CONTROL_REFUSED;
+    }
+    state->scene_step = now == DIP_GALLERY_TOUR ? scene + 1 : scene - now;
+    ++state->scene_changes;
+    return DIP_CONTROL_LATER;
+}
+
+static bool resize(const DipPreviewMoment *moment, const DipControlRequest *request, cJSON *reply,
+                   DipError *err) {
+    const DipDisplay *display = moment->display;
+    DipRect panes[DIP_PANE_COUNT];
+    int width, height;
+    if (!display->set_size) {
+        return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "request",
+                             "the host's window decides about the size");
+    }
+    display->set_size(display->context, 2 * request->width + DIP_PANE_GAP_PX, request->height);
+    display->size(display->context, &width, &height);
+    dip_view_panes(width, height, panes);
+    cJSON_AddNumberToObject(reply, "width", panes[0].width);
+    cJSON_AddNumberToObject(reply, "height", panes[0].height);
+    return true;
+}
+
+// --- pictures ------------------------------------------------------------------------------------
+
+static bool pick(const DipPreviewMoment *moment, const DipControlRequest *request, cJSON *reply,
+                 DipError *err) {
+    const DipFrame *frame = &moment->panes[0];
+    const bool wide = request->x >= frame->width;
+    if (wide || request->y >= frame->height) {
+        const int size = wide ? frame->width : frame->height;
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, wide ? "x" : "y",
+                             "%d is out of range, accepted 0..%d", wide ? request->x : request->y,
+                             size - 1);
+    }
+    dip_reply_pick(reply, moment, request->x, request->y);
+    return true;
+}
+
+static bool save(const DipPreviewMoment *moment, const char *file, cJSON *reply, DipError *err) {
+    const DipPixels *picture = &moment->picture;
+    const DipFrame frame = {.rgba8 = picture->rgba8,
+                            .stride_bytes = picture->stride_bytes,
+                            .width = picture->width,
+                            .height = picture->height};
+    cJSON_AddStringToObject(reply, "file", file);
+    return dip_png_write(file, &frame, err);
+}
+
+// --- all requests --------------------------------------------------------------------------------
+
+static cJSON *add_part(cJSON *reply, unsigned parts, DipControlPart part) {
+    return parts >> part & 1 ? cJSON_AddObjectToObject(reply, dip_control_part_name((int)part))
+                             : NULL;
+}
+
+static void get(const DipPreviewMoment *moment, unsigned parts, cJSON *reply) {
+    cJSON *object;
+    if ((object = add_part(reply, parts, DIP_CONTROL_PART_STATE))) {
+        dip_reply_state(object, moment);
+    }
+    if ((object = add_part(reply, parts, DIP_CONTROL_PART_SETTINGS))) {
+        dip_reply_settings(object, moment->state);
+    }
+    if ((object = add_part(reply, parts, DIP_CONTROL_PART_TIMES))) {
+        dip_reply_times(object, moment);
+    }
+    if ((object = add_part(reply, parts, DIP_CONTROL_PART_ERRORS))) {
+        dip_reply_errors(object, moment);
+    }
+    if (parts >> DIP_CONTROL_PART_PATHS & 1) {
+        dip_reply_paths(reply, moment->state);
+    }
+    if (parts >> DIP_CONTROL_PART_SCENES & 1) {
+        dip_reply_scenes(reply, moment->session);
+    }
+    if (parts >> DIP_CONTROL_PART_STEPS & 1) {
+        dip_reply_steps(reply);
+    }
+}
+
+// Returns whether a request reads what has been drawn. It then waits until the pictures show the
+// requests before it.
+static bool needs_pictures(DipControlVerb verb) {
+    return verb == DIP_CONTROL_PICK || verb == DIP_CONTROL_GET || verb == DIP_CONTROL_SCREENSHOT;
+}
+
+// At the first attempt, the pictures must show everything that has been asked for. Between two
+// attempts a picture is drawn, so that later requests of other clients cannot put this one off.
+static bool pictures_are_ready(const DipRemote *remote, int attempt) {
+    const DipPreviewMoment *moment = remote->moment;
+    const bool exist = moment->panes[0].rgba8 && moment->picture.rgba8;
+    return exist && (attempt > 0 || (moment->drawn && !remote->acted));
+}
+
+static bool act(const DipPreviewMoment *moment, const DipControlRequest *request, cJSON *reply,
+                DipError *err) {
+    DipPreviewState *state = moment->state;
+    switch (request->verb) {
+    case DIP_CONTROL_SET:
+        return set(moment, request, err);
+    case DIP_CONTROL_APPLY:
+        dip_preview_act(state, DIP_ACTION_APPLY, 0, false, moment->now_ns);
+        return true;
+    case DIP_CONTROL_PATH:
+        return choose_path(moment, request->category, err);
+    case DIP_CONTROL_PAUSE:
+    case DIP_CONTROL_PLAY:
+        set_paused(moment, request->verb == DIP_CONTROL_PAUSE);
+        return true;
+    case DIP_CONTROL_SEEK:
+        dip_preview_seek(state,
+                         state->track->start_ns + (int64_t)floor(1e9 * request->time_s + 0.5));
+        return true;
+    case DIP_CONTROL_SIZE:
+        return resize(moment, request, reply, err);
+    case DIP_CONTROL_PICK:
+        return pick(moment, request, reply, err);
+    case DIP_CONTROL_GET:
+        get(moment, request->parts, reply);
+        return true;
+    case DIP_CONTROL_SCREENSHOT:
+        return save(moment, request->file, reply, err);
+    case DIP_CONTROL_QUIT:
+        dip_preview_act(state, DIP_ACTION_QUIT, 0, false, moment->now_ns);
+        return true;
+    default:
+        return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "request", "is not supported");
+    }
+}
+
+static DipControlAnswer carry_out(void *context, const DipControlRequest *request, int attempt,
+                                  cJSON *reply, DipError *err) {
+    DipRemote *remote = context;
+    if (!needs_pictures(request->verb)) {
+        remote->acted = true;
+    } else if (!pictures_are_ready(remote, attempt)) {
+        return DIP_CONTROL_LATER;
+    }
+    if (request->verb == DIP_CONTROL_SCENE) {
+        return show_scene(remote->moment, request->name, attempt, err);
+    }
+    return act(remote->moment, request, reply, err) ? DIP_CONTROL_DONE : DIP_CONTROL_REFUSED;
+}
+
+// --- events --------------------------------------------------------------------------------------
+
+static bool wants(const DipRemote *remote, DipControlTopic topic) {
+    return (remote->topics >> topic & 1) != 0;
+}
+
+static void send_settings(DipRemote *remote, bool always) {
+    const DipPreviewState *state = remote->moment->state;
+    Told *told = &remote->told;
+    const bool same = memcmp(told->quality, state->quality, sizeof told->quality) == 0;
+    memcpy(told->quality, state->quality, sizeof told->quality);
+    if (wants(remote, DIP_CONTROL_TOPIC_SETTINGS) && (always || !same)) {
+        cJSON *fields = cJSON_CreateObject();
+        dip_reply_settings(fields, state);
+        dip_control_send(remote->control, DIP_CONTROL_TOPIC_SETTINGS, fields);
+    }
+}
+
+// Notes the times of this moment. Returns whether they differ from those of the last event.
+static bool note_times(Told *told, const DipPreviewMoment *moment) {
+    const DipFrame *frame = &moment->panes[0];
+    bool same = told->play_ns == moment->state->play_ns && told->width == frame->width &&
+                told->height == frame->height;
+    told->play_ns = moment->state->play_ns;
+    told->width = frame->width;
+    told->height = frame->height;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipPaneFigures *figures = &moment->figures[p];
+        same = same && told->ms[p] == figures->ms && told->fps[p] == figures->fps;
+        told->ms[p] = figures->ms;
+        told->fps[p] = figures->fps;
+    }
+    return !same;
+}
+
+static void send_times(DipRemote *remote, bool always) {
+    const DipPreviewMoment *moment = remote->moment;
+    Told *told = &remote->told;
+    const bool early = moment->now_ns - told->times_ns < period_ns;
+    if (!wants(remote, DIP_CONTROL_TOPIC_TIMES) || !moment->panes[0].rgba8 || (early && !always)) {
+        return;
+    }
+    if (note_times(told, moment) || always) {
+        told->times_ns = moment->now_ns;
+        cJSON *fields = cJSON_CreateObject();
+        dip_reply_times(fields, moment);
+        dip_control_send(remote->control, DIP_CONTROL_TOPIC_TIMES, fields);
+    }
+}
+
+static void send_errors(DipRemote *remote, bool always) {
+    const DipPaneFigures *figures = &remote->moment->figures[DIP_PANE_CURRENT];
+    const DipErrorReading *reading = &figures->errors;
+    Told *told = &remote->told;
+    const bool same = told->error_status == reading->status &&
+                      told->error_samples == reading->result.samples &&
+                      told->no_errors == figures->no_errors;
+    told->error_status = reading->status;
+    told->error_samples = reading->result.samples;
+    told->no_errors = figures->no_errors;
+    if (wants(remote, DIP_CONTROL_TOPIC_ERRORS) && (always || !same)) {
+        cJSON *fields = cJSON_CreateObject();
+        dip_reply_errors(fields, remote->moment);
+        dip_control_send(remote->control, DIP_CONTROL_TOPIC_ERRORS, fields);
+    }
+}
+
+static void send_notice(DipRemote *remote) {
+    const DipPreviewState *state = remote->moment->state;
+    const bool same = remote->told.notice_end_ns == state->notice_end_ns;
+    remote->told.notice_end_ns = state->notice_end_ns;
+    if (!same && wants(remote, DIP_CONTROL_TOPIC_NOTICES)) {
+        cJSON *fields = cJSON_CreateObject();
+        cJSON_AddStringToObject(fields, "text", state->notice);
+        dip_control_send(remote->control, DIP_CONTROL_TOPIC_NOTICES, fields);
+    }
+}
+
+// Asks the subscribers for their settings, as the seed's preview polled its settings panel. They
+// answer with the request `set` if something has changed.
+static void send_poll(DipRemote *remote, bool always) {
+    const int64_t now_ns = remote->moment->now_ns;
+    const bool early = now_ns - remote->told.polls_ns < period_ns;
+    if (wants(remote, DIP_CONTROL_TOPIC_POLLS) && (always || !early)) {
+        remote->told.polls_ns = now_ns;
+        cJSON *fields = cJSON_CreateObject();
+        dip_reply_settings(fields, remote->moment->state);
+        dip_control_send(remote->control, DIP_CONTROL_TOPIC_POLLS, fields);
+    }
+}
+
+// Sends what has changed. After a subscription, sends everything once.
+static void send_events(DipRemote *remote) {
+    const unsigned topics = dip_control_topics(remote->control);
+    const unsigned subscriptions = dip_control_subscriptions(remote->control);
+    const bool always = subscriptions != remote->subscriptions;
+    if (topics != remote->topics) { // After a failure to measure, only a new subscription retries.
+        remote->moment->state->wants_errors = (topics >> DIP_CONTROL_TOPIC_ERRORS & 1) != 0;
+    }
+    remote->topics = topics;
+    remote->subscriptions = subscriptions;
+    send_settings(remote, always);
+    send_times(remote, always);
+    send_errors(remote, always);
+    send_notice(remote);
+    send_poll(remote, always);
+}
+
+static bool turn(void *context, const DipPreviewMoment *moment) {
+    DipRemote *remote = context;
+    remote->moment = moment;
+    remote->acted = false;
+    dip_control_poll(remote->control);
+    send_events(remote);
+    remote->moment = NULL;
+    return remote->acted;
+}
+
+// Sends the colours of the pixel under the mouse.
+static void press(void *context, const DipPreviewMoment *moment, const DipEvent *event) {
+    static const char *const buttons[] = {
+        [DIP_MOUSE_LEFT] = "left",
+        [DIP_MOUSE_MIDDLE] = "middle",
+        [DIP_MOUSE_RIGHT] = "right",
+        [DIP_MOUSE_OTHER] = "other",
+    };
+    DipRemote *remote = context;
+    const DipFrame *frame = &moment->panes[0];
+    DipRect panes[DIP_PANE_COUNT];
+    if (!wants(remote, DIP_CONTROL_TOPIC_PICKS) || !frame->rgba8) {
+        return;
+    }
+    dip_view_panes(moment->picture.width, moment->picture.height, panes);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipRect *pane = &panes[p];
+        if (!dip_rect_holds(*pane, event->x, event->y)) {
+            continue;
+        }
+        cJSON *fields = cJSON_CreateObject();
+        cJSON_AddStringToObject(fields, "pane", dip_pane_names[p]);
+        cJSON_AddStringToObject(fields, "button", buttons[event->button]);
+        // If memory ran out for frames of the panes' size, the window shows smaller frames
+        // enlarged.
+        dip_reply_pick(fields, moment,
+                       (int)((int64_t)(event->x - pane->x) * frame->width / pane->width),
+                       (int)((int64_t)(event->y - pane->y) * frame->height / pane->height));
+        dip_control_send(remote->control, DIP_CONTROL_TOPIC_PICKS, fields);
+        return;
+    }
+}
+
+// --- opening and closing -------------------------------------------------------------------------
+
+DipRemote *dip_remote_open(const char *where, DipError *err) {
+    DipRemote *remote = calloc(1, sizeof *remote);
+    if (!remote) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "--control", "out of memory");
+        return NULL;
+    }
+    const DipControlDef def = {
+        .where = where,
+        .version = DIP_VERSION,
+        .target = {.context = remote,
+                   .carry_out = carry_out,
+                   // The preview does not measure prices while it runs.
+                   .missing_topics = 1u << DIP_CONTROL_TOPIC_PRICES},
+    };
+    remote->control = dip_control_open(&def, err);
+    if (!remote->control) {
+        free(remote);
+        return NULL;
+    }
+    return remote;
+}
+
+void dip_remote_close(DipRemote **remote) {
+    if (*remote) {
+        dip_control_close(&(*remote)->control);
+        free(*remote);
+        *remote = NULL;
+    }
+}
+
+DipPreviewControl dip_remote_control(DipRemote *remote) {
+    return (DipPreviewControl){.context = remote, .turn = turn, .press = press};
+}
