@@ -35,6 +35,8 @@ cmake -S "$folder/example" -B "$folder/example/build" -DCMAKE_PREFIX_PATH="$pref
     { cat "$folder/log"; fail "the examples do not build with the CMake package"; }
 draws "$folder/example/build/dip_example_triangle" 23224
 draws "$folder/example/build/dip_example_textured" 49148
+[ "$("$folder/example/build/dip_example_compare" aa=none aa=4,af=16 "$folder/picture.ppm")" = \
+    "51884 and 207537 samples shown" ] || fail "dip_example_compare draws something else"
 
 # pkg-config: shared first, then static.
 libdir=$(dirname "$(find "$prefix" -name 'diptych-pipeline.pc')")
