@@ -108,12 +108,15 @@ static bool open_in_host(SdlDisplay *sdl, unsigned long window_id, DipError *err
 
 static void close_display(void *context) {
     SdlDisplay *sdl = context;
+    const bool embedded = sdl->host != NULL;
     SDL_free(sdl->dropped_file);
-    if (sdl->window) {
+    dip_sdl_host_close(&sdl->host); // The X server then destroys the child.
+    // SDL hides a window before it destroys it, and waits until the window is hidden. If the host
+    // has closed its window, SDL would wait for ever, so that it keeps a window inside a host.
+    if (sdl->window && !embedded) {
         SDL_DestroyWindow(sdl->window);
     }
-    dip_sdl_host_close(&sdl->host);
-    if (sdl->sdl_open) {
+    if (sdl->sdl_open && !embedded) {
         SDL_Quit();
     }
     free(sdl);

@@ -90,6 +90,7 @@ unsigned long dip_sdl_host_child(const DipSdlHost *host) {
 bool dip_sdl_host_select(SDL_Window *window) {
     SDL_SysWMinfo info;
     SDL_VERSION(&info.version);
+    XSetErrorHandler(ignore_error); // SDL may have set its own.
     if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11) {
         return false;
     }

@@ -54,6 +54,7 @@ area_shows() { # the guest draws in the lower right corner of the host's window 
 }
 
 start() {
+    : >lines.txt
     "$host" "$diptych" --current aa=none --requested aa=none "$@" >lines.txt 2>errors.txt &
     pid=$!
     await "the preview greets its host" grep -q '"protocol":1' lines.txt
