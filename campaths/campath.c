@@ -169,12 +169,15 @@ static void slerp(const double a[4], const double b[4], double u, double q[4]) {
     normalise(q);
 }
 
+// Returns the time modulo a duration above 0, from 0 to below the duration.
+static int64_t wrap(int64_t time_ns, int64_t duration_ns) {
+    const int64_t rest_ns = time_ns % duration_ns;
+    return rest_ns < 0 ? rest_ns + duration_ns : rest_ns;
+}
+
 void dip_campath_sample(const DipCamPath *path, int64_t time_ns, DipPose *pose) {
     DIP_FP_MODE_SCOPE();
-    int64_t phase_ns = time_ns % path->duration_ns;
-    if (phase_ns < 0) {
-        phase_ns += path->duration_ns;
-    }
+    const int64_t phase_ns = wrap(time_ns, path->duration_ns);
     const size_t index = (size_t)(phase_ns / path->period_ns);
     const int64_t past_ns = phase_ns % path->period_ns;
     const DipCamKey *a = &path->keys[index];
@@ -191,6 +194,32 @@ void dip_campath_sample(const DipCamPath *path, int64_t time_ns, DipPose *pose) 
     double target[4];
     step_target(path, index, target);
     slerp(a->orientation, target, u, pose->orientation);
+}
+
+const char *const dip_campath_end_names[DIP_CAMPATH_END_COUNT] = {
+#define END_NAME(name, text) #name,
+    DIP_CAMPATH_END_LIST(END_NAME)
+#undef END_NAME
+};
+
+int64_t dip_campath_span_ns(const DipCamPath *path, DipCamPathEnd end) {
+    const int64_t last_ns = path->duration_ns - path->period_ns; // Time of the last key.
+    return end == DIP_CAMPATH_END_loop   ? path->duration_ns
+           : end == DIP_CAMPATH_END_once ? last_ns
+                                         : 2 * last_ns; // At most 7.2e18.
+}
+
+int64_t dip_campath_time_at_end(const DipCamPath *path, DipCamPathEnd end, int64_t time_ns) {
+    const int64_t span_ns = dip_campath_span_ns(path, end);
+    if (span_ns == 0) {
+        return 0;
+    }
+    if (end == DIP_CAMPATH_END_once) {
+        return time_ns < 0 ? 0 : time_ns < span_ns ? time_ns : span_ns;
+    }
+    const int64_t phase_ns = wrap(time_ns, span_ns);
+    const bool forwards = end == DIP_CAMPATH_END_loop || phase_ns <= span_ns / 2;
+    return forwards ? phase_ns : span_ns - phase_ns;
 }
 
 DipCamPathInfo dip_campath_info(const DipCamPath *path) {

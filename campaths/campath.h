@@ -114,6 +114,31 @@ DipCamKey dip_campath_key(const DipCamPath *path, size_t index); // index < key_
 // one duration apart give the same bits.
 void dip_campath_sample(const DipCamPath *path, int64_t time_ns, DipPose *pose);
 
+// What happens at the end of a path, as X(name, "what it means", for the help). A path that is not
+// meant as a loop jumps from its last key to its first within one period; `once` and `back` do not
+// fly that step.
+#define DIP_CAMPATH_END_LIST(X)                                                                    \
+    X(loop, "flies from the last key to the first one and on from there")                          \
+    X(once, "stops at the last key")                                                               \
+    X(back, "flies the path backwards to the first key, then forwards again, and so on")
+
+typedef enum DipCamPathEnd {
+#define DIP_CAMPATH_END_ENUM(name, text) DIP_CAMPATH_END_##name,
+    DIP_CAMPATH_END_LIST(DIP_CAMPATH_END_ENUM)
+#undef DIP_CAMPATH_END_ENUM
+        DIP_CAMPATH_END_COUNT
+} DipCamPathEnd;
+
+extern const char *const dip_campath_end_names[DIP_CAMPATH_END_COUNT]; // "loop", "once", "back"
+
+// Returns the time from 0 to the last key, or to the path's duration for a loop, at which the path
+// has the pose that it shows at time_ns. `once` shows the first key at negative times.
+int64_t dip_campath_time_at_end(const DipCamPath *path, DipCamPathEnd end, int64_t time_ns);
+
+// Returns how long the path takes until it repeats itself, or until it stops. A path with a single
+// key that does not loop takes no time.
+int64_t dip_campath_span_ns(const DipCamPath *path, DipCamPathEnd end);
+
 // An orbit about a model's bounding box: one full turn at constant speed, from +Z over +X. The
 // camera looks at the middle of the box from 15 degrees above the horizon, from the shortest
 // distance that keeps the whole box in the picture.

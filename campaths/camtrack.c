@@ -13,6 +13,11 @@ void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path, 
     track->categories[category] = (DipCamCategory){path, fov_y_deg};
 }
 
+void dip_camtrack_set_end(DipCamTrack *track, DipCamPathEnd end) {
+    DIP_ASSERT(end >= 0 && end < DIP_CAMPATH_END_COUNT);
+    track->end = end;
+}
+
 // Returns the category whose path plays while `category` is active.
 static const DipCamCategory *playing(const DipCamTrack *track, int category) {
     return &track->categories[track->categories[category].path ? category : 0];
@@ -37,13 +42,18 @@ int64_t dip_camtrack_time(const DipCamTrack *track, int64_t play_ns) {
                  (uint64_t)track->start_ns); // Unsigned, so that it wraps instead of overflowing.
 }
 
+int64_t dip_camtrack_path_time(const DipCamTrack *track, int64_t play_ns) {
+    const DipCamPath *path = playing(track, track->active)->path;
+    return path ? dip_campath_time_at_end(path, track->end, dip_camtrack_time(track, play_ns)) : 0;
+}
+
 bool dip_camtrack_pose(const DipCamTrack *track, int64_t play_ns, DipPose *pose) {
     DIP_FP_MODE_SCOPE();
     const DipCamCategory *category = playing(track, track->active);
     if (!category->path) {
         return false;
     }
-    dip_campath_sample(category->path, dip_camtrack_time(track, play_ns), pose);
+    dip_campath_sample(category->path, dip_camtrack_path_time(track, play_ns), pose);
     pose->fov_y_deg = category->fov_y_deg;
     return true;
 }

@@ -32,14 +32,19 @@ typedef struct DipCamTrack {
     int active;           // index of the active category
     bool reset_on_switch; // CAMPATH_RESET_ON_SWITCH of the ini
     int64_t start_ns;     // play time at which the active path is at its beginning
+    DipCamPathEnd end;    // what every path does at its end
 } DipCamTrack;
 
-// Returns a track without paths. Category 0 is active, and the time on the path is the play time.
+// Returns a track without paths. Category 0 is active, the time on the path is the play time, and
+// paths are loops.
 DipCamTrack dip_camtrack_make(bool reset_on_switch);
 
 // Sets the path and field of view of a category. Categories that play the same path must share the
 // pointer, so that a change between them counts as no change of path.
 void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path, double fov_y_deg);
+
+// Sets what paths do at their end.
+void dip_camtrack_set_end(DipCamTrack *track, DipCamPathEnd end);
 
 // Makes a category active at a play time. If this changes the path and reset_on_switch is set, the
 // new path starts at its beginning. Otherwise it continues at the time that the old path had
@@ -52,6 +57,10 @@ void dip_camtrack_restart(DipCamTrack *track, int64_t play_ns);
 // Returns the time on the active path at a play time. It may be negative or beyond the path's
 // duration.
 int64_t dip_camtrack_time(const DipCamTrack *track, int64_t play_ns);
+
+// Returns the same time as a time from 0 to the path's end (dip_campath_time_at_end), which is what
+// to show to a user. Without a path, returns 0.
+int64_t dip_camtrack_path_time(const DipCamTrack *track, int64_t play_ns);
 
 // Fills the whole pose, its field of view included. Returns false and leaves the pose unchanged if
 // neither the active category nor category 0 has a path.
