@@ -86,6 +86,9 @@ const char *dip_session_scene_title(const DipSession *session, int64_t play_ns);
 // Name of a variant of the gallery's scene. `look` wraps around.
 const char *dip_session_scene_look(const DipSession *session, int look, int64_t play_ns);
 
+// Returns the field of view of --fov, or fov_y_deg if the option is not given.
+double dip_session_fov(const DipSession *session, double fov_y_deg);
+
 // Name of a category of the ini's camera paths: "DEFAULT", "AA", ...
 const char *dip_session_category(int category);
 

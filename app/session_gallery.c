@@ -102,12 +102,12 @@ static void play_path(DipSession *session, DipCamPath *path) {
     dip_campath_destroy(&session->gallery_path);
     session->gallery_path = path;
     session->track = dip_camtrack_make(session->config.campath_reset_on_switch);
-    dip_camtrack_set(&session->track, 0, path, DIP_GALLERY_FOV_Y_DEG);
+    dip_camtrack_set(&session->track, 0, path, dip_session_fov(session, DIP_GALLERY_FOV_Y_DEG));
 }
 
 bool dip_session_load_gallery_path(DipSession *session, DipErrorList *faults) {
     DipError err;
-    if (session->options->path) {
+    if (session->options->path || session->options->has_pose) {
         return dip_session_load_paths(session, faults);
     }
     DipCamPath *path = make_path(session->gallery_scene, &err);

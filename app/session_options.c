@@ -3,6 +3,7 @@
 
 #include "assets/importer.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/number.h"
 #include "renderer/base/pool.h"
 
 #include <stdio.h>
@@ -66,6 +67,64 @@ static bool read_up(void *fields, const DipOptionRow *row, const char *value, Di
     }
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
                          "'%.40s' is not an axis; give one of %s", value, names);
+}
+
+// Reads numbers that are separated by spaces, tabs or commas. Returns how many there are; a number
+// beyond `most` counts, but is not stored. Returns 0 if a part is not a number.
+static int read_numbers(const char *text, int most, double *numbers) {
+    static const char separators[] = " \t,";
+    int count = 0;
+    for (text += strspn(text, separators); *text; text += strspn(text, separators)) {
+        const size_t length = strcspn(text, separators);
+        double number;
+        if (!dip_number_parse(text, length, &number)) {
+            return 0;
+        }
+        if (count < most) {
+            numbers[count] = number;
+        }
+        count++;
+        text += length;
+    }
+    return count;
+}
+
+static bool read_pose(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    double numbers[7];
+    DipCamPath *path;
+    DipError failure;
+    if (read_numbers(value, 7, numbers) != 7) {
+        return dip_option_refuse(err, DIP_ERROR_TYPE, row->name, value,
+                                 "a pose: seven numbers x y z qx qy qz qw in quotes, in the order "
+                                 "of a line of a .pth file");
+    }
+    memcpy(options->pose.position_world, numbers, sizeof options->pose.position_world);
+    memcpy(options->pose.orientation, numbers + 3, sizeof options->pose.orientation);
+    // The rules for a pose are those for the key of a path.
+    if (!dip_campath_create(&options->pose, 1, DIP_CAMPATH_MIN_PERIOD_NS, &path, &failure)) {
+        return dip_error_set(err, failure.code, NULL, 0, row->name, "%s: %s", failure.key,
+                             failure.message);
+    }
+    options->pose = dip_campath_key(path, 0);
+    dip_campath_destroy(&path);
+    options->has_pose = true;
+    return true;
+}
+
+#define PATH_END(name, text) " `" #name "` " text "."
+#define PATH_ENDS            DIP_CAMPATH_END_LIST(PATH_END)
+
+static bool read_path_end(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    for (int i = 0; i < DIP_CAMPATH_END_COUNT; i++) {
+        if (strcmp(value, dip_campath_end_names[i]) == 0) {
+            options->path_end = (DipCamPathEnd)i;
+            return true;
+        }
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
+                         "'%.40s' is not the end of a path; give one of loop|once|back", value);
 }
 
 static const DipOptionRow scene_rows[] = {
@@ -135,6 +194,32 @@ static const DipOptionRow category_rows[] = {
      .field = FIELD(category)},
 };
 
+static const DipOptionRow camera_rows[] = {
+    {.name = "--pose",
+     .argument = "POSE",
+     .text =
+         "Let the camera stand still at this pose: the seven numbers x y z qx qy qz qw, in quotes, "
+         "in the order of a line of a .pth file (docs/campaths.md). The position is in metres; the "
+         "quaternion rotates camera space to world space, so \"0 1.7 6 0 0 0 1\" looks along -Z.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_pose},
+    {.name = "--fov",
+     .argument = "DEGREES",
+     .text = "Vertical field of view of the camera, from 1 to 170 degrees, on every path. Without "
+             "the option, the ini decides.",
+     .kind = DIP_OPTION_NUMBER,
+     .field = FIELD(fov_y_deg),
+     .least = 1.0,
+     .most = 170.0,
+     .accepted = "an angle from 1 to 170 degrees"},
+    {.name = "--path-end",
+     .argument = "HOW",
+     .text = "What the camera does at the end of a path." PATH_ENDS
+             " The default is loop. Scenes of the gallery have loops of their own.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_path_end},
+};
+
 static const DipOptionRow pane_rows[] = {
     {.name = "--current",
      .argument = "SET",
@@ -188,12 +273,25 @@ const DipOptionTable dip_scene_option_table = {scene_title, scene_rows,
 const DipOptionTable dip_path_option_table = {scene_title, path_rows, DIP_ARRAY_COUNT(path_rows)};
 const DipOptionTable dip_category_option_table = {scene_title, category_rows,
                                                   DIP_ARRAY_COUNT(category_rows)};
+const DipOptionTable dip_camera_option_table = {scene_title, camera_rows,
+                                                DIP_ARRAY_COUNT(camera_rows)};
 const DipOptionTable dip_pane_option_table = {drawing_title, pane_rows, DIP_ARRAY_COUNT(pane_rows)};
 const DipOptionTable dip_size_option_table = {drawing_title, size_rows, DIP_ARRAY_COUNT(size_rows)};
 const DipOptionTable dip_threads_option_table = {drawing_title, threads_rows,
                                                  DIP_ARRAY_COUNT(threads_rows)};
 
+// Returns the option that also says where the camera is, or NULL.
+static const char *other_camera(const DipSessionOptions *options) {
+    return options->path ? "--path" : options->category ? "--category" : NULL;
+}
+
 bool dip_session_options_check(const DipSessionOptions *options, DipError *err) {
+    if (options->has_pose && other_camera(options)) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--pose",
+                             "says where the camera stands, but %s lets it fly; leave out one of "
+                             "the two options",
+                             other_camera(options));
+    }
     if (options->scene && options->model_count) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--scene",
                              "'%.40s' replaces the models, and so does --model; leave out one of "

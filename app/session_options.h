@@ -4,6 +4,7 @@
 
 #include "app/options.h"
 #include "assets/model.h"
+#include "campaths/campath.h"
 #include "renderer/base/isa.h"
 #include "renderer/scene/quality.h"
 
@@ -24,6 +25,10 @@ typedef struct DipSessionOptions {
     bool force_all_effects;
     const char *path;     // File of a camera path that replaces the ini's.
     const char *category; // Which of the ini's paths to fly: "AA", ...
+    bool has_pose;
+    DipCamKey pose;   // Where the camera stands, instead of on a path.
+    double fov_y_deg; // Vertical field of view that replaces the others, in degrees; 0: not given.
+    DipCamPathEnd path_end; // What paths do at their end.
     bool has_current;
     DipQuality current;
     bool has_requested;
@@ -41,6 +46,7 @@ typedef struct DipSessionOptions {
 extern const DipOptionTable dip_scene_option_table;    // --config --model --up ...
 extern const DipOptionTable dip_path_option_table;     // --path
 extern const DipOptionTable dip_category_option_table; // --category
+extern const DipOptionTable dip_camera_option_table;   // --pose --fov --path-end
 extern const DipOptionTable dip_pane_option_table;     // --current --requested --timing
 extern const DipOptionTable dip_size_option_table;     // --size --isa
 extern const DipOptionTable dip_threads_option_table;  // --threads

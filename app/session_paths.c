@@ -7,10 +7,16 @@
 #include <string.h>
 #include <strings.h>
 
+static const int64_t pose_period_ns = 1000000000; // Duration of the path of --pose.
+
+double dip_session_fov(const DipSession *session, double fov_y_deg) {
+    return session->options->fov_y_deg > 0.0 ? session->options->fov_y_deg : fov_y_deg;
+}
+
 // Takes ownership of a path and makes it the path of a category.
 static void keep_path(DipSession *session, DipCamPath *path, int category, double fov_y_deg) {
     session->paths[session->path_count++] = path;
-    dip_camtrack_set(&session->track, category, path, fov_y_deg);
+    dip_camtrack_set(&session->track, category, path, dip_session_fov(session, fov_y_deg));
 }
 
 // Loads the path of one of the ini's categories. A file that an earlier category names is not
@@ -25,7 +31,7 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
         if (file->path && dip_config_same_file(file, &camera->file) &&
             session->track.categories[other].path) {
             dip_camtrack_set(&session->track, category, session->track.categories[other].path,
-                             camera->fov_y_deg);
+                             dip_session_fov(session, camera->fov_y_deg));
             return true;
         }
     }
@@ -47,6 +53,17 @@ static bool load_own_path(DipSession *session, DipErrorList *faults) {
     DipCamPath *path;
     DipError err;
     if (!dip_campath_load(session->options->path, &path, &err)) {
+        return dip_session_add_fault(faults, &err);
+    }
+    keep_path(session, path, 0, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
+    return true;
+}
+
+// Makes a path of one key, at which the camera stands still.
+static bool make_pose(DipSession *session, DipErrorList *faults) {
+    DipCamPath *path;
+    DipError err;
+    if (!dip_campath_create(&session->options->pose, 1, pose_period_ns, &path, &err)) {
         return dip_session_add_fault(faults, &err);
     }
     keep_path(session, path, 0, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
@@ -90,6 +107,7 @@ static bool make_orbit(DipSession *session, DipErrorList *faults) {
     } else {
         def.fov_y_deg = session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg;
     }
+    def.fov_y_deg = dip_session_fov(session, def.fov_y_deg);
     DipCamPath *path;
     DipError err;
     if (!check_extent(low, high, file, faults)) {
@@ -133,6 +151,7 @@ static bool choose_category(DipSession *session, DipErrorList *faults) {
 
 bool dip_session_load_paths(DipSession *session, DipErrorList *faults) {
     session->track = dip_camtrack_make(session->config.campath_reset_on_switch);
+    dip_camtrack_set_end(&session->track, session->options->path_end);
     session->paths = calloc(DIP_CATEGORY_COUNT, sizeof(DipCamPath *));
     if (!session->paths) {
         DipError err;
@@ -141,6 +160,9 @@ bool dip_session_load_paths(DipSession *session, DipErrorList *faults) {
     }
     if (session->options->path) {
         return load_own_path(session, faults);
+    }
+    if (session->options->has_pose) {
+        return make_pose(session, faults);
     }
     if (session->options->model_count) {
         return !session->scene || make_orbit(session, faults);

@@ -12,6 +12,7 @@ typedef struct View {
     DipScene *own; // the same scene if the view owns it; NULL if the session owns it
     const DipCamPath *path;
     DipCamPath *own_path;
+    DipCamPathEnd end; // what the path does at its end
     double fov_y_deg;
     int triangles; // number of triangles given to --grid; 0 for the session's scene
     double aspect; // width / height of the picture that a grid fills; 0 for the session's scene
@@ -37,12 +38,16 @@ static View session_view(const DipSession *session) {
     const DipCamTrack *track = &session->track;
     const DipCamCategory *slot =
         &track->categories[track->categories[track->active].path ? track->active : 0];
-    return (View){.scene = session->scene, .path = slot->path, .fov_y_deg = slot->fov_y_deg};
+    return (View){.scene = session->scene,
+                  .path = slot->path,
+                  .end = track->end,
+                  .fov_y_deg = slot->fov_y_deg};
 }
 
 static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSession *session,
                            DipError *err) {
-    view->fov_y_deg = session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg;
+    view->fov_y_deg =
+        dip_session_fov(session, session->config.camera[DIP_CATEGORY_DEFAULT].fov_y_deg);
     const double turn_deg = plan->options.grid_out_of_view ? 180.0 : 0.0;
     DipSynthetic *relief =
         dip_synthetic_relief(view->triangles, true, view->fov_y_deg, view->aspect, turn_deg, err);
@@ -183,9 +188,9 @@ bool dip_bench_context_draw(DipBenchContext *bench, int combination, int frame, 
                             DipError *err) {
     const View *view = &bench->views[bench->view_of[combination]];
     const int64_t time_ns =
-        dip_campath_info(view->path).duration_ns / bench->plan->options.frames * frame;
+        dip_campath_span_ns(view->path, view->end) / bench->plan->options.frames * frame;
     DipPose pose = {.fov_y_deg = view->fov_y_deg};
-    dip_campath_sample(view->path, time_ns, &pose);
+    dip_campath_sample(view->path, dip_campath_time_at_end(view->path, view->end, time_ns), &pose);
     dip_painter_set_frame_index(bench->renderers[combination], (uint64_t)frame);
     return dip_painter_draw(bench->renderers[combination], view->scene, &pose, time_ns, picture,
                             err);

@@ -173,6 +173,7 @@ static const DipOptionPart parts[] = {
     {&dip_scene_option_table, offsetof(DipBenchArguments, session)},
     {&dip_path_option_table, offsetof(DipBenchArguments, session)},
     {&dip_category_option_table, offsetof(DipBenchArguments, session)},
+    {&dip_camera_option_table, offsetof(DipBenchArguments, session)},
     {&dip_program_option_table, offsetof(DipBenchArguments, program)},
 };
 const DipOptionParts dip_bench_option_parts = {parts, DIP_ARRAY_COUNT(parts)};
@@ -210,14 +211,15 @@ static bool varies_in_samples(const DipBenchOptions *bench) {
 
 static bool check_scene(const DipBenchArguments *arguments, DipError *err) {
     const DipSessionOptions *session = &arguments->session;
-    if (arguments->bench.grid_count &&
-        (session->model_count || session->scene || session->path || session->category)) {
+    if (arguments->bench.grid_count && (session->model_count || session->scene || session->path ||
+                                        session->category || session->has_pose)) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--grid",
                              "a grid replaces the scene and its path; leave out --grid or %s",
                              session->model_count ? "--model"
                              : session->scene     ? "--scene"
                              : session->path      ? "--path"
-                                                  : "--category");
+                             : session->category  ? "--category"
+                                                  : "--pose");
     }
     return dip_session_options_check(session, err);
 }

@@ -33,7 +33,9 @@ static void print_scene(const DipBenchPlan *plan, const DipSession *session, FIL
         fprintf(out, ", a scene of the gallery\n");
         return;
     }
-    if (!options->model_count && !options->path) {
+    if (options->has_pose) {
+        fprintf(out, ", one pose");
+    } else if (!options->model_count && !options->path) {
         fprintf(out, ", path %s", dip_session_category(session->track.active));
     } else if (options->path) {
         fprintf(out, ", path %s", options->path);

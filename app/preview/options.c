@@ -50,13 +50,10 @@ static const DipOptionRow rows[] = {
 static const DipOptionTable table = {"Drawing", rows, DIP_ARRAY_COUNT(rows)};
 
 static const DipOptionPart parts[] = {
-    {&dip_scene_option_table, FIELD(session)},
-    {&dip_path_option_table, FIELD(session)},
-    {&dip_category_option_table, FIELD(session)},
-    {&dip_pane_option_table, FIELD(session)},
-    {&dip_size_option_table, FIELD(session)},
-    {&dip_threads_option_table, FIELD(session)},
-    {&table, 0},
+    {&dip_scene_option_table, FIELD(session)},    {&dip_path_option_table, FIELD(session)},
+    {&dip_category_option_table, FIELD(session)}, {&dip_camera_option_table, FIELD(session)},
+    {&dip_pane_option_table, FIELD(session)},     {&dip_size_option_table, FIELD(session)},
+    {&dip_threads_option_table, FIELD(session)},  {&table, 0},
     {&dip_program_option_table, FIELD(program)},
 };
 const DipOptionParts dip_preview_option_parts = {parts, DIP_ARRAY_COUNT(parts)};
