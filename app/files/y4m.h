@@ -1,0 +1,33 @@
+// Frames as a YUV4MPEG2 stream ("y4m"): video without compression, which ffmpeg, mpv and encoders
+// read. A stream is one header, then for each frame the line "FRAME" and three planes of bytes.
+//
+// The streams have the format C444: the planes Y, Cb and Cr hold one byte per pixel, so chroma is
+// not subsampled. The matrix is that of ITU-R BT.709, and the range is limited: black is Y = 16,
+// white is Y = 235, and grey is Cb = Cr = 128. The header names the format and the range. It cannot
+// name the matrix, so a player may guess another one.
+#ifndef DIP_APP_FILES_Y4M_H
+#define DIP_APP_FILES_Y4M_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+// A frame rate as an exact ratio: `frames` frames in `seconds` seconds, both at least 1.
+typedef struct DipFrameRate {
+    int64_t frames;
+    int64_t seconds;
+} DipFrameRate;
+
+// Returns the same rate with the smallest numbers.
+DipFrameRate dip_frame_rate_reduce(DipFrameRate rate);
+
+enum { DIP_Y4M_HEADER_SIZE = 160 }; // Bytes that dip_y4m_header writes at most.
+
+// Writes the stream's header with its line feed and a final 0. Returns its length without the 0.
+size_t dip_y4m_header(int width, int height, DipFrameRate rate, char header[DIP_Y4M_HEADER_SIZE]);
+
+// Converts packed RGB pixels of 3 bytes each to the planes Y, Cb and Cr, `count` bytes each, one
+// plane after the other. Every value is the exact result rounded to the nearest integer; a half is
+// rounded up. Thread-safe.
+void dip_y4m_planes(const uint8_t *rgb, size_t count, uint8_t *planes);
+
+#endif
