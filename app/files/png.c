@@ -9,6 +9,7 @@
 #include <stdalign.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 // --- memory for stb_image_write ------------------------------------------------------------------
 
@@ -137,7 +138,9 @@ enum {
     PNG_HEADER_CRC = 29,   // Checksum of the bytes from PNG_HEADER_TYPE on.
     PNG_AFTER_HEADER = 33, // Where the palette, the chunk PLTE, belongs.
     PNG_PALETTE_BYTES = 3 * 256,
-    PNG_CHUNK_FRAME = 12 // Length, type and checksum of a chunk, 4 bytes each.
+    PNG_CHUNK_FRAME = 12,  // Length, type and checksum of a chunk, 4 bytes each.
+    PNG_CHUNK_CONTENT = 8, // Where a chunk's content begins.
+    PNG_TEXT_FIELDS = 5    // Bytes of iTXt between keyword and text.
 };
 
 static void store_u32(unsigned char *to, unsigned value) {
@@ -170,16 +173,116 @@ bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palette, int 
     return made != NULL;
 }
 
-bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
-    unsigned char *bytes;
+// --- texts ---------------------------------------------------------------------------------------
+
+// Returns the length of the UTF-8 sequence at `text`, or 0 if the sequence is not valid. The final
+// 0 of the text ends every sequence, because it is no continuation byte.
+static int sequence_length(const char *text) {
+    const unsigned char *bytes = (const unsigned char *)text;
+    const unsigned char lead = bytes[0];
+    const int length = lead < 0x80                   ? 1
+                       : lead >= 0xc2 && lead < 0xe0 ? 2
+                       : lead >= 0xe0 && lead < 0xf0 ? 3
+                       : lead >= 0xf0 && lead < 0xf5 ? 4
+                                                     : 0;
+    for (int i = 1; i < length; i++) {
+        if ((bytes[i] & 0xc0) != 0x80) {
+            return 0;
+        }
+    }
+    const bool overlong = (lead == 0xe0 && bytes[1] < 0xa0) || (lead == 0xf0 && bytes[1] < 0x90);
+    const bool surrogate = lead == 0xed && bytes[1] > 0x9f;
+    const bool too_large = lead == 0xf4 && bytes[1] > 0x8f;
+    return overlong || surrogate || too_large ? 0 : length;
+}
+
+// Copies a text with '?' for bytes that are not valid UTF-8. Returns whether the copy is ASCII.
+static bool copy_text(unsigned char *to, const char *text) {
+    bool ascii = true;
+    while (*text) {
+        const int length = sequence_length(text);
+        if (length == 0) {
+            *to++ = '?';
+            text++;
+            continue;
+        }
+        ascii = ascii && length == 1;
+        for (int i = 0; i < length; i++) {
+            *to++ = (unsigned char)*text++;
+        }
+    }
+    return ascii;
+}
+
+// Returns the greatest size of a text's chunk.
+static size_t most_chunk_bytes(const DipPngText *text) {
+    return PNG_CHUNK_FRAME + strlen(text->keyword) + PNG_TEXT_FIELDS + strlen(text->text);
+}
+
+// Writes a text as a chunk and returns the chunk's size. The content of iTXt is the keyword, a 0,
+// the two bytes 0 0 (the text is not compressed), an empty language and an empty translation of the
+// keyword, each with a 0, and the text. The content of tEXt is the keyword, a 0 and the text.
+static size_t write_text_chunk(unsigned char *chunk, const DipPngText *text) {
+    const size_t keyword_bytes = strlen(text->keyword);
+    const size_t text_bytes = strlen(text->text); // '?' takes the place of one byte.
+    unsigned char *content = chunk + PNG_CHUNK_CONTENT;
+    unsigned char *copied = content + keyword_bytes + PNG_TEXT_FIELDS;
+    const bool ascii = copy_text(copied, text->text);
+    const size_t fields = ascii ? 1 : PNG_TEXT_FIELDS;
+    memcpy(chunk + 4, ascii ? "tEXt" : "iTXt", 4);
+    memcpy(content, text->keyword, keyword_bytes);
+    memset(content + keyword_bytes, 0, fields);
+    memmove(content + keyword_bytes + fields, copied, text_bytes);
+    const size_t size_bytes = keyword_bytes + fields + text_bytes;
+    store_u32(chunk, (unsigned)size_bytes);
+    store_u32(content + size_bytes, stbiw__crc32(chunk + 4, (int)(4 + size_bytes)));
+    return PNG_CHUNK_FRAME + size_bytes;
+}
+
+bool dip_png_add_texts(unsigned char **bytes, size_t *size_bytes, const DipPngText *texts,
+                       int count) {
+    if (count == 0) {
+        return true;
+    }
+    size_t most_bytes = *size_bytes;
+    for (int i = 0; i < count; i++) {
+        most_bytes += most_chunk_bytes(&texts[i]);
+    }
+    unsigned char *made = malloc(most_bytes);
+    if (!made) {
+        return false;
+    }
+    size_t size = PNG_AFTER_HEADER;
+    memcpy(made, *bytes, PNG_AFTER_HEADER);
+    for (int i = 0; i < count; i++) {
+        size += write_text_chunk(made + size, &texts[i]);
+    }
+    memcpy(made + size, *bytes + PNG_AFTER_HEADER, *size_bytes - PNG_AFTER_HEADER);
+    *size_bytes += size - PNG_AFTER_HEADER;
+    free(*bytes);
+    *bytes = made;
+    return true;
+}
+
+// --- files ---------------------------------------------------------------------------------------
+
+bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const DipPngText *texts,
+                              int count, DipError *err) {
+    unsigned char *bytes = NULL;
     size_t size_bytes;
     if (!dip_png_encode(frame->rgba8, frame->stride_bytes, frame->width, frame->height, &bytes,
-                        &size_bytes)) {
+                        &size_bytes) ||
+        !dip_png_add_texts(&bytes, &size_bytes, texts, count)) {
+        free(bytes);
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, "png", "out of memory");
     }
     const bool written = dip_whole_file_write(file, bytes, size_bytes, err);
     free(bytes);
     return written;
+}
+
+bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
+    return dip_png_write_with_texts(file, frame, NULL, 0, err);
 }
 
 // --- deflate -------------------------------------------------------------------------------------
