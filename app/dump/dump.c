@@ -3,10 +3,12 @@
 
 #include "app/dump/options.h"
 #include "app/dump/record.h"
+#include "app/dump/stream.h"
 #include "app/files/folder.h"
 #include "app/files/png.h"
 #include "app/interrupt.h"
 #include "app/machine.h"
+#include "app/picture_texts.h"
 #include "app/progress.h"
 #include "renderer/base/assert.h"
 
@@ -15,43 +17,73 @@
 #include <string.h>
 #include <unistd.h>
 
-static bool write_picture(const char *folder, int index, int pane, const DipFrame *frame,
-                          DipError *err) {
+// What the frames are written to, besides pictures and hashes.
+typedef struct Outputs {
+    DipRecord *record; // NULL if no record is asked for.
+    DipStream *y4m;    // NULL if --y4m is not given.
+    DipStream *raw;    // NULL if --raw is not given.
+} Outputs;
+
+// A frame of both panes and what is known about it.
+typedef struct DrawnFrame {
+    int index;
+    int64_t time_ns;
+    DipPose pose;
+    DipSessionFrame frame;
+    DipQuality qualities[DIP_PANE_COUNT];
+    char hashes[DIP_PANE_COUNT][33];
+} DrawnFrame;
+
+static bool write_picture(const DipSession *session, const char *folder, const DrawnFrame *drawn,
+                          int pane, DipError *err) {
     char file[PATH_MAX];
+    DipPictureTexts texts;
     const int length =
-        snprintf(file, sizeof file, "%s/%s_%04d.png", folder, dip_pane_names[pane], index);
+        snprintf(file, sizeof file, "%s/%s_%04d.png", folder, dip_pane_names[pane], drawn->index);
     if (length < 0 || (size_t)length >= sizeof file) {
         return dip_error_set_runtime(err, DIP_ERROR_OVERSIZED, folder, 0, "--out",
                                      "the name is too long");
     }
-    return dip_png_write(file, frame, err);
+    dip_picture_texts_make(&texts, session, &drawn->pose, drawn->time_ns, false);
+    dip_picture_texts_add_pane(&texts, pane, &drawn->qualities[pane], &drawn->frame.panes[pane]);
+    return dip_png_write_with_texts(file, &drawn->frame.panes[pane], texts.items, texts.count, err);
+}
+
+static bool write_pane(const DipSession *session, const DipDumpOptions *options, DrawnFrame *drawn,
+                       int pane, DipError *err) {
+    dip_frame_hash(&drawn->frame.panes[pane], drawn->hashes[pane]);
+    drawn->qualities[pane] = dip_painter_quality(session->renderers[pane]);
+    if (options->hash) {
+        printf("%04d %s %s\n", drawn->index, dip_pane_names[pane], drawn->hashes[pane]);
+    }
+    return !options->out || write_picture(session, options->out, drawn, pane, err);
+}
+
+static bool record_frame(DipRecord *record, const DrawnFrame *drawn, DipError *err) {
+    DipRecordPane panes[DIP_PANE_COUNT];
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        panes[p] = (DipRecordPane){&drawn->qualities[p], &drawn->frame.panes[p], drawn->hashes[p],
+                                   p == DIP_PANE_REQUESTED && drawn->frame.copied};
+    }
+    return dip_record_add(record, drawn->index, 1e-9 * (double)drawn->time_ns, &drawn->pose,
+                          drawn->frame.ms, panes, err);
 }
 
 static bool dump_frame(DipSession *session, const DipDumpOptions *options, int index,
-                       DipRecord *record, DipError *err) {
-    const int64_t time_ns = index * INT64_C(1000000000000) / (int64_t)(options->fps * 1000.0 + 0.5);
-    DipPose pose;
-    DipSessionFrame frame;
-    char hashes[DIP_PANE_COUNT][33];
-    DipQuality qualities[DIP_PANE_COUNT];
-    DipRecordPane panes[DIP_PANE_COUNT];
-    if (!dip_session_draw(session, time_ns, (uint64_t)index, &pose, &frame, err)) {
+                       const Outputs *outputs, DipError *err) {
+    DrawnFrame drawn = {.index = index, .time_ns = dip_dump_time_ns(options, index)};
+    if (!dip_session_draw(session, drawn.time_ns, (uint64_t)index, &drawn.pose, &drawn.frame,
+                          err)) {
         return false;
     }
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        dip_frame_hash(&frame.panes[p], hashes[p]);
-        qualities[p] = dip_painter_quality(session->renderers[p]);
-        panes[p] = (DipRecordPane){&qualities[p], &frame.panes[p], hashes[p],
-                                   p == DIP_PANE_REQUESTED && frame.copied};
-        if (options->hash) {
-            printf("%04d %s %s\n", index, dip_pane_names[p], hashes[p]);
-        }
-        if (options->out && !write_picture(options->out, index, p, &frame.panes[p], err)) {
+        if (!write_pane(session, options, &drawn, p, err)) {
             return false;
         }
     }
-    return !record ||
-           dip_record_add(record, index, 1e-9 * (double)time_ns, &pose, frame.ms, panes, err);
+    return (!outputs->record || record_frame(outputs->record, &drawn, err)) &&
+           (!outputs->y4m || dip_stream_add(outputs->y4m, drawn.frame.panes, err)) &&
+           (!outputs->raw || dip_stream_add(outputs->raw, drawn.frame.panes, err));
 }
 
 static bool write_json(const DipRecord *record, const char *file, DipError *err) {
@@ -71,7 +103,7 @@ static bool write_records(const DipRecord *record, const DipDumpOptions *options
 }
 
 // Draws the frames of the range, with the progress on standard error.
-static bool dump_frames(DipSession *session, const DipDumpOptions *options, DipRecord *record,
+static bool dump_frames(DipSession *session, const DipDumpOptions *options, const Outputs *outputs,
                         DipError *err) {
     const DipFrameRange range = options->frames;
     const int total = (range.end - range.first + range.step - 1) / range.step;
@@ -87,7 +119,7 @@ static bool dump_frames(DipSession *session, const DipDumpOptions *options, DipR
                                  total);
             break;
         }
-        done = dump_frame(session, options, range.first + drawn * range.step, record, err);
+        done = dump_frame(session, options, range.first + drawn * range.step, outputs, err);
         drawn += done;
         if (shows_progress) {
             dip_progress_show(&progress, drawn);
@@ -99,20 +131,49 @@ static bool dump_frames(DipSession *session, const DipDumpOptions *options, DipR
     return done;
 }
 
+// Opens a stream if its option gives a file; otherwise *stream stays NULL. The stream's frames are
+// `step` frames apart, so that it shows them at the speed of the scene's time.
+static bool open_stream(DipStream **stream, const DipDumpOptions *options, bool y4m,
+                        DipError *err) {
+    const DipStreamDef def = {
+        .option = y4m ? "--y4m" : "--raw",
+        .file = y4m ? options->y4m : options->raw,
+        .y4m = y4m,
+        .picture = options->picture,
+        .rate = {options->rate.frames, options->rate.seconds * options->frames.step},
+    };
+    *stream = def.file ? dip_stream_open(&def, err) : NULL;
+    return *stream || !def.file;
+}
+
+static bool open_outputs(Outputs *outputs, const DipDumpOptions *options, DipError *err) {
+    const bool records = options->out || options->json;
+    outputs->record = records ? dip_record_create(err) : NULL;
+    return (outputs->record || !records) && open_stream(&outputs->y4m, options, true, err) &&
+           open_stream(&outputs->raw, options, false, err);
+}
+
+// Closes the streams. Keeps the first error: *err is filled only if everything was `done` before.
+static bool close_outputs(Outputs *outputs, bool done, DipError *err) {
+    done = dip_stream_close(&outputs->y4m, done ? err : NULL) && done;
+    done = dip_stream_close(&outputs->raw, done ? err : NULL) && done;
+    dip_record_destroy(&outputs->record);
+    return done;
+}
+
 static bool run(DipSession *session, const void *all_options, DipError *err) {
     const DipDumpOptions *options = all_options;
+    Outputs outputs = {0};
     if (options->out && !dip_folder_make(options->out, "--out", err)) {
         return false;
     }
-    const bool records = options->out || options->json;
-    DipRecord *record = records ? dip_record_create(err) : NULL;
     dip_interrupt_watch();
-    const bool done = (record || !records) && dump_frames(session, options, record, err) &&
-                      (!record || (dip_record_set_start(record, &session->times,
-                                                        dip_machine_peak_rss_bytes(), err) &&
-                                   write_records(record, options, err)));
-    dip_record_destroy(&record);
-    return done;
+    const bool done =
+        open_outputs(&outputs, options, err) && dump_frames(session, options, &outputs, err) &&
+        (!outputs.record || (dip_record_set_start(outputs.record, &session->times,
+                                                  dip_machine_peak_rss_bytes(), err) &&
+                             write_records(outputs.record, options, err)));
+    return close_outputs(&outputs, done, err);
 }
 
 static void describe_session(const void *options, DipSessionDef *def) {
@@ -129,16 +190,22 @@ static const DipExample examples[] = {
     {"diptych dump --out out --category AF --current af=none --requested af=16",
      "shows what anisotropic filtering does, on the camera path made for it"},
     {"diptych dump --json - | python3 -m json.tool", "reads the record of one frame"},
+    {"diptych dump --frames 0:600 --y4m - | mpv --vf=format:colormatrix=bt.709 -",
+     "plays twenty seconds of both panes, whatever the machine's speed"},
+    {"diptych dump --frames 0:600 --pane requested --raw video.rgb",
+     "writes the right pane's pixels, 3 bytes each, for ffmpeg -f rawvideo"},
 };
 
 const DipCommand dip_dump_command = {
     .name = "dump",
-    .summary = "draw frames without a display: pictures, hashes, a record",
-    .usage = "--out DIR | --json FILE | --hash [OPTION]...",
+    .summary = "draw frames without a display: pictures, video, hashes, a record",
+    .usage = "--out DIR | --json|--y4m|--raw FILE | --hash [OPTION]...",
     .text = "Dump draws both panes of each frame and needs no display. It writes the pictures as "
-            "PNG files, prints a hash of each picture, or writes a record of all frames with "
-            "settings, times, counters and the effects that ran. Give at least one of --out, "
-            "--json and --hash.\n\n"
+            "PNG files, prints a hash of each picture, writes a record of all frames with "
+            "settings, times, counters and the effects that ran, or writes the frames as video "
+            "without compression. Give at least one of --out, --json, --hash, --y4m and --raw.\n\n"
+            "The PNG files tell how they were made: they have texts with the program's version, "
+            "scene, path, time, pose, settings, size and hash.\n\n"
             "A frame with the same settings is the same picture on every machine, with every "
             "instruction set and any number of threads.",
     .examples = examples,

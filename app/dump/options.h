@@ -3,6 +3,7 @@
 #define DIP_APP_DUMP_OPTIONS_H
 
 #include "app/command.h"
+#include "app/dump/stream.h"
 #include "app/session_options.h"
 
 #include <stdbool.h>
@@ -21,12 +22,19 @@ typedef struct DipDumpOptions {
     DipSessionOptions session;
     const char *out;  // Folder for the pictures and the record.
     const char *json; // File for the record; "-" is standard output.
+    const char *y4m;  // File for the frames as YUV4MPEG2; "-" is standard output.
+    const char *raw;  // File for the frames' pixels; "-" is standard output.
     bool hash;        // Print a hash per picture.
+    bool has_picture;
+    DipStreamPicture picture; // What the streams show.
     DipFrameRange frames;
-    double fps; // Frame n shows the time n / fps, in seconds.
+    DipFrameRate rate; // Frame n shows the time n * rate.seconds / rate.frames, in seconds.
 } DipDumpOptions;
 
 extern const DipOptionParts dip_dump_option_parts;
+
+// Returns the time that a frame shows, in nanoseconds, rounded down.
+int64_t dip_dump_time_ns(const DipDumpOptions *options, int index);
 
 void dip_dump_options_default(void *options, int argc, char *const *argv);
 bool dip_dump_options_check(const void *options, DipError *err);

@@ -68,7 +68,7 @@ expect 2 '\[import\] only Diptych itself runs this command' "$diptych" import --
 check "help does not show the hidden command" sh -c '! "$0" --help | grep -q "^  import"' "$diptych"
 
 # --- bad command lines: one line of error, exit code 2, nothing written
-expect 2 'diptych: \[dump\] nothing to do; give one of --out DIR, --json FILE, --hash$' "$diptych" dump
+expect 2 'diptych: \[dump\] nothing to do; give one of --out DIR, --json FILE, --hash, --y4m FILE, --raw FILE$' "$diptych" dump
 expect 2 '\[--frmes\] is not an option of .diptych dump.; did you mean --frames\?$' "$diptych" dump --hash --frmes 0:1
 expect 2 "\[--frames\] '5:2' is not FIRST:END" "$diptych" dump --hash --frames 5:2
 expect 2 "\[--frames\] 'a:b'" "$diptych" dump --hash --frames a:b

@@ -51,7 +51,9 @@ static void defaults_are_the_first_frame_at_30_per_second(void **state) {
     assert_int_equal(dump->frames.first, 0);
     assert_int_equal(dump->frames.end, 1);
     assert_int_equal(dump->frames.step, 1);
-    assert_true(dump->fps == 30.0);
+    assert_int_equal(dump->rate.frames, 30);
+    assert_int_equal(dump->rate.seconds, 1);
+    assert_int_equal(dump->picture, DIP_STREAM_both);
     assert_false(dump->session.has_size || dump->session.has_current || dump->session.has_isa);
     dip_command_line_free(&line);
 }
@@ -67,7 +69,8 @@ static void options_reach_their_fields(void **state) {
     assert_int_equal(dump->frames.first, 5);
     assert_int_equal(dump->frames.end, 90);
     assert_int_equal(dump->frames.step, 7);
-    assert_true(dump->fps == 59.94);
+    assert_int_equal(dump->rate.frames, 2997);
+    assert_int_equal(dump->rate.seconds, 50);
     assert_string_equal(dump->out, "o");
     assert_string_equal(dump->json, "j");
     assert_true(dump->session.has_requested && !dump->session.has_current);
@@ -94,7 +97,8 @@ static void dump_needs_something_to_do(void **state) {
     assert_false(parse(&line, &err, WORDS("--frames", "0:2")));
     dip_command_line_free(&line);
     assert_int_equal(err.code, DIP_ERROR_MISSING);
-    assert_string_equal(err.message, "nothing to do; give one of --out DIR, --json FILE, --hash");
+    assert_string_equal(err.message, "nothing to do; give one of --out DIR, --json FILE, --hash, "
+                                     "--y4m FILE, --raw FILE");
 }
 
 static void standard_output_takes_the_record_or_the_hashes(void **state) {
@@ -106,6 +110,68 @@ static void standard_output_takes_the_record_or_the_hashes(void **state) {
     dip_command_line_free(&line);
     assert_true(parse(&line, &err, WORDS("--json", "j", "--hash")));
     dip_command_line_free(&line);
+}
+
+static void standard_output_takes_one_stream(void **state) {
+    (void)state;
+    assert_refused(DIP_ERROR_CONFLICT, "--raw -", WORDS("--y4m", "-", "--raw", "-"));
+    assert_refused(DIP_ERROR_CONFLICT, "--json -", WORDS("--y4m", "-", "--json", "-"));
+    assert_refused(DIP_ERROR_CONFLICT, "--hash", WORDS("--raw", "-", "--hash"));
+    assert_refused(DIP_ERROR_MISSING, "--pane", WORDS("--hash", "--pane", "both"));
+    assert_refused(DIP_ERROR_UNKNOWN, "--pane", WORDS("--raw", "f", "--pane", "left"));
+}
+
+static DipFrameRate rate_of(const char *fps) {
+    DipCommandLine line;
+    DipError err = {0};
+    assert_true(parse(&line, &err, WORDS("--hash", "--fps", fps)));
+    const DipFrameRate rate = ((const DipDumpOptions *)line.options)->rate;
+    dip_command_line_free(&line);
+    return rate;
+}
+
+static void rates_are_exact_ratios(void **state) {
+    (void)state;
+    static const struct {
+        const char *fps;
+        int frames, seconds;
+    } good[] = {{"30", 30, 1},
+                {"23.976", 2997, 125},
+                {"30000/1001", 30000, 1001},
+                {"60/2", 30, 1},
+                {"0.001", 1, 1000},
+                {"1000", 1000, 1},
+                {"1/1000", 1, 1000},
+                {"0.5", 1, 2},
+                {"5000000/5000", 1000, 1},
+                {"24000/1001", 24000, 1001}};
+    static const char *const bad[] = {"0",      "1001",   "-5",  "30/0",  "0/1",   "1/1001",
+                                      "2001/2", "1/1/1",  "30/", "/1001", "a",     "0.0009",
+                                      "30/-1",  "1/5001", "nan", "1e9",   "30 /1", "2e9/2e9"};
+    for (size_t i = 0; i < DIP_ARRAY_COUNT(good); i++) {
+        const DipFrameRate rate = rate_of(good[i].fps);
+        assert_int_equal(rate.frames, good[i].frames);
+        assert_int_equal(rate.seconds, good[i].seconds);
+    }
+    for (size_t i = 0; i < DIP_ARRAY_COUNT(bad); i++) {
+        assert_refused(DIP_ERROR_RANGE, "--fps", WORDS("--hash", "--fps", bad[i]));
+    }
+}
+
+__extension__ typedef __int128 Wide; // The truth is computed with 128 bits.
+
+// The last frame at the longest seconds is the largest product.
+static void times_of_frames_are_exact(void **state) {
+    (void)state;
+    static const DipFrameRate rates[] = {{30, 1}, {30000, 1001}, {2997, 50}, {5, 5000}, {1000, 1}};
+    for (size_t i = 0; i < DIP_ARRAY_COUNT(rates); i++) {
+        const DipDumpOptions options = {.rate = rates[i]};
+        for (int index = 0; index <= 1000000; index += 1 + index / 7) {
+            const Wide exact = (Wide)index * 1000000000 * rates[i].seconds / rates[i].frames;
+            assert_true(dip_dump_time_ns(&options, index) == (int64_t)exact);
+        }
+        assert_true(dip_dump_time_ns(&options, 999999) > 0);
+    }
 }
 
 static void category_excludes_another_path(void **state) {
@@ -151,6 +217,9 @@ int main(void) {
         cmocka_unit_test(bad_frames_are_refused),
         cmocka_unit_test(dump_needs_something_to_do),
         cmocka_unit_test(standard_output_takes_the_record_or_the_hashes),
+        cmocka_unit_test(standard_output_takes_one_stream),
+        cmocka_unit_test(rates_are_exact_ratios),
+        cmocka_unit_test(times_of_frames_are_exact),
         cmocka_unit_test(category_excludes_another_path),
         cmocka_unit_test(printed_and_written_records_are_equal),
     };
