@@ -131,504 +131,501 @@ static DipViewInput view_input(DipPreview *preview, int64_t now_ns) {
     };
     display->size(display->context, &input.width, &input.height);
     return input;
-    static DipPreviewMoment moment_of(DipPreview * preview, int64_t now_ns) {
-        return (DipPreviewMoment){
-            .state = &preview->state,
-            .session = preview->def.session,
-            .display = &preview->def.display,
-            .figures = preview->figures.shown,
-            .panes = preview->frame.panes,
-            .picture = dip_view_picture(preview->view),
-            .drawn = preview->picture_number != 0 && !preview->redraw && !preview->resized &&
-                     preview->state.scene_changes == preview->drawn_changes,
-            .now_ns = now_ns,
-        };
-    }
+}
 
-    static void take_control(DipPreview * preview) {
-        const DipPreviewControl *control = &preview->def.control;
-        if (control->turn && !preview->state.quit) {
-            const DipPreviewMoment moment = moment_of(preview, clock_ns(preview));
-            preview->redraw = control->turn(control->context, &moment) || preview->redraw;
-        }
-    }
+static DipPreviewMoment moment_of(DipPreview *preview, int64_t now_ns) {
+    return (DipPreviewMoment){
+        .state = &preview->state,
+        .session = preview->def.session,
+        .display = &preview->def.display,
+        .figures = preview->figures.shown,
+        .panes = preview->frame.panes,
+        .picture = dip_view_picture(preview->view),
+        .drawn = preview->picture_number != 0 && !preview->redraw && !preview->resized &&
+                 preview->state.scene_changes == preview->drawn_changes,
+        .now_ns = now_ns,
+    };
+}
 
-    // Whether two states of the tools give the panes the same size.
-    static bool same_layout(const DipToolState *a, const DipToolState *b) {
-        return a->open == b->open && a->bare == b->bare && a->ui_scale == b->ui_scale;
+static void take_control(DipPreview *preview) {
+    const DipPreviewControl *control = &preview->def.control;
+    if (control->turn && !preview->state.quit) {
+        const DipPreviewMoment moment = moment_of(preview, clock_ns(preview));
+        preview->redraw = control->turn(control->context, &moment) || preview->redraw;
     }
+}
 
-    // Hands an event to the window's controls. Returns whether one of them took it. The panes
-    // change their size if the dock was opened or folded.
-    static bool handle_in_window(DipPreview * preview, const DipEvent *event, int64_t now_ns) {
-        const DipViewInput input = view_input(preview, now_ns);
-        const DipToolState before = preview->state.tools;
-        const bool taken = dip_view_handle(preview->view, &input, event);
-        preview->resized |= !same_layout(&before, &preview->state.tools);
-        preview->redraw = true;
-        return taken;
-    }
+// Whether two states of the tools give the panes the same size.
+static bool same_layout(const DipToolState *a, const DipToolState *b) {
+    return a->open == b->open && a->bare == b->bare && a->ui_scale == b->ui_scale;
+}
 
-    static void press_key(DipPreview * preview, const DipEvent *event, int64_t now_ns) {
-        const DipToolState before = preview->state.tools;
-        preview->redraw = dip_keys_press(&preview->state, event, now_ns) || preview->redraw;
-        preview->resized |= !same_layout(&before, &preview->state.tools);
-    }
+// Hands an event to the window's controls. Returns whether one of them took it. The panes
+// change their size if the dock was opened or folded.
+static bool handle_in_window(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    const DipViewInput input = view_input(preview, now_ns);
+    const DipToolState before = preview->state.tools;
+    const bool taken = dip_view_handle(preview->view, &input, event);
+    preview->resized |= !same_layout(&before, &preview->state.tools);
+    preview->redraw = true;
+    return taken;
+}
 
-    static void handle_event(DipPreview * preview, const DipEvent *event, int64_t now_ns) {
-        switch (event->kind) {
-        case DIP_EVENT_QUIT:
-            preview->state.quit = true;
-            break;
-        case DIP_EVENT_KEY_DOWN:
-            dip_keys_hold(&preview->held, event);
-            if (handle_in_window(preview, event, now_ns)) {
-                break;
-            }
-            press_key(preview, event, now_ns);
-            break;
-        case DIP_EVENT_KEY_UP:
-            dip_keys_hold(&preview->held, event);
-            break;
-        case DIP_EVENT_MOUSE_DOWN:
-            if (preview->def.control.press) {
-                const DipPreviewMoment moment = moment_of(preview, now_ns);
-                preview->def.control.press(preview->def.control.context, &moment, event);
-            }
-            handle_in_window(preview, event, now_ns);
-            break;
-        case DIP_EVENT_MOUSE_UP:
-        case DIP_EVENT_MOUSE_MOVE:
-        case DIP_EVENT_MOUSE_WHEEL:
-            handle_in_window(preview, event, now_ns);
-            break;
-        case DIP_EVENT_RESIZE:
-            preview->resized = true;
-            break;
-        case DIP_EVENT_EXPOSE:
-            preview->exposed = true;
-            break;
-        default:
+static void press_key(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    const DipToolState before = preview->state.tools;
+    preview->redraw = dip_keys_press(&preview->state, event, now_ns) || preview->redraw;
+    preview->resized |= !same_layout(&before, &preview->state.tools);
+}
+
+static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    switch (event->kind) {
+    case DIP_EVENT_QUIT:
+        preview->state.quit = true;
+        break;
+    case DIP_EVENT_KEY_DOWN:
+        dip_keys_hold(&preview->held, event);
+        if (handle_in_window(preview, event, now_ns)) {
             break;
         }
-    }
-
-    // Returns whether there was an event.
-    static bool take_event(DipPreview * preview, int timeout_ms) {
-        DipEvent event;
-        if (!preview->def.display.next_event(preview->def.display.context, timeout_ms, &event)) {
-            return false;
+        press_key(preview, event, now_ns);
+        break;
+    case DIP_EVENT_KEY_UP:
+        dip_keys_hold(&preview->held, event);
+        break;
+    case DIP_EVENT_MOUSE_DOWN:
+        if (preview->def.control.press) {
+            const DipPreviewMoment moment = moment_of(preview, now_ns);
+            preview->def.control.press(preview->def.control.context, &moment, event);
         }
-        handle_event(preview, &event, clock_ns(preview));
-        return true;
+        handle_in_window(preview, event, now_ns);
+        break;
+    case DIP_EVENT_MOUSE_UP:
+    case DIP_EVENT_MOUSE_MOVE:
+    case DIP_EVENT_MOUSE_WHEEL:
+        handle_in_window(preview, event, now_ns);
+        break;
+    case DIP_EVENT_RESIZE:
+        preview->resized = true;
+        break;
+    case DIP_EVENT_EXPOSE:
+        preview->exposed = true;
+        break;
+    default:
+        break;
     }
+}
 
-    static void fly(DipPreview * preview, int64_t elapsed_ns) {
-        preview->flying = false;
-        if (!preview->state.manual) {
-            return;
-        }
-        const DipCameraKeys directions = dip_keys_camera(&preview->held);
-        preview->flying =
-            dip_camera_move(&preview->pose, &directions, preview->def.flying_speed_m_per_s,
-                            1e-9 * (double)elapsed_ns);
-        preview->state.scene_changes += preview->flying;
-    }
-
-    // --- pictures
-    // ----------------------------------------------------------------------------------
-
-    // Sets the renderers to the panes' settings. If a pane's settings change, forgets the pane's
-    // times.
-    static bool follow_settings(DipPreview * preview, DipError * err) {
-        for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-            const DipQuality *wanted = &preview->state.quality[p];
-            if (memcmp(wanted, &preview->drawn_quality[p], sizeof *wanted) == 0) {
-                continue;
-            }
-            if (!dip_painter_set_quality(preview->def.session->renderers[p], wanted, err)) {
-                return false;
-            }
-            preview->drawn_quality[p] = *wanted;
-            dip_figures_forget(&preview->figures, p);
-        }
-        return true;
-    }
-
-    // Tells the user about an error that does not end the preview.
-    static void report(DipPreview * preview, const DipError *err, int64_t now_ns) {
-        char line[512];
-        dip_error_format(err, line, sizeof line);
-        dip_preview_notice(&preview->state, now_ns, "%.120s", line);
-    }
-
-    static bool fail(const DipError *failure, DipError *err) {
-        if (err) {
-            *err = *failure;
-        }
+// Returns whether there was an event.
+static bool take_event(DipPreview *preview, int timeout_ms) {
+    DipEvent event;
+    if (!preview->def.display.next_event(preview->def.display.context, timeout_ms, &event)) {
         return false;
     }
+    handle_event(preview, &event, clock_ns(preview));
+    return true;
+}
 
-    static bool resize_panes(DipPreview * preview, int width, int height, DipError *err) {
-        for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-            if (!dip_painter_resize(preview->def.session->renderers[p], width, height, err)) {
-                return false;
-            }
+static void fly(DipPreview *preview, int64_t elapsed_ns) {
+    preview->flying = false;
+    if (!preview->state.manual) {
+        return;
+    }
+    const DipCameraKeys directions = dip_keys_camera(&preview->held);
+    preview->flying = dip_camera_move(&preview->pose, &directions,
+                                      preview->def.flying_speed_m_per_s, 1e-9 * (double)elapsed_ns);
+    preview->state.scene_changes += preview->flying;
+}
+
+// --- pictures
+// ----------------------------------------------------------------------------------
+
+// Sets the renderers to the panes' settings. If a pane's settings change, forgets the pane's
+// times.
+static bool follow_settings(DipPreview *preview, DipError *err) {
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipQuality *wanted = &preview->state.quality[p];
+        if (memcmp(wanted, &preview->drawn_quality[p], sizeof *wanted) == 0) {
+            continue;
         }
+        if (!dip_painter_set_quality(preview->def.session->renderers[p], wanted, err)) {
+            return false;
+        }
+        preview->drawn_quality[p] = *wanted;
+        dip_figures_forget(&preview->figures, p);
+    }
+    return true;
+}
+
+// Tells the user about an error that does not end the preview.
+static void report(DipPreview *preview, const DipError *err, int64_t now_ns) {
+    char line[512];
+    dip_error_format(err, line, sizeof line);
+    dip_preview_notice(&preview->state, now_ns, "%.120s", line);
+}
+
+static bool fail(const DipError *failure, DipError *err) {
+    if (err) {
+        *err = *failure;
+    }
+    return false;
+}
+
+static bool resize_panes(DipPreview *preview, int width, int height, DipError *err) {
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        if (!dip_painter_resize(preview->def.session->renderers[p], width, height, err)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Goes back to the size of the last frame, after memory ran out for a new size. The view scales
+// the frames to the panes. Returns false if there was no frame.
+static bool keep_size(DipPreview *preview, DipError *err) {
+    if (err->code != DIP_ERROR_MEMORY || preview->picture_number == 0) {
+        return false;
+    }
+    report(preview, err, clock_ns(preview));
+    return resize_panes(preview, preview->drawn.width, preview->drawn.height, err);
+}
+
+// Sets the renderers to the panes' size. A frame's size is limited; if the display is larger,
+// the view scales the frame up.
+static bool follow_size(DipPreview *preview, DipError *err) {
+    const DipViewInput input = view_input(preview, clock_ns(preview));
+    const DipRect pane = dip_view_layout(&input).panes[0];
+    const int width = pane.width < DIP_MAX_FRAME_SIZE ? pane.width : DIP_MAX_FRAME_SIZE;
+    const int height = pane.height < DIP_MAX_FRAME_SIZE ? pane.height : DIP_MAX_FRAME_SIZE;
+    if (width == preview->tried_width && height == preview->tried_height) {
         return true;
     }
+    DipError failure;
+    if (!resize_panes(preview, width, height, &failure) && !keep_size(preview, &failure)) {
+        return fail(&failure, err);
+    }
+    preview->tried_width = width;
+    preview->tried_height = height;
+    return true;
+}
 
-    // Goes back to the size of the last frame, after memory ran out for a new size. The view scales
-    // the frames to the panes. Returns false if there was no frame.
-    static bool keep_size(DipPreview * preview, DipError * err) {
-        if (err->code != DIP_ERROR_MEMORY || preview->picture_number == 0) {
+static void number_picture(DipPreview *preview) {
+    Drawn drawn;
+    memset(&drawn, 0, sizeof drawn); // memcmp compares the padding, too.
+    drawn.pose = preview->pose;
+    drawn.play_ns = preview->state.play_ns;
+    drawn.width = preview->frame.panes[0].width;
+    drawn.height = preview->frame.panes[0].height;
+    drawn.look = preview->drawn_look;
+    drawn.gallery = preview->def.session->gallery;
+    memcpy(drawn.quality, preview->drawn_quality, sizeof drawn.quality);
+    if (memcmp(&drawn, &preview->drawn, sizeof drawn) != 0) {
+        preview->drawn = drawn;
+        ++preview->picture_number;
+    }
+}
+
+static bool draw_with_settings(DipPreview *preview, DipError *err) {
+    return follow_settings(preview, err) &&
+           dip_session_draw_pose(preview->def.session, &preview->pose, preview->state.play_ns,
+                                 preview->frame_index, &preview->frame, err);
+}
+
+// Draws with the settings of the last frame, after memory ran out for new settings. Returns
+// false if the settings were not new.
+static bool take_back_settings(DipPreview *preview, DipError *err) {
+    const size_t size_bytes = sizeof preview->drawn.quality;
+    if (err->code != DIP_ERROR_MEMORY || preview->picture_number == 0 ||
+        memcmp(preview->state.quality, preview->drawn.quality, size_bytes) == 0) {
+        return false;
+    }
+    report(preview, err, clock_ns(preview));
+    memcpy(preview->state.quality, preview->drawn.quality, size_bytes);
+    return draw_with_settings(preview, err);
+}
+
+// Shows the scene that the user has asked for. If it cannot be opened, a notice says why and
+// the old scene stays.
+static void follow_scene(DipPreview *preview, int64_t now_ns) {
+    DipSession *session = preview->def.session;
+    DipPreviewState *state = &preview->state;
+    const int step = state->scene_step;
+    DipError failure;
+    state->scene_step = 0;
+    if (step == 0) {
+        if (session->gallery && state->look != preview->drawn_look) {
+            dip_gallery_set_look(session->gallery, state->look);
+            preview->drawn_look = state->look;
+        }
+        return;
+    }
+    if (!dip_session_step_scene(session, step, &failure)) {
+        report(preview, &failure, now_ns);
+        return;
+    }
+    state->shows_gallery = session->shows_gallery;
+    preview->tried_width = 0; // the new renderers do not have the panes' size yet
+    state->look = preview->drawn_look = 0;
+    state->play_ns = 0;
+    state->manual = false;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        dip_figures_forget(&preview->figures, p);
+    }
+    dip_preview_notice(state, now_ns, "Scene: %s", dip_session_scene_title(session, 0));
+    ++state->scene_changes;
+}
+
+static bool draw_panes(DipPreview *preview, DipError *err) {
+    DipSession *session = preview->def.session;
+    const int64_t play_ns = preview->state.play_ns;
+    if (!follow_size(preview, err)) {
+        return false;
+    }
+    preview->state.scene_title =
+        session->shows_gallery ? dip_session_scene_title(session, play_ns) : NULL;
+    preview->state.scene_look = session->shows_gallery
+                                    ? dip_session_scene_look(session, preview->state.look, play_ns)
+                                    : NULL;
+    if (!preview->state.manual && !dip_camtrack_pose(&session->track, play_ns, &preview->pose)) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path", "there is no camera path");
+    }
+    DipError failure;
+    if (!draw_with_settings(preview, &failure) && !take_back_settings(preview, &failure)) {
+        return fail(&failure, err);
+    }
+    number_picture(preview);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        dip_view_set_frame(preview->view, p, &preview->frame.panes[p]);
+    }
+    dip_figures_add(&preview->figures, &preview->frame, clock_ns(preview));
+    preview->drawn_changes = preview->state.scene_changes;
+    preview->resized = false;
+    ++preview->frame_index;
+    return true;
+}
+
+// Returns whether temporal antialiasing changes a pane's picture from frame to frame even if
+// nothing moves.
+static bool alternates(const DipPreview *preview) {
+    bool found = false;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipQuality *quality = &preview->state.quality[p];
+        found |= quality->step[DIP_SETTING_TAA] != 0 && dip_quality_sample_count(quality) > 1;
+    }
+    return found;
+}
+
+// --- errors of the pictures
+// --------------------------------------------------------------------
+
+static bool create_errors(DipPreview *preview, int64_t now_ns) {
+    const DipSession *session = preview->def.session;
+    DipError err;
+    if (!preview->errors && preview->def.load_scene_def(preview->def.context, &err)) {
+        preview->errors = dip_error_thread_create(&session->scene_def, &session->reflection, &err);
+    }
+    if (!preview->errors) {
+        report(preview, &err, now_ns);
+        preview->state.tools.open = preview->state.wants_errors = false;
+        preview->resized = true;
+        dip_preview_follow_dock(&preview->state);
+    }
+    return preview->errors != NULL;
+}
+
+static DipStill still_of(const DipPreview *preview) {
+    const DipFrame *current = &preview->frame.panes[DIP_PANE_CURRENT];
+    const DipFrame *requested = &preview->frame.panes[DIP_PANE_REQUESTED];
+    return (DipStill){
+        .pose = preview->drawn.pose,
+        .time_ns = preview->drawn.play_ns,
+        .width = current->width,
+        .height = current->height,
+        .stride_bytes = current->stride_bytes,
+        .rgba8 = {current->rgba8, preview->frame.copied ? NULL : requested->rgba8},
+    };
+}
+
+// Measures errors while the panel shows and the camera rests. Returns whether there are new
+// errors to show.
+static bool measure_errors(DipPreview *preview, int64_t now_ns) {
+    const bool gallery = preview->def.session->shows_gallery;
+    const bool measures = !gallery && (preview->state.panel || preview->state.wants_errors) &&
+                          dip_preview_rests(&preview->state, preview->flying);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        preview->figures.shown[p].no_errors = gallery;
+    }
+    if (!preview->errors && !(measures && create_errors(preview, now_ns))) {
+        return false;
+    }
+    if (measures) {
+        const DipStill still = still_of(preview);
+        dip_error_thread_measure(preview->errors, &still, preview->picture_number);
+    } else {
+        dip_error_thread_pause(preview->errors);
+    }
+    DipErrorReading reading;
+    const bool news = dip_error_thread_read(preview->errors, &reading);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        preview->figures.shown[p].errors = reading;
+    }
+    return news;
+}
+
+// --- showing
+// -----------------------------------------------------------------------------------
+
+static bool draw_view(DipPreview *preview, DipError *err) {
+    const DipViewInput input = view_input(preview, clock_ns(preview));
+    return dip_view_draw(preview->view, &input, err);
+}
+
+static void save_picture(DipPreview *preview, int64_t now_ns) {
+    char file[64];
+    DipError err;
+    preview->state.screenshot = false;
+    if (dip_view_save(preview->view, file, sizeof file, &err)) {
+        dip_preview_notice(&preview->state, now_ns, "Saved %s", file);
+    } else {
+        report(preview, &err, now_ns);
+    }
+}
+
+static bool present(DipPreview *preview, DipError *err) {
+    const DipDisplay *display = &preview->def.display;
+    if (preview->exposed) {
+        dip_view_damage_all(preview->view);
+        preview->exposed = false;
+    }
+    const DipPixels picture = dip_view_picture(preview->view);
+    const DipDamage damage = dip_view_take_damage(preview->view);
+    return display->present(display->context, &picture, damage.rects, damage.count, err);
+}
+
+// Copies the requested settings as text, if the user asked for it.
+static void copy_settings(DipPreview *preview, int64_t now_ns) {
+    const DipDisplay *display = &preview->def.display;
+    char text[256];
+    if (!preview->state.copy_settings) {
+        return;
+    }
+    preview->state.copy_settings = false;
+    dip_quality_format(&preview->state.quality[DIP_PANE_REQUESTED], text, sizeof text);
+    if (display->set_clipboard && display->set_clipboard(display->context, text)) {
+        dip_preview_notice(&preview->state, now_ns, "Copied: %s", text);
+    } else {
+        dip_preview_notice(&preview->state, now_ns, "This display has no clipboard: %s", text);
+    }
+}
+
+static bool show(DipPreview *preview, int64_t now_ns, DipError *err) {
+    const bool moving = !dip_preview_rests(&preview->state, preview->flying);
+    dip_figures_update(&preview->figures, moving, now_ns);
+    if (!draw_view(preview, err)) {
+        return false;
+    }
+    if (preview->state.screenshot) {
+        save_picture(preview, now_ns);
+        if (!draw_view(preview, err)) { // Adds the notice that names the file.
             return false;
         }
-        report(preview, err, clock_ns(preview));
-        return resize_panes(preview, preview->drawn.width, preview->drawn.height, err);
     }
-
-    // Sets the renderers to the panes' size. A frame's size is limited; if the display is larger,
-    // the view scales the frame up.
-    static bool follow_size(DipPreview * preview, DipError * err) {
-        const DipViewInput input = view_input(preview, clock_ns(preview));
-        const DipRect pane = dip_view_layout(&input).panes[0];
-        const int width = pane.width < DIP_MAX_FRAME_SIZE ? pane.width : DIP_MAX_FRAME_SIZE;
-        const int height = pane.height < DIP_MAX_FRAME_SIZE ? pane.height : DIP_MAX_FRAME_SIZE;
-        if (width == preview->tried_width && height == preview->tried_height) {
-            return true;
-        }
-        DipError failure;
-        if (!resize_panes(preview, width, height, &failure) && !keep_size(preview, &failure)) {
-            return fail(&failure, err);
-        }
-        preview->tried_width = width;
-        preview->tried_height = height;
-        return true;
+    preview->redraw = false;
+    if (!present(preview, err)) {
+        return false;
     }
-
-    static void number_picture(DipPreview * preview) {
-        Drawn drawn;
-        memset(&drawn, 0, sizeof drawn); // memcmp compares the padding, too.
-        drawn.pose = preview->pose;
-        drawn.play_ns = preview->state.play_ns;
-        drawn.width = preview->frame.panes[0].width;
-        drawn.height = preview->frame.panes[0].height;
-        drawn.look = preview->drawn_look;
-        drawn.gallery = preview->def.session->gallery;
-        memcpy(drawn.quality, preview->drawn_quality, sizeof drawn.quality);
-        if (memcmp(&drawn, &preview->drawn, sizeof drawn) != 0) {
-            preview->drawn = drawn;
-            ++preview->picture_number;
-        }
+    dip_start_times_frame(&preview->def.session->times);
+    if (preview->def.session->scene) {
+        dip_prefetch_begin(&preview->prefetch, preview->def.session->scene);
     }
+    dip_figures_count_presented(&preview->figures, clock_ns(preview));
+    return true;
+}
 
-    static bool draw_with_settings(DipPreview * preview, DipError * err) {
-        return follow_settings(preview, err) &&
-               dip_session_draw_pose(preview->def.session, &preview->pose, preview->state.play_ns,
-                                     preview->frame_index, &preview->frame, err);
+static void follow_full_screen(DipPreview *preview) {
+    const DipDisplay *display = &preview->def.display;
+    if (preview->state.full_screen == preview->full_screen) {
+        return;
     }
-
-    // Draws with the settings of the last frame, after memory ran out for new settings. Returns
-    // false if the settings were not new.
-    static bool take_back_settings(DipPreview * preview, DipError * err) {
-        const size_t size_bytes = sizeof preview->drawn.quality;
-        if (err->code != DIP_ERROR_MEMORY || preview->picture_number == 0 ||
-            memcmp(preview->state.quality, preview->drawn.quality, size_bytes) == 0) {
-            return false;
-        }
-        report(preview, err, clock_ns(preview));
-        memcpy(preview->state.quality, preview->drawn.quality, size_bytes);
-        return draw_with_settings(preview, err);
+    preview->full_screen = preview->state.full_screen;
+    if (display->set_full_screen) {
+        display->set_full_screen(display->context, preview->full_screen);
     }
+}
 
-    // Shows the scene that the user has asked for. If it cannot be opened, a notice says why and
-    // the old scene stays.
-    static void follow_scene(DipPreview * preview, int64_t now_ns) {
-        DipSession *session = preview->def.session;
-        DipPreviewState *state = &preview->state;
-        const int step = state->scene_step;
-        DipError failure;
-        state->scene_step = 0;
-        if (step == 0) {
-            if (session->gallery && state->look != preview->drawn_look) {
-                dip_gallery_set_look(session->gallery, state->look);
-                preview->drawn_look = state->look;
-            }
-            return;
-        }
-        if (!dip_session_step_scene(session, step, &failure)) {
-            report(preview, &failure, now_ns);
-            return;
-        }
-        state->shows_gallery = session->shows_gallery;
-        preview->tried_width = 0; // the new renderers do not have the panes' size yet
-        state->look = preview->drawn_look = 0;
-        state->play_ns = 0;
-        state->manual = false;
-        for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-            dip_figures_forget(&preview->figures, p);
-        }
-        dip_preview_notice(state, now_ns, "Scene: %s", dip_session_scene_title(session, 0));
-        ++state->scene_changes;
+// Draws and presents the picture if something has changed. Sets *shown to whether something has
+// changed.
+static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
+    DipPreviewState *state = &preview->state;
+    const bool had_notice = state->notice[0] != '\0';
+    const int64_t since_ns = now_ns - preview->turn_ns;
+    const int64_t elapsed_ns = since_ns < longest_step_ns ? since_ns : longest_step_ns;
+    preview->turn_ns = now_ns;
+    fly(preview, elapsed_ns);
+    dip_preview_advance(state, elapsed_ns, now_ns);
+    follow_full_screen(preview);
+    copy_settings(preview, now_ns);
+    follow_scene(preview, now_ns);
+    if (preview->resized) {
+        follow_refresh(preview);
     }
-
-    static bool draw_panes(DipPreview * preview, DipError * err) {
-        DipSession *session = preview->def.session;
-        const int64_t play_ns = preview->state.play_ns;
-        if (!follow_size(preview, err)) {
-            return false;
-        }
-        preview->state.scene_title =
-            session->shows_gallery ? dip_session_scene_title(session, play_ns) : NULL;
-        preview->state.scene_look =
-            session->shows_gallery ? dip_session_scene_look(session, preview->state.look, play_ns)
-                                   : NULL;
-        if (!preview->state.manual &&
-            !dip_camtrack_pose(&session->track, play_ns, &preview->pose)) {
-            return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path",
-                                 "there is no camera path");
-        }
-        DipError failure;
-        if (!draw_with_settings(preview, &failure) && !take_back_settings(preview, &failure)) {
-            return fail(&failure, err);
-        }
-        number_picture(preview);
-        for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-            dip_view_set_frame(preview->view, p, &preview->frame.panes[p]);
-        }
-        dip_figures_add(&preview->figures, &preview->frame, clock_ns(preview));
-        preview->drawn_changes = preview->state.scene_changes;
-        preview->resized = false;
-        ++preview->frame_index;
-        return true;
+    const bool new_frame =
+        state->scene_changes != preview->drawn_changes || preview->resized || alternates(preview);
+    if (new_frame && !draw_panes(preview, err)) {
+        return false;
     }
-
-    // Returns whether temporal antialiasing changes a pane's picture from frame to frame even if
-    // nothing moves.
-    static bool alternates(const DipPreview *preview) {
-        bool found = false;
-        for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-            const DipQuality *quality = &preview->state.quality[p];
-            found |= quality->step[DIP_SETTING_TAA] != 0 && dip_quality_sample_count(quality) > 1;
-        }
-        return found;
+    const bool news = measure_errors(preview, now_ns);
+    *shown = new_frame || news || preview->redraw || preview->exposed || state->screenshot ||
+             (had_notice && !state->notice[0]) ||
+             now_ns >= dip_ui_wakes_ns(dip_view_ui(preview->view));
+    if (*shown && !show(preview, now_ns, err)) {
+        preview->redraw = preview->exposed = true; // The next turn shows what this one could not.
+        return false;
     }
+    return true;
+}
 
-    // --- errors of the pictures
-    // --------------------------------------------------------------------
-
-    static bool create_errors(DipPreview * preview, int64_t now_ns) {
-        const DipSession *session = preview->def.session;
-        DipError err;
-        if (!preview->errors && preview->def.load_scene_def(preview->def.context, &err)) {
-            preview->errors =
-                dip_error_thread_create(&session->scene_def, &session->reflection, &err);
-        }
-        if (!preview->errors) {
-            report(preview, &err, now_ns);
-            preview->state.tools.open = preview->state.wants_errors = false;
-            preview->resized = true;
-            dip_preview_follow_dock(&preview->state);
-        }
-        return preview->errors != NULL;
+// After a picture was shown, waits for the display's next refresh. Otherwise waits up to
+// IDLE_WAIT_MS for an event.
+static void wait_for_turn(DipPreview *preview, bool shown) {
+    if (!shown) {
+        take_event(preview, IDLE_WAIT_MS);
+        return;
     }
-
-    static DipStill still_of(const DipPreview *preview) {
-        const DipFrame *current = &preview->frame.panes[DIP_PANE_CURRENT];
-        const DipFrame *requested = &preview->frame.panes[DIP_PANE_REQUESTED];
-        return (DipStill){
-            .pose = preview->drawn.pose,
-            .time_ns = preview->drawn.play_ns,
-            .width = current->width,
-            .height = current->height,
-            .stride_bytes = current->stride_bytes,
-            .rgba8 = {current->rgba8, preview->frame.copied ? NULL : requested->rgba8},
-        };
+    int64_t left_ns = preview->refresh_ns - (clock_ns(preview) - preview->turn_ns);
+    while (left_ns >= ns_per_ms && !preview->state.quit) {
+        take_event(preview, (int)(left_ns / ns_per_ms));
+        left_ns = preview->refresh_ns - (clock_ns(preview) - preview->turn_ns);
     }
+}
 
-    // Measures errors while the panel shows and the camera rests. Returns whether there are new
-    // errors to show.
-    static bool measure_errors(DipPreview * preview, int64_t now_ns) {
-        const bool gallery = preview->def.session->shows_gallery;
-        const bool measures = !gallery && (preview->state.panel || preview->state.wants_errors) &&
-                              dip_preview_rests(&preview->state, preview->flying);
-        for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-            preview->figures.shown[p].no_errors = gallery;
-        }
-        if (!preview->errors && !(measures && create_errors(preview, now_ns))) {
-            return false;
-        }
-        if (measures) {
-            const DipStill still = still_of(preview);
-            dip_error_thread_measure(preview->errors, &still, preview->picture_number);
-        } else {
-            dip_error_thread_pause(preview->errors);
-        }
-        DipErrorReading reading;
-        const bool news = dip_error_thread_read(preview->errors, &reading);
-        for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-            preview->figures.shown[p].errors = reading;
-        }
-        return news;
+bool dip_preview_turn(DipPreview *preview, DipError *err) {
+    bool shown = false;
+    while (!preview->state.quit && take_event(preview, 0)) {
     }
-
-    // --- showing
-    // -----------------------------------------------------------------------------------
-
-    static bool draw_view(DipPreview * preview, DipError * err) {
-        const DipViewInput input = view_input(preview, clock_ns(preview));
-        return dip_view_draw(preview->view, &input, err);
+    take_control(preview);
+    if (preview->state.quit) {
+        return true; // The user has quit, so no further frame is drawn.
     }
-
-    static void save_picture(DipPreview * preview, int64_t now_ns) {
-        char file[64];
-        DipError err;
-        preview->state.screenshot = false;
-        if (dip_view_save(preview->view, file, sizeof file, &err)) {
-            dip_preview_notice(&preview->state, now_ns, "Saved %s", file);
-        } else {
-            report(preview, &err, now_ns);
-        }
+    if (!draw_turn(preview, clock_ns(preview), &shown, err)) {
+        return false;
     }
+    wait_for_turn(preview, shown);
+    return true;
+}
 
-    static bool present(DipPreview * preview, DipError * err) {
-        const DipDisplay *display = &preview->def.display;
-        if (preview->exposed) {
-            dip_view_damage_all(preview->view);
-            preview->exposed = false;
-        }
-        const DipPixels picture = dip_view_picture(preview->view);
-        const DipDamage damage = dip_view_take_damage(preview->view);
-        return display->present(display->context, &picture, damage.rects, damage.count, err);
-    }
+bool dip_preview_has_quit(const DipPreview *preview) {
+    return preview->state.quit;
+}
 
-    // Copies the requested settings as text, if the user asked for it.
-    static void copy_settings(DipPreview * preview, int64_t now_ns) {
-        const DipDisplay *display = &preview->def.display;
-        char text[256];
-        if (!preview->state.copy_settings) {
-            return;
-        }
-        preview->state.copy_settings = false;
-        dip_quality_format(&preview->state.quality[DIP_PANE_REQUESTED], text, sizeof text);
-        if (display->set_clipboard && display->set_clipboard(display->context, text)) {
-            dip_preview_notice(&preview->state, now_ns, "Copied: %s", text);
-        } else {
-            dip_preview_notice(&preview->state, now_ns, "This display has no clipboard: %s", text);
-        }
-    }
+const DipPreviewState *dip_preview_state(const DipPreview *preview) {
+    return &preview->state;
+}
 
-    static bool show(DipPreview * preview, int64_t now_ns, DipError * err) {
-        const bool moving = !dip_preview_rests(&preview->state, preview->flying);
-        dip_figures_update(&preview->figures, moving, now_ns);
-        if (!draw_view(preview, err)) {
-            return false;
-        }
-        if (preview->state.screenshot) {
-            save_picture(preview, now_ns);
-            if (!draw_view(preview, err)) { // Adds the notice that names the file.
-                return false;
-            }
-        }
-        preview->redraw = false;
-        if (!present(preview, err)) {
-            return false;
-        }
-        dip_start_times_frame(&preview->def.session->times);
-        if (preview->def.session->scene) {
-            dip_prefetch_begin(&preview->prefetch, preview->def.session->scene);
-        }
-        dip_figures_count_presented(&preview->figures, clock_ns(preview));
-        return true;
-    }
+DipPixels dip_preview_picture(const DipPreview *preview) {
+    return dip_view_picture(preview->view);
+}
 
-    static void follow_full_screen(DipPreview * preview) {
-        const DipDisplay *display = &preview->def.display;
-        if (preview->state.full_screen == preview->full_screen) {
-            return;
-        }
-        preview->full_screen = preview->state.full_screen;
-        if (display->set_full_screen) {
-            display->set_full_screen(display->context, preview->full_screen);
-        }
-    }
-
-    // Draws and presents the picture if something has changed. Sets *shown to whether something has
-    // changed.
-    static bool draw_turn(DipPreview * preview, int64_t now_ns, bool *shown, DipError *err) {
-        DipPreviewState *state = &preview->state;
-        const bool had_notice = state->notice[0] != '\0';
-        const int64_t since_ns = now_ns - preview->turn_ns;
-        const int64_t elapsed_ns = since_ns < longest_step_ns ? since_ns : longest_step_ns;
-        preview->turn_ns = now_ns;
-        fly(preview, elapsed_ns);
-        dip_preview_advance(state, elapsed_ns, now_ns);
-        follow_full_screen(preview);
-        copy_settings(preview, now_ns);
-        follow_scene(preview, now_ns);
-        if (preview->resized) {
-            follow_refresh(preview);
-        }
-        const bool new_frame = state->scene_changes != preview->drawn_changes || preview->resized ||
-                               alternates(preview);
-        if (new_frame && !draw_panes(preview, err)) {
-            return false;
-        }
-        const bool news = measure_errors(preview, now_ns);
-        *shown = new_frame || news || preview->redraw || preview->exposed || state->screenshot ||
-                 (had_notice && !state->notice[0]) ||
-                 now_ns >= dip_ui_wakes_ns(dip_view_ui(preview->view));
-        if (*shown && !show(preview, now_ns, err)) {
-            preview->redraw = preview->exposed =
-                true; // The next turn shows what this one could not.
-            return false;
-        }
-        return true;
-    }
-
-    // After a picture was shown, waits for the display's next refresh. Otherwise waits up to
-    // IDLE_WAIT_MS for an event.
-    static void wait_for_turn(DipPreview * preview, bool shown) {
-        if (!shown) {
-            take_event(preview, IDLE_WAIT_MS);
-            return;
-        }
-        int64_t left_ns = preview->refresh_ns - (clock_ns(preview) - preview->turn_ns);
-        while (left_ns >= ns_per_ms && !preview->state.quit) {
-            take_event(preview, (int)(left_ns / ns_per_ms));
-            left_ns = preview->refresh_ns - (clock_ns(preview) - preview->turn_ns);
-        }
-    }
-
-    bool dip_preview_turn(DipPreview * preview, DipError * err) {
-        bool shown = false;
-        while (!preview->state.quit && take_event(preview, 0)) {
-        }
-        take_control(preview);
-        if (preview->state.quit) {
-            return true; // The user has quit, so no further frame is drawn.
-        }
-        if (!draw_turn(preview, clock_ns(preview), &shown, err)) {
-            return false;
-        }
-        wait_for_turn(preview, shown);
-        return true;
-    }
-
-    bool dip_preview_has_quit(const DipPreview *preview) {
-        return preview->state.quit;
-    }
-
-    const DipPreviewState *dip_preview_state(const DipPreview *preview) {
-        return &preview->state;
-    }
-
-    DipPixels dip_preview_picture(const DipPreview *preview) {
-        return dip_view_picture(preview->view);
-    }
-
-    DipLayout dip_preview_layout(DipPreview * preview) {
-        const DipViewInput input = view_input(preview, clock_ns(preview));
-        return dip_view_layout(&input);
-    }
+DipLayout dip_preview_layout(DipPreview *preview) {
+    const DipViewInput input = view_input(preview, clock_ns(preview));
+    return dip_view_layout(&input);
+}
