@@ -22,6 +22,7 @@ static const DipExample examples[] = {
     {"diptych model.glb", "orbits a model of yours"},
     {"diptych --scene tour", "shows the scenes of the gallery, 15 seconds each"},
     {"diptych --window-id 0x2800003 --control -", "shows inside a window of another program"},
+    {"diptych --config my.ini --watch", "shows each change of the ini or a texture at once"},
     {"diptych --cost report/cost.json", "also shows what `diptych cost` measured"},
 };
 
@@ -31,7 +32,10 @@ const DipCommand dip_preview_command = {
     .usage = "[OPTION]... [MODEL]...",
     .text = "Preview opens a window with two panes. Both show the same camera path, the left one "
             "with the current settings and the right one with the requested settings. Keys change "
-            "the requested settings while the camera moves; F1 lists the keys.",
+            "the requested settings while the camera moves; F1 lists the keys.\n\n"
+            "A model, a camera path, an ini or a cost report that is dropped onto the window takes "
+            "the place of what it shows. If the file is bad, the window says so and stays as it "
+            "is.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),
     .lists_settings = true,

@@ -63,7 +63,9 @@ const DipKeyRow dip_key_rows[] = {
     {DIP_KEYCODE_F1, 'h', DIP_ACTION_HELP, 0, false, "F1  H", "This help"},
     {DIP_KEYCODE_F11, DIP_KEYCODE_NONE, DIP_ACTION_FULL_SCREEN, 0, false, "F11", "Full screen"},
     {DIP_KEYCODE_F12, DIP_KEYCODE_NONE, DIP_ACTION_SCREENSHOT, 0, false, "F12",
-     "Save a screenshot"},
+     "Screenshot (with Shift: panes only)"},
+    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_SAVE_POSE, 0, false, "Ctrl+S",
+     "Save the camera's pose to poses.pth"},
     {DIP_KEYCODE_ESCAPE, DIP_KEYCODE_NONE, DIP_ACTION_QUIT, 0, false, "Esc  Ctrl+Q", "Quit"},
 };
 
@@ -88,6 +90,7 @@ static const OtherKey ctrl_keys[] = {
     {'z', DIP_ACTION_UNDO, 0, false},
     {'y', DIP_ACTION_UNDO, 0, true},
     {DIP_KEYCODE_ENTER, DIP_ACTION_APPLY, 0, false},
+    {'s', DIP_ACTION_SAVE_POSE, 0, false},
     {DIP_KEYCODE_PAGE_DOWN, DIP_ACTION_NEXT_SCENE, 0, false},
     {DIP_KEYCODE_PAGE_UP, DIP_ACTION_NEXT_SCENE, 0, true},
 };

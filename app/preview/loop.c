@@ -4,11 +4,17 @@
 #include "app/preview/camera.h"
 #include "app/preview/error_thread.h"
 #include "app/preview/figures.h"
+#include "app/preview/handover.h"
 #include "app/preview/keys.h"
+#include "app/preview/poses.h"
 #include "app/preview/prefetch.h"
+#include "app/preview/reload.h"
+#include "app/preview/screenshot.h"
+#include "app/preview/speed.h"
 #include "app/preview/view.h"
 #include "app/session.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,6 +59,7 @@ struct DipPreview {
     uint64_t frame_index;
     unsigned drawn_changes;                   // Value of state.scene_changes at the last frame.
     DipQuality drawn_quality[DIP_PANE_COUNT]; // Settings of the renderers.
+    DipQuality first_quality[DIP_PANE_COUNT]; // Settings with which the session began.
     int drawn_look;
     Drawn drawn;
     unsigned picture_number; // Number of the current pictures; grows when `drawn` changes.
@@ -79,6 +86,7 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->drawn_quality[p] = dip_painter_quality(def->session->renderers[p]);
     }
+    memcpy(preview->first_quality, preview->drawn_quality, sizeof preview->first_quality);
     preview->state = dip_preview_state_make(preview->drawn_quality, &def->session->track);
     preview->state.costs = def->costs;
     preview->state.shows_gallery = def->session->shows_gallery;
@@ -177,6 +185,13 @@ static void press_key(DipPreview *preview, const DipEvent *event, int64_t now_ns
     preview->resized |= !same_layout(&before, &preview->state.tools);
 }
 
+static void drop_file(DipPreview *preview, const char *file, int64_t now_ns) {
+    if (preview->def.reload && file && !dip_reload_drop(preview->def.reload, file)) {
+        dip_preview_notice(&preview->state, now_ns, "Too many files wait to be opened");
+        preview->redraw = true;
+    }
+}
+
 static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
     switch (event->kind) {
     case DIP_EVENT_QUIT:
@@ -209,6 +224,9 @@ static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now
         break;
     case DIP_EVENT_EXPOSE:
         preview->exposed = true;
+        break;
+    case DIP_EVENT_DROP:
+        drop_file(preview, event->file, now_ns);
         break;
     default:
         break;
@@ -374,6 +392,40 @@ static void follow_scene(DipPreview *preview, int64_t now_ns) {
     ++state->scene_changes;
 }
 
+// --- new sessions ------------------------------------------------------------------------------
+
+// Replaces the session by the new one. The threads that read the old scene end first.
+static void use_new_session(DipPreview *preview, bool dropped) {
+    DipSession *session = preview->def.session;
+    dip_error_thread_destroy(&preview->errors);
+    dip_prefetch_end(&preview->prefetch);
+    preview->prefetch = (DipPrefetch){.running = false};
+    dip_handover(preview->def.reload, session, &preview->state, preview->first_quality, dropped);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        preview->drawn_quality[p] = dip_painter_quality(session->renderers[p]);
+        dip_figures_forget(&preview->figures, p);
+    }
+    preview->drawn_look = preview->state.look;
+    preview->def.flying_speed_m_per_s = dip_flying_speed(session);
+    preview->tried_width = 0; // The new renderers do not have the panes' size yet.
+    ++preview->picture_number;
+}
+
+static void follow_reload(DipPreview *preview, int64_t now_ns) {
+    DipReloadNews news;
+    if (!preview->def.reload || !dip_reload_poll(preview->def.reload, now_ns, &news)) {
+        return;
+    }
+    if (news.kind == DIP_RELOAD_SESSION) {
+        use_new_session(preview, news.dropped);
+    } else if (news.kind == DIP_RELOAD_COSTS) {
+        preview->state.costs = dip_reload_costs(preview->def.reload);
+        preview->state.next_advice = 0;
+    }
+    dip_preview_notice(&preview->state, now_ns, "%s", news.notice);
+    preview->redraw = true;
+}
+
 static bool draw_panes(DipPreview *preview, DipError *err) {
     DipSession *session = preview->def.session;
     const int64_t play_ns = preview->state.play_ns;
@@ -480,14 +532,45 @@ static bool draw_view(DipPreview *preview, DipError *err) {
 }
 
 static void save_picture(DipPreview *preview, int64_t now_ns) {
+    DipPreviewState *state = &preview->state;
+    const DipPixels picture = dip_view_picture(preview->view);
+    const DipScreenshot shot = {
+        .picture = state->plain_screenshot ? NULL : &picture,
+        .session = preview->def.session,
+        .frame = &preview->frame,
+        .quality = preview->drawn_quality,
+        .pose = &preview->drawn.pose,
+        .time_ns = preview->drawn.play_ns,
+        .free_camera = state->manual,
+    };
     char file[64];
+    char text[DIP_NOTICE_SIZE];
     DipError err;
-    preview->state.screenshot = false;
-    if (dip_view_save(preview->view, file, sizeof file, &err)) {
-        dip_preview_notice(&preview->state, now_ns, "Saved %s", file);
+    state->screenshot = false;
+    if (dip_screenshot_save(&shot, file, sizeof file, &err)) {
+        dip_saved_describe("Saved", file, text, sizeof text);
+        dip_preview_notice(state, now_ns, "%s", text);
     } else {
         report(preview, &err, now_ns);
     }
+}
+
+// Adds the pose of the last frame to the file of saved poses.
+static void save_pose(DipPreview *preview, int64_t now_ns) {
+    DipPreviewState *state = &preview->state;
+    size_t count = 0;
+    DipError err;
+    state->save_pose = false;
+    if (dip_poses_append(DIP_POSES_FILE, &preview->drawn.pose, &count, &err)) {
+        char what[64];
+        char text[DIP_NOTICE_SIZE];
+        snprintf(what, sizeof what, "Saved pose %zu to", count);
+        dip_saved_describe(what, DIP_POSES_FILE, text, sizeof text);
+        dip_preview_notice(state, now_ns, "%s", text);
+    } else {
+        report(preview, &err, now_ns);
+    }
+    preview->redraw = true;
 }
 
 static bool present(DipPreview *preview, DipError *err) {
@@ -565,6 +648,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     follow_full_screen(preview);
     copy_settings(preview, now_ns);
     follow_scene(preview, now_ns);
+    follow_reload(preview, now_ns);
     if (preview->resized) {
         follow_refresh(preview);
     }
@@ -572,6 +656,9 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
         state->scene_changes != preview->drawn_changes || preview->resized || alternates(preview);
     if (new_frame && !draw_panes(preview, err)) {
         return false;
+    }
+    if (state->save_pose) {
+        save_pose(preview, now_ns);
     }
     const bool news = measure_errors(preview, now_ns);
     *shown = new_frame || news || preview->redraw || preview->exposed || state->screenshot ||

@@ -40,6 +40,7 @@ typedef struct DipPreviewDef {
     DipSession *session;         // Borrowed.
     DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
     const DipCosts *costs;       // Borrowed; NULL if there is no cost report.
+    struct DipReload *reload;    // Borrowed; NULL: the preview ignores dropped files.
     double flying_speed_m_per_s; // Speed of the free camera.
     DipPreviewControl control;   // Its context is borrowed.
 

@@ -45,6 +45,13 @@ static const DipOptionRow rows[] = {
      .kind = DIP_OPTION_CUSTOM,
      .field = FIELD(window_id),
      .read = read_window},
+    {.name = "--watch",
+     .text =
+         "Reload the scene when the ini, a model, one of its pictures or a camera path changes. "
+         "The camera, the time and the settings stay. If a file is bad, the window says so and "
+         "keeps what it shows.",
+     .kind = DIP_OPTION_FLAG,
+     .field = FIELD(watch)},
 };
 
 static const DipOptionTable table = {"Drawing", rows, DIP_ARRAY_COUNT(rows)};

@@ -14,6 +14,7 @@ typedef struct DipPreviewOptions {
     const char *cost_report; // A cost.json of this scene, borrowed from argv, or NULL.
     const char *control;     // "-" or the path of a socket, borrowed from argv, or NULL.
     unsigned long window_id; // X11 window to open the preview in; 0: open a window of its own.
+    bool watch;              // Reload what the preview shows when a file changes.
 } DipPreviewOptions;
 
 extern const DipOptionParts dip_preview_option_parts;

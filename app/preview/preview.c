@@ -6,29 +6,12 @@
 #include "app/log.h"
 #include "app/preview/control.h"
 #include "app/preview/loop.h"
+#include "app/preview/reload.h"
+#include "app/preview/speed.h"
 #include "app/preview/view.h"
 #include "renderer/base/clock.h"
 
-#include <math.h>
 #include <stdlib.h>
-
-static const double courtyard_speed_m_per_s = 3.0;
-static const double seconds_across_model = 4.0;
-
-// Returns the speed of the free camera. If the user gave models, the camera crosses them in four
-// seconds, whatever their unit of length is.
-static double flying_speed(const DipSession *session) {
-    if (session->options->model_count == 0) {
-        return courtyard_speed_m_per_s;
-    }
-    float low[3];
-    float high[3];
-    dip_scene_bounds(session->scene, low, high);
-    const double diagonal =
-        sqrt(pow((double)high[0] - low[0], 2) + pow((double)high[1] - low[1], 2) +
-             pow((double)high[2] - low[2], 2));
-    return diagonal / seconds_across_model;
-}
 
 static bool load_scene_def(void *context, DipError *err) {
     return dip_session_keep_model(context, err);
@@ -49,14 +32,22 @@ static bool load_costs(const DipSession *session, const char *file, DipCosts **c
     return dip_costs_load(*costs, file, scene, err);
 }
 
-static bool run_loop(DipSession *session, const DipDisplay *display, const DipCosts *costs,
-                     DipRemote *remote, DipError *err) {
+// What the preview needs beside its session and display.
+typedef struct Parts {
+    DipCosts *costs;
+    DipReload *reload;
+    DipRemote *remote;
+} Parts;
+
+static bool run_loop(DipSession *session, const DipDisplay *display, const Parts *parts,
+                     DipError *err) {
     const DipPreviewDef def = {
         .session = session,
         .display = *display,
-        .costs = costs,
-        .flying_speed_m_per_s = flying_speed(session),
-        .control = remote ? dip_remote_control(remote) : (DipPreviewControl){0},
+        .costs = parts->costs,
+        .reload = parts->reload,
+        .flying_speed_m_per_s = dip_flying_speed(session),
+        .control = parts->remote ? dip_remote_control(parts->remote) : (DipPreviewControl){0},
         .load_scene_def = load_scene_def,
         .context = session,
     };
@@ -70,36 +61,44 @@ static bool run_loop(DipSession *session, const DipDisplay *display, const DipCo
     return done;
 }
 
-// Opens the channel of --control. Without the option, *remote stays NULL.
-static bool open_remote(const char *where, DipRemote **remote, DipError *err) {
-    if (where) {
-        *remote = dip_remote_open(where, err);
+static bool open_parts(Parts *parts, DipSession *session, const DipPreviewOptions *options,
+                       DipError *err) {
+    parts->reload = dip_reload_create(session, options->watch, err);
+    if (!parts->reload || !load_costs(session, options->cost_report, &parts->costs, err)) {
+        return false;
     }
-    return !where || *remote;
+    if (options->control) {
+        parts->remote = dip_remote_open(options->control, err);
+    }
+    return !options->control || parts->remote;
+}
+
+static void close_parts(Parts *parts) {
+    dip_remote_close(&parts->remote);
+    dip_reload_destroy(&parts->reload);
+    free(parts->costs);
 }
 
 static bool open_display(DipDisplay *display, const DipSession *session, unsigned long window_id,
                          DipError *err) {
-    return window_id ? dip_sdl_display_open_in(display, window_id, err)
-                     : dip_sdl_display_open(display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
-                                            session->pane_size.height, err);
+    return window_id
+               ? dip_sdl_display_open_in(display, window_id, err)
+               : dip_sdl_display_open(display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
+                                      session->pane_size.height + dip_layout_dock_height(), err);
 }
 
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err) {
-    DipCosts *costs = NULL;
-    DipRemote *remote = NULL;
+    Parts parts = {0};
     DipDisplay display;
-    bool done = load_costs(session, options->cost_report, &costs, err) &&
-                open_remote(options->control, &remote, err) &&
+    bool done = open_parts(&parts, session, options, err) &&
                 open_display(&display, session, options->window_id, err);
     if (done) {
-        done = run_loop(session, &display, costs, remote, err);
+        done = run_loop(session, &display, &parts, err);
         if (options->window_id && dip_sdl_display_has_lost_host(&display)) {
             dip_log_note("the program that owns window %lu has closed it", options->window_id);
         }
         display.close(display.context);
     }
-    dip_remote_close(&remote);
-    free(costs);
+    close_parts(&parts);
     return done;
 }

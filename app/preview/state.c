@@ -526,6 +526,10 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         break;
     case DIP_ACTION_SCREENSHOT:
         state->screenshot = true;
+        state->plain_screenshot = reverse;
+        break;
+    case DIP_ACTION_SAVE_POSE:
+        state->save_pose = true;
         break;
     case DIP_ACTION_FULL_SCREEN:
         state->full_screen = !state->full_screen;

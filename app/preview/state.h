@@ -44,6 +44,7 @@ typedef enum DipAction {
     DIP_ACTION_ADJUST,     // Moves the divider, or changes gain or brightness of what shows.
     DIP_ACTION_BLINK,
     DIP_ACTION_SCREENSHOT,
+    DIP_ACTION_SAVE_POSE,
     DIP_ACTION_FULL_SCREEN,
     DIP_ACTION_QUIT
 } DipAction;
@@ -89,7 +90,9 @@ typedef struct DipPreviewState {
     int undo_count;
     int redo_count;
     bool copy_settings; // The user asked to copy the requested settings. Cleared when done.
-    bool screenshot;    // The user asked for a screenshot. Cleared when it is saved.
+    bool screenshot;              // The user asked for a screenshot. Cleared when it is saved.
+    bool plain_screenshot;        // The screenshot shows the panes without overlays.
+    bool save_pose;               // The user asked to save the pose. Cleared when it is saved.
     char notice[DIP_NOTICE_SIZE]; // What just happened, for the status line; may be empty.
     int64_t notice_end_ns;        // Time at which the notice goes away, on the clock of `now_ns`.
     unsigned scene_changes;       // Grows whenever the panes' pictures have to change.

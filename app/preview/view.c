@@ -1,14 +1,9 @@
 // Joins the panes and the overlay into one picture.
 #include "app/preview/view.h"
 
-#include "app/files/png.h"
 #include "app/preview/style.h"
 
-#include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
-
-enum { MAX_SCREENSHOTS = 9999 };
 
 struct DipView {
     DipFont *font;
@@ -114,28 +109,4 @@ DipDamage dip_view_take_damage(DipView *view) {
 
 void dip_view_damage_all(DipView *view) {
     dip_damage_add(&view->damage, (DipRect){0, 0, view->canvas.width, view->canvas.height});
-}
-
-static bool free_name(char *file, size_t size_bytes) {
-    for (int i = 1; i <= MAX_SCREENSHOTS; ++i) {
-        snprintf(file, size_bytes, "diptych-%04d.png", i);
-        if (access(file, F_OK) != 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool dip_view_save(const DipView *view, char *file, size_t size_bytes, DipError *err) {
-    const DipPixels picture = dip_view_picture(view);
-    if (!free_name(file, size_bytes)) {
-        return dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "screenshot",
-                             "no name from diptych-0001.png to diptych-%04d.png is free",
-                             MAX_SCREENSHOTS);
-    }
-    const DipFrame frame = {.rgba8 = picture.rgba8,
-                            .stride_bytes = picture.stride_bytes,
-                            .width = picture.width,
-                            .height = picture.height};
-    return dip_png_write(file, &frame, err);
 }

@@ -50,8 +50,4 @@ DipDamage dip_view_take_damage(DipView *view);
 // Marks the whole picture as changed.
 void dip_view_damage_all(DipView *view);
 
-// Writes the picture to a file in the working folder: to the first of diptych-0001.png,
-// diptych-0002.png, ... that does not exist yet. Fills in the file's name.
-bool dip_view_save(const DipView *view, char *file, size_t size_bytes, DipError *err);
-
 #endif
