@@ -56,7 +56,11 @@ static const char *path_name(const DipSession *session, bool free_camera) {
     if (session->shows_gallery) {
         return "scene";
     }
-    return session->orbiting ? "orbit" : dip_session_category(session->track.active);
+    // A category without a path plays that of category 0.
+    const DipCamTrack *track = &session->track;
+    return session->orbiting
+               ? "orbit"
+               : dip_session_category(track->categories[track->active].path ? track->active : 0);
 }
 
 void dip_picture_texts_make(DipPictureTexts *texts, const DipSession *session, const DipPose *pose,

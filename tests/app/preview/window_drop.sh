@@ -1,0 +1,53 @@
+#!/bin/sh
+# Drops good and bad files onto the real window under Xvfb. Usage: window_drop.sh DIPTYCH DROP_FILE
+set -u
+diptych=$1
+drop_file=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+fail() {
+    echo "FAILED: $*"
+    cat log.txt
+    kill "$program" 2>/dev/null
+    exit 1
+}
+
+# wait_for COMMAND...: up to 20 seconds.
+wait_for() {
+    tries=0
+    until "$@" >/dev/null 2>&1; do
+        tries=$((tries + 1))
+        [ $tries -lt 200 ] || return 1
+        sleep 0.1
+    done
+}
+
+printf 'v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >'a triangle.obj'
+printf 'diptych-path 1\nperiod 1\n0 0 3 0 0 0 1\n' >still.pth
+echo nonsense >bad.pth
+"$diptych" --size 200x150 --threads 1 2>log.txt &
+program=$!
+wait_for xdotool search --onlyvisible --name '^Diptych$' || fail "no window appears"
+window=$(xdotool search --onlyvisible --name '^Diptych$' | head -n 1)
+
+# shows TEXT: a screenshot of the window has the text.
+shows() {
+    xdotool key --window "$window" F12
+    sleep 0.3
+    grep -qa "$1" "$(ls diptych-*.png | tail -n 1)"
+}
+
+"$drop_file" "$window" "$work/bad.pth" || fail "the window does not take a file"
+wait_for grep -q 'bad.pth:1: .*not a camera path' log.txt || fail "a bad path is not reported"
+"$drop_file" "$window" "$work/none.obj" || fail "the window does not take a name"
+wait_for grep -q 'none.obj: cannot open the model' log.txt || fail "a missing model is not reported"
+kill -0 "$program" || fail "a bad file has ended the preview"
+"$drop_file" "$window" "$work/a%20triangle.obj" || fail "the window does not take a model"
+wait_for shows 'a triangle.obj' || fail "the model is not shown"
+"$drop_file" "$window" "$work/still.pth" || fail "the window does not take a path"
+wait_for shows '0 0 3 0 0 0 1' || fail "the path is not flown"
+xdotool windowfocus "$window" key ctrl+q 2>/dev/null
+wait "$program" || fail "the preview ends with exit code $?"
+echo "six drops on the window"
