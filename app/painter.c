@@ -71,6 +71,15 @@ bool dip_painter_draw(DipPainter *painter, const DipScene *scene, const DipPose 
                          : dip_renderer_draw(painter->renderer, scene, pose, time_ns, frame, err);
 }
 
+bool dip_painter_read_samples(DipPainter *painter, const DipScene *scene, const DipPose *pose,
+                              int64_t time_ns, const DipSampleReadback *readback, DipError *err) {
+    if (painter->pane) {
+        return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "samples",
+                             "scenes of the gallery do not give their samples");
+    }
+    return dip_renderer_read_samples(painter->renderer, scene, pose, time_ns, readback, err);
+}
+
 bool dip_painter_draw_frames(DipPainter *const *painters, int count, const DipScene *scene,
                              const DipPose *pose, int64_t time_ns, DipFrame *const *frames,
                              DipError *err) {

@@ -30,6 +30,11 @@ bool dip_painter_set_mip_pictures(DipPainter *painter,
 bool dip_painter_draw(DipPainter *painter, const DipScene *scene, const DipPose *pose,
                       int64_t time_ns, DipFrame *frame, DipError *err);
 
+// Reads samples of the frame that was drawn last (renderer.h). Fails with UNSUPPORTED if the
+// painter draws a scene of the gallery.
+bool dip_painter_read_samples(DipPainter *painter, const DipScene *scene, const DipPose *pose,
+                              int64_t time_ns, const DipSampleReadback *readback, DipError *err);
+
 // Draws one frame with each of several painters of one kind. count: 1..DIP_MAX_FRAMES_AT_ONCE.
 bool dip_painter_draw_frames(DipPainter *const *painters, int count, const DipScene *scene,
                              const DipPose *pose, int64_t time_ns, DipFrame *const *frames,

@@ -14,6 +14,7 @@
 #include "renderer/pipeline/depth.h"
 #include "renderer/pipeline/mesh.h"
 #include "renderer/pipeline/pattern.h"
+#include "renderer/pipeline/readback.h"
 #include "renderer/pipeline/shader.h"
 #include "renderer/pipeline/state.h"
 #include "renderer/pipeline/target.h"
@@ -128,6 +129,11 @@ typedef struct DipPass {
     DipTargetRegion viewport;
     // Pixels outside this rectangle are left untouched, to the pixel. All 0: the whole target.
     DipTargetRegion scissor;
+    // Where the pass writes what its samples show, or NULL. Pixels that the pass does not draw
+    // because of `region` or `tile_regions` read as background. A pass with a readback must not
+    // need merging (state.h): no ordered draws, attachments, viewport or scissor, and a target of
+    // format DIP_FORMAT_SRGB8.
+    const DipSampleReadback *readback;
 } DipPass;
 
 typedef struct DipPipeline DipPipeline;

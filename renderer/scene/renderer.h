@@ -10,6 +10,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/isa.h"
 #include "renderer/base/pool.h"
+#include "renderer/pipeline/readback.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/pose.h"
 #include "renderer/scene/quality.h"
@@ -89,6 +90,18 @@ enum { DIP_MAX_FRAMES_AT_ONCE = 4 };
 DIP_API bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count,
                                       const DipScene *scene, const DipPose *pose, int64_t time_ns,
                                       DipFrame *const *frames, DipError *err);
+
+// Reads what the samples of some pixels of the frame show, for example of the frame that was drawn
+// last. Draws only the blocks around the readback's region again, into the frame that the renderer
+// owns: with the pose, time, settings and frame index of the last frame, its pixels do not change.
+// The readback's samples have the sample pattern
+// dip_sample_pattern_of(dip_quality_sample_count(...), dip_pattern_kind(taa, frame_index))
+// (pattern.h). The picture of the reflection that DipReflectionDef.show puts into the frame is not
+// part of the samples. Takes about as long as the geometry stage of a frame. Fails as
+// dip_renderer_draw does, and with RANGE if the region is empty or does not lie in the frame.
+DIP_API bool dip_renderer_read_samples(DipRenderer *renderer, const DipScene *scene,
+                                       const DipPose *pose, int64_t time_ns,
+                                       const DipSampleReadback *readback, DipError *err);
 
 #ifdef __cplusplus
 }

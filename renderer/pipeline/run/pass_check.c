@@ -1,6 +1,7 @@
 // Finds a field of a pass that is wrong, and says what is accepted.
 #include "renderer/pipeline/run/pass_check.h"
 
+#include "renderer/pipeline/merge/merge_tile.h"
 #include "renderer/pipeline/run/state_check.h"
 
 #include <stdarg.h>
@@ -94,6 +95,21 @@ static bool check_draw(const DipDraw *draw, bool shades, DipError *err) {
            dip_state_check(draw->state, err);
 }
 
+// Checks everything but the rule that a pass with a readback is not merged.
+static bool check_readback(const DipSampleReadback *readback, const DipTarget *target,
+                           DipError *err) {
+    if (!readback) {
+        return true;
+    }
+    const DipTargetRegion *region = &readback->region;
+    if (region->x0 >= region->x1 || region->y0 >= region->y1) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "readback.region",
+                             "it is empty, accepted a rectangle of at least one pixel");
+    }
+    return dip_rectangle_check(region, target, "readback.region", err) &&
+           is_set(readback->samples, "readback.samples", err);
+}
+
 bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
     if (!is_set(pass, "pass", err) || !check_target(pass, width, height, err) ||
         !dip_rectangle_check(&pass->region, &pass->target, "region", err) ||
@@ -102,7 +118,8 @@ bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
         !check_samples(pass, err) || !dip_attachments_check(pass, err) ||
         !in_range(pass->clip_plane_count, 0, DIP_MAX_CLIP_PLANES, "clip_plane_count", err) ||
         !in_range(pass->draw_count, 0, INT32_MAX, "draw_count", err) ||
-        (pass->draw_count && !is_set(pass->draws, "draws", err))) {
+        (pass->draw_count && !is_set(pass->draws, "draws", err)) ||
+        !check_readback(pass->readback, &pass->target, err)) {
         return false;
     }
     for (int d = 0; d < pass->draw_count; d++) {
@@ -110,5 +127,7 @@ bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
             return false;
         }
     }
-    return true;
+    return !pass->readback || !dip_pass_is_merged(pass) ||
+           dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "readback",
+                         "the pass is merged, accepted a pass of plain draws into sRGB bytes");
 }

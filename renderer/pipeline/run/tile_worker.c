@@ -4,6 +4,7 @@
 #include "renderer/base/pages.h"
 #include "renderer/base/clock.h"
 #include "renderer/pipeline/geometry/visit.h"
+#include "renderer/pipeline/resolve/readback.h"
 #include "renderer/pipeline/resolve/resolve.h"
 
 #include <stdlib.h>
@@ -65,6 +66,10 @@ static void flush_list(DipTileShading *shading, uint32_t draw) {
     DipFragmentList *list = &shading->lists[draw];
     const int count = shade_batch(worker, draw, list);
     dip_store_fragments(shading, list, count, &worker->encoded);
+    if (worker->pass->pass->readback) {
+        dip_readback_fragments(worker->pass->pass->readback, shading, list, count, false,
+                               &worker->encoded);
+    }
     dip_fragment_list_drop(list, count);
 }
 
@@ -73,6 +78,10 @@ static void flush_whole_list(DipTileShading *shading, uint32_t draw) {
     DipFragmentList *list = &shading->whole_lists[draw];
     shade_batch(worker, draw, list);
     dip_store_whole(shading, list, &worker->encoded);
+    if (worker->pass->pass->readback) {
+        dip_readback_fragments(worker->pass->pass->readback, shading, list, list->count, true,
+                               &worker->encoded);
+    }
     list->count = 0;
 }
 
@@ -136,6 +145,9 @@ static void set_destination(DipTileWorker *worker) {
     shading->stride = target->stride_bytes / 4;
     shading->pixels = (uint32_t *)(void *)target->rgba8 +
                       (size_t)worker->tile.y0 * shading->stride + (size_t)worker->tile.x0;
+    if (worker->pass->pass->readback) {
+        dip_readback_begin(worker->pass->pass->readback, shading);
+    }
 }
 
 static void begin_tile(DipTileWorker *worker, int index) {

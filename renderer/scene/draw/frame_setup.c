@@ -90,6 +90,7 @@ typedef struct FrameSetup {
     DipPass pass;
     DipPipelineCounters counters; // sums over both passes
     uint64_t fragments_mirrored;
+    const DipSampleReadback *readback; // NULL unless samples are read
 } FrameSetup;
 
 static DipTarget target_of(const DipRenderer *renderer) {
@@ -134,6 +135,10 @@ static void make_scene_pass(FrameSetup *setup) {
     };
     setup->pass = begin_pass(renderer, setup->scene, &setup->plan);
     setup->pass.target = target_of(renderer);
+    if (setup->readback) {
+        setup->pass.readback = setup->readback;
+        setup->pass.region = setup->readback->region;
+    }
     set_draws(renderer, setup->scene, seen, &renderer->set, &setup->pass);
 }
 
@@ -153,12 +158,14 @@ static void count_mirror(const DipMirror *mirror, bool drawn, DipCounters *count
 
 // Sets a frame up: plans it and makes its passes.
 static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene *scene,
-                        const DipPose *pose, int64_t time_ns, DipFrame *frame, DipError *err) {
+                        const DipPose *pose, int64_t time_ns, const DipSampleReadback *readback,
+                        DipFrame *frame, DipError *err) {
     if (!check_pose(pose, err) || !dip_renderer_adopt_scene(renderer, scene, err) ||
         !dip_renderer_follow_settings(renderer, scene, err)) {
         return false;
     }
-    *setup = (FrameSetup){.renderer = renderer, .scene = scene, .frame = frame};
+    *setup =
+        (FrameSetup){.renderer = renderer, .scene = scene, .frame = frame, .readback = readback};
     setup->view =
         dip_view_make(pose, (double)scene->near_m, (double)renderer->width / renderer->height);
     setup->mirrored = dip_view_mirror(&setup->view, renderer->reflection.level_m);
@@ -274,7 +281,7 @@ bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count, const Di
     }
     bool same = true;
     for (int i = 0; i < count; i++) {
-        if (!begin_frame(&setups[i], renderers[i], scene, pose, time_ns, frames[i], err)) {
+        if (!begin_frame(&setups[i], renderers[i], scene, pose, time_ns, NULL, frames[i], err)) {
             return false;
         }
         same = same && same_geometry(renderers[0], renderers[i]);
@@ -291,4 +298,28 @@ bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count, const Di
 bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                        int64_t time_ns, DipFrame *frame, DipError *err) {
     return dip_renderer_draw_frames(&renderer, 1, scene, pose, time_ns, &frame, err);
+}
+
+// Checked here as well as by the pipeline, because culling reads the region before.
+static bool check_region(const DipRenderer *renderer, const DipTargetRegion *region,
+                         DipError *err) {
+    return (region->x0 >= 0 && region->x0 < region->x1 && region->x1 <= renderer->width &&
+            region->y0 >= 0 && region->y0 < region->y1 && region->y1 <= renderer->height) ||
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "readback.region",
+                         "x %d..%d, y %d..%d, accepted a rectangle within %dx%d pixels", region->x0,
+                         region->x1, region->y0, region->y1, renderer->width, renderer->height);
+}
+
+bool dip_renderer_read_samples(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
+                               int64_t time_ns, const DipSampleReadback *readback, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    FrameSetup setup;
+    DipFrame frame;
+    if (!check_region(renderer, &readback->region, err) ||
+        !begin_frame(&setup, renderer, scene, pose, time_ns, readback, &frame, err) ||
+        !draw_frames(&setup, 1, true, err)) {
+        return false;
+    }
+    end_frame(&setup);
+    return true;
 }

@@ -141,6 +141,17 @@ SPOIL(too_many_clip_varyings, draw->clip_varying_count = 2)
 SPOIL(too_many_value_only_varyings, draw->value_only_varying_count = 2)
 SPOIL(unknown_cull, draw->cull = (DipCull)7)
 
+static DipSampleValue read_samples[2 * DIP_READBACK_STRIDE];
+static const DipSampleReadback good_readback = {{0, 0, 2, 1}, read_samples};
+static const DipSampleReadback empty_readback = {{0, 0, 0, 0}, read_samples};
+static const DipSampleReadback readback_outside = {{0, -1, 1, 1}, read_samples};
+static const DipSampleReadback nowhere_readback = {{0, 0, 2, 1}, NULL};
+SPOIL(readback_of_nothing, pass->readback = &empty_readback)
+SPOIL(readback_beyond, pass->readback = &readback_outside)
+SPOIL(readback_without_memory, pass->readback = &nowhere_readback)
+SPOIL(merged_readback,
+      (pass->readback = &good_readback, pass->scissor = (DipTargetRegion){0, 0, 8, 8}))
+
 static const BadPass bad_passes[] = {
     {"target.rgba8", DIP_ERROR_MISSING, no_pixels},
     {"target.rgba8", DIP_ERROR_RANGE, unaligned_pixels},
@@ -156,6 +167,10 @@ static const BadPass bad_passes[] = {
     {"pattern", DIP_ERROR_RANGE, unknown_pattern},
     {"samples_per_group", DIP_ERROR_CONFLICT, uneven_groups},
     {"clip_plane_count", DIP_ERROR_RANGE, too_many_planes},
+    {"readback.region", DIP_ERROR_RANGE, readback_of_nothing},
+    {"readback.region", DIP_ERROR_RANGE, readback_beyond},
+    {"readback.samples", DIP_ERROR_MISSING, readback_without_memory},
+    {"readback", DIP_ERROR_CONFLICT, merged_readback},
     {"draw_count", DIP_ERROR_RANGE, negative_draws},
     {"draws", DIP_ERROR_MISSING, no_draws},
     {"draws.mesh", DIP_ERROR_MISSING, no_mesh},
