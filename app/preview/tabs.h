@@ -20,9 +20,13 @@ typedef struct DipWindow {
     DipPixels frames[DIP_PANE_COUNT];  // The panes' newest pictures.
     uint64_t versions[DIP_PANE_COUNT]; // Equal versions mean equal pixels (draw_list.h).
     bool still;                        // Camera and scene stand still.
+    int64_t now_ns;                    // Time on the display's clock, as in DipUiPass.
     const DipPaneFigures *figures;     // [DIP_PANE_COUNT]
     const DipPrices *prices;
     DipTools *tools; // What the tools have computed: loupe, comparison and maps.
+    // The converged picture of this pose, of the size of the frames; NULL if it is not known.
+    const DipPixels *truth;
+    uint64_t truth_version; // Equal versions mean equal pixels. No frame has the same number.
 } DipWindow;
 
 // Declares and draws the whole window: the panes' pictures, labels, marks, the dock and sheets.
@@ -45,5 +49,9 @@ void dip_compare_pictures(DipUi *ui, DipWindow *window);
 void dip_loupe_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]);
 void dip_compare_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]);
 void dip_maps_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]);
+
+// Lets a key event act on the tools: while the loupe is on, arrow keys move it by a pixel. Call it
+// for keys that no control took. Returns whether the key did something.
+bool dip_loupe_press(DipPreviewState *state, int width, int height, const DipEvent *event);
 
 #endif

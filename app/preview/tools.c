@@ -1,21 +1,64 @@
-// Memory of the tools.
+// Holds the memory of all tools.
 #include "app/preview/tools.h"
+
+#include "app/preview/compare.h"
+#include "app/preview/loupe.h"
+#include "app/preview/strip.h"
 
 #include <stdlib.h>
 
 struct DipTools {
-    int unused;
+    DipLoupe *loupe;
+    DipCompare *compare;
+    DipStrip *strip;
+    DipMaps *maps; // NULL: there are no maps yet.
 };
 
 DipTools *dip_tools_create(DipError *err) {
     DipTools *tools = calloc(1, sizeof *tools);
     if (!tools) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
+        return NULL;
+    }
+    tools->loupe = dip_loupe_create(err);
+    tools->compare = tools->loupe ? dip_compare_create(err) : NULL;
+    tools->strip = tools->compare ? dip_strip_create(err) : NULL;
+    if (!tools->strip) {
+        dip_tools_destroy(&tools);
     }
     return tools;
 }
 
-void dip_tools_destroy(DipTools **tools) {
-    free(*tools);
-    *tools = NULL;
+void dip_tools_destroy(DipTools **tools_pointer) {
+    DipTools *tools = *tools_pointer;
+    if (!tools) {
+        return;
+    }
+    *tools_pointer = NULL;
+    dip_loupe_destroy(&tools->loupe);
+    dip_compare_destroy(&tools->compare);
+    dip_strip_destroy(&tools->strip);
+    free(tools);
+}
+
+DipLoupe *dip_tools_loupe(DipTools *tools) {
+    return tools->loupe;
+}
+
+DipCompare *dip_tools_compare(DipTools *tools) {
+    return tools->compare;
+}
+
+DipStrip *dip_tools_strip(DipTools *tools) {
+    return tools->strip;
+}
+
+DipMaps *dip_tools_maps(DipTools *tools) {
+    return tools->maps;
+}
+
+bool dip_tools_update(DipTools *tools, const DipToolsInput *input) {
+    const bool samples = dip_loupe_update(tools->loupe, input);
+    const bool thumbnail = dip_strip_update(tools->strip, input);
+    return samples || thumbnail;
 }

@@ -1,0 +1,25 @@
+// Colours of the tools for looking closer: text, marks over pictures, and the ground beneath crops.
+#ifndef DIP_APP_PREVIEW_TOOL_COLOURS_H
+#define DIP_APP_PREVIEW_TOOL_COLOURS_H
+
+#include "app/canvas/pixels.h"
+
+static const DipColour dip_tool_white = {255, 255, 255, 255}; // Values.
+static const DipColour dip_tool_soft = {196, 202, 210, 255};  // Words.
+static const DipColour dip_tool_dim = {152, 162, 174, 255};   // Notes, on the dock only.
+static const DipColour dip_tool_accent = {255, 190, 92, 255}; // The requested pane.
+static const DipColour dip_tool_gain = {95, 214, 189, 255};   // Less error.
+static const DipColour dip_tool_worse = {255, 154, 139, 255}; // More error.
+static const DipColour dip_tool_line = {51, 58, 68, 255};     // Lines and outlines.
+static const DipColour dip_tool_well = {12, 14, 17, 255};     // Ground beneath pictures.
+static const DipColour dip_tool_ground = {20, 22, 26, 255};   // Ground of the dock.
+static const DipColour dip_tool_glass = {10, 12, 15, 199};    // Labels over pictures.
+static const DipColour dip_tool_dark = {0, 0, 0, 255};        // Borders of marks over pictures.
+
+// Returns black or white, whichever stands out from a colour.
+static inline DipColour dip_tool_contrast(DipColour ground) {
+    const int luma = 2 * ground.red + 5 * ground.green + ground.blue; // 0..2040
+    return luma > 1000 ? dip_tool_dark : dip_tool_white;
+}
+
+#endif
