@@ -123,12 +123,13 @@ static void say_count(Part *part) {
     char brief[32] = "1 sample";
     if (count > 1 && part->samples) {
         const DipSampleCount found = dip_loupe_count(part->samples, count);
-        const bool one = found.patches == 1;
-        snprintf(text, sizeof text,
-                 one ? "%d samples, all on one surface" : "%d samples, %d on the front surface",
-                 count, found.front);
-        snprintf(brief, sizeof brief, one ? "%d on one surface" : "%d samples, %d in front", count,
-                 found.front);
+        if (found.patches == 1) {
+            snprintf(text, sizeof text, "%d samples, all on one surface", count);
+            snprintf(brief, sizeof brief, "%d on one surface", count);
+        } else {
+            snprintf(text, sizeof text, "%d samples, %d on the front surface", count, found.front);
+            snprintf(brief, sizeof brief, "%d samples, %d in front", count, found.front);
+        }
     } else if (count > 1) {
         snprintf(text, sizeof text, "%d samples%s", count,
                  part->window->still ? "" : "; colours at rest");
