@@ -46,7 +46,7 @@ static DipRect area_of(const DipLayout *layout) {
 void dip_compare_frame_size(const DipLayout *layout, DipComparison comparison, int *width,
                             int *height) {
     const DipRect area =
-        dip_compare_is_one_picture(comparison) ? area_of(layout) : layout->panes[DIP_PANE_CURRENT];
+        comparison == DIP_COMPARE_ALONE ? area_of(layout) : layout->panes[DIP_PANE_CURRENT];
     *width = area.width;
     *height = area.height;
 }
@@ -128,6 +128,13 @@ DipRect dip_compare_visible(const DipWindow *window, int pane) {
     default:
         return shown;
     }
+}
+
+bool dip_compare_has_label(const DipWindow *window, int pane) {
+    const DipComparison comparison = window->state->tools.comparison;
+    const bool truth = comparison == DIP_COMPARE_TRUTH && window->truth && pane == DIP_PANE_CURRENT;
+    return comparison != DIP_COMPARE_DIFFERENCE && !truth &&
+           !dip_rect_is_empty(dip_compare_visible(window, pane));
 }
 
 bool dip_compare_pixel_at(const DipWindow *window, int window_x, int window_y, int *pane, int *x,

@@ -14,7 +14,8 @@ enum { DIP_COMPARE_MAX_GAIN = 64 };
 bool dip_compare_is_one_picture(DipComparison comparison);
 
 // Returns the size at which the panes' frames are drawn: the size of a pane, or of both panes
-// together if the comparison shows one picture.
+// together if one pane shows alone. In the other comparisons of one picture, frames keep the size
+// of a pane, so that times and errors stay those of a pane.
 void dip_compare_frame_size(const DipLayout *layout, DipComparison comparison, int *width,
                             int *height);
 
@@ -29,6 +30,10 @@ DipRect dip_compare_shown(const DipWindow *window, int pane);
 // Returns the part of dip_compare_shown that the user sees. The pane's label belongs in its top
 // left corner.
 DipRect dip_compare_visible(const DipWindow *window, int pane);
+
+// Returns whether a pane's picture shows and needs its label. A difference and the converged
+// picture have labels of their own.
+bool dip_compare_has_label(const DipWindow *window, int pane);
 
 // Finds the pane and the pixel that the window shows at window_x, window_y. Returns false if there
 // is none.

@@ -175,20 +175,12 @@ static void draw_label(DipUi *ui, const DipWindow *window, const char *text, Dip
 
 static void label_picture(DipUi *ui, const DipWindow *window) {
     const DipToolState *tools = &window->state->tools;
-    const bool requested = dip_compare_pane(window->state, window->now_ns) == DIP_PANE_REQUESTED;
     char text[64];
-    switch (tools->comparison) {
-    case DIP_COMPARE_BLINK:
-    case DIP_COMPARE_ALONE:
-        draw_label(ui, window, requested ? "Requested" : "Current",
-                   requested ? dip_tool_accent : dip_tool_white);
-        break;
-    case DIP_COMPARE_DIFFERENCE:
+    if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
         snprintf(text, sizeof text, "Difference, times %d", dip_style_max(1, tools->gain));
         draw_label(ui, window, text, dip_tool_white);
-        break;
-    default:
-        break;
+    } else if (tools->comparison == DIP_COMPARE_TRUTH && window->truth) {
+        draw_label(ui, window, "Converged picture", dip_tool_white);
     }
 }
 

@@ -1,6 +1,7 @@
 // The labels over the panes, and notices.
 #include "app/preview/labels.h"
 
+#include "app/preview/compare.h"
 #include "app/preview/style.h"
 
 #include <stdio.h>
@@ -33,7 +34,7 @@ static void format_settings(const DipUi *ui, const DipQuality *quality, int room
 
 static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     static const char *const titles[DIP_PANE_COUNT] = {"Current", "Requested"};
-    const DipRect rect = window->layout->panes[pane];
+    const DipRect rect = dip_compare_visible(window, pane);
     const bool edited = window->state->edited[pane];
     const int margin = dip_ui_px(ui, LABEL_MARGIN), pad = dip_ui_px(ui, LABEL_PAD);
     const int height = dip_ui_px(ui, LABEL_HEIGHT);
@@ -55,7 +56,8 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
                 strip.width - 3 * pad - title_width, time);
     dip_ui_text(ui, LABEL_SIZE, dip_style_soft, DIP_ALIGN_LEFT, strip.x + used, y,
                 strip.width - used, settings);
-    if (edited && pane == DIP_PANE_REQUESTED) {
+    if (edited && pane == DIP_PANE_REQUESTED &&
+        !dip_compare_is_one_picture(window->state->tools.comparison)) {
         dip_ui_fill(ui, (DipRect){rect.x - DIP_PANE_GAP_PX, rect.y, DIP_PANE_GAP_PX, rect.height},
                     dip_style_accent);
     }
@@ -63,7 +65,9 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
 
 void dip_labels_draw(DipUi *ui, DipWindow *window) {
     for (int p = 0; dip_ui_is_drawing(ui) && p < DIP_PANE_COUNT; ++p) {
-        draw_label(ui, window, p);
+        if (dip_compare_has_label(window, p)) {
+            draw_label(ui, window, p);
+        }
     }
 }
 

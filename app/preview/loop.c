@@ -2,6 +2,7 @@
 #include "app/preview/loop.h"
 
 #include "app/preview/camera.h"
+#include "app/preview/compare.h"
 #include "app/preview/error_thread.h"
 #include "app/preview/figures.h"
 #include "app/preview/handover.h"
@@ -51,6 +52,7 @@ struct DipPreview {
     bool resized;    // The panes' size may have changed.
     int tried_width; // Size that the renderers last got, or were refused for lack of memory.
     int tried_height;
+    int64_t blinks_ns;     // When the comparison shows another picture, or INT64_MAX.
     bool redraw;           // The overlay may have changed.
     bool exposed;          // The display lost its picture, so all of it must be presented.
     bool flying;           // The user moved the camera in this turn.
@@ -165,7 +167,8 @@ static void take_control(DipPreview *preview) {
 
 // Whether two states of the tools give the panes the same size.
 static bool same_layout(const DipToolState *a, const DipToolState *b) {
-    return a->open == b->open && a->bare == b->bare && a->ui_scale == b->ui_scale;
+    return a->open == b->open && a->bare == b->bare && a->ui_scale == b->ui_scale &&
+           a->comparison == b->comparison;
 }
 
 // Hands an event to the window's controls. Returns whether one of them took it. The panes
@@ -179,15 +182,29 @@ static bool handle_in_window(DipPreview *preview, const DipEvent *event, int64_t
     return taken;
 }
 
-static void press_key(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
-    const DipToolState before = preview->state.tools;
-    preview->redraw = dip_keys_press(&preview->state, event, now_ns) || preview->redraw;
-    preview->resized |= !same_layout(&before, &preview->state.tools);
-}
-
 static void drop_file(DipPreview *preview, const char *file, int64_t now_ns) {
     if (preview->def.reload && file && !dip_reload_drop(preview->def.reload, file)) {
         dip_preview_notice(&preview->state, now_ns, "Too many files wait to be opened");
+        preview->redraw = true;
+    }
+}
+
+// Lets a key act that no control took.
+static void press_key(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    const DipFrame *frame = &preview->frame.panes[DIP_PANE_CURRENT];
+    const DipToolState before = preview->state.tools;
+    if (dip_loupe_press(&preview->state, frame->width, frame->height, event)) {
+        preview->redraw = true;
+    } else {
+        preview->redraw = dip_keys_press(&preview->state, event, now_ns) || preview->redraw;
+    }
+    preview->resized |= !same_layout(&before, &preview->state.tools);
+}
+
+// The key that blinks shows the other picture while it is held.
+static void release_key(DipPreview *preview, const DipEvent *event) {
+    if (event->key == (DipKeycode)';' && preview->state.tools.blinked) {
+        preview->state.tools.blinked = false;
         preview->redraw = true;
     }
 }
@@ -199,13 +216,13 @@ static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now
         break;
     case DIP_EVENT_KEY_DOWN:
         dip_keys_hold(&preview->held, event);
-        if (handle_in_window(preview, event, now_ns)) {
-            break;
+        if (!handle_in_window(preview, event, now_ns)) {
+            press_key(preview, event, now_ns);
         }
-        press_key(preview, event, now_ns);
         break;
     case DIP_EVENT_KEY_UP:
         dip_keys_hold(&preview->held, event);
+        release_key(preview, event);
         break;
     case DIP_EVENT_MOUSE_DOWN:
         if (preview->def.control.press) {
@@ -311,9 +328,11 @@ static bool keep_size(DipPreview *preview, DipError *err) {
 // the view scales the frame up.
 static bool follow_size(DipPreview *preview, DipError *err) {
     const DipViewInput input = view_input(preview, clock_ns(preview));
-    const DipRect pane = dip_view_layout(&input).panes[0];
-    const int width = pane.width < DIP_MAX_FRAME_SIZE ? pane.width : DIP_MAX_FRAME_SIZE;
-    const int height = pane.height < DIP_MAX_FRAME_SIZE ? pane.height : DIP_MAX_FRAME_SIZE;
+    const DipLayout layout = dip_view_layout(&input);
+    int width, height;
+    dip_compare_frame_size(&layout, preview->state.tools.comparison, &width, &height);
+    width = width < DIP_MAX_FRAME_SIZE ? width : DIP_MAX_FRAME_SIZE;
+    height = height < DIP_MAX_FRAME_SIZE ? height : DIP_MAX_FRAME_SIZE;
     if (width == preview->tried_width && height == preview->tried_height) {
         return true;
     }
@@ -600,6 +619,24 @@ static void copy_settings(DipPreview *preview, int64_t now_ns) {
     }
 }
 
+// Lets the tools draw what the window has asked them for.
+static void update_tools(DipPreview *preview) {
+    const DipFrame *frame = &preview->frame.panes[DIP_PANE_CURRENT];
+    const DipToolsInput input = {
+        .session = preview->def.session,
+        .pose = &preview->drawn.pose,
+        .play_ns = preview->drawn.play_ns,
+        .frame_index = preview->frame_index - 1,
+        .versions = {dip_view_version(preview->view, DIP_PANE_CURRENT),
+                     dip_view_version(preview->view, DIP_PANE_REQUESTED)},
+        .width = frame->width,
+        .height = frame->height,
+        .copied = preview->frame.copied,
+        .still = dip_preview_rests(&preview->state, preview->flying),
+    };
+    preview->redraw |= dip_tools_update(preview->tools, &input);
+}
+
 static bool show(DipPreview *preview, int64_t now_ns, DipError *err) {
     const bool moving = !dip_preview_rests(&preview->state, preview->flying);
     dip_figures_update(&preview->figures, moving, now_ns);
@@ -621,6 +658,8 @@ static bool show(DipPreview *preview, int64_t now_ns, DipError *err) {
         dip_prefetch_begin(&preview->prefetch, preview->def.session->scene);
     }
     dip_figures_count_presented(&preview->figures, clock_ns(preview));
+    update_tools(preview);
+    preview->blinks_ns = dip_compare_wakes_ns(&preview->state.tools, now_ns);
     return true;
 }
 
@@ -663,7 +702,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     const bool news = measure_errors(preview, now_ns);
     *shown = new_frame || news || preview->redraw || preview->exposed || state->screenshot ||
              (had_notice && !state->notice[0]) ||
-             now_ns >= dip_ui_wakes_ns(dip_view_ui(preview->view));
+             now_ns >= dip_ui_wakes_ns(dip_view_ui(preview->view)) || now_ns >= preview->blinks_ns;
     if (*shown && !show(preview, now_ns, err)) {
         preview->redraw = preview->exposed = true; // The next turn shows what this one could not.
         return false;

@@ -401,6 +401,10 @@ static void declare_head(DipUi *ui, DipWindow *window, DipRect row) {
 static void keep_inside(DipWindow *window) {
     DipToolState *tools = &window->state->tools;
     const DipPixels *frame = &window->frames[DIP_PANE_CURRENT];
+    if (tools->x < 0 || tools->y < 0) {
+        tools->x = frame->width / 2;
+        tools->y = frame->height / 2;
+    }
     tools->x = dip_style_max(0, dip_style_min(tools->x, frame->width - 1));
     tools->y = dip_style_max(0, dip_style_min(tools->y, frame->height - 1));
 }
@@ -536,6 +540,7 @@ void dip_loupe_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[D
     if (state->tools.bare || window->frames[0].width < 1 || window->frames[1].width < 1) {
         return;
     }
+    keep_inside(window);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipRect visible = dip_compare_visible(window, p);
         if (state->quality[p].step[DIP_SETTING_MIPDEBUG] && !dip_rect_is_empty(visible)) {

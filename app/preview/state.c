@@ -19,8 +19,14 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
     state.quality[DIP_PANE_REQUESTED] = quality[DIP_PANE_REQUESTED];
     state.edited[DIP_PANE_REQUESTED] = true;
     state.ini_quality = quality[DIP_PANE_REQUESTED];
-    state.tools = (DipToolState){
-        .open = true, .ui_scale = 1.0, .zoom = 16, .divider = 0.5, .gain = 8, .brightness = 1.0};
+    state.tools = (DipToolState){.open = true,
+                                 .ui_scale = 1.0,
+                                 .zoom = 16,
+                                 .x = -1,
+                                 .y = -1,
+                                 .divider = 0.5,
+                                 .gain = 8,
+                                 .brightness = 1.0};
     return state;
 }
 

@@ -50,6 +50,10 @@ void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame) {
     view->versions[pane] = ++view->frame_count;
 }
 
+uint64_t dip_view_version(const DipView *view, int pane) {
+    return view->versions[pane];
+}
+
 DipLayout dip_view_layout(const DipViewInput *input) {
     const DipToolState *tools = &input->state->tools;
     return dip_layout_make(input->width, input->height, input->scale * tools->ui_scale, tools->open,
@@ -66,6 +70,7 @@ static bool pass_over(DipView *view, const DipViewInput *input, DipDrawList *lis
         .frames = {view->frames[0], view->frames[1]},
         .versions = {view->versions[0], view->versions[1]},
         .still = input->still,
+        .now_ns = input->now_ns,
         .figures = input->figures,
         .prices = input->prices,
         .tools = input->tools,

@@ -15,6 +15,9 @@ void dip_view_destroy(DipView **view);
 // Sets a pane's frame. The frame's pixels are borrowed until the pane's next frame is set.
 void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame);
 
+// Returns the version of a pane's picture: equal versions mean equal pixels.
+uint64_t dip_view_version(const DipView *view, int pane);
+
 // What the window shows besides the panes' frames. All of it is borrowed for a call.
 typedef struct DipViewInput {
     int width; // Size of the window in pixels.

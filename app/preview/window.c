@@ -1,5 +1,6 @@
 // Declares the whole window, from the back to the front.
 #include "app/preview/labels.h"
+#include "app/preview/loupe.h"
 #include "app/preview/sheet.h"
 #include "app/preview/style.h"
 #include "app/preview/tabs.h"
@@ -10,7 +11,7 @@ static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
     const DipUiControl control = {.id = DIP_UI_ID(DIP_UI_PANES, pane),
                                   .rect = window->layout->panes[pane],
                                   .skips_focus = true,
-                                  .takes_wheel = state->tools.loupe};
+                                  .takes_wheel = dip_loupe_is_on(&state->tools)};
     const DipUiInput input = dip_ui_control(ui, &control);
     if (input.began) {
         state->edited[pane] = true;

@@ -59,6 +59,8 @@ static void test_frame_size_is_the_room_of_the_picture(void **state) {
     dip_compare_frame_size(&tw.layout, DIP_COMPARE_SIDE_BY_SIDE, &width, &height);
     assert_true(width == PANE_WIDTH && height == PANE_HEIGHT);
     dip_compare_frame_size(&tw.layout, DIP_COMPARE_WIPE, &width, &height);
+    assert_true(width == PANE_WIDTH && height == PANE_HEIGHT);
+    dip_compare_frame_size(&tw.layout, DIP_COMPARE_ALONE, &width, &height);
     assert_true(width == 2 * PANE_WIDTH + DIP_PANE_GAP_PX && height == PANE_HEIGHT);
 }
 

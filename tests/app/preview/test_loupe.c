@@ -205,6 +205,7 @@ static void test_right_click_pins_and_arrows_move(void **state) {
     (void)state;
     tw.state.tools.open = false;
     dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_DOWN, DIP_MOUSE_RIGHT, 33, 44);
+    dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_UP, DIP_MOUSE_RIGHT, 33, 44);
     assert_true(tw.state.tools.pinned && tw.state.tools.open);
     assert_int_equal(tw.state.tools.tab, DIP_TAB_LOUPE);
     dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_MOVE, DIP_MOUSE_LEFT, 200, 100);
