@@ -3,8 +3,8 @@
 #include "app/preview/error_job.h"
 
 #include "app/measure/difference.h"
-#include "app/measure/flip.h"
 #include "app/measure/truth.h"
+#include "app/preview/error_blocks.h"
 #include "renderer/reference/convergence.h"
 
 #include <math.h>
@@ -15,17 +15,9 @@ enum {
     HALVES = 2,              // A level of the truth is the mean of two halves.
     FINISH_PIXELS = 1 << 14, // Pixels for which one step computes the mean of the halves.
     BAND_PIXELS = 1 << 15,   // Pixels whose RMSE and PSNR one step sums up.
-    BLOCK = 96,              // Side of the block whose FLIP one step measures, pixels.
 };
 
 const int dip_error_job_samples[DIP_ERROR_JOB_LEVELS] = {4, 16, 64};
-
-typedef struct Rect {
-    int x;
-    int y;
-    int width;
-    int height;
-} Rect;
 
 typedef struct PaneSums {
     DipMapSum squared_lin;
@@ -36,14 +28,13 @@ typedef struct PaneSums {
 struct DipErrorJob {
     DipReference *reference;
     DipSrgbEncodeTable encode;
-    int flip_margin; // Number of pixels around a block that the block's FLIP depends on.
     DipStill still;
     bool has_still;
     size_t pixels; // Size of the buffers below.
     double *halves[HALVES];
-    float *rgb_lin; // Mean of the halves, for the last finished level.
-    uint8_t *rgba8; // The same picture in 8-bit sRGB.
-    float *map;     // Errors: 3 values per pixel of a band, or of a block with its margin.
+    float *rgb_lin;              // Mean of the halves, for the last finished level.
+    uint8_t *rgba8;              // The same picture in 8-bit sRGB.
+    float *map;                  // Errors: 3 values per pixel of a band, or the scratch of a block.
     DipConvergence *convergence; // NULL before the first tile.
     int level;                   // The level that is being drawn.
     int drawn;                   // Tiles of that level drawn so far, in both halves together.
@@ -84,7 +75,6 @@ DipErrorJob *dip_error_job_create(DipReference *reference, DipError *err) {
         return NULL;
     }
     job->reference = reference;
-    job->flip_margin = dip_flip_reach_px(DIP_FLIP_PIXELS_PER_DEGREE);
     dip_srgb_encode_table(&job->encode);
     return job;
 }
@@ -118,7 +108,7 @@ static int band_rows(const DipErrorJob *job) {
 
 static bool make_room(DipErrorJob *job, DipError *err) {
     const size_t pixels = pixel_count(job);
-    const size_t side = (size_t)(BLOCK + 2 * job->flip_margin);
+    const size_t block = dip_error_block_values();
     const size_t band = (size_t)job->still.width * (size_t)band_rows(job);
     if (job->pixels == pixels) {
         return true;
@@ -129,7 +119,7 @@ static bool make_room(DipErrorJob *job, DipError *err) {
     }
     job->rgb_lin = malloc(pixels * 3 * sizeof(float));
     job->rgba8 = malloc(pixels * 4);
-    job->map = malloc((band > side * side ? band : side * side) * 3 * sizeof(float));
+    job->map = malloc((3 * band > block ? 3 * band : block) * sizeof(float));
     job->pixels = pixels;
     return (job->halves[0] && job->halves[1] && job->rgb_lin && job->rgba8 && job->map) ||
            out_of_memory(err);
@@ -212,14 +202,18 @@ static void add_sum(DipMapSum *to, DipMapSum sum) {
     to->pixel_count += sum.pixel_count;
 }
 
-// Cuts the same rectangle out of a pane's picture and out of the truth.
-static void cut_out(const DipErrorJob *job, int pane, const Rect *rect, DipSrgbPicture *test,
-                    DipSrgbPicture *truth) {
-    const size_t stride = job->still.stride_bytes, packed = 4 * (size_t)job->still.width;
-    const size_t x = 4 * (size_t)rect->x, y = (size_t)rect->y;
-    *test = (DipSrgbPicture){job->still.rgba8[pane] + y * stride + x, stride, rect->width,
-                             rect->height};
-    *truth = (DipSrgbPicture){job->rgba8 + y * packed + x, packed, rect->width, rect->height};
+// The pane's picture and the truth.
+static void both_pictures(const DipErrorJob *job, int pane, DipSrgbPicture *test,
+                          DipSrgbPicture *truth) {
+    const int width = job->still.width, height = job->still.height;
+    *test = (DipSrgbPicture){job->still.rgba8[pane], job->still.stride_bytes, width, height};
+    *truth = (DipSrgbPicture){job->rgba8, 4 * (size_t)width, width, height};
+}
+
+// Returns a picture's rows from `y` on.
+static DipSrgbPicture rows_of(const DipSrgbPicture *picture, int y, int rows) {
+    return (DipSrgbPicture){picture->rgba8 + (size_t)y * picture->stride_bytes,
+                            picture->stride_bytes, picture->width, rows};
 }
 
 static void measure_band(DipErrorJob *job, int pane, int band) {
@@ -228,7 +222,9 @@ static void measure_band(DipErrorJob *job, int pane, int band) {
     const size_t width = (size_t)job->still.width;
     const size_t pixels = width * (size_t)rows;
     DipSrgbPicture test, truth;
-    cut_out(job, pane, &(Rect){0, y, job->still.width, rows}, &test, &truth);
+    both_pictures(job, pane, &test, &truth);
+    test = rows_of(&test, y, rows);
+    truth = rows_of(&truth, y, rows);
     PaneSums *sums = &job->sums[pane];
     dip_difference_lin(&test, job->rgb_lin + (size_t)y * width * 3, job->map);
     dip_difference_squared_map(job->map, pixels, job->map);
@@ -237,36 +233,10 @@ static void measure_band(DipErrorJob *job, int pane, int band) {
     add_sum(&sums->squared_codes, dip_map_sum(job->map, pixels, (DipPixelMask){0}));
 }
 
-// Measures the FLIP of a block. The cut-out has a margin as wide as FLIP's filters, so that the
-// block's own pixels get the same values as in the whole picture.
 static bool measure_block(DipErrorJob *job, int pane, int block) {
-    const int across = (job->still.width + BLOCK - 1) / BLOCK;
-    const int x = block % across * BLOCK, y = block / across * BLOCK;
-    const int x1 = smaller(x + BLOCK, job->still.width);
-    const int y1 = smaller(y + BLOCK, job->still.height);
-    const int left = larger(0, x - job->flip_margin), top = larger(0, y - job->flip_margin);
-    const Rect rect = {left, top, smaller(job->still.width, x1 + job->flip_margin) - left,
-                       smaller(job->still.height, y1 + job->flip_margin) - top};
     DipSrgbPicture test, truth;
-    cut_out(job, pane, &rect, &test, &truth);
-    DipFlip flip = {0};
-    DipFlipAnalysis sides[2] = {0};
-    const bool made = dip_flip_init(&flip, rect.width, rect.height, DIP_FLIP_PIXELS_PER_DEGREE) &&
-                      dip_flip_analysis_init(&flip, &sides[0]) &&
-                      dip_flip_analysis_init(&flip, &sides[1]);
-    if (made) {
-        dip_flip_analyse(&flip, &test, &sides[0]);
-        dip_flip_analyse(&flip, &truth, &sides[1]);
-        dip_flip_compare(&flip, &sides[0], &sides[1], job->map);
-        for (int row = y - top; row < y1 - top; row++) {
-            const float *from = job->map + (size_t)row * (size_t)rect.width + (x - left);
-            add_sum(&job->sums[pane].flip, dip_map_sum(from, (size_t)(x1 - x), (DipPixelMask){0}));
-        }
-    }
-    dip_flip_analysis_free(&sides[0]);
-    dip_flip_analysis_free(&sides[1]);
-    dip_flip_free(&flip);
-    return made;
+    both_pictures(job, pane, &test, &truth);
+    return dip_error_block_add(&test, &truth, block, job->map, &job->sums[pane].flip);
 }
 
 static void publish(DipErrorJob *job) {
@@ -289,8 +259,7 @@ static void publish(DipErrorJob *job) {
 // pane, then the bands and blocks of the other pane.
 static bool measure_next_part(DipErrorJob *job) {
     const int bands = (job->still.height + band_rows(job) - 1) / band_rows(job);
-    const int blocks =
-        ((job->still.width + BLOCK - 1) / BLOCK) * ((job->still.height + BLOCK - 1) / BLOCK);
+    const int blocks = dip_error_block_count(job->still.width, job->still.height);
     const int panes = job->still.rgba8[DIP_PANE_REQUESTED] ? DIP_PANE_COUNT : 1;
     const int pane = job->measured / (bands + blocks);
     const int part = job->measured % (bands + blocks);
