@@ -25,8 +25,9 @@ typedef enum DipPriceState {
     DIP_PRICE_ROUGH      // Measured live, from a few frames.
 } DipPriceState;
 
-// One step's price. Intervals hold 95 % as the report's do; a rough price's interval is that of its
-// few frames.
+// One step's price. `state` tells about the time: an UNKNOWN price can have an error, because a
+// report can have errors without times, and the other way round. Intervals hold 95 % as the
+// report's do; a rough price's interval is that of its few frames.
 typedef struct DipPrice {
     DipPriceState state;
     double ms; // Added to the base, in milliseconds; of the base itself: the whole time.
@@ -39,21 +40,28 @@ typedef struct DipPrice {
     bool needs_company; // The step does nothing with the quality that the price was asked for;
                         // `needs` says what it needs, such as "AF".
     char needs[24];
-    char path[32]; // The path that the price was measured on: "DEFAULT".
+    char path[32]; // The path that the price was measured on: "DEFAULT"; "" for rough prices.
+    // The machine was too busy for the report's times to be believed (its verdict is red).
+    bool doubtful;
 } DipPrice;
 
-// The prices of all steps, and the sum for one combination of settings.
+// The whole time of one combination of settings, and its parts: base_ms + the sum of parts_ms +
+// together_ms is ms, exactly.
 typedef struct DipPriceSum {
     DipPriceState state; // MEASURED if this very combination was timed; otherwise PREDICTED, or
-                         // ROUGH if it is the sum of the parts.
+                         // ROUGH if it is the sum of the parts or was measured live. UNKNOWN: the
+                         // price of a part is not known, and ms lacks it.
     double ms;
     double ms_low;
     double ms_high;
     bool has_flip;
     double flip;
     double base_ms;
-    double parts_ms[DIP_SETTING_COUNT]; // Each setting's own price at its step.
+    // Each setting's own price at its step. The group size (asd) has no part of its own: that of
+    // adaptive AA holds it.
+    double parts_ms[DIP_SETTING_COUNT];
     double together_ms; // What the sum adds to the base and the parts; it may be negative.
+    bool doubtful;      // As in DipPrice.
 } DipPriceSum;
 
 typedef struct DipPrices DipPrices;
@@ -62,13 +70,50 @@ typedef struct DipPrices DipPrices;
 DipPrices *dip_prices_create(DipError *err);
 void dip_prices_destroy(DipPrices **prices);
 
-// Takes prices from a report, which is copied as far as needed. width and height: size of a pane
-// now, in pixels. Prices of another size are kept and dip_prices_source says so.
-bool dip_prices_set_report(DipPrices *prices, const DipCostReport *report, DipError *err);
+// What the panes are drawn from and drawn on now. Strings are borrowed until the next call; NULL
+// and 0 stand for what is not known and is not compared with the report.
+typedef struct DipPriceConditions {
+    const char *scene;     // As dip_cost_scene_name names it.
+    const char *processor; // As dip_machine_processor names it.
+    const char *isa;
+    int threads;
+} DipPriceConditions;
 
-// Adds what the live measurement found for one combination of settings. flip below 0: unknown.
-void dip_prices_add_rough(DipPrices *prices, const DipQuality *quality, double ms, double ms_low,
+void dip_prices_set_conditions(DipPrices *prices, const DipPriceConditions *conditions);
+
+// Takes prices from a report, which is copied as far as needed. On failure there are no prices from
+// a report. Fails with MEMORY.
+bool dip_prices_set_report(DipPrices *prices, const DipCostReport *report, DipError *err);
+bool dip_prices_has_report(const DipPrices *prices);
+
+// Says whether rough prices are used although there is a report, because the report is stale and
+// the user wants to measure here. Without a report, rough prices are always used.
+void dip_prices_prefer_rough(DipPrices *prices, bool prefer);
+
+// Returns whether the prices come from live measurement, so that it is worth measuring.
+bool dip_prices_are_rough(const DipPrices *prices);
+
+// The settings that prices start from: those of the report's baseline, or the defaults.
+DipQuality dip_prices_base(const DipPrices *prices);
+
+// Adds what the live measurement found for one combination of settings, in place of what was known
+// of it. The interval is that of the combination beside the base; that of the base itself is empty.
+// flip below 0: unknown; a FLIP that was known stays. Returns false if memory runs out.
+bool dip_prices_add_rough(DipPrices *prices, const DipQuality *quality, double ms, double ms_low,
                           double ms_high, double flip);
+
+// Adds the FLIP of a combination whose rough time is known.
+void dip_prices_add_rough_flip(DipPrices *prices, const DipQuality *quality, double flip);
+
+// Forgets the errors of all combinations that were measured live, because the truth has changed.
+void dip_prices_forget_rough_flip(DipPrices *prices);
+
+// Writes the combinations whose rough times are known but whose errors are not, at most `room`.
+// Returns their number.
+int dip_prices_list_without_flip(const DipPrices *prices, DipQuality *list, int room);
+
+// Returns whether a rough time of this combination is known, or of one with the same picture.
+bool dip_prices_has_rough(const DipPrices *prices, const DipQuality *quality);
 
 // Forgets rough prices, because the picture, its size or its scene has changed.
 void dip_prices_forget_rough(DipPrices *prices);
@@ -77,11 +122,15 @@ void dip_prices_forget_rough(DipPrices *prices);
 DipPrice dip_prices_step(const DipPrices *prices, DipSetting setting, int step,
                          const DipQuality *quality);
 
+// Returns the sum for a combination. A combination that was not timed is predicted by the report's
+// model; its interval is the share by which 90 % of such predictions miss. What the model does not
+// know is the sum of the parts, whose intervals are added as independent errors.
 DipPriceSum dip_prices_sum(const DipPrices *prices, const DipQuality *quality);
 
 // Says where the prices come from and for what they hold: "Prices: report of this scene, path
-// DEFAULT, 640x480, 2 threads. The panes are 320x240." Returns whether the prices are stale: the
-// size, scene or machine differ from those of the panes.
+// DEFAULT, 640x480, 2 threads. The panes are 320x240." width and height: size of a pane in pixels.
+// Returns whether the prices are stale: the size, scene, threads or machine differ from those of
+// the panes.
 bool dip_prices_source(const DipPrices *prices, int width, int height, char *text,
                        size_t size_bytes);
 

@@ -1,0 +1,453 @@
+// Tests of prices: from reports with made-up times, whose prices are computed by hand, and from
+// rough times.
+#include "app/preview/prices.h"
+#include "tests/app/cost/made_report.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { ROUNDS = 3 };
+
+// The 97.5 % quantile of Student's t with two degrees of freedom (tables), times the least standard
+// error of a ratio's logarithm (app/measure/paired.h). Times without noise have no other error.
+static const double half_width = 4.302653 * 0.002;
+
+static DipCostReport report;
+static DipPrices *prices;
+
+static DipQuality settings(const char *text) {
+    DipQuality quality;
+    assert_true(dip_quality_parse(text, &quality, NULL));
+    return quality;
+}
+
+// Adds a row that takes ms beside a baseline of base_ms, with the same error at all viewpoints.
+static int add_row(const char *text, int path, double ms, double base_ms, double flip) {
+    const DipQuality quality = settings(text);
+    DipCostRow *rows = realloc(report.rows, ((size_t)report.row_count + 1) * sizeof *rows);
+    assert_non_null(rows);
+    report.rows = rows;
+    const int row = dip_cost_report_add_row(&report, &quality, path, NULL);
+    assert_true(row >= 0);
+    for (int p = 0; p < report.options.places; p++) {
+        DipMetricSums *sums = &rows[row].viewpoints[p];
+        rows[row].judged[p] = true;
+        sums->bursts = 1.0;
+        sums->regions[0].pixels = 10.0;
+        sums->regions[0].flip = 10.0 * flip;
+        sums->regions[0].squared_lin = 10.0; // An error far above the floor.
+    }
+    for (int f = 0; f < dip_cost_frame_count(&report); f++) {
+        rows[row].pairs[f] = (DipTimePair){.ms = ms, .base_ms = base_ms, .cpu_ms = ms};
+    }
+    return row;
+}
+
+static int set_up(void **state) {
+    (void)state;
+    dip_made_report(&report, ROUNDS); // On path 0 the base takes 1 ms, aa=2 3 ms and aa=4 4 ms.
+    report.rows[0].viewpoints[0].regions[0].squared_lin = 1e3;
+    add_row("af=16", 0, 2.5, 1.0, 0.4);
+    add_row("af=16,aaf=on", 0, 2.75, 1.0, 0.35);
+    add_row("aa=4,aaa=on,asd=2", 0, 6.0, 1.0, 0.3);
+    add_row("aa=4,aaa=on,asd=2,af=16", 0, 8.2, 1.0, 0.25);
+    add_row("opt=standard", 0, 1.001, 1.0, 0.5);
+    // Path 1, whose baseline takes 2 ms, is the only one with mip detail.
+    for (int f = 0; f < dip_cost_frame_count(&report); f++) {
+        report.rows[4].pairs[f] = (DipTimePair){.ms = 2.0, .base_ms = 2.0};
+    }
+    add_row("miplod=quality", 1, 1.5, 2.0, 0.6);
+    return 0;
+}
+
+static int tear_down(void **state) {
+    (void)state;
+    dip_prices_destroy(&prices);
+    dip_cost_report_free(&report);
+    return 0;
+}
+
+static void take_report(void) {
+    assert_true(report.rounds == 0 || dip_cost_estimate_times(&report, NULL));
+    prices = dip_prices_create(NULL);
+    assert_non_null(prices);
+    assert_true(dip_prices_set_report(prices, &report, NULL));
+}
+
+static void check_near(double value, double expected) {
+    if (!(fabs(value - expected) <= 1e-6 * fmax(1.0, fabs(expected)))) {
+        fail_msg("%.9g is not %.9g", value, expected);
+    }
+}
+
+// Checks a price of `ratio` times a row that takes without_ms, less that row.
+static void check_price(const DipPrice *price, double ratio, double without_ms) {
+    assert_int_equal(price->state, DIP_PRICE_MEASURED);
+    check_near(price->ms, (ratio - 1.0) * without_ms);
+    check_near(price->ms_low, (ratio * exp(-half_width) - 1.0) * without_ms);
+    check_near(price->ms_high, (ratio * exp(half_width) - 1.0) * without_ms);
+    assert_int_equal(price->ms_is_zero, fabs(log(ratio)) < half_width);
+}
+
+// --- reports -------------------------------------------------------------------------------------
+
+static void a_price_is_what_a_step_adds_to_the_base(void **state) {
+    (void)state;
+    take_report();
+    const DipQuality pane = settings("aa=8,af=2,opt=advanced"); // Other settings do not matter.
+    DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 1, &pane);
+    check_price(&price, 3.0, 1.0);
+    assert_string_equal(price.path, "DEFAULT");
+    assert_false(price.needs_company);
+    price = dip_prices_step(prices, DIP_SETTING_AF, 4, &pane);
+    check_price(&price, 2.5, 1.0);
+    price = dip_prices_step(prices, DIP_SETTING_AA, 0, &pane);
+    assert_int_equal(price.state, DIP_PRICE_BASE);
+    check_near(price.ms, 1.0);
+    price = dip_prices_step(prices, DIP_SETTING_AA, 4, &pane); // aa=8 was not measured.
+    assert_int_equal(price.state, DIP_PRICE_UNKNOWN);
+    assert_false(price.has_flip);
+    price = dip_prices_step(prices, DIP_SETTING_MIPDEBUG, 1, &pane);
+    assert_int_equal(price.state, DIP_PRICE_UNKNOWN);
+}
+
+static void a_price_within_the_noise_is_zero(void **state) {
+    (void)state;
+    take_report();
+    const DipQuality pane = dip_quality_default();
+    const DipPrice price = dip_prices_step(prices, DIP_SETTING_OPT, DIP_OPT_STANDARD, &pane);
+    check_price(&price, 1.001, 1.0);
+    assert_true(price.ms_is_zero);
+}
+
+static void steps_that_need_others_are_priced_beside_them(void **state) {
+    (void)state;
+    take_report();
+    const DipQuality pane = settings("aa=4,asd=2,af=16");
+    DipPrice price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &pane);
+    check_price(&price, 6.0 / 4.0, 4.0);
+    assert_false(price.needs_company);
+    price = dip_prices_step(prices, DIP_SETTING_ASD, 1, &pane);
+    check_price(&price, 6.0 / 4.0, 4.0);
+    assert_true(price.needs_company);
+    assert_string_equal(price.needs, "adaptive AA");
+    price = dip_prices_step(prices, DIP_SETTING_AAF, 1, &pane);
+    check_price(&price, 2.75 / 2.5, 2.5);
+    assert_false(price.needs_company);
+    price = dip_prices_step(prices, DIP_SETTING_ASD, 3, &pane);
+    assert_int_equal(price.state, DIP_PRICE_UNKNOWN);
+    assert_string_equal(price.needs, "AA 8x");
+}
+
+static void steps_without_their_company_say_what_they_need(void **state) {
+    (void)state;
+    take_report();
+    const DipQuality pane = dip_quality_default();
+    DipPrice price = dip_prices_step(prices, DIP_SETTING_AAF, 1, &pane);
+    check_price(&price, 2.75 / 2.5, 2.5); // Beside 16x, as the report's sweeps are.
+    assert_true(price.needs_company);
+    assert_string_equal(price.needs, "AF");
+    price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &pane);
+    assert_string_equal(price.needs, "AA");
+    price = dip_prices_step(prices, DIP_SETTING_TAA, 1, &pane);
+    assert_string_equal(price.needs, "AA");
+    price = dip_prices_step(prices, DIP_SETTING_ASD, 1, &pane);
+    assert_string_equal(price.needs, "AA 4x");
+    price = dip_prices_step(prices, DIP_SETTING_AAF, 0, &pane);
+    assert_false(price.needs_company);
+    const DipQuality idle = settings("aa=2,aaa=on,asd=2"); // One group: the same as without.
+    price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &idle);
+    assert_string_equal(price.needs, "smaller groups");
+}
+
+static void gains_are_differences_of_flip(void **state) {
+    (void)state;
+    const int clean = add_row("af=8", 0, 2.0, 1.0, 0.0);
+    for (int p = 0; p < report.options.places; p++) {
+        report.rows[clean].viewpoints[p].regions[0].squared_lin = 0.0;
+    }
+    take_report();
+    const DipQuality pane = settings("aa=4,asd=2,af=16");
+    DipPrice price = dip_prices_step(prices, DIP_SETTING_AAF, 1, &pane);
+    assert_true(price.has_flip && !price.flip_at_floor);
+    check_near(price.flip, 0.35 - 0.4);
+    price = dip_prices_step(prices, DIP_SETTING_AF, 3, &pane);
+    assert_true(price.has_flip && price.flip_at_floor);
+    price = dip_prices_step(prices, DIP_SETTING_AF, 0, &pane);
+    assert_true(price.has_flip);
+    check_near(price.flip, dip_cost_row_metrics(&report, 0, 0).flip);
+}
+
+static void other_paths_are_named(void **state) {
+    (void)state;
+    take_report();
+    const DipQuality pane = dip_quality_default();
+    DipPrice price = dip_prices_step(prices, DIP_SETTING_MIPLOD, DIP_MIPLOD_QUALITY, &pane);
+    check_price(&price, 0.75, 2.0);
+    assert_string_equal(price.path, "AA");
+    price = dip_prices_step(prices, DIP_SETTING_MIPLOD, DIP_MIPLOD_HIGH_QUALITY, &pane);
+    assert_int_equal(price.state, DIP_PRICE_BASE);
+    assert_string_equal(price.path, "AA");
+    check_near(price.ms, 2.0);
+}
+
+static double add_up(const DipPriceSum *sum) {
+    double ms = sum->base_ms;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        ms += sum->parts_ms[s];
+    }
+    return ms + sum->together_ms;
+}
+
+static void a_measured_sum_is_its_parts_and_what_they_miss(void **state) {
+    (void)state;
+    take_report();
+    const DipQuality quality = settings("aa=4,aaa=on,asd=2,af=16");
+    const DipPriceSum sum = dip_prices_sum(prices, &quality);
+    assert_int_equal(sum.state, DIP_PRICE_MEASURED);
+    check_near(sum.ms, 8.2);
+    check_near(sum.base_ms, 1.0);
+    check_near(sum.parts_ms[DIP_SETTING_AA], 3.0);
+    check_near(sum.parts_ms[DIP_SETTING_AAA], 2.0);
+    check_near(sum.parts_ms[DIP_SETTING_ASD], 0.0);
+    check_near(sum.parts_ms[DIP_SETTING_AF], 1.5);
+    check_near(sum.together_ms, 8.2 - 7.5);
+    assert_true(add_up(&sum) == sum.ms);
+    assert_true(sum.ms_low < 8.2 && sum.ms_high > 8.2);
+    assert_true(sum.has_flip);
+    check_near(sum.flip, 0.25);
+}
+
+// Settings that have no effect do not make another combination.
+static void settings_without_effect_do_not_count(void **state) {
+    (void)state;
+    take_report();
+    const DipQuality quality = settings("aa=4,asd=2,aaf=on,mipdebug=on");
+    const DipPriceSum sum = dip_prices_sum(prices, &quality);
+    assert_int_equal(sum.state, DIP_PRICE_MEASURED);
+    check_near(sum.ms, 4.0);
+    check_near(sum.together_ms, 0.0);
+}
+
+static void a_sum_that_was_not_measured_adds_the_parts(void **state) {
+    (void)state;
+    take_report();
+    // Path 0 has everything but mip detail, whose part comes from path 1.
+    DipQuality quality = settings("aa=4,aaa=on,asd=2,af=16,miplod=quality");
+    DipPriceSum sum = dip_prices_sum(prices, &quality);
+    assert_int_equal(sum.state, DIP_PRICE_ROUGH);
+    check_near(sum.ms, 8.2 - 0.5);
+    check_near(sum.together_ms, 0.7);
+    assert_true(add_up(&sum) == sum.ms);
+    check_near(sum.ms_high - sum.ms,
+               hypot(8.2 * (exp(half_width) - 1.0), 1.5 * (exp(half_width) - 1.0)));
+    quality = settings("aa=2,af=16"); // Not measured together.
+    sum = dip_prices_sum(prices, &quality);
+    assert_int_equal(sum.state, DIP_PRICE_ROUGH);
+    check_near(sum.ms, 1.0 + 2.0 + 1.5);
+    check_near(sum.together_ms, 0.0);
+    quality = settings("aa=8,af=16"); // The part of aa=8 is not known.
+    sum = dip_prices_sum(prices, &quality);
+    assert_int_equal(sum.state, DIP_PRICE_UNKNOWN);
+    check_near(sum.ms, 2.5);
+}
+
+static void a_predicted_sum_has_the_predictions_miss(void **state) {
+    (void)state;
+    report.predicted.list[1] =
+        (DipCostPrediction){.quality = settings("aa=6,af=4"), .ms = 4.5, .flip = 0.2, .row = -1};
+    report.predicted.times_left_out = (DipCostMisses){.p90 = 0.04, .rows = 16};
+    take_report();
+    const DipQuality quality = settings("aa=6,af=4");
+    const DipPriceSum sum = dip_prices_sum(prices, &quality);
+    assert_int_equal(sum.state, DIP_PRICE_PREDICTED);
+    check_near(sum.ms, 4.5);
+    check_near(sum.ms_low, 4.5 * 0.96);
+    check_near(sum.ms_high, 4.5 * 1.04);
+    check_near(sum.flip, 0.2);
+}
+
+static void pictures_that_are_the_same_have_one_price(void **state) {
+    (void)state;
+    report.same = calloc(1, sizeof *report.same);
+    assert_non_null(report.same);
+    report.same[0] = (DipCostSame){settings("aa=2,aaa=on"), 2};
+    report.same_count = 1;
+    take_report();
+    const DipQuality quality = settings("aa=2,aaa=on");
+    const DipPrice price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &quality);
+    assert_int_equal(price.state, DIP_PRICE_MEASURED);
+    assert_true(price.ms == 0.0 && price.ms_low == 0.0 && price.ms_high == 0.0);
+    assert_true(price.ms_is_zero);
+    assert_int_equal(dip_prices_sum(prices, &quality).state, DIP_PRICE_MEASURED);
+}
+
+static void a_report_without_truth_or_times_has_the_other(void **state) {
+    (void)state;
+    for (int r = 0; r < report.row_count; r++) {
+        memset(report.rows[r].judged, 0, (size_t)report.options.places);
+    }
+    take_report();
+    const DipQuality pane = settings("aa=4");
+    DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 2, &pane);
+    assert_int_equal(price.state, DIP_PRICE_MEASURED);
+    assert_false(price.has_flip || dip_prices_sum(prices, &pane).has_flip);
+    dip_cost_report_free(&report);
+    dip_prices_destroy(&prices);
+    dip_made_report(&report, 0);
+    take_report();
+    price = dip_prices_step(prices, DIP_SETTING_AA, 2, &pane);
+    assert_int_equal(price.state, DIP_PRICE_UNKNOWN);
+    assert_true(price.has_flip);
+    assert_int_equal(dip_prices_sum(prices, &pane).state, DIP_PRICE_UNKNOWN);
+    assert_true(dip_prices_sum(prices, &pane).has_flip);
+}
+
+// --- the source ----------------------------------------------------------------------------------
+
+static char text[512];
+
+static void the_source_names_what_differs(void **state) {
+    (void)state;
+    take_report();
+    assert_false(dip_prices_source(prices, 64, 48, text, sizeof text));
+    assert_string_equal(text, "Prices: report of this scene, path DEFAULT, 64x48, 2 threads.");
+    assert_true(dip_prices_source(prices, 320, 240, text, sizeof text));
+    assert_string_equal(text, "Prices: report of this scene, path DEFAULT, 64x48, 2 threads. "
+                              "The panes are 320x240.");
+    dip_prices_set_conditions(prices, &(DipPriceConditions){"made up", "none", "scalar", 2});
+    assert_false(dip_prices_source(prices, 64, 48, text, sizeof text));
+    dip_prices_set_conditions(prices, &(DipPriceConditions){"square.obj", "fast", "avx2", 1});
+    assert_true(dip_prices_source(prices, 64, 48, text, sizeof text));
+    assert_string_equal(text, "Prices: report of made up, path DEFAULT, 64x48, 2 threads. "
+                              "The panes show square.obj. The panes have 1 thread. "
+                              "The report is from another machine.");
+    dip_prices_set_conditions(prices, &(DipPriceConditions){.isa = "avx2"});
+    assert_true(dip_prices_source(prices, 64, 48, text, sizeof text));
+    assert_true(dip_prices_source(prices, 64, 48, text, 12)); // Cut, not overrun.
+    assert_string_equal(text, "Prices: rep");
+}
+
+static void prices_of_a_busy_machine_are_marked(void **state) {
+    (void)state;
+    assert_true(dip_cost_estimate_times(&report, NULL));
+    report.verdict = DIP_COST_RED;
+    prices = dip_prices_create(NULL);
+    assert_true(dip_prices_set_report(prices, &report, NULL));
+    const DipQuality pane = settings("aa=4");
+    assert_true(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).doubtful);
+    assert_true(dip_prices_sum(prices, &pane).doubtful);
+    dip_prices_source(prices, 64, 48, text, sizeof text);
+    assert_non_null(strstr(text, "The machine was too busy"));
+}
+
+// --- rough prices --------------------------------------------------------------------------------
+
+static void add_rough(const char *of, double ms, double error, double flip) {
+    const DipQuality quality = settings(of);
+    assert_true(dip_prices_add_rough(prices, &quality, ms, ms - error, ms + error, flip));
+}
+
+static void rough_prices_are_differences_of_whole_times(void **state) {
+    (void)state;
+    const DipQuality pane = settings("aa=4,aaa=on,af=8");
+    prices = dip_prices_create(NULL);
+    assert_true(dip_prices_are_rough(prices));
+    assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).state, DIP_PRICE_UNKNOWN);
+    assert_int_equal(dip_prices_sum(prices, &pane).state, DIP_PRICE_UNKNOWN);
+    assert_false(dip_prices_source(prices, 64, 48, text, sizeof text));
+    assert_non_null(strstr(text, "not measured yet"));
+    add_rough("aa=none", 5.0, 0.0, 0.05);
+    add_rough("aa=4", 7.0, 0.3, -1.0);
+    add_rough("aa=4,aaa=on", 7.2, 0.4, -1.0);
+    add_rough("af=8", 6.0, 0.1, 0.04);
+    DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 2, &pane);
+    assert_int_equal(price.state, DIP_PRICE_ROUGH);
+    check_near(price.ms, 2.0);
+    check_near(price.ms_high, 2.3);
+    assert_false(price.has_flip || price.ms_is_zero);
+    price = dip_prices_step(prices, DIP_SETTING_AAA, 1, &pane);
+    check_near(price.ms, 0.2);
+    check_near(price.ms_low, 0.2 - 0.5);
+    assert_true(price.ms_is_zero);
+    price = dip_prices_step(prices, DIP_SETTING_AF, 3, &pane);
+    assert_true(price.has_flip);
+    check_near(price.flip, -0.01);
+    assert_int_equal(dip_prices_step(prices, DIP_SETTING_AF, 0, &pane).state, DIP_PRICE_BASE);
+    DipPriceSum sum = dip_prices_sum(prices, &pane);
+    assert_int_equal(sum.state, DIP_PRICE_ROUGH);
+    check_near(sum.ms, 5.0 + 2.0 + 0.2 + 1.0);
+    add_rough("aa=4,aaa=on,af=8", 8.0, 0.2, -1.0); // Measured together.
+    sum = dip_prices_sum(prices, &pane);
+    check_near(sum.ms, 8.0);
+    check_near(sum.together_ms, -0.2);
+    assert_true(add_up(&sum) == sum.ms);
+}
+
+static void a_new_rough_time_replaces_the_old_one(void **state) {
+    (void)state;
+    DipQuality list[4];
+    const DipQuality pane = settings("aa=4");
+    prices = dip_prices_create(NULL);
+    add_rough("aa=none", 5.0, 0.0, 0.05);
+    add_rough("aa=4", 7.0, 0.3, -1.0);
+    assert_int_equal(dip_prices_list_without_flip(prices, list, 4), 1);
+    dip_prices_add_rough_flip(prices, &list[0], 0.02);
+    assert_int_equal(dip_prices_list_without_flip(prices, list, 4), 0);
+    add_rough("aa=4", 8.0, 0.3, -1.0); // The error stays.
+    const DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 2, &pane);
+    check_near(price.ms, 3.0);
+    check_near(price.flip, -0.03);
+    dip_prices_forget_rough_flip(prices);
+    assert_int_equal(dip_prices_list_without_flip(prices, list, 4), 2);
+    dip_prices_forget_rough(prices);
+    assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).state, DIP_PRICE_UNKNOWN);
+}
+
+static void rough_prices_replace_a_report_on_demand(void **state) {
+    (void)state;
+    take_report();
+    const DipQuality pane = settings("aa=4");
+    add_rough("aa=none", 5.0, 0.0, -1.0);
+    add_rough("aa=4", 7.0, 0.3, -1.0);
+    assert_false(dip_prices_are_rough(prices));
+    check_near(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).ms, 3.0);
+    dip_prices_prefer_rough(prices, true);
+    assert_true(dip_prices_are_rough(prices));
+    check_near(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).ms, 2.0);
+    assert_false(dip_prices_step(prices, DIP_SETTING_AA, 2, &pane).doubtful);
+    assert_false(dip_prices_source(prices, 1, 1, text, sizeof text));
+    assert_non_null(strstr(text, "rough"));
+}
+
+int main(void) {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+    const struct CMUnitTest tests[] = {
+        TEST(a_price_is_what_a_step_adds_to_the_base),
+        TEST(a_price_within_the_noise_is_zero),
+        TEST(steps_that_need_others_are_priced_beside_them),
+        TEST(steps_without_their_company_say_what_they_need),
+        TEST(gains_are_differences_of_flip),
+        TEST(other_paths_are_named),
+        TEST(a_measured_sum_is_its_parts_and_what_they_miss),
+        TEST(settings_without_effect_do_not_count),
+        TEST(a_sum_that_was_not_measured_adds_the_parts),
+        TEST(a_predicted_sum_has_the_predictions_miss),
+        TEST(pictures_that_are_the_same_have_one_price),
+        TEST(a_report_without_truth_or_times_has_the_other),
+        TEST(the_source_names_what_differs),
+        TEST(prices_of_a_busy_machine_are_marked),
+        TEST(rough_prices_are_differences_of_whole_times),
+        TEST(a_new_rough_time_replaces_the_old_one),
+        TEST(rough_prices_replace_a_report_on_demand),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
