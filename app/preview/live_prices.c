@@ -1,0 +1,227 @@
+// Draws the frames that rough prices come from.
+#include "app/preview/live_prices.h"
+
+#include "app/preview/price_errors.h"
+#include "renderer/base/clock.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_ERRORS = 2 * DIP_PRICE_JOB_ROUNDS * 16 }; // More than the rough prices of a picture.
+
+struct DipLivePrices {
+    DipSession *session;
+    DipPrices *prices;
+    DipPriceJob *job;
+    // Indexed by the step of the setting gi, as in the cost report: a renderer that draws copies of
+    // meshes keeps them.
+    DipPainter *painters[2];
+    DipLivePicture picture;
+    bool has_picture;
+    DipFrame frame; // The frame that was drawn last.
+
+    DipPriceErrors errors;
+    bool measures_errors; // A picture is being compared with the truth.
+    bool errors_failed;
+    DipQuality judged; // Settings of this picture.
+    uint64_t truth_version;
+    int errors_left; // Combinations whose errors are not known, if there is a truth.
+};
+
+// --- painters ------------------------------------------------------------------------------------
+
+static DipPainter *painter_for(DipLivePrices *live, const DipQuality *quality, DipError *err) {
+    const DipSession *session = live->session;
+    DipPainter **painter = &live->painters[quality->step[DIP_SETTING_GI] != 0];
+    if (!*painter) {
+        const DipRendererDef def = {
+            .pool = session->pool,
+            .isa = session->isa,
+            .width = live->picture.width,
+            .height = live->picture.height,
+            .quality = *quality,
+            .reflection = session->reflection,
+            .force_all_effects = session->force_all_effects,
+        };
+        *painter = dip_painter_create(&def, session->gallery, err);
+    }
+    return *painter;
+}
+
+static bool draw(void *context, const DipQuality *quality, uint64_t frame_index, DipError *err) {
+    DipLivePrices *live = context;
+    DipPainter *painter = painter_for(live, quality, err);
+    if (!painter) {
+        return false;
+    }
+    dip_painter_set_frame_index(painter, frame_index);
+    return dip_painter_set_quality(painter, quality, err) &&
+           dip_painter_draw(painter, live->session->scene, &live->picture.pose,
+                            live->picture.time_ns, &live->frame, err);
+}
+
+static void forget(DipLivePrices *live) {
+    dip_price_job_forget(live->job);
+    live->measures_errors = live->errors_failed = false;
+    live->errors_left = 0;
+    live->has_picture = false;
+}
+
+static void destroy_painters(DipLivePrices *live) {
+    dip_painter_destroy(&live->painters[0]);
+    dip_painter_destroy(&live->painters[1]);
+}
+
+void dip_live_prices_leave_scene(DipLivePrices *live) {
+    forget(live);
+    destroy_painters(live);
+}
+
+DipLivePrices *dip_live_prices_create(DipSession *session, DipPrices *prices, DipError *err) {
+    DipLivePrices *live = calloc(1, sizeof *live);
+    if (!live) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
+        return NULL;
+    }
+    live->session = session;
+    live->prices = prices;
+    live->job =
+        dip_price_job_create(&(DipPriceJobCalls){.draw = draw, .context = live}, prices, err);
+    if (!live->job) {
+        dip_live_prices_destroy(&live);
+    }
+    return live;
+}
+
+void dip_live_prices_destroy(DipLivePrices **live) {
+    if (*live) {
+        destroy_painters(*live);
+        dip_price_errors_free(&(*live)->errors);
+        dip_price_job_destroy(&(*live)->job);
+        free(*live);
+        *live = NULL;
+    }
+}
+
+// --- following the picture -----------------------------------------------------------------------
+
+static bool is_same_picture(const DipLivePicture *a, const DipLivePicture *b) {
+    return memcmp(&a->pose, &b->pose, sizeof a->pose) == 0 && a->time_ns == b->time_ns &&
+           a->width == b->width && a->height == b->height && a->look == b->look;
+}
+
+// Forgets the prices of another picture. A painter that cannot have the new size is destroyed; the
+// next frame then fails with the reason.
+static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
+    if (live->has_picture && is_same_picture(&live->picture, picture)) {
+        return;
+    }
+    forget(live);
+    live->picture = *picture;
+    live->has_picture = true;
+    for (int i = 0; i < 2; i++) {
+        if (live->painters[i] &&
+            !dip_painter_resize(live->painters[i], picture->width, picture->height, NULL)) {
+            dip_painter_destroy(&live->painters[i]);
+        }
+    }
+}
+
+// --- errors --------------------------------------------------------------------------------------
+
+static bool begin_errors(DipLivePrices *live) {
+    DipQuality list[MOST_ERRORS];
+    live->errors_left = dip_prices_list_without_flip(live->prices, list, MOST_ERRORS);
+    if (live->errors_left == 0) {
+        return false;
+    }
+    live->judged = list[0];
+    live->errors_failed = !draw(live, &live->judged, 0, NULL);
+    const DipSrgbPicture picture = {live->frame.rgba8, live->frame.stride_bytes, live->frame.width,
+                                    live->frame.height};
+    live->errors_failed = live->errors_failed || !dip_price_errors_begin(&live->errors, &picture);
+    live->measures_errors = !live->errors_failed;
+    return live->measures_errors;
+}
+
+// Draws a picture or measures a block of it. Returns whether an error has become known.
+static bool step_errors(DipLivePrices *live, const DipSrgbPicture *truth) {
+    double flip;
+    if (!live->measures_errors) {
+        begin_errors(live);
+        return false;
+    }
+    switch (dip_price_errors_step(&live->errors, truth, &flip)) {
+    case DIP_PRICE_ERRORS_WORKING:
+        return false;
+    case DIP_PRICE_ERRORS_DONE:
+        dip_prices_add_rough_flip(live->prices, &live->judged, flip);
+        live->measures_errors = false;
+        live->errors_left--;
+        return true;
+    case DIP_PRICE_ERRORS_FAILED:
+        live->measures_errors = false;
+        live->errors_failed = true;
+        return false;
+    }
+    return false;
+}
+
+static bool measure_errors(DipLivePrices *live, const DipSrgbPicture *truth, int64_t end_ns) {
+    bool news = false;
+    do {
+        news |= step_errors(live, truth);
+    } while ((live->measures_errors || live->errors_left > 0) && !live->errors_failed &&
+             dip_clock_ns() < end_ns);
+    return news;
+}
+
+static bool fits(const DipSrgbPicture *truth, const DipLivePicture *picture) {
+    return truth && truth->width == picture->width && truth->height == picture->height;
+}
+
+static void follow_truth(DipLivePrices *live, uint64_t truth_version) {
+    if (live->truth_version != truth_version) {
+        live->truth_version = truth_version;
+        live->measures_errors = live->errors_failed = false;
+        dip_prices_forget_rough_flip(live->prices);
+    }
+}
+
+bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
+                          const DipQuality quality[DIP_PANE_COUNT], const DipSrgbPicture *truth,
+                          uint64_t truth_version, double budget_ms) {
+    const int64_t end_ns = dip_clock_ns() + (int64_t)(1e6 * budget_ms);
+    follow_picture(live, picture);
+    dip_price_job_follow(live->job, &quality[DIP_PANE_CURRENT], &quality[DIP_PANE_REQUESTED]);
+    const DipPriceProgress progress = dip_price_job_progress(live->job);
+    if (progress.working) {
+        return dip_price_job_step(live->job, budget_ms);
+    }
+    if (progress.failed || !fits(truth, picture)) {
+        live->errors_left = 0;
+        return false;
+    }
+    follow_truth(live, truth_version);
+    return !live->errors_failed && measure_errors(live, truth, end_ns);
+}
+
+void dip_live_prices_pause(DipLivePrices *live) {
+    dip_price_job_interrupt(live->job);
+    live->measures_errors = false;
+}
+
+bool dip_live_prices_are_working(const DipLivePrices *live) {
+    return live->has_picture &&
+           (dip_price_job_progress(live->job).working ||
+            (!live->errors_failed && (live->measures_errors || live->errors_left > 0)));
+}
+
+void dip_live_prices_describe(const DipLivePrices *live, char *text, size_t size_bytes) {
+    dip_price_job_describe(live->job, text, size_bytes);
+    if (text[0] == '\0' && live->errors_left > 0) {
+        snprintf(text, size_bytes, "errors of %d picture%s left", live->errors_left,
+                 live->errors_left == 1 ? "" : "s");
+    }
+}

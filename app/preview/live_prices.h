@@ -1,0 +1,51 @@
+// Rough prices of what the panes show, measured with painters of their own while nothing moves.
+//
+// The loop calls dip_live_prices_step in each turn in which camera and scene rest and no event is
+// waiting. A step draws one frame or more within its budget. First come the times (price_job.h),
+// then, if the loop has the truth of the picture, the errors.
+#ifndef DIP_APP_PREVIEW_LIVE_PRICES_H
+#define DIP_APP_PREVIEW_LIVE_PRICES_H
+
+#include "app/measure/picture.h"
+#include "app/preview/price_job.h"
+#include "app/session.h"
+
+typedef struct DipLivePrices DipLivePrices;
+
+// The picture whose settings have prices. Prices hold for one picture only.
+typedef struct DipLivePicture {
+    DipPose pose;
+    int64_t time_ns;
+    int width; // Size of a pane's frame.
+    int height;
+    int look; // Variant of a scene of the gallery.
+} DipLivePicture;
+
+// Session and prices are borrowed. Painters are made when they are first needed. Fails with MEMORY.
+DipLivePrices *dip_live_prices_create(DipSession *session, DipPrices *prices, DipError *err);
+void dip_live_prices_destroy(DipLivePrices **live); // *live may be NULL.
+
+// Destroys the painters and forgets all rough prices. Call it before the session's scene or gallery
+// is replaced, since the painters of a gallery must not outlive it.
+void dip_live_prices_leave_scene(DipLivePrices *live);
+
+// Measures for about budget_ms milliseconds: the frame or block that is begun is finished. Forgets
+// the prices of any other picture first. truth: the converged picture, of the same size and from
+// the same pose, or NULL while there is none. truth_version: a number that changes with the truth;
+// errors against another truth are measured anew. Returns whether prices have changed.
+bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
+                          const DipQuality quality[DIP_PANE_COUNT], const DipSrgbPicture *truth,
+                          uint64_t truth_version, double budget_ms);
+
+// Drops what is being measured, because something moves. Prices are kept until the next step finds
+// another picture.
+void dip_live_prices_pause(DipLivePrices *live);
+
+// Returns whether there is anything left to measure for the last picture, so that the loop need not
+// wait for an event.
+bool dip_live_prices_are_working(const DipLivePrices *live);
+
+// Writes "3 of 8 frames, 4 s left", "errors of 5 pictures left", or "" if nothing is left.
+void dip_live_prices_describe(const DipLivePrices *live, char *text, size_t size_bytes);
+
+#endif
