@@ -130,22 +130,22 @@ static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
 
 // --- errors --------------------------------------------------------------------------------------
 
-static bool begin_errors(DipLivePrices *live) {
+static void begin_errors(DipLivePrices *live) {
     DipQuality list[MOST_ERRORS];
-    live->errors_left = dip_prices_list_without_flip(live->prices, list, MOST_ERRORS);
-    if (live->errors_left == 0) {
-        return false;
-    }
+    dip_prices_list_without_flip(live->prices, list, MOST_ERRORS);
     live->judged = list[0];
-    live->errors_failed = !draw(live, &live->judged, 0, NULL);
-    const DipSrgbPicture picture = {live->frame.rgba8, live->frame.stride_bytes, live->frame.width,
-                                    live->frame.height};
-    live->errors_failed = live->errors_failed || !dip_price_errors_begin(&live->errors, &picture);
-    live->measures_errors = !live->errors_failed;
-    return live->measures_errors;
+    live->measures_errors = draw(live, &live->judged, 0, NULL);
+    if (live->measures_errors) {
+        const DipSrgbPicture picture = {live->frame.rgba8, live->frame.stride_bytes,
+                                        live->frame.width, live->frame.height};
+        live->measures_errors = dip_price_errors_begin(&live->errors, &picture);
+    }
+    live->errors_failed = !live->measures_errors;
+    live->errors_left = live->errors_failed ? 0 : live->errors_left;
 }
 
-// Draws a picture or measures a block of it. Returns whether an error has become known.
+// Draws a picture or measures a block of it; there is a combination whose error is not known.
+// Returns whether an error has become known.
 static bool step_errors(DipLivePrices *live, const DipSrgbPicture *truth) {
     double flip;
     if (!live->measures_errors) {
@@ -163,6 +163,7 @@ static bool step_errors(DipLivePrices *live, const DipSrgbPicture *truth) {
     case DIP_PRICE_ERRORS_FAILED:
         live->measures_errors = false;
         live->errors_failed = true;
+        live->errors_left = 0;
         return false;
     }
     return false;
@@ -172,8 +173,7 @@ static bool measure_errors(DipLivePrices *live, const DipSrgbPicture *truth, int
     bool news = false;
     do {
         news |= step_errors(live, truth);
-    } while ((live->measures_errors || live->errors_left > 0) && !live->errors_failed &&
-             dip_clock_ns() < end_ns);
+    } while (live->errors_left > 0 && dip_clock_ns() < end_ns);
     return news;
 }
 
@@ -189,22 +189,29 @@ static void follow_truth(DipLivePrices *live, uint64_t truth_version) {
     }
 }
 
+static void count_errors_left(DipLivePrices *live, const DipSrgbPicture *truth) {
+    DipQuality list[MOST_ERRORS];
+    live->errors_left = fits(truth, &live->picture) && !live->errors_failed
+                            ? dip_prices_list_without_flip(live->prices, list, MOST_ERRORS)
+                            : 0;
+}
+
 bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
                           const DipQuality quality[DIP_PANE_COUNT], const DipSrgbPicture *truth,
                           uint64_t truth_version, double budget_ms) {
     const int64_t end_ns = dip_clock_ns() + (int64_t)(1e6 * budget_ms);
     follow_picture(live, picture);
     dip_price_job_follow(live->job, &quality[DIP_PANE_CURRENT], &quality[DIP_PANE_REQUESTED]);
-    const DipPriceProgress progress = dip_price_job_progress(live->job);
-    if (progress.working) {
-        return dip_price_job_step(live->job, budget_ms);
+    if (fits(truth, picture)) {
+        follow_truth(live, truth_version);
     }
-    if (progress.failed || !fits(truth, picture)) {
-        live->errors_left = 0;
-        return false;
+    if (dip_price_job_progress(live->job).working) {
+        const bool news = dip_price_job_step(live->job, budget_ms);
+        count_errors_left(live, truth);
+        return news;
     }
-    follow_truth(live, truth_version);
-    return !live->errors_failed && measure_errors(live, truth, end_ns);
+    count_errors_left(live, truth);
+    return live->errors_left > 0 && measure_errors(live, truth, end_ns);
 }
 
 void dip_live_prices_pause(DipLivePrices *live) {
@@ -214,8 +221,7 @@ void dip_live_prices_pause(DipLivePrices *live) {
 
 bool dip_live_prices_are_working(const DipLivePrices *live) {
     return live->has_picture &&
-           (dip_price_job_progress(live->job).working ||
-            (!live->errors_failed && (live->measures_errors || live->errors_left > 0)));
+           (dip_price_job_progress(live->job).working || live->errors_left > 0);
 }
 
 void dip_live_prices_describe(const DipLivePrices *live, char *text, size_t size_bytes) {

@@ -1,6 +1,7 @@
 // Answering for prices: from the report's tags, or from the differences of whole times.
 #include "app/preview/prices.h"
 
+#include "app/cost/formats.h"
 #include "app/preview/prices_private.h"
 
 #include <math.h>
@@ -42,6 +43,16 @@ bool dip_prices_set_report(DipPrices *prices, const DipCostReport *report, DipEr
     dip_price_report_free(&prices->report);
     prices->has_report = dip_price_report_make(&prices->report, report, err);
     return prices->has_report;
+}
+
+bool dip_prices_load_report(DipPrices *prices, const char *file, DipError *err) {
+    DipCostReport report;
+    if (!dip_cost_read_json(&report, file, err)) {
+        return false;
+    }
+    const bool taken = dip_prices_set_report(prices, &report, err);
+    dip_cost_report_free(&report);
+    return taken;
 }
 
 bool dip_prices_has_report(const DipPrices *prices) {

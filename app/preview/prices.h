@@ -86,6 +86,10 @@ void dip_prices_set_conditions(DipPrices *prices, const DipPriceConditions *cond
 bool dip_prices_set_report(DipPrices *prices, const DipCostReport *report, DipError *err);
 bool dip_prices_has_report(const DipPrices *prices);
 
+// Takes prices from the JSON file of a report. Fails as dip_cost_read_json and
+// dip_prices_set_report do.
+bool dip_prices_load_report(DipPrices *prices, const char *file, DipError *err);
+
 // Says whether rough prices are used although there is a report, because the report is stale and
 // the user wants to measure here. Without a report, rough prices are always used.
 void dip_prices_prefer_rough(DipPrices *prices, bool prefer);
