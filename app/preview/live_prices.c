@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const int64_t progress_period_ns = 250000000;
 enum { MOST_ERRORS = 2 * DIP_PRICE_JOB_ROUNDS * 16 }; // More than the rough prices of a picture.
 
 struct DipLivePrices {
@@ -26,7 +27,8 @@ struct DipLivePrices {
     bool errors_failed;
     DipQuality judged; // Settings of this picture.
     uint64_t truth_version;
-    int errors_left; // Combinations whose errors are not known, if there is a truth.
+    int errors_left;     // Combinations whose errors are not known, if there is a truth.
+    int64_t progress_ns; // When the text of the progress was written last.
 };
 
 // --- painters ------------------------------------------------------------------------------------
@@ -66,6 +68,7 @@ static void forget(DipLivePrices *live) {
     live->measures_errors = live->errors_failed = false;
     live->errors_left = 0;
     live->has_picture = false;
+    live->progress_ns = -progress_period_ns; // The next text is shown at once.
 }
 
 static void destroy_painters(DipLivePrices *live) {
@@ -196,15 +199,33 @@ static void count_errors_left(DipLivePrices *live, const DipSrgbPicture *truth) 
                             : 0;
 }
 
-bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
-                          const DipQuality quality[DIP_PANE_COUNT], const DipSrgbPicture *truth,
-                          uint64_t truth_version, double budget_ms) {
-    const int64_t end_ns = dip_clock_ns() + (int64_t)(1e6 * budget_ms);
-    follow_picture(live, picture);
-    dip_price_job_follow(live->job, &quality[DIP_PANE_CURRENT], &quality[DIP_PANE_REQUESTED]);
-    if (fits(truth, picture)) {
-        follow_truth(live, truth_version);
+// --- progress ------------------------------------------------------------------------------------
+
+// Writes "3 of 8 frames, 4 s left", "errors of 5 pictures left", or "" if nothing is left.
+static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
+    dip_price_job_describe(live->job, text, size_bytes);
+    if (text[0] == '\0' && live->errors_left > 0) {
+        snprintf(text, size_bytes, "errors of %d picture%s left", live->errors_left,
+                 live->errors_left == 1 ? "" : "s");
     }
+}
+
+// Tells the panel what is being measured, now and then. Returns whether the text is new.
+static bool show_progress(DipLivePrices *live) {
+    const int64_t now_ns = dip_clock_ns();
+    char text[DIP_PRICE_PROGRESS];
+    if (dip_live_prices_are_working(live) && now_ns - live->progress_ns < progress_period_ns) {
+        return false;
+    }
+    live->progress_ns = now_ns;
+    describe(live, text, sizeof text);
+    return dip_prices_set_progress(live->prices, text);
+}
+
+// --- the whole -----------------------------------------------------------------------------------
+
+static bool measure(DipLivePrices *live, const DipSrgbPicture *truth, double budget_ms) {
+    const int64_t end_ns = dip_clock_ns() + (int64_t)(1e6 * budget_ms);
     if (dip_price_job_progress(live->job).working) {
         const bool news = dip_price_job_step(live->job, budget_ms);
         count_errors_left(live, truth);
@@ -214,20 +235,25 @@ bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
     return live->errors_left > 0 && measure_errors(live, truth, end_ns);
 }
 
+bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
+                          const DipQuality quality[DIP_PANE_COUNT], const DipSrgbPicture *truth,
+                          uint64_t truth_version, double budget_ms) {
+    follow_picture(live, picture);
+    dip_price_job_follow(live->job, &quality[DIP_PANE_CURRENT], &quality[DIP_PANE_REQUESTED]);
+    if (fits(truth, picture)) {
+        follow_truth(live, truth_version);
+    }
+    const bool news = measure(live, truth, budget_ms);
+    return show_progress(live) || news;
+}
+
 void dip_live_prices_pause(DipLivePrices *live) {
     dip_price_job_interrupt(live->job);
     live->measures_errors = false;
+    dip_prices_set_progress(live->prices, "");
 }
 
 bool dip_live_prices_are_working(const DipLivePrices *live) {
     return live->has_picture &&
            (dip_price_job_progress(live->job).working || live->errors_left > 0);
-}
-
-void dip_live_prices_describe(const DipLivePrices *live, char *text, size_t size_bytes) {
-    dip_price_job_describe(live->job, text, size_bytes);
-    if (text[0] == '\0' && live->errors_left > 0) {
-        snprintf(text, size_bytes, "errors of %d picture%s left", live->errors_left,
-                 live->errors_left == 1 ? "" : "s");
-    }
 }

@@ -32,7 +32,9 @@ void dip_live_prices_leave_scene(DipLivePrices *live);
 // Measures for about budget_ms milliseconds: the frame or block that is begun is finished. Forgets
 // the prices of any other picture first. truth: the converged picture, of the same size and from
 // the same pose, or NULL while there is none. truth_version: a number that changes with the truth;
-// errors against another truth are measured anew. Returns whether prices have changed.
+// errors against another truth are measured anew. Returns whether the panel must be drawn again,
+// because prices or the text of their progress (dip_prices_progress) have changed; the text changes
+// four times a second at most.
 bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
                           const DipQuality quality[DIP_PANE_COUNT], const DipSrgbPicture *truth,
                           uint64_t truth_version, double budget_ms);
@@ -44,8 +46,5 @@ void dip_live_prices_pause(DipLivePrices *live);
 // Returns whether there is anything left to measure for the last picture, so that the loop need not
 // wait for an event.
 bool dip_live_prices_are_working(const DipLivePrices *live);
-
-// Writes "3 of 8 frames, 4 s left", "errors of 5 pictures left", or "" if nothing is left.
-void dip_live_prices_describe(const DipLivePrices *live, char *text, size_t size_bytes);
 
 #endif

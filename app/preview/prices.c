@@ -16,6 +16,7 @@ struct DipPrices {
     bool prefers_rough;
     DipPriceList rough;
     DipPriceConditions conditions;
+    char progress[DIP_PRICE_PROGRESS];
 };
 
 DipPrices *dip_prices_create(DipError *err) {
@@ -132,6 +133,17 @@ bool dip_prices_has_rough(const DipPrices *prices, const DipQuality *quality) {
 
 void dip_prices_forget_rough(DipPrices *prices) {
     prices->rough.count = 0;
+}
+
+bool dip_prices_set_progress(DipPrices *prices, const char *text) {
+    char before[DIP_PRICE_PROGRESS];
+    memcpy(before, prices->progress, sizeof before);
+    snprintf(prices->progress, sizeof prices->progress, "%s", text);
+    return strcmp(before, prices->progress) != 0;
+}
+
+const char *dip_prices_progress(const DipPrices *prices) {
+    return prices->progress;
 }
 
 // --- steps ---------------------------------------------------------------------------------------

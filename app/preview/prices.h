@@ -122,6 +122,12 @@ bool dip_prices_has_rough(const DipPrices *prices, const DipQuality *quality);
 // Forgets rough prices, because the picture, its size or its scene has changed.
 void dip_prices_forget_rough(DipPrices *prices);
 
+// What is being measured, for the panel: "3 of 8 frames, 4 s left", or "" if nothing is. The text
+// is copied and cut to DIP_PRICE_PROGRESS bytes. Returns whether the text is new.
+enum { DIP_PRICE_PROGRESS = 96 };
+bool dip_prices_set_progress(DipPrices *prices, const char *text);
+const char *dip_prices_progress(const DipPrices *prices);
+
 // Returns the price of a step of a setting for a pane that has the other settings of `quality`.
 DipPrice dip_prices_step(const DipPrices *prices, DipSetting setting, int step,
                          const DipQuality *quality);

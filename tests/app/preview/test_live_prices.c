@@ -146,9 +146,7 @@ static void all_steps_of_models_get_a_price(void **state) {
     (void)state;
     assert_true(measure(NULL, 0) > 1);
     check_all_known(false);
-    char text[64];
-    dip_live_prices_describe(live, text, sizeof text);
-    assert_string_equal(text, "");
+    assert_string_equal(dip_prices_progress(prices), "");
 }
 
 static void errors_are_those_of_whole_pictures(void **state) {
@@ -176,6 +174,9 @@ static void another_picture_has_no_prices_yet(void **state) {
     picture.pose.position_world[0] += 0.5;
     dip_live_prices_step(live, &picture, panes, NULL, 0, 0.0);
     assert_int_equal(dip_prices_step(prices, DIP_SETTING_AA, 1, pane).state, DIP_PRICE_UNKNOWN);
+    assert_string_not_equal(dip_prices_progress(prices), "");
+    dip_live_prices_pause(live);
+    assert_string_equal(dip_prices_progress(prices), "");
     measure(NULL, 0);
     picture.width -= 32;
     dip_live_prices_step(live, &picture, panes, NULL, 0, 0.0);

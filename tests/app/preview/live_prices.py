@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""Compares rough prices with a cost report of the same scene. It needs a quiet machine.
+
+    live_prices.py DIPTYCH PRINT MEASURE FOLDER [--poses N] [--rounds N] [--report COST.JSON]
+
+Measures a report of the courtyard, or takes one that was measured with its ini and two threads.
+Then rests at N poses along the path DEFAULT and measures there as the preview does (MEASURE,
+measure_prices.c). Prints, for each step, the report's price (PRINT, print_prices.c) with its
+interval and the mean of the rough prices over the poses; which share of the steps lies within the
+report's interval; and how well prices that are added up predict the sums that were measured.
+Asserts only that every price is known, since times depend on the machine.
+"""
+import argparse
+import itertools
+import json
+import math
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+THREADS = 2
+# Prices of the settings panel, with the path's own rows: a step, and the pane that it is asked for.
+PANES = ["aa=4,aaa=on,asd=2,af=16,aaf=on", "aa=8,aaa=on,asd=4,af=4,aaf=on"]
+STEPS = [("aa", 5), ("aaa", 2), ("asd", 2), ("af", 5), ("aaf", 2)]
+SUMS = ["aa=2,af=4", "aa=4,af=16", "aa=4,aaa=on,asd=2,af=16", "aa=8,af=8", "aa=8,aaa=on,af=16,aaf=on",
+        "aa=6,aaa=on,asd=3,af=2"]
+
+
+def questions():
+    asked = []
+    for pane in PANES:
+        for key, count in STEPS:
+            asked += [f"step {key} {index} {pane}" for index in range(count)]
+    return asked + [f"sum {settings}" for settings in SUMS]
+
+
+def measure_report(options, out):
+    subprocess.run([options.diptych, "cost", "--config", options.folder / "config/courtyard.ini",
+                    "--size", "320x240", "--threads", str(THREADS), "--places", "2", "--samples",
+                    "4", "--pictures", "none", "--rounds", str(options.rounds), "--timed", "8",
+                    "--combine", "aa,aaa,asd,af,aaf", "--cache", out / "truths", "--out", out],
+                   check=True, stdout=subprocess.DEVNULL)
+    return out / "cost.json"
+
+
+def run(command, lines):
+    answers = subprocess.run([str(part) for part in command], input="\n".join(lines) + "\n",
+                             check=True, capture_output=True, text=True).stdout.splitlines()
+    return [json.loads(answer) for answer in answers]
+
+
+def level_of(report, lines, answers):
+    """The factor from this run's milliseconds to the report's: whole runs differ, ratios do not."""
+    base = report["rows"][report["paths"][0]["base_row"]]["ms"]
+    now = [answer["base"] for line, answer in zip(itertools.cycle(lines), answers)
+           if line.startswith("sum")]
+    print(f"the base takes {base:.3f} ms in the report and {statistics.mean(now):.3f} ms now; the "
+          "rough prices below are in the report's milliseconds")
+    return base / statistics.mean(now)
+
+
+def mean_of(answers, count, poses, level):
+    """The mean of each question's answers over the poses, with its standard error."""
+    for index in range(count):
+        ms = [level * answers[pose * count + index]["ms"] for pose in range(poses)]
+        yield statistics.mean(ms), statistics.stdev(ms) / math.sqrt(poses)
+
+
+def compare_steps(lines, known, rough):
+    """Of the steps of path DEFAULT; the others belong to other pictures."""
+    within = near = count = 0
+    for line, price, (ms, error) in zip(lines, known, rough):
+        if not line.startswith("step") or price["state"] != "measured":
+            continue
+        if price["path"] != "DEFAULT":
+            continue
+        count += 1
+        inside = price["low"] <= ms <= price["high"]
+        overlaps = price["low"] <= ms + 2 * error and ms - 2 * error <= price["high"]
+        within += inside
+        near += overlaps
+        print(f'{line:48} report {price["ms"]:+7.3f} ({price["low"]:+7.3f} to '
+              f'{price["high"]:+7.3f})  rough {ms:+7.3f} +- {2 * error:.3f}'
+              f'{"" if inside else "  near" if overlaps else "  OUTSIDE"}')
+    print(f"{within} of {count} rough prices lie within the report's intervals, {near} with their "
+          "own error")
+
+
+def compare_sums(lines, known, rough):
+    for line, price, (ms, error) in zip(lines, known, rough):
+        if line.startswith("sum"):
+            added = price["ms"] - price["together"]
+            print(f'{line:48} measured {price["ms"]:7.3f} ms, prices added {added:7.3f} '
+                  f'({100 * (added / price["ms"] - 1):+.1f} %), rough {ms:7.3f} +- {2 * error:.3f}')
+
+
+def compare_all_sums(options, report):
+    """Adds up the prices of every combination that the report measured on path DEFAULT."""
+    rows = [row for row in json.loads(report.read_text())["rows"] if row["path"] == 0]
+    answers = run([options.print, report], [f'sum {row["settings"]}' for row in rows])
+    misses = sorted(abs((a["ms"] - a["together"]) / a["ms"] - 1) for a in answers)
+    within = sum(miss <= 0.10 for miss in misses)
+    print(f"prices added up predict {within} of {len(misses)} measured sums within 10 %; "
+          f"median {100 * statistics.median(misses):.1f} %, worst {100 * misses[-1]:.1f} %")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    for name in ("diptych", "print", "measure", "folder"):
+        parser.add_argument(name, type=pathlib.Path)
+    parser.add_argument("--poses", type=int, default=24)
+    parser.add_argument("--rounds", type=int, default=16)
+    parser.add_argument("--report", type=pathlib.Path)
+    options = parser.parse_args()
+    lines = questions()
+    with tempfile.TemporaryDirectory() as work:
+        report = options.report or measure_report(options, pathlib.Path(work))
+        header = json.loads(report.read_text())
+        known = run([options.print, report], lines)
+        answers = run([options.measure, options.folder / "config/courtyard.ini", header["width"],
+                       header["height"], header["threads"], options.poses], lines)
+        unknown = [line for line, answer in zip(lines * options.poses, answers)
+                   if answer["state"] == "unknown"]
+        assert not unknown and len(answers) == len(lines) * options.poses, unknown
+        level = level_of(header, lines, answers)
+        rough = list(mean_of(answers, len(lines), options.poses, level))
+        compare_steps(lines, known, rough)
+        compare_sums(lines, known, rough)
+        compare_all_sums(options, report)
+
+
+main()
