@@ -1,6 +1,8 @@
 // Draws the frames that rough prices come from.
 #include "app/preview/live_prices.h"
 
+#include "app/cost/plan.h"
+#include "app/machine.h"
 #include "app/preview/price_errors.h"
 #include "renderer/base/clock.h"
 
@@ -21,6 +23,8 @@ struct DipLivePrices {
     DipLivePicture picture;
     bool has_picture;
     DipFrame frame; // The frame that was drawn last.
+    char scene[DIP_COST_TEXT];
+    char processor[DIP_COST_TEXT];
 
     DipPriceErrors errors;
     bool measures_errors; // A picture is being compared with the truth.
@@ -79,6 +83,20 @@ static void destroy_painters(DipLivePrices *live) {
 void dip_live_prices_leave_scene(DipLivePrices *live) {
     forget(live);
     destroy_painters(live);
+}
+
+void dip_live_prices_enter_scene(DipLivePrices *live) {
+    const DipSession *session = live->session;
+    dip_cost_scene_name(session, live->scene);
+    dip_machine_processor(live->processor, sizeof live->processor);
+    const DipPriceConditions conditions = {
+        .scene = live->scene,
+        .processor = live->processor,
+        .isa = dip_isa_name(session->isa),
+        .threads = dip_pool_thread_count(session->pool),
+    };
+    dip_prices_set_conditions(live->prices, &conditions);
+    dip_prices_prefer_rough(live->prices, dip_prices_are_of_other_scene(live->prices));
 }
 
 DipLivePrices *dip_live_prices_create(DipSession *session, DipPrices *prices, DipError *err) {

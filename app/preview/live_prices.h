@@ -29,6 +29,11 @@ void dip_live_prices_destroy(DipLivePrices **live); // *live may be NULL.
 // is replaced, since the painters of a gallery must not outlive it.
 void dip_live_prices_leave_scene(DipLivePrices *live);
 
+// Tells the prices which scene the session shows and on what it is drawn. If the report is of
+// another scene, rough prices replace it until its scene is back. Call it after the session was
+// opened and after its scene was replaced.
+void dip_live_prices_enter_scene(DipLivePrices *live);
+
 // Measures for about budget_ms milliseconds: the frame or block that is begun is finished. Forgets
 // the prices of any other picture first. truth: the converged picture, of the same size and from
 // the same pose, or NULL while there is none. truth_version: a number that changes with the truth;

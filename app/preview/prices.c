@@ -385,6 +385,10 @@ static bool say_differences(const DipPrices *prices, int width, int height, Text
     return stale;
 }
 
+bool dip_prices_are_of_other_scene(const DipPrices *prices) {
+    return prices->has_report && differs(prices->conditions.scene, prices->report.scene);
+}
+
 bool dip_prices_source(const DipPrices *prices, int width, int height, char *out,
                        size_t size_bytes) {
     const DipPriceReport *report = &prices->report;

@@ -90,6 +90,9 @@ bool dip_prices_has_report(const DipPrices *prices);
 // dip_prices_set_report do.
 bool dip_prices_load_report(DipPrices *prices, const char *file, DipError *err);
 
+// Returns whether there is a report and it is of another scene than the conditions name.
+bool dip_prices_are_of_other_scene(const DipPrices *prices);
+
 // Says whether rough prices are used although there is a report, because the report is stale and
 // the user wants to measure here. Without a report, rough prices are always used.
 void dip_prices_prefer_rough(DipPrices *prices, bool prefer);

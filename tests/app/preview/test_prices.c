@@ -325,7 +325,9 @@ static void the_source_names_what_differs(void **state) {
                               "The panes are 320x240.");
     dip_prices_set_conditions(prices, &(DipPriceConditions){"made up", "none", "scalar", 2});
     assert_false(dip_prices_source(prices, 64, 48, text, sizeof text));
+    assert_false(dip_prices_are_of_other_scene(prices));
     dip_prices_set_conditions(prices, &(DipPriceConditions){"square.obj", "fast", "avx2", 1});
+    assert_true(dip_prices_are_of_other_scene(prices));
     assert_true(dip_prices_source(prices, 64, 48, text, sizeof text));
     assert_string_equal(text, "Prices: report of made up, path DEFAULT, 64x48, 2 threads. "
                               "The panes show square.obj. The panes have 1 thread. "
