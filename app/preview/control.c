@@ -4,7 +4,7 @@
 #include "app/control/control.h"
 #include "app/files/png.h"
 #include "app/preview/control_reply.h"
-#include "app/preview/view.h"
+#include "app/preview/layout.h"
 #include "config/config.h"
 
 #include <cjson/cJSON.h>
@@ -132,20 +132,30 @@ static DipControlAnswer show_scene(const DipPreviewMoment *moment, const char *n
     return DIP_CONTROL_LATER;
 }
 
+// Where the panes lie in a window of a size.
+static DipLayout layout_of(const DipPreviewMoment *moment, int width, int height) {
+    const DipToolState *tools = &moment->state->tools;
+    const double scale = moment->display->scale(moment->display->context) * tools->ui_scale;
+    return dip_layout_make(width, height, scale, tools->open, tools->bare);
+}
+
 static bool resize(const DipPreviewMoment *moment, const DipControlRequest *request, cJSON *reply,
                    DipError *err) {
     const DipDisplay *display = moment->display;
-    DipRect panes[DIP_PANE_COUNT];
+    const DipToolState *tools = &moment->state->tools;
+    const double scale = display->scale(display->context) * tools->ui_scale;
     int width, height;
     if (!display->set_size) {
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "request",
                              "the host's window decides about the size");
     }
-    display->set_size(display->context, 2 * request->width + DIP_PANE_GAP_PX, request->height);
+    dip_layout_window_size(request->width, request->height, scale, tools->open, tools->bare, &width,
+                           &height);
+    display->set_size(display->context, width, height);
     display->size(display->context, &width, &height);
-    dip_view_panes(width, height, panes);
-    cJSON_AddNumberToObject(reply, "width", panes[0].width);
-    cJSON_AddNumberToObject(reply, "height", panes[0].height);
+    const DipRect pane = layout_of(moment, width, height).panes[DIP_PANE_CURRENT];
+    cJSON_AddNumberToObject(reply, "width", pane.width);
+    cJSON_AddNumberToObject(reply, "height", pane.height);
     return true;
 }
 
@@ -399,13 +409,12 @@ static void press(void *context, const DipPreviewMoment *moment, const DipEvent 
     };
     DipRemote *remote = context;
     const DipFrame *frame = &moment->panes[0];
-    DipRect panes[DIP_PANE_COUNT];
     if (!wants(remote, DIP_CONTROL_TOPIC_PICKS) || !frame->rgba8) {
         return;
     }
-    dip_view_panes(moment->picture.width, moment->picture.height, panes);
+    const DipLayout layout = layout_of(moment, moment->picture.width, moment->picture.height);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipRect *pane = &panes[p];
+        const DipRect *pane = &layout.panes[p];
         if (!dip_rect_holds(*pane, event->x, event->y)) {
             continue;
         }

@@ -27,6 +27,10 @@ typedef struct DipLayout {
 // tab. bare: the window shows nothing but the panes.
 DipLayout dip_layout_make(int width, int height, double scale, bool open, bool bare);
 
+// Finds a size of the window in which each pane has the given size in pixels.
+void dip_layout_window_size(int pane_width, int pane_height, double scale, bool open, bool bare,
+                            int *width, int *height);
+
 // Returns the height of the dock below panes at scale 1, with its bar, for a window that opens with
 // the dock.
 int dip_layout_dock_height(void);
