@@ -106,19 +106,29 @@ static bool open_in_host(SdlDisplay *sdl, unsigned long window_id, DipError *err
            sdl_failed(err);
 }
 
+// Returns whether SDL can destroy its window. SDL hides a visible window first, and waits until the
+// X server has done so: for ever, if the host has closed its window meanwhile. The child is
+// therefore hidden here; if SDL does not hear of that, there is no child any more.
+static bool can_quit(SdlDisplay *sdl) {
+    if (sdl->host && sdl->window) {
+        dip_sdl_host_hide_child(sdl->host);
+        SDL_PumpEvents();
+        return (SDL_GetWindowFlags(sdl->window) & SDL_WINDOW_SHOWN) == 0;
+    }
+    return true;
+}
+
 static void close_display(void *context) {
     SdlDisplay *sdl = context;
-    const bool embedded = sdl->host != NULL;
+    const bool quits = can_quit(sdl);
     SDL_free(sdl->dropped_file);
-    dip_sdl_host_close(&sdl->host); // The X server then destroys the child.
-    // SDL hides a window before it destroys it, and waits until the window is hidden. If the host
-    // has closed its window, SDL would wait for ever, so that it keeps a window inside a host.
-    if (sdl->window && !embedded) {
+    if (sdl->window && quits) {
         SDL_DestroyWindow(sdl->window);
     }
-    if (sdl->sdl_open && !embedded) {
+    if (sdl->sdl_open && quits) {
         SDL_Quit();
     }
+    dip_sdl_host_close(&sdl->host);
     free(sdl);
 }
 

@@ -128,6 +128,12 @@ bool dip_sdl_host_follow(DipSdlHost *host) {
     return !host->gone;
 }
 
+void dip_sdl_host_hide_child(const DipSdlHost *host) {
+    XSetErrorHandler(ignore_error);
+    XUnmapWindow(host->display, host->child);
+    XSync(host->display, False); // SDL's connection has now been told, too.
+}
+
 void dip_sdl_host_take_focus(const DipSdlHost *host) {
     XSetInputFocus(host->display, host->child, RevertToParent, CurrentTime);
     XFlush(host->display);

@@ -36,6 +36,9 @@ bool dip_sdl_host_follow(DipSdlHost *host);
 // Asks the X server whether the host's window has gone away.
 bool dip_sdl_host_is_gone(DipSdlHost *host);
 
+// Hides the child before it is destroyed.
+void dip_sdl_host_hide_child(const DipSdlHost *host);
+
 // Gives the child the keyboard focus.
 void dip_sdl_host_take_focus(const DipSdlHost *host);
 
