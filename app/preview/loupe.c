@@ -82,6 +82,12 @@ void dip_loupe_move(DipToolState *tools, int dx, int dy, int width, int height) 
     tools->y = clamped(tools->y + dy, height);
 }
 
+void dip_loupe_keep_inside(DipToolState *tools, int width, int height) {
+    const bool nowhere = tools->x < 0 || tools->y < 0;
+    tools->x = nowhere ? width / 2 : clamped(tools->x, width);
+    tools->y = nowhere ? height / 2 : clamped(tools->y, height);
+}
+
 bool dip_loupe_is_on(const DipToolState *tools) {
     return tools->loupe || (tools->open && tools->tab == DIP_TAB_LOUPE);
 }

@@ -44,6 +44,9 @@ void dip_loupe_zoom(DipToolState *tools, int steps);
 // Pins the loupe, and moves it by whole pixels within a picture of width x height pixels.
 void dip_loupe_move(DipToolState *tools, int dx, int dy, int width, int height);
 
+// Keeps the loupe's pixel within pictures of a size. A pixel below 0 becomes the picture's middle.
+void dip_loupe_keep_inside(DipToolState *tools, int width, int height);
+
 // Returns whether the loupe looks at the panes: it is on, or its tab shows.
 bool dip_loupe_is_on(const DipToolState *tools);
 

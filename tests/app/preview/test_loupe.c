@@ -110,6 +110,11 @@ static void test_zoom_and_moves_stay_in_range(void **state) {
     assert_true(tools.pinned && tools.x == 0 && tools.y == 4);
     dip_loupe_move(&tools, 100, 100, 10, 8);
     assert_true(tools.x == 9 && tools.y == 7);
+    dip_loupe_keep_inside(&tools, 6, 20);
+    assert_true(tools.x == 5 && tools.y == 7);
+    tools.y = -1;
+    dip_loupe_keep_inside(&tools, 6, 20);
+    assert_true(tools.x == 3 && tools.y == 10);
 }
 
 static void test_front_surface_is_the_nearest(void **state) {
