@@ -106,23 +106,61 @@ static int least(int a, int b) {
     return a < b ? a : b;
 }
 
+static int most(int a, int b) {
+    return a > b ? a : b;
+}
+
+// A rectangle with rounded corners, filled (ring = 0) or as an outline of `ring` pixels.
+typedef struct RoundRect {
+    DipRect rect;
+    int radius;
+    int ring;
+    DipColour colour;
+} RoundRect;
+
+// Blends the pixels [from, to) of the row y by their coverage.
+static void blend_edge(DipCanvas *canvas, const RoundRect *shape, int y, int from, int to) {
+    const DipRect *rect = &shape->rect;
+    const int ring = shape->ring;
+    for (int x = from; x < to; ++x) {
+        const int px = x - rect->x, py = y - rect->y;
+        double coverage = round_coverage(px, py, rect->width, rect->height, shape->radius);
+        if (ring > 0) {
+            coverage -= round_coverage(px - ring, py - ring, rect->width - 2 * ring,
+                                       rect->height - 2 * ring, most(shape->radius - ring, 0));
+        }
+        if (coverage > 0.0) {
+            blend_pixel(pixel_at(canvas, x, y), shape->colour,
+                        (unsigned)(coverage * shape->colour.alpha + 0.5));
+        }
+    }
+}
+
+// Blends the row y between the corners, where pixels are covered wholly or not at all.
+static void blend_middle(DipCanvas *canvas, const RoundRect *shape, int y, int from, int to) {
+    const int py = y - shape->rect.y;
+    const bool covered =
+        shape->ring == 0 || py < shape->ring || py >= shape->rect.height - shape->ring;
+    if (covered && to > from) {
+        blend_row(pixel_at(canvas, from, y), to - from, shape->colour);
+    }
+}
+
 void dip_canvas_round(DipCanvas *canvas, DipRect rect, int radius, int ring, DipColour colour) {
     const DipRect inside = dip_rect_intersect(rect, canvas->clip);
-    radius = least(radius, least(rect.width, rect.height) / 2);
-    for (int y = inside.y; y < inside.y + inside.height && inside.width > 0; ++y) {
-        for (int x = inside.x; x < inside.x + inside.width; ++x) {
-            const int px = x - rect.x, py = y - rect.y;
-            double coverage = round_coverage(px, py, rect.width, rect.height, radius);
-            if (ring > 0) {
-                coverage -=
-                    round_coverage(px - ring, py - ring, rect.width - 2 * ring,
-                                   rect.height - 2 * ring, radius > ring ? radius - ring : 0);
-            }
-            if (coverage > 0.0) {
-                blend_pixel(pixel_at(canvas, x, y), colour,
-                            (unsigned)(coverage * colour.alpha + 0.5));
-            }
-        }
+    if (dip_rect_is_empty(inside)) {
+        return;
+    }
+    radius = least(most(radius, 0), least(rect.width, rect.height) / 2);
+    const RoundRect shape = {rect, radius, ring, colour};
+    const int right = inside.x + inside.width;
+    const int edge = most(radius, ring); // Width of the columns in which coverage may vary.
+    const int middle = least(most(rect.x + edge, inside.x), right);
+    const int middle_end = most(least(rect.x + rect.width - edge, right), middle);
+    for (int y = inside.y; y < inside.y + inside.height; ++y) {
+        blend_edge(canvas, &shape, y, inside.x, middle);
+        blend_middle(canvas, &shape, y, middle, middle_end);
+        blend_edge(canvas, &shape, y, middle_end, right);
     }
 }
 

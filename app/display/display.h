@@ -141,6 +141,10 @@ typedef struct DipDisplay {
 
     // Closes the display and frees the context.
     void (*close)(void *context);
+
+    // Copies the text of the clipboard, cut to the buffer. Returns false if there is none. NULL if
+    // the display has no clipboard.
+    bool (*get_clipboard)(void *context, char *text, size_t size_bytes);
 } DipDisplay;
 
 #endif

@@ -1,6 +1,7 @@
 // Computes medians of frame times, four times a second.
 #include "app/preview/figures.h"
 
+static const int64_t graph_ns = 5000000000;
 static const int64_t period_ns = 250000000; // Figures that change faster cannot be read.
 
 void dip_figures_forget(DipFigures *figures, int pane) {
@@ -28,8 +29,28 @@ void dip_figures_add(DipFigures *figures, const DipSessionFrame *frame, int64_t 
     }
 }
 
-void dip_figures_count_presented(DipFigures *figures, int64_t now_ns) {
+void dip_figures_count_presented(DipFigures *figures, bool moving, int64_t refresh_ns,
+                                 int64_t now_ns) {
     dip_timing_add(&figures->presented, now_ns, 0.0);
+    if (moving && figures->presented_ns && refresh_ns > 0) {
+        const int64_t refreshes =
+            (now_ns - figures->presented_ns + refresh_ns / 2) / refresh_ns - 1;
+        if (refreshes > 0) {
+            dip_timing_add(&figures->dropped, now_ns, (double)refreshes);
+        }
+    }
+    figures->presented_ns = moving ? now_ns : 0;
+}
+
+static int count_dropped(const DipFigures *figures, int64_t now_ns) {
+    double ms[DIP_TIMING_SAMPLES];
+    int64_t age_ns[DIP_TIMING_SAMPLES];
+    double dropped = 0.0;
+    const int count = dip_timing_recent(&figures->dropped, now_ns, graph_ns, ms, age_ns);
+    for (int i = 0; i < count; ++i) {
+        dropped += ms[i];
+    }
+    return (int)dropped;
 }
 
 void dip_figures_update(DipFigures *figures, bool moving, int64_t now_ns) {
@@ -40,6 +61,8 @@ void dip_figures_update(DipFigures *figures, bool moving, int64_t now_ns) {
     figures->updated_ns = now_ns;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         DipPaneFigures *shown = &figures->shown[p];
+        shown->times = &figures->total[p];
+        shown->dropped = count_dropped(figures, now_ns);
         shown->ms = dip_timing_median_ms(&figures->total[p], now_ns);
         for (int s = 0; s < DIP_STAGE_COUNT; ++s) {
             shown->stage_ms[s] = dip_timing_median_ms(&figures->stages[p][s], now_ns);

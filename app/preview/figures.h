@@ -10,8 +10,10 @@ typedef struct DipFigures {
     DipTiming total[DIP_PANE_COUNT];
     DipTiming stages[DIP_PANE_COUNT][DIP_STAGE_COUNT];
     DipTiming presented;
-    int64_t updated_ns; // When the shown times were updated.
-    bool outdated;      // True if settings have changed since the shown times were measured.
+    DipTiming dropped;    // Refreshes without a new picture, with their number as the time.
+    int64_t presented_ns; // When the last picture was presented; 0 before, and after a rest.
+    int64_t updated_ns;   // When the shown times were updated.
+    bool outdated;        // True if settings have changed since the shown times were measured.
     DipPaneFigures shown[DIP_PANE_COUNT]; // What the window shows.
 } DipFigures;
 
@@ -22,8 +24,10 @@ void dip_figures_forget(DipFigures *figures, int pane);
 // dip_figures_update.
 void dip_figures_add(DipFigures *figures, const DipSessionFrame *frame, int64_t now_ns);
 
-// Counts a presented picture.
-void dip_figures_count_presented(DipFigures *figures, int64_t now_ns);
+// Counts a presented picture, and the refreshes of the display that passed without one while the
+// picture moved.
+void dip_figures_count_presented(DipFigures *figures, bool moving, int64_t refresh_ns,
+                                 int64_t now_ns);
 
 // Updates the shown times if they are outdated or a quarter of a second old. `moving` is true if
 // frames follow each other without pauses. Only then is a frame rate shown.

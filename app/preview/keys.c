@@ -116,9 +116,22 @@ static bool press_with_modifier(DipPreviewState *state, const DipEvent *event, i
     if (!(event->modifiers & DIP_MODIFIER_CTRL)) {
         return false;
     }
-    if (event->key == (DipKeycode)'c') {
+    switch ((int)event->key) {
+    case 'c':
         state->copy_settings = true;
         return true;
+    case 'v':
+        state->paste_settings = true;
+        return true;
+    case '=':
+    case '+':
+        dip_preview_scale_ui(state, 0.25, now_ns);
+        return true;
+    case '-':
+        dip_preview_scale_ui(state, -0.25, now_ns);
+        return true;
+    default:
+        break;
     }
     return press_other(state, ctrl_keys, (int)DIP_ARRAY_COUNT(ctrl_keys), event, now_ns);
 }
@@ -141,12 +154,16 @@ bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_n
     if (event->modifiers & command_modifiers) {
         return press_with_modifier(state, event, now_ns);
     }
-    // If a sheet covers the panes, Escape closes the sheet; otherwise it quits the program.
+    // Escape goes back by one level: a sheet, a tool, full screen, the program.
     if (event->key == DIP_KEYCODE_ESCAPE && (state->help || state->show_costs)) {
         state->help = state->show_costs = false;
         return true;
     }
     if (event->key == DIP_KEYCODE_ESCAPE && leave_tool(state)) {
+        return true;
+    }
+    if (event->key == DIP_KEYCODE_ESCAPE && state->full_screen) {
+        state->full_screen = false;
         return true;
     }
     if (press_other(state, backward_keys, (int)DIP_ARRAY_COUNT(backward_keys), event, now_ns)) {

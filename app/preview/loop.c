@@ -49,7 +49,9 @@ struct DipPreview {
     int64_t turn_ns; // When the last turn began.
     int64_t refresh_ns;
     bool full_screen;
-    bool resized;    // The panes' size may have changed.
+    bool resized;   // The panes' size may have changed.
+    int pane_width; // Size of a pane in the last turn.
+    int pane_height;
     int tried_width; // Size that the renderers last got, or were refused for lack of memory.
     int tried_height;
     int64_t blinks_ns;     // When the comparison shows another picture, or INT64_MAX.
@@ -105,6 +107,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     if (!preview->tools) {
         dip_preview_destroy(&preview);
         return NULL;
+    }
+    if (def->ui_scale > 0.0) {
+        preview->state.tools.ui_scale = def->ui_scale;
     }
     // An open drawer would cover the current pane.
     preview->state.tools.open = dip_preview_layout(preview).side == DIP_DOCK_BELOW;
@@ -165,21 +170,12 @@ static void take_control(DipPreview *preview) {
     }
 }
 
-// Whether two states of the tools give the panes the same size.
-static bool same_layout(const DipToolState *a, const DipToolState *b) {
-    return a->open == b->open && a->bare == b->bare && a->ui_scale == b->ui_scale &&
-           a->comparison == b->comparison;
-}
-
 // Hands an event to the window's controls. Returns whether one of them took it. The panes
 // change their size if the dock was opened or folded.
 static bool handle_in_window(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
     const DipViewInput input = view_input(preview, now_ns);
-    const DipToolState before = preview->state.tools;
-    const bool taken = dip_view_handle(preview->view, &input, event);
-    preview->resized |= !same_layout(&before, &preview->state.tools);
     preview->redraw = true;
-    return taken;
+    return dip_view_handle(preview->view, &input, event);
 }
 
 static void drop_file(DipPreview *preview, const char *file, int64_t now_ns) {
@@ -189,16 +185,22 @@ static void drop_file(DipPreview *preview, const char *file, int64_t now_ns) {
     }
 }
 
-// Lets a key act that no control took.
+// A key acts on the control with the focus or, if no control takes it, on the preview. Escape first
+// takes the focus away.
 static void press_key(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
     const DipFrame *frame = &preview->frame.panes[DIP_PANE_CURRENT];
-    const DipToolState before = preview->state.tools;
-    if (dip_loupe_press(&preview->state, frame->width, frame->height, event)) {
-        preview->redraw = true;
-    } else {
-        preview->redraw = dip_keys_press(&preview->state, event, now_ns) || preview->redraw;
+    DipUi *ui = dip_view_ui(preview->view);
+    dip_keys_hold(&preview->held, event);
+    if (handle_in_window(preview, event, now_ns)) {
+        return;
     }
-    preview->resized |= !same_layout(&before, &preview->state.tools);
+    if (event->key == DIP_KEYCODE_ESCAPE && dip_ui_focus(ui)) {
+        dip_ui_blur(ui);
+        return;
+    }
+    if (!dip_loupe_press(&preview->state, frame->width, frame->height, event)) {
+        dip_keys_press(&preview->state, event, now_ns);
+    }
 }
 
 // The key that blinks shows the other picture while it is held.
@@ -215,10 +217,7 @@ static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now
         preview->state.quit = true;
         break;
     case DIP_EVENT_KEY_DOWN:
-        dip_keys_hold(&preview->held, event);
-        if (!handle_in_window(preview, event, now_ns)) {
-            press_key(preview, event, now_ns);
-        }
+        press_key(preview, event, now_ns);
         break;
     case DIP_EVENT_KEY_UP:
         dip_keys_hold(&preview->held, event);
@@ -603,6 +602,30 @@ static bool present(DipPreview *preview, DipError *err) {
     return display->present(display->context, &picture, damage.rects, damage.count, err);
 }
 
+// Gives the requested pane the settings that the clipboard holds as text, if the user asked for it.
+static void paste_settings(DipPreview *preview, int64_t now_ns) {
+    const DipDisplay *display = &preview->def.display;
+    DipPreviewState *state = &preview->state;
+    DipQuality quality;
+    DipError err;
+    char text[512];
+    if (!state->paste_settings) {
+        return;
+    }
+    state->paste_settings = false;
+    if (!display->get_clipboard || !display->get_clipboard(display->context, text, sizeof text)) {
+        dip_preview_notice(state, now_ns, "The clipboard holds no text");
+        return;
+    }
+    text[strcspn(text, " \t\r\n")] = '\0';
+    if (!dip_quality_parse(text, &quality, &err)) {
+        report(preview, &err, now_ns);
+        return;
+    }
+    dip_preview_set_quality(state, DIP_PANE_REQUESTED, &quality, now_ns);
+    dip_preview_notice(state, now_ns, "Pasted: %.120s", text);
+}
+
 // Copies the requested settings as text, if the user asked for it.
 static void copy_settings(DipPreview *preview, int64_t now_ns) {
     const DipDisplay *display = &preview->def.display;
@@ -657,7 +680,7 @@ static bool show(DipPreview *preview, int64_t now_ns, DipError *err) {
     if (preview->def.session->scene) {
         dip_prefetch_begin(&preview->prefetch, preview->def.session->scene);
     }
-    dip_figures_count_presented(&preview->figures, clock_ns(preview));
+    dip_figures_count_presented(&preview->figures, moving, preview->refresh_ns, clock_ns(preview));
     update_tools(preview);
     preview->blinks_ns = dip_compare_wakes_ns(&preview->state.tools, now_ns);
     return true;
@@ -674,6 +697,16 @@ static void follow_full_screen(DipPreview *preview) {
     }
 }
 
+// Notices whether the panes have another size, because the dock was opened or folded.
+static void follow_layout(DipPreview *preview) {
+    const DipLayout layout = dip_preview_layout(preview);
+    int width, height;
+    dip_compare_frame_size(&layout, preview->state.tools.comparison, &width, &height);
+    preview->resized |= width != preview->pane_width || height != preview->pane_height;
+    preview->pane_width = width;
+    preview->pane_height = height;
+}
+
 // Draws and presents the picture if something has changed. Sets *shown to whether something has
 // changed.
 static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
@@ -686,8 +719,10 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     dip_preview_advance(state, elapsed_ns, now_ns);
     follow_full_screen(preview);
     copy_settings(preview, now_ns);
+    paste_settings(preview, now_ns);
     follow_scene(preview, now_ns);
     follow_reload(preview, now_ns);
+    follow_layout(preview);
     if (preview->resized) {
         follow_refresh(preview);
     }

@@ -43,6 +43,7 @@ typedef struct DipPreviewDef {
     struct DipReload *reload;    // Borrowed; NULL: the preview ignores dropped files.
     double flying_speed_m_per_s; // Speed of the free camera.
     DipPreviewControl control;   // Its context is borrowed.
+    double ui_scale;             // Factor by which controls are enlarged; 0 stands for 1.
 
     // Loads session->scene_def, which is needed to measure errors. Called when the user first asks
     // for errors, since the load takes time and memory.

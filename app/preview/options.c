@@ -52,6 +52,14 @@ static const DipOptionRow rows[] = {
          "keeps what it shows.",
      .kind = DIP_OPTION_FLAG,
      .field = FIELD(watch)},
+    {.name = "--ui-scale",
+     .argument = "F",
+     .text = "Enlarge text and controls by F, from 0.75 to 4. The display's own scale counts, too. "
+             "Ctrl+= and Ctrl+- change it in the window.",
+     .kind = DIP_OPTION_NUMBER,
+     .field = FIELD(ui_scale),
+     .least = 0.75,
+     .most = 4},
 };
 
 static const DipOptionTable table = {"Drawing", rows, DIP_ARRAY_COUNT(rows)};

@@ -3,6 +3,7 @@
 #define DIP_APP_PREVIEW_PANEL_H
 
 #include "app/preview/error_thread.h"
+#include "app/preview/timing.h"
 #include "renderer/scene/frame.h"
 
 #include <stdbool.h>
@@ -23,7 +24,9 @@ typedef struct DipPaneFigures {
     DipCounters counters;
     bool copied; // The pane shows the other pane's picture, since the settings are the same.
     DipErrorReading errors;
-    bool no_errors; // The scene has no reference pictures, so the panel leaves errors out.
+    const DipTiming *times; // The newest frames' times; NULL if there are none. Borrowed.
+    int dropped;            // Refreshes of the last 5 seconds of movement without a new picture.
+    bool no_errors;         // The scene has no reference pictures, so the panel leaves errors out.
 } DipPaneFigures;
 
 typedef struct DipPanelLine {

@@ -37,6 +37,7 @@ typedef struct Parts {
     DipCosts *costs;
     DipReload *reload;
     DipRemote *remote;
+    double ui_scale;
 } Parts;
 
 static bool run_loop(DipSession *session, const DipDisplay *display, const Parts *parts,
@@ -47,6 +48,7 @@ static bool run_loop(DipSession *session, const DipDisplay *display, const Parts
         .costs = parts->costs,
         .reload = parts->reload,
         .flying_speed_m_per_s = dip_flying_speed(session),
+        .ui_scale = parts->ui_scale,
         .control = parts->remote ? dip_remote_control(parts->remote) : (DipPreviewControl){0},
         .load_scene_def = load_scene_def,
         .context = session,
@@ -80,18 +82,18 @@ static void close_parts(Parts *parts) {
 }
 
 static bool open_display(DipDisplay *display, const DipSession *session, unsigned long window_id,
-                         DipError *err) {
-    return window_id
-               ? dip_sdl_display_open_in(display, window_id, err)
-               : dip_sdl_display_open(display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
-                                      session->pane_size.height + dip_layout_dock_height(), err);
+                         double scale, DipError *err) {
+    const double dock = scale > 0.0 ? scale * dip_layout_dock_height() : dip_layout_dock_height();
+    return window_id ? dip_sdl_display_open_in(display, window_id, err)
+                     : dip_sdl_display_open(display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
+                                            session->pane_size.height + (int)(dock + 0.5), err);
 }
 
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err) {
-    Parts parts = {0};
+    Parts parts = {.ui_scale = options->ui_scale};
     DipDisplay display;
     bool done = open_parts(&parts, session, options, err) &&
-                open_display(&display, session, options->window_id, err);
+                open_display(&display, session, options->window_id, options->ui_scale, err);
     if (done) {
         done = run_loop(session, &display, &parts, err);
         if (options->window_id && dip_sdl_display_has_lost_host(&display)) {

@@ -413,6 +413,12 @@ static void adjust(DipPreviewState *state, bool down) {
     }
 }
 
+void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns) {
+    const double scale = state->tools.ui_scale + by;
+    state->tools.ui_scale = scale < 0.75 ? 0.75 : scale > 4.0 ? 4.0 : scale;
+    dip_preview_notice(state, now_ns, "Size of the panel: %.0f %%", 100.0 * state->tools.ui_scale);
+}
+
 static void seek(DipPreviewState *state, int milliseconds) {
     const int64_t to_ns = state->play_ns + (int64_t)milliseconds * 1000000;
     state->play_ns = to_ns > 0 ? to_ns : 0;

@@ -89,10 +89,12 @@ typedef struct DipPreviewState {
     int undo_first;
     int undo_count;
     int redo_count;
-    bool copy_settings; // The user asked to copy the requested settings. Cleared when done.
-    bool screenshot;              // The user asked for a screenshot. Cleared when it is saved.
-    bool plain_screenshot;        // The screenshot shows the panes without overlays.
-    bool save_pose;               // The user asked to save the pose. Cleared when it is saved.
+    bool screenshot;       // The user asked for a screenshot. Cleared when it is saved.
+    bool plain_screenshot; // The screenshot shows the panes without overlays.
+    bool save_pose;        // The user asked to save the pose. Cleared when it is saved.
+    int settings_group;    // Group of settings that a narrow settings tab shows.
+    bool copy_settings;    // The user asked to copy the requested settings. Cleared when done.
+    bool paste_settings;   // The user asked to paste settings. Cleared when done.
     char notice[DIP_NOTICE_SIZE]; // What just happened, for the status line; may be empty.
     int64_t notice_end_ns;        // Time at which the notice goes away, on the clock of `now_ns`.
     unsigned scene_changes;       // Grows whenever the panes' pictures have to change.
@@ -114,6 +116,9 @@ void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, 
 // Gives a pane new settings as one change that UNDO takes back.
 void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
                              int64_t now_ns);
+
+// Enlarges controls by a difference of the factor, which stays within 0.75 and 4.
+void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
 
 // Returns a preset's settings, and its name for a button ("Balanced").
 DipQuality dip_preview_preset(const DipPreviewState *state, DipPreset preset);

@@ -41,6 +41,9 @@ void dip_tab_maps(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_times(DipUi *ui, DipWindow *window, DipRect body);
 
+// Draws the frame times of both panes in the last seconds, with the line of the budget.
+void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect);
+
 // Draws the panes' pictures: side by side, or as the chosen comparison or map shows them.
 void dip_compare_pictures(DipUi *ui, DipWindow *window);
 

@@ -1,6 +1,7 @@
 // A ring buffer of frame times.
 #include "app/preview/timing.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static const int64_t window_ns = 1000000000;
@@ -48,4 +49,29 @@ double dip_timing_median_ms(const DipTiming *timing, int64_t now_ns) {
 int dip_timing_per_second(const DipTiming *timing, int64_t now_ns) {
     double ms[DIP_TIMING_SAMPLES];
     return young(timing, now_ns, ms);
+}
+
+int dip_timing_recent(const DipTiming *timing, int64_t now_ns, int64_t span_ns,
+                      double ms[DIP_TIMING_SAMPLES], int64_t age_ns[DIP_TIMING_SAMPLES]) {
+    const unsigned kept = timing->count < DIP_TIMING_SAMPLES ? timing->count : DIP_TIMING_SAMPLES;
+    int found = 0;
+    for (unsigned i = 1; i <= kept; ++i) {
+        const unsigned slot = (timing->count - i) % DIP_TIMING_SAMPLES;
+        if (now_ns - timing->at_ns[slot] >= span_ns) {
+            break;
+        }
+        ms[found] = timing->ms[slot];
+        age_ns[found++] = now_ns - timing->at_ns[slot];
+    }
+    return found;
+}
+
+double dip_timing_percentile(double *ms, int count, double share) {
+    if (count < 1) {
+        return 0.0;
+    }
+    qsort(ms, (size_t)count, sizeof *ms, compare);
+    int index = (int)ceil(share * count) - 1;
+    index = index < 0 ? 0 : index > count - 1 ? count - 1 : index;
+    return ms[index];
 }

@@ -1,10 +1,10 @@
-// Keeps the frame times of the last second, and computes their median and their number.
+// Keeps the newest frame times, and computes their median and their number.
 #ifndef DIP_APP_PREVIEW_TIMING_H
 #define DIP_APP_PREVIEW_TIMING_H
 
 #include <stdint.h>
 
-enum { DIP_TIMING_SAMPLES = 256 };
+enum { DIP_TIMING_SAMPLES = 512 };
 
 // Zero-initialise.
 typedef struct DipTiming {
@@ -22,5 +22,14 @@ double dip_timing_median_ms(const DipTiming *timing, int64_t now_ns);
 
 // Returns the number of times added in the last second, at most DIP_TIMING_SAMPLES.
 int dip_timing_per_second(const DipTiming *timing, int64_t now_ns);
+
+// Copies the times added in the last `span_ns`, the newest first, with their age in nanoseconds.
+// Returns their number.
+int dip_timing_recent(const DipTiming *timing, int64_t now_ns, int64_t span_ns,
+                      double ms[DIP_TIMING_SAMPLES], int64_t age_ns[DIP_TIMING_SAMPLES]);
+
+// Sorts `count` times and returns the least time that at least `share` of them do not exceed; 0 if
+// there are none.
+double dip_timing_percentile(double *ms, int count, double share);
 
 #endif

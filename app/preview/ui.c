@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 DipUi *dip_ui_create(DipError *err) {
     DipUi *ui = calloc(1, sizeof *ui);
@@ -23,36 +24,59 @@ static bool is_mouse(const DipEvent *event) {
            event->kind == DIP_EVENT_MOUSE_UP || event->kind == DIP_EVENT_MOUSE_WHEEL;
 }
 
+// Returns the topmost control of the last pass under the pointer. Later controls lie above earlier
+// ones.
+static DipUiId find_under(const DipUi *ui) {
+    for (int i = ui->before_count - 1; ui->pointer_inside && i >= 0; --i) {
+        if (dip_rect_holds(ui->before[i].rect, ui->pointer_x, ui->pointer_y)) {
+            return ui->before[i].id;
+        }
+    }
+    return 0;
+}
+
 void dip_ui_begin(DipUi *ui, const DipUiPass *pass) {
     ui->pass = *pass;
     ui->taken = false;
-    ui->first = ui->last = ui->before_focus = ui->after_focus = ui->previous = 0;
-    ui->focus_seen = false;
-    ui->next_hovered = 0;
+    memcpy(ui->before, ui->placed, (size_t)ui->placed_count * sizeof ui->placed[0]);
+    ui->before_count = ui->placed_count;
+    ui->placed_count = 0;
     ui->tip[0] = '\0';
     if (pass->event && is_mouse(pass->event)) {
         ui->pointer_x = pass->event->x;
         ui->pointer_y = pass->event->y;
         ui->pointer_inside = true;
     }
+    ui->under = find_under(ui);
 }
 
 // --- controls ----------------------------------------------------------------------------------
 
-// Notes the control's place in the order of the focus.
-static void order_focus(DipUi *ui, const DipUiControl *control) {
-    if (control->skips_focus || control->disabled) {
-        return;
+static void press_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *input) {
+    const DipEvent *event = ui->pass.event;
+    ui->held = control->id;
+    ui->held_button = event->button;
+    ui->focus = control->skips_focus ? ui->focus : control->id;
+    ui->focus_shows = false;
+    input->held = true;
+    input->began = event->button == DIP_MOUSE_LEFT;
+    input->right = event->button == DIP_MOUSE_RIGHT;
+    input->clicks = event->clicks;
+    ui->taken = true;
+}
+
+// Returns the whole steps of a wheel that have come together. Touch pads send parts of steps.
+static int wheel_steps(DipUi *ui, double turned) {
+    if (turned * ui->wheel_rest < 0.0) {
+        ui->wheel_rest = 0.0;
     }
-    ui->first = ui->first ? ui->first : control->id;
-    ui->last = control->id;
-    if (control->id == ui->focus) {
-        ui->focus_seen = true;
-        ui->before_focus = ui->previous;
-    } else if (ui->focus_seen && !ui->after_focus) {
-        ui->after_focus = control->id;
-    }
-    ui->previous = control->id;
+    ui->wheel_rest += turned;
+    const double limited = ui->wheel_rest > 16.0    ? 16.0
+                           : ui->wheel_rest < -16.0 ? -16.0
+                                                    : ui->wheel_rest;
+    const int steps = (int)limited;
+    ui->wheel_rest = limited - steps;
+    return steps;
 }
 
 static void take_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *input) {
@@ -61,15 +85,7 @@ static void take_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *input
     switch (event->kind) {
     case DIP_EVENT_MOUSE_DOWN:
         if (input->hovered && !ui->held) {
-            ui->held = control->id;
-            ui->held_button = event->button;
-            ui->focus = control->skips_focus ? ui->focus : control->id;
-            ui->focus_shows = false;
-            input->held = true;
-            input->began = event->button == DIP_MOUSE_LEFT;
-            input->right = event->button == DIP_MOUSE_RIGHT;
-            input->clicks = event->clicks;
-            ui->taken = true;
+            press_mouse(ui, control, input);
         }
         break;
     case DIP_EVENT_MOUSE_UP:
@@ -83,8 +99,8 @@ static void take_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *input
         ui->taken = ui->taken || held;
         break;
     case DIP_EVENT_MOUSE_WHEEL:
-        if (input->hovered && control->takes_wheel && event->wheel_y != 0.0) {
-            input->steps = event->wheel_y > 0.0 ? 1 : -1;
+        if (input->hovered && control->takes_wheel) {
+            input->steps = wheel_steps(ui, event->wheel_y);
             ui->taken = true;
         }
         break;
@@ -93,18 +109,18 @@ static void take_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *input
     }
 }
 
+static bool is_plain_key(const DipEvent *event) {
+    return event->kind == DIP_EVENT_KEY_DOWN && !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT);
+}
+
 static void take_key(DipUi *ui, const DipUiControl *control, DipUiInput *input) {
     const DipEvent *event = ui->pass.event;
-    if (event->kind != DIP_EVENT_KEY_DOWN || ui->focus != control->id || !ui->focus_shows) {
+    if (!is_plain_key(event) || ui->focus != control->id || !ui->focus_shows) {
         return;
     }
-    const bool plain = !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT);
-    bool taken = plain;
-    if (!plain) {
-        return;
-    }
+    bool taken = true;
     if (event->key == DIP_KEYCODE_ENTER || event->key == DIP_KEYCODE_SPACE) {
-        input->pressed = true;
+        input->pressed = !event->repeat;
     } else if (control->takes_arrows && event->key == DIP_KEYCODE_LEFT) {
         input->steps = -1;
     } else if (control->takes_arrows && event->key == DIP_KEYCODE_RIGHT) {
@@ -119,29 +135,34 @@ static void take_key(DipUi *ui, const DipUiControl *control, DipUiInput *input) 
     ui->taken = ui->taken || taken;
 }
 
+static void place(DipUi *ui, const DipUiControl *control) {
+    if (ui->placed_count < DIP_UI_MAX_CONTROLS) {
+        ui->placed[ui->placed_count++] =
+            (DipUiPlaced){control->id, control->rect, !control->skips_focus && !control->disabled};
+    }
+}
+
 DipUiInput dip_ui_control(DipUi *ui, const DipUiControl *control) {
     DipUiInput input = {.x = ui->pointer_x, .y = ui->pointer_y};
-    const bool over =
-        ui->pointer_inside && dip_rect_holds(control->rect, ui->pointer_x, ui->pointer_y);
+    const bool over = ui->under == control->id;
     if (over) {
-        ui->next_hovered = control->id; // Later controls lie above earlier ones.
         ui->tip_rect = control->rect;
         snprintf(ui->tip, sizeof ui->tip, "%s", control->tip ? control->tip : "");
     }
-    order_focus(ui, control);
+    place(ui, control);
     input.hovered = over && (ui->held == 0 || ui->held == control->id);
     input.held = ui->held == control->id;
     input.focused = ui->focus == control->id && ui->focus_shows;
-    if (ui->pass.event) {
-        input.modifiers = ui->pass.event->modifiers;
-        // An event goes to one control only, except that a movement shows everywhere.
-        if (!control->disabled && is_mouse(ui->pass.event) && !ui->taken) {
-            take_mouse(ui, control, &input);
-        } else if (!control->disabled) {
-            take_key(ui, control, &input);
-        } else if (over && ui->pass.event->kind == DIP_EVENT_MOUSE_DOWN) {
-            ui->taken = true;
-        }
+    if (!ui->pass.event) {
+        return input;
+    }
+    input.modifiers = ui->pass.event->modifiers;
+    if (control->disabled) {
+        ui->taken = ui->taken || (over && ui->pass.event->kind == DIP_EVENT_MOUSE_DOWN);
+    } else if (is_mouse(ui->pass.event) && !ui->taken) {
+        take_mouse(ui, control, &input);
+    } else {
+        take_key(ui, control, &input);
     }
     return input;
 }
@@ -152,7 +173,10 @@ bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiL
         .id = id, .rect = rect, .tip = tip, .disabled = look == DIP_UI_OFF};
     const DipUiInput input = dip_ui_control(ui, &control);
     const int radius = dip_ui_px(ui, 4);
-    const int size = 13;
+    int size = 13;
+    while (size > 9 && dip_ui_text_width(ui, size, text) > rect.width - dip_ui_px(ui, 6)) {
+        --size;
+    }
     if (look == DIP_UI_PRIMARY) {
         dip_ui_fill_round(ui, rect, radius, dip_style_accent);
     } else {
@@ -168,12 +192,6 @@ bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiL
                                        : dip_style_white,
                 DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
                 rect.y + (rect.height - dip_ui_line_height(ui, size)) / 2, rect.width, text);
-    if (input.focused) {
-        const int away = dip_ui_px(ui, 2);
-        dip_ui_outline(ui,
-                       (DipRect){rect.x - 2 * away, rect.y - 2 * away, rect.width + 4 * away,
-                                 rect.height + 4 * away},
-                       radius + 2 * away, away, dip_style_focus);
-    }
+    dip_ui_focus_ring(ui, rect, radius, &input);
     return input.pressed;
 }

@@ -7,6 +7,9 @@
 //   that the event concerns returns what the user did, and the caller changes its state at once.
 // - A drawing pass records the controls into a draw list. No control reports any input.
 //
+// A pass finds the topmost control under the pointer by the rectangles of the pass before it. The
+// caller therefore runs a pass without event and draw list first if the controls may have moved.
+//
 // Therefore no control keeps a copy of the value that it shows, and code that declares a control
 // decides in one place how it looks and what it does:
 //
@@ -54,8 +57,9 @@ void dip_ui_destroy(DipUi **ui);
 void dip_ui_begin(DipUi *ui, const DipUiPass *pass);
 
 // Ends the pass. After an event pass, returns whether a control took the event; then the event must
-// not do anything else. Tab and Shift+Tab move the focus. In a drawing pass, draws the tip of the
-// control under the pointer above everything else, and returns false.
+// not do anything else. Tab and Shift+Tab move the focus, and so do arrow keys that the control
+// with the focus does not take. In a drawing pass, draws the tip of the control under the pointer
+// above everything else, and returns false.
 bool dip_ui_end(DipUi *ui);
 
 // Returns the time at which the window must be drawn again although nothing happens, because a tip
@@ -138,9 +142,16 @@ void dip_ui_fill_round(DipUi *ui, DipRect rect, int radius, DipColour colour);
 // Draws the outline of a rectangle with rounded corners, `width` pixels wide, inside the rectangle.
 void dip_ui_outline(DipUi *ui, DipRect rect, int radius, int width, DipColour colour);
 
+// Draws the ring that shows the keyboard's focus around a rectangle, if the control has the focus.
+void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *input);
+
 // Shows a line of text, `size` at scale 1. See dip_draw_list_text.
 void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, int y, int max_width,
                  const char *line);
+
+// Shows a text in lines that are as wide as `room`; '\n' breaks a line, too. Lines that do not fit
+// are left out. Returns the height of the lines in pixels.
+int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text);
 
 // Returns the width and height of a line of text in pixels; both passes give the same.
 int dip_ui_text_width(const DipUi *ui, int size, const char *line);

@@ -3,6 +3,7 @@
 #include "app/preview/ui_private.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { TIP_SIZE = 12, TIP_PAD = 8, TIP_WIDTH = 340, TIP_MAX_LINES = 10 };
@@ -61,6 +62,17 @@ void dip_ui_outline(DipUi *ui, DipRect rect, int radius, int width, DipColour co
     }
 }
 
+void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *input) {
+    const int width = dip_ui_px(ui, 2);
+    const int away = 2 * width;
+    if (input->focused) {
+        dip_ui_outline(
+            ui,
+            (DipRect){rect.x - away, rect.y - away, rect.width + 2 * away, rect.height + 2 * away},
+            radius + away, width, dip_style_focus);
+    }
+}
+
 void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, int y, int max_width,
                  const char *line) {
     if (ui->pass.list) {
@@ -87,7 +99,7 @@ void dip_ui_picture(DipUi *ui, DipRect rect, const DipPixels *picture, uint64_t 
 
 // Breaks a text into lines that are at most `width` pixels wide. '\n' breaks a line, too. Returns
 // the number of lines; what does not fit in TIP_MAX_LINES lines is left out.
-static int break_lines(const DipUi *ui, const char *text, int width,
+static int break_lines(const DipUi *ui, int size, const char *text, int width,
                        char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES]) {
     int count = 0;
     while (*text && count < TIP_MAX_LINES) {
@@ -98,7 +110,7 @@ static int break_lines(const DipUi *ui, const char *text, int width,
             length++;
             if (text[length] == ' ' || text[length] == '\0' || text[length] == '\n') {
                 snprintf(line, DIP_UI_TIP_BYTES, "%.*s", (int)length, text);
-                if (fitting && dip_ui_text_width(ui, TIP_SIZE, line) > width) {
+                if (fitting && dip_ui_text_width(ui, size, line) > width) {
                     break;
                 }
                 fitting = length;
@@ -112,15 +124,31 @@ static int break_lines(const DipUi *ui, const char *text, int width,
     return count;
 }
 
+int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text) {
+    char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
+    const int line_height = dip_ui_line_height(ui, size);
+    const int fitting = dip_style_min(TIP_MAX_LINES, room.height / line_height);
+    int count = break_lines(ui, size, text, room.width, lines);
+    count = dip_style_min(count, fitting);
+    for (int i = 0; i < count; ++i) {
+        dip_ui_text(ui, size, colour, DIP_ALIGN_LEFT, room.x, room.y + i * line_height, room.width,
+                    lines[i]);
+    }
+    return count * line_height;
+}
+
 static bool shows_tip(const DipUi *ui) {
-    return ui->tip[0] && !ui->held && ui->next_hovered == ui->hovered &&
+    return ui->tip[0] && !ui->held && !ui->tip_hidden &&
            ui->pass.now_ns >= ui->hovered_ns + tip_delay_ns;
 }
 
 // Draws the tip beneath its control, or above it where the window ends.
 static void draw_tip(DipUi *ui) {
     char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
-    const int count = break_lines(ui, ui->tip, dip_ui_px(ui, TIP_WIDTH), lines);
+    const int count = break_lines(
+        ui, TIP_SIZE, ui->tip,
+        dip_style_min(dip_ui_px(ui, TIP_WIDTH), dip_draw_list_width(ui->pass.list) - 2 * TIP_PAD),
+        lines);
     const int pad = dip_ui_px(ui, TIP_PAD);
     const int line_height = dip_ui_line_height(ui, TIP_SIZE);
     const int window_width = dip_draw_list_width(ui->pass.list);
@@ -144,48 +172,119 @@ static void draw_tip(DipUi *ui) {
     }
 }
 
-// --- the end of a pass ---------------------------------------------------------------------------
+// --- the end of a pass -------------------------------------------------------------------------
 
+// Moves the focus to the next control in the order of their declaration, in a ring.
 static void move_focus(DipUi *ui, bool backwards) {
-    if (!ui->focus_seen) {
-        ui->focus = backwards ? ui->last : ui->first;
-    } else if (backwards) {
-        ui->focus = ui->before_focus ? ui->before_focus : ui->last;
-    } else {
-        ui->focus = ui->after_focus ? ui->after_focus : ui->first;
+    int at = -1;
+    for (int i = 0; i < ui->placed_count; ++i) {
+        at = ui->placed[i].id == ui->focus ? i : at;
     }
-    ui->focus_shows = ui->focus != 0;
+    const int count = ui->placed_count;
+    for (int i = 1; i <= count; ++i) {
+        const int first = at < 0 && backwards ? 0 : at;
+        const int next = (first + (backwards ? -i : i) + 2 * count) % count;
+        if (ui->placed[next].focusable) {
+            ui->focus = ui->placed[next].id;
+            ui->focus_shows = true;
+            return;
+        }
+    }
+}
+
+// Returns how far `to` lies from `from` in a direction (one of dx, dy is 1 or -1, the other 0), or
+// -1 if it does not lie there. Controls that lie straight ahead are nearer than others.
+static int64_t distance_towards(DipRect from, DipRect to, int dx, int dy) {
+    const int64_t x = 2 * (int64_t)(to.x - from.x) + to.width - from.width;
+    const int64_t y = 2 * (int64_t)(to.y - from.y) + to.height - from.height;
+    const int64_t ahead = x * dx + y * dy;
+    const int64_t aside = llabs(x * dy + y * dx);
+    const int reach = dx ? from.width : from.height;
+    return ahead >= reach ? ahead + 2 * aside : -1;
+}
+
+static void move_focus_towards(DipUi *ui, int dx, int dy) {
+    const DipUiPlaced *from = NULL;
+    const DipUiPlaced *best = NULL;
+    int64_t least = INT64_MAX;
+    for (int i = 0; i < ui->placed_count; ++i) {
+        from = ui->placed[i].id == ui->focus ? &ui->placed[i] : from;
+    }
+    for (int i = 0; from && i < ui->placed_count; ++i) {
+        const int64_t distance = distance_towards(from->rect, ui->placed[i].rect, dx, dy);
+        if (ui->placed[i].focusable && distance >= 0 && distance < least) {
+            least = distance;
+            best = &ui->placed[i];
+        }
+    }
+    ui->focus = best ? best->id : ui->focus;
+}
+
+// Moves the focus by a key that no control took. Returns whether the key is one of those.
+static bool move_focus_by_key(DipUi *ui, const DipEvent *event) {
+    const bool plain = !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT);
+    if (event->kind != DIP_EVENT_KEY_DOWN || !plain) {
+        return false;
+    }
+    if (event->key == DIP_KEYCODE_TAB) {
+        move_focus(ui, event->modifiers & DIP_MODIFIER_SHIFT);
+        return true;
+    }
+    static const struct {
+        DipKeycode key;
+        int dx, dy;
+    } arrows[] = {{DIP_KEYCODE_LEFT, -1, 0},
+                  {DIP_KEYCODE_RIGHT, 1, 0},
+                  {DIP_KEYCODE_UP, 0, -1},
+                  {DIP_KEYCODE_DOWN, 0, 1}};
+    for (int i = 0; ui->focus_shows && i < 4; ++i) {
+        if (event->key == arrows[i].key) {
+            move_focus_towards(ui, arrows[i].dx, arrows[i].dy);
+            return true;
+        }
+    }
+    return false;
+}
+
+// Forgets a focus whose control is gone, so that keys do not go to a control that nobody sees.
+static void drop_lost_focus(DipUi *ui) {
+    bool found = false;
+    for (int i = 0; i < ui->placed_count; ++i) {
+        found |= ui->placed[i].id == ui->focus && ui->placed[i].focusable;
+    }
+    ui->focus_shows = ui->focus_shows && found;
 }
 
 bool dip_ui_end(DipUi *ui) {
     const DipEvent *event = ui->pass.event;
-    if (ui->next_hovered != ui->hovered) {
-        ui->hovered = ui->next_hovered;
+    if (ui->under != ui->hovered) {
+        ui->hovered = ui->under;
         ui->hovered_ns = ui->pass.now_ns;
-        ui->tip_seen = false;
+        ui->tip_seen = ui->tip_hidden = false;
     }
+    drop_lost_focus(ui);
     if (event && event->kind == DIP_EVENT_MOUSE_UP && event->button == ui->held_button) {
         ui->held = 0;
     }
-    if (event && event->kind == DIP_EVENT_KEY_DOWN && !ui->taken && event->key == DIP_KEYCODE_TAB &&
-        !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT)) {
-        move_focus(ui, event->modifiers & DIP_MODIFIER_SHIFT);
+    if (event && !ui->taken && move_focus_by_key(ui, event)) {
         ui->taken = true;
     }
-    if (event && event->kind == DIP_EVENT_MOUSE_DOWN) {
-        ui->hovered_ns =
-            INT64_MAX - tip_delay_ns; // A click hides the tip until the pointer leaves.
+    if (event && event->kind == DIP_EVENT_KEY_DOWN && event->key == DIP_KEYCODE_ESCAPE &&
+        shows_tip(ui)) {
+        ui->tip_hidden = ui->taken = true;
     }
+    ui->tip_hidden |= event && event->kind == DIP_EVENT_MOUSE_DOWN;
     if (ui->pass.list && shows_tip(ui)) {
         draw_tip(ui);
         ui->tip_seen = true;
     }
-    ui->has_tip = ui->tip[0] != '\0';
     return event && ui->taken;
 }
 
 int64_t dip_ui_wakes_ns(const DipUi *ui) {
-    return ui->has_tip && !ui->tip_seen && !ui->held ? ui->hovered_ns + tip_delay_ns : INT64_MAX;
+    return ui->tip[0] && !ui->tip_seen && !ui->tip_hidden && !ui->held
+               ? ui->hovered_ns + tip_delay_ns
+               : INT64_MAX;
 }
 
 void dip_ui_blur(DipUi *ui) {

@@ -4,31 +4,38 @@
 
 #include "app/preview/ui.h"
 
-enum { DIP_UI_TIP_BYTES = 900 };
+enum { DIP_UI_TIP_BYTES = 900, DIP_UI_MAX_CONTROLS = 192 };
+
+// Where a control lay in a pass.
+typedef struct DipUiPlaced {
+    DipUiId id;
+    DipRect rect;
+    bool focusable;
+} DipUiPlaced;
 
 struct DipUi {
     DipUiPass pass;
     int pointer_x;
     int pointer_y;
     bool pointer_inside; // The pointer has been seen.
-    DipUiId hovered;     // The topmost control under the pointer, of the last pass.
-    int64_t hovered_ns;  // When the pointer came to rest over it.
-    DipUiId held;        // The control that a button was pressed over, while it is down.
+    // The controls of this pass, and those of the pass before it, by which this pass finds the
+    // topmost control under the pointer. Controls beyond the limit take neither mouse nor focus.
+    DipUiPlaced placed[DIP_UI_MAX_CONTROLS];
+    int placed_count;
+    DipUiPlaced before[DIP_UI_MAX_CONTROLS];
+    int before_count;
+    DipUiId under;      // The topmost control under the pointer, or 0.
+    DipUiId hovered;    // The control under the pointer at the end of the last pass.
+    int64_t hovered_ns; // When the pointer came to rest over it.
+    DipUiId held;       // The control that a button was pressed over, while the button is down.
     DipMouseButton held_button;
+    double wheel_rest; // Part of a wheel's step that has not counted yet.
     DipUiId focus;
     bool focus_shows; // The focus came by keyboard.
     bool taken;       // A control took the event of this pass.
-    // Focus order of this pass, to move the focus at its end.
-    DipUiId first;
-    DipUiId last;
-    DipUiId before_focus;
-    DipUiId after_focus;
-    DipUiId previous; // The control that was declared before the current one.
-    bool focus_seen;
-    DipUiId next_hovered; // What this pass finds under the pointer.
-    bool has_tip;         // The control under the pointer has a tip,
-    bool tip_seen;        // which has been drawn.
-    DipRect tip_rect;     // The control whose tip shows.
+    bool tip_hidden;  // A click or Escape hid the tip until the pointer leaves the control.
+    bool tip_seen;    // The tip has been drawn.
+    DipRect tip_rect; // The control whose tip may show.
     char tip[DIP_UI_TIP_BYTES];
 };
 

@@ -82,11 +82,13 @@ static bool pass_over(DipView *view, const DipViewInput *input, DipDrawList *lis
 }
 
 bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *event) {
+    pass_over(view, input, NULL, NULL); // Tells where the controls lie now.
     return pass_over(view, input, NULL, event);
 }
 
 bool dip_view_draw(DipView *view, const DipViewInput *input, DipError *err) {
     DipDamage changed;
+    pass_over(view, input, NULL, NULL);
     dip_draw_list_begin(view->list, input->width, input->height);
     pass_over(view, input, view->list, NULL);
     if (!dip_draw_list_paint(view->list, &view->canvas, &changed, err)) {

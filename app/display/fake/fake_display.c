@@ -4,6 +4,7 @@
 #include "app/canvas/canvas.h"
 #include "renderer/base/assert.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 static const double fake_refresh_hz = 60.0;
@@ -18,6 +19,7 @@ struct DipFakeDisplay {
     int present_count;
     int64_t damaged_pixels;
     bool full_screen;
+    char clipboard[512];
 };
 
 static bool present(void *context, const DipPixels *picture, const DipRect *damage, int count,
@@ -69,6 +71,18 @@ static void set_full_screen(void *context, bool on) {
     ((DipFakeDisplay *)context)->full_screen = on;
 }
 
+static bool set_clipboard(void *context, const char *text) {
+    DipFakeDisplay *fake = context;
+    snprintf(fake->clipboard, sizeof fake->clipboard, "%s", text);
+    return true;
+}
+
+static bool get_clipboard(void *context, char *text, size_t size_bytes) {
+    const DipFakeDisplay *fake = context;
+    snprintf(text, size_bytes, "%s", fake->clipboard);
+    return text[0] != '\0';
+}
+
 static void close_display(void *context) {
     DipFakeDisplay *fake = context;
     dip_canvas_free(&fake->shown);
@@ -104,6 +118,8 @@ DipFakeDisplay *dip_fake_display_open(DipDisplay *display, int width, int height
         .now_ns = now_ns,
         .set_full_screen = set_full_screen,
         .set_size = change_size,
+        .set_clipboard = set_clipboard,
+        .get_clipboard = get_clipboard,
         .close = close_display,
     };
     return fake;
@@ -159,4 +175,8 @@ int64_t dip_fake_display_damaged_pixels(const DipFakeDisplay *fake) {
 
 bool dip_fake_display_is_full_screen(const DipFakeDisplay *fake) {
     return fake->full_screen;
+}
+
+const char *dip_fake_display_clipboard(const DipFakeDisplay *fake) {
+    return fake->clipboard;
 }

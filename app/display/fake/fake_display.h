@@ -43,6 +43,9 @@ DipPixels dip_fake_display_picture(const DipFakeDisplay *fake);
 int dip_fake_display_present_count(const DipFakeDisplay *fake);
 int64_t dip_fake_display_damaged_pixels(const DipFakeDisplay *fake);
 
+// Returns the text of the display's clipboard, "" at first.
+const char *dip_fake_display_clipboard(const DipFakeDisplay *fake);
+
 bool dip_fake_display_is_full_screen(const DipFakeDisplay *fake);
 
 #endif

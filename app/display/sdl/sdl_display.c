@@ -7,6 +7,7 @@
 
 #include <SDL2/SDL.h>
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -265,6 +266,15 @@ static bool set_clipboard(void *context, const char *text) {
     return SDL_SetClipboardText(text) == 0;
 }
 
+static bool get_clipboard(void *context, char *text, size_t size_bytes) {
+    (void)context;
+    char *held = SDL_GetClipboardText();
+    const bool found = held && held[0];
+    snprintf(text, size_bytes, "%s", found ? held : "");
+    SDL_free(held);
+    return found;
+}
+
 static void set_full_screen(void *context, bool on) {
     const SdlDisplay *sdl = context;
     SDL_SetWindowFullscreen(sdl->window, on ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
@@ -296,6 +306,7 @@ static DipDisplay display_of(SdlDisplay *sdl) {
         .set_full_screen = sdl->host ? NULL : set_full_screen,
         .set_size = sdl->host ? NULL : set_size,
         .set_clipboard = set_clipboard,
+        .get_clipboard = get_clipboard,
         .close = close_display,
     };
 }
