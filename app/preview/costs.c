@@ -102,17 +102,18 @@ void dip_costs_make(DipCosts *costs, const DipCostReport *report) {
     make_advice(costs, report);
 }
 
-bool dip_costs_load(DipCosts *costs, const char *file, const char *scene, DipError *err) {
+bool dip_costs_load(DipCosts *costs, DipPrices *prices, const char *file, const char *scene,
+                    DipError *err) {
     DipCostReport report;
     if (!dip_cost_read_json(&report, file, err)) {
         return false;
     }
-    const bool fits =
-        strcmp(report.scene, scene) == 0 ||
-        dip_error_set(err, DIP_ERROR_CONFLICT, file, 0, "--cost",
-                      "is a report of %s, accepted a report of %s", report.scene, scene);
+    bool fits = strcmp(report.scene, scene) == 0 ||
+                dip_error_set(err, DIP_ERROR_CONFLICT, file, 0, "--cost",
+                              "is a report of %s, accepted a report of %s", report.scene, scene);
     if (fits) {
         dip_costs_make(costs, &report);
+        fits = !prices || dip_prices_set_report(prices, &report, err);
     }
     dip_cost_report_free(&report);
     return fits;

@@ -3,6 +3,7 @@
 #define DIP_APP_PREVIEW_COSTS_H
 
 #include "app/cost/report.h"
+#include "app/preview/prices.h"
 
 #include <stdbool.h>
 
@@ -45,9 +46,11 @@ typedef struct DipCosts {
 
 void dip_costs_make(DipCosts *costs, const DipCostReport *report);
 
-// Reads a cost report from the JSON file that `diptych cost` wrote. Fails with CONFLICT if the
+// Reads a cost report from the JSON file that `diptych cost` wrote, and gives its prices to
+// `prices`, unless that is NULL. Fails with CONFLICT if the
 // report's scene is not `scene`.
-bool dip_costs_load(DipCosts *costs, const char *file, const char *scene, DipError *err);
+bool dip_costs_load(DipCosts *costs, DipPrices *prices, const char *file, const char *scene,
+                    DipError *err);
 
 // Formats one piece of advice as a line: "Within 16.6 ms: 11.2 ms, FLIP .0451; baseline 6.5 ms,
 // .0773".

@@ -8,6 +8,7 @@
 #include "app/preview/handover.h"
 #include "app/preview/keys.h"
 #include "app/preview/poses.h"
+#include "app/preview/live_prices.h"
 #include "app/preview/prefetch.h"
 #include "app/preview/reload.h"
 #include "app/preview/screenshot.h"
@@ -22,6 +23,8 @@
 // After a stall, the camera moves on by at most this time, so that it does not jump.
 static const int64_t longest_step_ns = 250000000;
 static const int64_t ns_per_ms = 1000000;
+// Rough prices are measured for about this time in each turn.
+static const double price_budget_ms = 8.0;
 enum { IDLE_WAIT_MS = 30 };
 
 // Everything that decides what the pictures show. There is one exception: the sample pattern that
@@ -40,7 +43,8 @@ struct DipPreview {
     DipPreviewDef def;
     DipPreviewState state;
     DipView *view;
-    DipPrices *prices;
+    DipPrices *prices;          // Owned unless it is that of the def.
+    DipLivePrices *live_prices; // NULL if no prices are measured.
     DipTools *tools;
     DipFigures figures;
     DipPrefetch prefetch;
@@ -80,6 +84,17 @@ static void follow_refresh(DipPreview *preview) {
 
 static DipViewInput view_input(DipPreview *preview, int64_t now_ns);
 
+static bool create_live_prices(DipPreview *preview, DipError *err) {
+    if (!preview->def.measures_prices) {
+        return true;
+    }
+    preview->live_prices = dip_live_prices_create(preview->def.session, preview->prices, err);
+    if (preview->live_prices) {
+        dip_live_prices_enter_scene(preview->live_prices);
+    }
+    return preview->live_prices != NULL;
+}
+
 DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     DipPreview *preview = calloc(1, sizeof *preview);
     if (!preview) {
@@ -102,9 +117,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->turn_ns = clock_ns(preview);
     follow_refresh(preview);
     preview->view = dip_view_create(err);
-    preview->prices = preview->view ? dip_prices_create(err) : NULL;
-    preview->tools = preview->prices ? dip_tools_create(err) : NULL;
-    if (!preview->tools) {
+    preview->prices = def->prices || !preview->view ? def->prices : dip_prices_create(err);
+    preview->tools = preview->view && preview->prices ? dip_tools_create(err) : NULL;
+    if (!preview->tools || !create_live_prices(preview, err)) {
         dip_preview_destroy(&preview);
         return NULL;
     }
@@ -125,7 +140,10 @@ void dip_preview_destroy(DipPreview **preview_pointer) {
     dip_error_thread_destroy(&preview->errors);
     dip_prefetch_end(&preview->prefetch);
     dip_tools_destroy(&preview->tools);
-    dip_prices_destroy(&preview->prices);
+    dip_live_prices_destroy(&preview->live_prices);
+    if (!preview->def.prices) {
+        dip_prices_destroy(&preview->prices);
+    }
     dip_view_destroy(&preview->view);
     free(preview);
 }
@@ -394,9 +412,15 @@ static void follow_scene(DipPreview *preview, int64_t now_ns) {
         }
         return;
     }
+    if (preview->live_prices) {
+        dip_live_prices_leave_scene(preview->live_prices);
+    }
     if (!dip_session_step_scene(session, step, &failure)) {
         report(preview, &failure, now_ns);
         return;
+    }
+    if (preview->live_prices) {
+        dip_live_prices_enter_scene(preview->live_prices);
     }
     state->shows_gallery = session->shows_gallery;
     preview->tried_width = 0; // the new renderers do not have the panes' size yet
@@ -541,8 +565,31 @@ static bool measure_errors(DipPreview *preview, int64_t now_ns) {
     return news;
 }
 
-// --- showing
-// -----------------------------------------------------------------------------------
+// Measures rough prices while the dock is open and the camera rests. Returns whether the dock must
+// be drawn again.
+static bool measure_prices(DipPreview *preview) {
+    const DipPreviewState *state = &preview->state;
+    if (!preview->live_prices) {
+        return false;
+    }
+    if (!dip_prices_are_rough(preview->prices) || !state->tools.open || state->tools.bare ||
+        !dip_preview_rests(state, preview->flying)) {
+        dip_live_prices_pause(preview->live_prices);
+        return false;
+    }
+    const DipLivePicture picture = {
+        .pose = preview->drawn.pose,
+        .time_ns = preview->drawn.play_ns,
+        .width = preview->drawn.width,
+        .height = preview->drawn.height,
+        .look = preview->drawn.look,
+    };
+    // The truth of the picture, where the loop has it, takes the place of NULL and 0.
+    return dip_live_prices_step(preview->live_prices, &picture, preview->drawn_quality, NULL, 0,
+                                price_budget_ms);
+}
+
+// --- showing -----------------------------------------------------------------------------------
 
 static bool draw_view(DipPreview *preview, DipError *err) {
     const DipViewInput input = view_input(preview, clock_ns(preview));
@@ -734,7 +781,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     if (state->save_pose) {
         save_pose(preview, now_ns);
     }
-    const bool news = measure_errors(preview, now_ns);
+    const bool news = measure_errors(preview, now_ns) | measure_prices(preview);
     *shown = new_frame || news || preview->redraw || preview->exposed || state->screenshot ||
              (had_notice && !state->notice[0]) ||
              now_ns >= dip_ui_wakes_ns(dip_view_ui(preview->view)) || now_ns >= preview->blinks_ns;
@@ -749,7 +796,10 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
 // IDLE_WAIT_MS for an event.
 static void wait_for_turn(DipPreview *preview, bool shown) {
     if (!shown) {
-        take_event(preview, IDLE_WAIT_MS);
+        const bool busy = preview->live_prices &&
+                          dip_live_prices_are_working(preview->live_prices) &&
+                          dip_prices_progress(preview->prices)[0] != '\0';
+        take_event(preview, busy ? 0 : IDLE_WAIT_MS);
         return;
     }
     int64_t left_ns = preview->refresh_ns - (clock_ns(preview) - preview->turn_ns);

@@ -9,6 +9,7 @@
 #include "app/display/display.h"
 #include "app/preview/layout.h"
 #include "app/preview/panel.h"
+#include "app/preview/prices.h"
 #include "app/preview/state.h"
 #include "app/session.h"
 
@@ -41,6 +42,8 @@ typedef struct DipPreviewDef {
     DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
     const DipCosts *costs;       // Borrowed; NULL if there is no cost report.
     struct DipReload *reload;    // Borrowed; NULL: the preview ignores dropped files.
+    DipPrices *prices;           // Borrowed; NULL: the preview has prices of its own.
+    bool measures_prices;        // Measure rough prices while the dock is open and nothing moves.
     double flying_speed_m_per_s; // Speed of the free camera.
     DipPreviewControl control;   // Its context is borrowed.
     double ui_scale;             // Factor by which controls are enlarged; 0 stands for 1.

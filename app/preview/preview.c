@@ -19,7 +19,7 @@ static bool load_scene_def(void *context, DipError *err) {
 
 // Loads the cost report if `file` is not NULL; otherwise *costs stays NULL.
 static bool load_costs(const DipSession *session, const char *file, DipCosts **costs,
-                       DipError *err) {
+                       DipPrices *prices, DipError *err) {
     char scene[DIP_COST_TEXT];
     if (!file) {
         return true;
@@ -29,12 +29,13 @@ static bool load_costs(const DipSession *session, const char *file, DipCosts **c
         return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, "--cost", "out of memory");
     }
     dip_cost_scene_name(session, scene);
-    return dip_costs_load(*costs, file, scene, err);
+    return dip_costs_load(*costs, prices, file, scene, err);
 }
 
 // What the preview needs beside its session and display.
 typedef struct Parts {
     DipCosts *costs;
+    DipPrices *prices;
     DipReload *reload;
     DipRemote *remote;
     double ui_scale;
@@ -46,6 +47,8 @@ static bool run_loop(DipSession *session, const DipDisplay *display, const Parts
         .session = session,
         .display = *display,
         .costs = parts->costs,
+        .prices = parts->prices,
+        .measures_prices = true,
         .reload = parts->reload,
         .flying_speed_m_per_s = dip_flying_speed(session),
         .ui_scale = parts->ui_scale,
@@ -66,7 +69,9 @@ static bool run_loop(DipSession *session, const DipDisplay *display, const Parts
 static bool open_parts(Parts *parts, DipSession *session, const DipPreviewOptions *options,
                        DipError *err) {
     parts->reload = dip_reload_create(session, options->watch, err);
-    if (!parts->reload || !load_costs(session, options->cost_report, &parts->costs, err)) {
+    parts->prices = parts->reload ? dip_prices_create(err) : NULL;
+    if (!parts->prices ||
+        !load_costs(session, options->cost_report, &parts->costs, parts->prices, err)) {
         return false;
     }
     if (options->control) {
@@ -79,6 +84,7 @@ static void close_parts(Parts *parts) {
     dip_remote_close(&parts->remote);
     dip_reload_destroy(&parts->reload);
     free(parts->costs);
+    dip_prices_destroy(&parts->prices);
 }
 
 static bool open_display(DipDisplay *display, const DipSession *session, unsigned long window_id,

@@ -145,9 +145,9 @@ static void a_report_of_another_scene_is_refused(void **state) {
     close(descriptor);
     dip_made_report(&report, 3);
     assert_true(dip_cost_write_json(&report, file, &err));
-    assert_true(dip_costs_load(&costs, file, "made up", &err));
+    assert_true(dip_costs_load(&costs, NULL, file, "made up", &err));
     assert_int_equal(costs.row_count, 1);
-    assert_false(dip_costs_load(&costs, file, "other", &err));
+    assert_false(dip_costs_load(&costs, NULL, file, "other", &err));
     assert_int_equal(err.code, DIP_ERROR_CONFLICT);
     remove(file);
     dip_cost_report_free(&report);
