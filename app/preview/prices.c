@@ -10,6 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+// The widest interval that holds 0 and stands for a price of 0, as a share of the time without the
+// step. A wider interval comes from a busy machine or from a prediction, and tells nothing.
+static const double widest_zero = 0.2;
+
 struct DipPrices {
     bool has_report;
     DipPriceReport report;
@@ -173,7 +177,8 @@ static DipPrice difference(const DipPriceKnown *with, const DipPriceKnown *witho
         price.ms = with->ms - without->ms;
         price.ms_low = price.ms - hypot(with->ms - with->ms_low, without->ms_high - without->ms);
         price.ms_high = price.ms + hypot(with->ms_high - with->ms, without->ms - without->ms_low);
-        price.ms_is_zero = price.ms_low <= 0.0 && price.ms_high >= 0.0;
+        price.ms_is_zero = price.ms_low <= 0.0 && price.ms_high >= 0.0 &&
+                           price.ms_high - price.ms_low <= widest_zero * without->ms;
     }
     if (price.has_flip) {
         price.flip = with->flip - without->flip;

@@ -33,9 +33,11 @@ typedef struct DipPrice {
     double ms; // Added to the base, in milliseconds; of the base itself: the whole time.
     double ms_low;
     double ms_high;
-    bool ms_is_zero; // The interval holds 0, so the panel says "≈ 0".
-    bool has_flip;   // The error is known. (The truth takes longer than the times.)
-    double flip;     // Added to the base's FLIP; of the base itself: its FLIP.
+    // The interval holds 0, so the panel says "≈ 0". The interval of a rough or predicted price
+    // must also be narrow: at most a fifth of the time without the step.
+    bool ms_is_zero;
+    bool has_flip; // The error is known. (The truth takes longer than the times.)
+    double flip;   // Added to the base's FLIP; of the base itself: its FLIP.
     bool flip_at_floor;
     bool needs_company; // The step does nothing with the quality that the price was asked for;
                         // `needs` says what it needs, such as "AF".

@@ -387,6 +387,9 @@ static void rough_prices_are_differences_of_whole_times(void **state) {
     DipPriceSum sum = dip_prices_sum(prices, &pane);
     assert_int_equal(sum.state, DIP_PRICE_ROUGH);
     check_near(sum.ms, 5.0 + 2.0 + 0.2 + 1.0);
+    add_rough("aa=2", 6.0, 1.5, -1.0); // A busy machine: the interval holds 0 but says little.
+    price = dip_prices_step(prices, DIP_SETTING_AA, 1, &pane);
+    assert_true(price.ms_low < 0.0 && price.ms_high > 0.0 && !price.ms_is_zero);
     add_rough("aa=4,aaa=on,af=8", 8.0, 0.2, -1.0); // Measured together.
     sum = dip_prices_sum(prices, &pane);
     check_near(sum.ms, 8.0);
