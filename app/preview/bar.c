@@ -1,10 +1,14 @@
 // The dock's bar: tabs on the left; playback, the time line, help and folding on the right.
+//
+// If the bar is narrow, it first leaves out words: tabs become symbols. Then it leaves out what
+// keys do as well: the steps by one frame, the time line, the name of the path, and playback.
+#include "app/preview/icons.h"
 #include "app/preview/labels.h"
 #include "app/preview/style.h"
 
 #include <stdio.h>
 
-enum { TAB_SIZE = 13, TAB_PAD = 11, BUTTON = 30 };
+enum { TAB_SIZE = 13, TAB_PAD = 11, BUTTON = 28, ICON_TAB = 32, LEAST_LINE = 60, MOST_LINE = 270 };
 
 typedef enum BarControl {
     BAR_TABS, // One for each tab.
@@ -18,205 +22,257 @@ typedef enum BarControl {
 
 static const char *const tab_names[DIP_TAB_COUNT] = {"Settings", "Loupe",  "Compare",
                                                      "Maps",     "Advice", "Times"};
-static const char *const tab_initials[DIP_TAB_COUNT] = {"Set", "Lo", "Co", "Ma", "Ad", "Ti"};
 static const char *const tab_tips[DIP_TAB_COUNT] = {
-    "What each setting costs and gains (Y)",
-    "Pixels enlarged, with their samples and values (Z)",
-    "Wipe, blink, difference, one picture alone, the converged picture (J)",
-    "Where error and work are: maps over the pictures (N)",
-    "The best settings for a time budget (U)",
-    "Times of the stages, errors and work of both panes (R)"};
+    "Settings: what each costs and gains (Y)",
+    "Loupe: pixels enlarged, with their samples and values (Z)",
+    "Compare: wipe, blink, difference, one picture alone, the converged picture (J)",
+    "Maps: where error and work are (N)",
+    "Advice: the best settings for a time budget (K)",
+    "Times: stages, errors and work of both panes (R)"};
+
+// What of the bar fits.
+typedef struct Bar {
+    DipRect rect;
+    int button; // Width of a button.
+    bool words; // Tabs show their names, otherwise symbols.
+    int tab_width[DIP_TAB_COUNT];
+    int tabs_width;
+    int tail; // Buttons at the right end: help and folding, or folding alone.
+    int play; // Playback's buttons: 3, 1 or 0.
+    int line; // Width of the time line, or 0.
+    char place[128];
+    int place_width; // 0: the place does not show.
+} Bar;
 
 static DipUiId bar_id(int control) {
     return DIP_UI_ID(DIP_UI_BAR, control + 1);
 }
 
-// Declares a control of the bar with a text in its middle. Returns whether it was pressed.
-static bool declare_text(DipUi *ui, int control, DipRect rect, const char *text, const char *tip,
-                         bool chosen) {
+// Declares a button of the bar and draws its ring. Returns what the user did.
+static DipUiInput declare_button(DipUi *ui, int control, DipRect rect, const char *tip) {
     const DipUiInput input =
         dip_ui_control(ui, &(DipUiControl){.id = bar_id(control), .rect = rect, .tip = tip});
-    if (chosen) {
-        dip_ui_fill(ui, rect, dip_style_dock);
-        dip_ui_fill(ui,
-                    (DipRect){rect.x + dip_ui_px(ui, 8), rect.y + rect.height - dip_ui_px(ui, 3),
-                              rect.width - 2 * dip_ui_px(ui, 8), dip_ui_px(ui, 2)},
-                    dip_style_white);
-    }
-    dip_ui_text(ui, TAB_SIZE, chosen || input.hovered ? dip_style_white : dip_style_soft,
-                DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
-                rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width, text);
     if (input.focused) {
         dip_ui_outline(ui, rect, dip_ui_px(ui, 3), dip_ui_px(ui, 2), dip_style_focus);
     }
-    return input.pressed;
+    return input;
 }
 
-static int tabs_width(const DipUi *ui, const char *const *names) {
-    int width = 0;
-    for (int t = 0; t < DIP_TAB_COUNT; ++t) {
-        width += dip_ui_text_width(ui, TAB_SIZE, names[t]) + 2 * dip_ui_px(ui, TAB_PAD);
-    }
-    return width;
+static DipColour colour_of(const DipUiInput *input, bool chosen) {
+    return chosen || input->hovered ? dip_style_white : dip_style_soft;
 }
 
-// Declares the tabs and returns the x coordinate of their right end.
-static int declare_tabs(DipUi *ui, DipWindow *window, const char *const *names, int pad) {
-    DipPreviewState *state = window->state;
-    const DipRect bar = window->layout->bar;
-    int x = bar.x;
-    for (int t = 0; t < DIP_TAB_COUNT; ++t) {
-        const int width = dip_ui_text_width(ui, TAB_SIZE, names[t]) + 2 * pad;
-        const bool chosen = state->tools.open && (int)state->tools.tab == t;
-        if (declare_text(ui, BAR_TABS + t, (DipRect){x, bar.y, width, bar.height}, names[t],
-                         tab_tips[t], chosen)) {
-            dip_preview_act(state, DIP_ACTION_TAB, t, false, dip_ui_now_ns(ui));
-        }
-        x += width;
-    }
-    return x;
-}
+// --- what fits -----------------------------------------------------------------------------------
 
 // Writes where the camera is: the path and its time, or the gallery's scene.
-static void format_place(const DipPreviewState *state, char *text, size_t size_bytes) {
+static void format_place(const DipPreviewState *state, bool brief, char *text, size_t size_bytes) {
     const double seconds = 1e-9 * (double)dip_preview_path_ns(state);
     const double length = 1e-9 * (double)dip_preview_path_length_ns(state);
     if (state->manual) {
         snprintf(text, size_bytes, "Free camera");
     } else if (state->scene_title) {
-        snprintf(text, size_bytes, "%s: %s  %.1f s", state->scene_title, state->scene_look,
-                 1e-9 * (double)state->play_ns);
+        snprintf(text, size_bytes, "%s%s%s  %.1f s", state->scene_title, brief ? "" : ": ",
+                 brief ? "" : state->scene_look, 1e-9 * (double)state->play_ns);
+    } else if (brief) {
+        snprintf(text, size_bytes, "%s %.1f s", dip_preview_category_name(state->track->active),
+                 seconds);
     } else {
         snprintf(text, size_bytes, "%s  %.1f of %.0f s",
                  dip_preview_category_title(state->track->active), seconds, length);
     }
 }
 
-static void draw_triangle(DipUi *ui, DipRect rect, bool left) {
-    for (int i = 0; i < rect.width; ++i) {
-        const int half = rect.height * (left ? i + 1 : rect.width - i) / (2 * rect.width);
-        dip_ui_fill(ui, (DipRect){rect.x + i, rect.y + rect.height / 2 - half, 1, 2 * half},
-                    dip_style_white);
+static void measure_tabs(const DipUi *ui, Bar *bar, bool words) {
+    bar->words = words;
+    bar->tabs_width = 0;
+    for (int t = 0; t < DIP_TAB_COUNT; ++t) {
+        bar->tab_width[t] =
+            words ? dip_ui_text_width(ui, TAB_SIZE, tab_names[t]) + 2 * dip_ui_px(ui, TAB_PAD)
+                  : dip_ui_px(ui, ICON_TAB);
+        bar->tabs_width += bar->tab_width[t];
     }
 }
 
-// Draws the symbol of a playback button: back, play or pause, on.
-static void draw_symbol(DipUi *ui, DipRect button, int control, bool paused) {
-    const int side = dip_ui_px(ui, 10);
-    const DipRect box = {button.x + (button.width - side) / 2,
-                         button.y + (button.height - side) / 2, side, side};
-    const int bar = dip_ui_px(ui, 2);
-    if (control == BAR_PLAY && !paused) {
-        dip_ui_fill(ui, (DipRect){box.x, box.y, 2 * bar, side}, dip_style_white);
-        dip_ui_fill(ui, (DipRect){box.x + side - 2 * bar, box.y, 2 * bar, side}, dip_style_white);
-        return;
-    }
-    if (control == BAR_BACK) {
-        dip_ui_fill(ui, (DipRect){box.x - bar, box.y, bar, side}, dip_style_white);
-    } else if (control == BAR_ON) {
-        dip_ui_fill(ui, (DipRect){box.x + side, box.y, bar, side}, dip_style_white);
-    }
-    draw_triangle(ui, box, control == BAR_BACK);
+// Gives playback, the time line and the place what the tabs leave.
+static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, bool brief) {
+    const int gap = dip_ui_px(ui, 10);
+    int room = bar->rect.width - bar->tabs_width - bar->tail * bar->button - gap;
+    format_place(state, brief, bar->place, sizeof bar->place);
+    const int place_width = dip_ui_text_width(ui, TAB_SIZE, bar->place) + 2 * gap;
+    bar->play = room >= 3 * bar->button ? 3 : room >= bar->button ? 1 : 0;
+    room -= bar->play * bar->button;
+    bar->place_width = room >= place_width ? place_width : 0;
+    room -= bar->place_width;
+    const bool has_line = !state->manual && dip_preview_path_length_ns(state) > 0;
+    bar->line = has_line && room >= dip_ui_px(ui, LEAST_LINE)
+                    ? dip_style_min(room, dip_ui_px(ui, MOST_LINE))
+                    : 0;
 }
 
-static bool declare_symbol(DipUi *ui, const DipWindow *window, int control, int x,
-                           const char *tip) {
-    const DipRect bar = window->layout->bar;
-    const DipRect rect = {x, bar.y, dip_ui_px(ui, BUTTON), bar.height};
-    const bool pressed = declare_text(ui, control, rect, "", tip, false);
-    draw_symbol(ui, rect, control, window->state->paused);
-    return pressed;
+static Bar measure(const DipUi *ui, const DipWindow *window) {
+    Bar bar = {.rect = window->layout->bar, .button = dip_ui_px(ui, BUTTON), .tail = 2};
+    measure_tabs(ui, &bar, true);
+    share_room(ui, window->state, &bar, false);
+    const bool manual = window->state->manual;
+    if (bar.play == 3 && bar.place_width && (bar.line || manual)) {
+        return bar;
+    }
+    measure_tabs(ui, &bar, false);
+    share_room(ui, window->state, &bar, false);
+    if (!bar.place_width || (!bar.line && !manual)) {
+        share_room(ui, window->state, &bar, true);
+    }
+    if (bar.tabs_width + 3 * bar.button > bar.rect.width) { // Symbols come closer together.
+        bar.tail = 1;
+        const int narrow = dip_style_max(1, (bar.rect.width - bar.button) / DIP_TAB_COUNT);
+        for (int t = 0; t < DIP_TAB_COUNT; ++t) {
+            bar.tab_width[t] = dip_style_min(bar.tab_width[t], narrow);
+        }
+        bar.tabs_width = DIP_TAB_COUNT * bar.tab_width[0];
+        share_room(ui, window->state, &bar, true);
+    }
+    return bar;
 }
 
-static void declare_playback(DipUi *ui, DipWindow *window, int x) {
+// --- drawing -------------------------------------------------------------------------------------
+
+static void declare_tabs(DipUi *ui, DipWindow *window, const Bar *bar) {
     DipPreviewState *state = window->state;
-    const int step = dip_ui_px(ui, BUTTON);
-    const int64_t now_ns = dip_ui_now_ns(ui);
-    if (declare_symbol(ui, window, BAR_BACK, x, "One frame back (,)")) {
-        dip_preview_act(state, DIP_ACTION_STEP_BACK, 0, false, now_ns);
+    const int inset = dip_ui_px(ui, 8), thick = dip_ui_px(ui, 2);
+    int x = bar->rect.x;
+    for (int t = 0; t < DIP_TAB_COUNT; ++t) {
+        const DipRect rect = {x, bar->rect.y, bar->tab_width[t], bar->rect.height};
+        const bool chosen = state->tools.open && (int)state->tools.tab == t;
+        const DipUiInput input = declare_button(ui, BAR_TABS + t, rect, tab_tips[t]);
+        if (input.pressed) {
+            dip_preview_act(state, DIP_ACTION_TAB, t, false, dip_ui_now_ns(ui));
+        }
+        if (chosen) {
+            dip_ui_fill(ui, rect, dip_style_dock);
+            dip_ui_fill(ui,
+                        (DipRect){rect.x + inset, rect.y + rect.height - thick,
+                                  rect.width - 2 * inset, thick},
+                        dip_style_white);
+        }
+        if (bar->words) {
+            dip_ui_text(ui, TAB_SIZE, colour_of(&input, chosen), DIP_ALIGN_CENTRE,
+                        rect.x + rect.width / 2,
+                        rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width,
+                        tab_names[t]);
+        } else {
+            dip_icon_tab(ui, (DipTab)t, rect, colour_of(&input, chosen));
+        }
+        x += rect.width;
     }
-    if (declare_symbol(ui, window, BAR_PLAY, x + step, "Pause or play (Space)")) {
-        dip_preview_act(state, DIP_ACTION_PAUSE, 0, false, now_ns);
+}
+
+// Declares the buttons of playback from x on.
+static void declare_playback(DipUi *ui, DipWindow *window, const Bar *bar, int x) {
+    static const struct {
+        BarControl control;
+        DipAction action;
+        const char *tip;
+    } buttons[3] = {{BAR_BACK, DIP_ACTION_STEP_BACK, "One frame back (,)"},
+                    {BAR_PLAY, DIP_ACTION_PAUSE, "Pause or play (Space)"},
+                    {BAR_ON, DIP_ACTION_STEP, "One frame on (.)"}};
+    const int first = bar->play == 3 ? 0 : 1, end = bar->play == 3 ? 3 : 1 + bar->play;
+    for (int i = first; i < end; ++i) {
+        const DipRect rect = {x, bar->rect.y, bar->button, bar->rect.height};
+        const DipUiInput input = declare_button(ui, buttons[i].control, rect, buttons[i].tip);
+        if (input.pressed) {
+            dip_preview_act(window->state, buttons[i].action, 0, false, dip_ui_now_ns(ui));
+        }
+        if (i == 1) {
+            dip_icon_play(ui, rect, window->state->paused, colour_of(&input, true));
+        } else {
+            dip_icon_step(ui, rect, i == 0, colour_of(&input, false));
+        }
+        x += bar->button;
     }
-    if (declare_symbol(ui, window, BAR_ON, x + 2 * step, "One frame on (.)")) {
-        dip_preview_act(state, DIP_ACTION_STEP, 0, false, now_ns);
-    }
+}
+
+// Moves the time to where the pointer is on the line.
+static void seek(DipPreviewState *state, const DipUiInput *input, DipRect rect) {
+    const int64_t length_ns = dip_preview_path_length_ns(state);
+    double share = rect.width > 1 ? (double)(input->x - rect.x) / (rect.width - 1) : 0.0;
+    share = share < 0.0 ? 0.0 : share > 0.9999 ? 0.9999 : share;
+    dip_preview_seek_path(state, (int64_t)(share * (double)length_ns));
 }
 
 // Declares the line of the path's time, on which a click or a drag moves the time.
 static void declare_time_line(DipUi *ui, DipWindow *window, DipRect rect) {
     DipPreviewState *state = window->state;
-    const int64_t length_ns = dip_preview_path_length_ns(state);
-    const DipUiInput input =
-        dip_ui_control(ui, &(DipUiControl){.id = bar_id(BAR_TIME_LINE),
-                                           .rect = rect,
-                                           .tip = "Time on the camera path. Click or drag to move.",
-                                           .takes_arrows = true});
-    const int64_t at_ns = dip_preview_path_ns(state);
-    const int y = rect.y + rect.height / 2;
-    const int thick = dip_ui_px(ui, 2);
-    if (length_ns > 0 && (input.began || (input.held && input.moved)) && rect.width > 1) {
-        double share = (double)(input.x - rect.x) / (rect.width - 1);
-        share = share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share;
-        dip_preview_seek_path(state, (int64_t)(share * 0.9999 * (double)length_ns));
+    const DipUiInput input = dip_ui_control(
+        ui, &(DipUiControl){.id = bar_id(BAR_TIME_LINE),
+                            .rect = rect,
+                            .tip = "Time on the camera path. Click or drag to move; arrow keys "
+                                   "move by 1 s.",
+                            .takes_arrows = true,
+                            .takes_wheel = true});
+    if (input.began || (input.held && input.moved)) {
+        seek(state, &input, rect);
     } else if (input.steps) {
-        dip_preview_act(state, DIP_ACTION_SEEK, 1000, input.steps < 0, dip_ui_now_ns(ui));
+        dip_preview_act(state, DIP_ACTION_SEEK,
+                        1000 * (input.steps < 0 ? -input.steps : input.steps), input.steps < 0,
+                        dip_ui_now_ns(ui));
+    } else if (input.to_first || input.to_last) {
+        const int64_t length_ns = dip_preview_path_length_ns(state);
+        dip_preview_seek_path(state, input.to_first ? 0 : length_ns - state->step_ns);
     }
-    dip_ui_fill(ui, (DipRect){rect.x, y - thick / 2, rect.width, thick}, dip_style_line);
-    if (length_ns > 0) {
-        const int x = rect.x + (int)((double)at_ns / (double)length_ns * (rect.width - 1));
-        dip_ui_fill(ui, (DipRect){rect.x, y - thick / 2, x - rect.x, thick}, dip_style_soft);
-        dip_ui_fill(ui, (DipRect){x - thick, y - dip_ui_px(ui, 7), 2 * thick, 2 * dip_ui_px(ui, 7)},
-                    dip_style_white);
-    }
+    const int64_t length_ns = dip_preview_path_length_ns(state);
+    const double share =
+        length_ns > 0 ? (double)dip_preview_path_ns(state) / (double)length_ns : 0.0;
+    const int thick = dip_ui_px(ui, 2), knob = dip_ui_px(ui, 4);
+    const int x = rect.x + (int)(share * (rect.width - knob));
+    const int y = rect.y + (rect.height - thick) / 2;
+    dip_ui_fill(ui, (DipRect){rect.x, y, rect.width, thick}, dip_style_line);
+    dip_ui_fill(ui, (DipRect){rect.x, y, x - rect.x, thick}, dip_style_soft);
+    dip_ui_fill(ui, (DipRect){x, y - dip_ui_px(ui, 5), knob, 2 * dip_ui_px(ui, 5) + thick},
+                dip_style_white);
     if (input.focused) {
         dip_ui_outline(ui, rect, dip_ui_px(ui, 3), thick, dip_style_focus);
     }
 }
 
-void dip_bar_declare(DipUi *ui, DipWindow *window) {
+static void declare_tail(DipUi *ui, DipWindow *window, const Bar *bar, int x) {
     DipPreviewState *state = window->state;
-    const DipRect bar = window->layout->bar;
-    const int button = dip_ui_px(ui, BUTTON), gap = dip_ui_px(ui, 8);
-    const int right = bar.x + bar.width - 2 * button;
-    const int room = right - bar.x - 3 * button - 2 * gap;
-    const bool words = tabs_width(ui, tab_names) <= room;
-    const bool short_words = !words && tabs_width(ui, tab_initials) <= right - bar.x;
-    const int pad = words || short_words ? dip_ui_px(ui, TAB_PAD) : dip_ui_px(ui, 3);
-    char place[128];
-    dip_ui_fill(ui, bar, dip_style_bar);
-    dip_ui_fill(ui, (DipRect){bar.x, bar.y, bar.width, 1}, dip_style_line);
-    const int x = declare_tabs(ui, window, words ? tab_names : tab_initials, pad);
-    if (words) {
-        format_place(state, place, sizeof place);
-        int left = x + gap;
-        const int place_width = dip_ui_text_width(ui, TAB_SIZE, place);
-        const int line_room = right - left - 3 * button - place_width - 3 * gap;
-        const bool whole = line_room > dip_ui_px(ui, 60);
-        if (whole && !state->manual && !state->shows_gallery) {
-            left += line_room > dip_ui_px(ui, 260) ? line_room - dip_ui_px(ui, 250) : 0;
-        } else {
-            left = right - gap - 3 * button - (whole ? place_width + gap : 0);
+    DipRect rect = {x, bar->rect.y, bar->button, bar->rect.height};
+    if (bar->tail == 2) {
+        const DipUiInput help = declare_button(ui, BAR_HELP, rect, "All keys (F1)");
+        if (help.pressed) {
+            dip_preview_act(state, DIP_ACTION_HELP, 0, false, dip_ui_now_ns(ui));
         }
-        declare_playback(ui, window, left);
-        if (whole) {
-            const int from = left + 3 * button + gap;
-            const int to = right - place_width - 2 * gap;
-            if (to > from && !state->manual && !state->shows_gallery) {
-                declare_time_line(ui, window, (DipRect){from, bar.y, to - from, bar.height});
-            }
-            dip_ui_text(ui, TAB_SIZE, dip_style_soft, DIP_ALIGN_RIGHT, right - gap,
-                        bar.y + (bar.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, place_width,
-                        place);
-        }
+        dip_ui_text(ui, TAB_SIZE, colour_of(&help, state->help), DIP_ALIGN_CENTRE,
+                    rect.x + rect.width / 2,
+                    rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width, "?");
+        rect.x += bar->button;
     }
-    if (declare_text(ui, BAR_HELP, (DipRect){right, bar.y, button, bar.height}, "?",
-                     "All keys (F1)", state->help)) {
-        dip_preview_act(state, DIP_ACTION_HELP, 0, false, dip_ui_now_ns(ui));
-    }
-    if (declare_text(ui, BAR_FOLD, (DipRect){right + button, bar.y, button, bar.height},
-                     state->tools.open ? "\u25be" : "\u25b4", "Fold or open the panel (Y)",
-                     false)) {
+    const DipUiInput fold = declare_button(
+        ui, BAR_FOLD, rect, state->tools.open ? "Fold the panel (Y)" : "Open the panel (Y)");
+    if (fold.pressed) {
         dip_preview_act(state, DIP_ACTION_DOCK, 0, false, dip_ui_now_ns(ui));
     }
+    dip_icon_fold(ui, rect, !state->tools.open, colour_of(&fold, false));
+}
+
+void dip_bar_declare(DipUi *ui, DipWindow *window) {
+    const Bar bar = measure(ui, window);
+    const int gap = dip_ui_px(ui, 10);
+    const int tail_x = bar.rect.x + bar.rect.width - bar.tail * bar.button;
+    const int line_x = tail_x - bar.place_width - bar.line;
+    dip_ui_fill(ui, bar.rect, dip_style_bar);
+    dip_ui_fill(ui, (DipRect){bar.rect.x, bar.rect.y, bar.rect.width, 1}, dip_style_line);
+    declare_tabs(ui, window, &bar);
+    declare_playback(ui, window, &bar, line_x - bar.play * bar.button);
+    if (bar.line) {
+        declare_time_line(
+            ui, window,
+            (DipRect){line_x + gap / 2, bar.rect.y, bar.line - gap / 2, bar.rect.height});
+    }
+    if (bar.place_width) {
+        dip_ui_text(ui, TAB_SIZE, dip_style_soft, DIP_ALIGN_RIGHT, tail_x - gap,
+                    bar.rect.y + (bar.rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2,
+                    bar.place_width, bar.place);
+    }
+    declare_tail(ui, window, &bar, tail_x);
 }

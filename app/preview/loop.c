@@ -442,10 +442,16 @@ static void use_new_session(DipPreview *preview, bool dropped) {
     dip_error_thread_destroy(&preview->errors);
     dip_prefetch_end(&preview->prefetch);
     preview->prefetch = (DipPrefetch){.running = false};
+    if (preview->live_prices) {
+        dip_live_prices_leave_scene(preview->live_prices);
+    }
     dip_handover(preview->def.reload, session, &preview->state, preview->first_quality, dropped);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->drawn_quality[p] = dip_painter_quality(session->renderers[p]);
         dip_figures_forget(&preview->figures, p);
+    }
+    if (preview->live_prices) {
+        dip_live_prices_enter_scene(preview->live_prices);
     }
     preview->drawn_look = preview->state.look;
     preview->def.flying_speed_m_per_s = dip_flying_speed(session);

@@ -74,6 +74,7 @@ static bool open_parts(Parts *parts, DipSession *session, const DipPreviewOption
         !load_costs(session, options->cost_report, &parts->costs, parts->prices, err)) {
         return false;
     }
+    dip_reload_set_prices(parts->reload, parts->prices);
     if (options->control) {
         parts->remote = dip_remote_open(options->control, err);
     }

@@ -41,6 +41,7 @@ struct DipReload {
     char **names; // Every name that was ever dropped, once. Options point to these names.
     int name_count;
     Opening opening;
+    DipPrices *prices; // Borrowed, or NULL.
     DipCosts *costs;
 };
 
@@ -308,7 +309,7 @@ static bool open_costs(DipReload *reload, const char *file, DipReloadNews *news)
     DipCosts *costs = calloc(1, sizeof *costs);
     dip_cost_scene_name(reload->session, scene);
     news->dropped = true;
-    if (costs && dip_costs_load(costs, file, scene, &err)) {
+    if (costs && dip_costs_load(costs, reload->prices, file, scene, &err)) {
         free(reload->costs);
         reload->costs = costs;
         return tell(news, DIP_RELOAD_COSTS, "Opened ", base_name(file));
@@ -322,6 +323,10 @@ static bool open_costs(DipReload *reload, const char *file, DipReloadNews *news)
     tell_fault(news, &faults);
     dip_error_list_free(&faults);
     return true;
+}
+
+void dip_reload_set_prices(DipReload *reload, DipPrices *prices) {
+    reload->prices = prices;
 }
 
 const DipCosts *dip_reload_costs(const DipReload *reload) {

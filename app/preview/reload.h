@@ -50,6 +50,9 @@ bool dip_reload_poll(DipReload *reload, int64_t now_ns, DipReloadNews *news);
 // begins.
 void dip_reload_take(DipReload *reload);
 
+// Gives the prices of reports that are opened to `prices`, which is borrowed.
+void dip_reload_set_prices(DipReload *reload, DipPrices *prices);
+
 // Returns the cost report that was dropped last. It is valid until the next one is loaded.
 const DipCosts *dip_reload_costs(const DipReload *reload);
 

@@ -1,0 +1,16 @@
+// Symbols of the dock's bar, drawn as rectangles so that they are sharp at every scale.
+#ifndef DIP_APP_PREVIEW_ICONS_H
+#define DIP_APP_PREVIEW_ICONS_H
+
+#include "app/preview/tools.h"
+#include "app/preview/ui.h"
+
+// Each draws its symbol in the middle of a rectangle.
+void dip_icon_tab(DipUi *ui, DipTab tab, DipRect rect, DipColour colour);
+void dip_icon_play(DipUi *ui, DipRect rect, bool paused, DipColour colour);
+// Draws a triangle with a bar at its tip: one frame on, or back.
+void dip_icon_step(DipUi *ui, DipRect rect, bool back, DipColour colour);
+// Draws a chevron that points up or down.
+void dip_icon_fold(DipUi *ui, DipRect rect, bool up, DipColour colour);
+
+#endif
