@@ -59,6 +59,14 @@ void dip_painter_set_frame_index(DipPainter *painter, uint64_t frame_index) {
     }
 }
 
+bool dip_painter_record_tiles(DipPainter *painter, bool on, DipError *err) {
+    if (painter->pane) {
+        return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "tiles",
+                             "scenes of the gallery do not record the work of their tiles");
+    }
+    return dip_renderer_record_tiles(painter->renderer, on, err);
+}
+
 bool dip_painter_set_mip_pictures(DipPainter *painter,
                                   const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
                                   DipError *err) {

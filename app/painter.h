@@ -21,6 +21,9 @@ bool dip_painter_resize(DipPainter *painter, int width, int height, DipError *er
 DipQuality dip_painter_quality(const DipPainter *painter);
 void dip_painter_set_frame_index(DipPainter *painter, uint64_t frame_index);
 
+// Fails with UNSUPPORTED if the painter draws a scene of the gallery.
+bool dip_painter_record_tiles(DipPainter *painter, bool on, DipError *err);
+
 // A pane of the gallery has flat mip colours only and ignores the pictures.
 bool dip_painter_set_mip_pictures(DipPainter *painter,
                                   const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],

@@ -61,6 +61,28 @@ typedef struct DipStageTimes {
     double total_ms;
 } DipStageTimes;
 
+// The work and the times of drawing one tile of a pass.
+typedef struct DipTileRecord {
+    // Only counters of work that is done in the tile are set; their sums over all tiles of a pass
+    // are the pass's counters. The geometry stage runs before the tiles. Therefore `passes`,
+    // `tiles_spared`, `triangles_in`, `triangles_drawn`, `tile_triangles` and `target_bytes` are 0.
+    // `tiles_drawn` is 1, or 0 if the tile is spared.
+    DipPipelineCounters counters;
+    // Wall-clock time of the worker that drew the tile, in nanoseconds.
+    int64_t raster_ns;
+    int64_t shading_ns;
+    int64_t resolve_ns;
+} DipTileRecord;
+
+// Where a pipeline records what happens in the tiles. The caller owns the arrays.
+typedef struct DipTileRecording {
+    DipTileRecord *tiles; // one per tile (DIP_TARGET_TILE) of the target, row by row
+    // One byte per pixel of the target, rows packed: 1 if the pixel's samples show more than one
+    // fragment. The sum of a tile is its counter `pixels_resolved`. Merged passes (state.h) leave
+    // all bytes 0. NULL: not recorded.
+    uint8_t *mixed;
+} DipTileRecording;
+
 #ifdef __cplusplus
 }
 #endif

@@ -22,8 +22,9 @@ struct DipPipeline {
     DipGeometry geometry;
     DipTilePass tile_pass; // the pass being drawn
     DipTileWork *tile_work;
-    int draw_room;       // number of draws for which the workers have lists
-    uint8_t *is_ordered; // one per draw (draw_room)
+    DipTileRecording recording; // its arrays are NULL unless tiles are recorded
+    int draw_room;              // number of draws for which the workers have lists
+    uint8_t *is_ordered;        // one per draw (draw_room)
     DipSrgbEncodeTable *srgb;
     float srgb_light[256]; // linear light of the 8-bit sRGB values
 };
@@ -102,6 +103,13 @@ static void begin_merge(DipPipeline *pipeline, const DipPass *pass) {
     }
 }
 
+static void begin_recording(DipPipeline *pipeline) {
+    pipeline->tile_pass.mixed = pipeline->recording.mixed;
+    if (pipeline->recording.mixed) {
+        memset(pipeline->recording.mixed, 0, (size_t)pipeline->width * (size_t)pipeline->height);
+    }
+}
+
 static bool begin_pass(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
     if (!make_lists(pipeline, pass->draw_count, err) || !make_merge(pipeline, pass, err)) {
         return false;
@@ -113,6 +121,7 @@ static bool begin_pass(DipPipeline *pipeline, const DipPass *pass, DipError *err
     set_clear(tile_pass, pass->clear_lin);
     set_sample_groups(tile_pass, pass);
     begin_merge(pipeline, pass);
+    begin_recording(pipeline);
     return true;
 }
 
@@ -188,6 +197,25 @@ static void add_counters(const DipPipeline *pipeline, DipPipelineCounters *count
     add_geometry_counters(geometry, counters);
     for (int t = 0; t < tiles; t++) {
         add_tile_counters(&pipeline->tile_work[geometry->tiles[t]], counters);
+    }
+}
+
+// Writes the records of the tiles of the pass that was drawn last.
+static void record_tiles(const DipPipeline *pipeline) {
+    const DipGeometry *geometry = pipeline->tile_pass.geometry;
+    DipTileRecord *records = pipeline->recording.tiles;
+    if (!records) {
+        return;
+    }
+    memset(records, 0, dip_geometry_tiles(&pipeline->geometry) * sizeof *records);
+    for (int t = 0; t < geometry->tile_count; t++) {
+        const int index = geometry->tiles[t];
+        const DipTileWork *work = &pipeline->tile_work[index];
+        records[index].counters.tiles_drawn = 1;
+        add_tile_counters(work, &records[index].counters);
+        records[index].raster_ns = work->stage_ns[DIP_TILE_STAGE_RASTER];
+        records[index].shading_ns = work->stage_ns[DIP_TILE_STAGE_SHADING];
+        records[index].resolve_ns = work->stage_ns[DIP_TILE_STAGE_RESOLVE];
     }
 }
 
@@ -288,6 +316,7 @@ static void add_results(const Batch *batch, int64_t tiles_ns) {
     for (int i = 0; i < batch->count; i++) {
         const DipPassWork *work = &batch->works[i];
         add_counters(work->pipeline, work->counters);
+        record_tiles(work->pipeline);
         add_times(&sums[i], batch->geometry_ns[i], scale, work->times);
     }
 }
@@ -340,6 +369,10 @@ bool dip_pipeline_draw(DipPipeline *pipeline, const DipPass *pass, DipPipelineCo
                        DipStageTimes *times, DipError *err) {
     const DipPassWork work = {pipeline, pass, counters, times};
     return dip_pipeline_draw_passes(&work, 1, false, err);
+}
+
+void dip_pipeline_record_tiles(DipPipeline *pipeline, const DipTileRecording *recording) {
+    pipeline->recording = recording ? *recording : (DipTileRecording){.tiles = NULL};
 }
 
 // --- creating and destroying -------------------------------------------------------------------

@@ -64,8 +64,22 @@ typedef struct DipEffects {
 #undef DIP_EFFECT_FIELD
 } DipEffects;
 
-// The renderer that drew a frame owns its pixels. They are valid until that renderer draws again,
-// is resized or is destroyed.
+// Where in the picture a frame's work was done (dip_renderer_record_tiles). For each counter of
+// work that is done in tiles (DipTileRecord), the sum of `records` and `mirrored` is the frame's
+// counter.
+typedef struct DipFrameTiles {
+    const DipTileRecord *records; // across * down tiles, row by row; NULL if not recorded
+    const uint8_t *mixed;         // DipTileRecording.mixed, width * height bytes
+    int across;
+    int down;
+    // The work and the times of drawing the mirrored scene, with its geometry. It is a picture of
+    // its own, so its tiles are not those of the frame.
+    DipPipelineCounters mirrored;
+    DipStageTimes mirrored_times;
+} DipFrameTiles;
+
+// The renderer that drew a frame owns its pixels and its tiles. They are valid until that renderer
+// draws again, is resized or is destroyed.
 typedef struct DipFrame {
     const uint8_t *rgba8; // sRGB, alpha 255, top row first
     size_t stride_bytes;
@@ -74,6 +88,7 @@ typedef struct DipFrame {
     DipCounters counters;
     DipStageTimes stages;
     DipEffects effects;
+    DipFrameTiles tiles; // all 0 unless the renderer records tiles
 } DipFrame;
 
 // Writes a 128-bit hash of a frame's size and pixels as 32 hex digits and a final 0. The hash

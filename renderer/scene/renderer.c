@@ -38,6 +38,28 @@ static bool make_target(DipPool *pool, DipIsa isa, int width, int height, DipPip
     return true;
 }
 
+static int tiles_in(int size) {
+    return (size + DIP_TARGET_TILE - 1) / DIP_TARGET_TILE;
+}
+
+static void free_recording(DipTileRecording *recording) {
+    free(recording->tiles);
+    free(recording->mixed);
+    *recording = (DipTileRecording){.tiles = NULL};
+}
+
+static bool make_recording(int width, int height, DipTileRecording *recording, DipError *err) {
+    const size_t tiles = (size_t)tiles_in(width) * (size_t)tiles_in(height);
+    recording->tiles = calloc(tiles, sizeof *recording->tiles);
+    recording->mixed = calloc((size_t)width * (size_t)height, 1);
+    if (recording->tiles && recording->mixed) {
+        return true;
+    }
+    free_recording(recording);
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "tiles",
+                         "no memory for the records of %dx%d pixels", width, height);
+}
+
 static bool check_reflection(const DipReflectionDef *reflection, DipError *err) {
     if (!reflection->width) {
         return true;
@@ -109,6 +131,7 @@ void dip_renderer_destroy(DipRenderer **renderer_pointer) {
     dip_pipeline_destroy(&renderer->pipeline);
     dip_texture_destroy(&renderer->mip_colours);
     dip_lines_free(renderer->rgba8);
+    free_recording(&renderer->recording);
     forget_scene(renderer);
     free(renderer);
     *renderer_pointer = NULL;
@@ -153,10 +176,18 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
     DipPipeline *pipeline;
     uint8_t *rgba8;
     size_t stride_bytes;
-    if (!make_target(renderer->pool, renderer->isa, width, height, &pipeline, &rgba8, &stride_bytes,
-                     err)) {
+    DipTileRecording recording = {.tiles = NULL};
+    if (renderer->recording.tiles && !make_recording(width, height, &recording, err)) {
         return false;
     }
+    if (!make_target(renderer->pool, renderer->isa, width, height, &pipeline, &rgba8, &stride_bytes,
+                     err)) {
+        free_recording(&recording);
+        return false;
+    }
+    dip_pipeline_record_tiles(pipeline, &recording);
+    free_recording(&renderer->recording);
+    renderer->recording = recording;
     dip_pipeline_destroy(&renderer->pipeline);
     dip_lines_free(renderer->rgba8);
     renderer->pipeline = pipeline;
@@ -165,6 +196,20 @@ bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError 
     renderer->stride_bytes = stride_bytes;
     renderer->width = width;
     renderer->height = height;
+    return true;
+}
+
+bool dip_renderer_record_tiles(DipRenderer *renderer, bool on, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    if (on == (renderer->recording.tiles != NULL)) {
+        return true;
+    }
+    if (!on) {
+        free_recording(&renderer->recording);
+    } else if (!make_recording(renderer->width, renderer->height, &renderer->recording, err)) {
+        return false;
+    }
+    dip_pipeline_record_tiles(renderer->pipeline, &renderer->recording);
     return true;
 }
 
@@ -205,10 +250,6 @@ static bool reserve(const DipRenderer *renderer, const DipScene *scene, bool mir
     dip_draw_set_fill(set, &input, &all);
     const DipPass pass = {.draws = set->draws, .draw_count = set->count};
     return dip_pipeline_reserve(pipeline, &pass, err);
-}
-
-static int tiles_in(int size) {
-    return (size + DIP_TARGET_TILE - 1) / DIP_TARGET_TILE;
 }
 
 // Creates the reflection's target and reserves the memory for its pass.

@@ -56,6 +56,10 @@ DIP_API bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflect
                                          DipError *err);
 DIP_API bool dip_renderer_resize(DipRenderer *renderer, int width, int height, DipError *err);
 
+// Records the work and the time of each tile into DipFrame.tiles, or stops recording. Off at first.
+// The pictures and the counters are the same either way. Fails with MEMORY.
+DIP_API bool dip_renderer_record_tiles(DipRenderer *renderer, bool on, DipError *err);
+
 DIP_API DipQuality dip_renderer_quality(const DipRenderer *renderer);
 
 // Sets the number of the frame that is drawn next. The caller counts frames; the number is 0 at

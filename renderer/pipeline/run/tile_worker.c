@@ -183,6 +183,18 @@ static void begin_tile(DipTileWorker *worker, int index) {
     set_destination(worker);
 }
 
+// Records which pixels of the tile several fragments share.
+static void record_mixed(const DipTileWorker *worker) {
+    const DipTileShading *shading = &worker->shading;
+    const size_t width = (size_t)worker->pass->pass->target.width;
+    uint8_t *first =
+        worker->pass->mixed + (size_t)worker->tile.y0 * width + (size_t)worker->tile.x0;
+    for (int i = 0; i < shading->multi_fragment_count; i++) {
+        const size_t pixel = shading->multi_fragment[i];
+        first[pixel / DIP_TILE * width + pixel % DIP_TILE] = 1;
+    }
+}
+
 // Covers, shades and resolves a tile of a pass that is not merged.
 static void draw_plain_tile(DipTileWorker *worker, int index) {
     const DipTilePass *pass = worker->pass;
@@ -196,6 +208,9 @@ static void draw_plain_tile(DipTileWorker *worker, int index) {
     work->stage_ns[DIP_TILE_STAGE_RASTER] += covered_ns - begin_ns;
     work->stage_ns[DIP_TILE_STAGE_SHADING] = shaded_ns - covered_ns;
     work->stage_ns[DIP_TILE_STAGE_RESOLVE] = dip_clock_ns() - shaded_ns;
+    if (pass->mixed) {
+        record_mixed(worker);
+    }
 }
 
 void dip_tile_worker_shade_tile(DipTileWorker *worker) {

@@ -50,6 +50,7 @@ typedef struct DipTilePass {
     const DipSrgbEncodeTable *srgb;
     const float *srgb_light; // linear light of the 256 8-bit sRGB values
     bool merged;             // the pass is merged (merge/merge_tile.h)
+    uint8_t *mixed;          // DipTileRecording.mixed; NULL unless tiles are recorded
     DipMergePass merge;
 } DipTilePass;
 

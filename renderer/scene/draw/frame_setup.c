@@ -210,6 +210,22 @@ static DipPassWork work_of(DipPipeline *pipeline, const DipPass *pass, FrameSetu
     return (DipPassWork){pipeline, pass, &setup->counters, &setup->frame->stages};
 }
 
+// Points the frame to the renderer's records, and notes the work that was done before the main
+// pass.
+static void begin_tiles(const FrameSetup *setup) {
+    const DipRenderer *renderer = setup->renderer;
+    if (renderer->recording.tiles) {
+        setup->frame->tiles = (DipFrameTiles){
+            .records = renderer->recording.tiles,
+            .mixed = renderer->recording.mixed,
+            .across = tiles_in(renderer->width),
+            .down = tiles_in(renderer->height),
+            .mirrored = setup->counters,
+            .mirrored_times = setup->frame->stages,
+        };
+    }
+}
+
 // Draws the mirrored passes of all frames together, then the main passes of all frames together.
 // same_geometry: the frames differ only in samples and shading.
 static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipError *err) {
@@ -226,6 +242,7 @@ static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipEr
     }
     for (int i = 0; i < count; i++) {
         setups[i].fragments_mirrored = setups[i].counters.fragments_shaded;
+        begin_tiles(&setups[i]);
         works[i] = work_of(setups[i].renderer->pipeline, &setups[i].pass, &setups[i]);
     }
     return dip_pipeline_draw_passes(works, count, same_geometry, err);

@@ -31,7 +31,8 @@ struct DipRenderer {
     DipReflectionDef reflection;
     bool plain_surfaces;
     bool force_all_effects;
-    DipSkyUniforms sky; // the sky at the frame's time; set only if the frame shows clouds
+    DipTileRecording recording; // owned; its arrays are NULL unless tiles are recorded
+    DipSkyUniforms sky;         // the sky at the frame's time; set only if the frame shows clouds
 
     // Resources for the scene that was drawn last.
     uint64_t scene_serial; // DipScene.serial of that scene; 0: there is none

@@ -1,7 +1,7 @@
 // Draws the courtyard along the ambient path, with every step of antialiasing and filtering, every
 // thread count and every instruction set. The hashes of all pictures must equal the hashes in a
-// list. The gcc and clang builds share this list. The test fails if a hash is missing or different,
-// or if any work counter differs.
+// list, also while tiles are recorded. The gcc and clang builds share this list. The test fails if
+// a hash is missing or different, or if any work counter differs.
 //
 // Usage: test_determinism LIST [--write] [--every N] [--size WxH] --write creates the list with the
 // scalar kernels on one thread. --every N draws every N-th frame of the path instead of the list's
@@ -141,7 +141,8 @@ static bool draw_all(Stage *stage, DipIsa isa, int threads, Hash *hashes) {
     def.height = stage->options.height;
     def.reflection = (DipReflectionDef){.width = 160, .height = 120, .level_m = 0.66};
     DipRenderer *renderer = pool ? dip_renderer_create(&def, &err) : NULL;
-    bool drawn = renderer != NULL;
+    // The runs with several threads record their tiles, which must not change the pictures.
+    bool drawn = renderer && dip_renderer_record_tiles(renderer, threads > 1, &err);
     bool same_work = true;
     for (int s = 0; drawn && s < stage->settings_count; s++) {
         DipQuality quality;
