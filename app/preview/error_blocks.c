@@ -3,6 +3,8 @@
 
 #include "app/measure/flip.h"
 
+#include <string.h>
+
 enum { BLOCK = 96 }; // Side of a block without its margin, pixels.
 
 typedef struct Rect {
@@ -67,8 +69,18 @@ static void add_values(const float *map, const Rect *whole, const Rect *block, D
     }
 }
 
+// Copies the values of the block's own pixels into a map of the whole picture, `width` pixels wide.
+static void store_values(const float *from, const Rect *whole, const Rect *block, int width,
+                         float *map) {
+    for (int y = block->y; y < block->y + block->height; y++) {
+        memcpy(map + (size_t)y * (size_t)width + (size_t)block->x,
+               from + (size_t)(y - whole->y) * (size_t)whole->width + (block->x - whole->x),
+               (size_t)block->width * sizeof *map);
+    }
+}
+
 bool dip_error_block_add(const DipSrgbPicture *test, const DipSrgbPicture *truth, int block,
-                         float *scratch, DipMapSum *sum) {
+                         float *scratch, float *map, DipMapSum *sum) {
     const Rect own = block_of(test, block);
     const Rect whole = with_margin(test, &own);
     const DipSrgbPicture test_part = cut_out(test, &whole), truth_part = cut_out(truth, &whole);
@@ -82,6 +94,9 @@ bool dip_error_block_add(const DipSrgbPicture *test, const DipSrgbPicture *truth
         dip_flip_analyse(&flip, &truth_part, &sides[1]);
         dip_flip_compare(&flip, &sides[0], &sides[1], scratch);
         add_values(scratch, &whole, &own, sum);
+        if (map) {
+            store_values(scratch, &whole, &own, test->width, map);
+        }
     }
     dip_flip_analysis_free(&sides[0]);
     dip_flip_analysis_free(&sides[1]);

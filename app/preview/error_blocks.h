@@ -17,9 +17,10 @@ int dip_error_block_count(int width, int height);
 // Returns the number of values that the scratch memory of dip_error_block_add must have.
 size_t dip_error_block_values(void);
 
-// Adds the FLIP of the pixels of block `block` to *sum. Both pictures have the same size. Returns
-// false if memory runs out.
+// Adds the FLIP of the pixels of block `block` to *sum, and stores it at the pixels' places in
+// `map`, which has one value for each pixel of the picture, unless it is NULL. Both pictures have
+// the same size. Returns false if memory runs out.
 bool dip_error_block_add(const DipSrgbPicture *test, const DipSrgbPicture *truth, int block,
-                         float *scratch, DipMapSum *sum);
+                         float *scratch, float *map, DipMapSum *sum);
 
 #endif

@@ -34,6 +34,7 @@ struct DipErrorJob {
     double *halves[HALVES];
     float *rgb_lin;              // Mean of the halves, for the last finished level.
     uint8_t *rgba8;              // The same picture in 8-bit sRGB.
+    float *flip[DIP_PANE_COUNT]; // FLIP of each pixel of a pane.
     float *map;                  // Errors: 3 values per pixel of a band, or the scratch of a block.
     DipConvergence *convergence; // NULL before the first tile.
     int level;                   // The level that is being drawn.
@@ -85,6 +86,10 @@ static void free_pictures(DipErrorJob *job) {
     free(job->rgb_lin);
     free(job->rgba8);
     free(job->map);
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        free(job->flip[p]);
+        job->flip[p] = NULL;
+    }
     job->halves[0] = job->halves[1] = NULL;
     job->rgb_lin = job->map = NULL;
     job->rgba8 = NULL;
@@ -120,8 +125,12 @@ static bool make_room(DipErrorJob *job, DipError *err) {
     job->rgb_lin = malloc(pixels * 3 * sizeof(float));
     job->rgba8 = malloc(pixels * 4);
     job->map = malloc((3 * band > block ? 3 * band : block) * sizeof(float));
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        job->flip[p] = malloc(pixels * sizeof(float));
+    }
     job->pixels = pixels;
-    return (job->halves[0] && job->halves[1] && job->rgb_lin && job->rgba8 && job->map) ||
+    return (job->halves[0] && job->halves[1] && job->rgb_lin && job->rgba8 && job->map &&
+            job->flip[0] && job->flip[1]) ||
            out_of_memory(err);
 }
 
@@ -236,15 +245,37 @@ static void measure_band(DipErrorJob *job, int pane, int band) {
 static bool measure_block(DipErrorJob *job, int pane, int block) {
     DipSrgbPicture test, truth;
     both_pictures(job, pane, &test, &truth);
-    return dip_error_block_add(&test, &truth, block, job->map, &job->sums[pane].flip);
+    return dip_error_block_add(&test, &truth, block, job->map, job->flip[pane],
+                               &job->sums[pane].flip);
+}
+
+// Returns the pane whose picture a pane shows.
+static int shown_pane(const DipErrorJob *job, int pane) {
+    return job->still.rgba8[pane] ? pane : DIP_PANE_CURRENT;
+}
+
+// Lists the panes that are measured. Returns their number.
+static int list_panes(const DipErrorJob *job, int panes[DIP_PANE_COUNT]) {
+    int count = 0;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        if (job->still.rgba8[p] && !job->still.unjudged[p]) {
+            panes[count++] = p;
+        }
+    }
+    return count;
 }
 
 static void publish(DipErrorJob *job) {
     job->measured = -1;
     job->result.samples = HALVES * dip_error_job_samples[job->truth_level];
     job->result.last = job->truth_level == DIP_ERROR_JOB_LEVELS - 1;
+    job->result.floor_rmse = job->floor_rmse;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        const PaneSums *sums = &job->sums[job->still.rgba8[p] ? p : DIP_PANE_CURRENT];
+        const PaneSums *sums = &job->sums[shown_pane(job, p)];
+        if (job->still.unjudged[p]) {
+            job->result.panes[p] = (DipPaneError){.unjudged = true};
+            continue;
+        }
         const double rmse_lin = sqrt(dip_map_mean(sums->squared_lin));
         job->result.panes[p] = (DipPaneError){
             .rmse_lin = rmse_lin,
@@ -256,19 +287,24 @@ static void publish(DipErrorJob *job) {
 }
 
 // Measures the next band or block. First come all bands of the first pane, then all blocks of this
-// pane, then the bands and blocks of the other pane.
+// pane, then the bands and blocks of the other pane. If no pane is judged, publishes the truth.
 static bool measure_next_part(DipErrorJob *job) {
     const int bands = (job->still.height + band_rows(job) - 1) / band_rows(job);
     const int blocks = dip_error_block_count(job->still.width, job->still.height);
-    const int panes = job->still.rgba8[DIP_PANE_REQUESTED] ? DIP_PANE_COUNT : 1;
-    const int pane = job->measured / (bands + blocks);
+    int panes[DIP_PANE_COUNT];
+    const int pane_count = list_panes(job, panes);
+    if (pane_count == 0) {
+        publish(job);
+        return true;
+    }
+    const int pane = panes[job->measured / (bands + blocks)];
     const int part = job->measured % (bands + blocks);
     if (part < bands) {
         measure_band(job, pane, part);
     } else if (!measure_block(job, pane, part - bands)) {
         return false;
     }
-    if (++job->measured == panes * (bands + blocks)) {
+    if (++job->measured == pane_count * (bands + blocks)) {
         publish(job);
     }
     return true;
@@ -306,4 +342,12 @@ DipErrorJobStep dip_error_job_step(DipErrorJob *job, DipError *err) {
 
 const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job) {
     return &job->result;
+}
+
+const float *dip_error_job_flip(const DipErrorJob *job, int pane) {
+    return job->still.unjudged[pane] ? NULL : job->flip[shown_pane(job, pane)];
+}
+
+const uint8_t *dip_error_job_truth(const DipErrorJob *job) {
+    return job->rgba8;
 }

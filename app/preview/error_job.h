@@ -28,6 +28,9 @@ typedef struct DipStill {
     size_t stride_bytes;
     // If both panes show the same picture, the requested pane's pointer is NULL.
     const uint8_t *rgba8[DIP_PANE_COUNT];
+    // The pane does not show the scene as the truth does (it shows mip colours), so it has no
+    // error.
+    bool unjudged[DIP_PANE_COUNT];
 } DipStill;
 
 // Returns whether two stills are compared with the same truth.
@@ -39,11 +42,14 @@ typedef struct DipPaneError {
     double psnr_db;
     double flip;
     bool at_floor; // The error is too small to be told from the truth's own noise.
+    bool unjudged; // As in DipStill. The other members are 0.
 } DipPaneError;
 
 typedef struct DipErrorJobResult {
     int samples; // Samples per pixel of the truth's two halves together; 0: no result yet.
     bool last;   // True if no further level will refine the truth.
+    // The truth's own noise: half of the root mean square difference of its halves, linear light.
+    double floor_rmse;
     DipPaneError panes[DIP_PANE_COUNT];
 } DipErrorJobResult;
 
@@ -69,5 +75,14 @@ typedef enum DipErrorJobStep {
 DipErrorJobStep dip_error_job_step(DipErrorJob *job, DipError *err);
 
 const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job);
+
+// The pictures that belong to the result. They are complete between the step that returned
+// NEW_RESULT and the next step; later steps overwrite them. Rows are packed.
+
+// Returns the FLIP value of each pixel of a pane, or NULL if the pane is not judged.
+const float *dip_error_job_flip(const DipErrorJob *job, int pane);
+
+// Returns the truth in 8-bit sRGB, four bytes per pixel.
+const uint8_t *dip_error_job_truth(const DipErrorJob *job);
 
 #endif

@@ -16,12 +16,27 @@ typedef struct Still {
     size_t size_bytes;
 } Still;
 
+// Pictures of a result, which pass from the thread to the caller. There are three of these: the
+// thread fills one, the caller reads another, and the third one holds the newest pictures that the
+// caller has not asked for yet. They change places under the lock, so nobody copies pixels there.
+typedef struct Pictures {
+    DipErrorPictures out; // Its pointers point into the arrays below.
+    DipStill still;       // The still that was measured; its pictures are not valid.
+    unsigned number;      // The number of this still; 0: there are no pictures.
+    uint8_t *truth_rgba8; // Owned.
+    float *flip;          // Owned; the maps of both panes.
+    size_t pixels;        // Size of the arrays.
+} Pictures;
+
 struct DipErrorThread {
     const DipSceneDef *scene;
     DipReflectionDef reflection;
     Still staged; // The next still, which the caller fills without holding the lock.
     unsigned picture_number;
     bool shown;
+    Pictures held; // What the caller reads.
+    DipStill last; // The last still, whose number is last_number.
+    unsigned last_number;
     pthread_t thread;
     bool running;
     atomic_bool stop;
@@ -35,6 +50,8 @@ struct DipErrorThread {
     bool resting;
     DipErrorReading reading;
     bool news;
+    Pictures newest;
+    bool has_newest; // The caller has not taken `newest` yet.
 };
 
 // --- the thread --------------------------------------------------------------------------------
@@ -46,6 +63,9 @@ typedef struct Worker {
     Still still;
     unsigned number;
     bool idle;
+    Pictures pictures; // What the thread fills.
+    DipFlipTailMeter tail;
+    uint64_t version;
 } Worker;
 
 static void yield_to_all(pthread_t thread, bool yields) {
@@ -71,6 +91,81 @@ static void answer(Worker *worker, DipErrorStatus status) {
     }
     pthread_mutex_unlock(&owner->lock);
     worker->idle = status != DIP_ERROR_STATUS_WORKING;
+}
+
+static void free_pictures(Pictures *pictures) {
+    free(pictures->truth_rgba8);
+    free(pictures->flip);
+    *pictures = (Pictures){.pixels = 0};
+}
+
+static bool make_room(Pictures *pictures, size_t pixels) {
+    if (pictures->pixels == pixels) {
+        return true;
+    }
+    free_pictures(pictures);
+    pictures->truth_rgba8 = malloc(4 * pixels);
+    pictures->flip = malloc(DIP_PANE_COUNT * pixels * sizeof(float));
+    if (!pictures->truth_rgba8 || !pictures->flip) {
+        free_pictures(pictures);
+        return false;
+    }
+    pictures->pixels = pixels;
+    return true;
+}
+
+static void measure_spread(DipFlipTailMeter *meter, const float *flip, int width, int height,
+                           DipErrorSpread *spread) {
+    const size_t pixels = (size_t)width * (size_t)height;
+    *spread = (DipErrorSpread){.bins = {0}};
+    for (size_t i = 0; i < pixels; i++) {
+        const int bin = (int)(flip[i] * DIP_ERROR_BINS);
+        spread->bins[bin < DIP_ERROR_BINS ? bin : DIP_ERROR_BINS - 1]++;
+    }
+    dip_flip_tail_restart(meter);
+    dip_flip_tail_add(meter, flip, width, height);
+    spread->tail = dip_flip_tail_result(meter);
+}
+
+// Copies the pictures of the job's result, without the lock.
+static bool fill_pictures(Worker *worker) {
+    const DipStill *still = &worker->still.def;
+    const size_t pixels = (size_t)still->width * (size_t)still->height;
+    Pictures *to = &worker->pictures;
+    if (!make_room(to, pixels) || (!worker->tail.histogram && !dip_flip_tail_init(&worker->tail))) {
+        return false;
+    }
+    to->still = *still;
+    to->number = worker->number;
+    to->out = (DipErrorPictures){
+        .version = ++worker->version,
+        .width = still->width,
+        .height = still->height,
+        .result = *dip_error_job_result(worker->job),
+        .truth_rgba8 = to->truth_rgba8,
+    };
+    memcpy(to->truth_rgba8, dip_error_job_truth(worker->job), 4 * pixels);
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const float *from = dip_error_job_flip(worker->job, p);
+        if (from) {
+            float *copy = to->flip + (size_t)p * pixels;
+            memcpy(copy, from, pixels * sizeof *copy);
+            to->out.flip[p] = copy;
+            measure_spread(&worker->tail, copy, still->width, still->height, &to->out.spread[p]);
+        }
+    }
+    return true;
+}
+
+// Makes the pictures that the thread has filled the newest ones.
+static void pass_pictures(Worker *worker) {
+    DipErrorThread *owner = worker->owner;
+    pthread_mutex_lock(&owner->lock);
+    const Pictures swap = owner->newest;
+    owner->newest = worker->pictures;
+    owner->has_newest = true;
+    pthread_mutex_unlock(&owner->lock);
+    worker->pictures = swap;
 }
 
 // Waits while there is nothing to do. Sets *fresh if there is a new still. Returns false if the
@@ -120,6 +215,11 @@ static void work(Worker *worker, bool fresh) {
     case DIP_ERROR_JOB_WORKING:
         break;
     case DIP_ERROR_JOB_NEW_RESULT:
+        if (!fill_pictures(worker)) {
+            answer(worker, DIP_ERROR_STATUS_FAILED);
+            break;
+        }
+        pass_pictures(worker);
         answer(worker, DIP_ERROR_STATUS_WORKING);
         break;
     case DIP_ERROR_JOB_DONE:
@@ -141,6 +241,8 @@ static void *run(void *context) {
     dip_error_job_destroy(&worker.job);
     dip_reference_destroy(&worker.reference);
     free(worker.still.memory);
+    free_pictures(&worker.pictures);
+    dip_flip_tail_free(&worker.tail);
     return NULL;
 }
 
@@ -180,6 +282,8 @@ void dip_error_thread_destroy(DipErrorThread **owner_pointer) {
     pthread_mutex_destroy(&owner->lock);
     free(owner->staged.memory);
     free(owner->asked.memory);
+    free_pictures(&owner->held);
+    free_pictures(&owner->newest);
     free(owner);
 }
 
@@ -227,7 +331,8 @@ void dip_error_thread_measure(DipErrorThread *owner, const DipStill *still,
         const Still swap = owner->asked;
         owner->asked = owner->staged;
         owner->staged = swap;
-        owner->asked_number++;
+        owner->last = *still;
+        owner->last_number = ++owner->asked_number;
     }
     owner->resting = !staged;
     owner->reading =
@@ -256,4 +361,23 @@ bool dip_error_thread_read(DipErrorThread *owner, DipErrorReading *reading) {
     owner->news = false;
     pthread_mutex_unlock(&owner->lock);
     return news;
+}
+
+const DipErrorPictures *dip_error_thread_pictures(DipErrorThread *owner) {
+    pthread_mutex_lock(&owner->lock);
+    if (owner->has_newest) {
+        const Pictures swap = owner->held;
+        owner->held = owner->newest;
+        owner->newest = swap;
+        owner->has_newest = false;
+    }
+    pthread_mutex_unlock(&owner->lock);
+    Pictures *held = &owner->held;
+    if (!owner->shown || !held->number || !dip_still_has_same_truth(&held->still, &owner->last)) {
+        return NULL;
+    }
+    if (held->number != owner->last_number) {
+        held->out.flip[DIP_PANE_CURRENT] = held->out.flip[DIP_PANE_REQUESTED] = NULL;
+    }
+    return &held->out;
 }

@@ -6,6 +6,7 @@
 #ifndef DIP_APP_PREVIEW_ERROR_THREAD_H
 #define DIP_APP_PREVIEW_ERROR_THREAD_H
 
+#include "app/measure/flip_tail.h"
 #include "app/preview/error_job.h"
 
 typedef struct DipErrorThread DipErrorThread;
@@ -40,5 +41,32 @@ typedef struct DipErrorReading {
 
 // Reads the result for the last still. Returns whether the result is new since the previous call.
 bool dip_error_thread_read(DipErrorThread *thread, DipErrorReading *reading);
+
+// Bins of FLIP from 0 to 1 in which pixels are counted.
+enum { DIP_ERROR_BINS = 100 };
+
+// How FLIP is distributed over the pixels of a pane.
+typedef struct DipErrorSpread {
+    DipFlipTail tail;
+    uint32_t bins[DIP_ERROR_BINS]; // Numbers of pixels.
+} DipErrorSpread;
+
+// The pictures behind a result: the truth, and the FLIP map of each pane. Rows are packed.
+typedef struct DipErrorPictures {
+    uint64_t version; // Equal versions mean equal pictures; grows with each result.
+    int width;
+    int height;
+    DipErrorJobResult result;
+    const uint8_t *truth_rgba8; // sRGB, four bytes per pixel.
+    // FLIP of each pixel. NULL if the pane is not judged, or if the panes' pictures have changed
+    // since while the truth still holds.
+    const float *flip[DIP_PANE_COUNT];
+    DipErrorSpread spread[DIP_PANE_COUNT];
+} DipErrorPictures;
+
+// Returns the newest pictures that belong to the last still, or NULL if there are none (yet). They
+// are valid until the next call of any function of this thread but dip_error_thread_read. Only the
+// thread that calls dip_error_thread_measure may call this function.
+const DipErrorPictures *dip_error_thread_pictures(DipErrorThread *thread);
 
 #endif

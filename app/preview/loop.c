@@ -532,6 +532,10 @@ static bool create_errors(DipPreview *preview, int64_t now_ns) {
     return preview->errors != NULL;
 }
 
+static bool shows_mips(const DipPreview *preview, int pane) {
+    return preview->drawn.quality[pane].step[DIP_SETTING_MIPDEBUG] != 0;
+}
+
 static DipStill still_of(const DipPreview *preview) {
     const DipFrame *current = &preview->frame.panes[DIP_PANE_CURRENT];
     const DipFrame *requested = &preview->frame.panes[DIP_PANE_REQUESTED];
@@ -542,6 +546,8 @@ static DipStill still_of(const DipPreview *preview) {
         .height = current->height,
         .stride_bytes = current->stride_bytes,
         .rgba8 = {current->rgba8, preview->frame.copied ? NULL : requested->rgba8},
+        .unjudged = {shows_mips(preview, DIP_PANE_CURRENT),
+                     shows_mips(preview, DIP_PANE_REQUESTED)},
     };
 }
 
@@ -553,6 +559,7 @@ static bool measure_errors(DipPreview *preview, int64_t now_ns) {
                           dip_preview_rests(&preview->state, preview->flying);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->figures.shown[p].no_errors = gallery;
+        preview->figures.shown[p].mip_colours = shows_mips(preview, p);
     }
     if (!preview->errors && !(measures && create_errors(preview, now_ns))) {
         return false;

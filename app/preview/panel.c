@@ -37,9 +37,14 @@ static void add_times(Lines *lines, const DipPaneFigures *figures) {
     }
 }
 
-static void add_error(Lines *lines, const DipErrorReading *errors, int pane) {
+static void add_error(Lines *lines, const DipPaneFigures *figures, int pane) {
+    const DipErrorReading *errors = &figures->errors;
     const DipErrorJobResult *result = &errors->result;
     const DipPaneError *error = &result->panes[pane];
+    if (figures->mip_colours || error->unjudged) {
+        add(lines, true, "Error", "none, since mip colours show");
+        return;
+    }
     if (errors->status == DIP_ERROR_STATUS_PAUSED) {
         add(lines, true, "Error", "pause to measure");
         return;
@@ -59,8 +64,9 @@ static void add_error(Lines *lines, const DipErrorReading *errors, int pane) {
     } else {
         add(lines, true, "Error", "refining: %d of %d samples", result->samples, all_samples);
     }
-    add(lines, false, "RMSE, linear", "%.4f%s", error->rmse_lin,
-        error->at_floor ? " at floor" : "");
+    // A coarse truth is noisy, so an error that lies in its noise may prove to be larger.
+    const char *const floor = result->last ? " at floor" : " at floor so far";
+    add(lines, false, "RMSE, linear", "%.4f%s", error->rmse_lin, error->at_floor ? floor : "");
     if (isinf(error->psnr_db)) {
         add(lines, false, "PSNR", "no difference");
     } else {
@@ -99,7 +105,7 @@ int dip_panel_lines(const DipPaneFigures *figures, int pane,
         add_times(&all, figures);
     }
     if (!figures->no_errors) {
-        add_error(&all, &figures->errors, pane);
+        add_error(&all, figures, pane);
     }
     if (!figures->copied) {
         add_work(&all, &figures->counters);

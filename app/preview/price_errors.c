@@ -33,7 +33,7 @@ DipPriceErrorsStep dip_price_errors_step(DipPriceErrors *errors, const DipSrgbPi
     const DipSrgbPicture picture = {errors->rgba8, 4 * (size_t)errors->width, errors->width,
                                     errors->height};
     DipMapSum sum = {0};
-    if (!dip_error_block_add(&picture, truth, errors->block, errors->scratch, &sum)) {
+    if (!dip_error_block_add(&picture, truth, errors->block, errors->scratch, NULL, &sum)) {
         return DIP_PRICE_ERRORS_FAILED;
     }
     errors->sum += sum.sum;

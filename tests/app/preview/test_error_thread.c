@@ -1,5 +1,6 @@
 // Tests of the errors that are measured while the camera rests. The job's results are compared with
 // the truth and the meter of the cost report, and the thread's results with those of the job.
+#include "app/measure/difference.h"
 #include "app/measure/meter.h"
 #include "app/measure/truth.h"
 #include "app/preview/error_thread.h"
@@ -79,6 +80,11 @@ static DipMetrics measured_whole(const DipTruth *truth, const uint8_t *picture) 
     return dip_metrics_of(&sums, 0);
 }
 
+// Returns the mean FLIP of a map.
+static double mean_of(const float *flip) {
+    return dip_map_mean(dip_map_sum(flip, PIXELS, (DipPixelMask){0}));
+}
+
 static void check_close(double value, double expected) {
     assert_true(value == expected ||
                 fabs(value - expected) <= 1e-9 * expected); // PSNR may be infinite
@@ -118,7 +124,10 @@ static void errors_equal_those_of_the_cost_report(void **state) {
             check_close(result->panes[p].flip, figures.flip);
             const double floor_rmse = dip_metrics_of(&truth.floor, 0).rmse_lin / 2.0;
             assert_true(result->panes[p].at_floor == (figures.rmse_lin < 3.0 * floor_rmse));
+            check_close(result->floor_rmse, floor_rmse);
+            check_close(mean_of(dip_error_job_flip(job, p)), figures.flip);
         }
+        assert_memory_equal(dip_error_job_truth(job), truth.rgba8, 4 * PIXELS);
         dip_truth_free(&truth);
     }
     assert_true(dip_error_job_result(job)->panes[0].at_floor);
@@ -148,6 +157,35 @@ static void a_truth_is_kept_until_the_pose_changes(void **state) {
     assert_true(dip_error_job_begin(job, &still, NULL));
     assert_true(step_to_news(job, &again) == DIP_ERROR_JOB_NEW_RESULT);
     assert_int_equal(again, first);
+    dip_error_job_destroy(&job);
+}
+
+// A pane with mip colours is not compared with the truth. The other pane and the truth are not
+// affected.
+static void an_unjudged_pane_has_no_error(void **state) {
+    (void)state;
+    DipErrorJob *job = dip_error_job_create(reference, NULL);
+    DipStill still = make_still(false);
+    int steps;
+    assert_true(dip_error_job_begin(job, &still, NULL));
+    assert_true(step_to_news(job, &steps) == DIP_ERROR_JOB_NEW_RESULT);
+    const DipErrorJobResult both = *dip_error_job_result(job);
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        still.unjudged[p] = true;
+        still.unjudged[1 - p] = false;
+        assert_true(dip_error_job_begin(job, &still, NULL));
+        assert_true(step_to_news(job, &steps) == DIP_ERROR_JOB_NEW_RESULT);
+        const DipErrorJobResult *result = dip_error_job_result(job);
+        assert_true(result->panes[p].unjudged && result->panes[p].flip == 0.0);
+        assert_null(dip_error_job_flip(job, p));
+        assert_false(result->panes[1 - p].unjudged);
+        assert_true(result->panes[1 - p].flip == both.panes[1 - p].flip);
+        assert_true(mean_of(dip_error_job_flip(job, 1 - p)) > 0.0);
+    }
+    still.unjudged[0] = still.unjudged[1] = true;
+    assert_true(dip_error_job_begin(job, &still, NULL));
+    assert_true(step_to_news(job, &steps) == DIP_ERROR_JOB_NEW_RESULT && steps == 1);
+    assert_int_equal(dip_error_job_result(job)->samples, 2 * dip_error_job_samples[0]);
     dip_error_job_destroy(&job);
 }
 
@@ -200,6 +238,57 @@ static void the_thread_answers_once_per_still(void **state) {
     assert_null(thread);
 }
 
+static uint32_t sum_bins(const DipErrorSpread *spread) {
+    uint32_t sum = 0;
+    for (int i = 0; i < DIP_ERROR_BINS; i++) {
+        sum += spread->bins[i];
+    }
+    return sum;
+}
+
+// The pictures belong to the last result. After a change of settings, the truth stays while the
+// FLIP maps are measured anew; after a change of pose, nothing stays.
+static void the_pictures_belong_to_the_last_still(void **state) {
+    (void)state;
+    DipErrorThread *thread = make_thread();
+    DipStill still = make_still(false);
+    assert_null(dip_error_thread_pictures(thread));
+    dip_error_thread_measure(thread, &still, 1);
+    const DipErrorReading reading = await(thread, DIP_ERROR_STATUS_DONE);
+    const DipErrorPictures *found = dip_error_thread_pictures(thread);
+    assert_non_null(found);
+    assert_true(found->width == WIDTH && found->height == HEIGHT);
+    assert_true(found->result.last);
+    DipTruth truth = truth_of(&scene.pose, dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1]);
+    assert_memory_equal(found->truth_rgba8, truth.rgba8, 4 * PIXELS);
+    dip_truth_free(&truth);
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        check_close(mean_of(found->flip[p]), reading.result.panes[p].flip);
+        assert_int_equal(sum_bins(&found->spread[p]), PIXELS);
+        assert_true(found->spread[p].tail.p50 <= found->spread[p].tail.p99);
+    }
+    const uint64_t version = found->version;
+    assert_true(dip_error_thread_pictures(thread)->version == version);
+    still.rgba8[0] = still.rgba8[1]; // The picture of other settings.
+    still.rgba8[1] = NULL;
+    dip_error_thread_measure(thread, &still, 2);
+    found = dip_error_thread_pictures(thread);
+    assert_non_null(found);
+    assert_true(found->version > version || (!found->flip[0] && !found->flip[1]));
+    await(thread, DIP_ERROR_STATUS_DONE);
+    found = dip_error_thread_pictures(thread);
+    assert_true(found->version > version);
+    assert_memory_equal(found->flip[0], found->flip[1], PIXELS * sizeof(float));
+    check_close(mean_of(found->flip[0]), reading.result.panes[1].flip);
+    still.pose.position_world[0] += 0.01;
+    dip_error_thread_measure(thread, &still, 3);
+    found = dip_error_thread_pictures(thread);
+    assert_true(!found || found->version > version + 1);
+    dip_error_thread_pause(thread);
+    assert_null(dip_error_thread_pictures(thread));
+    dip_error_thread_destroy(&thread);
+}
+
 // New stills arrive at every stage of the work. The thread still delivers the right result for the
 // last still.
 static void the_thread_drops_stills_that_are_replaced(void **state) {
@@ -247,7 +336,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_equal_those_of_the_cost_report),
         cmocka_unit_test(a_truth_is_kept_until_the_pose_changes),
+        cmocka_unit_test(an_unjudged_pane_has_no_error),
         cmocka_unit_test(the_thread_answers_once_per_still),
+        cmocka_unit_test(the_pictures_belong_to_the_last_still),
         cmocka_unit_test(the_thread_drops_stills_that_are_replaced),
         cmocka_unit_test(the_thread_ends_at_any_stage),
     };

@@ -55,7 +55,7 @@ static void the_panel_shows_times_and_work(void **state) {
 static void the_panel_shows_errors_at_rest(void **state) {
     (void)state;
     DipErrorReading *errors = &figures.errors;
-    errors->result.panes[1] = (DipPaneError){.0123, 31.26, .0475, false};
+    errors->result.panes[1] = (DipPaneError){.rmse_lin = .0123, .psnr_db = 31.26, .flip = .0475};
     assert_string_equal(value_of(1, "Error"), "pause to measure");
     assert_string_equal(value_of(1, "FLIP"), "");
     errors->status = DIP_ERROR_STATUS_WORKING;
@@ -66,6 +66,8 @@ static void the_panel_shows_errors_at_rest(void **state) {
     assert_string_equal(value_of(1, "RMSE, linear"), "0.0123");
     assert_string_equal(value_of(1, "PSNR"), "31.3 dB");
     assert_string_equal(value_of(1, "FLIP"), "0.0475");
+    errors->result.panes[1].at_floor = true;
+    assert_string_equal(value_of(1, "RMSE, linear"), "0.0123 at floor so far");
     errors->result.samples = 128;
     errors->result.last = true;
     errors->result.panes[1].at_floor = true;
@@ -76,6 +78,21 @@ static void the_panel_shows_errors_at_rest(void **state) {
     assert_string_equal(value_of(0, "RMSE, linear"), "0.0000");
     errors->status = DIP_ERROR_STATUS_FAILED;
     assert_string_equal(value_of(1, "Error"), "not enough memory");
+}
+
+// Mip colours are no picture of the scene, so the panel says why they have no error.
+static void mip_colours_have_no_error(void **state) {
+    (void)state;
+    figures.errors.status = DIP_ERROR_STATUS_DONE;
+    figures.errors.result.samples = 128;
+    figures.mip_colours = true;
+    assert_string_equal(value_of(1, "Error"), "none, since mip colours show");
+    assert_string_equal(value_of(1, "FLIP"), "");
+    figures.mip_colours = false;
+    assert_string_equal(value_of(1, "FLIP"), "0.0000");
+    figures.errors.result.panes[1].unjudged = true;
+    assert_string_equal(value_of(1, "Error"), "none, since mip colours show");
+    assert_string_equal(value_of(0, "FLIP"), "0.0000");
 }
 
 // A pane that shows a copy has errors, but neither times nor work.
@@ -205,6 +222,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(the_panel_shows_times_and_work, set_up),
         cmocka_unit_test_setup(the_panel_shows_errors_at_rest, set_up),
+        cmocka_unit_test_setup(mip_colours_have_no_error, set_up),
         cmocka_unit_test_setup(a_copy_has_errors_only, set_up),
         cmocka_unit_test(the_preview_rests_when_nothing_moves),
         cmocka_unit_test(steps_show_their_time_and_change_of_flip),
