@@ -9,6 +9,7 @@
 #include "app/preview/keys.h"
 #include "app/preview/poses.h"
 #include "app/preview/live_prices.h"
+#include "app/preview/maps.h"
 #include "app/preview/prefetch.h"
 #include "app/preview/reload.h"
 #include "app/preview/screenshot.h"
@@ -288,8 +289,7 @@ static void fly(DipPreview *preview, int64_t elapsed_ns) {
     preview->state.scene_changes += preview->flying;
 }
 
-// --- pictures
-// ----------------------------------------------------------------------------------
+// --- pictures -----------------------------------------------------------------------------------
 
 // Sets the renderers to the panes' settings. If a pane's settings change, forgets the pane's
 // times.
@@ -514,8 +514,7 @@ static bool alternates(const DipPreview *preview) {
     return found;
 }
 
-// --- errors of the pictures
-// --------------------------------------------------------------------
+// --- errors of the pictures ---------------------------------------------------------------------
 
 static bool create_errors(DipPreview *preview, int64_t now_ns) {
     const DipSession *session = preview->def.session;
@@ -526,6 +525,7 @@ static bool create_errors(DipPreview *preview, int64_t now_ns) {
     if (!preview->errors) {
         report(preview, &err, now_ns);
         preview->state.tools.open = preview->state.wants_errors = false;
+        dip_maps_choose(&preview->state.tools, DIP_MAP_NONE);
         preview->resized = true;
         dip_preview_follow_dock(&preview->state);
     }
@@ -551,12 +551,24 @@ static DipStill still_of(const DipPreview *preview) {
     };
 }
 
-// Measures errors while the panel shows and the camera rests. Returns whether there are new
+static bool wants_errors(const DipPreview *preview) {
+    const DipPreviewState *state = &preview->state;
+    return !preview->def.session->shows_gallery &&
+           (state->panel || state->wants_errors || dip_maps_need_errors(&state->tools)) &&
+           dip_preview_rests(state, preview->flying);
+}
+
+// Gives the maps the newest error pictures.
+static void show_errors(DipPreview *preview, const DipErrorReading *reading) {
+    dip_maps_set_errors(dip_tools_maps(preview->tools), reading,
+                        preview->errors ? dip_error_thread_pictures(preview->errors) : NULL);
+}
+
+// Measures errors while the window shows them and the camera rests. Returns whether there are new
 // errors to show.
 static bool measure_errors(DipPreview *preview, int64_t now_ns) {
     const bool gallery = preview->def.session->shows_gallery;
-    const bool measures = !gallery && (preview->state.panel || preview->state.wants_errors) &&
-                          dip_preview_rests(&preview->state, preview->flying);
+    const bool measures = wants_errors(preview);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->figures.shown[p].no_errors = gallery;
         preview->figures.shown[p].mip_colours = shows_mips(preview, p);
@@ -572,6 +584,7 @@ static bool measure_errors(DipPreview *preview, int64_t now_ns) {
     }
     DipErrorReading reading;
     const bool news = dip_error_thread_read(preview->errors, &reading);
+    show_errors(preview, &reading);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->figures.shown[p].errors = reading;
     }

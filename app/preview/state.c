@@ -453,6 +453,9 @@ static bool act_on_tools(DipPreviewState *state, DipAction action, int argument,
         return true;
     case DIP_ACTION_MAP:
         tools->map = (DipMap)next_of(state, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT, reverse);
+        if (tools->map != DIP_MAP_NONE) {
+            tools->comparison = DIP_COMPARE_SIDE_BY_SIDE; // Maps show side by side.
+        }
         return true;
     case DIP_ACTION_ADJUST:
         adjust(state, reverse);

@@ -3,6 +3,7 @@
 
 #include "app/preview/compare.h"
 #include "app/preview/loupe.h"
+#include "app/preview/maps.h"
 #include "app/preview/strip.h"
 
 #include <stdlib.h>
@@ -11,7 +12,7 @@ struct DipTools {
     DipLoupe *loupe;
     DipCompare *compare;
     DipStrip *strip;
-    DipMaps *maps; // NULL: there are no maps yet.
+    DipMaps *maps;
 };
 
 DipTools *dip_tools_create(DipError *err) {
@@ -23,7 +24,8 @@ DipTools *dip_tools_create(DipError *err) {
     tools->loupe = dip_loupe_create(err);
     tools->compare = tools->loupe ? dip_compare_create(err) : NULL;
     tools->strip = tools->compare ? dip_strip_create(err) : NULL;
-    if (!tools->strip) {
+    tools->maps = tools->strip ? dip_maps_create(err) : NULL;
+    if (!tools->maps) {
         dip_tools_destroy(&tools);
     }
     return tools;
@@ -38,6 +40,7 @@ void dip_tools_destroy(DipTools **tools_pointer) {
     dip_loupe_destroy(&tools->loupe);
     dip_compare_destroy(&tools->compare);
     dip_strip_destroy(&tools->strip);
+    dip_maps_destroy(&tools->maps);
     free(tools);
 }
 
@@ -60,5 +63,6 @@ DipMaps *dip_tools_maps(DipTools *tools) {
 bool dip_tools_update(DipTools *tools, const DipToolsInput *input) {
     const bool samples = dip_loupe_update(tools->loupe, input);
     const bool thumbnail = dip_strip_update(tools->strip, input);
-    return samples || thumbnail;
+    const bool map = dip_maps_update(tools->maps, input);
+    return samples || thumbnail || map;
 }
