@@ -34,6 +34,24 @@ static void declare_tab(DipUi *ui, DipWindow *window, DipRect body) {
     tabs[window->state->tools.tab](ui, window, body);
 }
 
+// Declares the sheet that covers the window. A click anywhere closes it.
+static void declare_sheet(DipUi *ui, DipWindow *window) {
+    DipPreviewState *state = window->state;
+    const DipUiInput input = dip_ui_control(
+        ui, &(DipUiControl){.id = DIP_UI_ID(DIP_UI_HELP, 1),
+                            .rect = {0, 0, window->layout->width, window->layout->height},
+                            .skips_focus = true,
+                            .takes_wheel = true});
+    if (dip_ui_is_drawing(ui) && state->help) {
+        dip_sheet_draw_help(dip_ui_list(ui), dip_ui_scale(ui));
+    } else if (dip_ui_is_drawing(ui)) {
+        dip_sheet_draw_costs(dip_ui_list(ui), state, dip_ui_scale(ui));
+    }
+    if (input.pressed) {
+        state->help = state->show_costs = false;
+    }
+}
+
 void dip_window_declare(DipUi *ui, DipWindow *window) {
     const DipLayout *layout = window->layout;
     DipPreviewState *state = window->state;
@@ -54,9 +72,7 @@ void dip_window_declare(DipUi *ui, DipWindow *window) {
         }
         dip_labels_draw_notice(ui, window);
     }
-    if (dip_ui_is_drawing(ui) && state->help) {
-        dip_sheet_draw_help(dip_ui_list(ui), dip_ui_scale(ui));
-    } else if (dip_ui_is_drawing(ui) && state->show_costs) {
-        dip_sheet_draw_costs(dip_ui_list(ui), state, dip_ui_scale(ui));
+    if (state->help || state->show_costs) {
+        declare_sheet(ui, window);
     }
 }

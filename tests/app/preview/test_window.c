@@ -1,0 +1,263 @@
+// Tests of the window's layout and of its settings tab: at every size, nothing leaves the window,
+// and the keyboard reaches every setting and Apply; clicks, drags and the wheel change steps.
+#include "app/preview/loop.h"
+#include "app/preview/setting_rows.h"
+#include "app/preview/view.h"
+#include "config/config.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static DipCamPath *path;
+static DipCamTrack track;
+static DipPreviewState state;
+static DipView *view;
+static DipPrices *prices;
+static DipTools *tools;
+static DipPaneFigures figures[DIP_PANE_COUNT];
+static uint8_t pixels[4 * 16 * 16];
+static DipViewInput input;
+
+static int set_up(void **unused) {
+    (void)unused;
+    const DipCamKey keys[2] = {{{0, 0, 0}, {0, 0, 0, 1}}, {{1, 1, 0}, {0, 0, 0, 1}}};
+    assert_true(dip_campath_create(keys, 2, INT64_C(5000000000), &path, NULL));
+    track = dip_camtrack_make(true);
+    dip_camtrack_set(&track, DIP_CATEGORY_DEFAULT, path, 60.0);
+    const DipQuality quality[2] = {dip_quality_default(), dip_quality_default()};
+    state = dip_preview_state_make(quality, &track);
+    view = dip_view_create(NULL);
+    prices = dip_prices_create(NULL);
+    tools = dip_tools_create(NULL);
+    assert_true(view && prices && tools);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipFrame frame = {.rgba8 = pixels, .stride_bytes = 64, .width = 16, .height = 16};
+        dip_view_set_frame(view, p, &frame);
+        figures[p] = (DipPaneFigures){.ms = 4.0 + p};
+    }
+    input = (DipViewInput){.width = 1282,
+                           .height = 720,
+                           .scale = 1.0,
+                           .state = &state,
+                           .figures = figures,
+                           .prices = prices,
+                           .tools = tools,
+                           .still = true};
+    return 0;
+}
+
+static int tear_down(void **unused) {
+    (void)unused;
+    dip_tools_destroy(&tools);
+    dip_prices_destroy(&prices);
+    dip_view_destroy(&view);
+    dip_campath_destroy(&path);
+    return 0;
+}
+
+static bool press(DipKeycode key) {
+    return dip_view_handle(view, &input, &(DipEvent){.kind = DIP_EVENT_KEY_DOWN, .key = key});
+}
+
+static void mouse(DipEventKind kind, int x, int y) {
+    dip_view_handle(
+        view, &input,
+        &(DipEvent){.kind = kind, .x = x, .y = y, .button = DIP_MOUSE_LEFT, .clicks = 1});
+}
+
+static void click(int x, int y) {
+    mouse(DIP_EVENT_MOUSE_DOWN, x, y);
+    mouse(DIP_EVENT_MOUSE_UP, x, y);
+}
+
+static int step_of(int pane, DipSetting setting) {
+    return state.quality[pane].step[setting];
+}
+
+static void assert_inside(DipRect rect, DipRect room) {
+    if (!dip_rect_is_empty(rect)) {
+        assert_true(dip_rect_equals(dip_rect_intersect(rect, room), rect));
+    }
+}
+
+static void assert_apart(DipRect a, DipRect b) {
+    assert_true(dip_rect_is_empty(dip_rect_intersect(a, b)));
+}
+
+// At many sizes and scales, the parts of the window lie inside and apart. Only the drawer may cover
+// a pane: the current one.
+static void the_parts_of_the_window_lie_apart(void **unused) {
+    (void)unused;
+    static const double scales[] = {0.75, 1.0, 1.25, 2.0, 4.0};
+    for (int width = 3; width < 4000; width += width / 3 + 1) {
+        for (int height = 4; height < 2500; height += height / 3 + 1) {
+            for (int i = 0; i < 5 * 4; ++i) {
+                const DipRect window = {0, 0, width, height};
+                const bool open = i & 1, bare = i & 2;
+                const DipLayout l = dip_layout_make(width, height, scales[i / 4], open, bare);
+                for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+                    assert_inside(l.panes[p], window);
+                    assert_apart(l.panes[p], l.bar);
+                    assert_int_equal(l.panes[p].width, l.panes[0].width);
+                    assert_int_equal(l.panes[p].height, l.panes[0].height);
+                }
+                assert_inside(l.bar, window);
+                assert_inside(l.body, window);
+                assert_apart(l.panes[0], l.panes[1]);
+                assert_apart(l.bar, l.body);
+                assert_apart(l.panes[DIP_PANE_REQUESTED], l.body);
+                if (l.side == DIP_DOCK_BELOW) {
+                    assert_apart(l.panes[DIP_PANE_CURRENT], l.body);
+                }
+                assert_true(dip_rect_is_empty(l.body) == (!open || bare));
+            }
+        }
+    }
+}
+
+// Visits all controls with Tab and collects the settings that it reaches in this state.
+static unsigned visit(bool *apply, bool *group_changes) {
+    unsigned settings = 0;
+    const DipUiId first_setting = DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_FIRST_SETTING);
+    DipUiId first = 0;
+    *group_changes = false;
+    dip_ui_blur(dip_view_ui(view));
+    for (int i = 0; i < 200; ++i) {
+        assert_true(press(DIP_KEYCODE_TAB));
+        const DipUiId focus = dip_ui_focus(dip_view_ui(view));
+        assert_true(focus != 0);
+        if (focus == first) {
+            return settings;
+        }
+        first = first ? first : focus;
+        if (focus >= first_setting && focus < first_setting + DIP_SETTING_COUNT) {
+            settings |= 1u << (focus - first_setting);
+        }
+        *apply |= focus == DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_APPLY);
+        *group_changes |= focus == DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_GROUPS) ||
+                          focus == DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_MORE);
+    }
+    fail_msg("Tab goes on without end");
+    return 0;
+}
+
+// From two panes of 192x220 up, Tab reaches every setting and Apply, perhaps after a change of the
+// shown group, whose buttons Tab reaches, too.
+static void the_keyboard_reaches_every_setting(void **unused) {
+    (void)unused;
+    static const int sizes[][2] = {{386, 252},   {386, 480},  {642, 268},  {640, 480},
+                                   {900, 500},   {1024, 768}, {1282, 720}, {1920, 1080},
+                                   {2560, 1440}, {400, 1200}};
+    state.quality[DIP_PANE_REQUESTED].step[DIP_SETTING_AA] = 4;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
+        bool apply = false, groups = false;
+        unsigned settings = 0;
+        input.width = sizes[i][0];
+        input.height = sizes[i][1];
+        for (state.settings_group = 0; state.settings_group < 3; ++state.settings_group) {
+            settings |= visit(&apply, &groups);
+            assert_true(groups || settings == (1u << DIP_SETTING_COUNT) - 1);
+        }
+        assert_int_equal(settings, (1u << DIP_SETTING_COUNT) - 1);
+        assert_true(apply);
+        assert_true(dip_view_draw(view, &input, NULL));
+    }
+}
+
+// Where the step of antialiasing at a position is in the window of 1282x720.
+static int aa_x(int position) {
+    return 10 + 32 + (2 * position + 1) * (298 - 32) / 5 / 2;
+}
+enum { AA_Y = 545 };
+
+static void clicks_and_drags_choose_a_step(void **unused) {
+    (void)unused;
+    click(aa_x(2), AA_Y);
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 2);
+    assert_int_equal(step_of(DIP_PANE_CURRENT, DIP_SETTING_AA), 0);
+    mouse(DIP_EVENT_MOUSE_DOWN, aa_x(0), AA_Y);
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
+    for (int i = 0; i < 5; ++i) {
+        mouse(DIP_EVENT_MOUSE_MOVE, aa_x(i), AA_Y + 100); // The drag may leave the slider.
+        assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), i);
+    }
+    mouse(DIP_EVENT_MOUSE_UP, aa_x(4), AA_Y + 100);
+    mouse(DIP_EVENT_MOUSE_MOVE, aa_x(1), AA_Y);
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 4);
+    dip_view_handle(
+        view, &input,
+        &(DipEvent){.kind = DIP_EVENT_MOUSE_WHEEL, .x = aa_x(1), .y = AA_Y, .wheel_y = -1.0});
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 3);
+}
+
+// With the focus on antialiasing, arrows, Home and End take steps.
+static void keys_change_the_focused_setting(void **unused) {
+    (void)unused;
+    while (dip_ui_focus(dip_view_ui(view)) != DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_FIRST_SETTING)) {
+        assert_true(press(DIP_KEYCODE_TAB));
+    }
+    assert_true(press(DIP_KEYCODE_RIGHT));
+    assert_true(press(DIP_KEYCODE_RIGHT));
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 2);
+    assert_true(press(DIP_KEYCODE_END));
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 4);
+    assert_true(press(DIP_KEYCODE_RIGHT)); // There is no further step.
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 4);
+    assert_true(press(DIP_KEYCODE_HOME));
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
+}
+
+// In a small window, the drawer lies over the current pane and takes clicks in its place.
+static void the_drawer_takes_clicks_over_the_pane(void **unused) {
+    (void)unused;
+    input.width = 386;
+    input.height = 252;
+    const DipLayout layout = dip_view_layout(&input);
+    assert_int_equal(layout.side, DIP_DOCK_DRAWER);
+    click(layout.body.x + 20, layout.body.y + 5);
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 1);
+    assert_true(state.edited[DIP_PANE_REQUESTED]);
+    click(layout.panes[DIP_PANE_REQUESTED].x + 20, 100);
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 1);
+}
+
+// A click on a sheet closes it and does nothing to what lies beneath.
+static void a_click_closes_a_sheet(void **unused) {
+    (void)unused;
+    state.help = true;
+    click(aa_x(2), AA_Y);
+    assert_false(state.help);
+    assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
+}
+
+// A click or a drag on the time line moves the time on the path.
+static void the_time_line_moves_the_time(void **unused) {
+    (void)unused;
+    while (dip_ui_focus(dip_view_ui(view)) != DIP_UI_ID(DIP_UI_BAR, DIP_TAB_COUNT + 4)) {
+        assert_true(press(DIP_KEYCODE_TAB));
+    }
+    assert_true(press(DIP_KEYCODE_RIGHT));
+    assert_int_equal(dip_preview_path_ns(&state), INT64_C(1000000000));
+    assert_true(press(DIP_KEYCODE_HOME));
+    assert_int_equal(dip_preview_path_ns(&state), 0);
+}
+
+int main(void) {
+#define WINDOW_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+    const struct CMUnitTest tests[] = {
+        WINDOW_TEST(the_parts_of_the_window_lie_apart),
+        WINDOW_TEST(the_keyboard_reaches_every_setting),
+        WINDOW_TEST(clicks_and_drags_choose_a_step),
+        WINDOW_TEST(keys_change_the_focused_setting),
+        WINDOW_TEST(the_drawer_takes_clicks_over_the_pane),
+        WINDOW_TEST(a_click_closes_a_sheet),
+        WINDOW_TEST(the_time_line_moves_the_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
