@@ -154,6 +154,7 @@ static void test_wipe_shows_each_pane_on_its_side(void **state) {
     for (size_t i = 0; i < sizeof dividers / sizeof *dividers; i++) {
         show(DIP_COMPARE_WIPE, dividers[i]);
         const int column = (int)floor(dividers[i] * PANE_WIDTH + 0.5);
+        assert_int_equal(dip_compare_divider_column(dividers[i], PANE_WIDTH), column);
         assert_columns(DIP_PANE_CURRENT, 0, column);
         assert_columns(DIP_PANE_REQUESTED, column, PANE_WIDTH);
     }
