@@ -209,6 +209,7 @@ static void test_loupe_follows_the_pointer_in_scaled_panes(void **state) {
 static void test_right_click_pins_and_arrows_move(void **state) {
     (void)state;
     tw.state.tools.open = false;
+    dip_tool_window_draw(&tw); // The controls take events at the positions where they showed last.
     dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_DOWN, DIP_MOUSE_RIGHT, 33, 44);
     dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_UP, DIP_MOUSE_RIGHT, 33, 44);
     assert_true(tw.state.tools.pinned && tw.state.tools.open);
