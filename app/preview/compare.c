@@ -11,7 +11,7 @@
 static const int64_t blink_ns = 500000000; // How long BLINK shows a pane by itself.
 enum { DIVIDER_STEPS = 64 };               // Steps of the divider across the picture.
 
-struct DipCompare {
+struct DipComparer {
     DipCanvas difference;
     DipDifference found;
     bool known; // The three members below say what `difference` shows.
@@ -216,8 +216,8 @@ bool dip_compare_adjust(DipToolState *tools, int steps) {
 
 // --- memory ------------------------------------------------------------------------------------
 
-DipCompare *dip_compare_create(DipError *err) {
-    DipCompare *compare = calloc(1, sizeof *compare);
+DipComparer *dip_compare_create(DipError *err) {
+    DipComparer *compare = calloc(1, sizeof *compare);
     if (!compare) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
         return NULL;
@@ -226,8 +226,8 @@ DipCompare *dip_compare_create(DipError *err) {
     return compare;
 }
 
-void dip_compare_destroy(DipCompare **compare_pointer) {
-    DipCompare *compare = *compare_pointer;
+void dip_compare_destroy(DipComparer **compare_pointer) {
+    DipComparer *compare = *compare_pointer;
     if (compare) {
         dip_canvas_free(&compare->difference);
         free(compare);
@@ -235,12 +235,12 @@ void dip_compare_destroy(DipCompare **compare_pointer) {
     }
 }
 
-static bool shows(const DipCompare *compare, const DipWindow *window, int gain) {
+static bool shows(const DipComparer *compare, const DipWindow *window, int gain) {
     return compare->known && compare->of[0] == window->versions[0] &&
            compare->of[1] == window->versions[1] && compare->gain == gain;
 }
 
-const DipDifference *dip_compare_make_difference(DipCompare *compare, const DipWindow *window,
+const DipDifference *dip_compare_make_difference(DipComparer *compare, const DipWindow *window,
                                                  DipPixels *picture, uint64_t *version) {
     const DipPixels *a = &window->frames[DIP_PANE_CURRENT];
     const DipPixels *b = &window->frames[DIP_PANE_REQUESTED];

@@ -73,13 +73,13 @@ const char *dip_compare_name(DipComparison comparison); // "Side by side"
 
 // --- memory ------------------------------------------------------------------------------------
 
-DipCompare *dip_compare_create(DipError *err);
-void dip_compare_destroy(DipCompare **compare);
+DipComparer *dip_compare_create(DipError *err);
+void dip_compare_destroy(DipComparer **compare);
 
 // Returns the difference of the panes' pictures, and computes it if a picture or the gain has
 // changed. Returns NULL if memory runs out or the sizes differ. The picture and its version are
 // valid until the next call.
-const DipDifference *dip_compare_make_difference(DipCompare *compare, const DipWindow *window,
+const DipDifference *dip_compare_make_difference(DipComparer *compare, const DipWindow *window,
                                                  DipPixels *picture, uint64_t *version);
 
 #endif

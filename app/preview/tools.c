@@ -10,7 +10,7 @@
 
 struct DipTools {
     DipLoupe *loupe;
-    DipCompare *compare;
+    DipComparer *compare;
     DipStrip *strip;
     DipMaps *maps;
 };
@@ -48,7 +48,7 @@ DipLoupe *dip_tools_loupe(DipTools *tools) {
     return tools->loupe;
 }
 
-DipCompare *dip_tools_compare(DipTools *tools) {
+DipComparer *dip_tools_compare(DipTools *tools) {
     return tools->compare;
 }
 

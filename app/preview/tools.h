@@ -68,16 +68,16 @@ typedef struct DipToolState {
 // Memory of the tools: pictures that they compute from the panes' frames. Owned by the preview's
 // loop.
 typedef struct DipTools DipTools;
-typedef struct DipLoupe DipLoupe;     // loupe.h
-typedef struct DipCompare DipCompare; // compare.h
-typedef struct DipStrip DipStrip;     // strip.h
-typedef struct DipMaps DipMaps;       // maps.h
+typedef struct DipLoupe DipLoupe;       // loupe.h
+typedef struct DipComparer DipComparer; // compare.h
+typedef struct DipStrip DipStrip;       // strip.h
+typedef struct DipMaps DipMaps;         // maps.h
 
 DipTools *dip_tools_create(DipError *err);
 void dip_tools_destroy(DipTools **tools);
 
 DipLoupe *dip_tools_loupe(DipTools *tools);
-DipCompare *dip_tools_compare(DipTools *tools);
+DipComparer *dip_tools_compare(DipTools *tools);
 DipStrip *dip_tools_strip(DipTools *tools);
 DipMaps *dip_tools_maps(DipTools *tools);
 

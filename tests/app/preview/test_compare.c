@@ -114,7 +114,7 @@ static void test_difference_is_computed_only_when_pictures_change(void **state) 
     (void)state;
     DipPixels picture;
     uint64_t first, again;
-    DipCompare *compare = dip_tools_compare(tw.tools);
+    DipComparer *compare = dip_tools_compare(tw.tools);
     assert_non_null(dip_compare_make_difference(compare, &tw.window, &picture, &first));
     assert_non_null(dip_compare_make_difference(compare, &tw.window, &picture, &again));
     assert_true(first == again);
