@@ -100,6 +100,14 @@ typedef struct DipEvent {
     const char *file; // DROP: the file's name. Borrowed until next_event is called again.
 } DipEvent;
 
+// A character cell of a display that shows characters, such as a terminal. A cell covers one pixel
+// of the picture and the pixel below that one.
+typedef struct DipTextCell {
+    uint32_t code;   // Code point of a character one cell wide. 0: the cell shows the picture.
+    DipColour ink;   // Colour of the character. Alpha is ignored.
+    DipColour paper; // Colour behind the character. Alpha is ignored.
+} DipTextCell;
+
 typedef struct DipDisplay {
     void *context;
 
@@ -138,6 +146,11 @@ typedef struct DipDisplay {
     // Asks for another size of the picture, in pixels. The display may take another size than the
     // one asked for. NULL if someone else decides about the size.
     void (*set_size)(void *context, int width, int height);
+
+    // Sets the characters that the next present shows over the picture: `rows` rows of `columns`
+    // cells, the top row first. The picture to present has `columns` x 2 `rows` pixels. The display
+    // copies the cells. NULL if the display shows pixels only.
+    void (*set_text)(void *context, const DipTextCell *cells, int columns, int rows);
 
     // Closes the display and frees the context.
     void (*close)(void *context);

@@ -47,6 +47,7 @@ struct DipPreview {
     DipPrices *prices;          // Owned unless it is that of the def.
     DipLivePrices *live_prices; // NULL if no prices are measured.
     DipTools *tools;
+    DipTextView text; // Used if the display shows characters.
     DipFigures figures;
     DipPrefetch prefetch;
     DipErrorThread *errors; // NULL until the user first asks for errors.
@@ -117,7 +118,10 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->figures.outdated = true;
     preview->turn_ns = clock_ns(preview);
     follow_refresh(preview);
-    preview->view = dip_view_create(err);
+    if (def->notice) {
+        dip_preview_notice(&preview->state, preview->turn_ns, "%s", def->notice);
+    }
+    preview->view = dip_view_create(def->display.set_text ? &preview->text : NULL, err);
     preview->prices = def->prices || !preview->view ? def->prices : dip_prices_create(err);
     preview->tools = preview->view && preview->prices ? dip_tools_create(err) : NULL;
     if (!preview->tools || !create_live_prices(preview, err)) {
@@ -146,6 +150,7 @@ void dip_preview_destroy(DipPreview **preview_pointer) {
         dip_prices_destroy(&preview->prices);
     }
     dip_view_destroy(&preview->view);
+    dip_text_view_free(&preview->text);
     free(preview);
 }
 
@@ -161,6 +166,7 @@ static DipViewInput view_input(DipPreview *preview, int64_t now_ns) {
         .figures = preview->figures.shown,
         .prices = preview->prices,
         .tools = preview->tools,
+        .text = display->set_text ? &preview->text : NULL,
         .still = dip_preview_rests(&preview->state, preview->flying),
     };
     display->size(display->context, &input.width, &input.height);
@@ -231,6 +237,11 @@ static void release_key(DipPreview *preview, const DipEvent *event) {
 }
 
 static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    if (preview->def.display.set_text &&
+        dip_text_view_event(&preview->text, &preview->state, event, now_ns)) {
+        preview->redraw = true;
+        return;
+    }
     switch (event->kind) {
     case DIP_EVENT_QUIT:
         preview->state.quit = true;
@@ -672,6 +683,10 @@ static bool present(DipPreview *preview, DipError *err) {
     }
     const DipPixels picture = dip_view_picture(preview->view);
     const DipDamage damage = dip_view_take_damage(preview->view);
+    if (display->set_text) {
+        const DipTextScreen *screen = &preview->text.screen;
+        display->set_text(display->context, screen->cells, screen->columns, screen->rows);
+    }
     return display->present(display->context, &picture, damage.rects, damage.count, err);
 }
 
@@ -759,6 +774,17 @@ static bool show(DipPreview *preview, int64_t now_ns, DipError *err) {
     return true;
 }
 
+// Notices that settings which show or hide in characters leave the panes another size.
+static void follow_text(DipPreview *preview) {
+    const DipDisplay *display = &preview->def.display;
+    int width, height;
+    if (display->set_text) {
+        display->size(display->context, &width, &height);
+        preview->resized = dip_text_view_follow(&preview->text, &preview->state, width, height) ||
+                           preview->resized;
+    }
+}
+
 static void follow_full_screen(DipPreview *preview) {
     const DipDisplay *display = &preview->def.display;
     if (preview->state.full_screen == preview->full_screen) {
@@ -796,6 +822,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     follow_scene(preview, now_ns);
     follow_reload(preview, now_ns);
     follow_layout(preview);
+    follow_text(preview);
     if (preview->resized) {
         follow_refresh(preview);
     }

@@ -24,6 +24,40 @@ static bool read_window(void *fields, const DipOptionRow *row, const char *value
     return true;
 }
 
+// Finds a value in a list of names. Returns its index, or -1.
+static int find_name(const char *value, const char *const *names, int count) {
+    for (int i = 0; i < count; ++i) {
+        if (strcmp(value, names[i]) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static bool read_display(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    static const char *const names[] = {"auto", "window", "terminal"}; // By DipDisplayChoice.
+    DipPreviewOptions *options = fields;
+    const int choice = find_name(value, names, (int)DIP_ARRAY_COUNT(names));
+    if (choice < 0) {
+        return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value,
+                                 "a display; give one of auto|window|terminal");
+    }
+    options->display = (DipDisplayChoice)choice;
+    return true;
+}
+
+static bool read_colours(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    static const char *const names[] = {"auto", "true", "256", "none"}; // By DipTerminalColours.
+    DipPreviewOptions *options = fields;
+    const int choice = find_name(value, names, (int)DIP_ARRAY_COUNT(names));
+    if (choice < 0) {
+        return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value,
+                                 "a number of colours; give one of auto|true|256|none");
+    }
+    options->terminal_colours = (DipTerminalColours)choice;
+    return true;
+}
+
 static const DipOptionRow rows[] = {
     {.name = "--cost",
      .argument = "FILE",
@@ -60,6 +94,19 @@ static const DipOptionRow rows[] = {
      .field = FIELD(ui_scale),
      .least = 0.75,
      .most = 4},
+    {.name = "--display",
+     .argument = "auto|window|terminal",
+     .text = "Where the preview shows. `terminal` draws half blocks and characters into the "
+             "terminal of standard output. `auto`, the default, opens a window, and uses the "
+             "terminal if there is no display to open a window on.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_display},
+    {.name = "--terminal-colours",
+     .argument = "auto|true|256|none",
+     .text = "The colours of a preview in the terminal: 24 bits, a palette of 256, or characters "
+             "without colours. `auto`, the default, follows COLORTERM, TERM and NO_COLOR.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_colours},
 };
 
 static const DipOptionTable table = {"Drawing", rows, DIP_ARRAY_COUNT(rows)};

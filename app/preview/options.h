@@ -3,9 +3,17 @@
 #define DIP_APP_PREVIEW_OPTIONS_H
 
 #include "app/command.h"
+#include "app/display/terminal/terminal_display.h"
 #include "app/session_options.h"
 
 #include <stdbool.h>
+
+// Where the preview shows.
+typedef enum DipDisplayChoice {
+    DIP_DISPLAY_AUTO, // In a window if one can be opened, otherwise in the terminal.
+    DIP_DISPLAY_WINDOW,
+    DIP_DISPLAY_TERMINAL
+} DipDisplayChoice;
 
 // Models that are given as arguments are added to the models of --model.
 typedef struct DipPreviewOptions {
@@ -16,6 +24,8 @@ typedef struct DipPreviewOptions {
     unsigned long window_id; // X11 window to open the preview in; 0: open a window of its own.
     bool watch;              // Reload what the preview shows when a file changes.
     double ui_scale;         // Factor by which controls are enlarged; 0 without the option.
+    DipDisplayChoice display;
+    DipTerminalColours terminal_colours;
 } DipPreviewOptions;
 
 extern const DipOptionParts dip_preview_option_parts;

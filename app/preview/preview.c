@@ -3,6 +3,7 @@
 
 #include "app/cost/plan.h"
 #include "app/display/sdl/sdl_display.h"
+#include "app/display/terminal/terminal_display.h"
 #include "app/log.h"
 #include "app/preview/control.h"
 #include "app/preview/loop.h"
@@ -12,6 +13,7 @@
 #include "renderer/base/clock.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static bool load_scene_def(void *context, DipError *err) {
     return dip_session_keep_model(context, err);
@@ -39,6 +41,7 @@ typedef struct Parts {
     DipReload *reload;
     DipRemote *remote;
     double ui_scale;
+    const char *notice; // Shown at first, or NULL.
 } Parts;
 
 static bool run_loop(DipSession *session, const DipDisplay *display, const Parts *parts,
@@ -52,6 +55,7 @@ static bool run_loop(DipSession *session, const DipDisplay *display, const Parts
         .reload = parts->reload,
         .flying_speed_m_per_s = dip_flying_speed(session),
         .ui_scale = parts->ui_scale,
+        .notice = parts->notice,
         .control = parts->remote ? dip_remote_control(parts->remote) : (DipPreviewControl){0},
         .load_scene_def = load_scene_def,
         .context = session,
@@ -88,19 +92,57 @@ static void close_parts(Parts *parts) {
     dip_prices_destroy(&parts->prices);
 }
 
-static bool open_display(DipDisplay *display, const DipSession *session, unsigned long window_id,
-                         double scale, DipError *err) {
-    const double dock = scale > 0.0 ? scale * dip_layout_dock_height() : dip_layout_dock_height();
-    return window_id ? dip_sdl_display_open_in(display, window_id, err)
-                     : dip_sdl_display_open(display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
-                                            session->pane_size.height + (int)(dock + 0.5), err);
+static bool open_window(DipDisplay *display, const DipSession *session,
+                        const DipPreviewOptions *options, DipError *err) {
+    const double scale = options->ui_scale > 0.0 ? options->ui_scale : 1.0;
+    const int dock = (int)(scale * dip_layout_dock_height() + 0.5);
+    return options->window_id
+               ? dip_sdl_display_open_in(display, options->window_id, err)
+               : dip_sdl_display_open(display, 2 * session->pane_size.width + DIP_PANE_GAP_PX,
+                                      session->pane_size.height + dock, err);
+}
+
+// Opens the terminal, which must not be where requests come from.
+static bool open_terminal(DipDisplay *display, const DipPreviewOptions *options, DipError *err) {
+    if (options->control && strcmp(options->control, "-") == 0) {
+        return dip_error_set(
+            err, DIP_ERROR_CONFLICT, NULL, 0, "--control",
+            "standard input and output are the terminal; give the path of a socket");
+    }
+    return dip_terminal_display_open(display, options->terminal_colours, err);
+}
+
+// Opens a window. If there is no display to open it on, opens the terminal, unless the user has
+// asked for a window. Sets *notice to a text that tells the user about this, or to NULL.
+static bool open_display(DipDisplay *display, const DipSession *session,
+                         const DipPreviewOptions *options, const char **notice, DipError *err) {
+    static const char no_window[] =
+        "There is no display to open a window on, so the preview shows in the terminal";
+    DipError failure = {0};
+    *notice = NULL;
+    if (options->display == DIP_DISPLAY_TERMINAL) {
+        return open_terminal(display, options, err);
+    }
+    if (open_window(display, session, options, &failure)) {
+        return true;
+    }
+    if (options->display == DIP_DISPLAY_AUTO && failure.code == DIP_ERROR_RUNTIME &&
+        !options->window_id && !options->control && dip_terminal_is_there()) {
+        dip_log_note("%s", no_window);
+        *notice = no_window;
+        return open_terminal(display, options, err);
+    }
+    if (err) {
+        *err = failure;
+    }
+    return false;
 }
 
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err) {
     Parts parts = {.ui_scale = options->ui_scale};
     DipDisplay display;
     bool done = open_parts(&parts, session, options, err) &&
-                open_display(&display, session, options->window_id, options->ui_scale, err);
+                open_display(&display, session, options, &parts.notice, err);
     if (done) {
         done = run_loop(session, &display, &parts, err);
         if (options->window_id && dip_sdl_display_has_lost_host(&display)) {

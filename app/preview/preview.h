@@ -1,4 +1,4 @@
-// The window with both panes.
+// The window with both panes, or the same in a terminal.
 #ifndef DIP_APP_PREVIEW_PREVIEW_H
 #define DIP_APP_PREVIEW_PREVIEW_H
 

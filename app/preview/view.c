@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 struct DipView {
-    DipFont *font;
+    DipFont *font; // NULL if the texts are character cells.
     DipUi *ui;
     DipDrawList *list;
     DipCanvas canvas;
@@ -17,14 +17,14 @@ struct DipView {
     uint64_t versions[DIP_PANE_COUNT];
 };
 
-DipView *dip_view_create(DipError *err) {
+DipView *dip_view_create(DipTextView *text, DipError *err) {
     DipView *view = calloc(1, sizeof *view);
     if (!view) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
         return NULL;
     }
-    view->font = dip_font_create(err);
-    view->list = view->font ? dip_draw_list_create(view->font, err) : NULL;
+    view->font = text ? NULL : dip_font_create(err);
+    view->list = text || view->font ? dip_draw_list_create(view->font, err) : NULL;
     view->ui = view->list ? dip_ui_create(err) : NULL;
     if (!view->ui) {
         dip_view_destroy(&view);
@@ -57,6 +57,12 @@ uint64_t dip_view_version(const DipView *view, int pane) {
 
 DipLayout dip_view_layout(const DipViewInput *input) {
     const DipToolState *tools = &input->state->tools;
+    if (input->text) { // The bar and the body are characters.
+        DipLayout layout = {
+            .width = input->width, .height = input->height, .scale = 1.0, .side = DIP_DOCK_DRAWER};
+        dip_text_view_panes(input->text, input->state, input->width, input->height, layout.panes);
+        return layout;
+    }
     return dip_layout_make(input->width, input->height, input->scale * tools->ui_scale, tools->open,
                            tools->bare);
 }
@@ -83,16 +89,54 @@ static bool pass_over(DipView *view, const DipViewInput *input, DipDrawList *lis
     return dip_ui_end(view->ui);
 }
 
+// Hands an event to the settings in characters. A click on a pane chooses the pane.
+static bool handle_in_text(const DipViewInput *input, const DipEvent *event) {
+    DipPreviewState *state = input->state;
+    if (dip_text_view_event(input->text, state, event, input->now_ns)) {
+        return true;
+    }
+    const DipLayout layout = dip_view_layout(input);
+    for (int p = 0; p < DIP_PANE_COUNT && event->kind == DIP_EVENT_MOUSE_DOWN; ++p) {
+        if (dip_rect_holds(layout.panes[p], event->x, event->y)) {
+            state->edited[p] = true;
+            state->edited[1 - p] = false;
+            return true;
+        }
+    }
+    return false;
+}
+
 bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *event) {
+    if (input->text) {
+        return handle_in_text(input, event);
+    }
     pass_over(view, input, NULL, NULL); // Tells where the controls lie now.
     return pass_over(view, input, NULL, event);
 }
 
+// Draws the panes into the picture, and the texts into character cells.
+static bool draw_text(DipView *view, const DipViewInput *input, DipError *err) {
+    const DipLayout layout = dip_view_layout(input);
+    dip_draw_list_fill(view->list, (DipRect){0, 0, input->width, input->height},
+                       dip_style_background);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        dip_draw_list_picture(view->list, layout.panes[p], &view->frames[p], view->versions[p]);
+    }
+    return dip_text_view_draw(input->text, input->state, input->width, input->height,
+                              input->figures, err);
+}
+
 bool dip_view_draw(DipView *view, const DipViewInput *input, DipError *err) {
     DipDamage changed;
-    pass_over(view, input, NULL, NULL);
+    if (!input->text) {
+        pass_over(view, input, NULL, NULL);
+    }
     dip_draw_list_begin(view->list, input->width, input->height);
-    pass_over(view, input, view->list, NULL);
+    if (!input->text) {
+        pass_over(view, input, view->list, NULL);
+    } else if (!draw_text(view, input, err)) {
+        return false;
+    }
     if (!dip_draw_list_paint(view->list, &view->canvas, &changed, err)) {
         return false;
     }

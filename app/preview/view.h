@@ -5,11 +5,14 @@
 
 #include "app/canvas/draw_list.h"
 #include "app/preview/tabs.h"
+#include "app/preview/text_view.h"
 
 typedef struct DipView DipView;
 
-// Fails with MISSING if there is no font.
-DipView *dip_view_create(DipError *err);
+// text: the view's texts are character cells (text_view.h), drawn by `text`, which is borrowed; the
+// picture then holds the panes only. NULL: all texts are drawn into the picture. Fails with MISSING
+// if the picture needs a font and there is none.
+DipView *dip_view_create(DipTextView *text, DipError *err);
 void dip_view_destroy(DipView **view);
 
 // Sets a pane's frame. The frame's pixels are borrowed until the pane's next frame is set.
@@ -28,7 +31,8 @@ typedef struct DipViewInput {
     const DipPaneFigures *figures; // [DIP_PANE_COUNT]
     const DipPrices *prices;
     DipTools *tools;
-    bool still; // Camera and scene stand still.
+    DipTextView *text; // The texts, if they are character cells; otherwise NULL.
+    bool still;        // Camera and scene stand still.
 } DipViewInput;
 
 // Returns where panes and dock lie.

@@ -28,8 +28,8 @@ typedef struct SdlDisplay {
 
 static bool sdl_failed(DipError *err) {
     return dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "preview",
-                         "there is no display to open a window on (%s); `diptych dump` draws "
-                         "without one",
+                         "there is no display to open a window on (%s); `--display terminal` shows "
+                         "the preview in a terminal, and `diptych dump` draws without either",
                          SDL_GetError());
 }
 

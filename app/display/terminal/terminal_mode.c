@@ -1,0 +1,287 @@
+// Switches the terminal's mode, and restores it from signal handlers too.
+#include "app/display/terminal/terminal_mode.h"
+
+#include "renderer/base/assert.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <termios.h>
+#include <unistd.h>
+
+enum { SIGNAL_STACK_BYTES = 65536, WRITE_WAIT_MS = 100 };
+
+// The alternate screen, cleared, without the cursor and without wrapping at the right margin; the
+// mouse's buttons and drags as decimal reports.
+static const char enter_sequence[] = "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[0m\x1b[2J\x1b[H"
+                                     "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
+// Undoes enter_sequence. It begins by ending an update that was cut off in the middle.
+static const char leave_sequence[] = "\x1b[?2026l\x1b[?1006l\x1b[?1002l\x1b[?1000l"
+                                     "\x1b[0m\x1b[2J\x1b[H\x1b[?7h\x1b[?25h\x1b[?1049l";
+
+static const int polite_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGWINCH, SIGTSTP, SIGCONT};
+static const int crash_signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
+enum {
+    POLITE_COUNT = (int)DIP_ARRAY_COUNT(polite_signals),
+    CRASH_COUNT = (int)DIP_ARRAY_COUNT(crash_signals)
+};
+
+static struct {
+    int input;
+    int output;
+    pid_t owner; // The process that entered the mode. Its children must not leave it.
+    struct termios before;
+    struct termios during;
+    struct sigaction polite_before[POLITE_COUNT];
+    struct sigaction crash_before[CRASH_COUNT];
+    int wake[2]; // A pipe that handlers write to.
+    bool exit_registered;
+} mode;
+
+static volatile sig_atomic_t active; // The terminal must be restored.
+static volatile sig_atomic_t quits;  // Number of signals that asked the program to quit.
+static volatile sig_atomic_t resized;
+static volatile sig_atomic_t stopped;
+static volatile sig_atomic_t resumed;
+static char signal_stack[SIGNAL_STACK_BYTES]; // For handlers after the stack has overflowed.
+
+// --- restoring ---------------------------------------------------------------------------------
+// Signal handlers call the functions of this part, so they use async-signal-safe functions only.
+
+// Returns whether another process group, such as the shell's, has the terminal now.
+static bool is_in_background(void) {
+    const pid_t group = tcgetpgrp(mode.output);
+    return group >= 0 && group != getpgrp();
+}
+
+static void write_briefly(const char *bytes, size_t count) {
+    while (count > 0) {
+        const ssize_t written = write(mode.output, bytes, count);
+        if (written < 0 && errno != EINTR) {
+            return;
+        }
+        bytes += written > 0 ? written : 0;
+        count -= written > 0 ? (size_t)written : 0;
+    }
+}
+
+// when: as for tcsetattr.
+static void restore(int when) {
+    if (!active || getpid() != mode.owner) {
+        return;
+    }
+    active = 0;
+    if (!is_in_background()) {
+        write_briefly(leave_sequence, sizeof leave_sequence - 1);
+        tcsetattr(mode.input, when, &mode.before);
+    }
+}
+
+// Wakes the thread that waits for events. A full pipe wakes it as well.
+static void wake_reader(void) {
+    const int error = errno;
+    const ssize_t written = write(mode.wake[1], "", 1);
+    (void)written;
+    errno = error;
+}
+
+// --- signals -----------------------------------------------------------------------------------
+
+static void end_at_once(int signal_number) {
+    const struct sigaction usual = {.sa_handler = SIG_DFL};
+    restore(TCSANOW);
+    sigaction(signal_number, &usual, NULL);
+    raise(signal_number);
+}
+
+static void take_polite_signal(int signal_number) {
+    switch (signal_number) {
+    case SIGWINCH:
+        resized = 1;
+        break;
+    case SIGTSTP:
+        stopped = 1;
+        break;
+    case SIGCONT:
+        resumed = 1;
+        break;
+    default:
+        quits = quits + 1;
+        if (quits > 1) {
+            end_at_once(signal_number);
+        }
+        break;
+    }
+    wake_reader();
+}
+
+// Restores the terminal and lets the signal do what it did before the mode was entered. If the
+// kernel sent the signal because an instruction failed, the instruction fails again after this
+// function returns.
+static void take_crash_signal(int signal_number, siginfo_t *info, void *machine) {
+    (void)machine;
+    restore(TCSANOW);
+    for (int i = 0; i < CRASH_COUNT; ++i) {
+        if (crash_signals[i] == signal_number) {
+            sigaction(signal_number, &mode.crash_before[i], NULL);
+        }
+    }
+    if (info->si_code <= 0 || signal_number == SIGQUIT) {
+        raise(signal_number);
+    }
+}
+
+static void use_signal_stack(void) {
+    stack_t now;
+    const stack_t stack = {.ss_sp = signal_stack, .ss_size = sizeof signal_stack};
+    if (sigaltstack(NULL, &now) == 0 && (now.ss_flags & SS_DISABLE)) {
+        sigaltstack(&stack, NULL);
+    }
+}
+
+// Takes over the signals. A signal that the process ignores (as under nohup) stays ignored.
+static void take_signals(void) {
+    struct sigaction polite = {.sa_handler = take_polite_signal};
+    struct sigaction crash = {.sa_sigaction = take_crash_signal,
+                              .sa_flags = (int)(SA_SIGINFO | SA_ONSTACK)};
+    sigemptyset(&polite.sa_mask);
+    sigemptyset(&crash.sa_mask);
+    use_signal_stack();
+    for (int i = 0; i < POLITE_COUNT; ++i) {
+        sigaction(polite_signals[i], &polite, &mode.polite_before[i]);
+        if (mode.polite_before[i].sa_handler == SIG_IGN) {
+            sigaction(polite_signals[i], &mode.polite_before[i], NULL);
+        }
+    }
+    for (int i = 0; i < CRASH_COUNT; ++i) {
+        sigaction(crash_signals[i], &crash, &mode.crash_before[i]);
+    }
+}
+
+static void give_signals_back(void) {
+    for (int i = 0; i < POLITE_COUNT; ++i) {
+        sigaction(polite_signals[i], &mode.polite_before[i], NULL);
+    }
+    for (int i = 0; i < CRASH_COUNT; ++i) {
+        sigaction(crash_signals[i], &mode.crash_before[i], NULL);
+    }
+}
+
+unsigned dip_terminal_mode_take_signals(void) {
+    char bytes[64];
+    while (read(mode.wake[0], bytes, sizeof bytes) > 0) {
+    }
+    const unsigned signals =
+        (quits ? DIP_TERMINAL_QUIT : 0u) | (resized ? DIP_TERMINAL_RESIZE : 0u) |
+        (stopped ? DIP_TERMINAL_STOP : 0u) | (resumed ? DIP_TERMINAL_RESUME : 0u);
+    // A signal that comes between the lines above and below is a second one of its kind, or comes
+    // with another byte in the pipe; in both cases the caller looks again at most a moment later.
+    resized = signals & DIP_TERMINAL_RESIZE ? 0 : resized;
+    stopped = signals & DIP_TERMINAL_STOP ? 0 : stopped;
+    resumed = signals & DIP_TERMINAL_RESUME ? 0 : resumed;
+    return signals;
+}
+
+int dip_terminal_mode_signal_fd(void) {
+    return mode.wake[0];
+}
+
+// --- the mode ----------------------------------------------------------------------------------
+
+static void restore_at_exit(void) {
+    restore(TCSANOW);
+}
+
+static bool failed(DipError *err, const char *what) {
+    return dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "terminal", "%s: %s", what,
+                         strerror(errno));
+}
+
+static bool open_pipe(DipError *err) {
+    if (pipe(mode.wake) != 0) {
+        return failed(err, "a pipe cannot be opened");
+    }
+    for (int i = 0; i < 2; ++i) {
+        fcntl(mode.wake[i], F_SETFL, O_NONBLOCK);
+        fcntl(mode.wake[i], F_SETFD, FD_CLOEXEC);
+    }
+    return true;
+}
+
+// Keys arrive one by one, unchanged and without an echo. The terminal still turns Ctrl+C into
+// SIGINT and Ctrl+Z into SIGTSTP.
+static struct termios settings_for_keys(struct termios settings) {
+    settings.c_iflag &= ~(tcflag_t)(IXON | ICRNL | INLCR | IGNCR | ISTRIP | BRKINT);
+    settings.c_lflag &= ~(tcflag_t)(ICANON | ECHO | IEXTEN);
+    settings.c_cc[VMIN] = 1;
+    settings.c_cc[VTIME] = 0;
+    return settings;
+}
+
+void dip_terminal_mode_renew(void) {
+    active = 1; // From here on, the terminal needs restoring.
+    tcsetattr(mode.input, TCSANOW, &mode.during);
+    write_briefly(enter_sequence, sizeof enter_sequence - 1);
+}
+
+bool dip_terminal_mode_enter(int input, int output, DipError *err) {
+    DIP_ASSERT(!active);
+    mode.input = input;
+    mode.output = output;
+    mode.owner = getpid();
+    quits = resized = stopped = resumed = 0;
+    if (tcgetattr(input, &mode.before) != 0) {
+        return failed(err, "the terminal's settings cannot be read");
+    }
+    mode.during = settings_for_keys(mode.before);
+    if (!open_pipe(err)) {
+        return false;
+    }
+    if (!mode.exit_registered) {
+        mode.exit_registered = atexit(restore_at_exit) == 0;
+    }
+    take_signals();
+    dip_terminal_mode_renew();
+    return true;
+}
+
+void dip_terminal_mode_leave(void) {
+    restore(TCSAFLUSH); // Drops reports of the mouse that nobody has read.
+    give_signals_back();
+    close(mode.wake[0]);
+    close(mode.wake[1]);
+}
+
+void dip_terminal_mode_suspend(void) {
+    const struct sigaction usual = {.sa_handler = SIG_DFL};
+    struct sigaction ours;
+    restore(TCSANOW);
+    sigaction(SIGTSTP, &usual, &ours);
+    raise(SIGTSTP); // Returns when the process goes on.
+    sigaction(SIGTSTP, &ours, NULL);
+    if (!quits) {
+        dip_terminal_mode_renew();
+    }
+}
+
+bool dip_terminal_mode_write(const char *bytes, size_t count) {
+    while (count > 0) {
+        const ssize_t written = write(mode.output, bytes, count);
+        if (written > 0) {
+            bytes += written;
+            count -= (size_t)written;
+        } else if (written < 0 && errno == EAGAIN) {
+            struct pollfd wait = {.fd = mode.output, .events = POLLOUT};
+            poll(&wait, 1, WRITE_WAIT_MS);
+        } else if (written < 0 && errno != EINTR) {
+            return false;
+        }
+        if (quits && count > 0) {
+            return false;
+        }
+    }
+    return true;
+}
