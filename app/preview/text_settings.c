@@ -174,11 +174,11 @@ static void draw_block(DipTextView *view, const DipPreviewState *state, DipSetti
     if (is_switch(setting)) {
         char time[16], error[16];
         find_figures(costs, setting, 1, time, error);
-        dip_text_put_right(&view->screen, row, column, end - 21, name, time);
-        dip_text_put_right(&view->screen, row, column, end - 13, error_colours(error), error);
-        draw_steps(view, state, setting, row, end - 12, 6);
-        dip_text_put(&view->screen, row, column, end - 28,
+        dip_text_put(&view->screen, row, column, end - 22,
                      is_focused(view, setting) ? name_focused : title, info->title);
+        dip_text_put_right(&view->screen, row, end - 22, end - 17, name, time);
+        dip_text_put_right(&view->screen, row, end - 17, end - 10, error_colours(error), error);
+        draw_steps(view, state, setting, row, end - 10, 5);
         return;
     }
     const int width = dip_style_min(8, (end - column - 6) / info->step_count);
