@@ -145,7 +145,8 @@ bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipE
                 open_display(&display, session, options, &parts.notice, err);
     if (done) {
         done = run_loop(session, &display, &parts, err);
-        if (options->window_id && dip_sdl_display_has_lost_host(&display)) {
+        if (options->window_id && options->display != DIP_DISPLAY_TERMINAL &&
+            dip_sdl_display_has_lost_host(&display)) {
             dip_log_note("the program that owns window %lu has closed it", options->window_id);
         }
         display.close(display.context);

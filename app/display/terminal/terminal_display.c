@@ -392,7 +392,16 @@ bool dip_terminal_display_open(DipDisplay *display, DipTerminalColours colours, 
         free_terminal(terminal);
         return false;
     }
-    *display = (DipDisplay){terminal,   present, next_event, size,     scale,
-                            refresh_hz, now_ns,  NULL,       set_text, close_display};
+    *display = (DipDisplay){
+        .context = terminal,
+        .present = present,
+        .next_event = next_event,
+        .size = size,
+        .scale = scale,
+        .refresh_hz = refresh_hz,
+        .now_ns = now_ns,
+        .set_text = set_text,
+        .close = close_display,
+    };
     return true;
 }

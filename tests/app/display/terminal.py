@@ -8,6 +8,7 @@ Usage: terminal.py DIPTYCH
 import fcntl
 import os
 import pty
+import re
 import select
 import signal
 import struct
@@ -23,6 +24,43 @@ LEAVE = (b"\x1b[?2026l", b"\x1b[?1006l", b"\x1b[?1002l", b"\x1b[?1000l", b"\x1b[
 SETTINGS = ["--display", "terminal", "--current", "aa=none", "--requested", "aa=4"]
 
 
+PART = re.compile(r"\x1b\[([<-?]?)([0-9;]*)([@-~])|(.)", re.DOTALL)
+
+
+class Screen:
+    """The characters that the terminal shows, without their colours."""
+
+    def __init__(self):
+        self.cells = {}
+        self.row = self.column = 0
+        self.rest = b""
+
+    def show(self, output):
+        """Carries out what the program sent; keeps a part that is not complete yet."""
+        output = self.rest + output
+        end = output.rfind(b"\x1b")
+        cut = end if end >= 0 and not re.match(rb"\x1b\[[0-9;?]*[@-~]", output[end:]) else None
+        self.rest = output[cut:] if cut is not None else b""
+        for marker, numbers, final, character in PART.findall(
+                output[:cut].decode("utf-8", "replace")):
+            values = [int(n or 1) for n in numbers.split(";")] if not marker else []
+            if character:
+                self.cells[self.row, self.column] = character
+                self.column += 1
+            elif final == "H":
+                self.row, self.column = (values + [1])[0] - 1, (values + [1])[1] - 1
+            elif final == "C":
+                self.column += values[0]
+            elif final == "J":
+                self.cells.clear()
+
+    def text(self):
+        rows = 1 + max((row for row, _ in self.cells), default=0)
+        columns = 1 + max((column for _, column in self.cells), default=0)
+        return "\n".join("".join(self.cells.get((r, c), " ") for c in range(columns))
+                         for r in range(rows))
+
+
 class Terminal:
     """A pseudo terminal with the program in it."""
 
@@ -35,6 +73,7 @@ class Terminal:
         self.resize(columns, rows)
         self.before = termios.tcgetattr(self.slave)
         self.output = b""
+        self.screen = Screen()
         self.pid = os.fork()
         if self.pid == 0:
             os.setsid()
@@ -59,7 +98,16 @@ class Terminal:
                 except OSError:
                     break
         self.output += came
+        self.screen.show(came)
         return came
+
+    def wait_for_text(self, text, description, seconds=30):
+        """Reads until the screen shows a text."""
+        end = time.monotonic() + seconds
+        while text not in self.screen.text():
+            assert time.monotonic() < end, \
+                f"never happened: {description}; the screen:\n{self.screen.text()}"
+            self.read(0.05)
 
     def wait_for(self, what, description, seconds=30):
         """Reads until the output since the last call holds `what`, a text or a function."""
@@ -101,7 +149,7 @@ class Terminal:
 
 def started(*arguments, **variables):
     terminal = Terminal(*(arguments or SETTINGS), **variables)
-    terminal.wait_for(b"Requested", "the preview shows its labels")
+    terminal.wait_for_text("Requested", "the preview shows its labels")
     assert termios.tcgetattr(terminal.slave) != terminal.before
     return terminal
 
@@ -110,17 +158,18 @@ def test_keys_and_still_pictures():
     terminal = started()
     terminal.wait_for("▀".encode(), "half blocks show")
     terminal.keys(b" ")
-    terminal.wait_for(b"paused", "Space pauses")
+    terminal.wait_for_text("paused", "Space pauses")
     terminal.read(3.5)  # The notice goes away.
     assert terminal.read(1.0) == b"", "bytes were sent while the picture stood still"
     terminal.keys(b"F")
-    terminal.wait_for(b"Anisotropic filtering: 16", "Shift+F goes to the step before")
+    terminal.wait_for_text("Anisotropic filtering: 16", "Shift+F goes to the step before")
     terminal.keys(b"\x1b[B")
     terminal.wait_for(b"\x1b[", "the down arrow chooses a setting")
     terminal.keys(b"\x1b[C")
-    terminal.wait_for(b"Antialiasing: 6", "the right arrow changes the setting")
+    terminal.wait_for_text("Antialiasing: 6", "the right arrow changes the setting")
     terminal.keys(b"\x1bOP")
-    terminal.wait_for(b"Free camera", "F1 shows the keys")
+    terminal.wait_for_text("Free camera", "F1 shows the keys")
+    terminal.read(0.3)  # A key that comes again at once counts as held.
     terminal.keys(b"\x1bOP")
     terminal.read(0.5)
     terminal.keys(b"\x1b")  # Leaves the settings, then quits.
@@ -134,12 +183,13 @@ def test_keys_and_still_pictures():
 def test_mouse():
     terminal = started(columns=160, rows=50)
     terminal.keys(b" ")
-    terminal.read(3.5)
-    # The step 8x of antialiasing is the last of five steps of seven cells, from column 7. The
-    # settings begin seven or more rows above the row of keys; a click in each row finds the steps.
-    for row in range(36, 50):
-        terminal.keys(b"\x1b[<0;%d;%dM\x1b[<0;%d;%dm" % (39, row, 39, row))
-    terminal.wait_for(b"Antialiasing: 8", "a click chooses a step")
+    terminal.wait_for_text("paused", "Space pauses")
+    lines = terminal.screen.text().split("\n")
+    row = next(i for i, line in enumerate(lines) if "6x" in line)
+    column = lines[row].index("8x")
+    for letter in b"Mm":  # Pressed and released.
+        terminal.keys(b"\x1b[<0;%d;%d%c" % (column + 1, row + 1, letter))
+    terminal.wait_for_text("Antialiasing: 8", "a click chooses a step")
     terminal.keys(b"\x11")
     assert terminal.wait_end() == 0
     terminal.assert_restored("Ctrl+Q")
@@ -148,12 +198,15 @@ def test_mouse():
 
 def test_resize():
     terminal = started()
-    terminal.resize(120, 40)
-    terminal.wait_for(lambda text: b"\x1b[40;1H" in text, "the last of 40 rows is drawn")
-    for size in ((20, 3), (1, 1), (300, 90), (80, 24)):
-        terminal.resize(*size)
+    for columns, rows in ((120, 40), (20, 3), (1, 1), (300, 90), (80, 24)):
         terminal.read(0.3)
-    terminal.wait_for(b"\x1b[24;", "the last of 24 rows is drawn")
+        terminal.screen.cells.clear()
+        terminal.resize(columns, rows)
+        end = time.monotonic() + 30
+        while (rows - 1, columns - 1) not in terminal.screen.cells:
+            assert time.monotonic() < end, f"the last of {columns}x{rows} cells is not drawn"
+            terminal.read(0.05)
+    assert "setting" in terminal.screen.text().split("\n")[23]
     os.kill(terminal.pid, signal.SIGTERM)
     assert terminal.wait_end() == 0
     terminal.assert_restored("SIGTERM")
@@ -240,7 +293,7 @@ def test_colours():
 def test_choice_without_a_display():
     """Without a window system, the preview shows in the terminal and says so."""
     terminal = started("--current", "aa=none")
-    assert b"no display" in terminal.output
+    terminal.wait_for_text("no display to open a window on", "a notice says why")
     terminal.keys(b"\x1b")
     assert terminal.wait_end() == 0
     terminal.close()
