@@ -177,22 +177,26 @@ static DipTerminalCell text_cell(const DipTerminalWriter *writer, const DipTextC
 
 // --- bytes -------------------------------------------------------------------------------------
 
-static void put_text(DipTerminalWriter *writer, const char *text) {
+static inline void put_text(DipTerminalWriter *writer, const char *text) {
     const size_t length = strlen(text);
     memcpy(writer->bytes + writer->count, text, length);
     writer->count += length;
 }
 
-static void put_number(DipTerminalWriter *writer, uint32_t number) {
-    char digits[10];
-    int count = 0;
-    do {
-        digits[count++] = (char)('0' + number % 10);
-        number /= 10;
-    } while (number > 0);
-    while (count > 0) {
-        writer->bytes[writer->count++] = digits[--count];
+// Appends a number below 10000 in decimal digits.
+static inline void put_number(DipTerminalWriter *writer, uint32_t number) {
+    char *bytes = writer->bytes + writer->count;
+    if (number >= 1000) {
+        *bytes++ = (char)('0' + number / 1000);
     }
+    if (number >= 100) {
+        *bytes++ = (char)('0' + number / 100 % 10);
+    }
+    if (number >= 10) {
+        *bytes++ = (char)('0' + number / 10 % 10);
+    }
+    *bytes++ = (char)('0' + number % 10);
+    writer->count = (size_t)(bytes - writer->bytes);
 }
 
 static void put_code(DipTerminalWriter *writer, uint32_t code) {
