@@ -144,6 +144,12 @@ static uint32_t ascii_of(uint32_t code) {
         return '>';
     case 0x2190: // arrow to the left
         return '<';
+    case 0x2191: // arrow up
+        return '^';
+    case 0x2193: // arrow down
+        return 'v';
+    case 0x2026: // ellipsis
+        return '.';
     case 0x2248: // almost equal
         return '~';
     case 0x2502: // vertical line
