@@ -102,7 +102,7 @@ static const DipOptionRow rows[] = {
      .text = "Write the frames to this file as video without compression (YUV4MPEG2), which mpv, "
              "ffmpeg and encoders read. The name - stands for standard output. The format is C444, "
              "the range is limited and the matrix is BT.709. The header cannot name the matrix, so "
-             "tell the reader: mpv --vf=format:colormatrix=bt.709 -",
+             "tell the reader, as `mpv --vf=format:colormatrix=bt.709 -` does.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(y4m)},
     {.name = "--raw",
