@@ -171,8 +171,8 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
         dip_preview_describe(quality, true, text, sizeof text);
         dip_preview_notice(state, now_ns, "%s: %s",
                            pane == DIP_PANE_CURRENT ? "Current" : "Requested", text);
+        ++state->scene_changes;
     }
-    ++state->scene_changes;
 }
 
 DipQuality dip_preview_preset(const DipPreviewState *state, DipPreset preset) {
@@ -354,13 +354,15 @@ static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
     const int index = (state->next_advice + (reverse ? count - 2 : 0) + count) % count;
     const DipCostsAdvice *advice = &costs->advice[index];
     char text[DIP_NOTICE_SIZE];
+    if (advice->found) {
+        const unsigned changes = state->scene_changes;
+        dip_preview_set_quality(state, DIP_PANE_REQUESTED, &advice->quality, now_ns);
+        state->scene_changes = changes + 1;
+    }
     dip_costs_describe(costs, index, text, sizeof text);
     dip_preview_notice(state, now_ns, "%s", text);
     state->notice_end_ns = now_ns + 2 * notice_ns; // This text is longer than other notices.
     state->next_advice = (index + 1) % count;
-    if (advice->found) {
-        dip_preview_set_quality(state, DIP_PANE_REQUESTED, &advice->quality, now_ns);
-    }
 }
 
 static void change_look(DipPreviewState *state, bool reverse, int64_t now_ns) {

@@ -22,7 +22,8 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 130, HEIGHT = 100, PANE_WIDTH = (WIDTH - DIP_PANE_GAP_PX) / 2 };
+// The panes are 100 pixels high: the dock's bar takes 32.
+enum { WIDTH = 130, HEIGHT = 132, PANE_WIDTH = (WIDTH - DIP_PANE_GAP_PX) / 2 };
 
 static DipTestScene scene;
 static DipSession session;

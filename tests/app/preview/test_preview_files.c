@@ -20,7 +20,8 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 402, HEIGHT = 150, MAX_TURNS = 6000 };
+// Size of the panes with their gap; the window also has the dock's bar.
+enum { WIDTH = 402, HEIGHT = 150, BAR_HEIGHT = 32, MAX_TURNS = 6000 };
 
 static char home[1024]; // The working folder before the tests.
 static char folder[] = "/tmp/test_preview_files.XXXXXX";
@@ -92,7 +93,7 @@ static int set_up(void **state) {
         fail_msg("%s: %s", faults.items[0].file, faults.items[0].message);
     }
     dip_error_list_free(&faults);
-    fake = dip_fake_display_open(&display, WIDTH, HEIGHT);
+    fake = dip_fake_display_open(&display, WIDTH, HEIGHT + BAR_HEIGHT);
     reload = dip_reload_create(&session, true, &err);
     assert_true(fake && reload);
     const DipPreviewDef def = {.session = &session,

@@ -32,7 +32,7 @@ static int set_up(void **unused) {
     dip_camtrack_set(&track, DIP_CATEGORY_DEFAULT, path, 60.0);
     const DipQuality quality[2] = {dip_quality_default(), dip_quality_default()};
     state = dip_preview_state_make(quality, &track);
-    view = dip_view_create(NULL);
+    view = dip_view_create(NULL, NULL);
     prices = dip_prices_create(NULL);
     tools = dip_tools_create(NULL);
     assert_true(view && prices && tools);
