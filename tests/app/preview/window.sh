@@ -1,6 +1,6 @@
 #!/bin/sh
 # Tests the window as a user sees it: presses keys and compares screenshots. Runs inside xvfb-run
-# with a screen of 1282x480. Usage: window.sh DIPTYCH
+# with a screen of 1282x720. Usage: window.sh DIPTYCH
 set -u
 diptych=$1
 folder=$(mktemp -d) || exit 1
@@ -30,12 +30,13 @@ await() {
     done
 }
 
-# Takes a screenshot and writes both panes, without the labels and the status line, to left.png and
-# right.png.
+# Takes a screenshot and writes both panes, without the labels and notices, to left.png and
+# right.png, and the contents of the dock to dock.png.
 shoot() {
     import -window root screen.png
     convert screen.png -crop 640x360+0+70 +repage left.png
     convert screen.png -crop 640x360+642+70 +repage right.png
+    convert screen.png -crop 1282x200+0+516 +repage dock.png
 }
 
 differing() { # prints the number of pixels that differ between two pictures
@@ -53,6 +54,7 @@ both_show_something() {
     [ "$(deviation left.png)" -gt 50 ] && [ "$(deviation right.png)" -gt 50 ]
 }
 left_changed() { shoot; [ "$(differing left.png "$1")" -gt 1000 ] 2>/dev/null; }
+dock_changed() { shoot; [ "$(differing dock.png "$1")" -gt 1000 ] 2>/dev/null; }
 left_same() { shoot; [ "$(differing left.png "$1")" = 0 ]; }
 stands_still() {
     shoot
@@ -92,8 +94,28 @@ xdotool key m
 await "mip colours show" panes_differ 100000
 shoot
 left_same before.png || fail "a setting of the requested pane changed the current pane"
-xdotool key Tab m
-await "Tab makes the keys act on the current pane" panes_equal
+xdotool key grave m
+await "the key of the panes makes the keys act on the current pane" panes_equal
+
+# The mouse does the same: a click on a step changes the requested pane, a drag changes it on the
+# way, and Apply copies it to the current pane.
+click() {
+    xdotool mousemove --window "$window" "$1" "$2" click 1
+}
+xdotool key grave grave
+click 281 545 # Antialiasing 8x.
+await "a click on 8x changes the requested pane" panes_differ 200
+click 68 545 # Antialiasing none.
+await "a click on none takes it back" panes_equal
+xdotool mousemove --window "$window" 68 545 mousedown 1 mousemove --window "$window" 281 545 \
+    mouseup 1
+await "a drag to 8x changes the requested pane" panes_differ 200
+click 995 648
+await "after a click on Apply both panes are equal" panes_equal
+xdotool key ctrl+z
+await "Undo takes Apply back" panes_differ 200
+xdotool key ctrl+z
+await "Undo takes the drag back" panes_equal
 
 # Camera, help, screenshot.
 cp left.png before.png
@@ -117,7 +139,7 @@ xdotool key u
 await "the costs go away" left_same before.png
 xdotool key F12
 await "a screenshot is written" screenshot_there
-[ "$(identify -format '%wx%h' diptych-0001.png)" = 1282x480 ] || fail "the screenshot has the wrong size"
+[ "$(identify -format '%wx%h' diptych-0001.png)" = 1282x720 ] || fail "the screenshot has the wrong size"
 
 # The panes follow the window. The camera returns to its path first: on a slow machine the free
 # camera may have flown up to a bare wall.

@@ -61,8 +61,9 @@ quit() {
 }
 
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
-# A window is at least 320x160 pixels large and at most as large as the screen.
-open 1x1 320x160
+# A window is at least 320 pixels wide and at most as large as the screen. The dock beneath the panes
+# is 240 pixels high.
+open 1x1 320x241
 xdotool windowsize "$window" 1 1
 await "the window shrinks" window_is 1x1
 xdotool key r
@@ -70,6 +71,6 @@ sleep 0.3
 quit
 open 8192x8192 1282x480
 quit
-open 8192x1 1282x160
+open 8192x1 1282x241
 quit
 echo "window_sizes: done"
