@@ -49,7 +49,7 @@ deviation() { # prints the spread of grey values; 0 for a picture of one colour
 }
 area_shows() { # the guest draws in the lower right corner of the host's window of this size
     import -window root screen.png
-    convert screen.png -crop "100x100+$(($1 - 130))+$(($2 - 140))" +repage corner.png
+    convert screen.png -crop "100x100+$(($1 - 130))+$(($2 - 160))" +repage corner.png
     [ "$(deviation corner.png)" -gt 20 ]
 }
 
@@ -64,7 +64,7 @@ start() {
 }
 
 start
-await "the first times arrive" panes_are 320 240
+await "the first times arrive" panes_are 320 208
 await "the preview shows in the host's window" area_shows 642 280
 
 # Settings are pushed.
@@ -84,15 +84,16 @@ xdotool mousemove 600 20
 xdotool key m
 await "keys arrive while the pointer is elsewhere" requested_has mipdebug=on
 
-# The preview follows the window's size, down to panes of 192x220.
+# The preview follows the window's size. The dock's bar takes 32 pixels of the panes' height, or a
+# quarter of the window's height if that is less.
 xdotool windowsize "$window" 386 260
-await "the panes follow the host's window" panes_are 192 220
+await "the panes follow the host's window" panes_are 192 188
 await "the small preview shows" area_shows 386 260
 xdotool windowsize "$window" 902 400
-await "the panes follow the larger window" panes_are 450 360
+await "the panes follow the larger window" panes_are 450 328
 await "the large preview shows" area_shows 902 400
 xdotool windowsize "$window" 40 44
-await "panes of 19x4 pixels are drawn" panes_are 19 4
+await "panes of 19x3 pixels are drawn" panes_are 19 3
 
 # The guest is killed first: the host goes on.
 kill -9 "$guest"
@@ -103,7 +104,7 @@ wait "$pid" 2>/dev/null
 
 # The guest ends by itself: Escape.
 start
-await "the times arrive again" panes_are 320 240
+await "the times arrive again" panes_are 320 208
 xdotool mousemove 500 150 click 1
 await "the preview has the focus" grep -q '"event":"picks"' lines.txt
 xdotool key Escape
@@ -114,7 +115,7 @@ wait "$pid" 2>/dev/null
 
 # The host is killed first: the guest says so and ends.
 start
-await "the times arrive once more" panes_are 320 240
+await "the times arrive once more" panes_are 320 208
 kill -9 "$pid"
 wait "$pid" 2>/dev/null
 pid=

@@ -69,7 +69,7 @@ await "the window shrinks" window_is 1x1
 xdotool key r
 sleep 0.3
 quit
-open 8192x8192 1282x480
+open 8192x8192 1282x720
 quit
 open 8192x1 1282x241
 quit
