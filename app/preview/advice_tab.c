@@ -9,9 +9,11 @@ enum { ID_TRY = 1, ID_TABLE = 100 };
 
 // Says how to make a report, when there is none.
 static void declare_how_to(DipUi *ui, DipRect body) {
+    static const char what[] =
+        "Advice comes from a cost report, which measures every step of every "
+        "setting in this scene:";
     static const char *const lines[] = {
-        "Advice comes from a cost report, which measures every step of every setting in this "
-        "scene:",
+        what,
         "diptych cost --out report        (with the same --config, --model and --size as now)",
         "diptych preview --cost report/cost.json",
     };

@@ -834,9 +834,10 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     if (state->save_pose) {
         save_pose(preview, now_ns);
     }
-    const bool news = measure_errors(preview, now_ns) | measure_prices(preview);
-    *shown = new_frame || news || preview->redraw || preview->exposed || state->screenshot ||
-             (had_notice && !state->notice[0]) ||
+    const bool new_errors = measure_errors(preview, now_ns);
+    const bool new_prices = measure_prices(preview);
+    *shown = new_frame || new_errors || new_prices || preview->redraw || preview->exposed ||
+             state->screenshot || (had_notice && !state->notice[0]) ||
              now_ns >= dip_ui_wakes_ns(dip_view_ui(preview->view)) || now_ns >= preview->blinks_ns;
     if (*shown && !show(preview, now_ns, err)) {
         preview->redraw = preview->exposed = true; // The next turn shows what this one could not.

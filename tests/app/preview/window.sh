@@ -129,10 +129,9 @@ xdotool key F1
 await "the help shows" left_changed before.png
 xdotool key F1
 await "the help goes away" left_same before.png
+cp dock.png settings.png
 xdotool key r
-await "the panel shows" left_changed before.png
-xdotool key r
-await "the panel goes away" left_same before.png
+await "the times show in the dock" dock_changed settings.png
 xdotool key u
 await "the costs sheet says how to make a report" left_changed before.png
 xdotool key u
