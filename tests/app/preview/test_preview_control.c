@@ -239,8 +239,8 @@ static void pick(int x, int y, int colours[DIP_PANE_COUNT][3]) {
     cJSON_Delete(reply);
 }
 
-// The picked colours are those on the display. The pixel lies between the label and the notice. A pick waits for
-// the pictures of the settings before it, which are sent together with it.
+// The picked colours are those on the display. The pixel lies between the label and the notice. A
+// pick waits for the pictures of the settings before it, which are sent together with it.
 static void picks_tell_the_colours_that_show(void **state) {
     (void)state;
     const int x = 40, y = 50;
