@@ -4,6 +4,7 @@
 #include "assets/model.h"
 #include "renderer/base/srgb.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static void set_colour(const DipConfigColor *colour, double scale, float lin[3]) {
@@ -66,6 +67,47 @@ static DipImporter importer_of(const DipSession *session) {
     return importer;
 }
 
+// Adds the materials of a key of the ini to the rules.
+static int add_rules(const DipConfig *config, const DipConfigMaterials *materials,
+                     DipMaterialMark mark, DipMaterialRule *rules, int count) {
+    for (size_t i = 0; i < materials->count; i++) {
+        const DipConfigMaterial *material = &materials->items[i];
+        rules[count++] = (DipMaterialRule){.mark = mark,
+                                           .pattern = material->pattern,
+                                           .light_map = material->light_map.path,
+                                           .file = config->file,
+                                           .line = material->line,
+                                           .key = dip_config_key_name(material->key)};
+    }
+    return count;
+}
+
+static int compare_lines(const void *a, const void *b) {
+    return ((const DipMaterialRule *)a)->line - ((const DipMaterialRule *)b)->line;
+}
+
+// Collects the MATERIAL_ keys of the ini in the order of their lines, because a later rule outranks
+// an earlier one. Returns the number of rules.
+static int rules_of(const DipConfig *config, DipMaterialRule rules[DIP_MAX_MATERIAL_RULES]) {
+    const struct {
+        const DipConfigMaterials *materials;
+        DipMaterialMark mark;
+    } keys[] = {{&config->material_solid, DIP_MARK_SOLID},
+                {&config->material_clip, DIP_MARK_CLIP},
+                {&config->material_glass, DIP_MARK_GLASS},
+                {&config->material_water, DIP_MARK_WATER},
+                {&config->material_sky, DIP_MARK_SKY},
+                {&config->material_lightmap, DIP_MARK_LIGHT_MAP}};
+    _Static_assert(sizeof keys / sizeof *keys * DIP_CONFIG_MAX_MATERIALS <= DIP_MAX_MATERIAL_RULES,
+                   "every key fits");
+    int count = 0;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        count = add_rules(config, keys[i].materials, keys[i].mark, rules, count);
+    }
+    qsort(rules, (size_t)count, sizeof *rules, compare_lines);
+    return count;
+}
+
 static DipModel *load_model(const DipSession *session, DipErrorList *faults, DipSceneDef *def,
                             DipError *err) {
     const char *files[DIP_MAX_MODELS];
@@ -78,8 +120,13 @@ static DipModel *load_model(const DipSession *session, DipErrorList *faults, Dip
         files[count++] = named->items[i].path;
     }
     const DipImporter importer = importer_of(session);
+    DipMaterialRule rules[DIP_MAX_MATERIAL_RULES];
+    const int rule_count =
+        count > session->options->model_count ? rules_of(&session->config, rules) : 0;
     const DipModelOptions options = {.normal_maps = true,
                                      .up = session->options->up,
+                                     .rules = rules,
+                                     .rule_count = rule_count,
                                      .importer = session->importer ? &importer : NULL};
     DipModel *model = dip_model_load_with(files, count, &options, session->pool, faults, err);
     if (model) {

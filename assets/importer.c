@@ -110,9 +110,33 @@ static bool is_passed_on(const char *variable) {
 // The command line and the environment of the importer.
 typedef struct Invocation {
     char numbers[IMPORT_ARGUMENT_COUNT][IMPORT_NUMBER_BYTES];
+    char rule_numbers[DIP_MAX_MATERIAL_RULES][2][IMPORT_NUMBER_BYTES]; // mark, line
     const char *arguments[2 + DIP_IMPORTER_MAX_ARGUMENTS + 1];
     const char *environment[8];
 } Invocation;
+
+static const char *text_or_empty(const char *text) {
+    return text ? text : "";
+}
+
+// Adds the arguments of the rules. Returns the new count of arguments.
+static size_t add_rules(const DipModelLoad *load, Invocation *invocation, size_t count) {
+    for (int i = 0; i < load->options.rule_count; ++i) {
+        const DipMaterialRule *rule = &load->options.rules[i];
+        char(*numbers)[IMPORT_NUMBER_BYTES] = invocation->rule_numbers[i];
+        snprintf(numbers[0], IMPORT_NUMBER_BYTES, "%d", (int)rule->mark);
+        snprintf(numbers[1], IMPORT_NUMBER_BYTES, "%d", rule->line);
+        const char **to = invocation->arguments + count;
+        to[IMPORT_RULE_mark] = numbers[0];
+        to[IMPORT_RULE_line] = numbers[1];
+        to[IMPORT_RULE_pattern] = rule->pattern;
+        to[IMPORT_RULE_light_map] = text_or_empty(rule->light_map);
+        to[IMPORT_RULE_file] = text_or_empty(rule->file);
+        to[IMPORT_RULE_key] = text_or_empty(rule->key);
+        count += IMPORT_RULE_ARGUMENT_COUNT;
+    }
+    return count;
+}
 
 static void fill_invocation(const Child *child, Invocation *invocation) {
     const DipModelLoad *load = child->load;
@@ -122,6 +146,7 @@ static void fill_invocation(const Child *child, Invocation *invocation) {
         [IMPORT_ARGUMENT_threads] = (uint64_t)(load->pool ? dip_pool_thread_count(load->pool) : 1),
         [IMPORT_ARGUMENT_normal_maps] = load->options.normal_maps,
         [IMPORT_ARGUMENT_up] = load->options.up,
+        [IMPORT_ARGUMENT_rules] = (uint64_t)load->options.rule_count,
         [IMPORT_ARGUMENT_picture_only] = load->picture_only,
         [IMPORT_ARGUMENT_memory_bytes] = child->importer.memory_bytes,
         [IMPORT_ARGUMENT_cpu_s] = (uint64_t)child->importer.cpu_s,
@@ -136,6 +161,7 @@ static void fill_invocation(const Child *child, Invocation *invocation) {
         snprintf(invocation->numbers[i], IMPORT_NUMBER_BYTES, "%" PRIu64, values[i]);
         invocation->arguments[count++] = invocation->numbers[i];
     }
+    count = add_rules(load, invocation, count);
     memcpy(invocation->arguments + count, load->files,
            (size_t)load->file_count * sizeof *load->files);
     size_t variables = 0;

@@ -36,8 +36,11 @@ typedef struct DipImporter {
 
 enum {
     DIP_IMPORT_WALL_S = 120,
-    DIP_IMPORT_MAX_WALL_S = 86400,                         // Greatest wall_s.
-    DIP_IMPORTER_MAX_ARGUMENTS = DIP_MAX_MODEL_FILES + 16, // Most arguments of dip_importer_run.
+    DIP_IMPORT_MAX_WALL_S = 86400,   // Greatest wall_s.
+    DIP_IMPORTER_RULE_ARGUMENTS = 6, // Arguments for each DipMaterialRule.
+    // Most arguments of dip_importer_run.
+    DIP_IMPORTER_MAX_ARGUMENTS =
+        DIP_MAX_MODEL_FILES + DIP_IMPORTER_RULE_ARGUMENTS * DIP_MAX_MATERIAL_RULES + 16,
     DIP_IMPORTER_MISUSED = 2
 };
 

@@ -11,6 +11,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,6 +29,8 @@ typedef struct Task {
     uint64_t number[IMPORT_ARGUMENT_COUNT];
     const char *files[DIP_MAX_MODEL_FILES];
     int file_count;
+    DipMaterialRule rules[DIP_MAX_MATERIAL_RULES];
+    int rule_count;
 } Task;
 
 // --- arguments -----------------------------------------------------------------------------------
@@ -39,13 +42,54 @@ static bool parse_number(const char *text, uint64_t *number) {
     return errno == 0 && text[0] >= '0' && text[0] <= '9' && *end == '\0';
 }
 
+static const char *text_or_null(const char *text) {
+    return text[0] ? text : NULL;
+}
+
+static bool parse_rule(char *const *arguments, DipMaterialRule *rule) {
+    uint64_t mark;
+    uint64_t line;
+    if (!parse_number(arguments[IMPORT_RULE_mark], &mark) || mark >= DIP_MARK_COUNT ||
+        !parse_number(arguments[IMPORT_RULE_line], &line) || line > INT_MAX) {
+        return false;
+    }
+    *rule = (DipMaterialRule){.mark = (DipMaterialMark)mark,
+                              .pattern = arguments[IMPORT_RULE_pattern],
+                              .light_map = text_or_null(arguments[IMPORT_RULE_light_map]),
+                              .file = text_or_null(arguments[IMPORT_RULE_file]),
+                              .line = (int)line,
+                              .key = text_or_null(arguments[IMPORT_RULE_key])};
+    return true;
+}
+
+// Parses the rules, and the files after them.
+static bool parse_rules_and_files(int count, char *const *arguments, Task *task) {
+    const uint64_t rules = task->number[IMPORT_ARGUMENT_rules];
+    if (rules > DIP_MAX_MATERIAL_RULES) {
+        return false;
+    }
+    task->rule_count = (int)rules;
+    task->file_count = count - task->rule_count * (int)IMPORT_RULE_ARGUMENT_COUNT;
+    if (task->file_count < 1 || task->file_count > DIP_MAX_MODEL_FILES) {
+        return false;
+    }
+    for (int i = 0; i < task->rule_count; ++i) {
+        if (!parse_rule(arguments + i * (int)IMPORT_RULE_ARGUMENT_COUNT, &task->rules[i])) {
+            return false;
+        }
+    }
+    for (int i = 0; i < task->file_count; ++i) {
+        task->files[i] = arguments[count - task->file_count + i];
+    }
+    return true;
+}
+
 static bool parse_task(int count, char *const *arguments, Task *task) {
     if (count > 0 && strcmp(arguments[0], import_mark) == 0) {
         count--;
         arguments++;
     }
-    task->file_count = count - IMPORT_ARGUMENT_COUNT;
-    if (task->file_count < 1 || task->file_count > DIP_MAX_MODEL_FILES) {
+    if (count < IMPORT_ARGUMENT_COUNT) {
         return false;
     }
     for (int i = 0; i < IMPORT_ARGUMENT_COUNT; ++i) {
@@ -53,12 +97,11 @@ static bool parse_task(int count, char *const *arguments, Task *task) {
             return false;
         }
     }
-    for (int i = 0; i < task->file_count; ++i) {
-        task->files[i] = arguments[IMPORT_ARGUMENT_COUNT + i];
-    }
     const uint64_t threads = task->number[IMPORT_ARGUMENT_threads];
     return task->number[IMPORT_ARGUMENT_version] == IMPORT_VERSION && threads >= 1 &&
-           threads <= DIP_MAX_THREADS && task->number[IMPORT_ARGUMENT_up] < DIP_UP_COUNT;
+           threads <= DIP_MAX_THREADS && task->number[IMPORT_ARGUMENT_up] < DIP_UP_COUNT &&
+           parse_rules_and_files(count - IMPORT_ARGUMENT_COUNT, arguments + IMPORT_ARGUMENT_COUNT,
+                                 task);
 }
 
 // --- limits --------------------------------------------------------------------------------------
@@ -139,7 +182,9 @@ static bool load_and_hand_over(const Task *task) {
         .files = task->files,
         .file_count = task->file_count,
         .options = {.normal_maps = task->number[IMPORT_ARGUMENT_normal_maps] == 1,
-                    .up = (DipUpAxis)task->number[IMPORT_ARGUMENT_up]},
+                    .up = (DipUpAxis)task->number[IMPORT_ARGUMENT_up],
+                    .rules = task->rules,
+                    .rule_count = task->rule_count},
         .pool = pool,
         .warnings = &pack.warnings,
         .note_file = IMPORT_PACK_FILE,

@@ -1,6 +1,7 @@
 // What the program and its importer process agree on. Private to importer.c and importer_child.c.
 //
-// The importer's arguments are import_mark, those of IMPORT_ARGUMENT_LIST, and the model files. It
+// The importer's arguments are import_mark, those of IMPORT_ARGUMENT_LIST, those of
+// IMPORT_RULE_ARGUMENT_LIST for each rule, and the model files. It
 // inherits two files: the pack file, which it fills and seals, and the writing end of a pipe, which
 // it only keeps open. The program reads the other end of the pipe, which reaches its end when the
 // importer ends.
@@ -18,6 +19,7 @@ enum { IMPORT_PACK_FILE = 3, IMPORT_PIPE = 4 };
     X(threads)      /* number of threads that decode pictures */                                   \
     X(normal_maps)  /* 1: normal maps are loaded, 0: not */                                        \
     X(up)           /* a DipUpAxis */                                                              \
+    X(rules)        /* number of rules that mark materials */                                      \
     X(picture_only) /* 1: the only file is a picture, 0: the files are models */                   \
     X(memory_bytes) /* limit of memory */                                                          \
     X(cpu_s)        /* limit of processor time */
@@ -29,11 +31,30 @@ typedef enum ImportArgument {
         IMPORT_ARGUMENT_COUNT
 } ImportArgument;
 
+// The arguments of a rule, as X(name). Texts that the rule lacks are empty.
+#define IMPORT_RULE_ARGUMENT_LIST(X)                                                               \
+    X(mark) /* a DipMaterialMark, decimal */                                                       \
+    X(line) /* decimal */                                                                          \
+    X(pattern)                                                                                     \
+    X(light_map)                                                                                   \
+    X(file)                                                                                        \
+    X(key)
+
+typedef enum ImportRuleArgument {
+#define IMPORT_RULE_ENUM(name) IMPORT_RULE_##name,
+    IMPORT_RULE_ARGUMENT_LIST(IMPORT_RULE_ENUM)
+#undef IMPORT_RULE_ENUM
+        IMPORT_RULE_ARGUMENT_COUNT
+} ImportRuleArgument;
+
+_Static_assert((int)IMPORT_RULE_ARGUMENT_COUNT == (int)DIP_IMPORTER_RULE_ARGUMENTS,
+               "importer.h counts the arguments of a rule");
+
 // Keeps a program that reads options from taking a file called "-x" for one. Such a program may
 // remove this argument.
 static const char import_mark[] = "--";
 
-enum { IMPORT_VERSION = 1, IMPORT_NUMBER_BYTES = 24 };
+enum { IMPORT_VERSION = 2, IMPORT_NUMBER_BYTES = 24 };
 
 // 1 in builds with a sanitizer. AddressSanitizer does not start in a process whose address space is
 // limited, and it reports to the standard error output.

@@ -152,12 +152,36 @@ static bool shows_only_highlights(const DipModelFile *file, const struct aiMesh 
     return !file->linear_colours && is_black(base_lin);
 }
 
+// Returns how the material uses its light map. The picture of a rule has no texture coordinates of
+// its own in the file, so it takes the mesh's second set, or the first if there is only one.
+static DipTextureUse light_use(DipModel *model, int file, const char *name,
+                               const struct aiMesh *mesh, const DipMaterialRule *rule) {
+    static const enum aiTextureType types[] = {aiTextureType_LIGHTMAP};
+    DipTextureUse use = {.picture = DIP_NO_TEXTURE};
+    const char *path = model->files[file].path;
+    if (!rule || !rule->light_map) {
+        use = texture_use(model, file, name, mesh, types, 1);
+        if (rule && use.picture < 0) {
+            dip_model_warn(model, path, name,
+                           "the material is marked as light-mapped, but has no light map");
+        }
+    } else if (!mesh->mTextureCoords[0]) {
+        dip_model_warn(model, path, name,
+                       "mesh \"%s\" has no texture coordinates, so its light map %s is ignored",
+                       mesh->mName.data, rule->light_map);
+    } else {
+        use.picture = dip_model_picture_file(model, file, rule->light_map);
+        use.uv_channel = mesh->mTextureCoords[1] ? 1 : 0;
+        use.wrap_u = use.wrap_v = DIP_WRAP_REPEAT;
+    }
+    return use;
+}
+
 static void read_pictures(DipModel *model, int file, const char *name, const struct aiMesh *mesh,
                           DipMaterialPlan *plan) {
     static const enum aiTextureType colour[] = {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE};
     static const enum aiTextureType specular[] = {aiTextureType_SPECULAR};
     static const enum aiTextureType opacity[] = {aiTextureType_OPACITY};
-    static const enum aiTextureType light[] = {aiTextureType_LIGHTMAP};
     static const enum aiTextureType normal[] = {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA};
     plan->colour = texture_use(model, file, name, mesh, colour, 2);
     if (plan->colour.picture < 0 && shows_only_highlights(&model->files[file], mesh)) {
@@ -171,7 +195,7 @@ static void read_pictures(DipModel *model, int file, const char *name, const str
     plan->light = (DipTextureUse){.picture = DIP_NO_TEXTURE};
     // In glTF the occlusion picture is a light map only if the object's metadata says so.
     if (plan->light_mapped || !model->files[file].linear_colours) {
-        plan->light = texture_use(model, file, name, mesh, light, 1);
+        plan->light = light_use(model, file, name, mesh, plan->light_rule);
     }
     plan->has_uv1 = plan->light.picture >= 0;
     plan->has_uv0 =
@@ -218,11 +242,12 @@ int dip_model_material(DipModel *model, int file, const struct aiMesh *mesh, Dip
                             .coordinates = coordinate_mask(mesh),
                             .tag = tag,
                             .light_mapped = light_mapped};
+    dip_model_apply_rules(model, model->files[file].scene->mMaterials[plan.source], &plan);
     const int count = model->def.material_count;
     for (int i = 0; i < count; ++i) {
         const DipMaterialPlan *other = &model->plans[i];
-        if (other->file == file && other->source == plan.source && other->tag == tag &&
-            other->light_mapped == light_mapped && other->coordinates == plan.coordinates) {
+        if (other->file == file && other->source == plan.source && other->tag == plan.tag &&
+            other->light_mapped == plan.light_mapped && other->coordinates == plan.coordinates) {
             return i;
         }
     }

@@ -285,6 +285,8 @@ static void release_scenes(DipModel *model) {
 static void finish(DipModel *model) {
     release_scenes(model);
     model->warnings = NULL;
+    model->rules = NULL;
+    model->rule_count = 0;
     model->def.textures = model->textures;
     model->def.materials = model->materials;
     model->def.meshes = model->meshes;
@@ -305,6 +307,7 @@ static bool load_parts(DipModel *model, const DipModelLoad *load, DipError *err)
         note(load, DIP_IMPORT_READS, i);
         ok = load_file(model, i, load->files[i], err);
     }
+    ok = ok && dip_model_check_rules(model, err);
     const int64_t imported_ns = dip_clock_ns();
     note(load, DIP_IMPORT_PICTURES, 0);
     ok = ok && dip_model_decode_pictures(model, load->pool, err) &&
@@ -343,6 +346,8 @@ DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
     model->warnings = load->warnings;
     model->normal_maps = load->options.normal_maps;
     model->up = load->options.up;
+    model->rules = load->options.rules;
+    model->rule_count = load->options.rule_count;
     model->files = calloc((size_t)load->file_count, sizeof *model->files);
     const bool ok =
         load->picture_only ? load_picture(model, load, err) : load_parts(model, load, err);
@@ -366,6 +371,11 @@ DipModel *dip_model_load_with(const char *const *files, int file_count,
     if (file_count < 1 || file_count > DIP_MAX_MODEL_FILES) {
         dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL, "%d model files, accepted 1..%d",
                       file_count, DIP_MAX_MODEL_FILES);
+        return NULL;
+    }
+    if (options->rule_count < 0 || options->rule_count > DIP_MAX_MATERIAL_RULES) {
+        dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL, "%d rules for materials, accepted 0..%d",
+                      options->rule_count, DIP_MAX_MATERIAL_RULES);
         return NULL;
     }
     return options->importer ? dip_model_load_in_child(&load, options->importer, err)

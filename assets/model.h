@@ -19,6 +19,7 @@
 //   from the nearest node above that has the key. `surface` is solid, mask, glass, water or sky.
 //   `lightmapped` is 1 if the material's occlusion picture is a light map that stores light / 2.
 //   Light maps of other formats store the light itself.
+// - Rules (DipMaterialRule) mark materials by their names instead.
 // - The renderer's fixed light lights solid and mask surfaces without a light map.
 // - Roughness comes from glTF, or is 0.6 if the file has none.
 // - A sky's texture is data (DipSkyDef), not colour, and is read as linear.
@@ -40,7 +41,7 @@ extern "C" {
 // never changes after loading, so any number of threads may read it.
 typedef struct DipModel DipModel;
 
-enum { DIP_MAX_MODEL_FILES = 256 };
+enum { DIP_MAX_MODEL_FILES = 256, DIP_MAX_MATERIAL_RULES = 256 };
 
 // Loads 1..DIP_MAX_MODEL_FILES files into one description. The caller owns the model and destroys
 // it with dip_model_destroy. If any file fails, returns NULL and fills *err (may be NULL) with the
@@ -81,10 +82,41 @@ typedef enum DipUpAxis {
 
 extern const char *const dip_up_axis_names[DIP_UP_COUNT]; // "auto", "y", "z"
 
+// What a rule says about the materials whose names fit its pattern. All but LIGHT_MAP say what kind
+// of surface they are, like `surface` in the metadata of a node.
+typedef enum DipMaterialMark {
+    DIP_MARK_SOLID,
+    DIP_MARK_CLIP, // `mask` in the metadata.
+    DIP_MARK_GLASS,
+    DIP_MARK_WATER,
+    DIP_MARK_SKY,
+    DIP_MARK_LIGHT_MAP, // A light map that stores light / 2, like `lightmapped` in the metadata.
+    DIP_MARK_COUNT
+} DipMaterialMark;
+
+// A rule that marks materials by name, for formats whose files cannot carry tags. A rule outranks
+// the metadata of the nodes, and a later rule outranks an earlier one.
+typedef struct DipMaterialRule {
+    DipMaterialMark mark;
+    // Name of the materials in the model files. `*` stands for any text, also an empty one, and `?`
+    // for one character.
+    const char *pattern;
+    // LIGHT_MAP: file of the light map, or NULL for the light map that the model names. The mesh's
+    // second set of texture coordinates places the file's picture, or the first if it has only one.
+    const char *light_map;
+    // Where the user gave the rule, for messages. file and key may be NULL.
+    const char *file;
+    int line;
+    const char *key;
+} DipMaterialRule;
+
 // How dip_model_load_with loads a model. A zeroed struct gives what dip_model_load does.
 typedef struct DipModelOptions {
     bool normal_maps; // True: normal maps are loaded, too.
     DipUpAxis up;     // Holds for every file.
+    // Rules that mark materials: 0..DIP_MAX_MATERIAL_RULES. Used only during the load.
+    const DipMaterialRule *rules;
+    int rule_count;
     // The program that imports the files in a process of its own. NULL: the files are imported in
     // this process, where a bad file can crash the libraries that read it. Use NULL for trusted
     // files only.
@@ -93,7 +125,9 @@ typedef struct DipModelOptions {
 
 // Like dip_model_load, but with options. If options->importer is not NULL, the pool only says how
 // many threads the importer uses. Further codes: RUNTIME (the importer crashed or cannot be
-// started), OVERSIZED (the importer needed more memory or time than its limits).
+// started), OVERSIZED (the importer needed more memory or time than its limits), UNKNOWN (a rule
+// fits no material; file, line and key are the rule's), and all codes of a light map that a rule
+// names and that cannot be read.
 DipModel *dip_model_load_with(const char *const *files, int file_count,
                               const DipModelOptions *options, DipPool *pool, DipErrorList *warnings,
                               DipError *err);

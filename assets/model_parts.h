@@ -60,10 +60,11 @@ typedef struct DipMaterialPlan {
     unsigned source;      // index of the material in that file
     unsigned coordinates; // bit i is set if the mesh has texture coordinates i
     DipTag tag;
-    bool light_mapped; // true: the occlusion picture is a light map
-    bool has_uv0;      // true: the mesh needs coordinates for colour, opacity or normal map
-    bool has_uv1;      // true: the mesh needs coordinates for the light map
-    bool invisible;    // true: the material's own opacity is below its cutoff
+    bool light_mapped;                 // true: the occlusion picture is a light map
+    const DipMaterialRule *light_rule; // the rule that says so, or NULL
+    bool has_uv0;   // true: the mesh needs coordinates for colour, opacity or normal map
+    bool has_uv1;   // true: the mesh needs coordinates for the light map
+    bool invisible; // true: the material's own opacity is below its cutoff
     DipTextureUse colour;
     DipTextureUse opacity;
     DipTextureUse light;
@@ -112,6 +113,8 @@ struct DipModel {
     DipModelTimes times;
     bool normal_maps; // true: normal maps are loaded
     DipUpAxis up;
+    const DipMaterialRule *rules; // the caller's, used only during the load
+    int rule_count;
     // The model of an importer has only a pack, whose scene is `def`, and the pack's bytes.
     DipScenePack pack;
     void *pack_bytes; // mapped memory, or NULL
@@ -212,6 +215,22 @@ char *dip_model_find_file(const char *model_path, const char *file_path);
 // pictures.c: registers a picture of a material and returns its index, or DIP_NO_TEXTURE when
 // memory runs out.
 int dip_model_picture(DipModel *model, int file, const char *path);
+
+// pictures.c: the same for a picture file that is not looked for in the model's folder.
+int dip_model_picture_file(DipModel *model, int file, const char *path);
+
+// material_rules.c: true if the name fits the pattern of a DipMaterialRule.
+bool dip_material_name_fits(const char *pattern, const char *name);
+
+// material_rules.c: changes the plan's tag, light_mapped and light_rule as the rules say.
+void dip_model_apply_rules(const DipModel *model, const struct aiMaterial *material,
+                           DipMaterialPlan *plan);
+
+// material_rules.c: fails with UNKNOWN if a rule fits no material of the imported files.
+bool dip_model_check_rules(const DipModel *model, DipError *err);
+
+// material_rules.c: fails if the light map of a rule could not be decoded.
+bool dip_model_check_light_maps(const DipModel *model, DipError *err);
 
 // pictures.c: decodes all registered pictures on the pool. A picture that is
 // missing or cannot be decoded gives a warning. Fails when memory runs out.

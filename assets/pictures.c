@@ -136,24 +136,34 @@ static int embedded_picture(DipModel *model, int file, const char *path,
     return entry.name ? add_picture(model, &entry) : DIP_NO_TEXTURE;
 }
 
+static int register_file(DipModel *model, int file, const char *path) {
+    const int known = find_picture(model, path, NULL);
+    if (known >= 0) {
+        return known;
+    }
+    const DipPictureEntry entry = {.name = dip_model_copy_text(model, path), .file = file};
+    return entry.name ? add_picture(model, &entry) : DIP_NO_TEXTURE;
+}
+
 static int register_picture(DipModel *model, int file, const char *path) {
     const struct aiTexture *texture = find_embedded(model->files[file].scene, path);
     if (texture && texture->pcData) {
         return embedded_picture(model, file, path, texture);
     }
     char *found = dip_model_find_file(model->files[file].path, path);
-    const int known = found ? find_picture(model, found, NULL) : DIP_NOT_FOUND;
-    int index = known;
-    if (found && known < 0) {
-        const DipPictureEntry entry = {.name = dip_model_copy_text(model, found), .file = file};
-        index = entry.name ? add_picture(model, &entry) : DIP_NO_TEXTURE;
-    }
+    const int index = found ? register_file(model, file, found) : DIP_NO_TEXTURE;
     free(found);
     return index;
 }
 
 int dip_model_picture(DipModel *model, int file, const char *path) {
     const int index = register_picture(model, file, path);
+    model->lost_picture |= index < 0;
+    return index;
+}
+
+int dip_model_picture_file(DipModel *model, int file, const char *path) {
+    const int index = register_file(model, file, path);
     model->lost_picture |= index < 0;
     return index;
 }
@@ -217,6 +227,9 @@ static bool decode_all(DipModel *model, DipPool *pool) {
 bool dip_model_decode_pictures(DipModel *model, DipPool *pool, DipError *err) {
     if (model->lost_picture || !decode_all(model, pool)) {
         return dip_model_out_of_memory(err, NULL);
+    }
+    if (!dip_model_check_light_maps(model, err)) {
+        return false;
     }
     for (int i = 0; i < model->picture_count; ++i) {
         const DipPictureEntry *entry = &model->pictures[i];

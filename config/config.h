@@ -27,6 +27,7 @@ enum {
     DIP_CONFIG_MAX_FILE_BYTES = 1 << 20, // Bytes in an ini.
     DIP_CONFIG_MAX_FAULTS = 100,         // Reading stops after this many faults.
     DIP_CONFIG_MAX_MODELS = 64,          // XFILE keys in an ini.
+    DIP_CONFIG_MAX_MATERIALS = 32,       // Repetitions of each MATERIAL_ key in an ini.
     DIP_CONFIG_MAX_NAME = 32,            // Bytes in a NAME, with the final 0.
     DIP_CONFIG_ISA_AUTO = -1             // The best instruction set that the processor has.
 };
@@ -86,6 +87,19 @@ typedef struct DipConfigFiles {
     size_t count;
 } DipConfigFiles;
 
+// Materials of the models, by name. The DipConfig owns the text.
+typedef struct DipConfigMaterial {
+    char *pattern;           // name; `*` stands for any text, `?` for any character
+    DipConfigFile light_map; // picture of MATERIAL_LIGHTMAP; its path is NULL if there is none
+    DipConfigKey key;        // key that gives the pattern
+    int line;                // line of that key, 1-based
+} DipConfigMaterial;
+
+typedef struct DipConfigMaterials {
+    DipConfigMaterial *items;
+    size_t count;
+} DipConfigMaterials;
+
 typedef struct DipConfigCamera {
     DipConfigFile file; // if its path is NULL, the path of DIP_CATEGORY_DEFAULT or an orbit plays
     double fov_y_deg;   // vertical field of view, 1..170; 0 without a path, except for DEFAULT
@@ -105,6 +119,8 @@ typedef DipConfigFiles DipConfigFieldFILES;
 typedef DipQuality DipConfigFieldSETTINGS;
 typedef DipConfigColor DipConfigFieldCOLOR;
 typedef DipConfigName DipConfigFieldNAME;
+typedef DipConfigMaterials DipConfigFieldMATERIALS;
+typedef DipConfigMaterials DipConfigFieldLIGHTMAPS;
 typedef int DipConfigFieldISA; // a DipIsa or DIP_CONFIG_ISA_AUTO
 
 typedef struct DipConfig {

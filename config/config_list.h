@@ -13,7 +13,8 @@
 //
 // Types and their fields: SIZE DipConfigSize, NUMBER double, INTEGER int, FLAG bool, FILE
 // DipConfigFile, FILES DipConfigFiles (the key may be repeated), SETTINGS DipQuality, COLOR
-// DipConfigColor, ISA int, NAME DipConfigName. The range applies to every number of a SIZE, NUMBER,
+// DipConfigColor, ISA int, NAME DipConfigName, MATERIALS and LIGHTMAPS DipConfigMaterials (these
+// keys may be repeated). The range applies to every number of a SIZE, NUMBER,
 // INTEGER or COLOR. The default "" leaves a FILE unnamed, a NAME empty, a NUMBER at 0 and every
 // setting of SETTINGS at its own default.
 #define DIP_CONFIG_LIST(KEY, CAMERA, PICTURE)                                                      \
@@ -28,6 +29,18 @@
         "true: water uses Schlick's approximation instead of Fresnel's equations")                 \
     KEY(XFILE, xfile, FILES, DIP_CONFIG_REQUIRED, 0, 0,                                            \
         "model file; repeat the key to load several, which share one origin")                      \
+    KEY(MATERIAL_SOLID, material_solid, MATERIALS, "", 0, 0,                                       \
+        "materials of ordinary surfaces, even if the model marks them otherwise")                  \
+    KEY(MATERIAL_CLIP, material_clip, MATERIALS, "", 0, 0,                                         \
+        "materials of surfaces that the alpha of their colour texture clips")                      \
+    KEY(MATERIAL_GLASS, material_glass, MATERIALS, "", 0, 0,                                       \
+        "materials of opaque surfaces that the fixed light does not light")                        \
+    KEY(MATERIAL_WATER, material_water, MATERIALS, "", 0, 0,                                       \
+        "materials of water, which mirrors the scene")                                             \
+    KEY(MATERIAL_SKY, material_sky, MATERIALS, "", 0, 0, "materials of the sky")                   \
+    KEY(MATERIAL_LIGHTMAP, material_lightmap, LIGHTMAPS, "", 0, 0,                                 \
+        "materials that a light map lights, and the picture of the light map; without a picture, " \
+        "the light map that the model names")                                                      \
     KEY(CAMPATH_RESET_ON_SWITCH, campath_reset_on_switch, FLAG, "true", 0, 0,                      \
         "after a change of path, true: the new path starts at its beginning; "                     \
         "false: it goes on at the old path's time")                                                \

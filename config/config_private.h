@@ -17,7 +17,9 @@ typedef enum DipConfigType {
     DIP_TYPE_SETTINGS,
     DIP_TYPE_COLOR,
     DIP_TYPE_ISA,
-    DIP_TYPE_NAME
+    DIP_TYPE_NAME,
+    DIP_TYPE_MATERIALS,
+    DIP_TYPE_LIGHTMAPS
 } DipConfigType;
 
 typedef struct DipConfigKeyInfo {
@@ -31,6 +33,9 @@ typedef struct DipConfigKeyInfo {
 } DipConfigKeyInfo;
 
 const DipConfigKeyInfo *dip_config_key_info(DipConfigKey key);
+
+// True if an ini may give a key of this type more than once.
+bool dip_config_may_repeat(DipConfigType type);
 
 // Finds the key with exactly this name. Returns false if there is none.
 bool dip_config_find_key(const char *name, DipConfigKey *key);

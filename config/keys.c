@@ -44,6 +44,10 @@ const DipConfigKeyInfo *dip_config_key_info(DipConfigKey key) {
     return &infos[key];
 }
 
+bool dip_config_may_repeat(DipConfigType type) {
+    return type == DIP_TYPE_FILES || type == DIP_TYPE_MATERIALS || type == DIP_TYPE_LIGHTMAPS;
+}
+
 const char *dip_config_key_name(DipConfigKey key) {
     return dip_config_key_info(key)->name;
 }
@@ -150,6 +154,14 @@ void dip_config_describe(DipConfigKey key, char *buffer, size_t size_bytes) {
         break;
     case DIP_TYPE_NAME:
         snprintf(buffer, size_bytes, "a name of at most %d letters", DIP_CONFIG_MAX_NAME - 1);
+        break;
+    case DIP_TYPE_MATERIALS:
+        snprintf(buffer, size_bytes, "a name with * and ?, up to %d times",
+                 DIP_CONFIG_MAX_MATERIALS);
+        break;
+    case DIP_TYPE_LIGHTMAPS:
+        snprintf(buffer, size_bytes, "a name with * and ?, or NAME = PICTURE, up to %d times",
+                 DIP_CONFIG_MAX_MATERIALS);
         break;
     }
 }

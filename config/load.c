@@ -39,7 +39,7 @@ static void refuse_name(Loader *loader, const char *name) {
 
 static void warn_if_repeated(Loader *loader, DipConfigKey key) {
     const int before = loader->config->line[key];
-    if (before && dip_config_key_info(key)->type != DIP_TYPE_FILES) {
+    if (before && !dip_config_may_repeat(dip_config_key_info(key)->type)) {
         dip_config_add_fault(&loader->reader, DIP_ERROR_CONFLICT, DIP_SEVERITY_WARNING,
                              loader->reader.line, dip_config_key_name(key),
                              "line %d gives this key too; this later value is accepted", before);

@@ -197,6 +197,58 @@ static bool add_file(const DipConfig *config, DipConfigKey key, const char *text
     return true;
 }
 
+// Splits NAME = PICTURE at the last '=' that stands between spaces or tabs, so that names and files
+// may contain '='. Returns the length of the name; *picture is the rest, or "" without such a '='.
+static size_t split_light_map(const char *text, const char **picture) {
+    static const char spaces[] = " \t\v\f";
+    size_t length = strlen(text);
+    *picture = "";
+    for (size_t i = length; i-- > 1;) {
+        if (text[i] == '=' && strchr(spaces, text[i - 1]) && text[i + 1] &&
+            strchr(spaces, text[i + 1])) {
+            *picture = text + i + 1 + strspn(text + i + 1, spaces);
+            length = i;
+            break;
+        }
+    }
+    while (length > 0 && strchr(spaces, text[length - 1])) {
+        length--;
+    }
+    return length;
+}
+
+static void free_material(DipConfigMaterial *material) {
+    free(material->pattern);
+    free_file(&material->light_map);
+}
+
+static bool add_material(const DipConfig *config, DipConfigKey key, const char *text, int line,
+                         DipConfigMaterials *materials, DipError *err) {
+    if (materials->count == DIP_CONFIG_MAX_MATERIALS) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, dip_config_key_name(key),
+                             "is given more than %d times, accepted up to %d names",
+                             DIP_CONFIG_MAX_MATERIALS, DIP_CONFIG_MAX_MATERIALS);
+    }
+    const char *picture = "";
+    const bool has_picture = dip_config_key_info(key)->type == DIP_TYPE_LIGHTMAPS;
+    const size_t length = has_picture ? split_light_map(text, &picture) : strlen(text);
+    DipConfigMaterial *items = realloc(materials->items, (materials->count + 1) * sizeof *items);
+    materials->items = items ? items : materials->items;
+    DipConfigMaterial material = {.pattern = calloc(length + 1, 1), .key = key, .line = line};
+    if (!items || !material.pattern) {
+        free_material(&material);
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, dip_config_key_name(key),
+                             "out of memory");
+    }
+    memcpy(material.pattern, text, length);
+    if (picture[0] && !make_file(config, key, picture, line, &material.light_map, err)) {
+        free_material(&material);
+        return false;
+    }
+    items[materials->count++] = material;
+    return true;
+}
+
 bool dip_config_set_value(DipConfig *config, DipConfigKey key, const char *text, int line,
                           DipError *err) {
     const DipConfigKeyInfo *info = dip_config_key_info(key);
@@ -222,6 +274,9 @@ bool dip_config_set_value(DipConfig *config, DipConfigKey key, const char *text,
         return set_isa(key, text, field, err);
     case DIP_TYPE_NAME:
         return set_name(key, text, field, err);
+    case DIP_TYPE_MATERIALS:
+    case DIP_TYPE_LIGHTMAPS:
+        return add_material(config, key, text, line, field, err);
     }
     return false;
 }
@@ -238,6 +293,12 @@ void dip_config_free(DipConfig *config) {
                 free_file(&files->items[i]);
             }
             free(files->items);
+        } else if (dip_config_may_repeat(info->type)) {
+            DipConfigMaterials *materials = field;
+            for (size_t i = 0; i < materials->count; i++) {
+                free_material(&materials->items[i]);
+            }
+            free(materials->items);
         }
     }
     free(config->file);

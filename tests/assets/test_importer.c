@@ -353,10 +353,10 @@ static void nobody_else_can_start_an_importer(void **state) {
     (void)state;
     char *no_arguments[] = {NULL};
     assert_int_equal(dip_importer_run(0, no_arguments), DIP_IMPORTER_MISUSED);
-    char *words[] = {"--", "1", "2", "3", "4", "0", "0", "7", "8", "a.obj", NULL};
-    assert_int_equal(dip_importer_run(10, words), DIP_IMPORTER_MISUSED);
+    char *words[] = {"--", "2", "2", "3", "4", "0", "0", "0", "7", "8", "a.obj", NULL};
+    assert_int_equal(dip_importer_run(11, words), DIP_IMPORTER_MISUSED);
     words[3] = "three";
-    assert_int_equal(dip_importer_run(10, words), DIP_IMPORTER_MISUSED);
+    assert_int_equal(dip_importer_run(11, words), DIP_IMPORTER_MISUSED);
 }
 
 int main(int argc, char **argv) {

@@ -54,6 +54,11 @@ typedef struct BadIni {
 } BadIni;
 
 static const BadIni bad_inis[] = {
+    // Materials.
+    {"a material without a name", NULL, "MATERIAL_SKY:\n", DIP_ERROR_MISSING, 27, "MATERIAL_SKY",
+     "has no value, accepted a name with * and ?, up to 32 times"},
+    {"a misspelt mark", NULL, "MATERIAL_LIGHT_MAP: Wall\n", DIP_ERROR_UNKNOWN, 27,
+     "MATERIAL_LIGHT_MAP", "did you mean MATERIAL_LIGHTMAP?"},
     // Values of the wrong type.
     {"a resolution of one number", "RES", "RES: 640\n", DIP_ERROR_TYPE, 27, "RES",
      "'640' is not WIDTHxHEIGHT, accepted WIDTHxHEIGHT, 1..8192 each, for example 640x480"},

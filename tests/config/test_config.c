@@ -224,6 +224,39 @@ static void settings_and_optional_keys_are_read(void **context) {
 }
 
 // inih alone would misread or ignore most of these lines.
+static void check_material(const DipConfigMaterials *materials, size_t index, const char *pattern,
+                           const char *path, int line) {
+    const DipConfigMaterial *material = &materials->items[index];
+    assert_string_equal(material->pattern, pattern);
+    assert_int_equal(material->line, line);
+    assert_int_equal(material->light_map.path != NULL, path != NULL);
+    if (path) {
+        assert_string_equal(material->light_map.path, path);
+    }
+}
+
+static void materials_keep_their_names_and_light_maps(void **context) {
+    (void)context;
+    DipConfig config;
+    DipErrorList faults = {0};
+    load_text("./test.ini",
+              "XFILE: a.x\nRES: 64x48\nMATERIAL_WATER: Pool *\nMATERIAL_WATER = a=b = c\n"
+              "MATERIAL_LIGHTMAP: Wall\nMATERIAL_LIGHTMAP: A = B=C = sub/l=1.png ; comment\n"
+              "MATERIAL_LIGHTMAP = D:E\t=\t/abs.png\nMATERIAL_LIGHTMAP: F=G.png\n",
+              &config, &faults);
+    assert_int_equal(faults.count, 0);
+    assert_int_equal(config.material_water.count, 2);
+    check_material(&config.material_water, 0, "Pool *", NULL, 3);
+    check_material(&config.material_water, 1, "a=b = c", NULL, 4);
+    assert_int_equal(config.material_lightmap.count, 4);
+    check_material(&config.material_lightmap, 0, "Wall", NULL, 5);
+    check_material(&config.material_lightmap, 1, "A = B=C", "./sub/l=1.png", 6);
+    check_material(&config.material_lightmap, 2, "D:E", "/abs.png", 7);
+    check_material(&config.material_lightmap, 3, "F=G.png", NULL, 8);
+    assert_int_equal(config.material_sky.count, 0);
+    dip_config_free(&config);
+}
+
 static void comments_and_white_space_are_ignored(void **context) {
     (void)context;
     DipConfig config;
@@ -320,6 +353,7 @@ int main(void) {
         cmocka_unit_test(a_model_and_a_resolution_are_enough),
         cmocka_unit_test(a_path_without_a_field_of_view_gets_the_default),
         cmocka_unit_test(settings_and_optional_keys_are_read),
+        cmocka_unit_test(materials_keep_their_names_and_light_maps),
         cmocka_unit_test(comments_and_white_space_are_ignored),
         cmocka_unit_test(two_names_of_one_file_are_recognised),
         cmocka_unit_test(the_documentation_has_a_row_for_every_key),

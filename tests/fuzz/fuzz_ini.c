@@ -30,6 +30,7 @@ static void write_value(FILE *out, DipConfigType type, const void *field) {
     char settings[256];
     const DipConfigSize *size = field;
     const DipConfigColor *colour = field;
+    const DipConfigMaterial *material = field;
     switch (type) {
     case DIP_TYPE_SIZE:
         fprintf(out, "%dx%d", size->width, size->height);
@@ -60,6 +61,13 @@ static void write_value(FILE *out, DipConfigType type, const void *field) {
     case DIP_TYPE_FILES:
         fputs(((const DipConfigFile *)field)->text, out);
         break;
+    case DIP_TYPE_MATERIALS:
+    case DIP_TYPE_LIGHTMAPS:
+        fputs(material->pattern, out);
+        if (material->light_map.path) {
+            fprintf(out, " = %s", material->light_map.text);
+        }
+        break;
     }
 }
 
@@ -77,12 +85,19 @@ static const void *field_of(const DipConfig *config, int key) {
 static void write_config(FILE *out, const DipConfig *config) {
     for (int k = 0; k < DIP_KEY_COUNT; k++) {
         const DipConfigKeyInfo *info = dip_config_key_info((DipConfigKey)k);
-        const DipConfigFiles *files = field_of(config, k);
+        const void *field = field_of(config, k);
+        const DipConfigFiles *files = field;
+        const DipConfigMaterials *materials = field;
+        const bool repeats = dip_config_may_repeat(info->type);
         const size_t count = config->line[k] == 0           ? 0
                              : info->type == DIP_TYPE_FILES ? files->count
+                             : repeats                      ? materials->count
                                                             : 1;
         for (size_t i = 0; i < count; i++) {
-            write_line(out, info, info->type == DIP_TYPE_FILES ? &files->items[i] : (void *)files);
+            write_line(out, info,
+                       info->type == DIP_TYPE_FILES ? &files->items[i]
+                       : repeats                    ? (const void *)&materials->items[i]
+                                                    : field);
         }
     }
 }
@@ -98,6 +113,15 @@ static bool same_files(const DipConfigFiles *a, const DipConfigFiles *b) {
     bool same = a->count == b->count;
     for (size_t i = 0; same && i < a->count; i++) {
         same = same_file(&a->items[i], &b->items[i]);
+    }
+    return same;
+}
+
+static bool same_materials(const DipConfigMaterials *a, const DipConfigMaterials *b) {
+    bool same = a->count == b->count;
+    for (size_t i = 0; same && i < a->count; i++) {
+        same = strcmp(a->items[i].pattern, b->items[i].pattern) == 0 &&
+               same_file(&a->items[i].light_map, &b->items[i].light_map);
     }
     return same;
 }
@@ -123,6 +147,9 @@ static bool same_value(DipConfigType type, const void *a, const void *b) {
         return same_file(a, b);
     case DIP_TYPE_FILES:
         return same_files(a, b);
+    case DIP_TYPE_MATERIALS:
+    case DIP_TYPE_LIGHTMAPS:
+        return same_materials(a, b);
     }
     return false;
 }

@@ -1,0 +1,151 @@
+// Marks materials by their names: finds the rules that hold for a material, and reports rules that
+// no material fits and light maps that cannot be read.
+#include "assets/model_parts.h"
+
+#include <assimp/material.h>
+#include <assimp/scene.h>
+
+#include <stdio.h>
+#include <string.h>
+
+// Greedy matching with one point of return: after a mismatch, the last `*` takes one byte more. A
+// `*` before it never needs to take more, because the last one can take whatever lies between.
+bool dip_material_name_fits(const char *pattern, const char *name) {
+    const char *star = NULL;
+    const char *retry = NULL;
+    while (*name) {
+        if (*pattern == '*') {
+            star = pattern++;
+            retry = name;
+        } else if (*pattern == '?' || *pattern == *name) {
+            // UTF-8: `?` stands for a whole character, so it takes the bytes that continue it, too.
+            const bool whole = *pattern == '?';
+            ++pattern;
+            ++name;
+            while (whole && ((unsigned char)*name & 0xc0) == 0x80) {
+                ++name;
+            }
+        } else if (star) {
+            pattern = star + 1;
+            name = ++retry;
+        } else {
+            return false;
+        }
+    }
+    while (*pattern == '*') {
+        ++pattern;
+    }
+    return *pattern == '\0';
+}
+
+static struct aiString name_of(const struct aiMaterial *material) {
+    struct aiString name = {0};
+    aiGetMaterialString(material, AI_MATKEY_NAME, &name);
+    return name;
+}
+
+void dip_model_apply_rules(const DipModel *model, const struct aiMaterial *material,
+                           DipMaterialPlan *plan) {
+    static const DipTag tags[DIP_MARK_COUNT] = {[DIP_MARK_SOLID] = DIP_TAG_SOLID,
+                                                [DIP_MARK_CLIP] = DIP_TAG_MASK,
+                                                [DIP_MARK_GLASS] = DIP_TAG_GLASS,
+                                                [DIP_MARK_WATER] = DIP_TAG_WATER,
+                                                [DIP_MARK_SKY] = DIP_TAG_SKY};
+    const struct aiString name = name_of(material);
+    for (int i = 0; i < model->rule_count; ++i) {
+        const DipMaterialRule *rule = &model->rules[i];
+        if (!dip_material_name_fits(rule->pattern, name.data)) {
+            continue;
+        }
+        if (rule->mark == DIP_MARK_LIGHT_MAP) {
+            plan->light_rule = rule;
+            plan->light_mapped = true;
+        } else {
+            plan->tag = tags[rule->mark];
+        }
+    }
+}
+
+static bool fits_any(const DipModel *model, const char *pattern) {
+    for (int f = 0; f < model->file_count; ++f) {
+        const struct aiScene *scene = model->files[f].scene;
+        for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
+            const struct aiString name = name_of(scene->mMaterials[i]);
+            if (dip_material_name_fits(pattern, name.data)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// A list of names for a message. Names that do not fit are only counted.
+typedef struct NameList {
+    char text[200];
+    size_t length;
+    int left_out;
+} NameList;
+
+static void add_name(NameList *list, const char *name) {
+    char quoted[80];
+    snprintf(quoted, sizeof quoted, "\"%.70s\"", name);
+    for (char *c = quoted; *c; ++c) {
+        *c = (unsigned char)*c < ' ' ? ' ' : *c; // Messages must stay on one line.
+    }
+    if (strstr(list->text, quoted)) {
+        return;
+    }
+    const size_t room = sizeof list->text - list->length;
+    if (strlen(quoted) + 3 > room) {
+        list->left_out++;
+        return;
+    }
+    list->length += (size_t)snprintf(list->text + list->length, room, "%s%s",
+                                     list->length > 0 ? ", " : "", quoted);
+}
+
+static bool refuse_pattern(const DipModel *model, const DipMaterialRule *rule, DipError *err) {
+    NameList list = {.length = 0};
+    for (int f = 0; f < model->file_count; ++f) {
+        const struct aiScene *scene = model->files[f].scene;
+        for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
+            const struct aiString name = name_of(scene->mMaterials[i]);
+            if (name.length > 0) {
+                add_name(&list, name.data);
+            }
+        }
+    }
+    char more[24] = "";
+    if (list.left_out > 0) {
+        snprintf(more, sizeof more, " and %d more", list.left_out);
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, rule->file, rule->line, rule->key,
+                         "'%.60s' fits no material of the models, accepted %s%s", rule->pattern,
+                         list.length > 0 ? list.text : "nothing, as no material has a name", more);
+}
+
+bool dip_model_check_rules(const DipModel *model, DipError *err) {
+    for (int i = 0; i < model->rule_count; ++i) {
+        if (!fits_any(model, model->rules[i].pattern)) {
+            return refuse_pattern(model, &model->rules[i], err);
+        }
+    }
+    return true;
+}
+
+bool dip_model_check_light_maps(const DipModel *model, DipError *err) {
+    for (int i = 0; i < model->rule_count; ++i) {
+        const DipMaterialRule *rule = &model->rules[i];
+        for (int p = 0; rule->light_map && p < model->picture_count; ++p) {
+            const DipPictureEntry *entry = &model->pictures[p];
+            if (entry->bytes || entry->error.code == DIP_ERROR_NONE ||
+                entry->error.origin == DIP_ORIGIN_RUNTIME ||
+                strcmp(entry->name, rule->light_map) != 0) {
+                continue;
+            }
+            return dip_error_set(err, entry->error.code, rule->file, rule->line, rule->key,
+                                 "%s: %s", rule->light_map, entry->error.message);
+        }
+    }
+    return true;
+}
