@@ -60,7 +60,8 @@ static const char *path_name(const DipSession *session, bool free_camera) {
     const DipCamTrack *track = &session->track;
     return session->orbiting
                ? "orbit"
-               : dip_session_category(track->categories[track->active].path ? track->active : 0);
+               : dip_session_path_name(session,
+                                       track->categories[track->active].path ? track->active : 0);
 }
 
 void dip_picture_texts_make(DipPictureTexts *texts, const DipSession *session, const DipPose *pose,

@@ -238,6 +238,7 @@ void dip_session_close(DipSession *session) {
         dip_campath_destroy(&session->paths[i]);
     }
     free(session->paths);
+    dip_session_free_cameras(session);
     dip_scene_destroy(&session->scene);
     dip_model_destroy(&session->model);
     dip_pool_destroy(&session->pool);

@@ -28,6 +28,13 @@ typedef struct DipSessionDef {
     int64_t begin_ns;                 // When the program started, by dip_clock_ns.
 } DipSessionDef;
 
+// A camera of the models.
+typedef struct DipSessionCamera {
+    char *name;
+    DipCamPath *path;
+    double fov_y_deg; // Vertical field of view in the file.
+} DipSessionCamera;
+
 typedef struct DipSession {
     const DipSessionOptions *options; // Borrowed from the def.
     const DipImporter *importer;      // Borrowed from the def.
@@ -45,6 +52,10 @@ typedef struct DipSession {
     DipCamTrack track;     // The camera path of each category of the ini.
     DipCamPath **paths;    // The loaded paths; a file that two categories name is loaded once.
     int path_count;
+    // The cameras of the models. The track has as many of them as fit, from the index
+    // DIP_CATEGORY_COUNT on.
+    DipSessionCamera *cameras;
+    int camera_count;
     DipPainter *renderers[DIP_PANE_COUNT]; // NULL unless the def asks for renderers.
     // The session shows a scene of the gallery. If it began so, `scene` is NULL, because no models
     // are loaded.
@@ -88,6 +99,10 @@ const char *dip_session_scene_look(const DipSession *session, int look, int64_t 
 
 // Returns the field of view of --fov, or fov_y_deg if the option is not given.
 double dip_session_fov(const DipSession *session, double fov_y_deg);
+
+// Name of a camera path of the track: a category of the ini, "DEFAULT", "AA", ..., or a camera of
+// the models.
+const char *dip_session_path_name(const DipSession *session, int category);
 
 // Name of a category of the ini's camera paths: "DEFAULT", "AA", ...
 const char *dip_session_category(int category);

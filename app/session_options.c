@@ -180,7 +180,8 @@ static const DipOptionRow path_rows[] = {
     {.name = "--path",
      .argument = "FILE",
      .text = "Fly this camera path (.pth or .bth) instead of the ini's. The field of view is the "
-             "ini's CAMPATH_DEFAULT_FOV.",
+             "ini's CAMPATH_DEFAULT_FOV. Instead of a file, FILE can be the name of a camera in a "
+             "glTF model (docs/models.md), which has its own field of view.",
      .kind = DIP_OPTION_TEXT,
      .field = FIELD(path)},
 };

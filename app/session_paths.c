@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 static const int64_t pose_period_ns = 1000000000; // Duration of the path of --pose.
 
@@ -17,6 +18,22 @@ double dip_session_fov(const DipSession *session, double fov_y_deg) {
 static void keep_path(DipSession *session, DipCamPath *path, int category, double fov_y_deg) {
     session->paths[session->path_count++] = path;
     dip_camtrack_set(&session->track, category, path, dip_session_fov(session, fov_y_deg));
+}
+
+// Returns the camera that a name of a path means, or NULL. A file of this name comes first.
+static const DipSessionCamera *camera_of(const DipSession *session, const char *file,
+                                         const char *name) {
+    return access(file, F_OK) == 0 ? NULL : dip_session_find_camera(session, name);
+}
+
+// Plays a camera of the models in a category of the ini, with the camera's field of view unless the
+// ini gives one.
+static void follow_camera(DipSession *session, int category, const DipSessionCamera *camera) {
+    const DipConfig *config = &session->config;
+    const bool given = config->line[DIP_KEY_CAMPATH_DEFAULT + 2 * category + 1] > 0;
+    const double fov_y_deg = given ? config->camera[category].fov_y_deg : camera->fov_y_deg;
+    dip_camtrack_set_named(&session->track, category, camera->path,
+                           dip_session_fov(session, fov_y_deg), camera->name);
 }
 
 // Loads the path of one of the ini's categories. A file that an earlier category names is not
@@ -35,6 +52,11 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
             return true;
         }
     }
+    const DipSessionCamera *own = camera_of(session, camera->file.path, camera->file.text);
+    if (own) {
+        follow_camera(session, category, own);
+        return true;
+    }
     DipCamPath *path;
     DipError err;
     if (!dip_campath_load(camera->file.path, &path, &err)) {
@@ -49,7 +71,18 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
     return true;
 }
 
+// Loads the file of --path, or plays the camera that --path names.
 static bool load_own_path(DipSession *session, DipErrorList *faults) {
+    const char *name = session->options->path;
+    const DipSessionCamera *camera = camera_of(session, name, name);
+    if (camera) {
+        dip_camtrack_set_named(&session->track, 0, camera->path,
+                               dip_session_fov(session, camera->fov_y_deg), camera->name);
+        return true;
+    }
+    if (session->camera_count > 0 && access(name, F_OK) != 0) {
+        return dip_session_refuse_path(session, faults);
+    }
     DipCamPath *path;
     DipError err;
     if (!dip_campath_load(session->options->path, &path, &err)) {
@@ -129,6 +162,11 @@ const char *dip_session_category(int category) {
            strlen("CAMPATH_");
 }
 
+const char *dip_session_path_name(const DipSession *session, int category) {
+    return category < DIP_CATEGORY_COUNT ? dip_session_category(category)
+                                         : session->track.categories[category].name;
+}
+
 static bool choose_category(DipSession *session, DipErrorList *faults) {
     if (!session->options->category) {
         return true;
@@ -149,15 +187,7 @@ static bool choose_category(DipSession *session, DipErrorList *faults) {
     return dip_session_add_fault(faults, &err);
 }
 
-bool dip_session_load_paths(DipSession *session, DipErrorList *faults) {
-    session->track = dip_camtrack_make(session->config.campath_reset_on_switch);
-    dip_camtrack_set_end(&session->track, session->options->path_end);
-    session->paths = calloc(DIP_CATEGORY_COUNT, sizeof(DipCamPath *));
-    if (!session->paths) {
-        DipError err;
-        dip_error_set(&err, DIP_ERROR_MEMORY, NULL, 0, "paths", "out of memory");
-        return dip_session_add_fault(faults, &err);
-    }
+static bool load_all(DipSession *session, DipErrorList *faults) {
     if (session->options->path) {
         return load_own_path(session, faults);
     }
@@ -175,4 +205,21 @@ bool dip_session_load_paths(DipSession *session, DipErrorList *faults) {
         loaded = make_orbit(session, faults) && loaded;
     }
     return choose_category(session, faults) && loaded;
+}
+
+bool dip_session_load_paths(DipSession *session, DipErrorList *faults) {
+    session->track = dip_camtrack_make(session->config.campath_reset_on_switch);
+    dip_camtrack_set_end(&session->track, session->options->path_end);
+    session->paths = calloc(DIP_CATEGORY_COUNT, sizeof(DipCamPath *));
+    if (!session->paths) {
+        DipError err;
+        dip_error_set(&err, DIP_ERROR_MEMORY, NULL, 0, "paths", "out of memory");
+        return dip_session_add_fault(faults, &err);
+    }
+    if (session->scene && !dip_session_load_cameras(session, faults)) {
+        return false;
+    }
+    const bool loaded = load_all(session, faults);
+    dip_session_track_cameras(session);
+    return loaded;
 }

@@ -17,6 +17,19 @@ bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *
 // session_paths.c: loads the camera paths, or makes an orbit around the model.
 bool dip_session_load_paths(DipSession *session, DipErrorList *faults);
 
+// session_cameras.c: reads the cameras of the models that have been loaded.
+bool dip_session_load_cameras(DipSession *session, DipErrorList *faults);
+void dip_session_free_cameras(DipSession *session);
+
+// session_cameras.c: returns the camera with this name, or NULL.
+const DipSessionCamera *dip_session_find_camera(const DipSession *session, const char *name);
+
+// session_cameras.c: adds the cameras to the track.
+void dip_session_track_cameras(DipSession *session);
+
+// session_cameras.c: says that --path names neither a file nor a camera. Returns false.
+bool dip_session_refuse_path(const DipSession *session, DipErrorList *faults);
+
 // session_gallery.c: finds out whether the session shows a scene of the gallery, and which one.
 bool dip_session_choose_gallery(DipSession *session, DipErrorList *faults);
 

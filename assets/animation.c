@@ -143,15 +143,22 @@ static bool read_model(DipAnimatedModel *model, DipError *err) {
     return true;
 }
 
-DipAnimatedModel *dip_animated_model_load(const char *file, const struct DipImporter *importer,
-                                          DipErrorList *warnings, DipError *err) {
+DipAnimatedModel *dip_animated_model_make(const char *path) {
     DipAnimatedModel *model = calloc(1, sizeof *model);
     if (model) {
         model->store = calloc(1, sizeof *model->store);
-        model->path = model->store ? dip_model_copy_text(model->store, file) : NULL;
+        model->path = model->store ? dip_model_copy_text(model->store, path) : NULL;
+        if (!model->path) {
+            dip_animated_model_destroy(&model);
+        }
     }
-    if (!model || !model->path) {
-        dip_animated_model_destroy(&model);
+    return model;
+}
+
+DipAnimatedModel *dip_animated_model_load(const char *file, const struct DipImporter *importer,
+                                          DipErrorList *warnings, DipError *err) {
+    DipAnimatedModel *model = dip_animated_model_make(file);
+    if (!model) {
         dip_model_out_of_memory(err, file);
         return NULL;
     }

@@ -42,6 +42,9 @@ bool dip_gltf_read_meshes(DipGltfReader *reader);
 // animation_gltf_nodes.c: reads nodes and skins, and makes the objects.
 bool dip_gltf_read_nodes(DipGltfReader *reader);
 
+// animation_gltf_nodes.c: reads only the nodes' order and their transforms at rest.
+bool dip_gltf_read_transforms(DipGltfReader *reader);
+
 // animation_gltf_tracks.c: reads all animations.
 bool dip_gltf_read_animations(DipGltfReader *reader);
 

@@ -332,7 +332,8 @@ static bool make_objects(DipGltfReader *reader) {
     return true;
 }
 
-bool dip_gltf_read_nodes(DipGltfReader *reader) {
+// Allocates the nodes and puts them in order.
+static bool begin_nodes(DipGltfReader *reader) {
     DipAnimatedModel *model = reader->model;
     const size_t count = (size_t)reader->gltf.tables[DIP_GLTF_nodes].count;
     int *parents = dip_gltf_alloc(reader, count, sizeof *parents);
@@ -344,6 +345,19 @@ bool dip_gltf_read_nodes(DipGltfReader *reader) {
         return dip_gltf_no_room(reader);
     }
     model->node_count = (int)count;
-    return order_nodes(reader, parents, path) && place_weights(reader) && read_all_nodes(reader) &&
+    return order_nodes(reader, parents, path);
+}
+
+bool dip_gltf_read_transforms(DipGltfReader *reader) {
+    bool ok = begin_nodes(reader);
+    for (int i = 0; ok && i < reader->model->node_count; ++i) {
+        const cJSON *json = dip_gltf_item(&reader->gltf, DIP_GLTF_nodes, i);
+        ok = json && read_transform(reader, json, &reader->model->nodes[reader->node_of[i]]);
+    }
+    return ok;
+}
+
+bool dip_gltf_read_nodes(DipGltfReader *reader) {
+    return begin_nodes(reader) && place_weights(reader) && read_all_nodes(reader) &&
            read_skins(reader) && mark_drawn(reader) && make_objects(reader);
 }

@@ -94,6 +94,16 @@ struct DipAnimatedModel {
     int skin_count;
 };
 
+// animation.c: makes an empty model, which dip_animated_model_destroy destroys. Returns NULL if
+// memory runs out.
+DipAnimatedModel *dip_animated_model_make(const char *path);
+
+// animation_pose.c: computes the world transform (rows of a 3x4 matrix) of a node at a time of an
+// animation, of which `plan` may hold only the tracks that move the node or the nodes above it.
+// Before the first key of a track and after the last one, the value of this key holds.
+void dip_animated_place_node(const DipAnimatedModel *model, const DipAnimationPlan *plan, int node,
+                             double time_s, double world[12]);
+
 // animation.c: allocates zeroed memory that lives as long as the model. Returns NULL if memory runs
 // out or the model becomes too large; dip_animated_no_room then fills *err and returns false.
 void *dip_animated_alloc(DipAnimatedModel *model, size_t count, size_t item_bytes);

@@ -179,37 +179,67 @@ static void sample(const DipTrack *track, double time_s, double *to) {
     }
 }
 
+static void move_node(NodeState *state, const DipTrack *track, double time_s) {
+    double *const values[] = {[DIP_TRACK_TRANSLATION] = state->translation,
+                              [DIP_TRACK_ROTATION] = state->rotation,
+                              [DIP_TRACK_SCALE] = state->scale};
+    if (track->target != DIP_TRACK_WEIGHTS) {
+        sample(track, time_s, values[track->target]);
+    }
+}
+
 static void apply_track(DipAnimatedPose *pose, const DipTrack *track, double time_s) {
-    NodeState *state = &pose->states[track->node];
-    switch (track->target) {
-    case DIP_TRACK_TRANSLATION:
-        sample(track, time_s, state->translation);
-        break;
-    case DIP_TRACK_ROTATION:
-        sample(track, time_s, state->rotation);
-        break;
-    case DIP_TRACK_SCALE:
-        sample(track, time_s, state->scale);
-        break;
-    case DIP_TRACK_WEIGHTS:
+    if (track->target == DIP_TRACK_WEIGHTS) {
         sample(track, time_s, pose->morph_weights + pose->model->nodes[track->node].first_weight);
-        break;
+    } else {
+        move_node(&pose->states[track->node], track, time_s);
     }
 }
 
 // --- poses ---------------------------------------------------------------------------------------
 
+static void rest_node(const DipAnimatedNode *node, NodeState *state) {
+    memcpy(state->translation, node->translation, sizeof state->translation);
+    memcpy(state->rotation, node->rotation, sizeof state->rotation);
+    memcpy(state->scale, node->scale, sizeof state->scale);
+}
+
 static void rest(DipAnimatedPose *pose) {
     const DipAnimatedModel *model = pose->model;
     for (int i = 0; i < model->node_count; ++i) {
-        const DipAnimatedNode *node = &model->nodes[i];
-        NodeState *state = &pose->states[i];
-        memcpy(state->translation, node->translation, sizeof state->translation);
-        memcpy(state->rotation, node->rotation, sizeof state->rotation);
-        memcpy(state->scale, node->scale, sizeof state->scale);
+        rest_node(&model->nodes[i], &pose->states[i]);
     }
     for (int i = 0; i < model->weight_count; ++i) {
         pose->morph_weights[i] = model->rest_weights[i];
+    }
+}
+
+// Computes the transform of a node relative to its parent. Normalises the state's rotation.
+static void place_locally(const DipAnimatedNode *node, NodeState *state, double local[12]) {
+    normalise_rotation(state->rotation);
+    compose(state, local);
+    if (node->has_matrix) {
+        memcpy(local, node->matrix, sizeof node->matrix);
+    }
+}
+
+void dip_animated_place_node(const DipAnimatedModel *model, const DipAnimationPlan *plan, int node,
+                             double time_s, double world[12]) {
+    static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    memcpy(world, identity, sizeof identity);
+    for (int at = node; at != DIP_NO_NODE; at = model->nodes[at].parent) {
+        NodeState state;
+        double local[12];
+        double below[12];
+        rest_node(&model->nodes[at], &state);
+        for (int i = 0; i < plan->track_count; ++i) {
+            if (plan->tracks[i].node == at) {
+                move_node(&state, &plan->tracks[i], time_s);
+            }
+        }
+        place_locally(&model->nodes[at], &state, local);
+        memcpy(below, world, sizeof below);
+        multiply(local, below, world);
     }
 }
 
@@ -218,11 +248,7 @@ static void place_nodes(DipAnimatedPose *pose) {
     for (int i = 0; i < pose->model->node_count; ++i) {
         const DipAnimatedNode *node = &pose->model->nodes[i];
         double local[12];
-        normalise_rotation(pose->states[i].rotation);
-        compose(&pose->states[i], local);
-        if (node->has_matrix) {
-            memcpy(local, node->matrix, sizeof local);
-        }
+        place_locally(node, &pose->states[i], local);
         if (node->parent == DIP_NO_NODE) {
             memcpy(pose->global[i], local, sizeof local);
         } else {

@@ -18,6 +18,7 @@ struct cJSON;
     X(animations)                                                                                  \
     X(bufferViews)                                                                                 \
     X(buffers)                                                                                     \
+    X(cameras)                                                                                     \
     X(images)                                                                                      \
     X(materials)                                                                                   \
     X(meshes)                                                                                      \

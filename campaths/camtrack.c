@@ -9,8 +9,13 @@ DipCamTrack dip_camtrack_make(bool reset_on_switch) {
 }
 
 void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path, double fov_y_deg) {
+    dip_camtrack_set_named(track, category, path, fov_y_deg, NULL);
+}
+
+void dip_camtrack_set_named(DipCamTrack *track, int category, const DipCamPath *path,
+                            double fov_y_deg, const char *name) {
     DIP_ASSERT(category >= 0 && category < DIP_CAMTRACK_CATEGORIES);
-    track->categories[category] = (DipCamCategory){path, fov_y_deg};
+    track->categories[category] = (DipCamCategory){path, fov_y_deg, name};
 }
 
 void dip_camtrack_set_end(DipCamTrack *track, DipCamPathEnd end) {

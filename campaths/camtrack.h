@@ -17,11 +17,12 @@
 extern "C" {
 #endif
 
-enum { DIP_CAMTRACK_CATEGORIES = 16 };
+enum { DIP_CAMTRACK_CATEGORIES = 64 };
 
 typedef struct DipCamCategory {
     const DipCamPath *path; // borrowed; NULL: the path of category 0 plays, with its field of view
     double fov_y_deg;       // vertical field of view, 1..170
+    const char *name;       // borrowed; name of the path, or NULL if it has none
 } DipCamCategory;
 
 // Plain data that may be copied. The paths must live as long as the track. Both panes read one
@@ -42,6 +43,11 @@ DipCamTrack dip_camtrack_make(bool reset_on_switch);
 // Sets the path and field of view of a category. Categories that play the same path must share the
 // pointer, so that a change between them counts as no change of path.
 void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path, double fov_y_deg);
+
+// Does the same for a path that has a name of its own, such as a camera of a model. The name must
+// live as long as the track.
+void dip_camtrack_set_named(DipCamTrack *track, int category, const DipCamPath *path,
+                            double fov_y_deg, const char *name);
 
 // Sets what paths do at their end.
 void dip_camtrack_set_end(DipCamTrack *track, DipCamPathEnd end);

@@ -74,11 +74,11 @@ static void format_place(const DipPreviewState *state, bool brief, char *text, s
         snprintf(text, size_bytes, "%s%s%s  %.1f s", state->scene_title, brief ? "" : ": ",
                  brief ? "" : state->scene_look, 1e-9 * (double)state->play_ns);
     } else if (brief) {
-        snprintf(text, size_bytes, "%s %.1f s", dip_preview_category_name(state->track->active),
+        snprintf(text, size_bytes, "%s %.1f s", dip_preview_path_name(state, state->track->active),
                  seconds);
     } else {
         snprintf(text, size_bytes, "%s  %.1f of %.0f s",
-                 dip_preview_category_title(state->track->active), seconds, length);
+                 dip_preview_path_title(state, state->track->active), seconds, length);
     }
 }
 

@@ -68,16 +68,16 @@ static bool set(const DipPreviewMoment *moment, const DipControlRequest *request
 static bool choose_path(const DipPreviewMoment *moment, const char *name, DipError *err) {
     DipPreviewState *state = moment->state;
     char accepted[160] = "";
-    for (int c = 0; c < DIP_CATEGORY_COUNT; ++c) {
+    for (int c = 0; c < DIP_CAMTRACK_CATEGORIES; ++c) {
         if (!state->track->categories[c].path) {
             continue;
         }
-        if (strcmp(name, dip_preview_category_name(c)) == 0) {
+        if (strcmp(name, dip_preview_path_name(state, c)) == 0) {
             dip_preview_act(state, DIP_ACTION_PATH, c, false, moment->now_ns);
             return true;
         }
         strncat(accepted, " ", sizeof accepted - strlen(accepted) - 1);
-        strncat(accepted, dip_preview_category_name(c), sizeof accepted - strlen(accepted) - 1);
+        strncat(accepted, dip_preview_path_name(state, c), sizeof accepted - strlen(accepted) - 1);
     }
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "category",
                          "'%s' is no category with a camera path, accepted%s", name,

@@ -44,7 +44,7 @@ void dip_reply_state(cJSON *object, const DipPreviewMoment *moment) {
     const DipPreviewState *state = moment->state;
     cJSON_AddBoolToObject(object, "paused", state->paused);
     add_time(object, "time_s", dip_reply_path_time_s(state));
-    cJSON_AddStringToObject(object, "category", dip_preview_category_name(state->track->active));
+    cJSON_AddStringToObject(object, "category", dip_preview_path_name(state, state->track->active));
     cJSON_AddBoolToObject(object, "free_camera", state->manual);
     cJSON_AddStringToObject(object, "scene", dip_reply_scene_name(moment->session));
     add_size(object, moment);
@@ -113,10 +113,13 @@ void dip_reply_errors(cJSON *object, const DipPreviewMoment *moment) {
 
 void dip_reply_paths(cJSON *object, const DipPreviewState *state) {
     cJSON *paths = cJSON_AddArrayToObject(object, "paths");
-    for (int c = 0; c < DIP_CATEGORY_COUNT; ++c) {
+    for (int c = 0; c < DIP_CAMTRACK_CATEGORIES; ++c) {
+        if (c >= DIP_CATEGORY_COUNT && !state->track->categories[c].path) {
+            break; // There are no more cameras of the models.
+        }
         cJSON *path = cJSON_CreateObject();
-        cJSON_AddStringToObject(path, "category", dip_preview_category_name(c));
-        cJSON_AddStringToObject(path, "title", dip_preview_category_title(c));
+        cJSON_AddStringToObject(path, "category", dip_preview_path_name(state, c));
+        cJSON_AddStringToObject(path, "title", dip_preview_path_title(state, c));
         cJSON_AddBoolToObject(path, "available", state->track->categories[c].path != NULL);
         if (!cJSON_AddItemToArray(paths, path)) {
             cJSON_Delete(path);

@@ -58,6 +58,18 @@ const char *dip_preview_category_title(int category) {
                                             : dip_preview_category_name(category);
 }
 
+const char *dip_preview_path_name(const DipPreviewState *state, int category) {
+    const bool is_camera = category >= DIP_CATEGORY_COUNT && category < DIP_CAMTRACK_CATEGORIES;
+    const char *name = is_camera ? state->track->categories[category].name : NULL;
+    return name ? name : dip_preview_category_name(category);
+}
+
+const char *dip_preview_path_title(const DipPreviewState *state, int category) {
+    const bool known = category >= 0 && category < DIP_CAMTRACK_CATEGORIES;
+    const char *name = known ? state->track->categories[category].name : NULL;
+    return name ? name : dip_preview_category_title(category);
+}
+
 int dip_preview_category_of(DipSetting setting) {
     switch (setting) {
     case DIP_SETTING_AA:
@@ -259,7 +271,7 @@ static bool has_path(const DipPreviewState *state, int category) {
 }
 
 static void choose_path(DipPreviewState *state, int category, int64_t now_ns) {
-    if (category < 0 || category >= DIP_CATEGORY_COUNT || !has_path(state, category)) {
+    if (category < 0 || category >= DIP_CAMTRACK_CATEGORIES || !has_path(state, category)) {
         dip_preview_notice(state, now_ns, "%s has no path: the ini names no CAMPATH_%s",
                            dip_preview_category_title(category),
                            dip_preview_category_name(category));
@@ -267,7 +279,7 @@ static void choose_path(DipPreviewState *state, int category, int64_t now_ns) {
     }
     dip_camtrack_switch(state->track, category, state->play_ns);
     state->manual = false;
-    dip_preview_notice(state, now_ns, "Path: %s", dip_preview_category_title(category));
+    dip_preview_notice(state, now_ns, "Path: %s", dip_preview_path_title(state, category));
     ++state->scene_changes;
 }
 
@@ -281,8 +293,9 @@ static void next_path(DipPreviewState *state, int direction, int64_t now_ns) {
     }
     const int from = state->track->active;
     const DipCamPath *playing = state->track->categories[from].path;
-    for (int i = 1; i < DIP_CATEGORY_COUNT; ++i) {
-        const int category = (from + direction * i + DIP_CATEGORY_COUNT * i) % DIP_CATEGORY_COUNT;
+    const int count = DIP_CAMTRACK_CATEGORIES; // The cameras of the models follow the categories.
+    for (int i = 1; i < count; ++i) {
+        const int category = (from + direction * i + count * i) % count;
         if (has_path(state, category) && state->track->categories[category].path != playing) {
             choose_path(state, category, now_ns);
             return;

@@ -151,6 +151,11 @@ void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *form
 // Returns the name that the ini gives to a category of paths: "DEFAULT", "AA", ...
 const char *dip_preview_category_name(int category);
 
+// Returns the name or the title of a path of the state's track. The name is that of its category,
+// or of the model's camera that it follows; the title prefers the camera.
+const char *dip_preview_path_name(const DipPreviewState *state, int category);
+const char *dip_preview_path_title(const DipPreviewState *state, int category);
+
 // Returns the name of a category of paths for display: "Default", or the title of the setting that
 // its path shows best.
 const char *dip_preview_category_title(int category);

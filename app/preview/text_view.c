@@ -140,7 +140,7 @@ static void format_place(const DipPreviewState *state, char *text, size_t size_b
                  play_s, mark);
     } else {
         snprintf(text, size_bytes, "Path: %s  %.1f s%s ",
-                 dip_preview_category_title(state->track->active),
+                 dip_preview_path_title(state, state->track->active),
                  1e-9 * (double)dip_camtrack_time(state->track, state->play_ns), mark);
     }
 }

@@ -155,9 +155,10 @@ static void draw_heading(DipUi *ui, const DipWindow *window, int pane, DipRect l
     static const char *const names[DIP_PANE_COUNT] = {"Current", "Requested"};
     const DipPreviewState *state = window->state;
     char text[160];
-    snprintf(
-        text, sizeof text, "%dx%d   %s", window->frames[pane].width, window->frames[pane].height,
-        state->scene_title ? state->scene_title : dip_preview_category_title(state->track->active));
+    snprintf(text, sizeof text, "%dx%d   %s", window->frames[pane].width,
+             window->frames[pane].height,
+             state->scene_title ? state->scene_title
+                                : dip_preview_path_title(state, state->track->active));
     const int width = dip_ui_text_width(ui, SIZE, names[pane]) + dip_ui_px(ui, 10);
     dip_ui_text(ui, SIZE, pane == DIP_PANE_CURRENT ? dip_style_white : dip_style_accent,
                 DIP_ALIGN_LEFT, line.x, line.y, line.width, names[pane]);
