@@ -1,6 +1,7 @@
 // Fuzzes the readers of animated models, and evaluates what they accept. The first line of an input
 // is the ending of the model's file name, the rest its content.
 #include "assets/animation.h"
+#include "assets/cameras.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <math.h>
@@ -58,6 +59,31 @@ static void check_poses(const DipAnimatedModel *model, const DipAnimatedDef *def
     dip_animated_pose_destroy(&pose);
 }
 
+// Every pose is finite, and its quaternion has unit length.
+static void check_cameras(const char *file) {
+    DipError err = {0};
+    DipModelCameras *cameras = dip_model_cameras_load(file, DIP_UP_auto, NULL, &err);
+    if (!cameras) {
+        FUZZ_CHECK(err.code != DIP_ERROR_NONE && err.message[0] && !strchr(err.message, '\n'));
+        return;
+    }
+    int count;
+    const DipModelCamera *list = dip_model_cameras_list(cameras, &count);
+    for (int i = 0; i < count; i++) {
+        FUZZ_CHECK(list[i].key_count >= 1 && list[i].key_count <= 1000000);
+        FUZZ_CHECK(list[i].period_ns >= 1000 && list[i].period_ns <= INT64_C(3600000000000));
+        FUZZ_CHECK(list[i].fov_y_deg >= 1.0 && list[i].fov_y_deg <= 170.0);
+        for (size_t k = 0; k < list[i].key_count; k++) {
+            const double *key = list[i].keys[k];
+            const double square =
+                key[3] * key[3] + key[4] * key[4] + key[5] * key[5] + key[6] * key[6];
+            FUZZ_CHECK(fabs(key[0]) <= 1e9 && fabs(key[1]) <= 1e9 && fabs(key[2]) <= 1e9);
+            FUZZ_CHECK(fabs(square - 1.0) < 1e-9);
+        }
+    }
+    dip_model_cameras_destroy(&cameras);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     static const char *const endings[] = {"md2", "gltf", "glb"};
     const uint8_t *newline =
@@ -88,6 +114,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
         FUZZ_CHECK(err.code != DIP_ERROR_NONE && err.message[0] && !strchr(err.message, '\n'));
     }
     dip_animated_model_destroy(&model);
+    check_cameras(file);
     remove(file);
     return 0;
 }
