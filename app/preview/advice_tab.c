@@ -1,79 +1,260 @@
-// The tab of advice: the best settings for each time budget of the cost report.
+// The tab of advice: the best settings for a time budget, and all measured combinations in a plot
+// of time and error.
+#include "app/preview/advice_plot.h"
+#include "app/preview/price_text.h"
 #include "app/preview/style.h"
 #include "app/preview/tabs.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-enum { SIZE = 13, NOTE_SIZE = 11, ROW_HEIGHT = 30, TRY_WIDTH = 110, MAX_ROWS = 12 };
-enum { ID_TRY = 1, ID_TABLE = 100 };
+enum {
+    SIZE = 13,
+    NOTE_SIZE = 11,
+    SUM_SIZE = 22,
+    MARGIN = 10,
+    GAP = 20,
+    LEFT_WIDTH = 272,
+    RIGHT_WIDTH = 300,
+    BUDGET_COLUMNS = 4,
+    BUTTON_HEIGHT = 28
+};
 
-// Says how to make a report, when there is none.
-static void declare_how_to(DipUi *ui, DipRect body) {
-    static const char what[] =
-        "Advice comes from a cost report, which measures every step of every "
-        "setting in this scene:";
-    static const char *const lines[] = {
-        what,
-        "diptych cost --out report        (with the same --config, --model and --size as now)",
-        "diptych preview --cost report/cost.json",
-    };
-    const int line = dip_ui_line_height(ui, SIZE) + dip_ui_px(ui, 4);
-    for (int i = 0; i < 3; ++i) {
-        dip_ui_text(ui, SIZE, i ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT,
-                    body.x + dip_ui_px(ui, 12), body.y + dip_ui_px(ui, 12) + i * line,
-                    body.width - dip_ui_px(ui, 24), lines[i]);
-    }
+enum { ID_BUDGETS = 1, ID_TRY = 100, ID_UP, ID_DOWN, ID_TABLE };
+
+static DipUiId id_of(int index) {
+    return DIP_UI_ID(DIP_UI_ADVICE, index);
 }
 
-static void declare_row(DipUi *ui, DipWindow *window, int index, DipRect row) {
+// Draws a line of text at *y and moves *y behind it.
+static void write_line(DipUi *ui, int size, DipColour colour, DipRect room, int *y,
+                       const char *text) {
+    const int height = dip_ui_line_height(ui, size);
+    if (*y + height <= room.y + room.height) {
+        dip_ui_text(ui, size, colour, DIP_ALIGN_LEFT, room.x, *y, room.width, text);
+    }
+    *y += height + dip_ui_px(ui, 3);
+}
+
+// --- without a report ----------------------------------------------------------------------------
+
+static void declare_how_to(DipUi *ui, const DipWindow *window, DipRect room) {
+    char text[2 * DIP_SCENE_WORDS_BYTES + 256];
+    snprintf(text, sizeof text,
+             "Advice comes from a cost report, which measures every step of every setting in this "
+             "scene. This makes one in some minutes, and then starts the preview with it:\n"
+             "diptych cost%s --out report\n"
+             "diptych%s --cost report/cost.json",
+             window->state->scene_words, window->state->scene_words);
+    dip_ui_text_block(ui, SIZE, dip_style_soft, room, text);
+}
+
+// --- budgets -------------------------------------------------------------------------------------
+
+// The piece of advice that shows: the one that the user took last, or the first one.
+static int chosen_advice(const DipPreviewState *state) {
+    const int count = state->costs->advice_count;
+    return (state->next_advice + count - 1) % count;
+}
+
+// Declares a button for each budget. Returns the height of the buttons.
+static int declare_budgets(DipUi *ui, DipWindow *window, DipRect room) {
     DipPreviewState *state = window->state;
     const DipCosts *costs = state->costs;
-    const DipCostsAdvice *advice = &costs->advice[index];
-    const int pad = dip_ui_px(ui, 12);
-    const DipRect button = {row.x + row.width - pad - dip_ui_px(ui, TRY_WIDTH),
-                            row.y + dip_ui_px(ui, 2), dip_ui_px(ui, TRY_WIDTH),
-                            row.height - dip_ui_px(ui, 4)};
-    char figures[200], settings[300], line[520];
-    dip_costs_describe(costs, index, figures, sizeof figures);
-    settings[0] = '\0';
-    if (advice->found) {
-        dip_preview_describe(&advice->quality, true, settings, sizeof settings);
+    const int gap = dip_ui_px(ui, 6), height = dip_ui_px(ui, BUTTON_HEIGHT);
+    const int width = (room.width - (BUDGET_COLUMNS - 1) * gap) / BUDGET_COLUMNS;
+    const int rows = (costs->advice_count + BUDGET_COLUMNS - 1) / BUDGET_COLUMNS;
+    for (int i = 0; i < costs->advice_count; ++i) {
+        const DipRect button = {room.x + i % BUDGET_COLUMNS * (width + gap),
+                                room.y + i / BUDGET_COLUMNS * (height + gap), width, height};
+        char name[32];
+        snprintf(name, sizeof name, "%.4g ms", costs->advice[i].budget_ms);
+        if (dip_ui_button(ui, id_of(ID_BUDGETS + i), button, name,
+                          i == chosen_advice(state) ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                          "Shows the settings with the least error within this time per frame. "
+                          "They change nothing until you try them.")) {
+            state->next_advice = (i + 1) % costs->advice_count;
+        }
     }
-    snprintf(line, sizeof line, "%s   %s", figures, settings);
-    dip_ui_text(ui, SIZE, dip_style_white, DIP_ALIGN_LEFT, row.x + pad,
-                row.y + (row.height - dip_ui_line_height(ui, SIZE)) / 2, button.x - row.x - 2 * pad,
-                line);
-    if (advice->found &&
-        dip_ui_button(ui, DIP_UI_ID(DIP_UI_ADVICE, ID_TRY + index), button, "Try it right",
-                      DIP_UI_PLAIN,
-                      "Gives the requested pane these settings. Apply is separate.")) {
-        dip_preview_set_quality(state, DIP_PANE_REQUESTED, &advice->quality, dip_ui_now_ns(ui));
+    return rows * (height + gap);
+}
+
+// Gives the requested pane settings and says so.
+static void try_settings(DipUi *ui, DipWindow *window, const DipQuality *quality) {
+    char text[160];
+    dip_settings_text(quality, text, sizeof text);
+    dip_preview_set_quality(window->state, DIP_PANE_REQUESTED, quality, dip_ui_now_ns(ui));
+    dip_preview_notice(window->state, dip_ui_now_ns(ui), "Requested: %.120s", text);
+}
+
+static void write_picked(DipUi *ui, const DipWindow *window, const DipCostsAdvice *advice,
+                         DipRect room, int *y) {
+    const DipCosts *costs = window->state->costs;
+    char text[200], flip[DIP_STEP_NAME_BYTES];
+    snprintf(text, sizeof text, "%.1f ms", advice->ms);
+    write_line(ui, SUM_SIZE, dip_style_accent, room, y, text);
+    dip_flip_text(advice->flip, false, flip);
+    if (costs->baseline.found && costs->baseline.flip > 0.0) {
+        const double change = 100.0 * (advice->flip / costs->baseline.flip - 1.0);
+        snprintf(text, sizeof text, "FLIP %s, %s%.0f %% of the baseline's", flip,
+                 change < 0.0 ? "\u2212" : "+", fabs(change));
+    } else {
+        snprintf(text, sizeof text, "FLIP %s", flip);
+    }
+    write_line(ui, NOTE_SIZE, dip_style_soft, room, y, text);
+    dip_settings_text(&advice->quality, text, sizeof text);
+    write_line(ui, NOTE_SIZE, dip_style_white, room, y, text);
+    if (costs->width != window->frames[0].width || costs->height != window->frames[0].height) {
+        snprintf(text, sizeof text, "The report is of %dx%d, the panes are %dx%d.", costs->width,
+                 costs->height, window->frames[0].width, window->frames[0].height);
+        write_line(ui, NOTE_SIZE, dip_style_worse, room, y, text);
     }
 }
 
-void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body) {
+static void declare_picked(DipUi *ui, DipWindow *window, DipRect room) {
+    const DipCostsAdvice *advice = &window->state->costs->advice[chosen_advice(window->state)];
+    const int height = dip_ui_px(ui, BUTTON_HEIGHT), gap = dip_ui_px(ui, 8);
+    int y = room.y;
+    write_line(ui, SIZE, dip_style_white, room, &y, "Best picture within");
+    y += declare_budgets(ui, window, (DipRect){room.x, y, room.width, 0});
+    if (advice->found) {
+        write_picked(ui, window, advice, room, &y);
+    } else {
+        const bool nothing_fits = window->state->costs->point_count == 0 ||
+                                  window->state->costs->points[0].ms > advice->budget_ms;
+        write_line(ui, SIZE, dip_style_worse, room, &y,
+                   nothing_fits ? "Nothing measured is as fast."
+                                : "The report gives no advice for this time.");
+    }
+    const int width = (room.width - gap) / 2;
+    y = dip_style_min(y + gap / 2, room.y + room.height - height);
+    const bool same =
+        advice->found && memcmp(&advice->quality, &window->state->quality[DIP_PANE_REQUESTED],
+                                sizeof advice->quality) == 0;
+    if (dip_ui_button(ui, id_of(ID_TRY), (DipRect){room.x, y, width, height}, "Try it right",
+                      advice->found && !same ? DIP_UI_PRIMARY : DIP_UI_OFF,
+                      same ? "The right pane has these settings."
+                           : "Gives the requested pane these settings. Apply is separate (K).")) {
+        try_settings(ui, window, &advice->quality);
+    }
+    if (dip_ui_button(ui, id_of(ID_TABLE), (DipRect){room.x + width + gap, y, width, height},
+                      "All steps", DIP_UI_PLAIN,
+                      "Shows the time and error of every step of every setting (U).")) {
+        dip_preview_act(window->state, DIP_ACTION_COSTS, 0, false, dip_ui_now_ns(ui));
+    }
+}
+
+// --- one step up and down ------------------------------------------------------------------------
+
+// Writes what changes from one combination to another: "asd=1 -> asd=2".
+static void format_change(const DipQuality *from, const DipQuality *to, char text[160]) {
+    size_t length = 0;
+    text[0] = '\0';
+    for (int s = 0; s < DIP_SETTING_COUNT && length < 140; ++s) {
+        if (from->step[s] != to->step[s]) {
+            const DipSettingInfo *info = dip_setting_info((DipSetting)s);
+            length += (size_t)snprintf(text + length, 160 - length, "%s%s %s \u2192 %s",
+                                       length ? ", " : "", info->key, info->steps[from->step[s]],
+                                       info->steps[to->step[s]]);
+        }
+    }
+}
+
+// Declares one step along the front as a button. Returns its height.
+static int declare_step(DipUi *ui, DipWindow *window, const DipCostsAdvice *advice, int direction,
+                        DipRect room) {
     const DipCosts *costs = window->state->costs;
-    const int pad = dip_ui_px(ui, 12), height = dip_ui_px(ui, ROW_HEIGHT);
-    if (!costs) {
-        declare_how_to(ui, body);
+    const int step = dip_costs_front_step(costs, advice->ms, direction);
+    const int pad = dip_ui_px(ui, 8), line = dip_ui_line_height(ui, SIZE);
+    const int note = dip_ui_line_height(ui, NOTE_SIZE);
+    const DipRect box = {room.x, room.y, room.width, line + note + pad};
+    const char *name = direction > 0 ? "up" : "down";
+    char text[160], flip[DIP_STEP_NAME_BYTES];
+    const DipUiInput input = dip_ui_control(
+        ui, &(DipUiControl){.id = id_of(direction > 0 ? ID_UP : ID_DOWN),
+                            .rect = box,
+                            .tip = direction > 0
+                                       ? "The next better combination of the front: what it costs "
+                                         "and gains. A click tries it in the right pane."
+                                       : "The next faster combination of the front: what it saves "
+                                         "and loses. A click tries it in the right pane.",
+                            .disabled = step < 0});
+    dip_ui_fill_round(ui, box, dip_ui_px(ui, 4), dip_style_raised);
+    dip_ui_text(ui, SIZE, dip_style_white, DIP_ALIGN_LEFT, box.x + pad, box.y + pad / 2, box.width,
+                name);
+    if (input.hovered && step >= 0) {
+        dip_ui_outline(ui, box, dip_ui_px(ui, 4), dip_ui_px(ui, 1), dip_style_soft);
+    }
+    dip_ui_focus_ring(ui, box, dip_ui_px(ui, 4), &input);
+    const int right = box.x + box.width - pad;
+    if (step < 0) {
+        dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, right, box.y + pad / 2,
+                    box.width - 6 * pad,
+                    direction > 0 ? "nothing measured is better" : "nothing measured is faster");
+        return box.height;
+    }
+    const DipCostsPoint *point = &costs->points[step];
+    dip_flip_text(point->flip - advice->flip, true, flip);
+    snprintf(text, sizeof text, "%s%.1f ms", point->ms < advice->ms ? "\u2212" : "+",
+             fabs(point->ms - advice->ms));
+    const int flip_width = dip_ui_text_width(ui, SIZE, flip) + pad;
+    dip_ui_text(ui, SIZE, direction > 0 ? dip_style_gain : dip_style_worse, DIP_ALIGN_RIGHT, right,
+                box.y + pad / 2, flip_width, flip);
+    dip_ui_text(ui, SIZE, dip_style_soft, DIP_ALIGN_RIGHT, right - flip_width, box.y + pad / 2,
+                box.width / 2, text);
+    format_change(&advice->quality, &point->quality, text);
+    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, box.x + pad, box.y + pad / 2 + line,
+                box.width - 2 * pad, text);
+    if (input.pressed) {
+        try_settings(ui, window, &point->quality);
+    }
+    return box.height;
+}
+
+static void declare_steps(DipUi *ui, DipWindow *window, DipRect room) {
+    const DipCostsAdvice *advice = &window->state->costs->advice[chosen_advice(window->state)];
+    int y = room.y;
+    write_line(ui, SIZE, dip_style_white, room, &y, "One step");
+    if (!advice->found) {
         return;
     }
-    char text[400];
-    snprintf(text, sizeof text, "Measured: %s. Panes now: %dx%d.", costs->heading,
-             window->frames[0].width, window->frames[0].height);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_LEFT, body.x + pad, body.y + pad / 2,
-                body.width - 2 * pad, text);
-    const int top = body.y + dip_ui_px(ui, 24);
-    const int room = (body.y + body.height - top) / height - 1;
-    const int shown = costs->advice_count < room ? costs->advice_count : room;
-    for (int i = 0; i < shown; ++i) {
-        declare_row(ui, window, i, (DipRect){body.x, top + i * height, body.width, height});
+    for (int direction = 1; direction >= -1; direction -= 2) {
+        y += declare_step(ui, window, advice, direction,
+                          (DipRect){room.x, y, room.width, room.height}) +
+             dip_ui_px(ui, 6);
     }
-    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_ADVICE, ID_TABLE),
-                      (DipRect){body.x + pad, top + shown * height + dip_ui_px(ui, 2),
-                                dip_ui_px(ui, 220), height - dip_ui_px(ui, 4)},
-                      shown < costs->advice_count ? "All steps, more budgets: K" : "All steps (U)",
-                      DIP_UI_PLAIN, "Shows the time and error of every step of every setting.")) {
-        dip_preview_act(window->state, DIP_ACTION_COSTS, 0, false, dip_ui_now_ns(ui));
+    dip_ui_text_block(ui, NOTE_SIZE, dip_style_dim,
+                      (DipRect){room.x, y, room.width, room.y + room.height - y},
+                      window->state->costs->heading);
+}
+
+// --- the tab -------------------------------------------------------------------------------------
+
+void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body) {
+    const int margin = dip_ui_px(ui, MARGIN), gap = dip_ui_px(ui, GAP);
+    const DipRect room = {body.x + margin, body.y + margin / 2, body.width - 2 * margin,
+                          body.height - margin};
+    if (!window->state->costs) {
+        declare_how_to(ui, window, room);
+        return;
+    }
+    const int left = dip_style_min(dip_ui_px(ui, LEFT_WIDTH), room.width);
+    const int right = dip_ui_px(ui, RIGHT_WIDTH);
+    declare_picked(ui, window, (DipRect){room.x, room.y, left, room.height});
+    int middle = room.width - left - gap;
+    const bool has_steps = middle >= right + gap + dip_ui_px(ui, 200);
+    if (has_steps) {
+        middle -= right + gap;
+        declare_steps(ui, window,
+                      (DipRect){room.x + room.width - right, room.y, right, room.height});
+    }
+    const DipRect rest = {room.x + left + gap, room.y, middle, room.height};
+    if (!has_steps && middle < dip_ui_px(ui, 180)) {
+        return;
+    }
+    if (dip_ui_is_drawing(ui)) {
+        dip_advice_plot(ui, window, &window->state->costs->advice[chosen_advice(window->state)],
+                        rest);
     }
 }

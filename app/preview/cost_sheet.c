@@ -2,15 +2,13 @@
 // setting. Also draws empty sheets.
 #include "app/preview/sheet.h"
 #include "app/preview/style.h"
-#include "renderer/base/assert.h"
+
+#include <stdio.h>
 
 enum { LARGEST_LETTERS = 15, TOP_EDGE_PX = 2 };
 
 static const char costs_note[] =
     "1x: the baseline and its FLIP. Other steps: relative time and change of FLIP";
-static const char *const costs_missing[] = {
-    "There is no cost report yet. This makes one in some minutes:", "    diptych cost --out DIR",
-    "Then start the preview with it:", "    diptych --cost DIR/cost.json"};
 
 typedef struct CostsLayout {
     int size;
@@ -89,21 +87,26 @@ static void draw_row(DipDrawList *list, const CostsLayout *l, const DipCostsRow 
     }
 }
 
-static void draw_how_to(DipDrawList *list, double scale) {
+// Says how to make a report of this scene. Lines with a command are marked.
+static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double scale) {
+    enum { LINES = 4, LINE_BYTES = 1200 };
     DipFont *font = dip_draw_list_font(list);
     const int least = dip_style_scaled(10, scale);
     const int most = dip_style_scaled(LARGEST_LETTERS, scale);
     const int size = dip_style_max(least, dip_style_min(most, dip_draw_list_width(list) / 60));
     const int line = dip_font_line_height(font, size) + 2;
-    const int count = (int)DIP_ARRAY_COUNT(costs_missing);
+    char lines[LINES][LINE_BYTES] = {"There is no cost report yet. This makes one in some minutes:",
+                                     "", "Then start the preview with it:", ""};
+    snprintf(lines[1], LINE_BYTES, "    diptych cost%s --out DIR", state->scene_words);
+    snprintf(lines[3], LINE_BYTES, "    diptych%s --cost DIR/cost.json", state->scene_words);
     int width = 0;
-    for (int i = 0; i < count; ++i) {
-        width = dip_style_max(width, dip_font_width(font, size, costs_missing[i]));
+    for (int i = 0; i < LINES; ++i) {
+        width = dip_style_max(width, dip_font_width(font, size, lines[i]));
     }
-    const DipRect sheet = dip_sheet_draw(list, width + 2 * size, count * line + 2 * size);
-    for (int i = 0; i < count; ++i) {
+    const DipRect sheet = dip_sheet_draw(list, width + 2 * size, LINES * line + 2 * size);
+    for (int i = 0; i < LINES; ++i) {
         dip_draw_list_text(list, size, i % 2 ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT,
-                           sheet.x + size, sheet.y + size + i * line, width, costs_missing[i]);
+                           sheet.x + size, sheet.y + size + i * line, width, lines[i]);
     }
 }
 
@@ -129,6 +132,6 @@ void dip_sheet_draw_costs(DipDrawList *list, const DipPreviewState *state, doubl
     if (state->costs) {
         draw_table(list, state->costs, &state->quality[DIP_PANE_REQUESTED], scale);
     } else {
-        draw_how_to(list, scale);
+        draw_how_to(list, state, scale);
     }
 }

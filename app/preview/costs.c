@@ -91,11 +91,53 @@ static void make_advice(DipCosts *costs, const DipCostReport *report) {
     }
 }
 
+static int compare_points(const void *a, const void *b) {
+    const DipCostsPoint *p = a;
+    const DipCostsPoint *q = b;
+    return (p->ms > q->ms) - (p->ms < q->ms);
+}
+
+// Collects the combinations with a time and an error, and marks those on the front: in order of
+// time, each has a lower error than all before it.
+static void make_points(DipCosts *costs, const DipCostReport *report) {
+    for (int r = report->combined_first; r < report->row_count; ++r) {
+        const double flip = flip_of(report, r);
+        const bool measured = report->rounds > 0 && dip_cost_is_timed(report, r) && !isnan(flip);
+        costs->combination_count += measured;
+        if (measured && costs->point_count < DIP_COSTS_MAX_POINTS) {
+            costs->points[costs->point_count++] =
+                (DipCostsPoint){report->rows[r].quality, dip_cost_ms(report, r), flip, false};
+        }
+    }
+    qsort(costs->points, (size_t)costs->point_count, sizeof costs->points[0], compare_points);
+    double least_flip = INFINITY;
+    for (int i = 0; i < costs->point_count; ++i) {
+        costs->points[i].on_front = costs->points[i].flip < least_flip;
+        least_flip = fmin(least_flip, costs->points[i].flip);
+    }
+}
+
+int dip_costs_front_step(const DipCosts *costs, double ms, int direction) {
+    const int count = costs->point_count;
+    for (int i = 0; i < count; ++i) {
+        const int at = direction > 0 ? i : count - 1 - i;
+        const DipCostsPoint *point = &costs->points[at];
+        if (point->on_front && (direction > 0 ? point->ms > ms : point->ms < ms)) {
+            return at;
+        }
+    }
+    return -1;
+}
+
 void dip_costs_make(DipCosts *costs, const DipCostReport *report) {
     *costs = (DipCosts){0};
     snprintf(costs->heading, sizeof costs->heading, "%.80s, %dx%d, %d thread%s, %s", report->scene,
              report->width, report->height, report->threads, report->threads == 1 ? "" : "s",
              report->isa);
+    costs->width = report->width;
+    costs->height = report->height;
+    snprintf(costs->path, sizeof costs->path, "%s", report->paths[0]);
+    make_points(costs, report);
     for (int i = 0; i < report->sweep_count; i++) {
         make_row(&costs->rows[costs->row_count++], report, &report->sweeps[i]);
     }

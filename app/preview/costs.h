@@ -32,8 +32,26 @@ typedef struct DipCostsAdvice {
     double flip;
 } DipCostsAdvice;
 
+// A measured combination of settings.
+typedef struct DipCostsPoint {
+    DipQuality quality;
+    double ms;
+    double flip;
+    bool on_front; // No other combination is at least as good in both time and error.
+} DipCostsPoint;
+
+enum { DIP_COSTS_MAX_POINTS = 512 };
+
 typedef struct DipCosts {
     char heading[256]; // Scene, size, threads and instruction set.
+    int width;         // Size of the measured pictures, in pixels.
+    int height;
+    char path[16]; // Name of the camera path of the combinations: "DEFAULT".
+    // The combinations by time. If there are more than fit, the last ones of the report are left
+    // out.
+    DipCostsPoint points[DIP_COSTS_MAX_POINTS];
+    int point_count;
+    int combination_count; // With those left out.
     DipCostsRow rows[DIP_COST_MAX_SWEEPS];
     int row_count;
     // One piece of advice for each budget of the report. If the report has no budget, there is
@@ -55,6 +73,9 @@ bool dip_costs_load(DipCosts *costs, DipPrices *prices, const char *file, const 
 // Formats one piece of advice as a line: "Within 16.6 ms: 11.2 ms, FLIP .0451; baseline 6.5 ms,
 // .0773".
 void dip_costs_describe(const DipCosts *costs, int advice, char *text, size_t size_bytes);
+
+// Returns the index of the front's next point after (direction 1) or before (-1) a time, or -1.
+int dip_costs_front_step(const DipCosts *costs, double ms, int direction);
 
 // Returns whether a pane's settings include the given step of the row's setting.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality);

@@ -110,6 +110,7 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     memcpy(preview->first_quality, preview->drawn_quality, sizeof preview->first_quality);
     preview->state = dip_preview_state_make(preview->drawn_quality, &def->session->track);
     preview->state.costs = def->costs;
+    dip_scene_words(def->session->options, preview->state.scene_words);
     preview->state.shows_gallery = def->session->shows_gallery;
     if (def->session->shows_gallery) {
         preview->state.look = preview->drawn_look = def->session->options->look;
@@ -504,6 +505,9 @@ static bool draw_panes(DipPreview *preview, DipError *err) {
         return fail(&failure, err);
     }
     number_picture(preview);
+    dip_scene_words(preview->def.session->options, preview->state.scene_words);
+    preview->state.pane_width = preview->frame.panes[0].width;
+    preview->state.pane_height = preview->frame.panes[0].height;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         dip_view_set_frame(preview->view, p, &preview->frame.panes[p]);
     }

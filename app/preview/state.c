@@ -373,7 +373,12 @@ static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
         state->scene_changes = changes + 1;
     }
     dip_costs_describe(costs, index, text, sizeof text);
-    dip_preview_notice(state, now_ns, "%s", text);
+    if (state->pane_width != costs->width || state->pane_height != costs->height) {
+        dip_preview_notice(state, now_ns, "%s (measured at %dx%d)", text, costs->width,
+                           costs->height);
+    } else {
+        dip_preview_notice(state, now_ns, "%s", text);
+    }
     state->notice_end_ns = now_ns + 2 * notice_ns; // This text is longer than other notices.
     state->next_advice = (index + 1) % count;
 }

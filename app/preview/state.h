@@ -4,6 +4,7 @@
 #define DIP_APP_PREVIEW_STATE_H
 
 #include "app/preview/costs.h"
+#include "app/preview/scene_words.h"
 #include "app/preview/tools.h"
 #include "app/session.h"
 #include "campaths/camtrack.h"
@@ -82,6 +83,9 @@ typedef struct DipPreviewState {
     bool show_costs;         // The table of costs shows.
     int next_advice;         // Index in costs->advice of the next advice to give.
     bool wants_errors;       // Another program has asked for the errors, shown or not.
+    char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
+    int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.
+    int pane_height;
     bool quit;
     bool full_screen;
     DipToolState tools;

@@ -4,18 +4,27 @@
 // Usage: draw_window INI WIDTHxHEIGHT[@SCALE] FILE.png [ACTION]...
 // An action is a letter, digit or sign for a key, the name of a key (tab, enter, left, right, up,
 // down, home, end, escape, f1), click:X,Y, move:X,Y or wheel:X,Y,STEPS. The camera rests.
+// cost:FILE, as the first action, gives the window a cost report.
+#include "app/cost/plan.h"
 #include "app/display/fake/fake_display.h"
 #include "app/files/png.h"
 #include "app/preview/loop.h"
 #include "app/session.h"
-#include "renderer/base/clock.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static DipFakeDisplay *fake;
 static DipPreview *preview;
+
+// Processor time of this thread.
+static int64_t cpu_ns(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1000000000 * (int64_t)time.tv_sec + time.tv_nsec;
+}
 
 static bool load_scene_def(void *context, DipError *err) {
     return dip_session_keep_model(context, err);
@@ -76,9 +85,9 @@ static void measure(int width, int height) {
                                 .y = height - 1 - (i * 31) % (height / 3)};
         dip_fake_display_push(fake, &event);
         dip_fake_display_advance(fake, 20000000);
-        const int64_t from_ns = dip_clock_ns();
+        const int64_t from_ns = cpu_ns();
         turn();
-        const double ms = 1e-6 * (double)(dip_clock_ns() - from_ns);
+        const double ms = 1e-6 * (double)(cpu_ns() - from_ns);
         worst_ms = ms > worst_ms ? ms : worst_ms;
         sum_ms += ms;
     }
@@ -104,7 +113,19 @@ int main(int argc, char **argv) {
     }
     fake = dip_fake_display_open(&display, width, height);
     dip_fake_display_rescale(fake, scale);
-    const DipPreviewDef preview_def = {.session = &session,
+    static DipCosts costs;
+    const bool has_costs = argc > 4 && strncmp(argv[4], "cost:", 5) == 0;
+    if (has_costs) {
+        char scene[DIP_COST_TEXT];
+        DipError err;
+        dip_cost_scene_name(&session, scene);
+        if (!dip_costs_load(&costs, NULL, argv[4] + 5, scene, &err)) {
+            fprintf(stderr, "draw_window: %s\n", err.message);
+            return 1;
+        }
+    }
+    const DipPreviewDef preview_def = {.costs = has_costs ? &costs : NULL,
+                                       .session = &session,
                                        .display = display,
                                        .flying_speed_m_per_s = 1.0,
                                        .load_scene_def = load_scene_def,
@@ -112,7 +133,7 @@ int main(int argc, char **argv) {
     preview = dip_preview_create(&preview_def, NULL);
     turn();
     act(" ");
-    for (int i = 4; i < argc; ++i) {
+    for (int i = 4 + has_costs; i < argc; ++i) {
         act(argv[i]);
     }
     const DipPixels shown = dip_fake_display_picture(fake);
