@@ -1,6 +1,7 @@
 // Tests of the actions that change the preview's state, of the free camera, and of the median of
 // frame times.
 #include "app/preview/camera.h"
+#include "app/preview/figures.h"
 #include "app/preview/state.h"
 #include "app/preview/timing.h"
 #include "config/config.h"
@@ -238,8 +239,52 @@ static void the_median_covers_the_last_second(void **state) {
     assert_int_equal(dip_timing_per_second(&timing, 9000001000), 0);
 }
 
+// Of the times 1 to 20, rank ceil(0.95 * 20) = 19 is the 95th percentile and rank 10 the median.
+static void percentiles_follow_the_nearest_rank_rule(void **state) {
+    (void)state;
+    double ms[20];
+    for (int i = 0; i < 20; ++i) {
+        ms[i] = 20 - i;
+    }
+    assert_true(dip_timing_percentile(ms, 20, 0.95) == 19.0);
+    assert_true(dip_timing_percentile(ms, 20, 0.5) == 10.0);
+    assert_true(dip_timing_percentile(ms, 20, 1.0) == 20.0);
+    assert_true(dip_timing_percentile(ms, 20, 0.0) == 1.0);
+    double few[] = {7.0, 3.0, 5.0};
+    assert_true(dip_timing_percentile(few, 3, 0.5) == 5.0);  // rank ceil(1.5) = 2
+    assert_true(dip_timing_percentile(few, 3, 0.95) == 7.0); // rank ceil(2.85) = 3
+    assert_true(dip_timing_percentile(few, 1, 0.95) == 3.0);
+    assert_true(dip_timing_percentile(few, 0, 0.95) == 0.0);
+}
+
+// The display refreshes every 10 ms. A picture that comes 30 ms after the one before it leaves two
+// refreshes without a picture.
+static void refreshes_without_a_picture_count_for_five_seconds(void **state) {
+    (void)state;
+    const int64_t ms = 1000000, refresh_ns = 10 * ms;
+    const int64_t start_ns = 1000 * ms;
+    static DipFigures figures;
+    memset(&figures, 0, sizeof figures);
+    dip_figures_count_presented(&figures, true, refresh_ns, start_ns);
+    dip_figures_count_presented(&figures, true, refresh_ns, start_ns + 10 * ms);
+    dip_figures_count_presented(&figures, true, refresh_ns, start_ns + 40 * ms); // 2 dropped
+    dip_figures_count_presented(&figures, true, refresh_ns, start_ns + 54 * ms); // in time
+    dip_figures_count_presented(&figures, true, refresh_ns, start_ns + 74 * ms); // 1 dropped
+    dip_figures_update(&figures, true, start_ns + 300 * ms);
+    assert_int_equal(figures.shown[0].dropped, 3);
+    assert_true(fabs(figures.shown[1].budget_ms - 10.0) < 1e-9);
+    dip_figures_update(&figures, true, start_ns + 5050 * ms); // the first two are 5010 ms old
+    assert_int_equal(figures.shown[0].dropped, 1);
+    dip_figures_count_presented(&figures, false, refresh_ns, start_ns + 6000 * ms); // a rest
+    dip_figures_count_presented(&figures, true, refresh_ns, start_ns + 9000 * ms);
+    dip_figures_update(&figures, true, start_ns + 9300 * ms);
+    assert_int_equal(figures.shown[0].dropped, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(percentiles_follow_the_nearest_rank_rule),
+        cmocka_unit_test(refreshes_without_a_picture_count_for_five_seconds),
         cmocka_unit_test_setup_teardown(a_setting_cycles_through_its_steps, set_up, tear_down),
         cmocka_unit_test_setup_teardown(changing_samples_resets_an_invalid_group_size, set_up,
                                         tear_down),
