@@ -9,9 +9,13 @@
 
 enum { LABEL_SIZE = 13, LABEL_HEIGHT = 24, LABEL_MARGIN = 8, LABEL_PAD = 8 };
 
-// Writes the time of a pane's frames: "4.6 ms", or that the pane is a copy.
+// Writes the time of a pane's frames: "4.6 ms", or that the pane is a copy. If frames come
+// too slowly for temporal antialiasing, says so instead.
 static void format_time(const DipPaneFigures *figures, char *text, size_t size_bytes) {
-    if (figures->copied) {
+    if (figures->taa_speed.too_slow) {
+        snprintf(text, size_bytes, "too slow for temporal AA: %d of %d frames a second",
+                 figures->taa_speed.shown, figures->taa_speed.wanted);
+    } else if (figures->copied) {
         snprintf(text, size_bytes, "same as current");
     } else if (figures->fps > 0) {
         snprintf(text, size_bytes, "%.1f ms  %d fps", figures->ms, figures->fps);

@@ -54,6 +54,8 @@ struct DipPreview {
     DipHeldKeys held;
     int64_t turn_ns; // When the last turn began.
     int64_t refresh_ns;
+    int64_t due_ns; // When the frame of the last turn was due.
+    DipTaaPace taa_pace;
     bool full_screen;
     bool resized;   // The panes' size may have changed.
     int pane_width; // Size of a pane in the last turn.
@@ -520,13 +522,30 @@ static bool draw_panes(DipPreview *preview, DipError *err) {
 
 // Returns whether temporal antialiasing changes a pane's picture from frame to frame even if
 // nothing moves.
+static bool pane_alternates(const DipPreview *preview, int pane) {
+    const DipQuality *quality = &preview->state.quality[pane];
+    return quality->step[DIP_SETTING_TAA] != 0 && dip_quality_sample_count(quality) > 1;
+}
+
 static bool alternates(const DipPreview *preview) {
-    bool found = false;
+    return pane_alternates(preview, DIP_PANE_CURRENT) ||
+           pane_alternates(preview, DIP_PANE_REQUESTED);
+}
+
+// Lets the panes with temporal antialiasing say whether frames come fast enough. What they say
+// changes only as often as the other figures.
+static void judge_taa(DipPreview *preview, int64_t now_ns) {
+    const DipTaaSpeed speed =
+        dip_taa_pace_update(&preview->taa_pace, alternates(preview), &preview->figures.presented,
+                            preview->refresh_ns, now_ns);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipQuality *quality = &preview->state.quality[p];
-        found |= quality->step[DIP_SETTING_TAA] != 0 && dip_quality_sample_count(quality) > 1;
+        DipTaaSpeed *shown = &preview->figures.shown[p].taa_speed;
+        if (!pane_alternates(preview, p)) {
+            *shown = (DipTaaSpeed){.too_slow = false};
+        } else if (preview->figures.updated_ns == now_ns) {
+            *shown = speed;
+        }
     }
-    return found;
 }
 
 // --- errors of the pictures ---------------------------------------------------------------------
@@ -755,6 +774,7 @@ static void update_tools(DipPreview *preview) {
 static bool show(DipPreview *preview, int64_t now_ns, DipError *err) {
     const bool moving = !dip_preview_rests(&preview->state, preview->flying);
     dip_figures_update(&preview->figures, moving, now_ns);
+    judge_taa(preview, now_ns);
     if (!draw_view(preview, err)) {
         return false;
     }
@@ -860,10 +880,12 @@ static void wait_for_turn(DipPreview *preview, bool shown) {
         take_event(preview, busy ? 0 : IDLE_WAIT_MS);
         return;
     }
-    int64_t left_ns = preview->refresh_ns - (clock_ns(preview) - preview->turn_ns);
+    preview->due_ns = dip_taa_pace_next_ns(preview->due_ns, preview->turn_ns, preview->refresh_ns,
+                                           clock_ns(preview));
+    int64_t left_ns = preview->due_ns - clock_ns(preview);
     while (left_ns >= ns_per_ms && !preview->state.quit) {
         take_event(preview, (int)(left_ns / ns_per_ms));
-        left_ns = preview->refresh_ns - (clock_ns(preview) - preview->turn_ns);
+        left_ns = preview->due_ns - clock_ns(preview);
     }
 }
 

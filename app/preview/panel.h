@@ -3,6 +3,7 @@
 #define DIP_APP_PREVIEW_PANEL_H
 
 #include "app/preview/error_thread.h"
+#include "app/preview/taa_pace.h"
 #include "app/preview/timing.h"
 #include "renderer/scene/frame.h"
 
@@ -27,6 +28,7 @@ typedef struct DipPaneFigures {
     const DipTiming *times; // The newest frames' times; NULL if there are none. Borrowed.
     int dropped;            // Refreshes of the last 5 seconds of movement without a new picture.
     double budget_ms;       // Time between two refreshes of the display; 0 if it is not known.
+    DipTaaSpeed taa_speed;  // Too slow only if the pane uses temporal antialiasing.
     bool mip_colours;       // The pane shows mip colours, which have no error.
     bool no_errors;         // The scene has no reference pictures, so the panel leaves errors out.
 } DipPaneFigures;

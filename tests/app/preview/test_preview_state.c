@@ -3,6 +3,7 @@
 #include "app/preview/camera.h"
 #include "app/preview/figures.h"
 #include "app/preview/state.h"
+#include "app/preview/taa_pace.h"
 #include "app/preview/timing.h"
 #include "config/config.h"
 
@@ -281,8 +282,52 @@ static void refreshes_without_a_picture_count_for_five_seconds(void **state) {
     assert_int_equal(figures.shown[0].dropped, 0);
 }
 
+// Presents a frame every `step_ms` from 0 ms to `end_ms` and returns the last frame's verdict.
+static DipTaaSpeed speed_at(DipTaaPace *pace, int step_ms, int end_ms) {
+    static DipTiming presented;
+    DipTaaSpeed speed = {0};
+    const int64_t ms = 1000000;
+    dip_timing_clear(&presented);
+    for (int now = 0; now <= end_ms; now += step_ms) {
+        speed = dip_taa_pace_update(pace, true, &presented, 20 * ms, now * ms);
+        dip_timing_add(&presented, now * ms, 0.0);
+    }
+    return speed;
+}
+
+// At 50 Hz, 45 frames in the last second are nine tenths of the refreshes.
+static void slow_temporal_antialiasing_is_named(void **state) {
+    (void)state;
+    DipTaaPace pace = {0};
+    const DipTaaSpeed slow = speed_at(&pace, 40, 2000); // 24 frames: those of 1040 to 1960 ms
+    assert_true(slow.too_slow);
+    assert_int_equal(slow.shown, 24);
+    assert_int_equal(slow.wanted, 50);
+    pace = (DipTaaPace){0};
+    assert_false(speed_at(&pace, 20, 2000).too_slow);
+    pace = (DipTaaPace){0};
+    assert_false(speed_at(&pace, 40, 960).too_slow); // not on for a second yet
+    assert_true(speed_at(&pace, 23, 2300).too_slow); // 43 frames
+    DipTiming none = {0};
+    assert_false(dip_taa_pace_update(&pace, false, &none, 20000000, 5000000000).too_slow);
+    assert_false(dip_taa_pace_update(&pace, true, &none, 20000000, 6000000000).too_slow);
+    assert_true(dip_taa_pace_update(&pace, true, &none, 20000000, 7000000000).too_slow);
+}
+
+// The grid of refreshes does not drift with the moments at which turns begin.
+static void frames_are_due_in_steps_of_the_refresh(void **state) {
+    (void)state;
+    assert_int_equal(dip_taa_pace_next_ns(100, 99, 10, 104), 110);  // the turn began early
+    assert_int_equal(dip_taa_pace_next_ns(110, 109, 10, 119), 120); // just in time
+    assert_int_equal(dip_taa_pace_next_ns(120, 119, 10, 135), 129); // late: a new grid
+    assert_int_equal(dip_taa_pace_next_ns(0, 500, 10, 503), 510);   // after a rest
+    assert_int_equal(dip_taa_pace_next_ns(120, 105, 10, 106), 115); // the refresh became shorter
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slow_temporal_antialiasing_is_named),
+        cmocka_unit_test(frames_are_due_in_steps_of_the_refresh),
         cmocka_unit_test(percentiles_follow_the_nearest_rank_rule),
         cmocka_unit_test(refreshes_without_a_picture_count_for_five_seconds),
         cmocka_unit_test_setup_teardown(a_setting_cycles_through_its_steps, set_up, tear_down),
