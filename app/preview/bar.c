@@ -16,6 +16,7 @@ typedef enum BarControl {
     BAR_PLAY,
     BAR_ON,
     BAR_TIME_LINE,
+    BAR_PLACE,
     BAR_HELP,
     BAR_FOLD
 } BarControl;
@@ -65,8 +66,9 @@ static DipColour colour_of(const DipUiInput *input, bool chosen) {
 // --- what fits -----------------------------------------------------------------------------------
 
 // Writes where the camera is: the path and its time, or the gallery's scene.
-static void format_place(const DipPreviewState *state, bool brief, char *text, size_t size_bytes) {
-    const double seconds = 1e-9 * (double)dip_preview_path_ns(state);
+static void format_place(const DipPreviewState *state, bool brief, int64_t path_ns, char *text,
+                         size_t size_bytes) {
+    const double seconds = 1e-9 * (double)path_ns;
     const double length = 1e-9 * (double)dip_preview_path_length_ns(state);
     if (state->manual) {
         snprintf(text, size_bytes, "Free camera");
@@ -93,12 +95,23 @@ static void measure_tabs(const DipUi *ui, Bar *bar, bool words) {
     }
 }
 
+// Returns the width of the place at the path's end, so that the buttons before it stand still while
+// time passes. All digits of a font with tabular figures are as wide as a zero.
+static int widest_place(const DipUi *ui, const DipPreviewState *state, bool brief) {
+    char text[128];
+    format_place(state, brief, dip_preview_path_length_ns(state), text, sizeof text);
+    for (char *letter = text; *letter; ++letter) {
+        *letter = *letter >= '0' && *letter <= '9' ? '0' : *letter;
+    }
+    return dip_ui_text_width(ui, TAB_SIZE, text);
+}
+
 // Gives playback, the time line and the place what the tabs leave.
 static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, bool brief) {
     const int gap = dip_ui_px(ui, 10);
     int room = bar->rect.width - bar->tabs_width - bar->tail * bar->button - gap;
-    format_place(state, brief, bar->place, sizeof bar->place);
-    const int place_width = dip_ui_text_width(ui, TAB_SIZE, bar->place) + 2 * gap;
+    format_place(state, brief, dip_preview_path_ns(state), bar->place, sizeof bar->place);
+    const int place_width = widest_place(ui, state, brief) + 2 * gap;
     bar->play = room >= 3 * bar->button ? 3 : room >= bar->button ? 1 : 0;
     room -= bar->play * bar->button;
     bar->place_width = room >= place_width ? place_width : 0;
@@ -234,6 +247,31 @@ static void declare_time_line(DipUi *ui, DipWindow *window, DipRect rect) {
     }
 }
 
+// Declares the camera's place as a button that plays the next path or shows the next scene.
+static void declare_place(DipUi *ui, DipWindow *window, const Bar *bar, DipRect rect) {
+    DipPreviewState *state = window->state;
+    const bool scene = state->scene_title != NULL;
+    const DipUiInput input = dip_ui_control(
+        ui, &(DipUiControl){.id = bar_id(BAR_PLACE),
+                            .rect = rect,
+                            .tip = scene ? "A click shows the next scene, the wheel the ones "
+                                           "before and after it (Ctrl+PageDown)."
+                                         : "A click plays the next camera path, the wheel the ones "
+                                           "before and after it (P).",
+                            .takes_wheel = true});
+    if (input.pressed || input.steps) {
+        dip_preview_act(state, scene ? DIP_ACTION_NEXT_SCENE : DIP_ACTION_NEXT_PATH, 0,
+                        input.steps > 0, dip_ui_now_ns(ui));
+    }
+    if (input.focused) {
+        dip_ui_outline(ui, rect, dip_ui_px(ui, 3), dip_ui_px(ui, 2), dip_style_focus);
+    }
+    dip_ui_text(ui, TAB_SIZE, colour_of(&input, false), DIP_ALIGN_RIGHT,
+                rect.x + rect.width - dip_ui_px(ui, 10),
+                rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width,
+                bar->place);
+}
+
 static void declare_tail(DipUi *ui, DipWindow *window, const Bar *bar, int x) {
     DipPreviewState *state = window->state;
     DipRect rect = {x, bar->rect.y, bar->button, bar->rect.height};
@@ -270,9 +308,9 @@ void dip_bar_declare(DipUi *ui, DipWindow *window) {
             (DipRect){line_x + gap / 2, bar.rect.y, bar.line - gap / 2, bar.rect.height});
     }
     if (bar.place_width) {
-        dip_ui_text(ui, TAB_SIZE, dip_style_soft, DIP_ALIGN_RIGHT, tail_x - gap,
-                    bar.rect.y + (bar.rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2,
-                    bar.place_width, bar.place);
+        declare_place(
+            ui, window, &bar,
+            (DipRect){tail_x - bar.place_width, bar.rect.y, bar.place_width, bar.rect.height});
     }
     declare_tail(ui, window, &bar, tail_x);
 }

@@ -617,19 +617,22 @@ static void mouse_block(const Tab *tab, DipRect area) {
     if (tab->tools->map == DIP_MAP_NONE) {
         return;
     }
+    const char *title = dip_maps_view(tab->maps)->pointed || !tab->tools->pinned
+                            ? "Under the mouse"
+                            : "At the pinned pixel";
     if (!pointed_pixel(tab, &x, &y)) {
-        put(tab, TEXT, white, area.x, area.y, area.width, "Under the mouse");
+        put(tab, TEXT, white, area.x, area.y, area.width, title);
         put(tab, NOTE, soft, area.x, area.y + px(tab, ROW), area.width, "Point at a pane.");
         return;
     }
     if (tiles) {
-        snprintf(text, sizeof text, "Under the mouse: tile %d, %d", x / DIP_TARGET_TILE,
+        snprintf(text, sizeof text, "%s: tile %d, %d", title, x / DIP_TARGET_TILE,
                  y / DIP_TARGET_TILE);
         put(tab, TEXT, white, area.x, area.y, area.width, text);
         tile_values(tab, area, x, y);
         return;
     }
-    put(tab, TEXT, white, area.x, area.y, area.width, "Under the mouse");
+    put(tab, TEXT, white, area.x, area.y, area.width, title);
     snprintf(text, sizeof text, "pixel %d, %d", x, y);
     put(tab, NOTE, soft, area.x, area.y + px(tab, ROW), area.width, text);
     pixel_values(tab, area, x, y);

@@ -124,21 +124,24 @@ void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) 
 }
 
 static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
-    char flip[DIP_STEP_NAME_BYTES] = "";
+    char flip[DIP_STEP_NAME_BYTES] = "", where[80] = "";
     text[0] = '\0';
+    if (price->path[0]) { // A rough price is that of one picture, not of a path.
+        snprintf(where, sizeof where, " on path %s", price->path);
+    }
     if (price->has_flip) {
         dip_flip_text(price->flip, price->state != DIP_PRICE_BASE, flip);
     }
     switch (price->state) {
     case DIP_PRICE_BASE:
-        snprintf(text, size_bytes, "\nThe base of all prices on path %s: %.2f ms%s%s.", price->path,
-                 price->ms, flip[0] ? ", FLIP " : "", flip);
+        snprintf(text, size_bytes, "\nThe base of all prices%s: %.2f ms%s%s.", where, price->ms,
+                 flip[0] ? ", FLIP " : "", flip);
         break;
     case DIP_PRICE_MEASURED:
     case DIP_PRICE_PREDICTED:
     case DIP_PRICE_ROUGH:
-        snprintf(text, size_bytes, "\n%+.2f ms (%.2f to %.2f)%s%s on path %s, %s.", price->ms,
-                 price->ms_low, price->ms_high, flip[0] ? ", FLIP " : "", flip, price->path,
+        snprintf(text, size_bytes, "\n%+.2f ms (%.2f to %.2f)%s%s%s, %s.", price->ms, price->ms_low,
+                 price->ms_high, flip[0] ? ", FLIP " : "", flip, where,
                  price->state == DIP_PRICE_ROUGH       ? "roughly measured just now"
                  : price->state == DIP_PRICE_PREDICTED ? "predicted"
                                                        : "measured");

@@ -48,6 +48,9 @@ static void add_option(char text[DIP_SCENE_WORDS_BYTES], const char *option, con
 
 void dip_scene_words(const DipSessionOptions *options, char text[DIP_SCENE_WORDS_BYTES]) {
     text[0] = '\0';
+    if (!options) {
+        return;
+    }
     if (options->config) {
         add_option(text, "--config", options->config);
     }

@@ -245,7 +245,7 @@ static void draw_sum(DipUi *ui, const DipPriceSum *sum, DipRect rect) {
 static void draw_comparison(DipUi *ui, const DipPriceSum *now, const DipPriceSum *sum,
                             DipRect rect) {
     char text[80], from[DIP_STEP_NAME_BYTES], to[DIP_STEP_NAME_BYTES];
-    snprintf(text, sizeof text, "now %.1f ms", now->ms);
+    snprintf(text, sizeof text, "current %.1f ms", now->ms);
     int x = rect.x;
     dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, x, rect.y, rect.width, text);
     x += dip_ui_text_width(ui, NOTE_SIZE, text) + dip_ui_px(ui, 14);
