@@ -373,7 +373,8 @@ static void take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
         state->scene_changes = changes + 1;
     }
     dip_costs_describe(costs, index, text, sizeof text);
-    if (state->pane_width != costs->width || state->pane_height != costs->height) {
+    if (state->pane_width > 0 &&
+        (state->pane_width != costs->width || state->pane_height != costs->height)) {
         dip_preview_notice(state, now_ns, "%s (measured at %dx%d)", text, costs->width,
                            costs->height);
     } else {
