@@ -312,7 +312,7 @@ static const DipCamPath *playing_path(const DipPreviewState *state) {
 
 int64_t dip_preview_path_length_ns(const DipPreviewState *state) {
     const DipCamPath *path = playing_path(state);
-    return path ? dip_campath_info(path).duration_ns : 0;
+    return path ? dip_campath_duration_ns(path) : 0;
 }
 
 int64_t dip_preview_path_ns(const DipPreviewState *state) {
