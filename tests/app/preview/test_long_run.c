@@ -209,8 +209,9 @@ static const char setting_keys[] = "xtvbfgolim";
 static void reset_settings(int pane) {
     const DipPreviewState *state = dip_preview_state(run.preview);
     const DipQuality wanted = dip_quality_default();
-    while (!state->edited[pane] || state->edited[1 - pane]) {
-        push(DIP_KEYCODE_TAB);
+    for (int presses = 0; !state->edited[pane] || state->edited[1 - pane]; presses++) {
+        assert_true(presses < DIP_PANE_COUNT + 1);
+        push('`');
         turn();
     }
     for (int presses = 0; memcmp(&state->quality[pane], &wanted, sizeof wanted) != 0; presses++) {
@@ -252,7 +253,7 @@ static void follow_script(int number) {
         push((DipKeycode)setting_keys[random_int(&random, 0, DIP_SETTING_COUNT - 1)]);
     }
     if (number % 31 == 5) {
-        push(DIP_KEYCODE_TAB);
+        push('`');
     }
     if (number % 40 == 20) {
         push((DipKeycode)('0' + random_int(&random, 0, 9)));
