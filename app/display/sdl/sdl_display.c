@@ -3,6 +3,7 @@
 
 #include "app/display/sdl/sdl_event.h"
 #include "app/display/sdl/sdl_host.h"
+#include "app/display/sdl/sdl_x_errors.h"
 #include "renderer/base/clock.h"
 
 #include <SDL2/SDL.h>
@@ -92,6 +93,7 @@ static bool open_window(SdlDisplay *sdl, int width, int height, DipError *err) {
     if (!sdl->window) {
         return sdl_failed(err);
     }
+    dip_sdl_x_errors_watch(sdl->window);
     SDL_SetWindowMinimumSize(sdl->window, MIN_WINDOW_WIDTH, MIN_WINDOW_HEIGHT);
     return SDL_GetWindowSurface(sdl->window) || sdl_failed(err);
 }
@@ -123,6 +125,7 @@ static void close_display(void *context) {
     SdlDisplay *sdl = context;
     const bool quits = can_quit(sdl);
     SDL_free(sdl->dropped_file);
+    dip_sdl_x_errors_end();
     if (sdl->window && quits) {
         SDL_DestroyWindow(sdl->window);
     }

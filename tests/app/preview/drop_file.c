@@ -1,8 +1,12 @@
 // Drops a file onto a window, as a file manager does: the source of a drag by the X protocol
-// XDND 5. Usage: drop_file WINDOW_ID /PATH/OF/FILE. Ends with 0 when the window says that it has
-// taken it.
+// XDND 5. Usage: drop_file WINDOW_ID /PATH/OF/FILE [--die MOMENT]. Ends with 0 when the window says
+// that it has taken the file. With --die, the program is killed by a signal at one of these
+// moments: enter (right after it has offered the file), status (after the window has said that it
+// would take the file), drop (after it has dropped the file) or request (when the window asks for
+// the file).
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +17,15 @@ static Display *x;
 static Window source;
 static Window target;
 static char uri[4096];
+static const char *dies_at = "";
+
+// Dies here if --die names this moment. The X server has then all that was sent so far.
+static void pass_moment(const char *moment) {
+    if (strcmp(dies_at, moment) == 0) {
+        XSync(x, False);
+        raise(SIGKILL);
+    }
+}
 
 static Atom atom(const char *name) {
     return XInternAtom(x, name, False);
@@ -30,6 +43,7 @@ static void send(const char *type, long l1, long l2, long l3, long l4) {
 
 // Hands over the file's URI.
 static void answer(const XSelectionRequestEvent *request) {
+    pass_moment("request");
     XEvent event = {.xselection = {.type = SelectionNotify,
                                    .requestor = request->requestor,
                                    .selection = request->selection,
@@ -63,18 +77,22 @@ static bool wait_for(const char *type) {
 
 int main(int argc, char **argv) {
     x = XOpenDisplay(NULL);
-    if (!x || argc != 3) {
+    if (!x || (argc != 3 && argc != 5)) {
         return 2;
     }
+    dies_at = argc == 5 ? argv[4] : "";
     target = (Window)strtoul(argv[1], NULL, 0);
     snprintf(uri, sizeof uri, "file://%s\r\n", argv[2]);
     source = XCreateSimpleWindow(x, DefaultRootWindow(x), 0, 0, 1, 1, 0, 0, 0);
     XSetSelectionOwner(x, atom("XdndSelection"), source, CurrentTime);
     send("XdndEnter", 5L << 24, (long)atom("text/uri-list"), 0, 0);
     send("XdndPosition", 0, 10L << 16 | 10, CurrentTime, (long)atom("XdndActionCopy"));
+    pass_moment("enter");
     bool taken = wait_for("XdndStatus");
+    pass_moment("status");
     if (taken) {
         send("XdndDrop", 0, CurrentTime, 0, 0);
+        pass_moment("drop");
         taken = wait_for("XdndFinished");
     }
     XCloseDisplay(x);

@@ -39,6 +39,11 @@ shows() {
     grep -qa "$1" "$(ls diptych-*.png | tail -n 1)"
 }
 
+# twice TEXT: two lines of the log have the text.
+twice() {
+    [ "$(grep -c "$1" log.txt)" -ge 2 ]
+}
+
 "$drop_file" "$window" "$work/bad.pth" || fail "the window does not take a file"
 wait_for grep -q 'bad.pth:1: .*not a camera path' log.txt || fail "a bad path is not reported"
 "$drop_file" "$window" "$work/none.obj" || fail "the window does not take a name"
@@ -48,6 +53,18 @@ kill -0 "$program" || fail "a bad file has ended the preview"
 wait_for shows 'a triangle.obj' || fail "the model is not shown"
 "$drop_file" "$window" "$work/still.pth" || fail "the window does not take a path"
 wait_for shows '0 0 3 0 0 0 1' || fail "the path is not flown"
+
+# A program that dies while it drops a file leaves the X server with windows that are gone.
+for moment in enter status drop request; do
+    for round in 1 2 3; do
+        "$drop_file" "$window" "$work/still.pth" --die $moment 2>/dev/null
+        sleep 0.2
+        kill -0 "$program" || fail "the preview dies with a program that dies at: $moment ($round)"
+    done
+done
+"$drop_file" "$window" "$work/bad.pth" || fail "no file is taken after others were given up"
+wait_for twice 'bad.pth:1' || fail "a file is not opened after others were given up"
+
 xdotool windowfocus "$window" key ctrl+q 2>/dev/null
 wait "$program" || fail "the preview ends with exit code $?"
-echo "six drops on the window"
+echo "seven drops on the window, and twelve by programs that die"
