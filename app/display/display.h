@@ -63,6 +63,39 @@ typedef enum DipMouseButton {
     DIP_MOUSE_OTHER
 } DipMouseButton;
 
+// Buttons of a game controller, named as on an Xbox controller. On another controller, they are the
+// buttons at the same places.
+typedef enum DipControllerButton {
+    DIP_CONTROLLER_A,
+    DIP_CONTROLLER_B,
+    DIP_CONTROLLER_X,
+    DIP_CONTROLLER_Y,
+    DIP_CONTROLLER_BACK,
+    DIP_CONTROLLER_GUIDE,
+    DIP_CONTROLLER_START,
+    DIP_CONTROLLER_LEFT_STICK, // The stick is pressed down.
+    DIP_CONTROLLER_RIGHT_STICK,
+    DIP_CONTROLLER_LEFT_SHOULDER,
+    DIP_CONTROLLER_RIGHT_SHOULDER,
+    DIP_CONTROLLER_UP, // The directional pad.
+    DIP_CONTROLLER_DOWN,
+    DIP_CONTROLLER_LEFT,
+    DIP_CONTROLLER_RIGHT,
+    DIP_CONTROLLER_BUTTON_COUNT
+} DipControllerButton;
+
+// Axes of a game controller. A stick goes from -1 (left, up) to 1 (right, down), a trigger from 0
+// to 1 (pulled). Values include the noise of a stick at rest; the display applies no dead zone.
+typedef enum DipControllerAxis {
+    DIP_CONTROLLER_LEFT_X,
+    DIP_CONTROLLER_LEFT_Y,
+    DIP_CONTROLLER_RIGHT_X,
+    DIP_CONTROLLER_RIGHT_Y,
+    DIP_CONTROLLER_LEFT_TRIGGER,
+    DIP_CONTROLLER_RIGHT_TRIGGER,
+    DIP_CONTROLLER_AXIS_COUNT
+} DipControllerAxis;
+
 typedef enum DipEventKind {
     DIP_EVENT_NONE, // An event of no other kind. The preview ignores it.
     DIP_EVENT_KEY_DOWN,
@@ -75,7 +108,12 @@ typedef enum DipEventKind {
     DIP_EVENT_RESIZE, // The display's size or scale changed.
     DIP_EVENT_EXPOSE, // The display lost what it showed.
     DIP_EVENT_DROP,   // The user dropped a file.
-    DIP_EVENT_QUIT    // The user or the system closes the display.
+    DIP_EVENT_QUIT,   // The user or the system closes the display.
+    DIP_EVENT_CONTROLLER_ADDED,
+    DIP_EVENT_CONTROLLER_REMOVED,
+    DIP_EVENT_CONTROLLER_DOWN, // A button was pressed.
+    DIP_EVENT_CONTROLLER_UP,
+    DIP_EVENT_CONTROLLER_AXIS // A stick or trigger moved.
 } DipEventKind;
 
 // One event. Fields that do not belong to the event's kind are zero.
@@ -96,8 +134,14 @@ typedef struct DipEvent {
     double wheel_x;        // MOUSE_WHEEL: steps to the right.
     double wheel_y;        // MOUSE_WHEEL: steps away from the user.
 
-    char text[32];    // TEXT: UTF-8.
+    char text[32];    // TEXT: UTF-8. CONTROLLER_ADDED: the controller's name, cut to fit.
     const char *file; // DROP: the file's name. Borrowed until next_event is called again.
+
+    // CONTROLLER events.
+    int controller;                        // Names the controller until it is removed.
+    DipControllerButton controller_button; // CONTROLLER_DOWN and CONTROLLER_UP.
+    DipControllerAxis axis;                // CONTROLLER_AXIS.
+    double axis_value;                     // CONTROLLER_AXIS: see DipControllerAxis.
 } DipEvent;
 
 // A character cell of a display that shows characters, such as a terminal. A cell covers one pixel

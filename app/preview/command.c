@@ -33,6 +33,9 @@ const DipCommand dip_preview_command = {
     .text = "Preview opens a window with two panes. Both show the same camera path, the left one "
             "with the current settings and the right one with the requested settings. Keys change "
             "the requested settings while the camera moves; F1 lists the keys.\n\n"
+            "A game controller works, too: the sticks and triggers fly the camera, Y frees it, the "
+            "shoulder buttons and the directional pad choose and change settings, A presses, X "
+            "applies, B undoes, Start pauses, and Back leaves.\n\n"
             "A model, a camera path, an ini or a cost report that is dropped onto the window takes "
             "the place of what it shows. If the file is bad, the window says so and stays as it "
             "is.",

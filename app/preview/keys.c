@@ -66,6 +66,8 @@ const DipKeyRow dip_key_rows[] = {
      "Screenshot (with Shift: panes only)"},
     {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_SAVE_POSE, 0, false, "Ctrl+S",
      "Save the camera's pose to poses.pth"},
+    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_CAMERA, 0, false, "Controller",
+     "Sticks fly; Y frees, A presses, X applies"},
     {DIP_KEYCODE_ESCAPE, DIP_KEYCODE_NONE, DIP_ACTION_QUIT, 0, false, "Esc  Ctrl+Q", "Quit"},
 };
 

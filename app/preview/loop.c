@@ -3,6 +3,7 @@
 
 #include "app/preview/camera.h"
 #include "app/preview/compare.h"
+#include "app/preview/controller.h"
 #include "app/preview/error_thread.h"
 #include "app/preview/figures.h"
 #include "app/preview/handover.h"
@@ -52,6 +53,7 @@ struct DipPreview {
     DipPrefetch prefetch;
     DipErrorThread *errors; // NULL until the user first asks for errors.
     DipHeldKeys held;
+    DipControllers controllers;
     int64_t turn_ns; // When the last turn began.
     int64_t refresh_ns;
     int64_t due_ns; // When the frame of the last turn was due.
@@ -282,13 +284,26 @@ static void handle_event(DipPreview *preview, const DipEvent *event, int64_t now
     }
 }
 
+// A button of a game controller has an action or stands for a key.
+static void handle_controller(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
+    DipEvent key;
+    if (dip_controllers_handle(&preview->controllers, &preview->state, event, now_ns, &key)) {
+        handle_event(preview, &key, now_ns);
+    }
+    preview->redraw |= event->kind != DIP_EVENT_CONTROLLER_AXIS;
+}
+
 // Returns whether there was an event.
 static bool take_event(DipPreview *preview, int timeout_ms) {
     DipEvent event;
     if (!preview->def.display.next_event(preview->def.display.context, timeout_ms, &event)) {
         return false;
     }
-    handle_event(preview, &event, clock_ns(preview));
+    if (dip_controllers_concern(&event)) {
+        handle_controller(preview, &event, clock_ns(preview));
+    } else {
+        handle_event(preview, &event, clock_ns(preview));
+    }
     return true;
 }
 
@@ -298,8 +313,11 @@ static void fly(DipPreview *preview, int64_t elapsed_ns) {
         return;
     }
     const DipCameraKeys directions = dip_keys_camera(&preview->held);
-    preview->flying = dip_camera_move(&preview->pose, &directions,
-                                      preview->def.flying_speed_m_per_s, 1e-9 * (double)elapsed_ns);
+    const double speed_m_per_s = preview->def.flying_speed_m_per_s;
+    const double seconds = 1e-9 * (double)elapsed_ns;
+    preview->flying = dip_camera_move(&preview->pose, &directions, speed_m_per_s, seconds);
+    preview->flying |=
+        dip_controllers_fly(&preview->controllers, &preview->pose, speed_m_per_s, seconds);
     preview->state.scene_changes += preview->flying;
 }
 

@@ -1,6 +1,7 @@
 // The window: opens and closes it, gives its size, and copies pixels to the screen.
 #include "app/display/sdl/sdl_display.h"
 
+#include "app/display/sdl/sdl_controller.h"
 #include "app/display/sdl/sdl_event.h"
 #include "app/display/sdl/sdl_host.h"
 #include "app/display/sdl/sdl_x_errors.h"
@@ -66,6 +67,7 @@ static bool open_sdl(SdlDisplay *sdl, bool in_host, DipError *err) {
     if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0) {
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     }
+    dip_sdl_controller_init();
     return true;
 }
 
@@ -225,6 +227,9 @@ static bool next_event(void *context, int timeout_ms, DipEvent *event) {
         return false;
     }
     *event = dip_sdl_event_translate(&sdl_event);
+    if (event->kind == DIP_EVENT_NONE) {
+        *event = dip_sdl_controller_translate(&sdl_event);
+    }
     if (sdl->host && event->kind == DIP_EVENT_MOUSE_DOWN) {
         dip_sdl_host_take_focus(sdl->host);
     }

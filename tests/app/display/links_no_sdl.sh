@@ -1,5 +1,5 @@
 #!/bin/sh
-# Fails if anything but app/display/sdl/ includes SDL, calls it or links it.
+# Fails if anything but app/display/sdl/ and its tests includes SDL, calls it or links it.
 # Usage: links_no_sdl.sh TOP SDL_LIBRARY PREVIEW_TEST LIBRARY...
 set -eu
 top=$1
@@ -21,5 +21,5 @@ if ldd "$preview_test" | grep -i 'libSDL'; then
     exit 1
 fi
 includers=$(grep -rlE '#include [<"]SDL' "$top/app" "$top/renderer" "$top/config" "$top/campaths" \
-    "$top/assets" "$top/tests" --include='*.[ch]' | grep -v "^$top/app/display/sdl/" || true)
+    "$top/assets" "$top/tests" --include='*.[ch]' | grep -vE "^$top/(app|tests/app)/display/sdl/" || true)
 [ -z "$includers" ] || { echo "includes SDL outside app/display/sdl/: $includers"; exit 1; }
