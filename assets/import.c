@@ -43,13 +43,17 @@ static bool check_extension(const char *path, DipError *err) {
 
 static bool check_file(const char *path, DipError *err) {
     struct stat info = {0};
-    FILE *file = fopen(path, "rb");
-    if (!file) {
+    // To open a named pipe would wait until another program writes to it.
+    const bool is_pipe = stat(path, &info) == 0 && S_ISFIFO(info.st_mode);
+    FILE *file = is_pipe ? NULL : fopen(path, "rb");
+    if (!file && !is_pipe) {
         return dip_error_set(err, dip_file_open_code(errno), path, 0, NULL,
                              "cannot open the model: %s", strerror(errno));
     }
-    const bool known = fstat(fileno(file), &info) == 0;
-    fclose(file);
+    const bool known = is_pipe || fstat(fileno(file), &info) == 0;
+    if (file) {
+        fclose(file);
+    }
     if (!known || !S_ISREG(info.st_mode)) {
         return dip_error_set(err, DIP_ERROR_IO, path, 0, NULL, "the model is not a regular file");
     }

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 enum { MAX_DROPS = 64 };
 
@@ -239,6 +240,24 @@ static bool tell_fault(DipReloadNews *news, const DipErrorList *faults) {
     return true;
 }
 
+// Tells about an error and writes it to the log.
+static bool tell_error(DipReloadNews *news, const DipError *err) {
+    DipErrorList faults = {0};
+    dip_error_list_add(&faults, err);
+    dip_log_errors(&faults);
+    tell_fault(news, &faults);
+    dip_error_list_free(&faults);
+    return true;
+}
+
+// Returns whether the name belongs to a folder, a named pipe or a device. The reader of ini files
+// accepts a pipe, as the shell makes one for the command line, but a pipe can be read only once,
+// and to wait for its writer could take for ever.
+static bool is_no_file(const char *file) {
+    struct stat status;
+    return file && stat(file, &status) == 0 && !S_ISREG(status.st_mode);
+}
+
 // Begins to open a session. `file` was dropped; NULL: the files of the present session are opened
 // again.
 static bool begin(DipReload *reload, const char *file, const char *name, DipReloadNews *news) {
@@ -251,9 +270,15 @@ static bool begin(DipReload *reload, const char *file, const char *name, DipRelo
     if (file) {
         aim(&opening->options, file);
     }
+    news->dropped = opening->dropped;
+    if (is_no_file(opening->options.config)) {
+        DipError err;
+        dip_error_set(&err, DIP_ERROR_IO, opening->options.config, 0, NULL,
+                      "is not a file, accepted an ini file");
+        return tell_error(news, &err);
+    }
     atomic_store(&opening->done, false);
     opening->running = pthread_create(&opening->thread, NULL, open_session, opening) == 0;
-    news->dropped = opening->dropped;
     return opening->running ? tell(news, DIP_RELOAD_BEGUN, "Opening ", opening->name)
                             : tell(news, DIP_RELOAD_FAULT, "No thread could start for ", name);
 }
@@ -304,7 +329,6 @@ void dip_reload_take(DipReload *reload) {
 
 static bool open_costs(DipReload *reload, const char *file, DipReloadNews *news) {
     char scene[DIP_COST_TEXT];
-    DipErrorList faults = {0};
     DipError err;
     DipCosts *costs = calloc(1, sizeof *costs);
     dip_cost_scene_name(reload->session, scene);
@@ -318,11 +342,7 @@ static bool open_costs(DipReload *reload, const char *file, DipReloadNews *news)
         dip_error_set(&err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
     free(costs);
-    dip_error_list_add(&faults, &err);
-    dip_log_errors(&faults);
-    tell_fault(news, &faults);
-    dip_error_list_free(&faults);
-    return true;
+    return tell_error(news, &err);
 }
 
 void dip_reload_set_prices(DipReload *reload, DipPrices *prices) {

@@ -40,6 +40,13 @@ static unsigned char *read_bytes(FILE *stream, const char *file, const char *kin
     return bytes;
 }
 
+// Returns whether the name belongs to something that is not a regular file. To open a named pipe
+// would wait until another program writes to it.
+static bool is_no_file(const char *file) {
+    struct stat status;
+    return stat(file, &status) == 0 && !S_ISREG(status.st_mode);
+}
+
 DipErrorCode dip_file_open_code(int error_number) {
     switch (error_number) {
     case ENOENT:
@@ -57,6 +64,9 @@ DipErrorCode dip_file_open_code(int error_number) {
 bool dip_file_read(const char *file, const char *kind, size_t max_bytes, unsigned char **bytes,
                    size_t *size_bytes, DipError *err) {
     *bytes = NULL;
+    if (is_no_file(file)) {
+        return dip_error_set(err, DIP_ERROR_IO, file, 0, NULL, "%s is not a file", kind);
+    }
     FILE *stream = fopen(file, "rb");
     if (!stream) {
         return dip_error_set(err, dip_file_open_code(errno), file, 0, NULL, "cannot open %s: %s",

@@ -54,6 +54,27 @@ wait_for shows 'a triangle.obj' || fail "the model is not shown"
 "$drop_file" "$window" "$work/still.pth" || fail "the window does not take a path"
 wait_for shows '0 0 3 0 0 0 1' || fail "the path is not flown"
 
+# Bad files of every kind: each is reported, and the program lives and still draws.
+: >empty.obj
+mkdir folder.obj
+mkfifo pipe.obj pipe.ini
+head -c 5000 "$diptych" >noise.glb
+echo 'Dear reader,' >text.txt
+echo 'NONSENSE' >bad.ini
+echo '{"header":' >cut.json
+echo no >bad.bth
+printf 'v 0 0 0\nf 1 2 3\n' >bad.obj
+dropped=0
+for file in empty.obj folder.obj pipe.obj pipe.ini noise.glb text.txt bad.ini cut.json bad.bth \
+    bad.obj none.ini none.json none.bth; do
+    "$drop_file" "$window" "$work/$file" || fail "the window does not take $file"
+    wait_for grep -q "$file" log.txt || fail "$file is not reported"
+    kill -0 "$program" || fail "$file has ended the preview"
+    shows '0 0 3 0 0 0 1' || fail "the path is gone after $file"
+    rm -f diptych-*.png
+    dropped=$((dropped + 1))
+done
+
 # A program that dies while it drops a file leaves the X server with windows that are gone.
 for moment in enter status drop request; do
     for round in 1 2 3; do
@@ -67,4 +88,4 @@ wait_for twice 'bad.pth:1' || fail "a file is not opened after others were given
 
 xdotool windowfocus "$window" key ctrl+q 2>/dev/null
 wait "$program" || fail "the preview ends with exit code $?"
-echo "seven drops on the window, and twelve by programs that die"
+echo "$((5 + dropped)) drops on the window, and twelve by programs that die"
