@@ -21,4 +21,21 @@ typedef struct DipCameraKeys {
 bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_per_s,
                      double seconds);
 
+// Turns the camera by angles in degrees: to the right about the world's vertical axis, and upwards
+// about the camera's right axis. Stops 1 degree before the camera looks straight up or down.
+void dip_camera_look(DipPose *pose, double right_deg, double up_deg);
+
+// Turns the camera about a point by angles in degrees, so that the point keeps its place in the
+// picture: to the right about the vertical axis through the point, and upwards about the camera's
+// right axis. Stops 1 degree before the camera looks straight up or down.
+void dip_camera_orbit(DipPose *pose, const double centre_world[3], double right_deg, double up_deg);
+
+// Moves the camera to `factor` times its distance from a point, which must be above 0.
+void dip_camera_zoom(DipPose *pose, const double centre_world[3], double factor);
+
+// Writes the point on the camera's line of sight that is nearest to a given point, but at least
+// `least_m` before the camera.
+void dip_camera_point_ahead(const DipPose *pose, const double near_world[3], double least_m,
+                            double ahead_world[3]);
+
 #endif

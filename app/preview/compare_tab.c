@@ -215,10 +215,8 @@ static void declare_thumbnail(DipUi *ui, DipWindow *window, int index, DipRect r
                                   .tip = "Click: go to this time on the path."};
     const DipUiInput input = dip_ui_control(ui, &control);
     if (input.pressed && duration_ns > 0) {
-        const int64_t path_ns = dip_camtrack_time(state->track, state->play_ns);
-        state->play_ns = dip_strip_play_ns(state->play_ns, path_ns, duration_ns, thumbnail.time_ns);
+        dip_preview_seek_path(state, thumbnail.time_ns);
         state->manual = false;
-        ++state->scene_changes;
     }
     const int line = dip_ui_line_height(ui, TINY);
     const DipRect picture = {rect.x, rect.y, rect.width, rect.height - line};

@@ -16,13 +16,9 @@ static void add_time(cJSON *object, const char *name, double time) {
 
 double dip_reply_path_time_s(const DipPreviewState *state) {
     const DipCamTrack *track = state->track;
-    const DipCamPath *active = track->categories[track->active].path;
-    const DipCamPath *path = active ? active : track->categories[0].path;
-    int64_t time_ns = dip_camtrack_time(track, state->play_ns);
-    if (path) {
-        const int64_t duration_ns = dip_campath_info(path).duration_ns;
-        time_ns = (time_ns % duration_ns + duration_ns) % duration_ns;
-    }
+    const bool has_path = track->categories[track->active].path || track->categories[0].path;
+    const int64_t time_ns =
+        has_path ? dip_preview_path_ns(state) : dip_camtrack_time(track, state->play_ns);
     return 1e-9 * (double)time_ns;
 }
 

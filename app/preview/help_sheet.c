@@ -10,7 +10,7 @@ static const char help_shift[] = "With Shift: backwards";
 static const char help_note[] =
     "A setting's key also switches to the path that shows the setting best";
 
-enum { MAX_HELP_ROWS = 44, MAX_HELP_COLUMNS = 3, LARGEST_LETTERS = 17, EDGE_PX = 8 };
+enum { MAX_HELP_ROWS = 56, MAX_HELP_COLUMNS = 3, LARGEST_LETTERS = 17, EDGE_PX = 8 };
 
 typedef struct HelpRow {
     const char *label;

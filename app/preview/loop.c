@@ -1,7 +1,6 @@
 // Runs the turns of the preview.
 #include "app/preview/loop.h"
 
-#include "app/preview/camera.h"
 #include "app/preview/compare.h"
 #include "app/preview/controller.h"
 #include "app/preview/error_thread.h"
@@ -11,6 +10,7 @@
 #include "app/preview/poses.h"
 #include "app/preview/live_prices.h"
 #include "app/preview/maps.h"
+#include "app/preview/pilot.h"
 #include "app/preview/prefetch.h"
 #include "app/preview/reload.h"
 #include "app/preview/screenshot.h"
@@ -116,6 +116,7 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->state.costs = def->costs;
     dip_scene_words(def->session->options, preview->state.scene_words);
     preview->state.shows_gallery = def->session->shows_gallery;
+    dip_pilot_enter(&preview->state.flight, def->session);
     if (def->session->shows_gallery) {
         preview->state.look = preview->drawn_look = def->session->options->look;
     }
@@ -308,16 +309,11 @@ static bool take_event(DipPreview *preview, int timeout_ms) {
 }
 
 static void fly(DipPreview *preview, int64_t elapsed_ns) {
-    preview->flying = false;
-    if (!preview->state.manual) {
-        return;
-    }
-    const DipCameraKeys directions = dip_keys_camera(&preview->held);
-    const double speed_m_per_s = preview->def.flying_speed_m_per_s;
-    const double seconds = 1e-9 * (double)elapsed_ns;
-    preview->flying = dip_camera_move(&preview->pose, &directions, speed_m_per_s, seconds);
-    preview->flying |=
-        dip_controllers_fly(&preview->controllers, &preview->pose, speed_m_per_s, seconds);
+    const DipPilotTurn turn = {.session = preview->def.session,
+                               .keys = dip_keys_camera(&preview->held),
+                               .speed_m_per_s = preview->def.flying_speed_m_per_s,
+                               .elapsed_ns = elapsed_ns};
+    preview->flying = dip_pilot_turn(&preview->state, &turn, &preview->pose);
     preview->state.scene_changes += preview->flying;
 }
 
@@ -487,6 +483,7 @@ static void use_new_session(DipPreview *preview, bool dropped) {
     }
     preview->drawn_look = preview->state.look;
     preview->def.flying_speed_m_per_s = dip_flying_speed(session);
+    dip_pilot_enter(&preview->state.flight, session);
     preview->tried_width = 0; // The new renderers do not have the panes' size yet.
     ++preview->picture_number;
 }

@@ -1,6 +1,7 @@
 // Carries out the user's actions.
 #include "app/preview/state.h"
 
+#include "app/preview/pilot.h"
 #include "config/config.h"
 #include "renderer/base/assert.h"
 
@@ -312,19 +313,26 @@ static const DipCamPath *playing_path(const DipPreviewState *state) {
 
 int64_t dip_preview_path_length_ns(const DipPreviewState *state) {
     const DipCamPath *path = playing_path(state);
-    return path ? dip_campath_duration_ns(path) : 0;
+    if (!path) {
+        return 0;
+    }
+    const bool loops = state->track->end == DIP_CAMPATH_END_loop;
+    return dip_campath_span_ns(path, loops ? DIP_CAMPATH_END_loop : DIP_CAMPATH_END_once);
 }
 
 int64_t dip_preview_path_ns(const DipPreviewState *state) {
-    const int64_t length_ns = dip_preview_path_length_ns(state);
-    const int64_t at_ns = dip_camtrack_time(state->track, state->play_ns);
-    return length_ns > 0 ? ((at_ns % length_ns) + length_ns) % length_ns : 0;
+    return dip_camtrack_path_time(state->track, state->play_ns);
 }
 
 void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns) {
-    const int64_t to_ns = state->play_ns + path_ns - dip_preview_path_ns(state);
-    const int64_t length_ns = dip_preview_path_length_ns(state);
-    state->play_ns = to_ns >= 0 ? to_ns : to_ns + length_ns;
+    const DipCamPath *path = playing_path(state);
+    const int64_t span_ns = path ? dip_campath_span_ns(path, state->track->end) : 0;
+    const int64_t at_ns = dip_camtrack_time(state->track, state->play_ns);
+    const bool once = state->track->end == DIP_CAMPATH_END_once;
+    // Goes to the way there of the present round.
+    const int64_t past_ns = once || span_ns == 0 ? at_ns : (at_ns % span_ns + span_ns) % span_ns;
+    const int64_t to_ns = state->play_ns + path_ns - past_ns;
+    state->play_ns = to_ns >= 0 ? to_ns : once ? 0 : to_ns + span_ns;
     ++state->scene_changes;
 }
 
@@ -543,7 +551,7 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
     case DIP_ACTION_CAMERA:
         state->manual = !state->manual;
         dip_preview_notice(state, now_ns,
-                           state->manual ? "Free camera: W A S D Q E move it"
+                           state->manual ? "Free camera: W A S D Q E move it, dragging turns it"
                                          : "The camera follows its path");
         ++state->scene_changes;
         break;
@@ -574,6 +582,7 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         state->quit = true;
         break;
     default:
+        dip_pilot_act(state, action, argument, reverse, now_ns);
         break;
     }
 }

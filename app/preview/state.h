@@ -5,6 +5,7 @@
 
 #include "app/preview/costs.h"
 #include "app/preview/scene_words.h"
+#include "app/preview/flight.h"
 #include "app/preview/tools.h"
 #include "app/session.h"
 #include "campaths/camtrack.h"
@@ -28,6 +29,11 @@ typedef enum DipAction {
     DIP_ACTION_NEXT_SCENE,
     DIP_ACTION_LOOK,
     DIP_ACTION_CAMERA,
+    DIP_ACTION_CAMERA_BACK, // Gives the free camera the pose of the path.
+    DIP_ACTION_ORBIT,       // Dragging turns the free camera about a point, or about itself.
+    DIP_ACTION_SPEED,       // Makes the free camera faster by `argument` steps.
+    DIP_ACTION_PATH_END,    // Chooses what paths do at their end; the argument is 1 for the next.
+    DIP_ACTION_PATH_EDIT,   // Edits a path; the argument is a DipPathEdit.
     DIP_ACTION_HELP,
     DIP_ACTION_PANEL,
     DIP_ACTION_COSTS,
@@ -71,6 +77,8 @@ typedef struct DipPreviewState {
     int64_t play_ns;             // Time on the path, never below 0.
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
+    DipFlight flight; // How the user flies the camera.
+
     bool manual;             // The user flies the camera; time stands still.
     bool shows_gallery;      // The panes show a scene of the gallery.
     int scene_step;          // The scene that the user asked for: 1 the next, -1 the one before.
@@ -141,11 +149,12 @@ bool dip_preview_rests(const DipPreviewState *state, bool flying);
 // camera. Removes a notice that has ended.
 void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);
 
-// Time on the active camera path, from 0 to below its length, and its length; 0 without a path.
+// Time on the active camera path, from 0 to its length, and its length; 0 without a path. A path
+// that does not loop ends at its last key. A path that goes back has the time of its way there.
 int64_t dip_preview_path_ns(const DipPreviewState *state);
 int64_t dip_preview_path_length_ns(const DipPreviewState *state);
 
-// Moves the time on the active path to `path_ns` (0 to below its length).
+// Moves the time on the active path to `path_ns` (0 to its length).
 void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns);
 
 // Shows a notice for a few seconds.

@@ -153,9 +153,3 @@ DipThumbnail dip_strip_thumbnail(const DipStrip *strip, int index) {
 int64_t dip_strip_duration_ns(const DipStrip *strip) {
     return strip->duration_ns;
 }
-
-int64_t dip_strip_play_ns(int64_t play_ns, int64_t path_ns, int64_t duration_ns, int64_t time_ns) {
-    const int64_t wrapped = (path_ns % duration_ns + duration_ns) % duration_ns;
-    const int64_t moved = play_ns + time_ns - wrapped;
-    return moved >= 0 ? moved : moved + duration_ns;
-}

@@ -32,7 +32,4 @@ DipThumbnail dip_strip_thumbnail(const DipStrip *strip, int index);
 // Duration of the path that the strip shows, or 0 if it has none.
 int64_t dip_strip_duration_ns(const DipStrip *strip);
 
-// Returns the play time, at least 0, at which the path is at time_ns, near the play time play_ns.
-int64_t dip_strip_play_ns(int64_t play_ns, int64_t path_ns, int64_t duration_ns, int64_t time_ns);
-
 #endif

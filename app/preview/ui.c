@@ -59,6 +59,7 @@ static void press_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *inpu
     ui->focus = control->skips_focus ? ui->focus : control->id;
     ui->focus_shows = false;
     input->held = true;
+    input->button = event->button;
     input->began = event->button == DIP_MOUSE_LEFT;
     input->right = event->button == DIP_MOUSE_RIGHT;
     input->clicks = event->clicks;
@@ -90,6 +91,7 @@ static void take_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *input
         break;
     case DIP_EVENT_MOUSE_UP:
         if (held && event->button == ui->held_button) {
+            input->released = true;
             input->pressed = input->hovered && event->button == DIP_MOUSE_LEFT;
             ui->taken = true;
         }
@@ -152,6 +154,7 @@ DipUiInput dip_ui_control(DipUi *ui, const DipUiControl *control) {
     place(ui, control);
     input.hovered = over && (ui->held == 0 || ui->held == control->id);
     input.held = ui->held == control->id;
+    input.button = ui->held_button;
     input.focused = ui->focus == control->id && ui->focus_shows;
     if (!ui->pass.event) {
         return input;

@@ -94,7 +94,9 @@ typedef struct DipUiInput {
     bool began;    // A mouse button was pressed over the control.
     bool moved;    // The pointer moved over the control, or is dragged from it.
     bool right;    // The right button was pressed over the control.
-    int clicks;    // With `began`: 2 for the second press of a double click.
+    bool released; // The mouse button that was held is up again, wherever the pointer is.
+    DipMouseButton button; // With `held` and `released`: the button.
+    int clicks;            // With `began`: 2 for the second press of a double click.
     int steps;     // Steps by wheel (away from the user is +1) or by arrow keys (right is +1).
     bool to_first; // Home was pressed.
     bool to_last;  // End was pressed.

@@ -1,6 +1,7 @@
 // Declares the whole window, from the back to the front.
 #include "app/preview/labels.h"
 #include "app/preview/loupe.h"
+#include "app/preview/pilot.h"
 #include "app/preview/sheet.h"
 #include "app/preview/style.h"
 #include "app/preview/tabs.h"
@@ -11,7 +12,7 @@ static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
     const DipUiControl control = {.id = DIP_UI_ID(DIP_UI_PANES, pane),
                                   .rect = window->layout->panes[pane],
                                   .skips_focus = true,
-                                  .takes_wheel = dip_loupe_is_on(&state->tools)};
+                                  .takes_wheel = state->manual || dip_loupe_is_on(&state->tools)};
     const DipUiInput input = dip_ui_control(ui, &control);
     if (input.began) {
         state->edited[pane] = true;
@@ -61,6 +62,7 @@ void dip_window_declare(DipUi *ui, DipWindow *window) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         panes[p] = declare_pane(ui, window, p);
     }
+    dip_pilot_over_panes(ui, window, panes);
     dip_maps_over_panes(ui, window, panes);
     dip_compare_over_panes(ui, window, panes);
     dip_loupe_over_panes(ui, window, panes);

@@ -307,20 +307,6 @@ static void test_strip_is_drawn_one_thumbnail_at_a_time(void **state) {
     }
 }
 
-static void test_jumps_reach_the_time_on_the_path(void **state) {
-    (void)state;
-    enum { DURATION = 60 };
-    for (int play = 0; play < 200; play += 7) {
-        for (int start = -90; start <= 90; start += 30) { // play time at which the path began
-            for (int to = 0; to < DURATION; to += 6) {
-                const int64_t at = dip_strip_play_ns(play, play - start, DURATION, to);
-                assert_true(at >= 0);
-                assert_int_equal(((at - start) % DURATION + DURATION) % DURATION, to);
-            }
-        }
-    }
-}
-
 int main(void) {
 #define IN_WINDOW(test) cmocka_unit_test_setup_teardown(test, open_window, close_window)
     const struct CMUnitTest tests[] = {
@@ -337,7 +323,6 @@ int main(void) {
         IN_WINDOW(test_position_tells_the_pane_and_the_pixel),
         cmocka_unit_test(test_brackets_move_the_divider_or_the_gain),
         IN_WINDOW(test_strip_is_drawn_one_thumbnail_at_a_time),
-        cmocka_unit_test(test_jumps_reach_the_time_on_the_path),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

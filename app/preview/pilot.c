@@ -1,0 +1,214 @@
+// Turns what mouse and keys ask for into movements of the free camera.
+#include "app/preview/pilot.h"
+
+#include "app/preview/compare.h"
+#include "app/preview/loupe.h"
+#include "app/preview/speed.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { DRAG_PX = 4, STEPS_TO_DOUBLE = 4, MOST_STEPS = 40 };
+
+// A drag by the height of a pane turns the camera by these angles.
+static const double look_deg = 90.0;
+static const double orbit_deg = 180.0;
+static const double zoom_per_step = 0.9;
+
+double dip_flight_speed(const DipFlight *flight) {
+    return flight->base_speed_m_per_s * exp2((double)flight->speed_steps / STEPS_TO_DOUBLE);
+}
+
+void dip_pilot_enter(DipFlight *flight, const DipSession *session) {
+    flight->orbits = dip_flight_should_orbit(session);
+    flight->speed_steps = 0;
+    flight->knows_centre = false;
+}
+
+// --- actions -------------------------------------------------------------------------------------
+
+static void change_speed(DipPreviewState *state, int steps, int64_t now_ns) {
+    DipFlight *flight = &state->flight;
+    const int wanted = flight->speed_steps + steps;
+    flight->speed_steps = wanted > MOST_STEPS    ? MOST_STEPS
+                          : wanted < -MOST_STEPS ? -MOST_STEPS
+                                                 : wanted;
+    dip_preview_notice(state, now_ns, "Speed: %.3g m/s", dip_flight_speed(flight));
+}
+
+static void say_camera(DipPreviewState *state, int64_t now_ns) {
+    dip_preview_notice(state, now_ns,
+                       state->flight.orbits ? "Free camera: dragging orbits, the wheel zooms"
+                                            : "Free camera: dragging turns it, the wheel changes "
+                                              "its speed");
+}
+
+static void make_free(DipPreviewState *state, int64_t now_ns) {
+    if (!state->manual) {
+        state->manual = true;
+        ++state->scene_changes;
+        say_camera(state, now_ns);
+    }
+}
+
+static void choose_end(DipPreviewState *state, int step, int64_t now_ns) {
+    static const char *const texts[DIP_CAMPATH_END_COUNT] = {[DIP_CAMPATH_END_loop] = "loop",
+                                                             [DIP_CAMPATH_END_once] = "play once",
+                                                             [DIP_CAMPATH_END_back] =
+                                                                 "there and back"};
+    DipCamTrack *track = state->track;
+    const int64_t path_ns = dip_preview_path_ns(state);
+    const int end = ((int)track->end + step + DIP_CAMPATH_END_COUNT) % DIP_CAMPATH_END_COUNT;
+    dip_camtrack_set_end(track, (DipCamPathEnd)end);
+    dip_camtrack_restart(track, state->play_ns - path_ns); // The camera stays where it is.
+    dip_preview_notice(state, now_ns, "At the end of paths: %s", texts[end]);
+    ++state->scene_changes;
+}
+
+void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
+                   int64_t now_ns) {
+    switch (action) {
+    case DIP_ACTION_CAMERA_BACK:
+        state->flight.reset = state->manual;
+        dip_preview_notice(state, now_ns,
+                           state->manual ? "The free camera is back at its path"
+                                         : "The camera follows its path");
+        break;
+    case DIP_ACTION_ORBIT:
+        state->flight.orbits = state->manual ? !state->flight.orbits : state->flight.orbits;
+        make_free(state, now_ns);
+        state->flight.knows_centre = false;
+        say_camera(state, now_ns);
+        break;
+    case DIP_ACTION_SPEED:
+        change_speed(state, reverse ? -argument : argument, now_ns);
+        break;
+    case DIP_ACTION_PATH_END:
+        choose_end(state, reverse ? -argument : argument, now_ns);
+        break;
+    default:
+        break;
+    }
+}
+
+// --- mouse ---------------------------------------------------------------------------------------
+
+// Returns whether the button that is held over a pane flies the camera.
+static bool flies(const DipPreviewState *state, const DipUiInput *input) {
+    if (input->button == DIP_MOUSE_RIGHT) {
+        return true;
+    }
+    return input->button == DIP_MOUSE_LEFT && state->manual &&
+           state->tools.comparison != DIP_COMPARE_WIPE;
+}
+
+static void press(DipFlight *flight, const DipUiInput *input) {
+    flight->pressed = true;
+    flight->dragging = false;
+    flight->knows_centre = false;
+    flight->press_x = flight->drag_x = input->x;
+    flight->press_y = flight->drag_y = input->y;
+}
+
+// Adds the way of the pointer to what the loop carries out in its next turn.
+static void drag(DipUi *ui, DipWindow *window, const DipUiInput *input) {
+    DipPreviewState *state = window->state;
+    DipFlight *flight = &state->flight;
+    const int least = dip_ui_px(ui, DRAG_PX);
+    if (!flight->dragging && abs(input->x - flight->press_x) < least &&
+        abs(input->y - flight->press_y) < least) {
+        return;
+    }
+    const double height = window->layout->panes[DIP_PANE_CURRENT].height;
+    flight->dragging = true;
+    make_free(state, dip_ui_now_ns(ui));
+    flight->drag_right += (input->x - flight->drag_x) / height;
+    flight->drag_up += (flight->drag_y - input->y) / height;
+    flight->drag_x = input->x;
+    flight->drag_y = input->y;
+}
+
+static void turn_wheel(DipUi *ui, DipPreviewState *state, DipUiInput *input) {
+    if (!input->steps || !state->manual || (input->modifiers & DIP_MODIFIER_CTRL)) {
+        return;
+    }
+    if (state->flight.orbits) {
+        state->flight.zoom_steps += input->steps;
+        state->flight.knows_centre = false;
+    } else {
+        change_speed(state, input->steps, dip_ui_now_ns(ui));
+    }
+    input->steps = 0;
+}
+
+void dip_pilot_over_panes(DipUi *ui, DipWindow *window, DipUiInput panes[DIP_PANE_COUNT]) {
+    DipFlight *flight = &window->state->flight;
+    for (int p = 0; p < DIP_PANE_COUNT && !dip_ui_is_drawing(ui); ++p) {
+        DipUiInput *input = &panes[p];
+        turn_wheel(ui, window->state, input);
+        if (!flies(window->state, input)) {
+            continue;
+        }
+        if (input->began || input->right) {
+            press(flight, input);
+            input->right = false;
+        } else if (input->released) {
+            input->right = input->button == DIP_MOUSE_RIGHT && !flight->dragging;
+            flight->pressed = flight->dragging = false;
+        } else if (flight->pressed && input->held && input->moved) {
+            drag(ui, window, input);
+        }
+    }
+}
+
+// --- the loop's turn -----------------------------------------------------------------------------
+
+// Carries out drags and zooming. Returns whether there were any.
+static bool move_by_mouse(DipFlight *flight, const DipSession *session, DipPose *pose) {
+    if (flight->drag_right == 0.0 && flight->drag_up == 0.0 && flight->zoom_steps == 0) {
+        return false;
+    }
+    if (!flight->orbits) {
+        dip_camera_look(pose, look_deg * flight->drag_right, look_deg * flight->drag_up);
+        return true;
+    }
+    if (!flight->knows_centre) {
+        dip_orbit_centre(session, pose, flight->centre_world);
+        flight->knows_centre = true;
+    }
+    // The scene follows the pointer, so the camera goes the other way.
+    dip_camera_orbit(pose, flight->centre_world, -orbit_deg * flight->drag_right,
+                     -orbit_deg * flight->drag_up);
+    dip_camera_zoom(pose, flight->centre_world, pow(zoom_per_step, flight->zoom_steps));
+    return true;
+}
+
+static void forget_mouse(DipFlight *flight) {
+    flight->drag_right = flight->drag_up = 0.0;
+    flight->zoom_steps = 0;
+}
+
+// A camera that is free before the first frame has no pose yet.
+static bool has_pose(const DipPose *pose) {
+    const double *q = pose->orientation;
+    return q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;
+}
+
+bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose) {
+    DipFlight *flight = &state->flight;
+    bool moved = false;
+    flight->base_speed_m_per_s = turn->speed_m_per_s;
+    if (state->manual && (flight->reset || !has_pose(pose))) {
+        moved |= dip_camtrack_pose(state->track, state->play_ns, pose);
+    }
+    flight->reset = false;
+    if (state->manual) {
+        moved |= move_by_mouse(flight, turn->session, pose);
+        const double seconds = 1e-9 * (double)turn->elapsed_ns;
+        const double speed_m_per_s = dip_flight_speed(flight);
+        moved |= dip_camera_move(pose, &turn->keys, speed_m_per_s, seconds);
+        moved |= dip_controllers_fly(turn->controllers, pose, speed_m_per_s, seconds);
+    }
+    forget_mouse(flight);
+    return moved;
+}

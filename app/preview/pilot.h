@@ -1,0 +1,39 @@
+// Flying the free camera: the mouse over the panes, the actions of the camera, and the loop's turn.
+#ifndef DIP_APP_PREVIEW_PILOT_H
+#define DIP_APP_PREVIEW_PILOT_H
+
+#include "app/preview/camera.h"
+#include "app/preview/controller.h"
+#include "app/preview/state.h"
+#include "app/preview/tabs.h"
+
+// Carries out an action of the camera or of the path editor. Does nothing for other actions.
+void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
+                   int64_t now_ns);
+
+// Lets the mouse fly the camera. `panes`: what the user did with the panes' own controls in this
+// pass. Dragging with the right button turns the camera, and makes it free if it was not. The left
+// button does so too if the camera is free and no tool uses the button. The wheel changes the speed
+// of the free camera, or zooms.
+//
+// Takes out of `panes` what has flown the camera, so that no tool acts on it: the wheel's steps,
+// and the right button's press. A press without a drag comes back when the button is released.
+void dip_pilot_over_panes(DipUi *ui, DipWindow *window, DipUiInput panes[DIP_PANE_COUNT]);
+
+// Prepares the free camera for what a session shows.
+void dip_pilot_enter(DipFlight *flight, const DipSession *session);
+
+// What the loop knows in a turn.
+typedef struct DipPilotTurn {
+    const DipSession *session;
+    DipCameraKeys keys; // What the held keys ask for.
+    const DipControllers *controllers;
+    double speed_m_per_s; // Speed of the free camera before the wheel has changed it.
+    int64_t elapsed_ns;
+} DipPilotTurn;
+
+// Carries out what mouse, keys, controllers and the path editor have asked of the free camera since
+// the last turn. Returns whether the pose changed.
+bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose);
+
+#endif
