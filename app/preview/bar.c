@@ -21,15 +21,16 @@ typedef enum BarControl {
     BAR_FOLD
 } BarControl;
 
-static const char *const tab_names[DIP_TAB_COUNT] = {"Settings", "Loupe",  "Compare",
-                                                     "Maps",     "Advice", "Times"};
+static const char *const tab_names[DIP_TAB_COUNT] = {"Settings", "Loupe", "Compare", "Maps",
+                                                     "Advice",   "Times", "Path"};
 static const char *const tab_tips[DIP_TAB_COUNT] = {
     "Settings: what each costs and gains (Y)",
     "Loupe: pixels enlarged, with their samples and values (Z)",
     "Compare: wipe, blink, difference, one picture alone, the converged picture (J)",
     "Maps: where error and work are (N)",
     "Advice: the best settings for a time budget (K)",
-    "Times: stages, errors and work of both panes (R)"};
+    "Times: stages, errors and work of both panes (R)",
+    "Path: fly the camera, make a path from its poses (Ctrl+P)"};
 
 // What of the bar fits.
 typedef struct Bar {

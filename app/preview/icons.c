@@ -92,6 +92,13 @@ void dip_icon_tab(DipUi *ui, DipTab tab, DipRect rect, DipColour colour) {
         box(&icon, 7, 4, 2, 5);
         box(&icon, 7, 7, 4, 2);
         break;
+    case DIP_TAB_PATH: // Three keys of a path.
+        line(&icon, 3, 12, 6, 4);
+        line(&icon, 6, 4, 12, 9);
+        box(&icon, 1, 11, 4, 4);
+        box(&icon, 5, 2, 4, 4);
+        box(&icon, 11, 8, 4, 4);
+        break;
     default:
         break;
     }

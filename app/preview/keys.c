@@ -64,6 +64,14 @@ const DipKeyRow dip_key_rows[] = {
     {'\\', DIP_KEYCODE_NONE, DIP_ACTION_ORBIT, 0, false, "\\", "Orbit, or turn on the spot"},
     {DIP_KEYCODE_HOME, DIP_KEYCODE_NONE, DIP_ACTION_CAMERA_BACK, 0, false, "Home",
      "Back to the path's pose"},
+    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_TAB, DIP_TAB_PATH, false, "Ctrl+P",
+     "Make a path from poses"},
+    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_PATH_EDIT, 0, false, "Ctrl+N  R  Delete",
+     "Add, replace, delete a key"},
+    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_PATH_EDIT, 0, false, "Ctrl+Left  Right",
+     "Choose a key"},
+    {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_PATH_EDIT, 0, false, "Ctrl+F  W  O",
+     "Fly it, save it, edit this path"},
     {'r', DIP_KEYCODE_NONE, DIP_ACTION_PANEL, 0, false, "R", "Times, errors and work"},
     {'u', DIP_KEYCODE_NONE, DIP_ACTION_COSTS, 0, false, "U", "What each setting costs"},
     {'k', DIP_KEYCODE_NONE, DIP_ACTION_ADVICE, 0, false, "K", "Best settings for a time budget"},
@@ -101,6 +109,17 @@ static const OtherKey ctrl_keys[] = {
     {DIP_KEYCODE_ENTER, DIP_ACTION_APPLY, 0, false},
     {'s', DIP_ACTION_SAVE_POSE, 0, false},
     {'e', DIP_ACTION_PATH_END, 1, false},
+    {'p', DIP_ACTION_TAB, DIP_TAB_PATH, false},
+    {'n', DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_ADD, false},
+    {'r', DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_REPLACE, false},
+    {DIP_KEYCODE_DELETE, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_DELETE, false},
+    {DIP_KEYCODE_RIGHT, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_NEXT, false},
+    {DIP_KEYCODE_LEFT, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_BEFORE, false},
+    {'f', DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_FLY, false},
+    {'w', DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_SAVE, false},
+    {'o', DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_TAKE, false},
+    {DIP_KEYCODE_UP, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_SLOWER, false},
+    {DIP_KEYCODE_DOWN, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_FASTER, false},
     {DIP_KEYCODE_PAGE_DOWN, DIP_ACTION_NEXT_SCENE, 0, false},
     {DIP_KEYCODE_PAGE_UP, DIP_ACTION_NEXT_SCENE, 0, true},
 };
@@ -115,6 +134,9 @@ static bool press_other(DipPreviewState *state, const OtherKey *keys, int count,
                         const DipEvent *event, int64_t now_ns) {
     for (int i = 0; i < count; ++i) {
         if (keys[i].key == (int)event->key) {
+            if (event->repeat && keys[i].action == DIP_ACTION_PATH_EDIT) {
+                return true; // A key that is held adds or saves once.
+            }
             dip_preview_act(state, keys[i].action, keys[i].argument, keys[i].reverse, now_ns);
             return true;
         }

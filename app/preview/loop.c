@@ -48,6 +48,7 @@ struct DipPreview {
     DipPrices *prices;          // Owned unless it is that of the def.
     DipLivePrices *live_prices; // NULL if no prices are measured.
     DipTools *tools;
+    DipPathEditor *editor;
     DipTextView text; // Used if the display shows characters.
     DipFigures figures;
     DipPrefetch prefetch;
@@ -130,7 +131,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->view = dip_view_create(def->display.set_text ? &preview->text : NULL, err);
     preview->prices = def->prices || !preview->view ? def->prices : dip_prices_create(err);
     preview->tools = preview->view && preview->prices ? dip_tools_create(err) : NULL;
-    if (!preview->tools || !create_live_prices(preview, err)) {
+    preview->editor = preview->tools ? dip_path_editor_create(err) : NULL;
+    preview->state.editor = preview->editor;
+    if (!preview->editor || !create_live_prices(preview, err)) {
         dip_preview_destroy(&preview);
         return NULL;
     }
@@ -150,6 +153,7 @@ void dip_preview_destroy(DipPreview **preview_pointer) {
     *preview_pointer = NULL;
     dip_error_thread_destroy(&preview->errors);
     dip_prefetch_end(&preview->prefetch);
+    dip_path_editor_destroy(&preview->editor);
     dip_tools_destroy(&preview->tools);
     dip_live_prices_destroy(&preview->live_prices);
     if (!preview->def.prices) {

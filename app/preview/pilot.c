@@ -65,6 +65,34 @@ static void choose_end(DipPreviewState *state, int step, int64_t now_ns) {
     ++state->scene_changes;
 }
 
+static const DipCamPath *playing_path(const DipPreviewState *state) {
+    const DipCamCategory *categories = state->track->categories;
+    const DipCamPath *path = categories[state->track->active].path;
+    return path ? path : categories[0].path;
+}
+
+static void edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns) {
+    char text[DIP_NOTICE_SIZE];
+    if (!state->editor) {
+        return;
+    }
+    const bool done = dip_path_editor_edit(state->editor, edit, playing_path(state),
+                                           state->track->end, text, sizeof text);
+    const bool moves =
+        edit == DIP_PATH_EDIT_NEXT || edit == DIP_PATH_EDIT_BEFORE || edit == DIP_PATH_EDIT_FLY;
+    if (done && moves) {
+        make_free(state, now_ns);
+    }
+    dip_preview_notice(state, now_ns, "%s", text);
+}
+
+void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns) {
+    make_free(state, now_ns);
+    dip_path_editor_choose(state->editor, index);
+    dip_preview_notice(state, now_ns, "Key %zu of %zu", index + 1,
+                       dip_path_editor_count(state->editor));
+}
+
 void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                    int64_t now_ns) {
     switch (action) {
@@ -85,6 +113,9 @@ void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool 
         break;
     case DIP_ACTION_PATH_END:
         choose_end(state, reverse ? -argument : argument, now_ns);
+        break;
+    case DIP_ACTION_PATH_EDIT:
+        edit_path(state, (DipPathEdit)argument, now_ns);
         break;
     default:
         break;
@@ -194,6 +225,29 @@ static bool has_pose(const DipPose *pose) {
     return q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;
 }
 
+// Lets the path editor move the camera until the user does.
+static bool move_by_editor(DipPreviewState *state, bool moved, int64_t elapsed_ns, DipPose *pose) {
+    if (!state->editor) {
+        return false;
+    }
+    if (!state->manual || moved) {
+        dip_path_editor_stop(state->editor);
+    }
+    const bool flown = dip_path_editor_turn(state->editor, elapsed_ns, pose);
+    if (has_pose(pose)) {
+        dip_path_editor_see(state->editor, pose);
+    }
+    return flown;
+}
+
+// Keeps the camera where a path can have a key.
+static void keep_in_world(DipPose *pose) {
+    for (int i = 0; i < 3; ++i) {
+        pose->position_world[i] = fmax(-DIP_CAMPATH_MAX_POSITION,
+                                       fmin(pose->position_world[i], DIP_CAMPATH_MAX_POSITION));
+    }
+}
+
 bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose) {
     DipFlight *flight = &state->flight;
     bool moved = false;
@@ -208,7 +262,8 @@ bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *p
         const double speed_m_per_s = dip_flight_speed(flight);
         moved |= dip_camera_move(pose, &turn->keys, speed_m_per_s, seconds);
         moved |= dip_controllers_fly(turn->controllers, pose, speed_m_per_s, seconds);
+        keep_in_world(pose);
     }
     forget_mouse(flight);
-    return moved;
+    return move_by_editor(state, moved, turn->elapsed_ns, pose) || moved;
 }

@@ -11,6 +11,9 @@
 void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                    int64_t now_ns);
 
+// Chooses a key of the path editor, and moves the free camera there.
+void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns);
+
 // Lets the mouse fly the camera. `panes`: what the user did with the panes' own controls in this
 // pass. Dragging with the right button turns the camera, and makes it free if it was not. The left
 // button does so too if the camera is free and no tool uses the button. The wheel changes the speed
@@ -33,7 +36,8 @@ typedef struct DipPilotTurn {
 } DipPilotTurn;
 
 // Carries out what mouse, keys, controllers and the path editor have asked of the free camera since
-// the last turn. Returns whether the pose changed.
+// the last turn. The path editor stops when the user moves the camera. Returns whether the pose
+// changed.
 bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose);
 
 #endif

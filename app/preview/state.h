@@ -6,6 +6,7 @@
 #include "app/preview/costs.h"
 #include "app/preview/scene_words.h"
 #include "app/preview/flight.h"
+#include "app/preview/path_editor.h"
 #include "app/preview/tools.h"
 #include "app/session.h"
 #include "campaths/camtrack.h"
@@ -77,7 +78,8 @@ typedef struct DipPreviewState {
     int64_t play_ns;             // Time on the path, never below 0.
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
-    DipFlight flight; // How the user flies the camera.
+    DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
+    DipFlight flight;      // How the user flies the camera.
 
     bool manual;             // The user flies the camera; time stands still.
     bool shows_gallery;      // The panes show a scene of the gallery.

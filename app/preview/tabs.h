@@ -40,6 +40,7 @@ void dip_tab_compare(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_maps(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_times(DipUi *ui, DipWindow *window, DipRect body);
+void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body);
 
 // Draws the frame times of both panes in the last seconds, with the line of the budget.
 void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect);

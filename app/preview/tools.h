@@ -16,6 +16,7 @@ typedef enum DipTab {
     DIP_TAB_MAPS,
     DIP_TAB_ADVICE,
     DIP_TAB_TIMES,
+    DIP_TAB_PATH,
     DIP_TAB_COUNT
 } DipTab;
 

@@ -37,7 +37,8 @@ typedef enum DipUiGroup {
     DIP_UI_MAPS,
     DIP_UI_ADVICE,
     DIP_UI_TIMES,
-    DIP_UI_HELP
+    DIP_UI_HELP,
+    DIP_UI_PATH
 } DipUiGroup;
 
 typedef struct DipUi DipUi;

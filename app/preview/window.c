@@ -30,6 +30,7 @@ static void declare_tab(DipUi *ui, DipWindow *window, DipRect body) {
         [DIP_TAB_SETTINGS] = dip_tab_settings, [DIP_TAB_LOUPE] = dip_tab_loupe,
         [DIP_TAB_COMPARE] = dip_tab_compare,   [DIP_TAB_MAPS] = dip_tab_maps,
         [DIP_TAB_ADVICE] = dip_tab_advice,     [DIP_TAB_TIMES] = dip_tab_times,
+        [DIP_TAB_PATH] = dip_tab_path,
     };
     dip_ui_fill(ui, body, dip_style_dock);
     tabs[window->state->tools.tab](ui, window, body);

@@ -1,0 +1,219 @@
+// The tab of the camera: how it flies, and the path that the user makes key by key.
+#include "app/preview/pilot.h"
+#include "app/preview/style.h"
+#include "app/preview/tabs.h"
+
+#include <stdio.h>
+
+enum { TEXT = 12, BUTTON_HEIGHT = 26, GAP = 6, KEY_WIDTH = 34 };
+enum { ID_EDIT, ID_CAMERA = 16, ID_END = 32, ID_KEYS = 64, MAX_SHOWN_KEYS = 64 };
+
+// Where the next control of the tab lies: rows are filled from the left, and begin anew below.
+typedef struct Flow {
+    DipUi *ui;
+    DipPreviewState *state;
+    DipRect body;
+    int x;
+    int y;
+    int row;
+} Flow;
+
+static Flow flow_make(DipUi *ui, DipPreviewState *state, DipRect body) {
+    const int margin = dip_ui_px(ui, 8);
+    const DipRect inside = {body.x + margin, body.y + dip_ui_px(ui, 6), body.width - 2 * margin,
+                            body.height - dip_ui_px(ui, 8)};
+    return (Flow){ui, state, inside, inside.x, inside.y, dip_ui_px(ui, BUTTON_HEIGHT)};
+}
+
+static void next_row(Flow *flow) {
+    if (flow->x > flow->body.x) {
+        flow->x = flow->body.x;
+        flow->y += flow->row + dip_ui_px(flow->ui, GAP);
+    }
+}
+
+// Returns a rectangle of the given width in this row or the next one; empty if the tab is full.
+static DipRect flow_next(Flow *flow, int width) {
+    if (flow->x + width > flow->body.x + flow->body.width) {
+        next_row(flow);
+    }
+    if (flow->y + flow->row > flow->body.y + flow->body.height || width > flow->body.width) {
+        return (DipRect){flow->x, flow->y, 0, 0};
+    }
+    const DipRect rect = {flow->x, flow->y, width, flow->row};
+    flow->x += width + dip_ui_px(flow->ui, GAP);
+    return rect;
+}
+
+static bool flow_button(Flow *flow, unsigned id, const char *text, DipUiLook look,
+                        const char *tip) {
+    const int width = dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, 22);
+    const DipRect rect = flow_next(flow, width);
+    return !dip_rect_is_empty(rect) &&
+           dip_ui_button(flow->ui, DIP_UI_ID(DIP_UI_PATH, id), rect, text, look, tip);
+}
+
+static void flow_text(Flow *flow, DipColour colour, const char *text) {
+    const int width = dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, 8);
+    const DipRect rect = flow_next(flow, dip_style_min(width, flow->body.width));
+    if (!dip_rect_is_empty(rect)) {
+        dip_ui_text(flow->ui, TEXT, colour, DIP_ALIGN_LEFT, rect.x,
+                    rect.y + (rect.height - dip_ui_line_height(flow->ui, TEXT)) / 2, rect.width,
+                    text);
+    }
+}
+
+static void act(Flow *flow, DipAction action, int argument, bool reverse) {
+    dip_preview_act(flow->state, action, argument, reverse, dip_ui_now_ns(flow->ui));
+}
+
+// --- the path ------------------------------------------------------------------------------------
+
+// Declares a button that edits the path. Without keys, only some edits are possible.
+static void edit_button(Flow *flow, DipPathEdit edit, const char *text, DipUiLook look,
+                        const char *tip) {
+    const bool possible = edit == DIP_PATH_EDIT_ADD || edit == DIP_PATH_EDIT_TAKE ||
+                          dip_path_editor_count(flow->state->editor) > 0;
+    if (flow_button(flow, ID_EDIT + (unsigned)edit, text, possible ? look : DIP_UI_OFF,
+                    possible ? tip : "The path has no key yet.")) {
+        act(flow, DIP_ACTION_PATH_EDIT, (int)edit, false);
+    }
+}
+
+static void declare_edits(Flow *flow) {
+    const DipPathEditor *editor = flow->state->editor;
+    const bool flies = dip_path_editor_flies(editor);
+    edit_button(flow, DIP_PATH_EDIT_ADD, "Add key",
+                dip_path_editor_count(editor) ? DIP_UI_PLAIN : DIP_UI_PRIMARY,
+                "Adds the camera's pose behind the chosen key (Ctrl+N).");
+    edit_button(flow, DIP_PATH_EDIT_REPLACE, "Replace", DIP_UI_PLAIN,
+                "Gives the chosen key the camera's pose (Ctrl+R).");
+    edit_button(flow, DIP_PATH_EDIT_DELETE, "Delete", DIP_UI_PLAIN,
+                "Deletes the chosen key (Ctrl+Delete).");
+    edit_button(flow, DIP_PATH_EDIT_FLY, flies ? "Stop" : "Fly it",
+                flies ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                "Flies the path from the chosen key on (Ctrl+F).");
+    edit_button(flow, DIP_PATH_EDIT_SAVE, "Save .pth",
+                dip_path_editor_is_unsaved(editor) ? DIP_UI_PRIMARY : DIP_UI_PLAIN,
+                "Saves the path to a new file in the working folder (Ctrl+W).");
+    edit_button(flow, DIP_PATH_EDIT_TAKE, "Edit this path", DIP_UI_PLAIN,
+                "Takes the keys of the path that plays, in place of these keys (Ctrl+O).");
+}
+
+static void declare_key(Flow *flow, size_t index) {
+    DipPathEditor *editor = flow->state->editor;
+    const DipCamKey key = dip_path_editor_key(editor, index);
+    char text[16], tip[160];
+    snprintf(text, sizeof text, "%zu", index + 1);
+    snprintf(tip, sizeof tip, "Key %zu at %.2f, %.2f, %.2f m. Click: the camera goes there.",
+             index + 1, key.position_world[0], key.position_world[1], key.position_world[2]);
+    const DipRect rect = flow_next(flow, dip_ui_px(flow->ui, KEY_WIDTH));
+    if (!dip_rect_is_empty(rect) &&
+        dip_ui_button(flow->ui, DIP_UI_ID(DIP_UI_PATH, ID_KEYS + index % MAX_SHOWN_KEYS), rect,
+                      text, index == dip_path_editor_chosen(editor) ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                      tip)) {
+        dip_pilot_choose_key(flow->state, index, dip_ui_now_ns(flow->ui));
+    }
+}
+
+// Declares one row of keys around the chosen one.
+static void declare_keys(Flow *flow) {
+    const DipPathEditor *editor = flow->state->editor;
+    const int count = (int)dip_path_editor_count(editor);
+    const int step = dip_ui_px(flow->ui, KEY_WIDTH) + dip_ui_px(flow->ui, GAP);
+    const int room = flow->body.width / dip_style_max(1, step) - 2; // Two arrows take room, too.
+    const int shown = dip_style_max(1, dip_style_min(room, MAX_SHOWN_KEYS));
+    const int middle = (int)dip_path_editor_chosen(editor) - shown / 2;
+    const int first = dip_style_max(0, dip_style_min(middle, count - shown));
+    edit_button(flow, DIP_PATH_EDIT_BEFORE, "<", DIP_UI_PLAIN, "The key before (Ctrl+Left).");
+    edit_button(flow, DIP_PATH_EDIT_NEXT, ">", DIP_UI_PLAIN, "The next key (Ctrl+Right).");
+    if (count == 0) {
+        flow_text(flow, dip_style_dim, "Fly to a viewpoint, add it as a key, and so on.");
+    }
+    for (int i = first; i < count && i < first + shown; ++i) {
+        declare_key(flow, (size_t)i);
+    }
+}
+
+static void declare_period(Flow *flow) {
+    const DipPathEditor *editor = flow->state->editor;
+    const double period_s = 1e-9 * (double)dip_path_editor_period_ns(editor);
+    char text[120];
+    edit_button(flow, DIP_PATH_EDIT_FASTER, "-", DIP_UI_PLAIN,
+                "Less time from key to key (Ctrl+Down).");
+    edit_button(flow, DIP_PATH_EDIT_SLOWER, "+", DIP_UI_PLAIN,
+                "More time from key to key (Ctrl+Up).");
+    snprintf(text, sizeof text, "%.3g s from key to key", period_s);
+    flow_text(flow, dip_style_soft, text);
+    if (dip_path_editor_file(editor)[0]) {
+        snprintf(text, sizeof text, "Saved: %s%s", dip_path_editor_file(editor),
+                 dip_path_editor_is_unsaved(editor) ? ", changed since" : "");
+        flow_text(flow, dip_style_dim, text);
+    }
+}
+
+static void declare_ends(Flow *flow) {
+    static const struct {
+        const char *text;
+        const char *tip;
+    } ends[DIP_CAMPATH_END_COUNT] = {
+        [DIP_CAMPATH_END_loop] = {"Loop", "Paths fly from the last key to the first one."},
+        [DIP_CAMPATH_END_once] = {"Once", "Paths stop at the last key."},
+        [DIP_CAMPATH_END_back] = {"There and back", "Paths fly back to the first key."}};
+    const int now = (int)flow->state->track->end;
+    flow_text(flow, dip_style_dim, "At the end (Ctrl+E):");
+    for (int i = 0; i < DIP_CAMPATH_END_COUNT; ++i) {
+        if (flow_button(flow, ID_END + (unsigned)i, ends[i].text,
+                        i == now ? DIP_UI_CHOSEN : DIP_UI_PLAIN, ends[i].tip) &&
+            i != now) {
+            act(flow, DIP_ACTION_PATH_END, i - now, false);
+        }
+    }
+}
+
+// --- the camera ----------------------------------------------------------------------------------
+
+static void declare_camera(Flow *flow) {
+    const DipPreviewState *state = flow->state;
+    const DipFlight *flight = &state->flight;
+    char text[48];
+    if (flow_button(flow, ID_CAMERA, "Free camera", state->manual ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                    "Takes the camera off its path, or back (C). Keys W A S D Q E and dragging "
+                    "in a pane move it.")) {
+        act(flow, DIP_ACTION_CAMERA, 0, false);
+    }
+    if (flow_button(flow, ID_CAMERA + 1, flight->orbits ? "Orbits" : "Turns", DIP_UI_PLAIN,
+                    "Whether dragging orbits the scene or turns the camera on the spot (\\).")) {
+        act(flow, DIP_ACTION_ORBIT, 0, false);
+    }
+    if (flow_button(flow, ID_CAMERA + 2, "Back to the path",
+                    state->manual ? DIP_UI_PLAIN : DIP_UI_OFF,
+                    "Gives the free camera the pose of the path (Home).")) {
+        act(flow, DIP_ACTION_CAMERA_BACK, 0, false);
+    }
+    if (flow_button(flow, ID_CAMERA + 3, "Slower", DIP_UI_PLAIN,
+                    "Slows the free camera down, as the wheel over a pane does.")) {
+        act(flow, DIP_ACTION_SPEED, 1, true);
+    }
+    if (flow_button(flow, ID_CAMERA + 4, "Faster", DIP_UI_PLAIN,
+                    "Speeds the free camera up, as the wheel over a pane does.")) {
+        act(flow, DIP_ACTION_SPEED, 1, false);
+    }
+    snprintf(text, sizeof text, "%.3g m/s", dip_flight_speed(flight));
+    flow_text(flow, dip_style_soft, text);
+}
+
+void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body) {
+    Flow flow = flow_make(ui, window->state, body);
+    if (window->state->editor) {
+        declare_edits(&flow);
+        next_row(&flow);
+        declare_keys(&flow);
+        next_row(&flow);
+        declare_period(&flow);
+        next_row(&flow);
+    }
+    declare_ends(&flow);
+    next_row(&flow);
+    declare_camera(&flow);
+}
