@@ -36,6 +36,11 @@ const DipCommand dip_preview_command = {
             "A game controller works, too: the sticks and triggers fly the camera, Y frees it, the "
             "shoulder buttons and the directional pad choose and change settings, A presses, X "
             "applies, B undoes, Start pauses, and Back leaves.\n\n"
+            "Dragging in a pane with the right mouse button frees the camera from its path and "
+            "turns it, or orbits a model. The keys W, A, S, D, Q and E move it, the wheel changes "
+            "its speed or its distance, Home takes it back, and C lets it follow its path again. "
+            "The tab Path (Ctrl+P) makes a camera path from its poses and saves it to a new "
+            ".pth file.\n\n"
             "A model, a camera path, an ini or a cost report that is dropped onto the window takes "
             "the place of what it shows. If the file is bad, the window says so and stays as it "
             "is.",

@@ -216,7 +216,8 @@ static bool save(DipPathEditor *editor, char *text, size_t size_bytes) {
     }
     memcpy(editor->file, file, sizeof file);
     editor->unsaved = false;
-    snprintf(what, sizeof what, "Saved %zu keys to", editor->count);
+    snprintf(what, sizeof what, "Saved %zu %s to", editor->count,
+             editor->count == 1 ? "key" : "keys");
     dip_saved_describe(what, file, text, size_bytes);
     return true;
 }

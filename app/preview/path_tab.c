@@ -5,7 +5,10 @@
 
 #include <stdio.h>
 
-enum { TEXT = 12, BUTTON_HEIGHT = 26, GAP = 6, KEY_WIDTH = 34 };
+enum { TEXT = 12, KEY_WIDTH = 34 };
+enum { BUTTON_HEIGHT = 26, GAP = 6 };         // Sizes of the rows,
+enum { LOW_BUTTON_HEIGHT = 21, LOW_GAP = 3 }; // and in a narrow tab, which has no notes.
+enum { NARROW = 400 };
 enum { ID_EDIT, ID_CAMERA = 16, ID_END = 32, ID_KEYS = 64, MAX_SHOWN_KEYS = 64 };
 
 // Where the next control of the tab lies: rows are filled from the left, and begin anew below.
@@ -16,19 +19,29 @@ typedef struct Flow {
     int x;
     int y;
     int row;
+    int gap;
+    bool narrow; // Rows are low and full, and notes are left out.
 } Flow;
 
 static Flow flow_make(DipUi *ui, DipPreviewState *state, DipRect body) {
     const int margin = dip_ui_px(ui, 8);
     const DipRect inside = {body.x + margin, body.y + dip_ui_px(ui, 6), body.width - 2 * margin,
                             body.height - dip_ui_px(ui, 8)};
-    return (Flow){ui, state, inside, inside.x, inside.y, dip_ui_px(ui, BUTTON_HEIGHT)};
+    const bool narrow = body.width < dip_ui_px(ui, NARROW);
+    return (Flow){.ui = ui,
+                  .state = state,
+                  .body = inside,
+                  .x = inside.x,
+                  .y = inside.y,
+                  .row = dip_ui_px(ui, narrow ? LOW_BUTTON_HEIGHT : BUTTON_HEIGHT),
+                  .gap = dip_ui_px(ui, narrow ? LOW_GAP : GAP),
+                  .narrow = narrow};
 }
 
 static void next_row(Flow *flow) {
     if (flow->x > flow->body.x) {
         flow->x = flow->body.x;
-        flow->y += flow->row + dip_ui_px(flow->ui, GAP);
+        flow->y += flow->row + flow->gap;
     }
 }
 
@@ -41,19 +54,31 @@ static DipRect flow_next(Flow *flow, int width) {
         return (DipRect){flow->x, flow->y, 0, 0};
     }
     const DipRect rect = {flow->x, flow->y, width, flow->row};
-    flow->x += width + dip_ui_px(flow->ui, GAP);
+    flow->x += width + flow->gap;
     return rect;
 }
 
 static bool flow_button(Flow *flow, unsigned id, const char *text, DipUiLook look,
                         const char *tip) {
-    const int width = dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, 22);
+    const int width =
+        dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, flow->narrow ? 12 : 22);
     const DipRect rect = flow_next(flow, width);
     return !dip_rect_is_empty(rect) &&
            dip_ui_button(flow->ui, DIP_UI_ID(DIP_UI_PATH, id), rect, text, look, tip);
 }
 
+// Begins a new row for other matters, where there is room for that.
+static void next_group(Flow *flow) {
+    if (!flow->narrow) {
+        next_row(flow);
+    }
+}
+
+// Shows a note, which a narrow tab leaves out.
 static void flow_text(Flow *flow, DipColour colour, const char *text) {
+    if (flow->narrow) {
+        return;
+    }
     const int width = dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, 8);
     const DipRect rect = flow_next(flow, dip_style_min(width, flow->body.width));
     if (!dip_rect_is_empty(rect)) {
@@ -96,7 +121,7 @@ static void declare_edits(Flow *flow) {
     edit_button(flow, DIP_PATH_EDIT_SAVE, "Save .pth",
                 dip_path_editor_is_unsaved(editor) ? DIP_UI_PRIMARY : DIP_UI_PLAIN,
                 "Saves the path to a new file in the working folder (Ctrl+W).");
-    edit_button(flow, DIP_PATH_EDIT_TAKE, "Edit this path", DIP_UI_PLAIN,
+    edit_button(flow, DIP_PATH_EDIT_TAKE, "Edit path", DIP_UI_PLAIN,
                 "Takes the keys of the path that plays, in place of these keys (Ctrl+O).");
 }
 
@@ -120,7 +145,7 @@ static void declare_key(Flow *flow, size_t index) {
 static void declare_keys(Flow *flow) {
     const DipPathEditor *editor = flow->state->editor;
     const int count = (int)dip_path_editor_count(editor);
-    const int step = dip_ui_px(flow->ui, KEY_WIDTH) + dip_ui_px(flow->ui, GAP);
+    const int step = dip_ui_px(flow->ui, KEY_WIDTH) + flow->gap;
     const int room = flow->body.width / dip_style_max(1, step) - 2; // Two arrows take room, too.
     const int shown = dip_style_max(1, dip_style_min(room, MAX_SHOWN_KEYS));
     const int middle = (int)dip_path_editor_chosen(editor) - shown / 2;
@@ -186,7 +211,7 @@ static void declare_camera(Flow *flow) {
                     "Whether dragging orbits the scene or turns the camera on the spot (\\).")) {
         act(flow, DIP_ACTION_ORBIT, 0, false);
     }
-    if (flow_button(flow, ID_CAMERA + 2, "Back to the path",
+    if (flow_button(flow, ID_CAMERA + 2, flow->narrow ? "Back" : "Back to the path",
                     state->manual ? DIP_UI_PLAIN : DIP_UI_OFF,
                     "Gives the free camera the pose of the path (Home).")) {
         act(flow, DIP_ACTION_CAMERA_BACK, 0, false);
@@ -207,13 +232,13 @@ void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body) {
     Flow flow = flow_make(ui, window->state, body);
     if (window->state->editor) {
         declare_edits(&flow);
-        next_row(&flow);
+        next_group(&flow);
         declare_keys(&flow);
-        next_row(&flow);
+        next_group(&flow);
         declare_period(&flow);
-        next_row(&flow);
+        next_group(&flow);
     }
     declare_ends(&flow);
-    next_row(&flow);
+    next_group(&flow);
     declare_camera(&flow);
 }

@@ -207,9 +207,9 @@ static bool move_by_mouse(DipFlight *flight, const DipSession *session, DipPose 
         dip_orbit_centre(session, pose, flight->centre_world);
         flight->knows_centre = true;
     }
-    // The scene follows the pointer, so the camera goes the other way.
-    dip_camera_orbit(pose, flight->centre_world, -orbit_deg * flight->drag_right,
-                     -orbit_deg * flight->drag_up);
+    // The scene follows the pointer: what lies before the centre moves with it.
+    dip_camera_orbit(pose, flight->centre_world, orbit_deg * flight->drag_right,
+                     orbit_deg * flight->drag_up);
     dip_camera_zoom(pose, flight->centre_world, pow(zoom_per_step, flight->zoom_steps));
     return true;
 }
@@ -261,7 +261,8 @@ bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *p
         const double seconds = 1e-9 * (double)turn->elapsed_ns;
         const double speed_m_per_s = dip_flight_speed(flight);
         moved |= dip_camera_move(pose, &turn->keys, speed_m_per_s, seconds);
-        moved |= dip_controllers_fly(turn->controllers, pose, speed_m_per_s, seconds);
+        moved |= turn->controllers &&
+                 dip_controllers_fly(turn->controllers, pose, speed_m_per_s, seconds);
         keep_in_world(pose);
     }
     forget_mouse(flight);

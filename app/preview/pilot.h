@@ -29,9 +29,9 @@ void dip_pilot_enter(DipFlight *flight, const DipSession *session);
 // What the loop knows in a turn.
 typedef struct DipPilotTurn {
     const DipSession *session;
-    DipCameraKeys keys; // What the held keys ask for.
-    const DipControllers *controllers;
-    double speed_m_per_s; // Speed of the free camera before the wheel has changed it.
+    DipCameraKeys keys;                // What the held keys ask for.
+    const DipControllers *controllers; // NULL: there are none.
+    double speed_m_per_s;              // Speed of the free camera before the wheel has changed it.
     int64_t elapsed_ns;
 } DipPilotTurn;
 

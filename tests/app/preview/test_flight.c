@@ -214,7 +214,7 @@ static void orbiting_keeps_the_centre_in_the_picture(void **unused) {
     for (int i = 0; i < 3; ++i) {
         assert_true(fabs(after[i] - before[i]) < 1e-12);
     }
-    assert_looks(20.0 - 180.0 * 50 / pane_height, 10.0 + 180.0 * 30 / pane_height);
+    assert_looks(20.0 + 180.0 * 50 / pane_height, 10.0 - 180.0 * 30 / pane_height);
     // A centre beside the line of sight stays, too.
     const double beside[3] = {-4.0, 1.0, -7.0};
     camera_coordinates(beside, before);
@@ -223,6 +223,23 @@ static void orbiting_keeps_the_centre_in_the_picture(void **unused) {
     for (int i = 0; i < 3; ++i) {
         assert_true(fabs(after[i] - before[i]) < 1e-12);
     }
+}
+
+// What lies between the camera and the centre moves with the pointer: to the right and down.
+static void an_orbited_scene_follows_the_pointer(void **unused) {
+    (void)unused;
+    state.manual = true;
+    state.flight.orbits = true;
+    double centre[3], seen[3], before[3];
+    dip_orbit_centre(&session, &pose, centre);
+    for (int i = 0; i < 3; ++i) {
+        before[i] = 0.5 * (centre[i] + pose.position_world[i]);
+    }
+    camera_coordinates(before, seen);
+    assert_true(fabs(seen[0]) < 1e-12 && fabs(seen[1]) < 1e-12 && seen[2] < 0.0);
+    drag(DIP_MOUSE_RIGHT, 20, 10);
+    camera_coordinates(before, seen);
+    assert_true(seen[0] > 0.01 && seen[1] < -0.01);
 }
 
 static void the_wheel_zooms_an_orbit(void **unused) {
@@ -363,6 +380,7 @@ int main(void) {
         FLIGHT_TEST(the_right_button_frees_the_camera_and_a_click_pins_the_loupe),
         FLIGHT_TEST(the_wipe_keeps_the_left_button),
         FLIGHT_TEST(orbiting_keeps_the_centre_in_the_picture),
+        FLIGHT_TEST(an_orbited_scene_follows_the_pointer),
         FLIGHT_TEST(the_wheel_zooms_an_orbit),
         FLIGHT_TEST(the_wheel_changes_the_speed),
         FLIGHT_TEST(the_loupe_keeps_its_wheel),
