@@ -4,9 +4,9 @@
 #define DIP_APP_PREVIEW_STATE_H
 
 #include "app/preview/costs.h"
-#include "app/preview/scene_words.h"
 #include "app/preview/flight.h"
 #include "app/preview/path_editor.h"
+#include "app/preview/scene_words.h"
 #include "app/preview/tools.h"
 #include "app/session.h"
 #include "campaths/camtrack.h"
