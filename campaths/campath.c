@@ -222,10 +222,6 @@ int64_t dip_campath_time_at_end(const DipCamPath *path, DipCamPathEnd end, int64
     return forwards ? phase_ns : span_ns - phase_ns;
 }
 
-int64_t dip_campath_duration_ns(const DipCamPath *path) {
-    return path->duration_ns;
-}
-
 DipCamPathInfo dip_campath_info(const DipCamPath *path) {
     DipCamPathInfo info = {
         .key_count = path->key_count,

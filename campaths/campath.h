@@ -106,9 +106,8 @@ bool dip_campath_parse(const void *bytes, size_t size_bytes, const char *name, D
 bool dip_campath_save_pth(const DipCamPath *path, const char *file, DipError *err);
 bool dip_campath_save_bth(const DipCamPath *path, const char *file, DipError *err);
 
-// Examines every key. dip_campath_duration_ns reads the same duration at once.
+// Examines every key. dip_campath_span_ns tells the duration at once.
 DipCamPathInfo dip_campath_info(const DipCamPath *path);
-int64_t dip_campath_duration_ns(const DipCamPath *path);
 DipCamKey dip_campath_key(const DipCamPath *path, size_t index); // index < key_count
 
 // Sets the pose's position and orientation to the path's at a given time. Leaves fov_y_deg
