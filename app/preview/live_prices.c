@@ -271,6 +271,10 @@ void dip_live_prices_pause(DipLivePrices *live) {
     dip_prices_set_progress(live->prices, "");
 }
 
+bool dip_live_prices_have_times(const DipLivePrices *live) {
+    return live->has_picture && !dip_price_job_progress(live->job).working;
+}
+
 bool dip_live_prices_are_working(const DipLivePrices *live) {
     return live->has_picture &&
            (dip_price_job_progress(live->job).working || live->errors_left > 0);

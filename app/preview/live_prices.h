@@ -48,6 +48,10 @@ bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
 // another picture.
 void dip_live_prices_pause(DipLivePrices *live);
 
+// Returns whether all times of the last picture are known, so that its truth may be drawn beside
+// without disturbing them.
+bool dip_live_prices_have_times(const DipLivePrices *live);
+
 // Returns whether there is anything left to measure for the last picture, so that the loop need not
 // wait for an event.
 bool dip_live_prices_are_working(const DipLivePrices *live);

@@ -27,6 +27,7 @@ static const int64_t longest_step_ns = 250000000;
 static const int64_t ns_per_ms = 1000000;
 // Rough prices are measured for about this time in each turn.
 static const double price_budget_ms = 8.0;
+static const int least_truth_samples = 32; // Errors of prices against a coarser truth mislead.
 enum { IDLE_WAIT_MS = 30 };
 
 // Everything that decides what the pictures show. There is one exception: the sample pattern that
@@ -52,7 +53,8 @@ struct DipPreview {
     DipTextView text; // Used if the display shows characters.
     DipFigures figures;
     DipPrefetch prefetch;
-    DipErrorThread *errors; // NULL until the user first asks for errors.
+    DipErrorThread *errors; // NULL until errors are first wanted.
+    bool no_truth;          // The thread could not be made for the prices, which do without.
     DipHeldKeys held;
     DipControllers controllers;
     int64_t turn_ns; // When the last turn began.
@@ -473,6 +475,7 @@ static void follow_scene(DipPreview *preview, int64_t now_ns) {
 static void use_new_session(DipPreview *preview, bool dropped) {
     DipSession *session = preview->def.session;
     dip_error_thread_destroy(&preview->errors);
+    preview->no_truth = false;
     dip_prefetch_end(&preview->prefetch);
     preview->prefetch = (DipPrefetch){.running = false};
     if (preview->live_prices) {
@@ -570,6 +573,39 @@ static void judge_taa(DipPreview *preview, int64_t now_ns) {
 
 // --- errors of the pictures ---------------------------------------------------------------------
 
+// Returns whether rough prices are measured: the dock shows them, and nothing moves.
+static bool wants_prices(const DipPreview *preview) {
+    const DipPreviewState *state = &preview->state;
+    return preview->live_prices && dip_prices_are_rough(preview->prices) && state->tools.open &&
+           !state->tools.bare && dip_preview_rests(state, preview->flying);
+}
+
+// Returns whether the tags of the settings wait for the truth, from which their errors are
+// measured. It is drawn only once all times are known, because it would disturb them.
+static bool prices_need_truth(const DipPreview *preview) {
+    return preview->state.tools.tab == DIP_TAB_SETTINGS && !preview->no_truth &&
+           wants_prices(preview) && dip_live_prices_have_times(preview->live_prices);
+}
+
+// Returns whether the user looks at errors or at the truth.
+static bool shows_errors(const DipPreview *preview) {
+    const DipPreviewState *state = &preview->state;
+    return state->panel || state->wants_errors || dip_maps_need_errors(&state->tools);
+}
+
+static bool wants_errors(const DipPreview *preview) {
+    return !preview->def.session->shows_gallery &&
+           dip_preview_rests(&preview->state, preview->flying) &&
+           (shows_errors(preview) || prices_need_truth(preview));
+}
+
+static void close_errors(DipPreview *preview) {
+    preview->state.tools.open = preview->state.wants_errors = false;
+    dip_maps_choose(&preview->state.tools, DIP_MAP_NONE);
+    preview->resized = true;
+    dip_preview_follow_dock(&preview->state);
+}
+
 static bool create_errors(DipPreview *preview, int64_t now_ns) {
     const DipSession *session = preview->def.session;
     DipError err;
@@ -578,10 +614,10 @@ static bool create_errors(DipPreview *preview, int64_t now_ns) {
     }
     if (!preview->errors) {
         report(preview, &err, now_ns);
-        preview->state.tools.open = preview->state.wants_errors = false;
-        dip_maps_choose(&preview->state.tools, DIP_MAP_NONE);
-        preview->resized = true;
-        dip_preview_follow_dock(&preview->state);
+        if (shows_errors(preview)) {
+            close_errors(preview);
+        }
+        preview->no_truth = true;
     }
     return preview->errors != NULL;
 }
@@ -603,13 +639,6 @@ static DipStill still_of(const DipPreview *preview) {
         .unjudged = {shows_mips(preview, DIP_PANE_CURRENT),
                      shows_mips(preview, DIP_PANE_REQUESTED)},
     };
-}
-
-static bool wants_errors(const DipPreview *preview) {
-    const DipPreviewState *state = &preview->state;
-    return !preview->def.session->shows_gallery &&
-           (state->panel || state->wants_errors || dip_maps_need_errors(&state->tools)) &&
-           dip_preview_rests(state, preview->flying);
 }
 
 // Gives the maps the newest error pictures.
@@ -645,15 +674,21 @@ static bool measure_errors(DipPreview *preview, int64_t now_ns) {
     return news;
 }
 
+// Returns the truth of the picture that the panes show, or NULL while it is too noisy for prices.
+static const DipErrorPictures *truth_for_prices(const DipPreview *preview) {
+    const DipErrorPictures *pictures = preview->errors && wants_errors(preview)
+                                           ? dip_error_thread_pictures(preview->errors)
+                                           : NULL;
+    return pictures && pictures->result.samples >= least_truth_samples ? pictures : NULL;
+}
+
 // Measures rough prices while the dock is open and the camera rests. Returns whether the dock must
 // be drawn again.
 static bool measure_prices(DipPreview *preview) {
-    const DipPreviewState *state = &preview->state;
     if (!preview->live_prices) {
         return false;
     }
-    if (!dip_prices_are_rough(preview->prices) || !state->tools.open || state->tools.bare ||
-        !dip_preview_rests(state, preview->flying)) {
+    if (!wants_prices(preview)) {
         dip_live_prices_pause(preview->live_prices);
         return false;
     }
@@ -664,9 +699,15 @@ static bool measure_prices(DipPreview *preview) {
         .height = preview->drawn.height,
         .look = preview->drawn.look,
     };
-    // The truth of the picture, where the loop has it, takes the place of NULL and 0.
-    return dip_live_prices_step(preview->live_prices, &picture, preview->drawn_quality, NULL, 0,
-                                price_budget_ms);
+    const DipErrorPictures *pictures = truth_for_prices(preview);
+    const DipSrgbPicture truth =
+        pictures ? (DipSrgbPicture){pictures->truth_rgba8, 4 * (size_t)pictures->width,
+                                    pictures->width, pictures->height}
+                 : (DipSrgbPicture){.width = 0};
+    // A picture has one truth for each number of samples.
+    return dip_live_prices_step(preview->live_prices, &picture, preview->drawn_quality,
+                                pictures ? &truth : NULL,
+                                pictures ? (uint64_t)pictures->result.samples : 0, price_budget_ms);
 }
 
 // --- showing -----------------------------------------------------------------------------------
