@@ -18,7 +18,8 @@ void dip_font_destroy(DipFont **font);
 
 // All functions below clamp the size to DIP_FONT_MIN_SIZE..DIP_FONT_MAX_SIZE.
 
-// Returns the distance in pixels from the top of one line to the top of the next line.
+// Returns the distance in pixels from the top of one line to the top of the next line. The letters
+// of a line fit between the two.
 int dip_font_line_height(DipFont *font, int size);
 
 // Returns the width of a line in pixels.

@@ -8,6 +8,9 @@
 
 #include <stdio.h>
 
+// Numbers of buttons at the bar's end: folding alone; with help; with the panes alone and the full
+// screen. In full screen, where a window has no title, a button that quits comes in addition.
+enum { TAIL_FOLD = 1, TAIL_HELP = 2, TAIL_ALL = 4 };
 enum { TAB_SIZE = 13, TAB_PAD = 11, BUTTON = 28, ICON_TAB = 32, LEAST_LINE = 60, MOST_LINE = 270 };
 
 typedef enum BarControl {
@@ -18,6 +21,9 @@ typedef enum BarControl {
     BAR_TIME_LINE,
     BAR_PLACE,
     BAR_HELP,
+    BAR_PANES,
+    BAR_FULL_SCREEN,
+    BAR_QUIT,
     BAR_FOLD
 } BarControl;
 
@@ -39,7 +45,7 @@ typedef struct Bar {
     bool words; // Tabs show their names, otherwise symbols.
     int tab_width[DIP_TAB_COUNT];
     int tabs_width;
-    int tail; // Buttons at the right end: help and folding, or folding alone.
+    int tail; // Number of buttons at the right end. Folding is the last one.
     int play; // Playback's buttons: 3, 1 or 0.
     int line; // Width of the time line, or 0.
     char place[128];
@@ -124,26 +130,29 @@ static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, 
 }
 
 static Bar measure(const DipUi *ui, const DipWindow *window) {
-    Bar bar = {.rect = window->layout->bar, .button = dip_ui_px(ui, BUTTON), .tail = 2};
-    measure_tabs(ui, &bar, true);
-    share_room(ui, window->state, &bar, false);
-    const bool manual = window->state->manual;
-    if (bar.play == 3 && bar.place_width && (bar.line || manual)) {
-        return bar;
+    const DipPreviewState *state = window->state;
+    Bar bar = {.rect = window->layout->bar, .button = dip_ui_px(ui, BUTTON)};
+    bar.tail = TAIL_ALL + state->full_screen;
+    for (int words = 1; words >= 0; --words) {
+        measure_tabs(ui, &bar, words);
+        share_room(ui, state, &bar, false);
+        if (bar.play == 3 && bar.place_width && (bar.line || state->manual)) {
+            return bar;
+        }
     }
-    measure_tabs(ui, &bar, false);
-    share_room(ui, window->state, &bar, false);
-    if (!bar.place_width || (!bar.line && !manual)) {
-        share_room(ui, window->state, &bar, true);
+    share_room(ui, state, &bar, true);
+    if (bar.play < 3 || !bar.place_width) {
+        bar.tail = TAIL_HELP;
+        share_room(ui, state, &bar, true);
     }
     if (bar.tabs_width + 3 * bar.button > bar.rect.width) { // Symbols come closer together.
-        bar.tail = 1;
+        bar.tail = TAIL_FOLD;
         const int narrow = dip_style_max(1, (bar.rect.width - bar.button) / DIP_TAB_COUNT);
         for (int t = 0; t < DIP_TAB_COUNT; ++t) {
             bar.tab_width[t] = dip_style_min(bar.tab_width[t], narrow);
         }
         bar.tabs_width = DIP_TAB_COUNT * bar.tab_width[0];
-        share_room(ui, window->state, &bar, true);
+        share_room(ui, state, &bar, true);
     }
     return bar;
 }
@@ -273,25 +282,50 @@ static void declare_place(DipUi *ui, DipWindow *window, const Bar *bar, DipRect 
                 bar->place);
 }
 
+// Declares a button of the bar's end and draws its symbol. Moves *rect to the next button.
+static void declare_end(DipUi *ui, DipWindow *window, DipRect *rect, int control, DipAction action,
+                        const char *tip, void (*symbol)(DipUi *, DipRect, DipColour)) {
+    const DipUiInput input = declare_button(ui, control, *rect, tip);
+    if (input.pressed) {
+        dip_preview_act(window->state, action, 0, false, dip_ui_now_ns(ui));
+    }
+    symbol(ui, *rect, colour_of(&input, false));
+    rect->x += rect->width;
+}
+
+static void draw_question_mark(DipUi *ui, DipRect rect, DipColour colour) {
+    dip_ui_text(ui, TAB_SIZE, colour, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
+                rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width, "?");
+}
+
+static void draw_fold_up(DipUi *ui, DipRect rect, DipColour colour) {
+    dip_icon_fold(ui, rect, true, colour);
+}
+
+static void draw_fold_down(DipUi *ui, DipRect rect, DipColour colour) {
+    dip_icon_fold(ui, rect, false, colour);
+}
+
 static void declare_tail(DipUi *ui, DipWindow *window, const Bar *bar, int x) {
-    DipPreviewState *state = window->state;
+    const DipPreviewState *state = window->state;
+    const bool full = state->full_screen, open = state->tools.open;
     DipRect rect = {x, bar->rect.y, bar->button, bar->rect.height};
-    if (bar->tail == 2) {
-        const DipUiInput help = declare_button(ui, BAR_HELP, rect, "All keys (F1)");
-        if (help.pressed) {
-            dip_preview_act(state, DIP_ACTION_HELP, 0, false, dip_ui_now_ns(ui));
-        }
-        dip_ui_text(ui, TAB_SIZE, colour_of(&help, state->help), DIP_ALIGN_CENTRE,
-                    rect.x + rect.width / 2,
-                    rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width, "?");
-        rect.x += bar->button;
+    if (bar->tail >= TAIL_HELP) {
+        declare_end(ui, window, &rect, BAR_HELP, DIP_ACTION_HELP, "All keys (F1)",
+                    draw_question_mark);
     }
-    const DipUiInput fold = declare_button(
-        ui, BAR_FOLD, rect, state->tools.open ? "Fold the panel (Y)" : "Open the panel (Y)");
-    if (fold.pressed) {
-        dip_preview_act(state, DIP_ACTION_DOCK, 0, false, dip_ui_now_ns(ui));
+    if (bar->tail >= TAIL_ALL) {
+        declare_end(ui, window, &rect, BAR_PANES, DIP_ACTION_BARE,
+                    "Panes only: no panel and no text (/)", dip_icon_panes);
+        declare_end(ui, window, &rect, BAR_FULL_SCREEN, DIP_ACTION_FULL_SCREEN,
+                    full ? "Back to a window (F11)" : "Full screen (F11)", dip_icon_full_screen);
     }
-    dip_icon_fold(ui, rect, !state->tools.open, colour_of(&fold, false));
+    if (bar->tail > TAIL_ALL) {
+        declare_end(ui, window, &rect, BAR_QUIT, DIP_ACTION_QUIT, "Quit (Esc)", dip_icon_close);
+    }
+    declare_end(ui, window, &rect, BAR_FOLD, DIP_ACTION_DOCK,
+                open ? "Fold the panel (Y)" : "Open the panel (Y)",
+                open ? draw_fold_down : draw_fold_up);
 }
 
 void dip_bar_declare(DipUi *ui, DipWindow *window) {

@@ -8,7 +8,7 @@
 static const char help_title[] = "Keys";
 static const char help_shift[] = "With Shift: backwards";
 static const char help_note[] =
-    "A setting's key also switches to the path that shows the setting best";
+    "While time runs, a change of a setting also chooses the path that shows it best";
 
 enum { MAX_HELP_ROWS = 56, MAX_HELP_COLUMNS = 3, LARGEST_LETTERS = 17, EDGE_PX = 8 };
 

@@ -133,9 +133,10 @@ void dip_icon_play(DipUi *ui, DipRect rect, bool paused, DipColour colour) {
 void dip_icon_step(DipUi *ui, DipRect rect, bool back, DipColour colour) {
     DipRect at = middle_of(ui, rect);
     const int bar = dip_ui_px(ui, 2);
-    dip_ui_fill(ui, (DipRect){back ? at.x : at.x + at.width - bar, at.y, bar, at.height}, colour);
-    at.x += back ? bar : 0;
-    at.width -= bar;
+    const int gap = dip_ui_px(ui, 1);
+    dip_ui_fill(ui, (DipRect){back ? at.x + at.width - bar : at.x, at.y, bar, at.height}, colour);
+    at.width -= bar + gap;
+    at.x += back ? 0 : bar + gap;
     triangle(ui, at, back, colour);
 }
 
@@ -143,4 +144,25 @@ void dip_icon_fold(DipUi *ui, DipRect rect, bool up, DipColour colour) {
     const Icon icon = icon_in(ui, rect, colour);
     line(&icon, 3, up ? 9 : 5, 7, up ? 5 : 9);
     line(&icon, 7, up ? 5 : 9, 11, up ? 9 : 5);
+}
+
+void dip_icon_full_screen(DipUi *ui, DipRect rect, DipColour colour) {
+    const Icon icon = icon_in(ui, rect, colour);
+    for (int i = 0; i < 4; ++i) {
+        const int x = i % 2 ? 14 : 2, y = i / 2 ? 12 : 3;
+        box(&icon, i % 2 ? x - 4 : x, i / 2 ? y : y - 1, 4, 1);
+        box(&icon, i % 2 ? x - 1 : x, i / 2 ? y - 3 : y - 1, 1, 4);
+    }
+}
+
+void dip_icon_panes(DipUi *ui, DipRect rect, DipColour colour) {
+    const Icon icon = icon_in(ui, rect, colour);
+    box(&icon, 1, 4, 6, 8);
+    box(&icon, 9, 4, 6, 8);
+}
+
+void dip_icon_close(DipUi *ui, DipRect rect, DipColour colour) {
+    const Icon icon = icon_in(ui, rect, colour);
+    line(&icon, 3, 3, 11, 11);
+    line(&icon, 11, 3, 3, 11);
 }

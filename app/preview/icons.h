@@ -8,8 +8,13 @@
 // Each draws its symbol in the middle of a rectangle.
 void dip_icon_tab(DipUi *ui, DipTab tab, DipRect rect, DipColour colour);
 void dip_icon_play(DipUi *ui, DipRect rect, bool paused, DipColour colour);
-// Draws a triangle with a bar at its tip: one frame on, or back.
+// Draws a bar and a triangle that points away from it: one frame on, or back.
 void dip_icon_step(DipUi *ui, DipRect rect, bool back, DipColour colour);
+// Draws the corners of a screen.
+void dip_icon_full_screen(DipUi *ui, DipRect rect, DipColour colour);
+// Draws two pictures beside each other.
+void dip_icon_panes(DipUi *ui, DipRect rect, DipColour colour);
+void dip_icon_close(DipUi *ui, DipRect rect, DipColour colour);
 // Draws a chevron that points up or down.
 void dip_icon_fold(DipUi *ui, DipRect rect, bool up, DipColour colour);
 

@@ -9,9 +9,10 @@
 
 enum { LABEL_SIZE = 13, LABEL_HEIGHT = 24, LABEL_MARGIN = 8, LABEL_PAD = 8 };
 
-// Writes the time of a pane's frames: "4.6 ms", or that the pane is a copy. If frames come
+// Writes the time of a pane's frames: "4.6 ms  60 fps", or that of the frame that shows while time
+// stands still, or that the pane is a copy. If frames come
 // too slowly for temporal antialiasing, says so instead.
-static void format_time(const DipPaneFigures *figures, char *text, size_t size_bytes) {
+static void format_time(const DipPaneFigures *figures, bool brief, char *text, size_t size_bytes) {
     if (figures->taa_speed.too_slow) {
         snprintf(text, size_bytes, "too slow for temporal AA: %d of %d frames a second",
                  figures->taa_speed.shown, figures->taa_speed.wanted);
@@ -20,7 +21,7 @@ static void format_time(const DipPaneFigures *figures, char *text, size_t size_b
     } else if (figures->fps > 0) {
         snprintf(text, size_bytes, "%.1f ms  %d fps", figures->ms, figures->fps);
     } else {
-        snprintf(text, size_bytes, "%.1f ms", figures->ms);
+        snprintf(text, size_bytes, "%.1f ms%s", figures->ms, brief ? "" : " this frame");
     }
 }
 
@@ -44,7 +45,11 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     const int height = dip_ui_px(ui, LABEL_HEIGHT);
     const int title_width = dip_ui_text_width(ui, LABEL_SIZE, titles[pane]);
     char time[64], settings[400];
-    format_time(&window->figures[pane], time, sizeof time);
+    const int most = rect.width - 2 * margin - title_width - 3 * pad;
+    format_time(&window->figures[pane], false, time, sizeof time);
+    if (dip_ui_text_width(ui, LABEL_SIZE, time) > most) {
+        format_time(&window->figures[pane], true, time, sizeof time);
+    }
     const int time_width = dip_ui_text_width(ui, LABEL_SIZE, time);
     const int used = title_width + time_width + 3 * pad;
     const int room = rect.width - 2 * margin - used - pad;

@@ -39,7 +39,8 @@ enum {
 
 enum { ID_MAP = 1, ID_OVER = 20, ID_BRIGHTNESS = 30 };
 
-enum { CHART_BINS = 25, BRIGHTNESS_COUNT = 4 };
+// The side of a worst block is that of dip_flip_tail_add.
+enum { CHART_BINS = 25, BRIGHTNESS_COUNT = 4, WORST_BLOCK = 32 };
 
 static const char *const map_names[DIP_MAP_COUNT] = {
     [DIP_MAP_NONE] = "No map",           [DIP_MAP_FLIP] = "Error (FLIP)",
@@ -462,15 +463,15 @@ static Row error_row(const char *name, const double values[DIP_PANE_COUNT]) {
 static void flip_table(const Tab *tab, DipRect area) {
     const DipErrorPictures *errors = dip_maps_errors(tab->maps);
     double values[5][DIP_PANE_COUNT];
-    static const char *const names[5] = {"FLIP, mean", "half below", "95 % below", "99 % below",
+    static const char *const names[5] = {"FLIP, mean", "95 % below", "99 % below", "worst block",
                                          "RMSE"};
     put(tab, TEXT, white, area.x, area.y, area.width, "This frame, all pixels");
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         const bool known = errors && errors->flip[p];
         values[0][p] = known ? errors->result.panes[p].flip : -1.0;
-        values[1][p] = known ? errors->spread[p].tail.p50 : -1.0;
-        values[2][p] = known ? errors->spread[p].tail.p95 : -1.0;
-        values[3][p] = known ? errors->spread[p].tail.p99 : -1.0;
+        values[1][p] = known ? errors->spread[p].tail.p95 : -1.0;
+        values[2][p] = known ? errors->spread[p].tail.p99 : -1.0;
+        values[3][p] = known ? errors->spread[p].tail.worst : -1.0;
         values[4][p] = known ? errors->result.panes[p].rmse_lin : -1.0;
     }
     for (int i = 0; i < 5; i++) {
@@ -517,7 +518,7 @@ static void work_table(const Tab *tab, DipRect area) {
     put_row(tab, area, 4, &row);
     char text[96];
     snprintf(text, sizeof text,
-             mirrored_ms > 0.0 ? "Not in the tiles: geometry, and %.1f ms of reflection."
+             mirrored_ms > 0.0 ? "Not in tiles: geometry, %.1f ms of reflection"
                                : "Not in the tiles: geometry.",
              mirrored_ms);
     put(tab, NOTE, dim, area.x, area.y + px(tab, 6 * ROW + 4), area.width, text);
@@ -751,6 +752,33 @@ static void draw_cross(const Tab *tab, int pane, int x, int y) {
     }
 }
 
+// Frames the block of 32x32 pixels with the greatest mean error.
+static void draw_worst_block(const Tab *tab, int pane) {
+    const DipErrorPictures *errors = dip_maps_errors(tab->maps);
+    if (!errors || !errors->flip[pane] || errors->spread[pane].tail.worst <= 0.0) {
+        return;
+    }
+    const DipFlipTail *tail = &errors->spread[pane].tail;
+    const DipRect rect = shown_rect(tab, pane,
+                                    (DipRect){(int)tail->worst_x, (int)tail->worst_y,
+                                              smaller(WORST_BLOCK, errors->width),
+                                              smaller(WORST_BLOCK, errors->height)});
+    const int edge = px(tab, 1);
+    char value[16], text[32];
+    dip_map_format(tail->worst, value, sizeof value);
+    snprintf(text, sizeof text, "worst: %s", value);
+    dip_ui_outline(tab->ui, rect, 0, 3 * edge, shadow);
+    dip_ui_outline(tab->ui, rect, 0, edge, pane_colour(pane));
+    const DipRect *shown = &tab->window->layout->panes[pane];
+    const int width = dip_ui_text_width(tab->ui, NOTE, text) + px(tab, 8);
+    const int height = dip_ui_line_height(tab->ui, NOTE) + px(tab, 2);
+    const bool above = rect.y - height >= shown->y;
+    const DipRect strip = {smaller(rect.x, shown->x + shown->width - width),
+                           above ? rect.y - height : rect.y + rect.height, width, height};
+    dip_ui_fill(tab->ui, strip, glass);
+    put(tab, NOTE, white, strip.x + px(tab, 4), strip.y + edge, width, text);
+}
+
 static void draw_pointed(const Tab *tab, int pane) {
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
     int x, y;
@@ -805,6 +833,9 @@ static void draw_pane(const Tab *tab, int pane) {
         dip_ui_picture(tab->ui, tab->window->layout->panes[pane], &picture, version);
         if (is_work_map(tab->tools->map)) {
             draw_numbers(tab, pane);
+        }
+        if (tab->tools->map == DIP_MAP_FLIP) {
+            draw_worst_block(tab, pane);
         }
         draw_pointed(tab, pane);
     }

@@ -92,7 +92,7 @@ int dip_step_position(DipSetting setting, int step) {
 }
 
 void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
-    const char *rough = price->state == DIP_PRICE_ROUGH ? "~" : "";
+    const char *rough = price->state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "";
     if (price->state == DIP_PRICE_UNKNOWN) {
         snprintf(text, DIP_STEP_NAME_BYTES, "%s",
                  price->needs_company ? "\u2013" : "\u00b7 \u00b7 \u00b7");

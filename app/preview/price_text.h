@@ -8,6 +8,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+// Stands before times that come from a few frames.
+#define DIP_ROUGH_MARK "\u2248 "
+
 enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
 
 // Writes a step's name as its pill shows it: "4x", "high perf.".
@@ -29,7 +32,8 @@ int dip_step_at(DipSetting setting, int position);
 // Returns the position of a step; the opposite of dip_step_at.
 int dip_step_position(DipSetting setting, int step);
 
-// Writes a price's time without its unit: "+1.2", "~+1.2", "≈ 0", "base", or dots if it is unknown.
+// Writes a price's time without its unit: "+1.2", "≈ +1.2", "≈ 0", "base", or dots if it is
+// unknown.
 void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a FLIP error without the zero before the point: ".0354", and a change with its sign.

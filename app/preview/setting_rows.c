@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum {
     NAME_SIZE = 13,
@@ -113,6 +114,7 @@ typedef struct Slider {
     DipPrice prices[DIP_MAX_STEPS]; // By position.
     double most_ms;                 // The greatest price, for the bars.
     double most_flip;
+    bool rough;  // Prices come from a few frames; the row says so once, before them.
     bool dimmed; // The setting has no effect now.
 } Slider;
 
@@ -149,11 +151,14 @@ static void draw_price(DipUi *ui, const Slider *slider, int position, bool reque
     const int alpha = requested ? 255 : BAR_ALPHA;
     const bool costs = is_known(price) && !price->ms_is_zero;
     dip_price_ms_text(price, text);
+    const size_t mark = strncmp(text, DIP_ROUGH_MARK, strlen(DIP_ROUGH_MARK)) == 0 && costs
+                            ? strlen(DIP_ROUGH_MARK)
+                            : 0;
     dip_ui_text(ui, PRICE_SIZE,
                 !costs      ? dip_style_dim
                 : requested ? dip_style_white
                             : dip_style_soft,
-                DIP_ALIGN_CENTRE, x, y, slider->cell_width, text);
+                DIP_ALIGN_CENTRE, x, y, slider->cell_width, text + mark);
     if (costs) {
         draw_bar(ui, x, bar_y, price->ms, slider->most_ms, with_alpha(dip_style_accent, alpha));
     }
@@ -219,7 +224,7 @@ static void draw_slider(DipUi *ui, const DipWindow *window, const Slider *slider
                           slider->cell_width * (slider->count - 1), dip_ui_px(ui, 2)},
                 dip_style_line);
     dip_ui_text(ui, PRICE_SIZE, dip_style_dim, DIP_ALIGN_LEFT, rect.x, price_y, cells.x - rect.x,
-                "ms");
+                slider->rough ? DIP_ROUGH_MARK "ms" : "ms");
     dip_ui_text(ui, PRICE_SIZE, dip_style_dim, DIP_ALIGN_LEFT, rect.x,
                 price_y + dip_ui_px(ui, PRICE_HEIGHT), cells.x - rect.x, "FLIP");
     for (int i = 0; i < slider->count; ++i) {
@@ -234,6 +239,7 @@ static void draw_slider(DipUi *ui, const DipWindow *window, const Slider *slider
 static void find_prices(const DipWindow *window, Slider *slider) {
     for (int i = 0; i < slider->count; ++i) {
         slider->prices[i] = price_of(window, slider->setting, dip_step_at(slider->setting, i));
+        slider->rough |= slider->prices[i].state == DIP_PRICE_ROUGH;
         if (is_known(&slider->prices[i])) {
             slider->most_ms = fmax(slider->most_ms, fabs(slider->prices[i].ms));
             slider->most_flip = fmax(

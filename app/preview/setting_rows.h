@@ -12,6 +12,7 @@ enum {
     DIP_ID_APPLY = 300,
     DIP_ID_UNDO,
     DIP_ID_COPY,
+    DIP_ID_PAUSE,
     DIP_ID_MORE
 };
 

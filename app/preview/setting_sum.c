@@ -134,10 +134,20 @@ static void fill_hatched(DipUi *ui, DipRect rect, DipColour colour) {
     }
 }
 
+// Returns the end of the scale of times: 1.2 budgets or, for longer frames, as often twice that. So
+// the scale stands still while the time of the frames varies.
+static double end_of_scale(double ms) {
+    double end_ms = dip_budget_ms * 1.2;
+    while (end_ms < ms * 1.02 && end_ms < 1e6) {
+        end_ms *= 2.0;
+    }
+    return end_ms;
+}
+
 // Draws the parts of the sum on one scale with the budget.
 static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART_COUNT],
                         DipRect rect) {
-    const double end_ms = fmax(dip_budget_ms * 1.2, sum->ms * 1.05);
+    const double end_ms = end_of_scale(sum->ms);
     const double per_ms = rect.width / end_ms;
     const int budget_x = rect.x + (int)(dip_budget_ms * per_ms);
     double at_ms = 0.0;
@@ -197,7 +207,8 @@ static int draw_legend(DipUi *ui, const DipPriceSum *sum, const Part parts[PART_
     char text[48];
     for (int i = 0; i < PART_COUNT; ++i) {
         if (fabs(parts[i].ms) >= 0.05) {
-            snprintf(text, sizeof text, "%s %s%.1f", parts[i].name,
+            const bool frame = i == PART_BASE && sum->state == DIP_PRICE_UNKNOWN;
+            snprintf(text, sizeof text, "%s %s%.1f", frame ? "a frame now" : parts[i].name,
                      parts[i].ms < 0.0 ? "\u2212" : "", fabs(parts[i].ms));
             draw_entry(ui, room, &x, &y, text, parts[i].colour, false);
         }
@@ -225,11 +236,10 @@ static DipPriceSum sum_of(const DipWindow *window, int pane) {
 static void draw_sum(DipUi *ui, const DipPriceSum *sum, DipRect rect) {
     const bool over = sum->ms > dip_budget_ms;
     char text[64], note[64] = "";
-    snprintf(text, sizeof text, "%s%.1f ms", sum->state == DIP_PRICE_ROUGH ? "~" : "", sum->ms);
+    snprintf(text, sizeof text, "%s%.1f ms", sum->state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "",
+             sum->ms);
     if (over) {
         snprintf(note, sizeof note, "%.1f over %.1f", sum->ms - dip_budget_ms, dip_budget_ms);
-    } else if (sum->state == DIP_PRICE_UNKNOWN) {
-        snprintf(note, sizeof note, "a frame now");
     } else if (sum->ms_high > sum->ms_low) {
         snprintf(note, sizeof note, "%.1f to %.1f", sum->ms_low, sum->ms_high);
     }
@@ -240,6 +250,21 @@ static void draw_sum(DipUi *ui, const DipPriceSum *sum, DipRect rect) {
                 rect.y + dip_ui_line_height(ui, SUM_SIZE) - dip_ui_line_height(ui, NOTE_SIZE) -
                     dip_ui_px(ui, 4),
                 rect.x + rect.width - x, note);
+}
+
+// Declares a button that pauses, where prices are measured only at rest and are not known yet.
+static void declare_pause(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect rect) {
+    static const char text[] = "Pause to measure";
+    DipPreviewState *state = window->state;
+    const int width = dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 16);
+    const DipRect button = {rect.x + rect.width - width, rect.y, width, dip_ui_px(ui, SUM_HEIGHT)};
+    if (sum->state == DIP_PRICE_UNKNOWN && dip_prices_are_rough(window->prices) && !state->paused &&
+        !state->manual && 2 * width <= rect.width &&
+        dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PAUSE), button, text, DIP_UI_PLAIN,
+                      "The tags show what each step costs and gains once the picture rests. The "
+                      "space key pauses, too.")) {
+        dip_preview_act(state, DIP_ACTION_PAUSE, 0, false, dip_ui_now_ns(ui));
+    }
 }
 
 static void draw_comparison(DipUi *ui, const DipPriceSum *now, const DipPriceSum *sum,
@@ -291,6 +316,7 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     if (dip_ui_is_drawing(ui)) {
         draw_sum(ui, &sum, (DipRect){rect.x, y, rect.width, 0});
     }
+    declare_pause(ui, window, &sum, (DipRect){rect.x, y, rect.width, 0});
     y += dip_ui_px(ui, SUM_HEIGHT);
     if (dip_ui_is_drawing(ui)) {
         draw_comparison(ui, &now, &sum, (DipRect){rect.x, y, rect.width, 0});

@@ -139,12 +139,25 @@ static void undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
 
 // --- settings ----------------------------------------------------------------------------------
 
-// Follows the path that shows a setting best, as a change of the setting asks for.
-static void follow_setting(DipPreviewState *state, DipSetting setting) {
-    const int path = dip_preview_category_of(setting);
-    if (path >= 0 && !state->manual) {
-        dip_camtrack_switch(state->track, path, state->play_ns);
+// The path that plays: that of the active category or of category 0.
+static const DipCamPath *playing_path(const DipPreviewState *state) {
+    const DipCamPath *path = state->track->categories[state->track->active].path;
+    return path ? path : state->track->categories[0].path;
+}
+
+// Says which step a setting has now. While the camera flies along its paths, chooses the one that
+// shows the setting best. While it rests, the picture that the user looks at stays.
+static void follow_setting(DipPreviewState *state, DipSetting setting, const char *step,
+                           int64_t now_ns) {
+    const int category = dip_preview_category_of(setting);
+    const DipCamPath *before = playing_path(state);
+    if (category >= 0 && !state->manual && !state->paused) {
+        dip_camtrack_switch(state->track, category, state->play_ns);
     }
+    const bool moved = playing_path(state) != before;
+    dip_preview_notice(state, now_ns, "%s: %s%s%s", dip_setting_info(setting)->title, step,
+                       moved ? ", on the path " : "",
+                       moved ? dip_preview_path_title(state, state->track->active) : "");
     ++state->scene_changes;
 }
 
@@ -170,9 +183,7 @@ void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, 
     }
     remember(state);
     memcpy(state->quality, wanted, sizeof wanted);
-    dip_preview_notice(state, now_ns, "%s: %s", dip_setting_info(setting)->title,
-                       dip_setting_info(setting)->steps[step]);
-    follow_setting(state, setting);
+    follow_setting(state, setting, dip_setting_info(setting)->steps[step], now_ns);
 }
 
 void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
@@ -263,8 +274,7 @@ static void change_setting(DipPreviewState *state, DipSetting setting, bool reve
     memcpy(state->quality, before, sizeof before);
     remember(state);
     memcpy(state->quality, after, sizeof after);
-    dip_preview_notice(state, now_ns, "%s: %s", info->title, step);
-    follow_setting(state, setting);
+    follow_setting(state, setting, step, now_ns);
 }
 
 static bool has_path(const DipPreviewState *state, int category) {
@@ -303,12 +313,6 @@ static void next_path(DipPreviewState *state, int direction, int64_t now_ns) {
         }
     }
     dip_preview_notice(state, now_ns, "There is only one path");
-}
-
-// The path that plays: that of the active category or of category 0.
-static const DipCamPath *playing_path(const DipPreviewState *state) {
-    const DipCamPath *path = state->track->categories[state->track->active].path;
-    return path ? path : state->track->categories[0].path;
 }
 
 int64_t dip_preview_path_length_ns(const DipPreviewState *state) {
@@ -455,7 +459,8 @@ static void seek(DipPreviewState *state, int milliseconds) {
 }
 
 // Carries out an action of the dock or of a tool. Returns false if the action is none of these.
-static bool act_on_tools(DipPreviewState *state, DipAction action, int argument, bool reverse) {
+static bool act_on_tools(DipPreviewState *state, DipAction action, int argument, bool reverse,
+                         int64_t now_ns) {
     DipToolState *tools = &state->tools;
     switch (action) {
     case DIP_ACTION_TAB:
@@ -467,6 +472,7 @@ static bool act_on_tools(DipPreviewState *state, DipAction action, int argument,
         return true;
     case DIP_ACTION_BARE:
         tools->bare = !tools->bare;
+        dip_preview_notice(state, now_ns, tools->bare ? "Panes only" : "Panes with the panel");
         return true;
     case DIP_ACTION_LOUPE:
         tools->loupe = !tools->loupe;
@@ -502,7 +508,7 @@ static bool act_on_tools(DipPreviewState *state, DipAction action, int argument,
 
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns) {
-    if (act_on_tools(state, action, argument, reverse)) {
+    if (act_on_tools(state, action, argument, reverse, now_ns)) {
         dip_preview_follow_dock(state);
         return;
     }

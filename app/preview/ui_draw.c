@@ -8,7 +8,7 @@
 
 enum { TIP_SIZE = 12, TIP_PAD = 8, TIP_WIDTH = 340, TIP_MAX_LINES = 10 };
 static const int64_t tip_delay_ns = 400000000;
-static const DipColour tip_ground = {32, 36, 43, 246};
+static const DipColour tip_ground = {32, 36, 43, 255};
 static const DipColour tip_line = {98, 108, 122, 255};
 
 bool dip_ui_is_drawing(const DipUi *ui) {

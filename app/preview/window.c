@@ -6,6 +6,8 @@
 #include "app/preview/style.h"
 #include "app/preview/tabs.h"
 
+enum { WAY_BACK = 100 }; // Number of a control, beside those of the bar.
+
 // Declares one pane as a control: a click chooses the pane, a double click shows it alone.
 static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
     DipPreviewState *state = window->state;
@@ -54,6 +56,24 @@ static void declare_sheet(DipUi *ui, DipWindow *window) {
     }
 }
 
+// Declares the button that ends the mode without a panel. It shows while the pointer is near it and
+// at the mode's begin, when a notice says so.
+static void declare_way_back(DipUi *ui, DipWindow *window) {
+    static const char text[] = "Show the panel  (/)";
+    const DipLayout *layout = window->layout;
+    const int width =
+        dip_style_min(layout->width, dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 24));
+    const int height = dip_style_min(layout->height, dip_ui_px(ui, 30));
+    const DipRect rect = {(layout->width - width) / 2, layout->height - height, width, height};
+    const bool near = dip_ui_pointer_y(ui) >= layout->height - 3 * height &&
+                      dip_ui_pointer_y(ui) < layout->height;
+    if ((near || window->state->notice[0]) &&
+        dip_ui_button(ui, DIP_UI_ID(DIP_UI_BAR, WAY_BACK), rect, text, DIP_UI_PLAIN,
+                      "Brings the panel and the labels back.")) {
+        dip_preview_act(window->state, DIP_ACTION_BARE, 0, false, dip_ui_now_ns(ui));
+    }
+}
+
 void dip_window_declare(DipUi *ui, DipWindow *window) {
     const DipLayout *layout = window->layout;
     DipPreviewState *state = window->state;
@@ -74,6 +94,8 @@ void dip_window_declare(DipUi *ui, DipWindow *window) {
             declare_tab(ui, window, layout->body);
         }
         dip_labels_draw_notice(ui, window);
+    } else {
+        declare_way_back(ui, window);
     }
     if (state->help || state->show_costs) {
         declare_sheet(ui, window);

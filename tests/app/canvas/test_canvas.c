@@ -132,12 +132,16 @@ static DipRect draw_black(int size, const char *line, int *sum) {
 
 static void text_fits_its_width_and_line_height(void **state) {
     (void)state;
-    int sum = 0;
+    int sum = 0, ink_sum = 0;
     const DipRect box = draw_black(16, "Hxgj", &sum);
     const int width = dip_font_width(font, 16, "Hxgj");
     assert_true(box.width > width * 3 / 4 && box.width <= width + 2);
     assert_in_range(box.x, 9, 13);
-    assert_true(box.y >= 5 && box.y + box.height <= 5 + dip_font_line_height(font, 16));
+    for (int size = DIP_FONT_MIN_SIZE; size <= 20; ++size) {
+        const DipRect letters = draw_black(size, "gjpqy(|\u00c4", &ink_sum);
+        assert_true(letters.y >= 5);
+        assert_true(letters.y + letters.height <= 5 + dip_font_line_height(font, size));
+    }
     assert_true(dip_font_width(font, 32, "Hxgj") > width * 3 / 2);
     int bigger = 0;
     draw_black(24, "Hxgj", &bigger);
