@@ -126,7 +126,8 @@ static void say_count(Part *part) {
             snprintf(text, sizeof text, "%d samples, all on one surface", count);
             snprintf(brief, sizeof brief, "%d on one surface", count);
         } else {
-            snprintf(text, sizeof text, "%d samples, %d on the front surface", count, found.front);
+            snprintf(text, sizeof text, "%d samples: %d in front, %d behind (dashed)", count,
+                     found.front, count - found.front);
             snprintf(brief, sizeof brief, "%d samples, %d in front", count, found.front);
         }
     } else if (count > 1) {
