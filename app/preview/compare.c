@@ -39,7 +39,11 @@ bool dip_compare_is_one_picture(DipComparison comparison) {
            comparison == DIP_COMPARE_DIFFERENCE || comparison == DIP_COMPARE_ALONE;
 }
 
+// Returns where a comparison that is one picture shows. A drawer covers the current pane.
 static DipRect area_of(const DipLayout *layout) {
+    if (layout->side == DIP_DOCK_DRAWER && !dip_rect_is_empty(layout->body)) {
+        return layout->panes[DIP_PANE_REQUESTED];
+    }
     return dip_rect_unite(layout->panes[DIP_PANE_CURRENT], layout->panes[DIP_PANE_REQUESTED]);
 }
 

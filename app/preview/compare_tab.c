@@ -63,11 +63,24 @@ static bool flow_button(Flow *flow, unsigned id, const char *text, bool chosen, 
                          chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip);
 }
 
+// Writes a text in lines of its own.
+static void flow_lines(Flow *flow, DipColour colour, const char *text) {
+    next_row(flow);
+    const DipRect room = {flow->x, flow->y, flow->body.width,
+                          flow->body.y + flow->body.height - flow->y};
+    if (room.height > 0) {
+        flow->y += dip_ui_text_block(flow->ui, SMALL, colour, room, text) + dip_ui_px(flow->ui, 6);
+    }
+}
+
 static void flow_text(Flow *flow, DipColour colour, const char *text) {
     const int width = dip_ui_text_width(flow->ui, SMALL, text) + dip_ui_px(flow->ui, 4);
-    const int room = flow->body.width;
-    const DipRect rect = flow_next(flow, width < room ? width : room);
     const int height = dip_ui_line_height(flow->ui, SMALL);
+    if (width > flow->body.width) {
+        flow_lines(flow, colour, text);
+        return;
+    }
+    const DipRect rect = flow_next(flow, width);
     if (!dip_rect_is_empty(rect)) {
         dip_ui_text(flow->ui, SMALL, colour, DIP_ALIGN_LEFT, rect.x,
                     rect.y + (rect.height - height) / 2, rect.width, text);

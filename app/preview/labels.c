@@ -38,12 +38,16 @@ static void format_settings(const DipUi *ui, const DipQuality *quality, int room
 }
 
 static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
-    static const char *const titles[DIP_PANE_COUNT] = {"Current", "Requested"};
+    static const char *const long_titles[DIP_PANE_COUNT] = {"Current", "Requested"};
+    static const char *const short_titles[DIP_PANE_COUNT] = {"Cur.", "Req."};
     const DipRect rect = dip_compare_visible(window, pane);
     const bool edited = window->state->edited[pane];
     const int margin = dip_ui_px(ui, LABEL_MARGIN), pad = dip_ui_px(ui, LABEL_PAD);
     const int height = dip_ui_px(ui, LABEL_HEIGHT);
-    const int title_width = dip_ui_text_width(ui, LABEL_SIZE, titles[pane]);
+    const int title_room = rect.width - 2 * margin - 2 * pad;
+    const bool narrow = dip_ui_text_width(ui, LABEL_SIZE, long_titles[pane]) > title_room;
+    const char *const title = narrow ? short_titles[pane] : long_titles[pane];
+    const int title_width = dip_ui_text_width(ui, LABEL_SIZE, title);
     char time[64], settings[400];
     const int most = rect.width - 2 * margin - title_width - 3 * pad;
     format_time(&window->figures[pane], false, time, sizeof time);
@@ -60,7 +64,7 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     const int y = strip.y + (height - dip_ui_line_height(ui, LABEL_SIZE)) / 2;
     dip_ui_fill_round(ui, strip, dip_ui_px(ui, 4), dip_style_glass);
     dip_ui_text(ui, LABEL_SIZE, edited ? dip_style_accent : dip_style_white, DIP_ALIGN_LEFT,
-                strip.x + pad, y, strip.width - 2 * pad, titles[pane]);
+                strip.x + pad, y, strip.width - 2 * pad, title);
     dip_ui_text(ui, LABEL_SIZE, dip_style_white, DIP_ALIGN_LEFT, strip.x + 2 * pad + title_width, y,
                 strip.width - 3 * pad - title_width, time);
     dip_ui_text(ui, LABEL_SIZE, dip_style_soft, DIP_ALIGN_LEFT, strip.x + used, y,

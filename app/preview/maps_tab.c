@@ -128,8 +128,11 @@ static void map_button(const Tab *tab, int index, DipRect rect) {
 
 // Declares the choice of panes at x, y.
 static void over_buttons(const Tab *tab, int x, int y, int right) {
-    static const char *const names[] = {"both", "current", "requested"};
+    static const char *const long_names[] = {"both", "current", "requested"};
+    static const char *const short_names[] = {"both", "left", "right"};
     DipMapView *view = dip_maps_view(tab->maps);
+    const bool narrow = right - x < px(tab, 220);
+    const char *const *names = narrow ? short_names : long_names;
     x += put(tab, TEXT, soft, x, y + px(tab, 4), right - x, "over") + px(tab, BUTTON_GAP);
     for (int i = 0; i < 3; i++) {
         const int width = dip_ui_text_width(tab->ui, TEXT, names[i]) + px(tab, 16);
@@ -147,8 +150,6 @@ static void over_buttons(const Tab *tab, int x, int y, int right) {
 }
 
 static void buttons_block(const Tab *tab, DipRect area) {
-    static const char *const notes[] = {"Both panes have one scale, so that colours",
-                                        "compare. N shows the next map."};
     const int pitch = px(tab, BUTTON + BUTTON_GAP), gap = px(tab, BUTTON_GAP);
     // Two columns, or more if the dock is low.
     int columns = 2;
@@ -167,8 +168,11 @@ static void buttons_block(const Tab *tab, DipRect area) {
         over_buttons(tab, area.x, y, area.x + area.width);
     }
     y += px(tab, SMALL_BUTTON + BUTTON_GAP);
-    for (int i = 0; i < 2 && y + px(tab, 2 * NOTE_ROW) <= area.y + area.height; i++) {
-        put(tab, NOTE, soft, area.x, y + px(tab, i * NOTE_ROW), area.width, notes[i]);
+    if (y + px(tab, 2 * NOTE_ROW) <= area.y + area.height) {
+        dip_ui_text_block(tab->ui, NOTE, soft,
+                          (DipRect){area.x, y, area.width, area.y + area.height - y},
+                          "Both panes have one scale, so that colours compare. N shows the next "
+                          "map.");
     }
 }
 
@@ -674,7 +678,7 @@ void dip_maps_declare_tab(DipUi *ui, DipWindow *window, DipMaps *maps, DipRect b
     flow.x = flow.left.x;
     DipRect area;
     const int buttons = smaller(px(&tab, BUTTONS_WIDTH), flow.left.width);
-    if (take(&tab, &flow, buttons, smaller(px(&tab, 176), flow.left.height), &area)) {
+    if (take(&tab, &flow, buttons, smaller(px(&tab, 190), flow.left.height), &area)) {
         buttons_block(&tab, area);
     }
     const int legend = smaller(px(&tab, LEGEND_WIDTH), flow.left.width);
