@@ -17,13 +17,13 @@
 #include "app/preview/loop.h"
 #include "renderer/base/srgb.h"
 #include "renderer/reference/reference.h"
+#include "tests/support/live_blocks.h"
 #include "tests/renderer/random.h"
 
 #include <malloc.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
-#include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -71,48 +71,6 @@ typedef struct Run {
 } Run;
 
 static Run run;
-
-// --- counting allocations ------------------------------------------------------------------------
-
-static atomic_int live_blocks; // Threads of the pool allocate, too.
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *memory, size_t size);
-void *__real_aligned_alloc(size_t alignment, size_t size);
-void __real_free(void *memory);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *memory, size_t size);
-void *__wrap_aligned_alloc(size_t alignment, size_t size);
-void __wrap_free(void *memory);
-
-static void *count_block(void *memory) {
-    atomic_fetch_add(&live_blocks, memory != NULL);
-    return memory;
-}
-
-void *__wrap_malloc(size_t size) {
-    return count_block(__real_malloc(size));
-}
-
-void *__wrap_calloc(size_t count, size_t size) {
-    return count_block(__real_calloc(count, size));
-}
-
-void *__wrap_aligned_alloc(size_t alignment, size_t size) {
-    return count_block(__real_aligned_alloc(alignment, size));
-}
-
-void *__wrap_realloc(void *memory, size_t size) {
-    void *moved = __real_realloc(memory, size);
-    return memory ? moved : count_block(moved);
-}
-
-void __wrap_free(void *memory) {
-    atomic_fetch_sub(&live_blocks, memory != NULL);
-    __real_free(memory);
-}
 
 // --- the fixture -------------------------------------------------------------------------------
 
@@ -386,7 +344,7 @@ static Memory memory_now(void) {
     assert_int_equal(fscanf(file, "%lu %lu", &pages, &resident), 2);
     fclose(file);
     const struct mallinfo2 info = mallinfo2();
-    return (Memory){.blocks = atomic_load(&live_blocks),
+    return (Memory){.blocks = live_blocks(),
                     .bytes = info.uordblks + info.hblkhd,
                     .resident = resident * (size_t)sysconf(_SC_PAGESIZE)};
 }
