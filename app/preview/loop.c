@@ -471,11 +471,19 @@ static void follow_scene(DipPreview *preview, int64_t now_ns) {
 
 // --- new sessions ------------------------------------------------------------------------------
 
+// Gives the maps the newest error pictures.
+static void show_errors(DipPreview *preview, const DipErrorReading *reading) {
+    dip_maps_set_errors(dip_tools_maps(preview->tools), reading,
+                        preview->errors ? dip_error_thread_pictures(preview->errors) : NULL);
+}
+
 // Replaces the session by the new one. The threads that read the old scene end first.
 static void use_new_session(DipPreview *preview, bool dropped) {
+    const DipErrorReading nothing = {.status = DIP_ERROR_STATUS_PAUSED};
     DipSession *session = preview->def.session;
     dip_error_thread_destroy(&preview->errors);
     preview->no_truth = false;
+    show_errors(preview, &nothing); // The pictures of the errors were the thread's.
     dip_prefetch_end(&preview->prefetch);
     preview->prefetch = (DipPrefetch){.running = false};
     if (preview->live_prices) {
@@ -639,12 +647,6 @@ static DipStill still_of(const DipPreview *preview) {
         .unjudged = {shows_mips(preview, DIP_PANE_CURRENT),
                      shows_mips(preview, DIP_PANE_REQUESTED)},
     };
-}
-
-// Gives the maps the newest error pictures.
-static void show_errors(DipPreview *preview, const DipErrorReading *reading) {
-    dip_maps_set_errors(dip_tools_maps(preview->tools), reading,
-                        preview->errors ? dip_error_thread_pictures(preview->errors) : NULL);
 }
 
 // Measures errors while the window shows them and the camera rests. Returns whether there are new

@@ -336,6 +336,39 @@ static void many_dropped_files_never_end_the_preview(void **state) {
     }
 }
 
+// Waits until the error map covers the panes.
+static void wait_for_errors(void) {
+    int rgb[3];
+    middle(rgb);
+    for (int i = 0; i < MAX_TURNS && rgb[0] > 2 * rgb[1]; ++i) {
+        const struct timespec millisecond = {0, 1000000};
+        nanosleep(&millisecond, NULL);
+        turn();
+        middle(rgb);
+    }
+    assert_reddish(false);
+}
+
+// The free camera rests, so that errors are measured. A dropped file ends the thread that measures
+// them, and the camera flies on, so that no thread follows. AddressSanitizer sees who reads on.
+static void a_dropped_file_takes_the_error_map_away(void **state) {
+    (void)state;
+    turn();
+    assert_reddish(true);
+    dip_fake_display_press(fake, 'c', 0);
+    turn();
+    dip_fake_display_press(fake, 'n', 0);
+    dip_fake_display_press(fake, 'y', 0); // Folds the dock, which covers the current pane.
+    turn();
+    assert_reddish(true);
+    assert_int_equal(dip_preview_state(preview)->tools.map, DIP_MAP_FLIP);
+    wait_for_errors();
+    drop("good.obj");
+    wait_for("Opened ");
+    assert_false(dip_preview_state(preview)->manual);
+    assert_draws();
+}
+
 // Puts the file in the place of the watched one in a single step, as editors do. Without such a
 // file, removes the watched one.
 static void replace(const struct File *file) {
@@ -383,6 +416,7 @@ static void many_watched_files_never_end_the_preview(void **state) {
 int main(int argc, char **argv) {
 #define FILES_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
+        FILES_TEST(a_dropped_file_takes_the_error_map_away),
         FILES_TEST(many_dropped_files_never_end_the_preview),
         FILES_TEST(many_watched_files_never_end_the_preview),
     };
