@@ -73,7 +73,8 @@ typedef enum DipControlTopic {
     X(errors, ERRORS)                                                                              \
     X(paths, PATHS)                                                                                \
     X(scenes, SCENES)                                                                              \
-    X(steps, STEPS)
+    X(steps, STEPS)                                                                                \
+    X(prices, PRICES)
 
 typedef enum DipControlPart {
 #define DIP_CONTROL_ENUM(name, NAME) DIP_CONTROL_PART_##NAME,

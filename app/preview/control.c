@@ -18,6 +18,8 @@ static const int64_t period_ns = 250000000; // Between two events of times or po
 typedef struct Told {
     int64_t times_ns; // When times were last sent.
     int64_t polls_ns;
+    int64_t prices_ns;
+    uint64_t prices; // Hash of the prices.
     double ms[DIP_PANE_COUNT];
     int fps[DIP_PANE_COUNT];
     int64_t play_ns;
@@ -206,6 +208,9 @@ static void get(const DipPreviewMoment *moment, unsigned parts, cJSON *reply) {
     if ((object = add_part(reply, parts, DIP_CONTROL_PART_ERRORS))) {
         dip_reply_errors(object, moment);
     }
+    if ((object = add_part(reply, parts, DIP_CONTROL_PART_PRICES))) {
+        dip_reply_prices(object, moment);
+    }
     if (parts >> DIP_CONTROL_PART_PATHS & 1) {
         dip_reply_paths(reply, moment->state);
     }
@@ -348,6 +353,36 @@ static void send_errors(DipRemote *remote, bool always) {
     }
 }
 
+// Returns a hash of an object's text (FNV-1a), or 0 if memory runs out.
+static uint64_t hash_of(const cJSON *object) {
+    char *text = cJSON_PrintUnformatted(object);
+    uint64_t hash = text ? UINT64_C(14695981039346656037) : 0;
+    for (const char *c = text; c && *c; ++c) {
+        hash = (hash ^ (unsigned char)*c) * UINT64_C(1099511628211);
+    }
+    cJSON_free(text);
+    return hash;
+}
+
+static void send_prices(DipRemote *remote, bool always) {
+    Told *told = &remote->told;
+    const int64_t now_ns = remote->moment->now_ns;
+    const bool early = now_ns - told->prices_ns < period_ns;
+    if (!wants(remote, DIP_CONTROL_TOPIC_PRICES) || (early && !always)) {
+        return;
+    }
+    cJSON *fields = cJSON_CreateObject();
+    dip_reply_prices(fields, remote->moment);
+    const uint64_t hash = hash_of(fields);
+    told->prices_ns = now_ns;
+    if (always || hash != told->prices) {
+        told->prices = hash;
+        dip_control_send(remote->control, DIP_CONTROL_TOPIC_PRICES, fields);
+    } else {
+        cJSON_Delete(fields);
+    }
+}
+
 static void send_notice(DipRemote *remote) {
     const DipPreviewState *state = remote->moment->state;
     const bool same = remote->told.notice_end_ns == state->notice_end_ns;
@@ -380,11 +415,13 @@ static void send_events(DipRemote *remote) {
     if (topics != remote->topics) { // After a failure to measure, only a new subscription retries.
         remote->moment->state->wants_errors = (topics >> DIP_CONTROL_TOPIC_ERRORS & 1) != 0;
     }
+    remote->moment->state->wants_prices = (topics >> DIP_CONTROL_TOPIC_PRICES & 1) != 0;
     remote->topics = topics;
     remote->subscriptions = subscriptions;
     send_settings(remote, always);
     send_times(remote, always);
     send_errors(remote, always);
+    send_prices(remote, always);
     send_notice(remote);
     send_poll(remote, always);
 }
@@ -442,10 +479,7 @@ DipRemote *dip_remote_open(const char *where, DipError *err) {
     const DipControlDef def = {
         .where = where,
         .version = DIP_VERSION,
-        .target = {.context = remote,
-                   .carry_out = carry_out,
-                   // The preview does not measure prices while it runs.
-                   .missing_topics = 1u << DIP_CONTROL_TOPIC_PRICES},
+        .target = {.context = remote, .carry_out = carry_out},
     };
     remote->control = dip_control_open(&def, err);
     if (!remote->control) {

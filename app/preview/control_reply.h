@@ -20,6 +20,9 @@ void dip_reply_times(struct cJSON *object, const DipPreviewMoment *moment);
 // "status", "samples", "final", and the errors of both panes.
 void dip_reply_errors(struct cJSON *object, const DipPreviewMoment *moment);
 
+// "source", "progress", and the prices of both panes' settings and of every step.
+void dip_reply_prices(struct cJSON *object, const DipPreviewMoment *moment);
+
 // "paths": the categories of camera paths.
 void dip_reply_paths(struct cJSON *object, const DipPreviewState *state);
 

@@ -21,6 +21,7 @@ typedef struct DipPreviewMoment {
     DipSession *session;
     const DipDisplay *display;
     const DipPaneFigures *figures; // One for each pane.
+    const DipPrices *prices;
     const DipFrame *panes; // The frames drawn last, one for each pane; no pixels before the first.
     DipPixels picture;     // The picture presented last.
     bool drawn;            // The frames and the picture show what the state asks for.

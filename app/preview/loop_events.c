@@ -9,6 +9,7 @@ static DipPreviewMoment moment_of(DipPreview *preview, int64_t now_ns) {
         .session = preview->def.session,
         .display = &preview->def.display,
         .figures = preview->figures.shown,
+        .prices = preview->prices,
         .panes = preview->frame.panes,
         .picture = dip_view_picture(preview->view),
         .drawn = preview->picture_number != 0 && !preview->redraw && !preview->resized &&

@@ -12,17 +12,20 @@ void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading) {
                         preview->errors ? dip_error_thread_pictures(preview->errors) : NULL);
 }
 
-// Returns whether rough prices are measured: the dock shows them, and nothing moves.
+// Returns whether rough prices are measured: the dock or another program shows them, and nothing
+// moves.
 static bool wants_prices(const DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
-    return preview->live_prices && dip_prices_are_rough(preview->prices) && state->tools.open &&
-           !state->tools.bare && dip_preview_rests(state, preview->flying);
+    const bool shown = (state->tools.open && !state->tools.bare) || state->wants_prices;
+    return preview->live_prices && dip_prices_are_rough(preview->prices) && shown &&
+           dip_preview_rests(state, preview->flying);
 }
 
 // Returns whether the tags of the settings wait for the truth, from which their errors are
 // measured. It is drawn only once all times are known, because it would disturb them.
 static bool prices_need_truth(const DipPreview *preview) {
-    return preview->state.tools.tab == DIP_TAB_SETTINGS && !preview->no_truth &&
+    const DipPreviewState *state = &preview->state;
+    return (state->tools.tab == DIP_TAB_SETTINGS || state->wants_prices) && !preview->no_truth &&
            wants_prices(preview) && dip_live_prices_have_times(preview->live_prices);
 }
 

@@ -93,6 +93,7 @@ typedef struct DipPreviewState {
     bool show_costs;         // The table of costs shows.
     int next_advice;         // Index in costs->advice of the next advice to give.
     bool wants_errors;       // Another program has asked for the errors, shown or not.
+    bool wants_prices;       // Another program has asked for the prices, shown or not.
     char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
     int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.
     int pane_height;

@@ -10,6 +10,7 @@
 #include "tests/renderer/scene/scenes.h"
 
 #include <cjson/cJSON.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -85,7 +86,8 @@ static const char *ask(const char *line) {
 static int set_up(void **state) {
     (void)state;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_grazing_checker);
-    session = (DipSession){.pool = dip_pool_create(1, NULL)};
+    static const DipSessionOptions options = {.config = "made up"};
+    session = (DipSession){.pool = dip_pool_create(1, NULL), .options = &options};
     session.scene = dip_scene_create(&scene.def, NULL, NULL);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         DipRendererDef def = dip_renderer_default_def();
@@ -103,6 +105,7 @@ static int set_up(void **state) {
                                .display = display,
                                .flying_speed_m_per_s = 1.0,
                                .control = dip_remote_control(remote),
+                               .measures_prices = true,
                                .load_scene_def = load_scene_def};
     preview = dip_preview_create(&def, NULL);
     assert_non_null(preview);
@@ -355,6 +358,55 @@ static void errors_are_measured_for_subscribers(void **state) {
     assert_false(state_now()->panel);
 }
 
+// Returns the price of a step in an event of prices, or NULL.
+static const cJSON *step_in(const cJSON *event, const char *setting, int step) {
+    const cJSON *settings = cJSON_GetObjectItemCaseSensitive(event, "settings");
+    return cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(settings, setting), step);
+}
+
+static double number_in(const cJSON *object, const char *name) {
+    const cJSON *number = cJSON_GetObjectItemCaseSensitive(object, name);
+    assert_true(cJSON_IsNumber(number));
+    return number->valuedouble;
+}
+
+// The panel is folded: prices are measured, with their errors, because a client asks for them.
+static void prices_are_measured_for_subscribers(void **state) {
+    (void)state;
+    assert_false(state_now()->tools.open);
+    assert_ok("{\"request\":\"set\",\"pane\":\"requested\",\"settings\":\"aa=4\"}");
+    assert_ok("{\"request\":\"pause\"}");
+    assert_ok("{\"request\":\"subscribe\",\"to\":\"prices\"}");
+    cJSON *event = NULL;
+    bool known = false;
+    for (int i = 0; i < 20000 && !known; ++i) {
+        const struct timespec millisecond = {0, 1000000};
+        const char *line;
+        nanosleep(&millisecond, NULL); // The truth is drawn by another thread.
+        turn();
+        if (line_client_take(&client, &line)) {
+            cJSON_Delete(event);
+            event = cJSON_Parse(line);
+            const cJSON *requested = cJSON_GetObjectItemCaseSensitive(event, "requested");
+            known = cJSON_HasObjectItem(requested, "flip") && cJSON_HasObjectItem(requested, "ms");
+        }
+    }
+    assert_true(known);
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(event, "source")->valuestring, "rough");
+    const cJSON *base = step_in(event, "aa", 0), *four = step_in(event, "aa", 2);
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(base, "state")->valuestring, "base");
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(four, "step")->valuestring, "4");
+    assert_true(number_in(base, "ms") > 0.0);
+    assert_true(number_in(four, "ms_low") <= number_in(four, "ms"));
+    assert_true(number_in(four, "flip") < 0.0); // Antialiasing lessens the error.
+    const cJSON *requested = cJSON_GetObjectItemCaseSensitive(event, "requested");
+    assert_true(fabs(number_in(requested, "ms") - number_in(base, "ms") - number_in(four, "ms")) <
+                1e-6);
+    cJSON_Delete(event);
+    assert_ok("{\"request\":\"unsubscribe\",\"to\":\"prices\"}");
+    assert_false(state_now()->wants_prices);
+}
+
 static void clicks_are_picks(void **state) {
     (void)state;
     int colours[DIP_PANE_COUNT][3];
@@ -393,6 +445,7 @@ static DipPreviewState checked_state(void) {
     memcpy(&copy, state_now(), sizeof copy); // Also copies the padding, which is compared.
     copy.notice_end_ns = 0;                  // Notices end by themselves.
     memset(copy.notice, 0, sizeof copy.notice);
+    copy.wants_prices = false; // Subscriptions change it.
     return copy;
 }
 
@@ -435,7 +488,7 @@ static void ten_thousand_random_lines_do_no_harm(void **state) {
         take_replies(25);
         assert_false(dip_preview_has_quit(preview));
         line_client_line(&client, "{\"request\":\"unsubscribe\",\"to\":[\"times\",\"errors\","
-                                  "\"settings\",\"notices\",\"picks\",\"polls\"]}");
+                                  "\"settings\",\"prices\",\"notices\",\"picks\",\"polls\"]}");
         take_replies(1);
     }
 }
@@ -456,6 +509,7 @@ int main(void) {
         CONTROL_TEST(subscribers_hear_of_every_change),
         CONTROL_TEST(times_come_while_the_camera_moves),
         CONTROL_TEST(errors_are_measured_for_subscribers),
+        CONTROL_TEST(prices_are_measured_for_subscribers),
         CONTROL_TEST(clicks_are_picks),
         CONTROL_TEST(polls_ask_for_settings),
         CONTROL_TEST(ten_thousand_random_lines_do_no_harm),
