@@ -2,6 +2,7 @@
 #include "tests/peer/states_ours.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 // What the shaders of one part need.
 typedef struct Uniforms {
@@ -11,60 +12,86 @@ typedef struct Uniforms {
     DipShadowMap map;
 } Uniforms;
 
-static void transform(const DipVertexBatch *batch, const Uniforms *u, bool lit) {
-    for (int i = 0; i < batch->count; i++) {
-        const float x = batch->in[0][i] + u->part->place[0];
-        const float y = batch->in[1][i] + u->part->place[1];
-        const float z = batch->in[2][i] + u->part->place[2];
-        for (int c = 0; c < 4; c++) {
-            const float *row = u->to_clip + 4 * c;
-            batch->clip[c][i] = ((row[0] * x + row[1] * y) + row[2] * z) + row[3];
-        }
-        for (int c = 0; lit && c < 3; c++) {
-            const float *row = u->data->to_light + 4 * c;
-            batch->varying[c][i] = batch->in[3 + c][i];
-            batch->varying[3 + c][i] = ((row[0] * x + row[1] * y) + row[2] * z) + row[3];
-        }
+// The loops of the shaders read and write through `restrict` pointers, so that the compiler makes
+// vectors of them.
+
+// out[i] = row . (x, y, z, 1) of every vertex of a batch, moved by the part's place.
+static void transform_row(const DipVertexBatch *batch, const Uniforms *u, const float row[4],
+                          float *restrict out) {
+    const float *restrict x = batch->in[0];
+    const float *restrict y = batch->in[1];
+    const float *restrict z = batch->in[2];
+    const float a = row[0], b = row[1], c = row[2], d = row[3];
+    const float px = u->part->place[0], py = u->part->place[1], pz = u->part->place[2];
+    const int count = batch->count;
+    for (int i = 0; i < count; i++) {
+        out[i] = ((a * (x[i] + px) + b * (y[i] + py)) + c * (z[i] + pz)) + d;
     }
 }
 
 static void plain_vertex(const DipVertexBatch *batch) {
-    transform(batch, batch->uniforms, false);
+    const Uniforms *u = batch->uniforms;
+    for (int c = 0; c < 4; c++) {
+        transform_row(batch, u, u->to_clip + (size_t)c * 4, batch->clip[c]);
+    }
 }
 
+// The varyings are the normal.
 static void lit_vertex(const DipVertexBatch *batch) {
-    transform(batch, batch->uniforms, true);
+    plain_vertex(batch);
+    for (int c = 0; c < 3; c++) {
+        memcpy(batch->varying[c], batch->in[3 + c], (size_t)batch->count * sizeof(float));
+    }
+}
+
+// The varyings are the normal and the position in the light's clip space.
+static void shadowed_vertex(const DipVertexBatch *batch) {
+    const Uniforms *u = batch->uniforms;
+    lit_vertex(batch);
+    for (int c = 0; c < 3; c++) {
+        transform_row(batch, u, u->data->to_light + (size_t)c * 4, batch->varying[3 + c]);
+    }
+}
+
+static void fill(float *restrict out, float value, int count) {
+    for (int i = 0; i < count; i++) {
+        out[i] = value;
+    }
 }
 
 static void flat_fragment(DipFragmentBatch *batch) {
     const Uniforms *u = batch->uniforms;
-    for (int i = 0; i < batch->count; i++) {
-        for (int c = 0; c < 3; c++) {
-            batch->colour[c][i] = u->part->colour[c];
-        }
-        batch->alpha[i] = u->part->colour[3];
+    for (int c = 0; c < 3; c++) {
+        fill(batch->colour[c], u->part->colour[c], batch->count);
     }
+    fill(batch->alpha, u->part->colour[3], batch->count);
 }
 
-static void light(DipFragmentBatch *batch, const float *open) {
+static void light(DipFragmentBatch *batch, const float *restrict open) {
     const Uniforms *u = batch->uniforms;
     const float *l = u->data->light;
-    for (int i = 0; i < batch->count; i++) {
-        float cosine = (batch->varying[0][i] * l[0] + batch->varying[1][i] * l[1]) +
-                       batch->varying[2][i] * l[2];
+    const float lx = l[0], ly = l[1], lz = l[2];
+    const float *restrict nx = batch->varying[0];
+    const float *restrict ny = batch->varying[1];
+    const float *restrict nz = batch->varying[2];
+    const float red = u->part->colour[0], green = u->part->colour[1], blue = u->part->colour[2];
+    float *restrict r = batch->colour[0];
+    float *restrict g = batch->colour[1];
+    float *restrict b = batch->colour[2];
+    const int count = batch->count;
+    for (int i = 0; i < count; i++) {
+        float cosine = (nx[i] * lx + ny[i] * ly) + nz[i] * lz;
         cosine = cosine > 0.0f ? cosine : 0.0f;
         const float amount = 0.15f + 0.85f * cosine * open[i];
-        for (int c = 0; c < 3; c++) {
-            batch->colour[c][i] = u->part->colour[c] * amount;
-        }
+        r[i] = red * amount;
+        g[i] = green * amount;
+        b[i] = blue * amount;
     }
 }
 
 static void lit_fragment(DipFragmentBatch *batch) {
     float open[DIP_FRAGMENT_BATCH];
-    for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
-        open[i] = 1.0f;
-    }
+    fill(open, 1.0f, DIP_FRAGMENT_BATCH);
     light(batch, open);
 }
 
@@ -90,8 +117,8 @@ static DipDraw draw_of(const DipStatesOurs *ours, const Uniforms *uniforms) {
     DipDraw draw = {.mesh = ours->meshes[part->shape],
                     .vertex_shader = lit_vertex,
                     .fragment_shader = lit_fragment,
-                    .varying_count = 6,
-                    .value_only_varying_count = 6,
+                    .varying_count = 3,
+                    .value_only_varying_count = 3,
                     .uniforms = uniforms,
                     .bounds_to_clip = NULL,
                     .cull = DIP_CULL_BACK};
@@ -101,8 +128,8 @@ static DipDraw draw_of(const DipStatesOurs *ours, const Uniforms *uniforms) {
         draw.varying_count = draw.value_only_varying_count = 0;
         draw.state = ours->data->opaque ? NULL : &layers[part->mode];
     } else if (ours->data->kind == DIP_STATES_SHADOW) {
+        draw.vertex_shader = shadowed_vertex;
         draw.fragment_shader = shadowed_fragment;
-    } else {
         draw.varying_count = draw.value_only_varying_count = 6;
     }
     return draw;
