@@ -214,6 +214,111 @@ VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *re
     }
 }
 
+// --- small opaque triangles ----------------------------------------------------------------------
+
+// Most sub-blocks in the box of a small triangle. The set-up of a region costs more than testing
+// the pixels of so few sub-blocks.
+enum { SMALL_BOX = 6 };
+
+// A small triangle in a tile with one sample per pixel. Edge values are those of InTile, at the
+// pixels of the box's first sub-block.
+typedef struct SmallTriangle {
+    Vi edge[3][VECTORS];
+    int32_t a[3];
+    int32_t b[3];
+    Vf depth_lane[VECTORS]; // as in InTile
+    Vf depth_sample;
+    Vf depth_min;
+    Vf depth_max;
+} SmallTriangle;
+
+// x and y: the first pixel of the box's first sub-block in the target. An edge value that is
+// clamped has the same sign in all sub-blocks of the box.
+VEC_INLINE void set_up_small(SmallTriangle *small, const DipTriangle *triangle,
+                             const DipSamplePattern *pattern, int x, int y) {
+    const int64_t limit = (int64_t)1 << 38;
+    const int64_t at_x = (int64_t)x * DIP_SUBPIXELS + pattern->x[0];
+    const int64_t at_y = (int64_t)y * DIP_SUBPIXELS + pattern->y[0];
+    for (int i = 0; i < 3; i++) {
+        const int32_t a = triangle->a[i];
+        const int32_t b = triangle->b[i];
+        const int64_t value = triangle->c[i] + (a * at_x + b * at_y);
+        const int32_t corner = (int32_t)(max_i64(min_i64(value, limit), -limit) >> 8);
+        small->a[i] = a * DIP_SUB_BLOCK;
+        small->b[i] = b * DIP_SUB_BLOCK;
+        for (int v = 0; v < VECTORS; v++) {
+            small->edge[i][v] = vi_splat(a) * vi_load(lane_x + v * DIP_LANES) +
+                                (vi_splat(b) * vi_load(lane_y + v * DIP_LANES) + vi_splat(corner));
+        }
+    }
+    const float dx = (float)triangle->z_dx;
+    const float dy = (float)triangle->z_dy;
+    for (int v = 0; v < VECTORS; v++) {
+        small->depth_lane[v] = vf_splat(dx) * vf_from_int(vi_load(lane_x + v * DIP_LANES)) +
+                               vf_splat(dy) * vf_from_int(vi_load(lane_y + v * DIP_LANES));
+    }
+    small->depth_sample = vf_splat(dx * ((float)pattern->x[0] * (1.0f / 256.0f)) +
+                                   dy * ((float)pattern->y[0] * (1.0f / 256.0f)));
+    small->depth_min = vf_splat(triangle->z_min);
+    small->depth_max = vf_splat(triangle->z_max);
+}
+
+// Draws the sub-block that lies `column` sub-blocks to the right of the box's first one and `row`
+// below it. block and quarter: the sub-block's block in the tile, and its number in the block.
+// corner: the depth at the sub-block's corner. Returns whether the triangle covers all pixels.
+VEC_INLINE bool draw_small_sub_block(const SmallTriangle *small, int column, int row, int block,
+                                     int quarter, float corner, DipTile *tile, uint32_t id) {
+    Mask covered[VECTORS];
+    unsigned some = 0;
+    unsigned all = VEC_ALL_LANES;
+    for (int v = 0; v < VECTORS; v++) {
+        Vi edges = vi_splat(0);
+        for (int i = 0; i < 3; i++) {
+            edges |= small->edge[i][v] + vi_splat(small->a[i] * column + small->b[i] * row);
+        }
+        covered[v] = vi_not_negative(edges);
+        some |= mask_bits(covered[v]);
+        all &= mask_bits(covered[v]);
+    }
+    if (!some) {
+        return false;
+    }
+    if (!(tile->touched >> block & 1)) {
+        clear_block(tile, block, 1);
+    }
+    const int first = block * DIP_BLOCK_PIXELS + quarter * DIP_SUB_BLOCK_PIXELS;
+    for (int v = 0; v < VECTORS; v++) {
+        float *const depths = tile->depth + first + v * DIP_LANES;
+        const Vf old = vf_load(depths);
+        const Vf unbounded = (vf_splat(corner) + small->depth_lane[v]) + small->depth_sample;
+        const Vf depth = vf_min(vf_max(unbounded, small->depth_min), small->depth_max);
+        const Mask nearer = vf_lt(old, depth) & covered[v];
+        vf_store_lanes(depths, nearer, depth, old);
+        vi_store_lanes((int32_t *)tile->id + first + v * DIP_LANES, nearer, vi_splat((int32_t)id));
+    }
+    return all == VEC_ALL_LANES;
+}
+
+// Draws an opaque triangle whose box has at most SMALL_BOX sub-blocks, in a tile with one sample
+// per pixel.
+VEC_INLINE void draw_small(DipTile *tile, const DipTriangle *triangle, const Box *box,
+                           uint32_t id) {
+    SmallTriangle small;
+    set_up_small(&small, triangle, tile->pattern, tile->x0 + box->x0 * DIP_SUB_BLOCK,
+                 tile->y0 + box->y0 * DIP_SUB_BLOCK);
+    for (int y = box->y0; y <= box->y1; y++) {
+        const double from_row = triangle->z_dy * (double)(tile->y0 + y * DIP_SUB_BLOCK);
+        for (int x = box->x0; x <= box->x1; x++) {
+            // As in set_corner_depths.
+            const double at = triangle->z_dx * (double)(tile->x0 + x * DIP_SUB_BLOCK);
+            const float corner = (float)((triangle->z_origin + at) + from_row);
+            tile->sub_blocks_accepted += draw_small_sub_block(&small, x - box->x0, y - box->y0,
+                                                              y / 2 * DIP_TILE_BLOCKS + x / 2,
+                                                              y % 2 * 2 + x % 2, corner, tile, id);
+        }
+    }
+}
+
 // --- a triangle --------------------------------------------------------------------------------
 
 // Draws a triangle, region by region of its pixel box. Callers pass a constant sample_count where
@@ -221,6 +326,11 @@ VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *re
 VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_t id,
                              const DipClipTest *clip, int sample_count) {
     const Box box = box_of(triangle, tile);
+    tile->sub_blocks_tested += sub_blocks_in(&box);
+    if (sample_count == 1 && !clip && sub_blocks_in(&box) <= SMALL_BOX) {
+        draw_small(tile, triangle, &box, id);
+        return;
+    }
     InTile in;
     set_up_in_tile(&in, triangle, tile);
     ClipQueue queue;
@@ -243,7 +353,6 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
     if (clip && queue.count) {
         flush_clip_queue(&queue, &in, triangle, tile, id);
     }
-    tile->sub_blocks_tested += sub_blocks_in(&box);
 }
 
 static void draw_clipped(DipTile *tile, const DipTriangle *triangle, uint32_t id,
