@@ -6,6 +6,14 @@
 
 enum { CHANNELS = 4 };
 
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+static int greatest(int a, int b) {
+    return a > b ? a : b;
+}
+
 // A row of a block's pixels, cut to the pixels that the pass may change.
 typedef struct Row {
     int x; // column and row of the first pixel in the target
@@ -237,20 +245,41 @@ void dip_load_stencil(const DipMergePass *pass, const DipTile *tile, uint8_t *st
     }
 }
 
-static void store_depths(const DipMergePass *pass, const DipTile *tile, int block) {
-    static const float cleared[DIP_BLOCK];
-    DipDepth *depth = pass->pass->attachments.depth;
-    const bool touched = tile->touched >> block & 1;
-    for (int y = 0; y < DIP_BLOCK; y++) {
-        const Row row = row_of(pass, tile, block, y);
-        for (int s = 0; row.to > row.from && s < tile->pattern->count; s++) {
-            const float *from = tile->depth + dip_tile_index(tile, block, s);
-            float *to = depth->depth + dip_depth_row_index(depth, s, row.y) + row.x;
-            if (touched) {
-                copy_row_out(&row, y, from, to);
-            } else {
-                memcpy(to, cleared, (size_t)(row.to - row.from) * sizeof *to);
+// Stores the depths of sample s in one row of the tile, in columns x0..x1-1. `to` is where the
+// depth of the tile's column 0 goes. Blocks that no triangle has touched have the depth 0.
+static void store_depth_row(const DipTile *tile, int s, int y, int x0, int x1, float *to) {
+    for (int x = x0; x < x1; x = (x / DIP_BLOCK + 1) * DIP_BLOCK) {
+        const int block = y / DIP_BLOCK * DIP_TILE_BLOCKS + x / DIP_BLOCK;
+        const bool touched = tile->touched >> block & 1;
+        const int end = (x / DIP_BLOCK + 1) * DIP_BLOCK;
+        const float *from = tile->depth + dip_tile_index(tile, block, s);
+        if (x % DIP_BLOCK || end > x1) {
+            for (int i = x; i < end && i < x1; i++) {
+                to[i] = touched ? from[in_block(i % DIP_BLOCK, y % DIP_BLOCK)] : 0.0f;
             }
+        } else if (touched) {
+            const float *row = from + in_block(0, y % DIP_BLOCK);
+            memcpy(to + x, row, DIP_SUB_BLOCK * sizeof *to);
+            memcpy(to + x + DIP_SUB_BLOCK, row + DIP_SUB_BLOCK_PIXELS, DIP_SUB_BLOCK * sizeof *to);
+        } else {
+            memset(to + x, 0, DIP_BLOCK * sizeof *to);
+        }
+    }
+}
+
+// Stores the depths of the tile's drawn blocks, row by row of the tile, because rows are whole in
+// the memory of a DipDepth.
+static void store_depths(const DipMergePass *pass, const DipTile *tile) {
+    const DipTargetRegion *stored = &pass->stored;
+    DipDepth *depth = pass->pass->attachments.depth;
+    const int x0 = greatest(stored->x0 - tile->x0, tile->left);
+    const int y0 = greatest(stored->y0 - tile->y0, tile->top);
+    const int x1 = least(stored->x1 - tile->x0, DIP_TILE - tile->right);
+    const int y1 = least(stored->y1 - tile->y0, DIP_TILE - tile->bottom);
+    for (int s = 0; s < tile->pattern->count; s++) {
+        for (int y = y0; y < y1; y++) {
+            const size_t row = dip_depth_row_index(depth, s, tile->y0 + y);
+            store_depth_row(tile, s, y, x0, x1, depth->depth + row + (size_t)tile->x0);
         }
     }
 }
@@ -272,15 +301,15 @@ static void store_stencil(const DipMergePass *pass, const DipMergeTile *merge, c
 
 void dip_store_attachments(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile) {
     const DipAttachments *a = &pass->pass->attachments;
+    if (a->depth && a->depth_store == DIP_STORE_KEEP) {
+        store_depths(pass, tile);
+    }
     for (int block = 0; block < DIP_BLOCKS; block++) {
         if (!dip_block_is_drawn(tile, block)) {
             continue;
         }
         if (pass->has_colours && a->colour_store == DIP_STORE_KEEP) {
             store_colours(pass, merge, tile, block);
-        }
-        if (a->depth && a->depth_store == DIP_STORE_KEEP) {
-            store_depths(pass, tile, block);
         }
         if (a->depth && a->stencil_store == DIP_STORE_KEEP) {
             store_stencil(pass, merge, tile, block);

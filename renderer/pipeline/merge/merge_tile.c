@@ -69,7 +69,7 @@ void dip_merge_pass_begin(DipMergePass *merge, const DipPass *pass) {
     merge->pass = pass;
     merge->has_colours = has_colours(&pass->target);
     merge->clamps = format == DIP_FORMAT_SRGB8 || format == DIP_FORMAT_LINEAR8;
-    merge->uses_stencil = a->depth || tests_stencil(pass);
+    merge->uses_stencil = (a->depth && a->stencil_store == DIP_STORE_KEEP) || tests_stencil(pass);
     merge->starts_from_depth =
         (a->depth && a->depth_load == DIP_LOAD_KEEP) || a->clear_depth > 0.0f;
     merge->stored = (DipTargetRegion){0, 0, pass->target.width, pass->target.height};

@@ -18,7 +18,7 @@ typedef struct DipMergePass {
     const uint8_t *is_ordered; // one per draw
     bool has_colours;
     bool clamps;            // the target's colours stay within 0..1
-    bool uses_stencil;      // a draw tests stencil values, or they outlive the pass
+    bool uses_stencil;      // a draw tests stencil values, or the pass stores them
     bool starts_from_depth; // depths are loaded, or cleared to another value than 0
     DipTargetRegion stored; // pixels of the target that the pass may change
     float clear[4];

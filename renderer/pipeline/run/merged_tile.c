@@ -32,13 +32,14 @@ static void shade_plain_draws(DipTileWorker *worker) {
         return;
     }
     worker->merge.plain_left = false;
-    if (worker->pass->merge.has_colours) {
-        const int64_t begin_ns = dip_clock_ns();
-        dip_tile_worker_shade_tile(worker);
-        worker->shading_ns += dip_clock_ns() - begin_ns;
-        worker->work->multi_fragment_pixels += (uint64_t)worker->shading.multi_fragment_count;
-        worker->shading.multi_fragment_count = 0;
+    if (!worker->pass->merge.has_colours) {
+        return; // nothing reads the visibility buffer
     }
+    const int64_t begin_ns = dip_clock_ns();
+    dip_tile_worker_shade_tile(worker);
+    worker->shading_ns += dip_clock_ns() - begin_ns;
+    worker->work->multi_fragment_pixels += (uint64_t)worker->shading.multi_fragment_count;
+    worker->shading.multi_fragment_count = 0;
     dip_merge_clear_ids(&worker->tile);
 }
 
