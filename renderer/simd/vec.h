@@ -436,6 +436,28 @@ VEC_INLINE int vu_compress(uint32_t *out, unsigned bits, Vu v) {
 #endif
 }
 
+// The reverse of vu_compress: returns the values at p, one after the other, in the lanes whose bits
+// are set in `bits`, and 0 in the other lanes. The function may read a whole vector's length from p
+// on.
+VEC_INLINE Vf vf_expand(const float *p, unsigned bits) {
+#if VEC_AVX512
+    return (Vf)_mm512_maskz_expand_ps((__mmask16)bits, _mm512_loadu_ps(p));
+#elif VEC_AVX2
+    // `order` has one byte per lane: the number of the value that the lane gets.
+    const uint64_t stay = _pdep_u64(bits, 0x0101010101010101u) * 255;
+    const uint64_t order = _pdep_u64(0x0706050403020100u, stay);
+    const __m256i from = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order));
+    const __m256 spread = _mm256_permutevar8x32_ps(_mm256_loadu_ps(p), from);
+    return vf_select(mask_from_bits(bits), (Vf)spread, vf_splat(0.0f));
+#else
+    float lanes[DIP_LANES] = {0};
+    for (; bits; bits &= bits - 1) {
+        lanes[__builtin_ctz(bits)] = *p++;
+    }
+    return vf_load(lanes);
+#endif
+}
+
 // Returns the value of the greatest lane.
 VEC_INLINE int32_t vi_greatest(Vi v) {
 #if VEC_AVX512

@@ -129,13 +129,14 @@ VEC_INLINE void blend_sample(DipTileColours *colours, const Blending *how, const
 }
 
 // Spreads the colours of a sub-block's fragments, `from`, to their pixels.
-static void spread(const Source *from, unsigned pixels, Spread *to) {
-    for (int c = 0; c < CHANNELS; c++) {
-        const float *next = from->channel[c];
-        memset(to->channel[c], 0, sizeof to->channel[c]);
-        for (unsigned left = pixels; left; left &= left - 1) {
-            to->channel[c][__builtin_ctz(left)] = *next++;
+VEC_INLINE void spread(const Source *from, unsigned pixels, Spread *to) {
+    int at = 0;
+    for (int v = 0; v < VECTORS; v++) {
+        const unsigned bits = pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
+        for (int c = 0; c < CHANNELS; c++) {
+            vf_store(to->channel[c] + v * DIP_LANES, vf_expand(from->channel[c] + at, bits));
         }
+        at += __builtin_popcount(bits);
     }
 }
 

@@ -152,12 +152,9 @@ void dip_split(DipTileColours *colours, int sub_block) {
     colours->split[sub_block / 64] |= (uint64_t)1 << sub_block % 64;
 }
 
-void dip_merge_ready_block(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
-                           int block) {
+void dip_merge_load_block(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
+                          int block) {
     DipTileColours *colours = &merge->colours;
-    if (colours->ready >> block & 1) {
-        return;
-    }
     float light[CHANNELS][DIP_BLOCK_PIXELS];
     dip_load_colours(pass, tile, block, light);
     for (int c = 0; c < CHANNELS; c++) {

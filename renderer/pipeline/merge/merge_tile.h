@@ -50,9 +50,17 @@ void dip_merge_tile_free(DipMergeTile *merge);
 // Prepares a tile: its depths and stencil values, and no colours yet.
 void dip_merge_begin(const DipMergePass *pass, DipMergeTile *merge, DipTile *tile);
 
-// Makes sure that a block has colours: those of the target, or the clear colour.
-void dip_merge_ready_block(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
-                           int block);
+// Gives a block its first colours: those of the target, or the clear colour.
+void dip_merge_load_block(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
+                          int block);
+
+// Makes sure that a block has colours.
+static inline void dip_merge_ready_block(const DipMergePass *pass, DipMergeTile *merge,
+                                         const DipTile *tile, int block) {
+    if (!(merge->colours.ready >> block & 1)) {
+        dip_merge_load_block(pass, merge, tile, block);
+    }
+}
 
 // Store the colours of shaded fragments of plain draws, from the first entries of a list. In a list
 // of whole sub-blocks, 16 entries are one sub-block. Plain draws have the alpha 1.

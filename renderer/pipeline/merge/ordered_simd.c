@@ -376,6 +376,38 @@ VEC_INLINE void merge_sub_block(DipOrdered *ordered, const OrderedTriangle *tri,
     }
 }
 
+// Merges sub-block n, which lies wholly inside a triangle of KIND_SINGLE, as cover_whole_sub_block
+// and merge_sub_block do, but without a Cover. Most of these sub-blocks are visible in all pixels,
+// so their fragments are stored as whole vectors.
+VEC_INLINE void merge_whole_single(DipOrdered *ordered, const OrderedTriangle *tri,
+                                   const Region *region, int n, DipTile *tile) {
+    const int first = touch_sub_block(tile, region, n, 1);
+    const unsigned visible = pass_nearer(tri, KIND_SINGLE, tile->depth + first, region->depth[n], 0,
+                                         0xffff, ordered->state->keep_depth);
+    if (!visible || !ordered->shades) {
+        return;
+    }
+    DipOrderedBatch *batch = &ordered->batches[ordered->full];
+    DipFragmentList *list = &batch->list;
+    if (list->count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
+        batch = dip_ordered_next_batch(ordered);
+        list = &batch->list;
+    }
+    DipOrderedSubBlock *sub_block = &batch->waiting[batch->count++];
+    sub_block->first = first;
+    sub_block->number = first / DIP_SUB_BLOCK_PIXELS;
+    sub_block->pixels = sub_block->visible[0] = (uint16_t)visible;
+    const Vi corner = sub_position(128, 128) + vi_splat(corner_of(region, n));
+    for (int v = 0; v < VECTORS; v++) {
+        const Vi pixel =
+            (vi_load(lane_y + v * DIP_LANES) << DIP_POSITION_Y) + vi_load(lane_x + v * DIP_LANES);
+        vi_store((int32_t *)list->triangle + list->count, vi_splat((int32_t)tri->index));
+        list->count +=
+            vu_compress(list->position + list->count, visible >> (v * DIP_LANES) & VEC_ALL_LANES,
+                        (Vu)(corner + pixel));
+    }
+}
+
 // Runs the clip test on the fragments that wait for it, and merges those that it keeps.
 static void flush_clip_queue(ClipQueue *queue, DipOrdered *ordered, const OrderedTriangle *tri,
                              const DipTriangle *triangle, DipTile *tile) {
@@ -422,6 +454,10 @@ VEC_INLINE void merge_region(ClipQueue *queue, DipOrdered *ordered, const Ordere
     const int sample_count = kind == KIND_SINGLE ? 1 : tile->pattern->count;
     for (unsigned left = region->reached; left; left &= left - 1) {
         const int n = __builtin_ctz(left);
+        if (kind == KIND_SINGLE && region->inside >> n & 1) {
+            merge_whole_single(ordered, tri, region, n, tile);
+            continue;
+        }
         Cover cover;
         cover.first = touch_sub_block(tile, region, n, sample_count);
         cover.number = number_of(region, n);
