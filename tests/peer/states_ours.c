@@ -53,18 +53,21 @@ static void shadowed_vertex(const DipVertexBatch *batch) {
     }
 }
 
-static void fill(float *restrict out, float value, int count) {
-    for (int i = 0; i < count; i++) {
-        out[i] = value;
-    }
-}
-
 static void flat_fragment(DipFragmentBatch *batch) {
     const Uniforms *u = batch->uniforms;
-    for (int c = 0; c < 3; c++) {
-        fill(batch->colour[c], u->part->colour[c], batch->count);
+    const float *colour = u->part->colour;
+    const float red = colour[0], green = colour[1], blue = colour[2], alpha = colour[3];
+    float *restrict r = batch->colour[0];
+    float *restrict g = batch->colour[1];
+    float *restrict b = batch->colour[2];
+    float *restrict a = batch->alpha;
+    const int count = batch->count;
+    for (int i = 0; i < count; i++) {
+        r[i] = red;
+        g[i] = green;
+        b[i] = blue;
+        a[i] = alpha;
     }
-    fill(batch->alpha, u->part->colour[3], batch->count);
 }
 
 static void light(DipFragmentBatch *batch, const float *restrict open) {
@@ -91,7 +94,9 @@ static void light(DipFragmentBatch *batch, const float *restrict open) {
 
 static void lit_fragment(DipFragmentBatch *batch) {
     float open[DIP_FRAGMENT_BATCH];
-    fill(open, 1.0f, DIP_FRAGMENT_BATCH);
+    for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
+        open[i] = 1.0f;
+    }
     light(batch, open);
 }
 
