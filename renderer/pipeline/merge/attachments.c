@@ -22,7 +22,7 @@ typedef struct Row {
     int to;
 } Row;
 
-static Row row_of(const DipMergePass *pass, const DipTile *tile, int block, int y) {
+static inline Row row_of(const DipMergePass *pass, const DipTile *tile, int block, int y) {
     const DipTargetRegion *stored = &pass->stored;
     const int x0 = tile->x0 + block % DIP_TILE_BLOCKS * DIP_BLOCK;
     const int row = tile->y0 + block / DIP_TILE_BLOCKS * DIP_BLOCK + y;
@@ -37,14 +37,14 @@ static Row row_of(const DipMergePass *pass, const DipTile *tile, int block, int 
 }
 
 // Returns the index of a pixel in the order of a block (raster/tile.h).
-static int in_block(int x, int y) {
+static inline int in_block(int x, int y) {
     return y / DIP_SUB_BLOCK * 32 + x / DIP_SUB_BLOCK * 16 + y % DIP_SUB_BLOCK * 4 +
            x % DIP_SUB_BLOCK;
 }
 
 // Copies a row's values of 4 bytes out of a block's order, or into it. `of_block`: the values of
 // the block's 64 pixels; `of_row`: those of the row's pixels.
-static void copy_row_out(const Row *row, int y, const void *of_block, void *of_row) {
+static inline void copy_row_out(const Row *row, int y, const void *of_block, void *of_row) {
     const uint32_t *from = of_block;
     uint32_t *to = of_row;
     if (row->to - row->from == DIP_BLOCK) {
@@ -109,7 +109,7 @@ static void load_row(const DipMergePass *pass, const Row *row, float light[CHANN
 }
 
 void dip_load_colours(const DipMergePass *pass, const DipTile *tile, int block,
-                      float light[CHANNELS][DIP_BLOCK_PIXELS]) {
+                      float *const light[CHANNELS]) {
     for (int c = 0; c < CHANNELS; c++) {
         for (int i = 0; i < DIP_BLOCK_PIXELS; i++) {
             light[c][i] = pass->clear[c];

@@ -164,6 +164,10 @@ VEC_INLINE void blend_sub_block(DipTileColours *colours, const Blending *how,
             source.channel[c] = pixels.channel[c];
         }
     }
+    if (sample_count == 1) {
+        blend_sample(colours, how, &source, sub_block->first, sub_block->visible[0]);
+        return;
+    }
     if (!dip_is_split(colours, sub_block->number)) {
         if (is_uniform(sub_block, sample_count)) {
             blend_sample(colours, how, &source, sub_block->first, sub_block->visible[0]);

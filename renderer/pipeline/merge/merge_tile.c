@@ -155,11 +155,11 @@ void dip_split(DipTileColours *colours, int sub_block) {
 void dip_merge_load_block(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
                           int block) {
     DipTileColours *colours = &merge->colours;
-    float light[CHANNELS][DIP_BLOCK_PIXELS];
-    dip_load_colours(pass, tile, block, light);
+    float *to[CHANNELS];
     for (int c = 0; c < CHANNELS; c++) {
-        memcpy(colours->channel[c] + dip_tile_index(tile, block, 0), light[c], sizeof light[c]);
+        to[c] = colours->channel[c] + dip_tile_index(tile, block, 0);
     }
+    dip_load_colours(pass, tile, block, to);
     colours->ready |= (uint64_t)1 << block;
 }
 

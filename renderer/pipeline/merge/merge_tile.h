@@ -75,7 +75,7 @@ void dip_merge_clear_ids(DipTile *tile);
 
 // attachments.c: the way between a tile and what outlives a pass.
 void dip_load_colours(const DipMergePass *pass, const DipTile *tile, int block,
-                      float light[4][DIP_BLOCK_PIXELS]);
+                      float *const light[4]);
 void dip_load_depths(const DipMergePass *pass, DipTile *tile);
 void dip_load_stencil(const DipMergePass *pass, const DipTile *tile, uint8_t *stencil);
 void dip_store_attachments(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile);

@@ -60,7 +60,7 @@ typedef struct DipOrderedBatch {
 
 // How many batches wait until they are shaded together. Reading the clock, which tells the time of
 // shading from that of coverage, takes as long as blending half a batch.
-enum { DIP_ORDERED_BATCHES = 8 };
+enum { DIP_ORDERED_BATCHES = 16 };
 
 // One ordered draw in one tile.
 typedef struct DipOrdered {

@@ -41,6 +41,12 @@ typedef enum OrderedKind {
     KIND_GENERAL, // any state
 } OrderedKind;
 
+// Pixels of a sub-block, relative to its first pixel, as a fragment's position counts them.
+static const int32_t lane_pixel[DIP_SUB_BLOCK_PIXELS] = {
+    0,   1,   2,   3,   64,  65,  66,  67, // one row adds DIP_TILE
+    128, 129, 130, 131, 192, 193, 194, 195,
+};
+
 // --- set-up --------------------------------------------------------------------------------------
 
 // Edge values of a triangle are 1/65536 square pixel, and those in the tile are divided by 256. A
@@ -395,12 +401,11 @@ VEC_INLINE void merge_whole_single(DipOrdered *ordered, const OrderedTriangle *t
     }
     DipOrderedSubBlock *sub_block = &batch->waiting[batch->count++];
     sub_block->first = first;
-    sub_block->number = first / DIP_SUB_BLOCK_PIXELS;
+    sub_block->number = (int)((unsigned)first / DIP_SUB_BLOCK_PIXELS);
     sub_block->pixels = sub_block->visible[0] = (uint16_t)visible;
     const Vi corner = sub_position(128, 128) + vi_splat(corner_of(region, n));
     for (int v = 0; v < VECTORS; v++) {
-        const Vi pixel =
-            (vi_load(lane_y + v * DIP_LANES) << DIP_POSITION_Y) + vi_load(lane_x + v * DIP_LANES);
+        const Vi pixel = vi_load(lane_pixel + v * DIP_LANES);
         vi_store((int32_t *)list->triangle + list->count, vi_splat((int32_t)tri->index));
         list->count +=
             vu_compress(list->position + list->count, visible >> (v * DIP_LANES) & VEC_ALL_LANES,

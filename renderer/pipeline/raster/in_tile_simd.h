@@ -221,14 +221,14 @@ VEC_INLINE void clear_block(DipTile *tile, int block, int sample_count) {
 // Returns the index of sub-block n's first value in the tile's arrays. If this is the first use of
 // the 8x8 block that the sub-block lies in, the function first clears the block.
 VEC_INLINE int touch_sub_block(DipTile *tile, const Region *region, int n, int sample_count) {
-    const int x = region->x + n % REGION;
-    const int y = region->y + n / REGION;
-    const int block = y / 2 * DIP_TILE_BLOCKS + x / 2;
-    const int quarter = y % 2 * 2 + x % 2;
+    const unsigned x = (unsigned)(region->x + n % REGION);
+    const unsigned y = (unsigned)(region->y + n / REGION);
+    const unsigned block = y / 2 * DIP_TILE_BLOCKS + x / 2;
+    const unsigned quarter = y % 2 * 2 + x % 2;
     if (!(tile->touched >> block & 1)) {
-        clear_block(tile, block, sample_count);
+        clear_block(tile, (int)block, sample_count);
     }
-    return block * sample_count * DIP_BLOCK_PIXELS + quarter * DIP_SUB_BLOCK_PIXELS;
+    return (int)block * sample_count * DIP_BLOCK_PIXELS + (int)(quarter * DIP_SUB_BLOCK_PIXELS);
 }
 
 // One vector of edge values at sample 0 of DIP_LANES pixels of a sub-block.
