@@ -220,22 +220,21 @@ VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *re
 // the pixels of so few sub-blocks.
 enum { SMALL_BOX = 6 };
 
-// A small triangle in a tile with one sample per pixel. Edge values are those of InTile, at the
-// pixels of the box's first sub-block.
+// A small triangle in a tile with one sample per pixel. The edge values are those of InTile.
 typedef struct SmallTriangle {
-    Vi edge[3][VECTORS];
-    int32_t a[3];
-    int32_t b[3];
-    Vf depth_lane[VECTORS]; // as in InTile
+    Vi edge[3][VECTORS]; // at the pixels of the current sub-block
+    Vi right[3];         // what a step of one sub-block to the right adds
+    Vi down[3];          // what a step down and back to the box's first column adds
+    Vf depth_lane[VECTORS];
     Vf depth_sample;
     Vf depth_min;
     Vf depth_max;
 } SmallTriangle;
 
-// x and y: the first pixel of the box's first sub-block in the target. An edge value that is
-// clamped has the same sign in all sub-blocks of the box.
-VEC_INLINE void set_up_small(SmallTriangle *small, const DipTriangle *triangle,
-                             const DipSamplePattern *pattern, int x, int y) {
+// Sets the edge values at the box's first sub-block. x and y: the sub-block's first pixel in the
+// target. An edge value that is clamped has the same sign in all sub-blocks of the box.
+VEC_INLINE void set_small_edges(SmallTriangle *small, const DipTriangle *triangle, const Box *box,
+                                const DipSamplePattern *pattern, int x, int y) {
     const int64_t limit = (int64_t)1 << 38;
     const int64_t at_x = (int64_t)x * DIP_SUBPIXELS + pattern->x[0];
     const int64_t at_y = (int64_t)y * DIP_SUBPIXELS + pattern->y[0];
@@ -244,13 +243,17 @@ VEC_INLINE void set_up_small(SmallTriangle *small, const DipTriangle *triangle,
         const int32_t b = triangle->b[i];
         const int64_t value = triangle->c[i] + (a * at_x + b * at_y);
         const int32_t corner = (int32_t)(max_i64(min_i64(value, limit), -limit) >> 8);
-        small->a[i] = a * DIP_SUB_BLOCK;
-        small->b[i] = b * DIP_SUB_BLOCK;
+        small->right[i] = vi_splat(a * DIP_SUB_BLOCK);
+        small->down[i] = vi_splat((b - a * (box->x1 - box->x0 + 1)) * DIP_SUB_BLOCK);
         for (int v = 0; v < VECTORS; v++) {
             small->edge[i][v] = vi_splat(a) * vi_load(lane_x + v * DIP_LANES) +
                                 (vi_splat(b) * vi_load(lane_y + v * DIP_LANES) + vi_splat(corner));
         }
     }
+}
+
+VEC_INLINE void set_small_depths(SmallTriangle *small, const DipTriangle *triangle,
+                                 const DipSamplePattern *pattern) {
     const float dx = (float)triangle->z_dx;
     const float dy = (float)triangle->z_dy;
     for (int v = 0; v < VECTORS; v++) {
@@ -263,36 +266,35 @@ VEC_INLINE void set_up_small(SmallTriangle *small, const DipTriangle *triangle,
     small->depth_max = vf_splat(triangle->z_max);
 }
 
-// Draws the sub-block that lies `column` sub-blocks to the right of the box's first one and `row`
-// below it. block and quarter: the sub-block's block in the tile, and its number in the block.
-// corner: the depth at the sub-block's corner. Returns whether the triangle covers all pixels.
-VEC_INLINE bool draw_small_sub_block(const SmallTriangle *small, int column, int row, int block,
-                                     int quarter, float corner, DipTile *tile, uint32_t id) {
-    Mask covered[VECTORS];
-    unsigned some = 0;
+VEC_INLINE void step_small(SmallTriangle *small, const Vi by[3]) {
+    for (int i = 0; i < 3; i++) {
+        for (int v = 0; v < VECTORS; v++) {
+            small->edge[i][v] += by[i];
+        }
+    }
+}
+
+// Draws the current sub-block, which has the column x and the row y in the tile. corner: the depth
+// at the sub-block's corner. Returns whether the triangle covers all pixels. The loop has no branch
+// for sub-blocks without covered pixels, since nothing predicts which they are.
+VEC_INLINE bool draw_small_sub_block(const SmallTriangle *small, unsigned x, unsigned y,
+                                     float corner, DipTile *tile, uint32_t id) {
+    const unsigned block = y / 2 * DIP_TILE_BLOCKS + x / 2;
+    const unsigned quarter = y % 2 * 2 + x % 2;
+    if (!(tile->touched >> block & 1)) {
+        clear_block(tile, (int)block, 1);
+    }
+    const unsigned first = block * DIP_BLOCK_PIXELS + quarter * DIP_SUB_BLOCK_PIXELS;
     unsigned all = VEC_ALL_LANES;
     for (int v = 0; v < VECTORS; v++) {
-        Vi edges = vi_splat(0);
-        for (int i = 0; i < 3; i++) {
-            edges |= small->edge[i][v] + vi_splat(small->a[i] * column + small->b[i] * row);
-        }
-        covered[v] = vi_not_negative(edges);
-        some |= mask_bits(covered[v]);
-        all &= mask_bits(covered[v]);
-    }
-    if (!some) {
-        return false;
-    }
-    if (!(tile->touched >> block & 1)) {
-        clear_block(tile, block, 1);
-    }
-    const int first = block * DIP_BLOCK_PIXELS + quarter * DIP_SUB_BLOCK_PIXELS;
-    for (int v = 0; v < VECTORS; v++) {
+        const Mask covered =
+            vi_not_negative(small->edge[0][v] | small->edge[1][v] | small->edge[2][v]);
         float *const depths = tile->depth + first + v * DIP_LANES;
         const Vf old = vf_load(depths);
         const Vf unbounded = (vf_splat(corner) + small->depth_lane[v]) + small->depth_sample;
         const Vf depth = vf_min(vf_max(unbounded, small->depth_min), small->depth_max);
-        const Mask nearer = vf_lt(old, depth) & covered[v];
+        const Mask nearer = vf_lt(old, depth) & covered;
+        all &= mask_bits(covered);
         vf_store_lanes(depths, nearer, depth, old);
         vi_store_lanes((int32_t *)tile->id + first + v * DIP_LANES, nearer, vi_splat((int32_t)id));
     }
@@ -304,19 +306,22 @@ VEC_INLINE bool draw_small_sub_block(const SmallTriangle *small, int column, int
 VEC_INLINE void draw_small(DipTile *tile, const DipTriangle *triangle, const Box *box,
                            uint32_t id) {
     SmallTriangle small;
-    set_up_small(&small, triangle, tile->pattern, tile->x0 + box->x0 * DIP_SUB_BLOCK,
-                 tile->y0 + box->y0 * DIP_SUB_BLOCK);
+    set_small_edges(&small, triangle, box, tile->pattern, tile->x0 + box->x0 * DIP_SUB_BLOCK,
+                    tile->y0 + box->y0 * DIP_SUB_BLOCK);
+    set_small_depths(&small, triangle, tile->pattern);
+    unsigned accepted = 0;
     for (int y = box->y0; y <= box->y1; y++) {
         const double from_row = triangle->z_dy * (double)(tile->y0 + y * DIP_SUB_BLOCK);
         for (int x = box->x0; x <= box->x1; x++) {
             // As in set_corner_depths.
             const double at = triangle->z_dx * (double)(tile->x0 + x * DIP_SUB_BLOCK);
             const float corner = (float)((triangle->z_origin + at) + from_row);
-            tile->sub_blocks_accepted += draw_small_sub_block(&small, x - box->x0, y - box->y0,
-                                                              y / 2 * DIP_TILE_BLOCKS + x / 2,
-                                                              y % 2 * 2 + x % 2, corner, tile, id);
+            accepted += draw_small_sub_block(&small, (unsigned)x, (unsigned)y, corner, tile, id);
+            step_small(&small, small.right);
         }
+        step_small(&small, small.down);
     }
+    tile->sub_blocks_accepted += accepted;
 }
 
 // --- a triangle --------------------------------------------------------------------------------
