@@ -218,7 +218,7 @@ VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *re
 
 // Most sub-blocks in the box of a small triangle. The set-up of a region costs more than testing
 // the pixels of so few sub-blocks.
-enum { SMALL_BOX = 6 };
+enum { SMALL_BOX = 10 };
 
 // A small triangle in a tile with one sample per pixel. The edge values are those of InTile.
 typedef struct SmallTriangle {
