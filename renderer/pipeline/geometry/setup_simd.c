@@ -100,14 +100,17 @@ VEC_INLINE int keep_candidates(const DipSetupTarget *target, const DipSetupBatch
     const Vd area = signed_area(x, y);
     const Hi front = hi_condition(area < 0.0);
     const Hi back = hi_condition(area > 0.0);
+    const Hi facing = (front & hi_splat(target->cull == DIP_CULL_FRONT ? 0 : -1)) |
+                      (back & hi_splat(target->cull == DIP_CULL_BACK ? 0 : -1));
+    if (!hi_mask_bits(facing)) {
+        return count; // neighbouring triangles often face away together
+    }
     Hi first[2];
     Hi last[2];
     pixel_range(x, target->sample_min[0], target->sample_max[0], target->width, &first[0],
                 &last[0]);
     pixel_range(y, target->sample_min[1], target->sample_max[1], target->height, &first[1],
                 &last[1]);
-    const Hi facing = (front & hi_splat(target->cull == DIP_CULL_FRONT ? 0 : -1)) |
-                      (back & hi_splat(target->cull == DIP_CULL_BACK ? 0 : -1));
     Hi kept = facing & (first[0] <= last[0]) & (first[1] <= last[1]);
     for (int axis = 0; axis < 2; axis++) {
         kept &= (first[axis] <= hi_splat(target->region_last[axis])) &
