@@ -1,8 +1,8 @@
 """Random lines for the preview's control channel, for random_events.py."""
 import json
 
-TOPICS = ["times", "errors", "settings", "picks", "notices", "polls"]
-PARTS = ["state", "settings", "times", "errors", "paths", "scenes", "steps"]
+TOPICS = ["times", "errors", "settings", "picks", "notices", "polls", "prices"]
+PARTS = ["state", "settings", "times", "errors", "paths", "scenes", "steps", "prices"]
 
 # Requests without their id; each breaks one rule.
 BAD = [
@@ -12,7 +12,7 @@ BAD = [
     b'{"request":"set","pane":[],"change":"aa=4"}', b'{"request":"apply","id":1.5}',
     b'{"request":"set","pane":"current","settings":"aa=5"}', b'{"request":"seek","time_s":-1}',
     b'{"request":"seek","time_s":1e999}', b'{"request":"size","width":100}',
-    b'{"request":"size","width":1e9,"height":100}', b'{"request":"subscribe","to":"prices"}',
+    b'{"request":"size","width":1e9,"height":100}', b'{"request":"subscribe","to":"costs"}',
     b'{"request":"get","what":{}}', b'{"request":"path","category":"NONE"}',
     b'{"request":"scene","name":"tour"}', b'{"request":"scene","name":"nowhere"}',
     b'{"request":"screenshot","file":"/nowhere/shot.png"}', b'{"request":"quit","now":true}',
