@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 // Numbers of buttons at the bar's end: folding alone; with help; with the panes alone and the full
-// screen. In full screen, where a window has no title, a button that quits comes in addition.
+// screen.
 enum { TAIL_FOLD = 1, TAIL_HELP = 2, TAIL_ALL = 4 };
 enum { TAB_SIZE = 13, TAB_PAD = 11, BUTTON = 28, ICON_TAB = 32, LEAST_LINE = 60, MOST_LINE = 270 };
 
@@ -23,7 +23,6 @@ typedef enum BarControl {
     BAR_HELP,
     BAR_PANES,
     BAR_FULL_SCREEN,
-    BAR_QUIT,
     BAR_FOLD
 } BarControl;
 
@@ -73,21 +72,22 @@ static DipColour colour_of(const DipUiInput *input, bool chosen) {
 // --- what fits -----------------------------------------------------------------------------------
 
 // Writes where the camera is: the path and its time, or the gallery's scene.
-static void format_place(const DipPreviewState *state, bool brief, int64_t path_ns, char *text,
-                         size_t size_bytes) {
+static void format_place(const DipPreviewState *state, int category, bool brief, int64_t path_ns,
+                         char *text, size_t size_bytes) {
     const double seconds = 1e-9 * (double)path_ns;
     const double length = 1e-9 * (double)dip_preview_path_length_ns(state);
+    const int decimals = state->paused ? 2 : 1; // A step of one frame shows.
     if (state->manual) {
         snprintf(text, size_bytes, "Free camera");
     } else if (state->scene_title) {
         snprintf(text, size_bytes, "%s%s%s  %.1f s", state->scene_title, brief ? "" : ": ",
                  brief ? "" : state->scene_look, 1e-9 * (double)state->play_ns);
     } else if (brief) {
-        snprintf(text, size_bytes, "%s %.1f s", dip_preview_path_name(state, state->track->active),
+        snprintf(text, size_bytes, "%s %.*f s", dip_preview_path_name(state, category), decimals,
                  seconds);
     } else {
-        snprintf(text, size_bytes, "%s  %.1f of %.0f s",
-                 dip_preview_path_title(state, state->track->active), seconds, length);
+        snprintf(text, size_bytes, "%s  %.*f of %.0f s", dip_preview_path_title(state, category),
+                 decimals, seconds, length);
     }
 }
 
@@ -102,28 +102,39 @@ static void measure_tabs(const DipUi *ui, Bar *bar, bool words) {
     }
 }
 
-// Returns the width of the place at the path's end, so that the buttons before it stand still while
-// time passes. All digits of a font with tabular figures are as wide as a zero.
+// Returns the width of the widest place, so that the buttons before it stand still while time
+// passes and paths change. All digits of a font with tabular figures are as wide as a zero.
 static int widest_place(const DipUi *ui, const DipPreviewState *state, bool brief) {
+    DipPreviewState still = *state;
     char text[128];
-    format_place(state, brief, dip_preview_path_length_ns(state), text, sizeof text);
-    for (char *letter = text; *letter; ++letter) {
-        *letter = *letter >= '0' && *letter <= '9' ? '0' : *letter;
+    int widest = 0;
+    still.paused = true;
+    still.manual = false;
+    for (int c = 0; c < DIP_CAMTRACK_CATEGORIES; ++c) {
+        if (!state->track->categories[c].path && c != state->track->active) {
+            continue;
+        }
+        format_place(&still, c, brief, dip_preview_path_length_ns(state), text, sizeof text);
+        for (char *letter = text; *letter; ++letter) {
+            *letter = *letter >= '0' && *letter <= '9' ? '0' : *letter;
+        }
+        widest = dip_style_max(widest, dip_ui_text_width(ui, TAB_SIZE, text));
     }
-    return dip_ui_text_width(ui, TAB_SIZE, text);
+    return widest;
 }
 
 // Gives playback, the time line and the place what the tabs leave.
 static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, bool brief) {
     const int gap = dip_ui_px(ui, 10);
     int room = bar->rect.width - bar->tabs_width - bar->tail * bar->button - gap;
-    format_place(state, brief, dip_preview_path_ns(state), bar->place, sizeof bar->place);
+    format_place(state, state->track->active, brief, dip_preview_path_ns(state), bar->place,
+                 sizeof bar->place);
     const int place_width = widest_place(ui, state, brief) + 2 * gap;
     bar->play = room >= 3 * bar->button ? 3 : room >= bar->button ? 1 : 0;
     room -= bar->play * bar->button;
     bar->place_width = room >= place_width ? place_width : 0;
     room -= bar->place_width;
-    const bool has_line = !state->manual && dip_preview_path_length_ns(state) > 0;
+    const bool has_line = dip_preview_path_length_ns(state) > 0; // The free camera keeps its room.
     bar->line = has_line && room >= dip_ui_px(ui, LEAST_LINE)
                     ? dip_style_min(room, dip_ui_px(ui, MOST_LINE))
                     : 0;
@@ -132,11 +143,11 @@ static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, 
 static Bar measure(const DipUi *ui, const DipWindow *window) {
     const DipPreviewState *state = window->state;
     Bar bar = {.rect = window->layout->bar, .button = dip_ui_px(ui, BUTTON)};
-    bar.tail = TAIL_ALL + state->full_screen;
+    bar.tail = TAIL_ALL;
     for (int words = 1; words >= 0; --words) {
         measure_tabs(ui, &bar, words);
         share_room(ui, state, &bar, false);
-        if (bar.play == 3 && bar.place_width && (bar.line || state->manual)) {
+        if (bar.play == 3 && bar.place_width && bar.line) {
             return bar;
         }
     }
@@ -320,9 +331,6 @@ static void declare_tail(DipUi *ui, DipWindow *window, const Bar *bar, int x) {
         declare_end(ui, window, &rect, BAR_FULL_SCREEN, DIP_ACTION_FULL_SCREEN,
                     full ? "Back to a window (F11)" : "Full screen (F11)", dip_icon_full_screen);
     }
-    if (bar->tail > TAIL_ALL) {
-        declare_end(ui, window, &rect, BAR_QUIT, DIP_ACTION_QUIT, "Quit (Esc)", dip_icon_close);
-    }
     declare_end(ui, window, &rect, BAR_FOLD, DIP_ACTION_DOCK,
                 open ? "Fold the panel (Y)" : "Open the panel (Y)",
                 open ? draw_fold_down : draw_fold_up);
@@ -337,7 +345,7 @@ void dip_bar_declare(DipUi *ui, DipWindow *window) {
     dip_ui_fill(ui, (DipRect){bar.rect.x, bar.rect.y, bar.rect.width, 1}, dip_style_line);
     declare_tabs(ui, window, &bar);
     declare_playback(ui, window, &bar, line_x - bar.play * bar.button);
-    if (bar.line) {
+    if (bar.line && !window->state->manual) {
         declare_time_line(
             ui, window,
             (DipRect){line_x + gap / 2, bar.rect.y, bar.line - gap / 2, bar.rect.height});

@@ -160,9 +160,3 @@ void dip_icon_panes(DipUi *ui, DipRect rect, DipColour colour) {
     box(&icon, 1, 4, 6, 8);
     box(&icon, 9, 4, 6, 8);
 }
-
-void dip_icon_close(DipUi *ui, DipRect rect, DipColour colour) {
-    const Icon icon = icon_in(ui, rect, colour);
-    line(&icon, 3, 3, 11, 11);
-    line(&icon, 11, 3, 3, 11);
-}

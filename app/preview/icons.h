@@ -14,7 +14,6 @@ void dip_icon_step(DipUi *ui, DipRect rect, bool back, DipColour colour);
 void dip_icon_full_screen(DipUi *ui, DipRect rect, DipColour colour);
 // Draws two pictures beside each other.
 void dip_icon_panes(DipUi *ui, DipRect rect, DipColour colour);
-void dip_icon_close(DipUi *ui, DipRect rect, DipColour colour);
 // Draws a chevron that points up or down.
 void dip_icon_fold(DipUi *ui, DipRect rect, bool up, DipColour colour);
 

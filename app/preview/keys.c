@@ -63,7 +63,7 @@ const DipKeyRow dip_key_rows[] = {
      "Turn it; speed or distance"},
     {'\\', DIP_KEYCODE_NONE, DIP_ACTION_ORBIT, 0, false, "\\", "Orbit, or turn on the spot"},
     {DIP_KEYCODE_HOME, DIP_KEYCODE_NONE, DIP_ACTION_CAMERA_BACK, 0, false, "Home",
-     "Back to the path's pose"},
+     "The path's pose again"},
     {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_TAB, DIP_TAB_PATH, false, "Ctrl+P",
      "Make a path from poses"},
     {DIP_KEYCODE_NONE, DIP_KEYCODE_NONE, DIP_ACTION_PATH_EDIT, 0, false, "Ctrl+N  R  Delete",

@@ -770,7 +770,7 @@ static void draw_worst_block(const Tab *tab, int pane) {
     const int edge = px(tab, 1);
     char value[16], text[32];
     dip_map_format(tail->worst, value, sizeof value);
-    snprintf(text, sizeof text, "worst: %s", value);
+    snprintf(text, sizeof text, "worst block: %s", value);
     dip_ui_outline(tab->ui, rect, 0, 3 * edge, shadow);
     dip_ui_outline(tab->ui, rect, 0, edge, pane_colour(pane));
     const DipRect *shown = &tab->window->layout->panes[pane];

@@ -211,7 +211,7 @@ static void declare_camera(Flow *flow) {
                     "Whether dragging orbits the scene or turns the camera on the spot (\\).")) {
         act(flow, DIP_ACTION_ORBIT, 0, false);
     }
-    if (flow_button(flow, ID_CAMERA + 2, flow->narrow ? "Back" : "Back to the path",
+    if (flow_button(flow, ID_CAMERA + 2, flow->narrow ? "Pose" : "Pose of the path",
                     state->manual ? DIP_UI_PLAIN : DIP_UI_OFF,
                     "Gives the free camera the pose of the path (Home).")) {
         act(flow, DIP_ACTION_CAMERA_BACK, 0, false);

@@ -99,8 +99,9 @@ void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool 
     case DIP_ACTION_CAMERA_BACK:
         state->flight.reset = state->manual;
         dip_preview_notice(state, now_ns,
-                           state->manual ? "The free camera is back at its path"
-                                         : "The camera follows its path");
+                           state->manual
+                               ? "The free camera has the pose of its path; C follows the path"
+                               : "The camera follows its path");
         break;
     case DIP_ACTION_ORBIT:
         state->flight.orbits = state->manual ? !state->flight.orbits : state->flight.orbits;

@@ -91,6 +91,11 @@ int dip_step_position(DipSetting setting, int step) {
     return dip_step_at(setting, step);
 }
 
+bool dip_price_is_doubtful(const DipPrice *price) {
+    return price->state == DIP_PRICE_ROUGH && !price->ms_is_zero && price->ms_low <= 0.0 &&
+           price->ms_high >= 0.0;
+}
+
 void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
     const char *rough = price->state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "";
     if (price->state == DIP_PRICE_UNKNOWN) {
@@ -101,8 +106,8 @@ void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
     } else if (price->ms_is_zero) {
         snprintf(text, DIP_STEP_NAME_BYTES, "\u2248 0");
     } else {
-        snprintf(text, DIP_STEP_NAME_BYTES, "%s%s%.1f", rough, price->ms < 0.0 ? "\u2212" : "+",
-                 fabs(price->ms));
+        snprintf(text, DIP_STEP_NAME_BYTES, "%s%s%.1f%s", rough, price->ms < 0.0 ? "\u2212" : "+",
+                 fabs(price->ms), dip_price_is_doubtful(price) ? "?" : "");
     }
 }
 
@@ -160,9 +165,11 @@ void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const cha
     char name[DIP_STEP_NAME_BYTES], cost[240];
     dip_step_name(setting, step, name);
     format_price(price, cost, sizeof cost);
-    snprintf(text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s", name,
+    snprintf(text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s%s", name,
              dip_step_explanation(setting, step), why[0] ? "\n" : "", why,
-             setting == DIP_SETTING_MIPDEBUG ? "" : cost);
+             setting == DIP_SETTING_MIPDEBUG ? "" : cost,
+             dip_price_is_doubtful(price) ? "\nToo noisy to tell a cost from a gain." : "",
+             price->has_flip ? "\nFLIP is the error that people see, from 0 to 1." : "");
 }
 
 void dip_settings_text(const DipQuality *quality, char *text, size_t size_bytes) {

@@ -32,7 +32,11 @@ int dip_step_at(DipSetting setting, int position);
 // Returns the position of a step; the opposite of dip_step_at.
 int dip_step_position(DipSetting setting, int step);
 
-// Writes a price's time without its unit: "+1.2", "≈ +1.2", "≈ 0", "base", or dots if it is
+// Returns whether a rough price cannot tell a gain from a cost: its interval holds 0 and is wide.
+bool dip_price_is_doubtful(const DipPrice *price);
+
+// Writes a price's time without its unit: "+1.2", "≈ +1.2", "≈ +1.2?" if it is
+// doubtful, "≈ 0", "base", or dots if it is
 // unknown.
 void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 

@@ -149,11 +149,12 @@ static void draw_price(DipUi *ui, const Slider *slider, int position, bool reque
     const int line = dip_ui_px(ui, PRICE_HEIGHT);
     const int bar_y = y + line - dip_ui_px(ui, 3);
     const int alpha = requested ? 255 : BAR_ALPHA;
-    const bool costs = is_known(price) && !price->ms_is_zero;
+    const bool costs = is_known(price) && !price->ms_is_zero && !dip_price_is_doubtful(price);
     dip_price_ms_text(price, text);
-    const size_t mark = strncmp(text, DIP_ROUGH_MARK, strlen(DIP_ROUGH_MARK)) == 0 && costs
-                            ? strlen(DIP_ROUGH_MARK)
-                            : 0;
+    const size_t mark =
+        strncmp(text, DIP_ROUGH_MARK, strlen(DIP_ROUGH_MARK)) == 0 && !price->ms_is_zero
+            ? strlen(DIP_ROUGH_MARK)
+            : 0;
     dip_ui_text(ui, PRICE_SIZE,
                 !costs      ? dip_style_dim
                 : requested ? dip_style_white
@@ -302,7 +303,7 @@ static void draw_switch_price(DipUi *ui, const DipWindow *window, DipSetting set
                               int y, int room) {
     const DipPrice price = price_of(window, setting, setting == DIP_SETTING_GI ? 0 : 1);
     const char *needs = dip_setting_needs(setting, &window->state->quality[DIP_PANE_REQUESTED]);
-    char ms[DIP_STEP_NAME_BYTES], flip[DIP_STEP_NAME_BYTES] = "", text[80];
+    char ms[DIP_STEP_NAME_BYTES], flip[DIP_STEP_NAME_BYTES] = "", text[160], longer[160];
     dip_price_ms_text(&price, ms);
     const bool known = is_known(&price);
     if (needs && !known) {
@@ -310,9 +311,13 @@ static void draw_switch_price(DipUi *ui, const DipWindow *window, DipSetting set
     } else if (setting == DIP_SETTING_MIPDEBUG) {
         snprintf(text, sizeof text, "a picture of its own");
     } else {
-        snprintf(text, sizeof text, "%s%s%s%s", setting == DIP_SETTING_GI ? "off " : "", ms,
-                 known ? " ms" : "",
-                 setting == DIP_SETTING_TAA && known ? " \u00b7 gains in motion" : "");
+        snprintf(text, sizeof text, "%s%s%s", setting == DIP_SETTING_GI && known ? "if off " : "",
+                 ms, known ? " ms" : "");
+        snprintf(longer, sizeof longer, "%.80s \u00b7 gains in motion", text);
+        const bool fits = dip_ui_text_width(ui, PRICE_SIZE, longer) <= room;
+        if (setting == DIP_SETTING_TAA && known && fits) {
+            snprintf(text, sizeof text, "%s", longer);
+        }
         if (known && price.has_flip && setting != DIP_SETTING_GI && setting != DIP_SETTING_TAA) {
             dip_price_flip_text(&price, flip);
         }

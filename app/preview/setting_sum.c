@@ -177,7 +177,9 @@ static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART
                 (DipRect){budget_x, rect.y - dip_ui_px(ui, 4), dip_ui_px(ui, 2),
                           rect.height + 2 * dip_ui_px(ui, 4)},
                 dip_style_white);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_RIGHT, budget_x - dip_ui_px(ui, 2),
+    const bool left = budget_x - rect.x < dip_ui_text_width(ui, NOTE_SIZE, "16.6 ms");
+    dip_ui_text(ui, NOTE_SIZE, dip_style_white, left ? DIP_ALIGN_LEFT : DIP_ALIGN_RIGHT,
+                left ? rect.x : budget_x - dip_ui_px(ui, 2),
                 rect.y - dip_ui_line_height(ui, NOTE_SIZE) - dip_ui_px(ui, 3), rect.width,
                 "16.6 ms");
 }
@@ -246,25 +248,32 @@ static void draw_sum(DipUi *ui, const DipPriceSum *sum, DipRect rect) {
     dip_ui_text(ui, SUM_SIZE, over ? dip_style_worse : dip_style_accent, DIP_ALIGN_LEFT, rect.x,
                 rect.y, rect.width, text);
     const int x = rect.x + dip_ui_text_width(ui, SUM_SIZE, text) + dip_ui_px(ui, 9);
+    if (x + dip_ui_text_width(ui, NOTE_SIZE, note) > rect.x + rect.width) {
+        return; // The bar below shows it.
+    }
     dip_ui_text(ui, NOTE_SIZE, over ? dip_style_worse : dip_style_soft, DIP_ALIGN_LEFT, x,
                 rect.y + dip_ui_line_height(ui, SUM_SIZE) - dip_ui_line_height(ui, NOTE_SIZE) -
                     dip_ui_px(ui, 4),
                 rect.x + rect.width - x, note);
 }
 
-// Declares a button that pauses, where prices are measured only at rest and are not known yet.
-static void declare_pause(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect rect) {
+// Declares a button that pauses at the right end of a line, where prices are measured only at rest
+// and are not known yet. Returns the room that is left beside it.
+static int declare_pause(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect line) {
     static const char text[] = "Pause to measure";
     DipPreviewState *state = window->state;
     const int width = dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 16);
-    const DipRect button = {rect.x + rect.width - width, rect.y, width, dip_ui_px(ui, SUM_HEIGHT)};
-    if (sum->state == DIP_PRICE_UNKNOWN && dip_prices_are_rough(window->prices) && !state->paused &&
-        !state->manual && 2 * width <= rect.width &&
-        dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PAUSE), button, text, DIP_UI_PLAIN,
+    const DipRect button = {line.x + line.width - width, line.y, width, dip_ui_px(ui, SUM_HEIGHT)};
+    if (sum->state != DIP_PRICE_UNKNOWN || !dip_prices_are_rough(window->prices) || state->paused ||
+        state->manual || 2 * width > line.width) {
+        return line.width;
+    }
+    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PAUSE), button, text, DIP_UI_PLAIN,
                       "The tags show what each step costs and gains once the picture rests. The "
                       "space key pauses, too.")) {
         dip_preview_act(state, DIP_ACTION_PAUSE, 0, false, dip_ui_now_ns(ui));
     }
+    return line.width - width;
 }
 
 static void draw_comparison(DipUi *ui, const DipPriceSum *now, const DipPriceSum *sum,
@@ -313,10 +322,10 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     find_parts(&sum, parts);
     const int bottom = rect.y + rect.height;
     int y = rect.y;
+    const int room = declare_pause(ui, window, &sum, (DipRect){rect.x, y, rect.width, 0});
     if (dip_ui_is_drawing(ui)) {
-        draw_sum(ui, &sum, (DipRect){rect.x, y, rect.width, 0});
+        draw_sum(ui, &sum, (DipRect){rect.x, y, room, 0});
     }
-    declare_pause(ui, window, &sum, (DipRect){rect.x, y, rect.width, 0});
     y += dip_ui_px(ui, SUM_HEIGHT);
     if (dip_ui_is_drawing(ui)) {
         draw_comparison(ui, &now, &sum, (DipRect){rect.x, y, rect.width, 0});

@@ -11,7 +11,7 @@ static const DipColour dip_style_accent = {255, 190, 92, 255}; // Highlights and
 static const DipColour dip_style_strip = {12, 14, 18, 168};    // Background of labels.
 static const DipColour dip_style_status = {12, 14, 18, 150};   // Background of the status line.
 static const DipColour dip_style_panel = {12, 14, 18, 190};    // Background of the panel.
-static const DipColour dip_style_sheet = {14, 16, 21, 236};    // Background of the sheets.
+static const DipColour dip_style_sheet = {14, 16, 21, 252};    // Background of the sheets.
 static const DipColour dip_style_shade = {0, 0, 0, 90};        // Darkens the window around a sheet.
 
 static const DipColour dip_style_dock = {20, 22, 26, 255};

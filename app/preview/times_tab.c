@@ -70,6 +70,8 @@ static void draw_legend(DipUi *ui, const DipWindow *window, History *history, in
     const int swatch = dip_ui_px(ui, 8);
     if (window->figures[pane].copied) {
         snprintf(text, sizeof text, "%s: same settings, drawn once", names[pane]);
+    } else if (history->count == 0) {
+        snprintf(text, sizeof text, "%s: no frame, since time stands still", names[pane]);
     } else {
         const double median = dip_timing_percentile(history->ms, history->count, 0.5);
         const double p95 = dip_timing_percentile(history->ms, history->count, 0.95);

@@ -17,6 +17,10 @@ static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
                                   .takes_wheel = state->manual || dip_loupe_is_on(&state->tools)};
     const DipUiInput input = dip_ui_control(ui, &control);
     if (input.began) {
+        if (!state->edited[pane]) {
+            dip_preview_notice(state, dip_ui_now_ns(ui), "Keys and panel change the %s pane",
+                               dip_pane_names[pane]);
+        }
         state->edited[pane] = true;
         state->edited[1 - pane] = false;
         dip_ui_blur(ui);
@@ -65,8 +69,8 @@ static void declare_way_back(DipUi *ui, DipWindow *window) {
         dip_style_min(layout->width, dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 24));
     const int height = dip_style_min(layout->height, dip_ui_px(ui, 30));
     const DipRect rect = {(layout->width - width) / 2, layout->height - height, width, height};
-    const bool near = dip_ui_pointer_y(ui) >= layout->height - 3 * height &&
-                      dip_ui_pointer_y(ui) < layout->height;
+    const bool near =
+        dip_ui_pointer_y(ui) >= layout->height / 2 && dip_ui_pointer_y(ui) < layout->height;
     if ((near || window->state->notice[0]) &&
         dip_ui_button(ui, DIP_UI_ID(DIP_UI_BAR, WAY_BACK), rect, text, DIP_UI_PLAIN,
                       "Brings the panel and the labels back.")) {
