@@ -1,45 +1,13 @@
-// Turns requests into actions of the preview, and changes of the preview into events.
-#include "app/preview/control.h"
+// Turns requests of other programs into actions of the preview.
+#include "app/preview/control_private.h"
 
-#include "app/control/control.h"
 #include "app/files/png.h"
 #include "app/preview/control_reply.h"
-#include "app/preview/layout.h"
-#include "config/config.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const int64_t period_ns = 250000000; // Between two events of times or polls.
-
-// What the last events said.
-typedef struct Told {
-    int64_t times_ns; // When times were last sent.
-    int64_t polls_ns;
-    int64_t prices_ns;
-    uint64_t prices; // Hash of the prices.
-    double ms[DIP_PANE_COUNT];
-    int fps[DIP_PANE_COUNT];
-    int64_t play_ns;
-    int width;
-    int height;
-    DipQuality quality[DIP_PANE_COUNT];
-    DipErrorStatus error_status;
-    int error_samples;
-    bool no_errors;
-    int64_t notice_end_ns;
-} Told;
-
-struct DipRemote {
-    DipControl *control;
-    const DipPreviewMoment *moment; // Of the call that is running; NULL between calls.
-    bool acted;                     // A request has been carried out in this turn.
-    unsigned topics;
-    unsigned subscriptions;
-    Told told;
-};
 
 // --- settings, paths and time --------------------------------------------------------------------
 
@@ -134,8 +102,7 @@ static DipControlAnswer show_scene(const DipPreviewMoment *moment, const char *n
     return DIP_CONTROL_LATER;
 }
 
-// Where the panes lie in a window of a size.
-static DipLayout layout_of(const DipPreviewMoment *moment, int width, int height) {
+DipLayout dip_remote_layout(const DipPreviewMoment *moment, int width, int height) {
     const DipToolState *tools = &moment->state->tools;
     const double scale = moment->display->scale(moment->display->context) * tools->ui_scale;
     return dip_layout_make(width, height, scale, tools->open, tools->bare);
@@ -155,7 +122,7 @@ static bool resize(const DipPreviewMoment *moment, const DipControlRequest *requ
                            &height);
     display->set_size(display->context, width, height);
     display->size(display->context, &width, &height);
-    const DipRect pane = layout_of(moment, width, height).panes[DIP_PANE_CURRENT];
+    const DipRect pane = dip_remote_layout(moment, width, height).panes[DIP_PANE_CURRENT];
     cJSON_AddNumberToObject(reply, "width", pane.width);
     cJSON_AddNumberToObject(reply, "height", pane.height);
     return true;
@@ -286,186 +253,14 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
     return act(remote->moment, request, reply, err) ? DIP_CONTROL_DONE : DIP_CONTROL_REFUSED;
 }
 
-// --- events --------------------------------------------------------------------------------------
-
-static bool wants(const DipRemote *remote, DipControlTopic topic) {
-    return (remote->topics >> topic & 1) != 0;
-}
-
-static void send_settings(DipRemote *remote, bool always) {
-    const DipPreviewState *state = remote->moment->state;
-    Told *told = &remote->told;
-    const bool same = memcmp(told->quality, state->quality, sizeof told->quality) == 0;
-    memcpy(told->quality, state->quality, sizeof told->quality);
-    if (wants(remote, DIP_CONTROL_TOPIC_SETTINGS) && (always || !same)) {
-        cJSON *fields = cJSON_CreateObject();
-        dip_reply_settings(fields, state);
-        dip_control_send(remote->control, DIP_CONTROL_TOPIC_SETTINGS, fields);
-    }
-}
-
-// Notes the times of this moment. Returns whether they differ from those of the last event.
-static bool note_times(Told *told, const DipPreviewMoment *moment) {
-    const DipFrame *frame = &moment->panes[0];
-    bool same = told->play_ns == moment->state->play_ns && told->width == frame->width &&
-                told->height == frame->height;
-    told->play_ns = moment->state->play_ns;
-    told->width = frame->width;
-    told->height = frame->height;
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipPaneFigures *figures = &moment->figures[p];
-        same = same && told->ms[p] == figures->ms && told->fps[p] == figures->fps;
-        told->ms[p] = figures->ms;
-        told->fps[p] = figures->fps;
-    }
-    return !same;
-}
-
-static void send_times(DipRemote *remote, bool always) {
-    const DipPreviewMoment *moment = remote->moment;
-    Told *told = &remote->told;
-    const bool early = moment->now_ns - told->times_ns < period_ns;
-    if (!wants(remote, DIP_CONTROL_TOPIC_TIMES) || !moment->panes[0].rgba8 || (early && !always)) {
-        return;
-    }
-    if (note_times(told, moment) || always) {
-        told->times_ns = moment->now_ns;
-        cJSON *fields = cJSON_CreateObject();
-        dip_reply_times(fields, moment);
-        dip_control_send(remote->control, DIP_CONTROL_TOPIC_TIMES, fields);
-    }
-}
-
-static void send_errors(DipRemote *remote, bool always) {
-    const DipPaneFigures *figures = &remote->moment->figures[DIP_PANE_CURRENT];
-    const DipErrorReading *reading = &figures->errors;
-    Told *told = &remote->told;
-    const bool same = told->error_status == reading->status &&
-                      told->error_samples == reading->result.samples &&
-                      told->no_errors == figures->no_errors;
-    told->error_status = reading->status;
-    told->error_samples = reading->result.samples;
-    told->no_errors = figures->no_errors;
-    if (wants(remote, DIP_CONTROL_TOPIC_ERRORS) && (always || !same)) {
-        cJSON *fields = cJSON_CreateObject();
-        dip_reply_errors(fields, remote->moment);
-        dip_control_send(remote->control, DIP_CONTROL_TOPIC_ERRORS, fields);
-    }
-}
-
-// Returns a hash of an object's text (FNV-1a), or 0 if memory runs out.
-static uint64_t hash_of(const cJSON *object) {
-    char *text = cJSON_PrintUnformatted(object);
-    uint64_t hash = text ? UINT64_C(14695981039346656037) : 0;
-    for (const char *c = text; c && *c; ++c) {
-        hash = (hash ^ (unsigned char)*c) * UINT64_C(1099511628211);
-    }
-    cJSON_free(text);
-    return hash;
-}
-
-static void send_prices(DipRemote *remote, bool always) {
-    Told *told = &remote->told;
-    const int64_t now_ns = remote->moment->now_ns;
-    const bool early = now_ns - told->prices_ns < period_ns;
-    if (!wants(remote, DIP_CONTROL_TOPIC_PRICES) || (early && !always)) {
-        return;
-    }
-    cJSON *fields = cJSON_CreateObject();
-    dip_reply_prices(fields, remote->moment);
-    const uint64_t hash = hash_of(fields);
-    told->prices_ns = now_ns;
-    if (always || hash != told->prices) {
-        told->prices = hash;
-        dip_control_send(remote->control, DIP_CONTROL_TOPIC_PRICES, fields);
-    } else {
-        cJSON_Delete(fields);
-    }
-}
-
-static void send_notice(DipRemote *remote) {
-    const DipPreviewState *state = remote->moment->state;
-    const bool same = remote->told.notice_end_ns == state->notice_end_ns;
-    remote->told.notice_end_ns = state->notice_end_ns;
-    if (!same && wants(remote, DIP_CONTROL_TOPIC_NOTICES)) {
-        cJSON *fields = cJSON_CreateObject();
-        cJSON_AddStringToObject(fields, "text", state->notice);
-        dip_control_send(remote->control, DIP_CONTROL_TOPIC_NOTICES, fields);
-    }
-}
-
-// Asks the subscribers for their settings, as the seed's preview polled its settings panel. They
-// answer with the request `set` if something has changed.
-static void send_poll(DipRemote *remote, bool always) {
-    const int64_t now_ns = remote->moment->now_ns;
-    const bool early = now_ns - remote->told.polls_ns < period_ns;
-    if (wants(remote, DIP_CONTROL_TOPIC_POLLS) && (always || !early)) {
-        remote->told.polls_ns = now_ns;
-        cJSON *fields = cJSON_CreateObject();
-        dip_reply_settings(fields, remote->moment->state);
-        dip_control_send(remote->control, DIP_CONTROL_TOPIC_POLLS, fields);
-    }
-}
-
-// Sends what has changed. After a subscription, sends everything once.
-static void send_events(DipRemote *remote) {
-    const unsigned topics = dip_control_topics(remote->control);
-    const unsigned subscriptions = dip_control_subscriptions(remote->control);
-    const bool always = subscriptions != remote->subscriptions;
-    if (topics != remote->topics) { // After a failure to measure, only a new subscription retries.
-        remote->moment->state->wants_errors = (topics >> DIP_CONTROL_TOPIC_ERRORS & 1) != 0;
-    }
-    remote->moment->state->wants_prices = (topics >> DIP_CONTROL_TOPIC_PRICES & 1) != 0;
-    remote->topics = topics;
-    remote->subscriptions = subscriptions;
-    send_settings(remote, always);
-    send_times(remote, always);
-    send_errors(remote, always);
-    send_prices(remote, always);
-    send_notice(remote);
-    send_poll(remote, always);
-}
-
 static bool turn(void *context, const DipPreviewMoment *moment) {
     DipRemote *remote = context;
     remote->moment = moment;
     remote->acted = false;
     dip_control_poll(remote->control);
-    send_events(remote);
+    dip_remote_send_events(remote);
     remote->moment = NULL;
     return remote->acted;
-}
-
-// Sends the colours of the pixel under the mouse.
-static void press(void *context, const DipPreviewMoment *moment, const DipEvent *event) {
-    static const char *const buttons[] = {
-        [DIP_MOUSE_LEFT] = "left",
-        [DIP_MOUSE_MIDDLE] = "middle",
-        [DIP_MOUSE_RIGHT] = "right",
-        [DIP_MOUSE_OTHER] = "other",
-    };
-    DipRemote *remote = context;
-    const DipFrame *frame = &moment->panes[0];
-    if (!wants(remote, DIP_CONTROL_TOPIC_PICKS) || !frame->rgba8) {
-        return;
-    }
-    const DipLayout layout = layout_of(moment, moment->picture.width, moment->picture.height);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipRect *pane = &layout.panes[p];
-        if (!dip_rect_holds(*pane, event->x, event->y)) {
-            continue;
-        }
-        cJSON *fields = cJSON_CreateObject();
-        cJSON_AddStringToObject(fields, "pane", dip_pane_names[p]);
-        cJSON_AddStringToObject(fields, "button", buttons[event->button]);
-        // If memory ran out for frames of the panes' size, the window shows smaller frames
-        // enlarged.
-        dip_reply_pick(fields, moment,
-                       (int)((int64_t)(event->x - pane->x) * frame->width / pane->width),
-                       (int)((int64_t)(event->y - pane->y) * frame->height / pane->height));
-        dip_control_send(remote->control, DIP_CONTROL_TOPIC_PICKS, fields);
-        return;
-    }
 }
 
 // --- opening and closing -------------------------------------------------------------------------
@@ -498,5 +293,5 @@ void dip_remote_close(DipRemote **remote) {
 }
 
 DipPreviewControl dip_remote_control(DipRemote *remote) {
-    return (DipPreviewControl){.context = remote, .turn = turn, .press = press};
+    return (DipPreviewControl){.context = remote, .turn = turn, .press = dip_remote_press};
 }
