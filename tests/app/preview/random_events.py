@@ -314,6 +314,9 @@ def main():
             session.run()
         except Failure as failure:
             print(f"FAILED: {failure} (seed {options.seed})", flush=True)
+            if hasattr(session, "input"):
+                print("keycodes pressed (+) and released (-) last: " +
+                      " ".join(session.input.newest), flush=True)
             return 1
         finally:
             session.close()

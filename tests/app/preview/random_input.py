@@ -3,13 +3,16 @@
 Xlib and its extension XTEST are called directly: a program per key, such as xdotool, would be too
 slow.
 """
+import collections
 import ctypes
 
 CLICKS = {"left": 1, "middle": 2, "right": 3, "wheel up": 4, "wheel down": 5, "wheel left": 6,
           "wheel right": 7, "back": 8, "forward": 9}
 
-# Keys that the preview knows. Escape is missing because it can end the preview.
-KEYS = (list("abcdefghijklmnopqrstuvwxyz0123456789") + [f"F{i}" for i in range(1, 13)] +
+# Keys that the preview knows. Escape is missing because it can end the preview. Q is missing because
+# it ends the preview together with Control, and a program that had lost the focus meanwhile may hold
+# Control for pressed when it no longer is.
+KEYS = (list("abcdefghijklmnoprstuvwxyz0123456789") + [f"F{i}" for i in range(1, 13)] +
         """grave Return space period comma apostrophe slash semicolon minus equal bracketleft
         bracketright backslash Left Right Up Down Prior Next Home End Insert Delete Tab BackSpace
         KP_Add KP_Subtract KP_Enter""".split())
@@ -38,7 +41,7 @@ class Input:
         self.held_keys = set()
         self.held_buttons = set()
         self.escape = self.keycode("Escape")
-        self.controls = {self.keycode("Control_L"), self.keycode("Control_R")}
+        self.newest = collections.deque(maxlen=40)  # The last keys, for a report.
         self.quit = self.keycode("q")
 
     def keycode(self, name):
@@ -46,19 +49,16 @@ class Input:
                                        ctypes.c_ulong(self.x.XStringToKeysym(name.encode())))
 
     def random_keycode(self, random):
-        """A key of the preview or, for one press in five, any key of the keyboard but Escape."""
+        """A key of the preview or, for one press in five, any key but Escape and Q."""
         code = self.keycode(random.choice(KEYS))
         if random.random() < 0.2:
             code = random.randint(FIRST_KEYCODE, LAST_KEYCODE)
-        return code if code not in (0, self.escape) else self.keycode("space")
+        return code if code not in (0, self.escape, self.quit) else self.keycode("space")
 
     # --- keys and buttons ------------------------------------------------------------------------
 
     def key(self, code, down):
-        """Presses or releases a key. Control and Q, which quit together, are never held at once."""
-        if down and (code in self.controls and self.quit in self.held_keys or
-                     code == self.quit and self.controls & self.held_keys):
-            return
+        self.newest.append(f"{code}{'+' if down else '-'}")
         (self.held_keys.add if down else self.held_keys.discard)(code)
         self.test.XTestFakeKeyEvent(self.display, code, int(down), ctypes.c_ulong(0))
         self.x.XFlush(self.display)
