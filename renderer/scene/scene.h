@@ -11,6 +11,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/pool.h"
 #include "renderer/pipeline/texture.h"
+#include "renderer/scene/lights.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -32,10 +33,12 @@ enum { DIP_NO_TEXTURE = -1 };
 // The colour of a surface is base colour * vertex colour * colour texture * light, in linear light,
 // clamped to 0..1 at the end. The light is
 // - light_map * light_map_scale if there is a light map,
-// - otherwise, on a `lit` surface, a fixed light of sky and sun on the vertex normals,
+// - otherwise, on a `lit` surface with normals, the lights of the scene (lights.h). A scene without
+//   lights has a fixed light of sky and sun at the vertices,
 // - otherwise 1.
-// On an opaque or clipped surface that has one of the first two lights, a normal map changes that
-// light and adds a highlight of the sun. docs/picture.md defines the formulas.
+// The lights of the scene add their highlights. On an opaque or clipped surface that has one of the
+// first two lights, a normal map changes that light; with a light map or the fixed light, it adds a
+// highlight of the sun. docs/picture.md defines the formulas.
 typedef struct DipMaterialDef {
     const char *name;
     DipSurface surface;
@@ -47,10 +50,12 @@ typedef struct DipMaterialDef {
     int light_map;
     int normal_map;
     float light_map_scale; // 2 for a light map that stores half the light
-    float roughness;       // 0..1: roughness of the highlight on normal-mapped surfaces
+    float roughness;       // 0..1: roughness of the sun's highlight on normal-mapped surfaces
+    float specular_lin[3]; // 0 or more: colour of the highlights of the scene's lights
+    float shininess;       // 0..DIP_MAX_SHININESS: their exponent, rounded to a whole number
     float alpha_cutoff;    // 0..1, for DIP_SURFACE_CLIPPED: alpha >= alpha_cutoff is kept
     bool double_sided;     // false: visible only where the winding is counter-clockwise
-    bool lit;              // true: without a light map, the fixed light of sky and sun falls on it
+    bool lit; // true: without a light map, the scene's lights or the fixed light fall on it
 } DipMaterialDef;
 
 // Indexed triangles of one material. All arrays are packed. An array of an attribute that the mesh
@@ -122,7 +127,8 @@ typedef struct DipSceneDef {
     float background_lin[3]; // colour of samples that no surface covers
     float
         near_m; // distance of the near plane, DIP_MIN_NEAR_M..DIP_MAX_NEAR_M; there is no far plane
-    DipSkyDef sky; // look of all DIP_SURFACE_SKY surfaces
+    DipSkyDef sky;                  // look of all DIP_SURFACE_SKY surfaces
+    const DipLightingDef *lighting; // NULL: the fixed light of sky and sun
 } DipSceneDef;
 
 typedef struct DipScene DipScene;
