@@ -141,10 +141,33 @@ static void place_vertex(const Camera *camera, const float m[12], const float p[
     }
 }
 
-// Transforms one vertex. If lit is true, the vertex is lit by its normal.
+// How the vertices of a mesh are lit.
+typedef enum VertexLight { LIGHT_NONE, LIGHT_FIXED, LIGHT_OF_SCENE } VertexLight;
+
+// Lights a vertex of the colour RED to BLUE.
+static void light_vertex(VertexLight kind, const DipRefLit *lit, const double normal[3],
+                         DipRefClipVertex *vertex) {
+    double place[3];
+    double diffuse[3];
+    double highlight[3] = {0.0};
+    for (int i = 0; i < 3; i++) {
+        place[i] = vertex->varyings[DIP_REF_X + i].high;
+        diffuse[i] = kind == LIGHT_FIXED ? dip_reference_light(normal, 1.0) : 1.0;
+    }
+    if (kind == LIGHT_OF_SCENE) {
+        dip_reference_lights(lit, place, normal, diffuse, highlight);
+    }
+    for (int i = 0; i < 3; i++) {
+        DipWide *colour = &vertex->varyings[DIP_REF_RED + i];
+        *colour = dip_wide(diffuse[i] * colour->high);
+        vertex->varyings[DIP_REF_HIGHLIGHT_RED + i] = dip_wide(highlight[i]);
+    }
+}
+
+// Transforms one vertex, without its light. Returns its unit normal, or 0 if the mesh has none.
 static DipRefClipVertex transform_vertex(const Camera *camera, const float m[12],
-                                         const DipMeshDef *mesh, const Turn *turn, bool lit,
-                                         uint32_t index) {
+                                         const DipMeshDef *mesh, const Turn *turn, uint32_t index,
+                                         double normal[3]) {
     DipRefClipVertex vertex = {.above = dip_wide(0.0)};
     place_vertex(camera, m, mesh->positions + 3 * (size_t)index, &vertex);
     for (int i = 0; i < 2; i++) {
@@ -152,15 +175,14 @@ static DipRefClipVertex transform_vertex(const Camera *camera, const float m[12]
         vertex.varyings[DIP_REF_U0 + i] = dip_wide(mesh->uv0 ? mesh->uv0[at] : 0.0);
         vertex.varyings[DIP_REF_U1 + i] = dip_wide(mesh->uv1 ? mesh->uv1[at] : 0.0);
     }
-    double normal[3] = {0.0};
+    normal[0] = normal[1] = normal[2] = 0.0;
     if (mesh->normals) {
         turn_normal(turn, mesh->normals + 3 * (size_t)index, normal);
     }
-    const double light = lit && mesh->normals ? dip_reference_light(normal, 1.0) : 1.0;
     for (int i = 0; i < 3; i++) {
         const double colour = mesh->colours_lin ? mesh->colours_lin[3 * (size_t)index + i] : 1.0;
         vertex.varyings[DIP_REF_NORMAL_X + i] = dip_wide(normal[i]);
-        vertex.varyings[DIP_REF_RED + i] = dip_wide(light * colour);
+        vertex.varyings[DIP_REF_RED + i] = dip_wide(colour);
     }
     return vertex;
 }
@@ -312,8 +334,24 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
         like.sky = &reference->def->sky;
         like.time_ns = reference->time_ns;
     }
+    const bool solid =
+        material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;
+    if (reference->def->lighting && solid && material->lit && mesh->normals && !like.light_map) {
+        const bool phong = reference->def->lighting->shading == DIP_SHADING_PHONG;
+        like.lit = (DipRefLit){.lighting = reference->def->lighting,
+                               .material = material,
+                               .fragments = phong || like.normal_map};
+    }
     like.clipped = material->surface == DIP_SURFACE_CLIPPED && like.colour;
     return like;
+}
+
+static VertexLight vertex_light(const DipRefTriangle *like, const DipMeshDef *mesh) {
+    if (like->lit.lighting) {
+        return like->lit.fragments ? LIGHT_NONE : LIGHT_OF_SCENE;
+    }
+    const bool lit = like->material->lit && mesh->normals && !like->light_map && !like->normal_map;
+    return lit ? LIGHT_FIXED : LIGHT_NONE;
 }
 
 // Adds the triangles of an object. Its patches are numbered from first_patch on. The 2^32 numbers
@@ -330,9 +368,17 @@ static bool add_object(const DipReference *reference, const Camera *camera,
     if (!vertices) {
         return false;
     }
-    const bool lit = like.material->lit && !like.light_map && !like.normal_map;
+    for (int i = 0; i < 3; i++) {
+        like.lit.eye[i] = camera->position[i];
+    }
+    if (camera->mirrored) {
+        like.lit.eye[1] = 2.0 * camera->level_m - camera->position[1];
+    }
+    const VertexLight light = vertex_light(&like, mesh);
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        vertices[i] = transform_vertex(camera, object->transform, mesh, &turn, lit, i);
+        double normal[3];
+        vertices[i] = transform_vertex(camera, object->transform, mesh, &turn, i, normal);
+        light_vertex(light, &like.lit, normal, &vertices[i]);
     }
     const bool added = add_mesh(reference, camera, object->mesh, vertices, &like, triangles);
     free(vertices);

@@ -117,15 +117,23 @@ static double find_highlight(double roughness, double length, const double place
     return 0.04 * 0.65 * meet_sun(mapped) * sunlit * lobe;
 }
 
+double dip_reference_normal(const DipRefVaryings *varyings, const double texel[3],
+                            double normal[3]) {
+    double mesh[3];
+    for (int i = 0; i < 3; i++) {
+        mesh[i] = normal[i] = varyings->value[DIP_REF_NORMAL_X + i];
+    }
+    normalise(mesh);
+    normalise(normal);
+    return texel ? map_normal(varyings, texel, mesh, normal) : 1.0;
+}
+
 void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryings *varyings,
                                const double texel[3], const double light[3], double rgb[3]) {
     double normal[3];
     double mapped[3];
-    for (int i = 0; i < 3; i++) {
-        normal[i] = varyings->value[DIP_REF_NORMAL_X + i];
-    }
-    normalise(normal);
-    const double length = map_normal(varyings, texel, normal, mapped);
+    dip_reference_normal(varyings, NULL, normal);
+    const double length = dip_reference_normal(varyings, texel, mapped);
     double sunlit = 1.0;
     double ratio = 1.0;
     if (light) {

@@ -70,6 +70,24 @@ static void read_normal_map(const DipRefTexture *map, const DipRefFilter *filter
     read_texture(map, filter ? &own : NULL, varyings, DIP_REF_U0, texel);
 }
 
+// Lights a surface's own colour by the lights of the scene. texel: its normal map's, or NULL.
+static void add_lights(const DipRefTriangle *triangle, const DipRefVaryings *varyings,
+                       const double texel[3], double rgb[3]) {
+    double diffuse[3] = {1.0, 1.0, 1.0}; // At vertices, RED to BLUE have it already.
+    double highlight[3];
+    double normal[3];
+    if (triangle->lit.fragments) {
+        dip_reference_normal(varyings, texel, normal);
+        dip_reference_lights(&triangle->lit, &varyings->value[DIP_REF_X], normal, diffuse,
+                             highlight);
+    }
+    for (int c = 0; c < 3; c++) {
+        const double added =
+            triangle->lit.fragments ? highlight[c] : varyings->value[DIP_REF_HIGHLIGHT_RED + c];
+        rgb[c] = rgb[c] * diffuse[c] + added;
+    }
+}
+
 void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter, double rgb[3]) {
     const DipRefTriangle *triangle = place->triangle;
     const DipMaterialDef *material = triangle->material;
@@ -97,9 +115,13 @@ void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter
         rgb[c] = base * varyings.value[DIP_REF_RED + c] * colour[c];
         light[c] *= scale;
     }
+    double texel[4];
     if (triangle->normal_map) {
-        double texel[4];
         read_normal_map(triangle->normal_map, filter, &varyings, texel);
+    }
+    if (triangle->lit.lighting) {
+        add_lights(triangle, &varyings, triangle->normal_map ? texel : NULL, rgb);
+    } else if (triangle->normal_map) {
         dip_reference_light_bumps(material, &varyings, texel, triangle->light_map ? light : NULL,
                                   rgb);
     }

@@ -11,6 +11,9 @@
 extern "C" {
 #endif
 
+// Greatest colour of a light or highlight, and greatest range and attenuation.
+#define DIP_MAX_LIGHT_LIN 1e9f
+
 enum {
     DIP_MAX_LIGHTS = 64,      // of a scene
     DIP_MAX_SHININESS = 1024, // greatest exponent of a highlight
@@ -26,7 +29,7 @@ typedef enum DipLightKind {
 typedef struct DipLightDef {
     const char *name; // may be NULL
     DipLightKind kind;
-    float colour_lin[3];      // 0 or more; light on a surface that faces the light
+    float colour_lin[3];      // 0..DIP_MAX_LIGHT_LIN; light on a surface that faces the light
     float position_world[3];  // of a point or spot light
     float direction_world[3]; // the way the light travels; any length but 0; not of a point light
     // At distance d, the light of a point or spot light is divided by

@@ -41,26 +41,48 @@ static bool draws_normal_map(const DipMaterialDef *material) {
            (material->lit || material->light_map != DIP_NO_TEXTURE);
 }
 
-// Lays out the varyings of a normal-mapped mesh: texture coordinates, normal, depth and, if the
-// mesh has them, vertex colours.
-static void lay_out_normal_map(DipSceneMesh *out, int normal_attribute) {
-    out->mapped_layout = out->layout;
-    DipSurfaceUniforms *uniforms = &out->mapped_layout;
+// Lays out the varyings of a mesh whose fragments are lit: texture coordinates, normal, depth and,
+// if the mesh has them, vertex colours. Returns the number of varyings.
+static int lay_out_lit_fragments(DipSurfaceUniforms *uniforms, int normal_attribute) {
     uniforms->normal_attribute = normal_attribute;
-    uniforms->normal_map_varying = 0;
     uniforms->normal_varying = uniforms->copied_varying_count;
     uniforms->depth_varying = uniforms->copied_varying_count + 3;
-    out->mapped_varying_count = uniforms->copied_varying_count + 4;
     uniforms->light_varying = DIP_ABSENT;
-    if (uniforms->colour_attribute != DIP_ABSENT) {
-        uniforms->light_varying = out->mapped_varying_count;
-        out->mapped_varying_count += 3;
+    uniforms->highlight_varying = DIP_ABSENT;
+    if (uniforms->colour_attribute == DIP_ABSENT) {
+        return uniforms->copied_varying_count + 4;
     }
+    uniforms->light_varying = uniforms->copied_varying_count + 4;
+    return uniforms->copied_varying_count + 7;
+}
+
+// Lays out the varyings of a mesh that is lit at its vertices, or not at all: texture coordinates,
+// light and highlight. Returns the number of varyings.
+static int lay_out_lit_vertices(DipSurfaceUniforms *uniforms, bool highlight) {
+    int count = uniforms->copied_varying_count;
+    if (uniforms->normal_attribute != DIP_ABSENT || uniforms->colour_attribute != DIP_ABSENT) {
+        uniforms->light_varying = count;
+        count += 3;
+    }
+    if (highlight) {
+        uniforms->highlight_varying = count;
+        count += 3;
+    }
+    return count;
+}
+
+// Whether the scene's lights light a mesh. Water and sky have the fixed light.
+static bool is_lit_by_lights(const DipSceneDef *def, const DipMeshDef *mesh,
+                             const DipMaterialDef *material) {
+    const bool light_mapped = material->light_map != DIP_NO_TEXTURE && mesh->uv1;
+    const bool solid =
+        material->surface == DIP_SURFACE_OPAQUE || material->surface == DIP_SURFACE_CLIPPED;
+    return def->lighting && solid && material->lit && mesh->normals && !light_mapped;
 }
 
 // Lays out the vertices of a mesh. Only the arrays that its material uses are kept.
-static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *material,
-                            DipSceneMesh *out) {
+static VertexLayout lay_out(const DipSceneDef *def, const DipMeshDef *mesh, DipSceneMesh *out) {
+    const DipMaterialDef *material = &def->materials[mesh->material];
     VertexLayout layout = {.count = 0};
     DipSurfaceUniforms *uniforms = &out->layout;
     *uniforms = (DipSurfaceUniforms){
@@ -72,11 +94,14 @@ static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *materi
         .normal_map_varying = DIP_ABSENT,
         .normal_varying = DIP_ABSENT,
         .depth_varying = DIP_ABSENT,
+        .highlight_varying = DIP_ABSENT,
+        .shininess = (unsigned)(material->shininess + 0.5f),
         .roughness = material->roughness,
         .light_map_scale = material->light_map_scale,
         .alpha_cutoff = material->alpha_cutoff,
     };
     memcpy(uniforms->base_colour_lin, material->base_colour_lin, sizeof uniforms->base_colour_lin);
+    memcpy(uniforms->specular_lin, material->specular_lin, sizeof uniforms->specular_lin);
     add_source(&layout, mesh->positions, 3);
     const bool light_mapped = material->light_map != DIP_NO_TEXTURE && mesh->uv1;
     out->normal_mapped =
@@ -91,7 +116,8 @@ static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *materi
         uniforms->light_map_varying = add_source(&layout, mesh->uv1, 2) - 3;
     }
     uniforms->copied_varying_count = layout.attribute_count - 3;
-    out->varying_count = uniforms->copied_varying_count;
+    out->lit_by_lights = is_lit_by_lights(def, mesh, material);
+    out->fragments_lit = out->lit_by_lights && def->lighting->shading == DIP_SHADING_PHONG;
     const bool lit = !light_mapped && material->lit && mesh->normals;
     int normal_attribute = DIP_ABSENT;
     if (lit || out->normal_mapped) {
@@ -101,13 +127,13 @@ static VertexLayout lay_out(const DipMeshDef *mesh, const DipMaterialDef *materi
     if (mesh->colours_lin) {
         uniforms->colour_attribute = add_source(&layout, mesh->colours_lin, 3);
     }
-    if (uniforms->normal_attribute != DIP_ABSENT || uniforms->colour_attribute != DIP_ABSENT) {
-        uniforms->light_varying = out->varying_count;
-        out->varying_count += 3;
-    }
     if (out->normal_mapped) {
-        lay_out_normal_map(out, normal_attribute);
+        out->mapped_layout = out->layout;
+        out->mapped_layout.normal_map_varying = 0;
+        out->mapped_varying_count = lay_out_lit_fragments(&out->mapped_layout, normal_attribute);
     }
+    out->varying_count = out->fragments_lit ? lay_out_lit_fragments(uniforms, normal_attribute)
+                                            : lay_out_lit_vertices(uniforms, out->lit_by_lights);
     return layout;
 }
 
@@ -128,7 +154,7 @@ static float *interleave(const VertexLayout *layout, uint32_t vertex_count) {
 static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipError *err) {
     const DipMeshDef *mesh = &def->meshes[index];
     DipSceneMesh *out = &scene->meshes[index];
-    const VertexLayout layout = lay_out(mesh, &def->materials[mesh->material], out);
+    const VertexLayout layout = lay_out(def, mesh, out);
     float *rows = interleave(&layout, mesh->vertex_count);
     if (!rows) {
         return dip_error_set(err, DIP_ERROR_MEMORY, mesh->name, 0, "mesh", "out of memory");
@@ -146,6 +172,7 @@ static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipE
     out->repeating_varyings = dip_scene_repeating_varyings(def, mesh, out);
     scene->has_normal_map |= out->normal_mapped;
     scene->has_sky |= out->sky;
+    scene->has_lit |= out->lit_by_lights;
     free(rows);
     return out->mesh != NULL;
 }
@@ -346,8 +373,9 @@ static DipScene *allocate_scene(const DipSceneDef *def) {
     scene->materials = calloc((size_t)def->material_count + 1, sizeof *scene->materials);
     scene->meshes = calloc((size_t)def->mesh_count + 1, sizeof *scene->meshes);
     scene->objects = calloc((size_t)def->object_count + 1, sizeof *scene->objects);
+    scene->lighting = def->lighting ? dip_scene_lighting_create(def->lighting) : NULL;
     if (!scene->textures || !scene->compressible || !scene->late || !scene->materials ||
-        !scene->meshes || !scene->objects) {
+        !scene->meshes || !scene->objects || (def->lighting && !scene->lighting)) {
         dip_scene_destroy(&scene);
     }
     return scene;
@@ -398,6 +426,7 @@ void dip_scene_destroy(DipScene **scene_pointer) {
     free(scene->materials);
     free(scene->meshes);
     free(scene->objects);
+    free(scene->lighting);
     free(scene);
     *scene_pointer = NULL;
 }

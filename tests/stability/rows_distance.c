@@ -84,6 +84,7 @@ static void enlarge_scene(DipTestScene *scene) {
         }
     }
     scene->def.near_m *= ENLARGED;
+    dip_test_scene_enlarge_lights(scene, ENLARGED);
     scene->reflection.level_m = round(scene->reflection.level_m * (double)ENLARGED);
     for (int axis = 0; axis < 3; axis++) {
         scene->pose.position_world[axis] =
@@ -105,6 +106,7 @@ static void move_scene(DipTestScene *scene, const double by[3]) {
             object->transform[4 * axis + 3] += (float)by[axis];
         }
     }
+    dip_test_scene_move_lights(scene, by);
     scene->reflection.level_m += by[1];
     for (int axis = 0; axis < 3; axis++) {
         scene->pose.position_world[axis] += by[axis];

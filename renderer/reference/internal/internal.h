@@ -30,12 +30,15 @@ enum {
     DIP_REF_X, // position relative to the eye, along the world's axes, in metres
     DIP_REF_Y,
     DIP_REF_Z,
-    DIP_REF_NORMAL_X, // normal, of length 1 at the vertices; only for normal-mapped surfaces
+    DIP_REF_NORMAL_X, // normal, of length 1 at the vertices
     DIP_REF_NORMAL_Y,
     DIP_REF_NORMAL_Z,
     DIP_REF_RED, // vertex colour times vertex light
     DIP_REF_GREEN,
     DIP_REF_BLUE,
+    DIP_REF_HIGHLIGHT_RED, // highlight of the scene's lights at the vertex
+    DIP_REF_HIGHLIGHT_GREEN,
+    DIP_REF_HIGHLIGHT_BLUE,
     DIP_REF_VARYINGS
 };
 
@@ -47,6 +50,14 @@ typedef struct DipRefVertex {
     double inv_w;
     double varyings[DIP_REF_VARYINGS];
 } DipRefVertex;
+
+// A surface that the lights of the scene light.
+typedef struct DipRefLit {
+    const DipLightingDef *lighting; // NULL: the lights of the scene do not light the surface
+    const DipMaterialDef *material;
+    double eye[3];  // position of the eye in world space; of its mirror image if the shot mirrors
+    bool fragments; // true: the light is computed where the surface is shaded, not at the vertices
+} DipRefLit;
 
 // A triangle after clipping. It faces the eye or is double-sided. Its vertices are ordered so that
 // its area is positive if y points down.
@@ -60,6 +71,7 @@ typedef struct DipRefTriangle {
     const DipRefTexture *colour;
     const DipRefTexture *light_map;
     const DipRefTexture *normal_map;
+    DipRefLit lit;
     const DipSkyDef *sky; // the clouds of a sky surface; NULL for other surfaces
     int64_t time_ns;      // time of the clouds
     uint64_t patch;   // number of a patch, which is shaded as one surface; unique among all objects
@@ -122,6 +134,11 @@ void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter
 extern const double dip_reference_sun[3]; // direction to the sun, not normalised
 double dip_reference_light(const double normal[3], double sunlit);
 
+// Computes the scene's lights on a surface. place: position relative to the eye. normal: unit
+// normal. diffuse is the factor of the surface's own colour, and highlight is added.
+void dip_reference_lights(const DipRefLit *lit, const double place[3], const double normal[3],
+                          double diffuse[3], double highlight[3]);
+
 // Returns true if surfaces with this material show its normal map.
 bool dip_reference_is_bumpy(const DipMaterialDef *material);
 
@@ -132,6 +149,11 @@ typedef struct DipRefVaryings {
     double ddy[DIP_REF_DERIVED];
     double depth_change; // |dw/dx| + |dw/dy|, divided by w; w is the distance along the view axis
 } DipRefVaryings;
+
+// Finds the unit normal at a position: the interpolated normal, or the normal map's if texel is not
+// NULL. Returns the length of the normal map's filtered normal, or 1.
+double dip_reference_normal(const DipRefVaryings *varyings, const double texel[3],
+                            double normal[3]);
 
 // Interpolates `count` varyings from `first` on, with perspective correction. If derive is true,
 // the derivatives of those that have any are computed too.

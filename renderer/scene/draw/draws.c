@@ -1,6 +1,7 @@
 // Makes the draws of a render pass, one object at a time.
 #include "renderer/scene/draw/draws.h"
 
+#include "renderer/scene/resources/lighting.h"
 #include "renderer/scene/resources/mip_debug.h"
 #include "renderer/scene/resources/scene_layout.h"
 
@@ -116,24 +117,49 @@ static DipViewRays view_rays(const double m[16], int width, int height) {
         rays.origin[c] = (float)(ahead - right + up);
         rays.per_x[c] = (float)(2.0 * right / width);
         rays.per_y[c] = (float)(-2.0 * up / height);
+        rays.right[c] = (float)right;
+        rays.up[c] = (float)up;
+        rays.ahead[c] = (float)ahead;
     }
     return rays;
+}
+
+// If the scene's lights light the mesh of a draw, gives them to the draw and sets its shaders.
+static void set_lights(const DipDrawInput *input, const DipDrawSet *set,
+                       const DipSceneObject *object, DipSurfaceUniforms *uniforms, DipDraw *draw) {
+    const DipMaterialKernels *kernels = input->kernels;
+    const DipSceneMesh *mesh = &input->scene->meshes[object->mesh];
+    if (!mesh->lit_by_lights) {
+        return;
+    }
+    uniforms->lighting = &set->lighting;
+    uniforms->lights = input->all_lights
+                           ? UINT64_MAX
+                           : dip_lights_reaching(input->scene->lighting, &object->bounds);
+    if (mesh->fragments_lit) {
+        draw->vertex_shader = kernels->dip_kernel_fragment_lit_vertex;
+        draw->fragment_shader = kernels->dip_kernel_phong_fragment;
+        draw->value_only_varying_count = mesh->varying_count - uniforms->normal_varying;
+    } else {
+        draw->vertex_shader = kernels->dip_kernel_gouraud_vertex;
+        draw->fragment_shader = kernels->dip_kernel_gouraud_fragment;
+    }
 }
 
 // If the mesh of a draw has an effect (normal map or clouds), sets the effect's shaders. If mip
 // colours are on, a sky keeps the plain shader, so that the colours of its texture's levels can be
 // seen.
-static void set_effect(const DipDrawInput *input, const DipDrawSet *set, const DipSceneMesh *mesh,
+static void set_effect(const DipDrawInput *input, const DipSceneMesh *mesh,
                        DipSurfaceUniforms *uniforms, DipDraw *draw) {
     const DipMaterialKernels *kernels = input->kernels;
-    uniforms->rays = &set->rays;
     uniforms->sky = input->sky;
     if (input->plain_surfaces) {
         return;
     }
     if (mesh->normal_mapped) {
-        draw->vertex_shader = kernels->dip_kernel_normal_map_vertex;
-        draw->fragment_shader = kernels->dip_kernel_normal_map_fragment;
+        draw->vertex_shader = kernels->dip_kernel_fragment_lit_vertex;
+        draw->fragment_shader = mesh->lit_by_lights ? kernels->dip_kernel_phong_fragment
+                                                    : kernels->dip_kernel_normal_map_fragment;
         draw->varying_count = mesh->mapped_varying_count;
         draw->value_only_varying_count = 0;
     } else if (mesh->sky && !input->quality->step[DIP_SETTING_MIPDEBUG]) {
@@ -224,7 +250,9 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
                              : &set->matrices[set->count - 1].exact_to_clip,
         .cull = cull_of(material, object, pass->mirrored),
     };
-    set_effect(input, set, mesh, uniforms, draw);
+    uniforms->rays = &set->rays;
+    set_lights(input, set, object, uniforms, draw);
+    set_effect(input, mesh, uniforms, draw);
     if (pass->shown && material->surface == DIP_SURFACE_WATER) {
         set_reflecting(input, pass, set);
     }
@@ -233,13 +261,21 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
 void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDrawView *pass) {
     const DipScene *scene = input->scene;
     set->count = 0;
+    set->culled = 0;
     set->rays = view_rays(pass->view->world_to_clip, pass->width, pass->height);
+    if (scene->has_lit) {
+        dip_lighting_at(scene->lighting, pass->view->eye, &set->lighting);
+    }
     for (int i = 0; i < scene->object_count; i++) {
         const DipSceneObject *object = &scene->objects[i];
         const bool water =
             scene->materials[scene->meshes[object->mesh].material].surface == DIP_SURFACE_WATER;
-        if (!(pass->mirrored && water) &&
-            !(pass->seen && dip_cull_outside(pass->seen, &object->bounds))) {
+        if (pass->mirrored && water) {
+            continue;
+        }
+        if (pass->seen && dip_cull_outside(pass->seen, &object->bounds)) {
+            set->culled++;
+        } else {
             add_draw(input, pass, i, set);
         }
     }

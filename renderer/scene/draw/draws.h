@@ -27,6 +27,7 @@ typedef struct DipDrawInput {
     const DipSkyUniforms *sky;
     const DipUnsharedMeshes *unshared; // NULL: objects share the scene's meshes
     bool plain_surfaces;
+    bool all_lights; // lights are computed even on objects that they cannot reach
 } DipDrawInput;
 
 // Input that differs from pass to pass.
@@ -50,10 +51,12 @@ typedef struct DipDrawMatrices {
 typedef struct DipDrawSet {
     DipDraw *draws; // one per object that may be visible
     int count;
+    int culled;                   // objects that were left out because they are out of view
     DipSurfaceUniforms *uniforms; // one per draw
     DipDrawMatrices *matrices;    // one per draw
     DipWaterUniforms *water;      // one per draw; NULL if the set has no reflecting water
     DipViewRays rays;
+    DipLightingUniforms lighting; // only if the scene has lights
 } DipDrawSet;
 
 // Allocates a set for up to object_count draws. reflects: the set may hold reflecting water. If the

@@ -251,6 +251,7 @@ static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipEr
 // Converts the passes' counters to a frame's counters.
 static DipCounters frame_counters(const DipPipelineCounters *passes) {
     DipCounters counters = {
+        .fragments_lit = passes->shader_counts[DIP_SHADER_COUNT_LIT],
         .fragments_normal_mapped = passes->shader_counts[DIP_SHADER_COUNT_NORMAL_MAPPED],
         .fragments_sky = passes->shader_counts[DIP_SHADER_COUNT_SKY],
         .fragments_reflecting = passes->shader_counts[DIP_SHADER_COUNT_REFLECTING],
@@ -261,6 +262,11 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
     return counters;
 }
 
+static void count_objects(const DipDrawSet *set, DipCounters *counters) {
+    counters->objects_drawn += (uint64_t)set->count;
+    counters->objects_culled += (uint64_t)set->culled;
+}
+
 static void end_frame(const FrameSetup *setup) {
     const DipRenderer *renderer = setup->renderer;
     DipFrame *frame = setup->frame;
@@ -268,6 +274,10 @@ static void end_frame(const FrameSetup *setup) {
     frame->counters.fragments_mirrored = setup->fragments_mirrored;
     const bool reflects = setup->plan.effects.reflection.run;
     count_mirror(&renderer->mirror, reflects, &frame->counters);
+    count_objects(&renderer->set, &frame->counters);
+    if (reflects) {
+        count_objects(&renderer->mirror.set, &frame->counters);
+    }
     count_bytes(setup->scene, &frame->counters);
     dip_count_geometry(setup->scene, renderer->unshared, &frame->counters);
     dip_plan_settle(&setup->input, &frame->counters, &frame->effects);

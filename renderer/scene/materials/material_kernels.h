@@ -11,8 +11,11 @@
     X(void, dip_kernel_surface_vertex, (const DipVertexBatch *batch))                              \
     X(void, dip_kernel_surface_fragment, (DipFragmentBatch * batch))                               \
     X(void, dip_kernel_surface_clip, (DipFragmentBatch * batch))                                   \
-    X(void, dip_kernel_normal_map_vertex, (const DipVertexBatch *batch))                           \
+    X(void, dip_kernel_fragment_lit_vertex, (const DipVertexBatch *batch))                         \
     X(void, dip_kernel_normal_map_fragment, (DipFragmentBatch * batch))                            \
+    X(void, dip_kernel_gouraud_vertex, (const DipVertexBatch *batch))                              \
+    X(void, dip_kernel_gouraud_fragment, (DipFragmentBatch * batch))                               \
+    X(void, dip_kernel_phong_fragment, (DipFragmentBatch * batch))                                 \
     X(void, dip_kernel_sky_fragment, (DipFragmentBatch * batch))                                   \
     X(void, dip_kernel_water_fragment, (DipFragmentBatch * batch))
 

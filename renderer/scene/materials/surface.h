@@ -3,14 +3,19 @@
 #ifndef DIP_RENDERER_SCENE_MATERIALS_SURFACE_H
 #define DIP_RENDERER_SCENE_MATERIALS_SURFACE_H
 
-#include <stdbool.h>
+#include "renderer/scene/lights.h"
 
-// The materials' shaders count fragments that have a normal map, fragments of sky with clouds and
-// fragments of reflecting water. These are the indices of the counts in DipShaderWork.counts.
+#include <stdbool.h>
+#include <stdint.h>
+
+// The materials' shaders count fragments that have a normal map, fragments of sky with clouds,
+// fragments of reflecting water and fragments lit by the scene's lights. These are the indices of
+// the counts in DipShaderWork.counts.
 enum {
     DIP_SHADER_COUNT_NORMAL_MAPPED,
     DIP_SHADER_COUNT_SKY,
     DIP_SHADER_COUNT_REFLECTING,
+    DIP_SHADER_COUNT_LIT,
 };
 
 enum {
@@ -23,11 +28,37 @@ enum {
 
 // The view ray through a position (x, y) in pixels of the target is origin + x * per_x + y * per_y,
 // in world space. The position of a point relative to the eye is its depth (clip w) times its ray.
+// It is also clip x * right + clip y * up + clip w * ahead.
 typedef struct DipViewRays {
     float origin[3];
     float per_x[3];
     float per_y[3];
+    float right[3];
+    float up[3];
+    float ahead[3];
 } DipViewRays;
+
+// A light of the scene as an eye sees it.
+typedef struct DipLightUniforms {
+    DipLightKind kind;
+    float colour_lin[3];
+    float from_eye[3]; // position relative to the eye; not of a directional light
+    float to_light[3]; // unit; the opposite of the light's direction; not of a point light
+    float attenuation[3];
+    float inverse_range2; // 1 / range^2; 0: the light has no end
+    // The part of a spot light that reaches a point is clamp01(cosine * cone_scale + cone_shift)
+    // squared, where the cosine is that of the angle to the light's direction.
+    float cone_scale;
+    float cone_shift;
+} DipLightUniforms;
+
+// The lights of a scene as an eye sees them.
+typedef struct DipLightingUniforms {
+    float ambient_lin[3];
+    float sky_lin[3];
+    int count;
+    DipLightUniforms lights[DIP_MAX_LIGHTS];
+} DipLightingUniforms;
 
 // The sky at the time of a frame; see DipSkyDef.
 typedef struct DipSkyUniforms {
@@ -51,7 +82,7 @@ typedef struct DipSkyUniforms {
 // A vertex has these attributes, in this order: the position; the texture coordinates, which are
 // copied to the first varyings in the same order; the normal, if the surface is lit or
 // normal-mapped; and the vertex colour, if the mesh has one. The light varying is the light of the
-// vertex times its colour; on a normal-mapped surface it is the vertex colour alone.
+// vertex times its colour; on a surface whose fragments are lit it is the vertex colour alone.
 typedef struct DipSurfaceUniforms {
     float origin[3];          // subtracted from a vertex's position, see dip_view_object_origin
     float to_clip[16];        // row-major; takes the difference to clip space
@@ -67,13 +98,20 @@ typedef struct DipSurfaceUniforms {
     float base_colour_lin[3];
     float light_map_scale;
     float alpha_cutoff;
-    // The next four are set for normal-mapped surfaces only.
+    // The next four are set for surfaces whose fragments are lit: by the scene's lights, or with a
+    // normal map. Without a normal map, normal_map_varying is DIP_ABSENT.
     int normal_map_varying; // index of the first of two: coordinates of the normal map
     int normal_varying;     // index of the first of three: unit normal of the vertex in world space
     int depth_varying;      // index of one varying: clip w
     float roughness;
-    const DipViewRays *rays;   // only for normal-mapped surfaces, sky and water
+    const DipViewRays *rays;
     const DipSkyUniforms *sky; // only for sky
+    // The next five are set for surfaces that the scene's lights light.
+    const DipLightingUniforms *lighting;
+    uint64_t lights;       // bit i is set if light i may reach the object
+    int highlight_varying; // index of the first of three: highlight of the vertex, or DIP_ABSENT
+    float specular_lin[3];
+    unsigned shininess; // 0..DIP_MAX_SHININESS
 } DipSurfaceUniforms;
 
 #endif

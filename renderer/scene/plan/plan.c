@@ -41,6 +41,10 @@ static bool is_light_mapped(const DipScene *scene, int object) {
     return material_of(scene, object)->light_map != DIP_NO_TEXTURE;
 }
 
+static bool is_lit(const DipScene *scene, int object) {
+    return mesh_of(scene, object)->lit_by_lights;
+}
+
 static bool is_normal_mapped(const DipScene *scene, int object) {
     return mesh_of(scene, object)->normal_mapped;
 }
@@ -207,6 +211,19 @@ static DipEffect plan_light_map(const DipPlanInput *input, DipFramePlan *plan) {
                : skip("no light-mapped surface is in view");
 }
 
+// Where an object is lit, the lights that cannot reach it are left out (dip_lights_reaching).
+static DipEffect plan_lights(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!input->scene->lighting) {
+        return skip("the scene has no lights of its own");
+    }
+    if (!input->scene->has_lit) {
+        return skip("the scene's lights light no surface");
+    }
+    return input->force_all || any_in_view(input, plan, is_lit)
+               ? run(input, "surfaces that the scene's lights light are in view")
+               : skip("no surface that the scene's lights light is in view");
+}
+
 // A mesh without a normal map always has the plain shader.
 static DipEffect plan_normal_map(const DipPlanInput *input, DipFramePlan *plan) {
     if (!input->scene->has_normal_map) {
@@ -256,6 +273,7 @@ void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters, Dip
     }
     settle(&effects->alpha_clip, counters->fragments_clip_tested);
     settle(&effects->adaptive_aa, counters->clip_sample_groups);
+    settle(&effects->lights, counters->fragments_lit);
     settle(&effects->normal_map, counters->fragments_normal_mapped);
     settle(&effects->sky, counters->fragments_sky);
 }

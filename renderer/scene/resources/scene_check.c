@@ -24,15 +24,94 @@ static bool check_index(int index, int count, const char *owner, const char *key
                          count - 1);
 }
 
+// Checks that floats are in a range. The comparison is written so that NaN fails it.
+static bool check_range(const float *values, size_t count, double least, double most,
+                        const char *owner, const char *key, DipError *err) {
+    for (size_t i = 0; i < count; i++) {
+        if (!((double)values[i] >= least && (double)values[i] <= most)) {
+            return dip_error_set(err, DIP_ERROR_RANGE, owner, 0, key,
+                                 "%g is out of range, accepted %g..%g", (double)values[i], least,
+                                 most);
+        }
+    }
+    return true;
+}
+
 static bool check_material(const DipSceneDef *def, const DipMaterialDef *material, DipError *err) {
     return check_floats(material->base_colour_lin, 3, 3, material->name, "base_colour_lin", err) &&
            check_floats(&material->light_map_scale, 1, 1, material->name, "light_map_scale", err) &&
            check_floats(&material->roughness, 1, 1, material->name, "roughness", err) &&
+           check_range(material->specular_lin, 3, 0.0, (double)DIP_MAX_LIGHT_LIN, material->name,
+                       "specular_lin", err) &&
+           check_range(&material->shininess, 1, 0.0, DIP_MAX_SHININESS, material->name, "shininess",
+                       err) &&
            check_floats(&material->alpha_cutoff, 1, 1, material->name, "alpha_cutoff", err) &&
            check_index(material->colour_texture, def->texture_count, material->name,
                        "colour_texture", err) &&
            check_index(material->light_map, def->texture_count, material->name, "light_map", err) &&
            check_index(material->normal_map, def->texture_count, material->name, "normal_map", err);
+}
+
+static bool check_direction(const DipLightDef *light, DipError *err) {
+    const float *d = light->direction_world;
+    return check_floats(d, 3, 3, light->name, "direction_world", err) &&
+           (d[0] != 0.0f || d[1] != 0.0f || d[2] != 0.0f ||
+            dip_error_set(err, DIP_ERROR_RANGE, light->name, 0, "direction_world",
+                          "0,0,0, accepted a vector of any other length"));
+}
+
+// Checks how the light of a point or spot light fades.
+static bool check_fading(const DipLightDef *light, DipError *err) {
+    const float *a = light->attenuation;
+    return check_floats(light->position_world, 3, 3, light->name, "position_world", err) &&
+           check_range(a, 3, 0.0, (double)DIP_MAX_LIGHT_LIN, light->name, "attenuation", err) &&
+           (a[0] > 0.0f || a[1] > 0.0f || a[2] > 0.0f ||
+            dip_error_set(err, DIP_ERROR_RANGE, light->name, 0, "attenuation",
+                          "0,0,0, accepted at least one number greater than 0")) &&
+           check_range(&light->range_m, 1, 0.0, (double)DIP_MAX_LIGHT_LIN, light->name, "range_m",
+                       err);
+}
+
+static bool check_cone(const DipLightDef *light, DipError *err) {
+    return (light->outer_deg > 0.0f && light->outer_deg <= 90.0f && light->inner_deg >= 0.0f &&
+            light->inner_deg <= light->outer_deg) ||
+           dip_error_set(err, DIP_ERROR_RANGE, light->name, 0, "outer_deg",
+                         "inner %g, outer %g, accepted 0 <= inner <= outer <= 90, outer above 0",
+                         (double)light->inner_deg, (double)light->outer_deg);
+}
+
+static bool check_light(const DipLightDef *light, DipError *err) {
+    if (light->kind != DIP_LIGHT_DIRECTIONAL && light->kind != DIP_LIGHT_POINT &&
+        light->kind != DIP_LIGHT_SPOT) {
+        return dip_error_set(err, DIP_ERROR_RANGE, light->name, 0, "kind",
+                             "%d is unknown, accepted a DipLightKind", (int)light->kind);
+    }
+    return check_range(light->colour_lin, 3, 0.0, (double)DIP_MAX_LIGHT_LIN, light->name,
+                       "colour_lin", err) &&
+           (light->kind == DIP_LIGHT_DIRECTIONAL || check_fading(light, err)) &&
+           (light->kind == DIP_LIGHT_POINT || check_direction(light, err)) &&
+           (light->kind != DIP_LIGHT_SPOT || check_cone(light, err));
+}
+
+static bool check_lighting(const DipLightingDef *lighting, DipError *err) {
+    if (lighting->light_count < 0 || lighting->light_count > DIP_MAX_LIGHTS) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "lights", "%d lights, accepted 0..%d",
+                             lighting->light_count, DIP_MAX_LIGHTS);
+    }
+    if (lighting->shading != DIP_SHADING_PHONG && lighting->shading != DIP_SHADING_GOURAUD) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "shading",
+                             "%d is unknown, accepted a DipShading", (int)lighting->shading);
+    }
+    bool good = check_range(lighting->ambient_lin, 3, 0.0, (double)DIP_MAX_LIGHT_LIN, NULL,
+                            "ambient_lin", err);
+    for (int c = 0; good && c < 3; c++) {
+        good = check_range(&lighting->sky_lin[c], 1, 0.0, (double)lighting->ambient_lin[c], NULL,
+                           "sky_lin", err);
+    }
+    for (int i = 0; good && i < lighting->light_count; i++) {
+        good = check_light(&lighting->lights[i], err);
+    }
+    return good;
 }
 
 static bool check_sky(const DipSkyDef *sky, DipError *err) {
@@ -78,7 +157,8 @@ bool dip_scene_check(const DipSceneDef *def, DipError *err) {
                              (double)DIP_MIN_NEAR_M, (double)DIP_MAX_NEAR_M);
     }
     bool good = check_sky(&def->sky, err) &&
-                check_floats(def->background_lin, 3, 3, NULL, "background_lin", err);
+                check_floats(def->background_lin, 3, 3, NULL, "background_lin", err) &&
+                (!def->lighting || check_lighting(def->lighting, err));
     for (int i = 0; good && i < def->material_count; i++) {
         good = check_material(def, &def->materials[i], err);
     }

@@ -7,6 +7,7 @@
 #include "renderer/pipeline/texture.h"
 #include "renderer/scene/materials/surface.h"
 #include "renderer/scene/resources/late_textures.h"
+#include "renderer/scene/resources/lighting.h"
 #include "renderer/scene/scene.h"
 
 typedef struct DipSceneMesh {
@@ -16,6 +17,8 @@ typedef struct DipSceneMesh {
     // matrices are set for each frame.
     DipSurfaceUniforms layout;
     int varying_count;
+    bool lit_by_lights; // the scene's lights light the mesh
+    bool fragments_lit; // `layout` has the light computed at the fragments
     bool normal_mapped;
     // `layout` and `varying_count` for the normal-mapped shaders; valid if normal_mapped is true.
     DipSurfaceUniforms mapped_layout;
@@ -68,8 +71,10 @@ struct DipScene {
     bool has_normal_map;     // some mesh is normal-mapped
     bool has_sky;            // some mesh is a sky with moving clouds
     DipSkyDef sky;
-    bool has_water;     // some object is water
-    double water_level; // least world y of all water; 0 without water
+    DipSceneLighting *lighting; // NULL: the fixed light of sky and sun
+    bool has_lit;               // the scene's lights light some mesh
+    bool has_water;             // some object is water
+    double water_level;         // least world y of all water; 0 without water
     uint64_t normal_map_bytes;
     uint64_t clip_map_bytes; // bytes of the clip maps' alpha
     uint64_t cloud_bytes;    // bytes of the textures of skies with moving clouds

@@ -365,6 +365,87 @@ static void make_normal_map(DipTestScene *scene) {
     memcpy(scene->objects[scene->def.object_count - 1].transform, placed, sizeof placed);
 }
 
+static void add_light(DipTestScene *scene, const DipLightDef *light) {
+    scene->lights[scene->lighting.light_count++] = *light;
+}
+
+// Adds a light of each kind, and a point light that reaches only a part of the scene.
+static void add_lights(DipTestScene *scene, DipShading shading) {
+    scene->lighting = (DipLightingDef){.ambient_lin = {0.06f, 0.07f, 0.1f},
+                                       .sky_lin = {0.02f, 0.03f, 0.05f},
+                                       .lights = scene->lights,
+                                       .shading = shading};
+    scene->def.lighting = &scene->lighting;
+    add_light(scene, &(DipLightDef){.kind = DIP_LIGHT_DIRECTIONAL,
+                                    .colour_lin = {0.3f, 0.27f, 0.2f},
+                                    .direction_world = {2.0f, -3.0f, -1.0f}});
+    add_light(scene, &(DipLightDef){.kind = DIP_LIGHT_POINT,
+                                    .colour_lin = {1.2f, 0.5f, 0.3f},
+                                    .position_world = {-1.4f, 0.6f, -3.0f},
+                                    .attenuation = {0.5f, 0.25f, 0.5f}});
+    add_light(scene, &(DipLightDef){.kind = DIP_LIGHT_POINT,
+                                    .colour_lin = {0.2f, 0.9f, 1.4f},
+                                    .position_world = {1.6f, -0.2f, -5.5f},
+                                    .attenuation = {0.0f, 0.0f, 1.0f},
+                                    .range_m = 2.5f});
+    add_light(scene, &(DipLightDef){.kind = DIP_LIGHT_SPOT,
+                                    .colour_lin = {9.0f, 8.0f, 7.0f},
+                                    .position_world = {0.5f, 2.5f, -2.0f},
+                                    .direction_world = {-0.1f, -0.8f, -1.0f},
+                                    .attenuation = {0.0f, 0.0f, 1.0f},
+                                    .inner_deg = 8.0f,
+                                    .outer_deg = 22.0f});
+}
+
+static int add_shiny_material(DipTestScene *scene, int colour_texture, float specular,
+                              float shininess) {
+    const int index = dip_test_scene_add_material(scene, colour_texture);
+    DipMaterialDef *material = &scene->materials[index];
+    material->lit = true;
+    material->specular_lin[0] = material->specular_lin[1] = specular;
+    material->specular_lin[2] = 0.5f * specular;
+    material->shininess = shininess;
+    return index;
+}
+
+// A floor and a wall with bumps, clipped bars, and a sphere that is mirrored and scaled unevenly.
+static void make_lit_parts(DipTestScene *scene, DipShading shading) {
+    dip_test_scene_begin(scene);
+    add_lights(scene, shading);
+    const int checker = dip_test_scene_add_texture(scene, DIP_TEST_CHECKER, 64, 64);
+    const int floor = add_shiny_material(scene, checker, 0.4f, 20.0f);
+    const int wall = add_shiny_material(scene, checker, 0.3f, 9.0f);
+    scene->materials[wall].normal_map = dip_test_scene_add_bumps(scene, 128);
+    const int ball = add_shiny_material(scene, DIP_NO_TEXTURE, 0.8f, 60.4f);
+    const int bars = add_bars(scene);
+    scene->materials[bars].lit = true;
+    static const float floor_at[12] = {-3, -1, -1, 3, -1, -1, 3, -1, -9, -3, -1, -9};
+    static const float wall_at[12] = {-3, -1, -8, 1, -1, -8, 1, 3, -8, -3, 3, -8};
+    static const float bars_at[12] = {1, -1, -8, 3, -1, -6, 3, 2, -6, 1, 2, -8};
+    static const float tiled[8] = {0, 5, 3, 5, 3, 0, 0, 0};
+    add_bumpy_quad(scene, floor, floor_at, tiled, true);
+    add_bumpy_quad(scene, wall, wall_at, tiled, false);
+    add_bumpy_quad(scene, bars, bars_at, tiled, false);
+    const DipTestMesh sphere =
+        dip_test_scene_add_mesh(scene, (RINGS + 1) * (SECTORS + 1), 6 * RINGS * SECTORS,
+                                DIP_TEST_NORMALS | DIP_TEST_COLOURS, ball);
+    fill_sphere(&sphere);
+    for (int i = 0; i < 3 * (RINGS + 1) * (SECTORS + 1); i++) {
+        sphere.colours_lin[i] = 0.3f + 0.02f * (float)(i % 30);
+    }
+    static const float placed[12] = {-0.6f, 0, 0, -0.3f, 0,    0.8f,
+                                     0.1f,  0, 0, 0,     0.6f, -4}; // mirrored
+    memcpy(scene->objects[scene->def.object_count - 1].transform, placed, sizeof placed);
+}
+
+static void make_lights(DipTestScene *scene) {
+    make_lit_parts(scene, DIP_SHADING_PHONG);
+}
+
+static void make_gouraud_lights(DipTestScene *scene) {
+    make_lit_parts(scene, DIP_SHADING_GOURAUD);
+}
+
 static void add_clouds(DipTestScene *scene, const float corner[3]) {
     const int material = dip_test_scene_add_material(scene, dip_test_scene_add_clouds(scene, 128));
     scene->materials[material].surface = DIP_SURFACE_SKY;

@@ -52,6 +52,26 @@ static uint8_t texel_of(DipTestTexture texture, Random *random, int x, int y, in
     return ((x / 8) ^ (y / 8)) & 1 ? light[channel] : dark[channel];
 }
 
+void dip_test_scene_enlarge_lights(DipTestScene *scene, float factor) {
+    for (int i = 0; i < scene->lighting.light_count; i++) {
+        DipLightDef *light = &scene->lights[i];
+        for (int axis = 0; axis < 3; axis++) {
+            light->position_world[axis] = roundf(light->position_world[axis] * factor);
+        }
+        light->attenuation[1] /= factor;
+        light->attenuation[2] /= factor * factor;
+        light->range_m *= factor;
+    }
+}
+
+void dip_test_scene_move_lights(DipTestScene *scene, const double by[3]) {
+    for (int i = 0; i < scene->lighting.light_count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            scene->lights[i].position_world[axis] += (float)by[axis];
+        }
+    }
+}
+
 int dip_test_scene_add_texture(DipTestScene *scene, DipTestTexture texture, int width, int height) {
     const size_t count = (size_t)width * (size_t)height;
     uint8_t *rgba8 = dip_test_scene_alloc(scene, count, 4);

@@ -23,6 +23,9 @@
     X(light_map, "a scaled light map at second texture coordinates, linear encoding")              \
     X(normal_map,                                                                                  \
       "bumps under a light map and the sun; coordinates mirrored, without area, on a sphere")      \
+    X(lights,                                                                                      \
+      "all kinds of lights with highlights at the fragments, on bumps and clipped bars too")       \
+    X(gouraud_lights, "the same lights at the vertices")                                           \
     X(sky, "two layers of cloud over a quad to the horizon")                                       \
     X(water, "pools at two heights that reflect what stands in and around them")                   \
     X(water_effects, "a pool that mirrors clouds, a fence and a bumpy wall: all effects together")
@@ -46,6 +49,8 @@ typedef struct DipTestScene {
     DipMaterialDef materials[DIP_TEST_SCENE_PARTS];
     DipMeshDef meshes[DIP_TEST_SCENE_PARTS];
     DipObjectDef objects[DIP_TEST_SCENE_PARTS];
+    DipLightDef lights[DIP_TEST_SCENE_PARTS];
+    DipLightingDef lighting; // def.lighting points here if the scene has lights
     void *blocks[DIP_TEST_SCENE_BLOCKS];
     int block_count;
 } DipTestScene;
@@ -97,6 +102,11 @@ enum { DIP_TEST_NORMALS = 1, DIP_TEST_UV0 = 2, DIP_TEST_UV1 = 4, DIP_TEST_COLOUR
 // Adds a mesh, and an object that draws it without a transform. The test fills the arrays.
 DipTestMesh dip_test_scene_add_mesh(DipTestScene *scene, uint32_t vertex_count,
                                     uint32_t index_count, int arrays, int material);
+
+// Enlarges the scene's lights with everything around them: places are rounded to whole metres, and
+// the light on the enlarged surfaces stays. The second function moves them.
+void dip_test_scene_enlarge_lights(DipTestScene *scene, float factor);
+void dip_test_scene_move_lights(DipTestScene *scene, const double by[3]);
 
 // Adds a quad with corner p and sides a and b. The quad faces along a x b. Its uv0 run from (0,0)
 // to (u,v) along a and b.

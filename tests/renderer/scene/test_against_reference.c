@@ -115,6 +115,8 @@ static const DipImageBounds *bounds_of(DipTestSceneKind kind, const DipQuality *
     case DIP_TEST_SCENE_water_effects:
         return mip_colours ? &fence_mips : &mirrored_fence;
     case DIP_TEST_SCENE_fence:
+    case DIP_TEST_SCENE_lights:
+    case DIP_TEST_SCENE_gouraud_lights:
         return mip_colours ? &fence_mips : passes ? &fence_passes : &fence;
     case DIP_TEST_SCENE_slivers:
         return &slivers;

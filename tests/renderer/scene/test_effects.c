@@ -305,9 +305,11 @@ static void only_effects_that_the_scene_has_take_memory(void **state) {
         Stage stage = open_stage(false);
         const DipCounters counters = draw(&stage, 0).counters;
         const bool all = kind == DIP_TEST_SCENE_water_effects;
-        assert_int_equal(counters.normal_map_bytes > 0, all || kind == DIP_TEST_SCENE_normal_map);
+        const bool lit = kind == DIP_TEST_SCENE_lights || kind == DIP_TEST_SCENE_gouraud_lights;
+        assert_int_equal(counters.normal_map_bytes > 0,
+                         all || lit || kind == DIP_TEST_SCENE_normal_map);
         assert_int_equal(counters.cloud_bytes > 0, all || kind == DIP_TEST_SCENE_sky);
-        assert_int_equal(counters.clip_map_bytes > 0, all || kind == DIP_TEST_SCENE_fence);
+        assert_int_equal(counters.clip_map_bytes > 0, all || lit || kind == DIP_TEST_SCENE_fence);
         close_stage(&stage);
         // Alpha that clips nothing is not stored.
         for (int i = 0; i < scene.def.material_count; i++) {

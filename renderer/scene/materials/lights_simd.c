@@ -1,0 +1,194 @@
+// The shaders of surfaces that the scene's lights light, at the vertices (Gouraud) or at the
+// fragments (Phong). Compiled once per instruction set. docs/picture.md, Lights, defines the
+// formulas.
+#include "renderer/scene/materials/facing_simd.h"
+#include "renderer/scene/materials/material_kernels.h"
+
+// Squared lengths are at least LEAST_LENGTH2, and the light that arrives at a point is at most
+// GREATEST_LIGHT, so that no result is infinite or NaN.
+#define LEAST_LENGTH2  1e-36f
+#define GREATEST_LIGHT 1e18f
+
+// A point of a surface, relative to the eye.
+typedef struct LitPoint {
+    Vf3 place;
+    Vf3 normal; // unit
+    Vf3 to_eye; // unit
+} LitPoint;
+
+// The light of a point: what its surface reflects in all directions, and towards the eye.
+typedef struct PointLight {
+    Vf3 diffuse;
+    Vf3 highlight;
+} PointLight;
+
+VEC_INLINE Vf3 vf3_splat(const float v[3]) {
+    return (Vf3){vf_splat(v[0]), vf_splat(v[1]), vf_splat(v[2])};
+}
+
+VEC_INLINE Vf3 vf3_sum(Vf3 a, Vf3 b) {
+    return (Vf3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+VEC_INLINE Vf3 vf3_unit(Vf3 v) {
+    return vf3_scale(v, vf_splat(1.0f) / vf_sqrt(vf_max(vf3_dot(v, v), vf_splat(LEAST_LENGTH2))));
+}
+
+// Raises x to a whole power.
+VEC_INLINE Vf power(Vf x, unsigned exponent) {
+    Vf product = vf_splat(1.0f);
+    for (; exponent; exponent >>= 1) {
+        product = exponent & 1 ? product * x : product;
+        x = x * x;
+    }
+    return product;
+}
+
+// The direction to a light, and the part of its light that arrives.
+typedef struct Arrival {
+    Vf3 to_light; // unit
+    Vf share;
+} Arrival;
+
+VEC_INLINE Arrival arrive(const DipLightUniforms *light, Vf3 place) {
+    if (light->kind == DIP_LIGHT_DIRECTIONAL) {
+        return (Arrival){vf3_splat(light->to_light), vf_splat(1.0f)};
+    }
+    const Vf3 way = {light->from_eye[0] - place.x, light->from_eye[1] - place.y,
+                     light->from_eye[2] - place.z};
+    const Vf length2 = vf_max(vf3_dot(way, way), vf_splat(LEAST_LENGTH2));
+    const Vf length = vf_sqrt(length2);
+    const float *a = light->attenuation;
+    const Vf loss = (length * a[1] + length2 * a[2]) + a[0];
+    const Vf relative2 = length2 * light->inverse_range2;
+    const Vf window = clamp01(1.0f - relative2 * relative2);
+    Arrival arrival = {.to_light = vf3_scale(way, vf_splat(1.0f) / length),
+                       .share = window / vf_max(loss, vf_splat(LEAST_LENGTH2))};
+    if (light->kind == DIP_LIGHT_SPOT) {
+        const Vf cosine = vf3_dot(arrival.to_light, vf3_splat(light->to_light));
+        const Vf cone = clamp01(cosine * light->cone_scale + light->cone_shift);
+        arrival.share = arrival.share * (cone * cone);
+    }
+    return arrival;
+}
+
+VEC_INLINE void add_light(const DipLightUniforms *light, const LitPoint *point, bool shines,
+                          unsigned shininess, PointLight *sum) {
+    const Vf most = vf_splat(GREATEST_LIGHT);
+    const Vf none = vf_splat(0.0f);
+    const Arrival arrival = arrive(light, point->place);
+    const Vf3 colour = {vf_min(arrival.share * light->colour_lin[0], most),
+                        vf_min(arrival.share * light->colour_lin[1], most),
+                        vf_min(arrival.share * light->colour_lin[2], most)};
+    const Vf facing = vf3_dot(point->normal, arrival.to_light);
+    sum->diffuse = vf3_sum(sum->diffuse, vf3_scale(colour, vf_max(facing, none)));
+    if (shines) {
+        const Vf3 half = vf3_unit(vf3_sum(arrival.to_light, point->to_eye));
+        const Vf cosine = clamp01(vf3_dot(point->normal, half));
+        const Vf peak = vf_select(vf_lt(none, facing), power(cosine, shininess), none);
+        sum->highlight = vf3_sum(sum->highlight, vf3_scale(colour, peak));
+    }
+}
+
+VEC_INLINE PointLight light_of(const DipSurfaceUniforms *uniforms, const LitPoint *point) {
+    const DipLightingUniforms *lighting = uniforms->lighting;
+    const float *specular = uniforms->specular_lin;
+    const bool shines = specular[0] > 0.0f || specular[1] > 0.0f || specular[2] > 0.0f;
+    const float zero[3] = {0.0f, 0.0f, 0.0f};
+    const Vf up = point->normal.y;
+    PointLight sum = {.diffuse = {up * lighting->sky_lin[0] + lighting->ambient_lin[0],
+                                  up * lighting->sky_lin[1] + lighting->ambient_lin[1],
+                                  up * lighting->sky_lin[2] + lighting->ambient_lin[2]},
+                      .highlight = vf3_splat(zero)};
+    for (int l = 0; l < lighting->count; l++) {
+        if (uniforms->lights >> l & 1) {
+            add_light(&lighting->lights[l], point, shines, uniforms->shininess, &sum);
+        }
+    }
+    sum.highlight = (Vf3){sum.highlight.x * specular[0], sum.highlight.y * specular[1],
+                          sum.highlight.z * specular[2]};
+    return sum;
+}
+
+// --- Gouraud -----------------------------------------------------------------------------------
+
+VEC_INLINE Vf3 vertex_place(const DipViewRays *rays, const DipVertexBatch *batch, int i) {
+    const Vf x = vf_load(batch->clip[0] + i);
+    const Vf y = vf_load(batch->clip[1] + i);
+    const Vf w = vf_load(batch->clip[3] + i);
+    return (Vf3){(x * rays->right[0] + y * rays->up[0]) + w * rays->ahead[0],
+                 (x * rays->right[1] + y * rays->up[1]) + w * rays->ahead[1],
+                 (x * rays->right[2] + y * rays->up[2]) + w * rays->ahead[2]};
+}
+
+void DIP_KERNEL(dip_kernel_gouraud_vertex)(const DipVertexBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        transform_vertices(uniforms, batch, i);
+        LitPoint point = {.place = vertex_place(uniforms->rays, batch, i)};
+        point.normal = vf3_unit(turn_normal(uniforms, batch, i));
+        point.to_eye = vf3_unit(vf3_scale(point.place, vf_splat(-1.0f)));
+        const PointLight light = light_of(uniforms, &point);
+        const Vf diffuse[3] = {light.diffuse.x, light.diffuse.y, light.diffuse.z};
+        const Vf highlight[3] = {light.highlight.x, light.highlight.y, light.highlight.z};
+        for (int c = 0; c < 3; c++) {
+            const Vf colour = uniforms->colour_attribute == DIP_ABSENT
+                                  ? vf_splat(1.0f)
+                                  : vf_load(batch->in[uniforms->colour_attribute + c] + i);
+            vf_store(batch->varying[uniforms->light_varying + c] + i, diffuse[c] * colour);
+            vf_store(batch->varying[uniforms->highlight_varying + c] + i, highlight[c]);
+        }
+    }
+}
+
+void DIP_KERNEL(dip_kernel_gouraud_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    float texture[3][DIP_FRAGMENT_BATCH];
+    start_colour(batch, texture);
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < batch->count; i += DIP_LANES) {
+            const Vf light = vf_load(batch->varying[uniforms->light_varying + c] + i);
+            const Vf highlight = vf_load(batch->varying[uniforms->highlight_varying + c] + i);
+            vf_store(batch->colour[c] + i, vf_load(batch->colour[c] + i) * light + highlight);
+        }
+    }
+    batch->work.counts[DIP_SHADER_COUNT_LIT] += (uint64_t)batch->count;
+}
+
+// --- Phong -------------------------------------------------------------------------------------
+
+VEC_INLINE void light_fragments(DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const Vf depth = vf_load(batch->varying[uniforms->depth_varying] + i);
+    const LitPoint point = {.place = vf3_scale(ray, depth),
+                            .normal = normal,
+                            .to_eye = vf3_unit(vf3_scale(ray, vf_splat(-1.0f)))};
+    const PointLight light = light_of(uniforms, &point);
+    const Vf diffuse[3] = {light.diffuse.x, light.diffuse.y, light.diffuse.z};
+    const Vf highlight[3] = {light.highlight.x, light.highlight.y, light.highlight.z};
+    for (int c = 0; c < 3; c++) {
+        vf_store(batch->colour[c] + i, vf_load(batch->colour[c] + i) * diffuse[c] + highlight[c]);
+    }
+}
+
+void DIP_KERNEL(dip_kernel_phong_fragment)(DipFragmentBatch *batch) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const bool mapped = uniforms->normal_map_varying != DIP_ABSENT;
+    float texture[3][DIP_FRAGMENT_BATCH];
+    float map[3][DIP_FRAGMENT_BATCH];
+    if (mapped) {
+        start_mapped_colour(batch, texture, map);
+        batch->work.counts[DIP_SHADER_COUNT_NORMAL_MAPPED] += (uint64_t)batch->count;
+    } else {
+        start_colour(batch, texture);
+    }
+    if (uniforms->light_varying != DIP_ABSENT) {
+        scale_colour(batch, batch->varying + uniforms->light_varying, 1.0f);
+    }
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        const Vf3 ray = view_ray(uniforms->rays, batch, i);
+        light_fragments(batch, i, ray,
+                        mapped ? find_facing(batch, i, ray, map).mapped : mesh_normal(batch, i));
+    }
+    batch->work.counts[DIP_SHADER_COUNT_LIT] += (uint64_t)batch->count;
+}

@@ -1,0 +1,114 @@
+// Keeps the lights of a scene.
+#include "renderer/scene/resources/lighting.h"
+
+#include "renderer/base/trig.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const DipLightingDef *dip_lighting_fixed(void) {
+    static const DipLightDef sun = {
+        .name = "sun",
+        .kind = DIP_LIGHT_DIRECTIONAL,
+        .colour_lin = {0.65f, 0.65f, 0.65f},
+        .direction_world = {0.42f, -0.67f, -0.61f},
+    };
+    static const DipLightingDef fixed = {
+        .ambient_lin = {0.35f, 0.35f, 0.35f},
+        .sky_lin = {0.15f, 0.15f, 0.15f},
+        .lights = &sun,
+        .light_count = 1,
+        .shading = DIP_SHADING_GOURAUD,
+    };
+    return &fixed;
+}
+
+DipSceneLighting *dip_scene_lighting_create(const DipLightingDef *def) {
+    DipSceneLighting *lighting = calloc(1, sizeof *lighting);
+    if (!lighting) {
+        return NULL;
+    }
+    memcpy(lighting->ambient_lin, def->ambient_lin, sizeof lighting->ambient_lin);
+    memcpy(lighting->sky_lin, def->sky_lin, sizeof lighting->sky_lin);
+    lighting->shading = def->shading;
+    lighting->count = def->light_count;
+    for (int i = 0; i < def->light_count; i++) {
+        lighting->lights[i] = def->lights[i];
+        lighting->lights[i].name = NULL;
+    }
+    return lighting;
+}
+
+// Writes the unit vector against a direction. The direction is scaled first, so that no square
+// overflows or vanishes.
+static void reverse(const float direction[3], float reversed[3]) {
+    double greatest = 0.0;
+    for (int i = 0; i < 3; i++) {
+        greatest = fmax(greatest, fabs((double)direction[i]));
+    }
+    double v[3];
+    for (int i = 0; i < 3; i++) {
+        v[i] = direction[i] / greatest;
+    }
+    const double length = sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]);
+    for (int i = 0; i < 3; i++) {
+        reversed[i] = (float)(-v[i] / length);
+    }
+}
+
+static void set_cone(const DipLightDef *light, DipLightUniforms *uniforms) {
+    const double inner = dip_cos(light->inner_deg * (DIP_PI / 180.0));
+    const double outer = dip_cos(light->outer_deg * (DIP_PI / 180.0));
+    const double scale = 1.0 / fmax(0.001, inner - outer);
+    uniforms->cone_scale = (float)scale;
+    uniforms->cone_shift = (float)(-outer * scale);
+}
+
+void dip_lighting_at(const DipSceneLighting *lighting, const double eye[3],
+                     DipLightingUniforms *uniforms) {
+    memcpy(uniforms->ambient_lin, lighting->ambient_lin, sizeof uniforms->ambient_lin);
+    memcpy(uniforms->sky_lin, lighting->sky_lin, sizeof uniforms->sky_lin);
+    uniforms->count = lighting->count;
+    for (int i = 0; i < lighting->count; i++) {
+        const DipLightDef *light = &lighting->lights[i];
+        DipLightUniforms *out = &uniforms->lights[i];
+        *out = (DipLightUniforms){.kind = light->kind};
+        memcpy(out->colour_lin, light->colour_lin, sizeof out->colour_lin);
+        memcpy(out->attenuation, light->attenuation, sizeof out->attenuation);
+        for (int k = 0; k < 3; k++) {
+            out->from_eye[k] = (float)(light->position_world[k] - eye[k]);
+        }
+        if (light->range_m > 0.0f) {
+            out->inverse_range2 = (float)(1.0 / ((double)light->range_m * light->range_m));
+        }
+        if (light->kind != DIP_LIGHT_POINT) {
+            reverse(light->direction_world, out->to_light);
+        }
+        if (light->kind == DIP_LIGHT_SPOT) {
+            set_cone(light, out);
+        }
+    }
+}
+
+uint64_t dip_lights_reaching(const DipSceneLighting *lighting, const DipBox *box) {
+    // The shader rounds the distance to a light, so a light reaches a little farther than its
+    // range.
+    static const double margin = 1.001;
+    uint64_t reaching = 0;
+    for (int i = 0; i < lighting->count; i++) {
+        const DipLightDef *light = &lighting->lights[i];
+        double distance2 = 0.0;
+        for (int k = 0; k < 3; k++) {
+            const double away = fabs((double)light->position_world[k] - box->centre[k]) -
+                                (double)box->extent[k] * margin;
+            distance2 += away > 0.0 ? away * away : 0.0;
+        }
+        const double reach = light->range_m * margin;
+        const bool near = !(distance2 > reach * reach);
+        if (light->kind == DIP_LIGHT_DIRECTIONAL || light->range_m == 0.0f || near) {
+            reaching |= UINT64_C(1) << i;
+        }
+    }
+    return reaching;
+}
