@@ -17,6 +17,8 @@ extern "C" {
     X(passes, "render passes drawn")                                                               \
     X(tiles_drawn, "64x64-pixel tiles drawn in these passes")                                      \
     X(tiles_spared, "tiles not drawn because nothing visible needs them")                          \
+    X(draws_in_view, "draws (objects) of which some chunk may be in view")                         \
+    X(draws_culled, "draws left out as a whole because they are out of view")                      \
     X(triangles_in, "triangles of mesh chunks that are not culled as a whole")                     \
     X(triangles_drawn, "triangles left after culling and clipping")                                \
     X(tile_triangles, "triangles binned to tiles: one per triangle and tile")                      \
@@ -65,8 +67,8 @@ typedef struct DipStageTimes {
 typedef struct DipTileRecord {
     // Only counters of work that is done in the tile are set; their sums over all tiles of a pass
     // are the pass's counters. The geometry stage runs before the tiles. Therefore `passes`,
-    // `tiles_spared`, `triangles_in`, `triangles_drawn`, `tile_triangles` and `target_bytes` are 0.
-    // `tiles_drawn` is 1, or 0 if the tile is spared.
+    // `tiles_spared`, `draws_in_view`, `draws_culled`, `triangles_in`, `triangles_drawn`,
+    // `tile_triangles` and `target_bytes` are 0. `tiles_drawn` is 1, or 0 if the tile is spared.
     DipPipelineCounters counters;
     // Wall-clock time of the worker that drew the tile, in nanoseconds.
     int64_t raster_ns;

@@ -149,6 +149,8 @@ static bool run_geometry(DipPipeline *pipeline, const DipPass *const *passes, in
 // --- what a pass did ---------------------------------------------------------------------------
 
 static void add_geometry_counters(const DipGeometry *geometry, DipPipelineCounters *counters) {
+    counters->draws_in_view += geometry->draws_in_view;
+    counters->draws_culled += geometry->draws_culled;
     for (int j = 0; j < geometry->job_count; j++) {
         counters->triangles_in += geometry->jobs[j].triangles_in;
         counters->triangles_drawn += geometry->jobs[j].triangles_drawn;

@@ -19,8 +19,6 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
 // Exact counts of the work that the scene's effects did and of the memory that they take.
 // X(name, "what it counts")
 #define DIP_SCENE_COUNTER_LIST(X)                                                                  \
-    X(objects_drawn, "objects whose boxes are in view, the mirrored ones included")                \
-    X(objects_culled, "objects left out because their boxes are out of view, mirrored ones too")   \
     X(fragments_lit, "fragments that the scene's own lights light")                                \
     X(fragments_normal_mapped, "fragments whose normal came from a normal map")                    \
     X(fragments_sky, "fragments of sky with moving clouds")                                        \

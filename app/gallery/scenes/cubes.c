@@ -291,7 +291,8 @@ static bool in_view(const DipMesh *mesh, const DipMatrix *to_clip) {
 
 // Fills in the draws of the objects in view and returns their number.
 static int list_objects(Content *content, const DipKitCamera *seen, double time_s,
-                        const DipSampler *wood, DipDraw draws[OBJECTS]) {
+                        const DipSampler *wood, DipPipelineCounters *counters,
+                        DipDraw draws[OBJECTS]) {
     int count = 0;
     bool long_cube_seen = true;
     for (int i = OBJECTS - 1; i >= 0; i--) { // the first cube comes last: it depends on the others
@@ -300,6 +301,7 @@ static int list_objects(Content *content, const DipKitCamera *seen, double time_
         const int mesh = i == 2 ? TEXTURED : i == 1 || long_cube_seen ? CUBE : GEM;
         if (!in_view(content->meshes[mesh], &to_clip)) {
             long_cube_seen = long_cube_seen && i != 1;
+            counters->draws_culled++;
             continue;
         }
         dip_matrix_floats(&to_clip, content->uniforms[i].to_clip);
@@ -349,7 +351,7 @@ static bool draw(void *pointer, const DipGalleryView *view, DipError *err) {
     if (!dip_kit_camera(&seen, view->pose, view->target.width, view->target.height, 0.1, err)) {
         return false;
     }
-    const int count = list_objects(content, &seen, view->time_s, &wood, draws);
+    const int count = list_objects(content, &seen, view->time_s, &wood, view->counters, draws);
     DipPass pass = dip_kit_pass(view, draws, count, clear_lin);
     return view->look == 1 ? draw_chars(content, view, &pass, err)
                            : dip_kit_draw(view, view->pipeline, &pass, err);

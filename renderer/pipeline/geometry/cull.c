@@ -242,7 +242,8 @@ static uint32_t cull_draw(const DipCullPlanes *planes, const DipMesh *mesh, uint
     return count;
 }
 
-uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible) {
+uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible, uint64_t *in_view,
+                         uint64_t *culled) {
     const NdcRegion region = ndc_region(pass);
     uint32_t count = 0;
     for (uint32_t d = 0; d < (uint32_t)pass->draw_count; d++) {
@@ -254,7 +255,9 @@ uint32_t dip_cull_chunks(const DipPass *pass, DipVisibleChunk *visible) {
         if (draw->bounds_to_clip) {
             planes = pass_planes(pass, &region, draw->bounds_to_clip);
         }
-        count += cull_draw(&planes, draw->mesh, d, visible + count);
+        const uint32_t chunks = cull_draw(&planes, draw->mesh, d, visible + count);
+        *(chunks ? in_view : culled) += 1;
+        count += chunks;
     }
     return count;
 }

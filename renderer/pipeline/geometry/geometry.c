@@ -274,7 +274,9 @@ bool dip_geometry_begin(DipGeometry *geometry, const DipPass *const *passes, int
         return false;
     }
     number_patches(geometry);
-    geometry->visible_count = dip_cull_chunks(pass, geometry->visible);
+    geometry->draws_in_view = geometry->draws_culled = 0;
+    geometry->visible_count =
+        dip_cull_chunks(pass, geometry->visible, &geometry->draws_in_view, &geometry->draws_culled);
     cut_jobs(geometry);
     atomic_store_explicit(&geometry->triangles_taken, 0, memory_order_relaxed);
     atomic_store_explicit(&geometry->blocks_taken, 0, memory_order_relaxed);

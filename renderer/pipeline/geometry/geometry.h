@@ -76,7 +76,9 @@ typedef struct DipGeometry {
     DipTargetRegion tile_region;  // the tiles that hold these pixels, counted in tiles
     int tile_count;               // number of tiles to draw
     uint16_t tiles[DIP_MAX_BINS]; // tiles to draw, in drawing order: y * tiles_x + x
-    int plane_stride;             // floats per triangle, for the pass's largest varying_count
+    uint64_t draws_in_view;
+    uint64_t draws_culled;
+    int plane_stride; // floats per triangle, for the pass's largest varying_count
     int job_count;
     DipGeometryJob jobs[DIP_MAX_JOBS];
     // Number of visible chunks, and the lengths of the arrays below.

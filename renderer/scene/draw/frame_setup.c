@@ -262,11 +262,6 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
     return counters;
 }
 
-static void count_objects(const DipDrawSet *set, DipCounters *counters) {
-    counters->objects_drawn += (uint64_t)set->count;
-    counters->objects_culled += (uint64_t)set->culled;
-}
-
 static void end_frame(const FrameSetup *setup) {
     const DipRenderer *renderer = setup->renderer;
     DipFrame *frame = setup->frame;
@@ -274,10 +269,9 @@ static void end_frame(const FrameSetup *setup) {
     frame->counters.fragments_mirrored = setup->fragments_mirrored;
     const bool reflects = setup->plan.effects.reflection.run;
     count_mirror(&renderer->mirror, reflects, &frame->counters);
-    count_objects(&renderer->set, &frame->counters);
-    if (reflects) {
-        count_objects(&renderer->mirror.set, &frame->counters);
-    }
+    // The pipeline counts only the draws that it was given.
+    frame->counters.draws_culled += (uint64_t)renderer->set.culled;
+    frame->counters.draws_culled += reflects ? (uint64_t)renderer->mirror.set.culled : 0;
     count_bytes(setup->scene, &frame->counters);
     dip_count_geometry(setup->scene, renderer->unshared, &frame->counters);
     dip_plan_settle(&setup->input, &frame->counters, &frame->effects);

@@ -202,6 +202,9 @@ static void culling_never_changes_a_picture(void **state) {
         assert_int_equal(culled.triangles_drawn, whole.triangles_drawn);
         assert_int_equal(culled.tile_triangles, whole.tile_triangles);
         assert_int_equal(whole.triangles_in, all);
+        assert_int_equal(whole.draws_in_view, 1);
+        assert_int_equal(culled.draws_in_view, culled.triangles_in > 0);
+        assert_int_equal(culled.draws_in_view + culled.draws_culled, 1);
         read += culled.triangles_in;
         drawn += culled.triangles_drawn;
     }
@@ -408,7 +411,11 @@ static void check_object(Random *random, DipPass *pass, const DipView *view, con
     const DipCullPlanes planes = dip_cull_pass_planes(pass, view->world_to_clip);
     const DipBox bounds = dip_cull_transform_box(transform, &mesh->box);
     const bool object = !dip_cull_outside(&planes, &bounds);
-    const uint32_t count = dip_cull_chunks(pass, visible);
+    uint64_t in_view = 0;
+    uint64_t culled = 0;
+    const uint32_t count = dip_cull_chunks(pass, visible, &in_view, &culled);
+    assert_int_equal(in_view, count > 0);
+    assert_int_equal(culled, count == 0);
     uint32_t next = 0;
     for (uint32_t c = 0; c < mesh->chunk_count; c++) {
         const bool chunk = next < count && visible[next].chunk == c;

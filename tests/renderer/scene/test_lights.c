@@ -357,16 +357,16 @@ static void frames_tell_what_is_lit_drawn_and_culled(void **state) {
     DipFrame frame = draw(&stage);
     assert_true(frame.effects.lights.run);
     assert_int_equal(frame.counters.fragments_lit, SIZE * SIZE);
-    assert_int_equal(frame.counters.objects_drawn, 1);
-    assert_int_equal(frame.counters.objects_culled, 0);
+    assert_int_equal(frame.counters.draws_in_view, 1);
+    assert_int_equal(frame.counters.draws_culled, 0);
     scene.pose.orientation[1] = 1.0; // turns around
     scene.pose.orientation[3] = 0.0;
     frame = draw(&stage);
     assert_false(frame.effects.lights.run);
     assert_string_equal(frame.effects.lights.why,
                         "no surface that the scene's lights light is in view");
-    assert_int_equal(frame.counters.objects_drawn, 0);
-    assert_int_equal(frame.counters.objects_culled, 1);
+    assert_int_equal(frame.counters.draws_in_view, 0);
+    assert_int_equal(frame.counters.draws_culled, 1);
     close_stage(&stage);
     scene.materials[0].lit = false;
     stage = open_stage(false);

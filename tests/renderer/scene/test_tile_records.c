@@ -91,8 +91,9 @@ static void check_sums(const DipFrame *frame) {
     CHECK(texels_fetched);
 #undef CHECK
     // The work before the tiles is in no record.
-    assert_int_equal(sum.passes + sum.triangles_in + sum.triangles_drawn + sum.tile_triangles +
-                         sum.target_bytes + sum.tiles_spared,
+    assert_int_equal(sum.passes + sum.draws_in_view + sum.draws_culled + sum.triangles_in +
+                         sum.triangles_drawn + sum.tile_triangles + sum.target_bytes +
+                         sum.tiles_spared,
                      0);
     assert_int_equal(mirrored->passes + 1, counters->passes);
     assert_int_equal(mirrored->fragments_shaded, counters->fragments_mirrored);
