@@ -164,6 +164,8 @@ static void add_tile_counters(const DipTileWork *work, DipPipelineCounters *coun
     counters->fragments_clip_tested += work->clip_tested;
     counters->clip_sample_groups += work->clip_sample_groups;
     counters->fragments_shaded += work->fragments;
+    counters->fragments_of_blocks += work->block_fragments;
+    counters->shader_batches += work->batches;
     counters->fragments_ordered += work->ordered_fragments;
     counters->samples_shown += work->samples;
     counters->pixels_resolved += work->multi_fragment_pixels;

@@ -40,6 +40,10 @@ int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw_index, DipFragmen
                                           draw->value_only_varying_count, batch);
     bind_batch(worker, draw, batch);
     draw->fragment_shader(batch);
+    worker->work->batches++;
+    if (list == &worker->shading.whole_lists[draw_index]) {
+        worker->work->block_fragments += (uint64_t)batch->count;
+    }
     return batch->count;
 }
 

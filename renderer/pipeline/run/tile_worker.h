@@ -28,6 +28,8 @@ typedef struct DipTileWork {
     uint64_t clip_probes;
     uint64_t clip_sample_groups;
     uint64_t fragments;
+    uint64_t block_fragments;
+    uint64_t batches;
     uint64_t ordered_fragments;
     uint64_t samples;
     uint64_t multi_fragment_pixels;

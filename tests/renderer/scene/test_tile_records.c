@@ -83,6 +83,8 @@ static void check_sums(const DipFrame *frame) {
     CHECK(fragments_clip_tested);
     CHECK(clip_sample_groups);
     CHECK(fragments_shaded);
+    CHECK(fragments_of_blocks);
+    CHECK(shader_batches);
     CHECK(fragments_ordered);
     CHECK(samples_shown);
     CHECK(pixels_resolved);
