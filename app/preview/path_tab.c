@@ -1,4 +1,5 @@
-// The tab of the camera: how it flies, and the path that the user makes key by key.
+// The tab of the camera: the path that it follows, how it flies, and the path that the user makes
+// key by key.
 #include "app/preview/pilot.h"
 #include "app/preview/style.h"
 #include "app/preview/tabs.h"
@@ -9,7 +10,7 @@ enum { TEXT = 12, KEY_WIDTH = 34 };
 enum { BUTTON_HEIGHT = 26, GAP = 6 };         // Sizes of the rows,
 enum { LOW_BUTTON_HEIGHT = 21, LOW_GAP = 3 }; // and in a narrow tab, which has no notes.
 enum { NARROW = 400 };
-enum { ID_EDIT, ID_CAMERA = 16, ID_END = 32, ID_KEYS = 64, MAX_SHOWN_KEYS = 64 };
+enum { ID_EDIT, ID_CAMERA = 16, ID_END = 32, ID_KEYS = 64, MAX_SHOWN_KEYS = 64, ID_PATHS = 256 };
 
 // Where the next control of the tab lies: rows are filled from the left, and begin anew below.
 typedef struct Flow {
@@ -92,7 +93,88 @@ static void act(Flow *flow, DipAction action, int argument, bool reverse) {
     dip_preview_act(flow->state, action, argument, reverse, dip_ui_now_ns(flow->ui));
 }
 
-// --- the path ------------------------------------------------------------------------------------
+// --- the path that plays -------------------------------------------------------------------------
+
+// Lists the categories that have paths of their own. A path that several categories share is listed
+// once, by the category that plays or else by the first one. Returns their number.
+static int list_paths(const DipPreviewState *state, int paths[DIP_CAMTRACK_CATEGORIES]) {
+    const DipCamTrack *track = state->track;
+    int count = 0;
+    for (int c = 0; c < DIP_CAMTRACK_CATEGORIES; ++c) {
+        const DipCamPath *path = track->categories[c].path;
+        int same = 0;
+        while (same < count && track->categories[paths[same]].path != path) {
+            ++same;
+        }
+        if (path && same == count) {
+            paths[count++] = c;
+        } else if (path && c == track->active) {
+            paths[same] = c;
+        }
+    }
+    return count;
+}
+
+static int button_width(const Flow *flow, const char *text) {
+    return dip_ui_text_width(flow->ui, TEXT, text) + dip_ui_px(flow->ui, flow->narrow ? 12 : 22);
+}
+
+// Finds the first of the paths to show, so that the one that plays is among them in a row of the
+// given width.
+static int first_path(const Flow *flow, const int *paths, int playing, int width) {
+    int first = playing;
+    int used = button_width(flow, dip_preview_path_title(flow->state, paths[playing]));
+    while (first > 0) {
+        used +=
+            flow->gap + button_width(flow, dip_preview_path_title(flow->state, paths[first - 1]));
+        if (used > width) {
+            break;
+        }
+        --first;
+    }
+    return first;
+}
+
+// Declares one row of paths, with arrows if the row has no room for all.
+static void declare_paths(Flow *flow) {
+    DipPreviewState *state = flow->state;
+    int paths[DIP_CAMTRACK_CATEGORIES];
+    const int count = list_paths(state, paths);
+    if (count < 2 || state->shows_gallery) {
+        return;
+    }
+    int playing = 0;
+    int width = 0;
+    for (int i = 0; i < count; ++i) {
+        playing = paths[i] == state->track->active ? i : playing;
+        width += flow->gap + button_width(flow, dip_preview_path_title(state, paths[i]));
+    }
+    const int arrows = 2 * (button_width(flow, "<") + flow->gap);
+    const bool all = width <= flow->body.width;
+    if (!all && flow_button(flow, ID_PATHS - 2, "<", DIP_UI_PLAIN, "The path before (Left arrow).")) {
+        act(flow, DIP_ACTION_NEXT_PATH, 0, true);
+    }
+    if (!all && flow_button(flow, ID_PATHS - 1, ">", DIP_UI_PLAIN, "The next path (P, or Right arrow).")) {
+        act(flow, DIP_ACTION_NEXT_PATH, 0, false);
+    }
+    const int row = flow->y;
+    const int first = all ? 0 : first_path(flow, paths, playing, flow->body.width - arrows);
+    for (int i = first; i < count; ++i) {
+        const char *title = dip_preview_path_title(state, paths[i]);
+        char tip[160];
+        if (flow->x + button_width(flow, title) > flow->body.x + flow->body.width && i > first) {
+            break;
+        }
+        snprintf(tip, sizeof tip, "The camera follows the path %s.",
+                 dip_preview_path_name(state, paths[i]));
+        const DipUiLook look = i == playing && !state->manual ? DIP_UI_CHOSEN : DIP_UI_PLAIN;
+        if (flow->y == row && flow_button(flow, ID_PATHS + (unsigned)paths[i], title, look, tip)) {
+            act(flow, DIP_ACTION_PATH, paths[i], false);
+        }
+    }
+}
+
+// --- the path that the user makes ----------------------------------------------------------------
 
 // Declares a button that edits the path. Without keys, only some edits are possible.
 static void edit_button(Flow *flow, DipPathEdit edit, const char *text, DipUiLook look,
@@ -230,6 +312,8 @@ static void declare_camera(Flow *flow) {
 
 void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body) {
     Flow flow = flow_make(ui, window->state, body);
+    declare_paths(&flow);
+    next_row(&flow);
     if (window->state->editor) {
         declare_edits(&flow);
         next_group(&flow);
