@@ -127,8 +127,9 @@ typedef enum DipModelShading {
 
 extern const char *const dip_model_shading_names[DIP_MODEL_SHADING_COUNT]; // "auto", "flat", ...
 
-// Ambient light of a scene with lights, in each channel, unless the options give another.
-#define DIP_MODEL_AMBIENT_LIN 0.1f
+// Ambient light of a scene with lights, in each channel, unless the options give another. It is the
+// sRGB code 89, about a tenth of white.
+#define DIP_MODEL_AMBIENT_LIN 0.0998987f
 
 // How dip_model_load_with loads a model. A zeroed struct gives what dip_model_load does.
 typedef struct DipModelOptions {
