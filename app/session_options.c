@@ -69,6 +69,23 @@ static bool read_up(void *fields, const DipOptionRow *row, const char *value, Di
                          "'%.40s' is not an axis; give one of %s", value, names);
 }
 
+#define SHADING(name, text) " `" #name "` " text "."
+#define SHADINGS            DIP_MODEL_SHADING_LIST(SHADING)
+
+static bool read_shading(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    char names[64] = "";
+    for (int i = 0; i < DIP_MODEL_SHADING_COUNT; i++) {
+        if (strcmp(value, dip_model_shading_names[i]) == 0) {
+            options->shading = (DipModelShading)i;
+            return true;
+        }
+        strcat(strcat(names, i ? "|" : ""), dip_model_shading_names[i]);
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
+                         "'%.40s' is not a shading; give one of %s", value, names);
+}
+
 // Reads numbers that are separated by spaces, tabs or commas. Returns how many there are; a number
 // beyond `most` counts, but is not stored. Returns 0 if a part is not a number.
 static int read_numbers(const char *text, int most, double *numbers) {
@@ -162,6 +179,15 @@ static const DipOptionRow scene_rows[] = {
      .text = "The axis of the model files that points up:" UP_AXES " The default is auto.",
      .kind = DIP_OPTION_CUSTOM,
      .read = read_up},
+    {.name = "--shading",
+     .argument = "NAME",
+     .text = "Where the light of surfaces without a light map is computed." SHADINGS
+             " Without lights, flat, gouraud and phong shade the fixed light of sky and sun. "
+             "Without the option, the ini's SHADING decides; with --model, it is auto "
+             "(docs/models.md).",
+     .kind = DIP_OPTION_CUSTOM,
+     .given = FIELD(has_shading),
+     .read = read_shading},
     {.name = "--import-seconds",
      .argument = "N",
      .text = "Refuse the models if reading them takes more than N seconds. The default is 120.",

@@ -108,6 +108,29 @@ static int rules_of(const DipConfig *config, DipMaterialRule rules[DIP_MAX_MATER
     return count;
 }
 
+_Static_assert((int)DIP_CONFIG_SHADING_COUNT == (int)DIP_MODEL_SHADING_COUNT &&
+                   (int)DIP_CONFIG_SHADING_flat == (int)DIP_MODEL_SHADING_flat &&
+                   (int)DIP_CONFIG_SHADING_gouraud == (int)DIP_MODEL_SHADING_gouraud &&
+                   (int)DIP_CONFIG_SHADING_phong == (int)DIP_MODEL_SHADING_phong,
+               "the ini and the loader have the same shadings");
+
+// Sets how the models are lit. A model given with --model has no lights but its own.
+static void set_light(const DipSession *session, float ambient_lin[3], DipModelOptions *options) {
+    const DipConfig *config = &session->config;
+    if (!session->options->model_count) {
+        set_colour(&config->ambient, 1.0, ambient_lin);
+        options->ambient_lin = ambient_lin;
+        options->lights = config->light.items;
+        options->light_count = (int)config->light.count;
+        options->has_light_scale = !config->light_scale.automatic;
+        options->light_scale = config->light_scale.factor;
+        options->shading = (DipModelShading)config->shading;
+    }
+    if (session->options->has_shading) {
+        options->shading = session->options->shading;
+    }
+}
+
 static DipModel *load_model(const DipSession *session, DipErrorList *faults, DipSceneDef *def,
                             DipError *err) {
     const char *files[DIP_MAX_MODELS];
@@ -123,11 +146,13 @@ static DipModel *load_model(const DipSession *session, DipErrorList *faults, Dip
     DipMaterialRule rules[DIP_MAX_MATERIAL_RULES];
     const int rule_count =
         count > session->options->model_count ? rules_of(&session->config, rules) : 0;
-    const DipModelOptions options = {.normal_maps = true,
-                                     .up = session->options->up,
-                                     .rules = rules,
-                                     .rule_count = rule_count,
-                                     .importer = session->importer ? &importer : NULL};
+    DipModelOptions options = {.normal_maps = true,
+                               .up = session->options->up,
+                               .rules = rules,
+                               .rule_count = rule_count,
+                               .importer = session->importer ? &importer : NULL};
+    float ambient_lin[3];
+    set_light(session, ambient_lin, &options);
     DipModel *model = dip_model_load_with(files, count, &options, session->pool, faults, err);
     if (model) {
         *def = *dip_model_scene_def(model);

@@ -140,6 +140,8 @@ static size_t add_rules(const DipModelLoad *load, Invocation *invocation, size_t
 
 static void fill_invocation(const Child *child, Invocation *invocation) {
     const DipModelLoad *load = child->load;
+    uint64_t light_scale;
+    memcpy(&light_scale, &load->options.light_scale, sizeof light_scale);
     const uint64_t values[IMPORT_ARGUMENT_COUNT] = {
         [IMPORT_ARGUMENT_version] = IMPORT_VERSION,
         [IMPORT_ARGUMENT_program_id] = (uint64_t)getpid(),
@@ -147,6 +149,9 @@ static void fill_invocation(const Child *child, Invocation *invocation) {
         [IMPORT_ARGUMENT_normal_maps] = load->options.normal_maps,
         [IMPORT_ARGUMENT_up] = load->options.up,
         [IMPORT_ARGUMENT_rules] = (uint64_t)load->options.rule_count,
+        [IMPORT_ARGUMENT_flat] = load->options.shading == DIP_MODEL_SHADING_flat,
+        [IMPORT_ARGUMENT_has_light_scale] = load->options.has_light_scale,
+        [IMPORT_ARGUMENT_light_scale] = light_scale,
         [IMPORT_ARGUMENT_picture_only] = load->picture_only,
         [IMPORT_ARGUMENT_memory_bytes] = child->importer.memory_bytes,
         [IMPORT_ARGUMENT_cpu_s] = (uint64_t)child->importer.cpu_s,

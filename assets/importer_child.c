@@ -175,6 +175,12 @@ static bool hand_over(const DipModel *model, DipScenePack *pack) {
            dip_scene_pack_write(IMPORT_PACK_FILE, pack) && seal() && write(IMPORT_PIPE, "", 1) == 1;
 }
 
+static double light_scale_of(const Task *task) {
+    double scale;
+    memcpy(&scale, &task->number[IMPORT_ARGUMENT_light_scale], sizeof scale);
+    return scale;
+}
+
 static bool load_and_hand_over(const Task *task) {
     DipScenePack pack = {0};
     DipPool *pool = dip_pool_create((int)task->number[IMPORT_ARGUMENT_threads], &pack.failure);
@@ -184,7 +190,11 @@ static bool load_and_hand_over(const Task *task) {
         .options = {.normal_maps = task->number[IMPORT_ARGUMENT_normal_maps] == 1,
                     .up = (DipUpAxis)task->number[IMPORT_ARGUMENT_up],
                     .rules = task->rules,
-                    .rule_count = task->rule_count},
+                    .rule_count = task->rule_count,
+                    .shading = task->number[IMPORT_ARGUMENT_flat] == 1 ? DIP_MODEL_SHADING_flat
+                                                                       : DIP_MODEL_SHADING_auto,
+                    .has_light_scale = task->number[IMPORT_ARGUMENT_has_light_scale] == 1,
+                    .light_scale = light_scale_of(task)},
         .pool = pool,
         .warnings = &pack.warnings,
         .note_file = IMPORT_PACK_FILE,

@@ -12,6 +12,7 @@
 static const float default_cutoff = 0.5f;
 static const float default_roughness = 0.6f;
 static const float default_grey_srgb = 0.6f;
+static const float dielectric_specular = 0.04f; // light that a dielectric mirrors straight back
 static const float light_map_scale = 2.0f; // Light maps marked by `lightmapped` store light / 2.
 
 float dip_model_colour_to_linear(float value, bool linear) {
@@ -202,6 +203,44 @@ static void read_pictures(DipModel *model, int file, const char *name, const str
         plan->colour.picture >= 0 || plan->opacity.picture >= 0 || plan->normal.picture >= 0;
 }
 
+// Sets the highlight of glTF: the exponent follows from the roughness, and the factor (n + 8) / 8
+// keeps the highlight's light the same for all exponents. KHR_materials_pbrSpecularGlossiness gives
+// another colour than that of dielectrics.
+static void set_gltf_highlight(const struct aiMaterial *material, DipMaterialDef *def) {
+    struct aiColor4D specular = {dielectric_specular, dielectric_specular, dielectric_specular, 1};
+    float roughness = def->roughness;
+    const float glossiness = float_property(material, AI_MATKEY_GLOSSINESS_FACTOR, -1.0f);
+    if (glossiness >= 0.0f) {
+        roughness = 1.0f - fminf(glossiness, 1.0f);
+        aiGetMaterialColor(material, AI_MATKEY_COLOR_SPECULAR, &specular);
+    }
+    const double alpha = (double)roughness * (double)roughness;
+    const double exponent = 2.0 / fmax(alpha * alpha, 1e-9) - 2.0;
+    def->shininess = (float)fmin(fmax(exponent, 1.0), DIP_MAX_SHININESS);
+    const float scale = (def->shininess + 8.0f) / 8.0f;
+    def->specular_lin[0] = scale * dip_model_colour_to_linear(specular.r, true);
+    def->specular_lin[1] = scale * dip_model_colour_to_linear(specular.g, true);
+    def->specular_lin[2] = scale * dip_model_colour_to_linear(specular.b, true);
+}
+
+// Sets the highlight of the scene's lights. Outside glTF, a material without an exponent has none.
+static void set_highlight(const DipModelFile *file, const struct aiMaterial *material,
+                          DipMaterialDef *def) {
+    struct aiColor4D specular;
+    const float shininess = float_property(material, AI_MATKEY_SHININESS, 0.0f);
+    const float strength = float_property(material, AI_MATKEY_SHININESS_STRENGTH, 1.0f);
+    if (file->linear_colours) {
+        set_gltf_highlight(material, def);
+    } else if (shininess > 0.0f && strength > 0.0f &&
+               aiGetMaterialColor(material, AI_MATKEY_COLOR_SPECULAR, &specular) == AI_SUCCESS) {
+        const float scale = fminf(strength, DIP_MODEL_MAX_LIGHT);
+        def->shininess = fminf(shininess, (float)DIP_MAX_SHININESS);
+        def->specular_lin[0] = scale * dip_model_colour_to_linear(specular.r, false);
+        def->specular_lin[1] = scale * dip_model_colour_to_linear(specular.g, false);
+        def->specular_lin[2] = scale * dip_model_colour_to_linear(specular.b, false);
+    }
+}
+
 static void fill_material(DipModel *model, int file_index, const struct aiMesh *mesh,
                           DipMaterialPlan *plan, DipMaterialDef *def) {
     const DipModelFile *file = &model->files[file_index];
@@ -221,6 +260,7 @@ static void fill_material(DipModel *model, int file_index, const struct aiMesh *
     def->double_sided = says ? two_sided != 0 : !file->linear_colours;
     const float roughness = float_property(material, AI_MATKEY_ROUGHNESS_FACTOR, default_roughness);
     def->roughness = fminf(fmaxf(roughness, 0.0f), 1.0f);
+    set_highlight(file, material, def);
     def->light_map_scale = plan->light_mapped ? light_map_scale : 1.0f;
     def->colour_texture = def->light_map = def->normal_map = DIP_NO_TEXTURE;
 }

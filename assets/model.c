@@ -20,10 +20,6 @@ enum { MAX_OBJECTS = 1 << 20 };
 // A dark grey behind models without a sky.
 static const float background_lin[3] = {0.022f, 0.026f, 0.034f};
 
-// Distance of the near plane as a fraction of the model's diagonal. Depth is reversed and has no
-// far plane, so a small distance costs no precision.
-static const double near_fraction = 1e-4;
-
 // State that a node's children inherit.
 typedef struct NodeState {
     double world[12]; // rows of a 3x4 matrix
@@ -81,10 +77,10 @@ bool dip_model_out_of_memory(DipError *err, const char *file) {
     return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
 }
 
-static const struct aiMetadataEntry *find_metadata(const struct aiNode *node, const char *key) {
-    for (unsigned i = 0; node->mMetaData && i < node->mMetaData->mNumProperties; ++i) {
-        if (strcmp(node->mMetaData->mKeys[i].data, key) == 0) {
-            return &node->mMetaData->mValues[i];
+const struct aiMetadataEntry *dip_model_metadata(const struct aiMetadata *meta, const char *key) {
+    for (unsigned i = 0; meta && i < meta->mNumProperties; ++i) {
+        if (strcmp(meta->mKeys[i].data, key) == 0) {
+            return &meta->mValues[i];
         }
     }
     return NULL;
@@ -110,11 +106,11 @@ static bool metadata_is_true(const struct aiMetadataEntry *entry) {
 static void read_tags(DipModel *model, const char *path, const struct aiNode *node,
                       NodeState *state) {
     static const char *const names[] = {"solid", "mask", "glass", "water", "sky"};
-    const struct aiMetadataEntry *light_mapped = find_metadata(node, "lightmapped");
+    const struct aiMetadataEntry *light_mapped = dip_model_metadata(node->mMetaData, "lightmapped");
     if (light_mapped) {
         state->light_mapped = metadata_is_true(light_mapped);
     }
-    const struct aiMetadataEntry *surface = find_metadata(node, "surface");
+    const struct aiMetadataEntry *surface = dip_model_metadata(node->mMetaData, "surface");
     if (!surface || surface->mType != AI_AISTRING) {
         return;
     }
@@ -130,7 +126,7 @@ static void read_tags(DipModel *model, const char *path, const struct aiNode *no
                    name);
 }
 
-static void multiply(const double a[12], const struct aiMatrix4x4 *b, double to[12]) {
+void dip_model_multiply(const double a[12], const struct aiMatrix4x4 *b, double to[12]) {
     const double m[3][4] = {
         {b->a1, b->a2, b->a3, b->a4}, {b->b1, b->b2, b->b3, b->b4}, {b->c1, b->c2, b->c3, b->c4}};
     for (int row = 0; row < 3; ++row) {
@@ -185,7 +181,7 @@ static bool add_object(DipModel *model, int file, const struct aiNode *node, uns
 static bool walk(DipModel *model, int file, const struct aiNode *node, const NodeState *parent,
                  DipError *err) {
     NodeState state = *parent;
-    multiply(parent->world, &node->mTransformation, state.world);
+    dip_model_multiply(parent->world, &node->mTransformation, state.world);
     for (int i = 0; i < 12; ++i) {
         if (!isfinite((float)state.world[i])) {
             return dip_error_set(err, DIP_ERROR_RANGE, model->files[file].path, 0, node->mName.data,
@@ -225,52 +221,7 @@ static bool load_file(DipModel *model, int index, const char *path, DipError *er
     if (model->def.object_count == objects_before) {
         return dip_error_set(err, DIP_ERROR_MISSING, path, 0, NULL, "the model has no triangles");
     }
-    return true;
-}
-
-static void extend_bounds(double low[3], double high[3], const DipMeshDef *mesh,
-                          const float transform[12]) {
-    float mesh_low[3] = {INFINITY, INFINITY, INFINITY};
-    float mesh_high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
-        for (int axis = 0; axis < 3; ++axis) {
-            const float p = mesh->positions[3 * (size_t)i + (size_t)axis];
-            mesh_low[axis] = fminf(mesh_low[axis], p);
-            mesh_high[axis] = fmaxf(mesh_high[axis], p);
-        }
-    }
-    for (int corner = 0; corner < 8; ++corner) {
-        for (int axis = 0; axis < 3; ++axis) {
-            double p = transform[4 * axis + 3];
-            for (int k = 0; k < 3; ++k) {
-                p += (double)transform[4 * axis + k] *
-                     ((corner >> k & 1) ? mesh_high[k] : mesh_low[k]);
-            }
-            low[axis] = fmin(low[axis], p);
-            high[axis] = fmax(high[axis], p);
-        }
-    }
-}
-
-// Computes the distance of the near plane from the size of the model. The sky is left out, because
-// its size says nothing about the model's size.
-static float near_distance(const DipModel *model) {
-    double low[3] = {INFINITY, INFINITY, INFINITY};
-    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (int i = 0; i < model->def.object_count; ++i) {
-        const DipMeshDef *mesh = &model->meshes[model->objects[i].mesh];
-        if (model->materials[mesh->material].surface != DIP_SURFACE_SKY) {
-            extend_bounds(low, high, mesh, model->objects[i].transform);
-        }
-    }
-    double square = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        square += (high[axis] - low[axis]) * (high[axis] - low[axis]);
-    }
-    const double near_m = near_fraction * sqrt(square);
-    return isfinite(near_m)
-               ? (float)fmin(fmax(near_m, (double)DIP_MIN_NEAR_M), (double)DIP_MAX_NEAR_M)
-               : 0.01f;
+    return dip_model_read_lights(model, file, root.world, err);
 }
 
 static void release_scenes(DipModel *model) {
@@ -284,7 +235,6 @@ static void release_scenes(DipModel *model) {
 
 static void finish(DipModel *model) {
     release_scenes(model);
-    model->warnings = NULL;
     model->rules = NULL;
     model->rule_count = 0;
     model->def.textures = model->textures;
@@ -292,8 +242,11 @@ static void finish(DipModel *model) {
     model->def.meshes = model->meshes;
     model->def.objects = model->objects;
     memcpy(model->def.background_lin, background_lin, sizeof background_lin);
-    model->def.near_m = near_distance(model);
+    const DipModelBounds bounds = dip_model_bounds(model);
+    model->def.near_m = dip_model_near_distance(&bounds);
+    dip_model_scale_lights(model, &bounds);
     model->def.sky = dip_sky_default();
+    model->warnings = NULL;
 }
 
 static bool note(const DipModelLoad *load, DipImportStage stage, int file) {
@@ -311,7 +264,8 @@ static bool load_parts(DipModel *model, const DipModelLoad *load, DipError *err)
     const int64_t imported_ns = dip_clock_ns();
     note(load, DIP_IMPORT_PICTURES, 0);
     ok = ok && dip_model_decode_pictures(model, load->pool, err) &&
-         dip_model_finish_materials(model, err);
+         dip_model_finish_materials(model, err) &&
+         (load->options.shading != DIP_MODEL_SHADING_flat || dip_model_flatten(model, err));
     model->times.import_ms = 1e-6 * (double)(imported_ns - begin_ns);
     model->times.pictures_ms = 1e-6 * (double)(dip_clock_ns() - imported_ns);
     return ok;
@@ -348,6 +302,8 @@ DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
     model->up = load->options.up;
     model->rules = load->options.rules;
     model->rule_count = load->options.rule_count;
+    model->has_light_scale = load->options.has_light_scale;
+    model->light_scale = load->options.light_scale;
     model->files = calloc((size_t)load->file_count, sizeof *model->files);
     const bool ok =
         load->picture_only ? load_picture(model, load, err) : load_parts(model, load, err);
@@ -359,6 +315,20 @@ DipModel *dip_model_load_here(const DipModelLoad *load, DipError *err) {
     return model;
 }
 
+static bool check_load(const DipModelLoad *load, DipError *err) {
+    const DipModelOptions *options = &load->options;
+    if (load->file_count < 1 || load->file_count > DIP_MAX_MODEL_FILES) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL, "%d model files, accepted 1..%d",
+                             load->file_count, DIP_MAX_MODEL_FILES);
+    }
+    if (options->rule_count < 0 || options->rule_count > DIP_MAX_MATERIAL_RULES) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL,
+                             "%d rules for materials, accepted 0..%d", options->rule_count,
+                             DIP_MAX_MATERIAL_RULES);
+    }
+    return dip_model_check_lights(options, err);
+}
+
 DipModel *dip_model_load_with(const char *const *files, int file_count,
                               const DipModelOptions *options, DipPool *pool, DipErrorList *warnings,
                               DipError *err) {
@@ -368,18 +338,15 @@ DipModel *dip_model_load_with(const char *const *files, int file_count,
                                .pool = pool,
                                .warnings = warnings,
                                .note_file = -1};
-    if (file_count < 1 || file_count > DIP_MAX_MODEL_FILES) {
-        dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL, "%d model files, accepted 1..%d",
-                      file_count, DIP_MAX_MODEL_FILES);
+    if (!check_load(&load, err)) {
         return NULL;
     }
-    if (options->rule_count < 0 || options->rule_count > DIP_MAX_MATERIAL_RULES) {
-        dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL, "%d rules for materials, accepted 0..%d",
-                      options->rule_count, DIP_MAX_MATERIAL_RULES);
-        return NULL;
+    DipModel *model = options->importer ? dip_model_load_in_child(&load, options->importer, err)
+                                        : dip_model_load_here(&load, err);
+    if (model && !dip_model_light(model, &load, err)) {
+        dip_model_destroy(&model);
     }
-    return options->importer ? dip_model_load_in_child(&load, options->importer, err)
-                             : dip_model_load_here(&load, err);
+    return model;
 }
 
 bool dip_picture_import(const char *path, const DipImporter *importer, DipPicture *picture,
@@ -435,7 +402,7 @@ void dip_model_destroy(DipModel **model_pointer) {
     }
     void *const arrays[] = {model->textures, model->texture_keys, model->materials, model->plans,
                             model->meshes,   model->mesh_keys,    model->objects,   model->pictures,
-                            model->merged,   model->blocks,       model->files};
+                            model->merged,   model->blocks,       model->files,     model->lights};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; ++i) {
         free(arrays[i]);
     }

@@ -20,7 +20,8 @@
 //   `lightmapped` is 1 if the material's occlusion picture is a light map that stores light / 2.
 //   Light maps of other formats store the light itself.
 // - Rules (DipMaterialRule) mark materials by their names instead.
-// - The renderer's fixed light lights solid and mask surfaces without a light map.
+// - Solid and mask surfaces without a light map are lit by the lights of the files and of the
+//   options. Without any light, the renderer's fixed light lights them.
 // - Roughness comes from glTF, or is 0.6 if the file has none.
 // - A sky's texture is data (DipSkyDef), not colour, and is read as linear.
 // - Texture coordinates have v = 0 at the picture's upper edge.
@@ -41,7 +42,7 @@ extern "C" {
 // never changes after loading, so any number of threads may read it.
 typedef struct DipModel DipModel;
 
-enum { DIP_MAX_MODEL_FILES = 256, DIP_MAX_MATERIAL_RULES = 256 };
+enum { DIP_MAX_MODEL_FILES = 256, DIP_MAX_MATERIAL_RULES = 256, DIP_MAX_LIGHT_SCALE = 1000000 };
 
 // Loads 1..DIP_MAX_MODEL_FILES files into one description. The caller owns the model and destroys
 // it with dip_model_destroy. If any file fails, returns NULL and fills *err (may be NULL) with the
@@ -110,6 +111,26 @@ typedef struct DipMaterialRule {
     const char *key;
 } DipMaterialRule;
 
+// Where the light of lit surfaces is computed, as X(name, "what it means", for the help).
+#define DIP_MODEL_SHADING_LIST(X)                                                                  \
+    X(auto, "is phong in a scene with lights; without lights, the fixed light stays as it is")     \
+    X(flat, "computes the light at the vertices, with the normal of each triangle")                \
+    X(gouraud, "computes the light at the vertices")                                               \
+    X(phong, "computes the light at every fragment")
+
+typedef enum DipModelShading {
+#define DIP_MODEL_SHADING_ENUM(name, text) DIP_MODEL_SHADING_##name,
+    DIP_MODEL_SHADING_LIST(DIP_MODEL_SHADING_ENUM)
+#undef DIP_MODEL_SHADING_ENUM
+        DIP_MODEL_SHADING_COUNT
+} DipModelShading;
+
+extern const char *const dip_model_shading_names[DIP_MODEL_SHADING_COUNT]; // "auto", "flat", ...
+
+// Ambient light of a scene with lights, in each channel, unless the options give another. It is the
+// sRGB code 89, about a tenth of white.
+#define DIP_MODEL_AMBIENT_LIN 0.0998987f
+
 // How dip_model_load_with loads a model. A zeroed struct gives what dip_model_load does.
 typedef struct DipModelOptions {
     bool normal_maps; // True: normal maps are loaded, too.
@@ -117,6 +138,20 @@ typedef struct DipModelOptions {
     // Rules that mark materials: 0..DIP_MAX_MATERIAL_RULES. Used only during the load.
     const DipMaterialRule *rules;
     int rule_count;
+    // All but `auto` need lights. If there are none, the lights are those of dip_lighting_fixed.
+    DipModelShading shading;
+    // Lights beside those of the files: 0..DIP_MAX_LIGHTS, which the load copies. If there are more
+    // than DIP_MAX_LIGHTS together, a warning says how many lights of the files are left out.
+    const DipLightDef *lights;
+    int light_count;
+    // Ambient light of a scene with lights, three numbers 0 or more; NULL: DIP_MODEL_AMBIENT_LIN.
+    // The ambient lights of the files are added to it.
+    const float *ambient_lin;
+    // Multiplies the lights of the files, 0..DIP_MAX_LIGHT_SCALE; 0 ignores them. If
+    // has_light_scale is false, the factor makes their light 1 at the models' centre
+    // (docs/models.md, Lights).
+    bool has_light_scale;
+    double light_scale;
     // The program that imports the files in a process of its own. NULL: the files are imported in
     // this process, where a bad file can crash the libraries that read it. Use NULL for trusted
     // files only.

@@ -18,7 +18,10 @@
 
 struct aiColor4D;
 struct aiMaterial;
+struct aiMatrix4x4;
 struct aiMesh;
+struct aiMetadata;
+struct aiMetadataEntry;
 struct aiNode;
 struct aiScene;
 
@@ -115,6 +118,14 @@ struct DipModel {
     DipUpAxis up;
     const DipMaterialRule *rules; // the caller's, used only during the load
     int rule_count;
+    // Lights of the files, with the strength that the files give until dip_model_scale_lights.
+    DipLightDef *lights;
+    int light_count;
+    int lights_left_out;   // lights beyond DIP_MAX_LIGHTS
+    double ambient_lin[3]; // sum of the files' ambient lights
+    bool has_light_scale;  // false: dip_model_scale_lights computes the factor
+    double light_scale;
+    DipLightingDef lighting;
     // The model of an importer has only a pack, whose scene is `def`, and the pack's bytes.
     DipScenePack pack;
     void *pack_bytes; // mapped memory, or NULL
@@ -151,7 +162,6 @@ void *dip_model_alloc(DipModel *model, size_t count, size_t item_bytes);
 char *dip_model_copy_text(DipModel *model, const char *text);
 
 // Adds a warning, unless the caller wants no warnings. key may be NULL.
-
 void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
@@ -161,6 +171,51 @@ bool dip_model_out_of_memory(DipError *err, const char *file);
 // Converts a colour channel of a file to linear light and clamps it to 0..1. linear: the value is
 // linear already and is only clamped.
 float dip_model_colour_to_linear(float value, bool linear);
+
+// model.c: finds a key. Returns NULL if there is none. meta may be NULL.
+const struct aiMetadataEntry *dip_model_metadata(const struct aiMetadata *meta, const char *key);
+
+// model.c: multiplies matrices with 3 rows of 4 numbers; of *b, the first three rows are used.
+void dip_model_multiply(const double a[12], const struct aiMatrix4x4 *b, double to[12]);
+
+// Axis-aligned bounds in world space of all objects that are not sky. Without such objects, the
+// diagonal is infinite or NaN.
+typedef struct DipModelBounds {
+    double low[3];
+    double high[3];
+    double diagonal; // length
+} DipModelBounds;
+
+// bounds.c: computes the bounds, and the distance of the near plane that suits them.
+DipModelBounds dip_model_bounds(const DipModel *model);
+float dip_model_near_distance(const DipModelBounds *bounds);
+
+// lights.c: adds the lights of an imported file to the model. world: see dip_model_up_transform.
+// Lights that cannot be drawn give a warning. Fails when memory runs out.
+bool dip_model_read_lights(DipModel *model, const DipModelFile *file, const double world[12],
+                           DipError *err);
+
+// Greatest colour, range and attenuation of a light, and greatest colour of a highlight.
+#define DIP_MODEL_MAX_LIGHT 1e9f
+
+// lights.c: returns what is wrong with a light, "its ...", or NULL if it is within the ranges of
+// renderer/scene/lights.h. Fields that the light's kind does not use must be in range, too, but may
+// be 0.
+const char *dip_light_fault(const DipLightDef *light);
+
+// lighting.c: checks the options that concern light.
+bool dip_model_check_lights(const DipModelOptions *options, DipError *err);
+
+// lighting.c: scales the lights of all files and describes them in the model's scene.
+void dip_model_scale_lights(DipModel *model, const DipModelBounds *bounds);
+
+// lighting.c: completes the lighting of a loaded model as the options say: adds the caller's lights
+// and the ambient light. Fails when memory runs out.
+bool dip_model_light(DipModel *model, const DipModelLoad *load, DipError *err);
+
+// flat.c: gives every triangle of the lit meshes vertices of its own, with the normal of its face.
+// Fails when memory runs out.
+bool dip_model_flatten(DipModel *model, DipError *err);
 
 // mesh.c: true if a processed mesh consists of triangles.
 bool dip_mesh_is_triangles(const struct aiMesh *mesh);

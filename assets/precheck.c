@@ -30,10 +30,9 @@ typedef struct JsonScan {
     char refused[MAX_EXTENSION_NAME]; // the first required extension that cannot be decoded, or ""
 } JsonScan;
 
-// Extensions that describe how surfaces look or are lit. The model can be read without them.
+// Extensions that describe how surfaces look. The model can be read without them.
 static bool can_read_without(const char *extension) {
     return strncmp(extension, "KHR_materials_", strlen("KHR_materials_")) == 0 ||
-           strcmp(extension, "KHR_lights_punctual") == 0 ||
            strcmp(extension, "KHR_texture_transform") == 0;
 }
 
@@ -44,6 +43,9 @@ static void end_string(JsonScan *scan) {
     if (scan->depth == 1) {
         scan->lists_required = strcmp(scan->text, "extensionsRequired") == 0;
     } else if (scan->depth == 2 && scan->lists_required && !scan->refused[0]) {
+        if (strcmp(scan->text, "KHR_lights_punctual") == 0) {
+            return; // lights.c reads these lights.
+        }
         if (can_read_without(scan->text)) {
             dip_model_warn(scan->model, scan->path, "extensionsRequired",
                            "the effect of the glTF extension %s is not drawn", scan->text);

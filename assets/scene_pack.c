@@ -1,6 +1,7 @@
 // Reads scene packs and checks every value in them.
 #include "assets/scene_pack.h"
 
+#include "assets/model_parts.h"
 #include "assets/scene_pack_private.h"
 #include "renderer/base/assert.h"
 
@@ -17,6 +18,13 @@ typedef struct Reader {
     uint64_t arrays_end; // End of the last array, in bytes. The next array begins here or later.
     DipError *err;
 } Reader;
+
+// The lighting that a scene's `lighting` points to. `def` comes first, so that both have the same
+// address.
+typedef struct PackedLighting {
+    DipLightingDef def;
+    DipLightDef lights[DIP_MAX_LIGHTS];
+} PackedLighting;
 
 // --- reporting faults ----------------------------------------------------------------------------
 
@@ -47,6 +55,15 @@ static bool all_finite(const void *floats, uint64_t count) {
 
 static bool within_unit(float value) {
     return value >= 0.0f && value <= 1.0f;
+}
+
+// True for three channels of light.
+static bool are_light(const float lin[3]) {
+    bool ok = true;
+    for (int c = 0; c < 3; ++c) {
+        ok = ok && lin[c] >= 0.0f && lin[c] <= DIP_MODEL_MAX_LIGHT;
+    }
+    return ok;
 }
 
 static bool is_boolean(uint32_t value) {
@@ -178,13 +195,17 @@ static bool read_material(Reader *reader, uint64_t index, DipMaterialDef *def) {
                             .light_map_scale = record.light_map_scale,
                             .roughness = record.roughness,
                             .alpha_cutoff = record.alpha_cutoff,
+                            .shininess = record.shininess,
                             .double_sided = record.double_sided == 1,
                             .lit = record.lit == 1};
     memcpy(def->base_colour_lin, record.base_colour_lin, sizeof def->base_colour_lin);
+    memcpy(def->specular_lin, record.specular_lin, sizeof def->specular_lin);
     const float *base = record.base_colour_lin;
     const bool numbers = within_unit(base[0]) && within_unit(base[1]) && within_unit(base[2]) &&
                          within_unit(record.roughness) && within_unit(record.alpha_cutoff) &&
-                         record.light_map_scale >= 0.0f && isfinite(record.light_map_scale);
+                         record.light_map_scale >= 0.0f && isfinite(record.light_map_scale) &&
+                         are_light(record.specular_lin) && record.shininess >= 0.0f &&
+                         record.shininess <= (float)DIP_MAX_SHININESS;
     const bool textures = is_texture(reader, record.colour_texture) &&
                           is_texture(reader, record.light_map) &&
                           is_texture(reader, record.normal_map);
@@ -226,6 +247,56 @@ static bool read_mesh(Reader *reader, uint64_t index, DipMeshDef *def) {
                     read_floats(reader, record.colours_lin, 3 * rows, &def->colours_lin) &&
                     read_indices(reader, &record, def) && def->positions;
     return ok || refuse(reader, "a mesh", index);
+}
+
+static bool read_light(Reader *reader, uint64_t index, DipLightDef *def) {
+    PackLight record;
+    read_record(reader, &reader->header.lights, index, &record, sizeof record);
+    if (record.kind > DIP_LIGHT_SPOT) {
+        return refuse(reader, "kind of a light", index);
+    }
+    *def = (DipLightDef){.kind = (DipLightKind)record.kind,
+                         .range_m = record.range_m,
+                         .inner_deg = record.inner_deg,
+                         .outer_deg = record.outer_deg};
+    memcpy(def->colour_lin, record.colour_lin, sizeof def->colour_lin);
+    memcpy(def->position_world, record.position_world, sizeof def->position_world);
+    memcpy(def->direction_world, record.direction_world, sizeof def->direction_world);
+    memcpy(def->attenuation, record.attenuation, sizeof def->attenuation);
+    const bool ok = read_text(reader, record.name, &def->name) && !dip_light_fault(def);
+    return ok || refuse(reader, "a light", index);
+}
+
+// Reads the lighting if the pack has lights.
+static bool read_lighting(Reader *reader, DipSceneDef *scene) {
+    const PackHeader *header = &reader->header;
+    const float *ambient = header->ambient_lin;
+    const float *sky = header->sky_lin;
+    const bool numbers = are_light(ambient) && are_light(sky) && sky[0] <= ambient[0] &&
+                         sky[1] <= ambient[1] && sky[2] <= ambient[2];
+    if (!numbers || header->shading > DIP_SHADING_GOURAUD ||
+        header->lights.count > DIP_MAX_LIGHTS) {
+        return refuse(reader, "lighting", header->lights.count);
+    }
+    if (header->lights.count == 0) {
+        return true;
+    }
+    PackedLighting *packed = calloc(1, sizeof *packed);
+    if (!packed) {
+        return out_of_memory(reader);
+    }
+    scene->lighting = &packed->def;
+    packed->def.lights = packed->lights;
+    packed->def.light_count = (int)header->lights.count;
+    packed->def.shading = (DipShading)header->shading;
+    memcpy(packed->def.ambient_lin, ambient, sizeof packed->def.ambient_lin);
+    memcpy(packed->def.sky_lin, sky, sizeof packed->def.sky_lin);
+    for (int i = 0; i < packed->def.light_count; ++i) {
+        if (!read_light(reader, (uint64_t)i, &packed->lights[i])) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static bool read_object(Reader *reader, uint64_t index, DipObjectDef *def) {
@@ -275,7 +346,7 @@ static bool read_scene(Reader *reader, DipSceneDef *scene) {
     READ_RECORDS(materials, DipMaterialDef, read_material, material_count);
     READ_RECORDS(meshes, DipMeshDef, read_mesh, mesh_count);
     READ_RECORDS(objects, DipObjectDef, read_object, object_count);
-    return true;
+    return read_lighting(reader, scene);
 }
 
 // --- errors and warnings -------------------------------------------------------------------------
@@ -347,6 +418,7 @@ void dip_scene_pack_free(DipScenePack *pack) {
     free((void *)pack->scene.materials);
     free((void *)pack->scene.meshes);
     free((void *)pack->scene.objects);
+    free((void *)pack->scene.lighting);
     dip_error_list_free(&pack->warnings);
     *pack = (DipScenePack){0};
 }

@@ -13,7 +13,7 @@
 #include <stdint.h>
 
 enum {
-    PACK_VERSION = 1, // Increase this number with every change of the layout.
+    PACK_VERSION = 2, // Increase this number with every change of the layout.
     PACK_ALIGNMENT = 64,
     PACK_MAX_RECORDS = 1 << 24 // Most records in a section.
 };
@@ -26,6 +26,7 @@ static const char pack_magic[8] = {'D', 'I', 'P', 'P', 'A', 'C', 'K', '\n'};
     X(materials, PackMaterial)                                                                     \
     X(meshes, PackMesh)                                                                            \
     X(objects, PackObject)                                                                         \
+    X(lights, PackLight)                                                                           \
     X(warnings, PackError)                                                                         \
     X(failures, PackError)                                                                         \
     X(text, char)
@@ -46,6 +47,10 @@ typedef struct PackHeader {
     double pictures_ms;
     float background_lin[3];
     float near_m;
+    float ambient_lin[3]; // of the lighting, which the pack has if it has lights
+    float sky_lin[3];
+    uint32_t shading;
+    uint32_t unused;
 #define PACK_SECTION_FIELD(name, type) PackSection name;
     PACK_SECTION_LIST(PACK_SECTION_FIELD)
 #undef PACK_SECTION_FIELD
@@ -73,6 +78,8 @@ typedef struct PackMaterial {
     float light_map_scale;
     float roughness;
     float alpha_cutoff;
+    float specular_lin[3];
+    float shininess;
     uint32_t double_sided;
     uint32_t lit;
 } PackMaterial;
@@ -97,6 +104,18 @@ typedef struct PackObject {
     float transform[12];
     uint32_t unused;
 } PackObject;
+
+typedef struct PackLight {
+    uint64_t name;
+    uint32_t kind;
+    float colour_lin[3];
+    float position_world[3];
+    float direction_world[3];
+    float attenuation[3];
+    float range_m;
+    float inner_deg;
+    float outer_deg;
+} PackLight;
 
 typedef struct PackError {
     uint32_t code;

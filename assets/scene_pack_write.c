@@ -117,9 +117,11 @@ static bool add_materials(Writer *writer, const DipSceneDef *scene) {
                                     .light_map_scale = def->light_map_scale,
                                     .roughness = def->roughness,
                                     .alpha_cutoff = def->alpha_cutoff,
+                                    .shininess = def->shininess,
                                     .double_sided = def->double_sided,
                                     .lit = def->lit};
         memcpy(records[i].base_colour_lin, def->base_colour_lin, sizeof def->base_colour_lin);
+        memcpy(records[i].specular_lin, def->specular_lin, sizeof def->specular_lin);
         ok = add_text(writer, def->name, &records[i].name);
     }
     ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.materials);
@@ -169,6 +171,32 @@ static bool add_objects(Writer *writer, const DipSceneDef *scene) {
     return ok;
 }
 
+static bool add_lights(Writer *writer, const DipLightingDef *lighting) {
+    const size_t count = lighting ? (size_t)lighting->light_count : 0;
+    PackLight *records = calloc(count + 1, sizeof *records);
+    bool ok = records != NULL;
+    for (size_t i = 0; ok && i < count; ++i) {
+        const DipLightDef *def = &lighting->lights[i];
+        records[i] = (PackLight){.kind = def->kind,
+                                 .range_m = def->range_m,
+                                 .inner_deg = def->inner_deg,
+                                 .outer_deg = def->outer_deg};
+        memcpy(records[i].colour_lin, def->colour_lin, sizeof def->colour_lin);
+        memcpy(records[i].position_world, def->position_world, sizeof def->position_world);
+        memcpy(records[i].direction_world, def->direction_world, sizeof def->direction_world);
+        memcpy(records[i].attenuation, def->attenuation, sizeof def->attenuation);
+        ok = add_text(writer, def->name ? def->name : "", &records[i].name);
+    }
+    ok = ok && add_section(writer, records, count, sizeof *records, &writer->header.lights);
+    free(records);
+    if (count > 0) {
+        memcpy(writer->header.ambient_lin, lighting->ambient_lin, sizeof lighting->ambient_lin);
+        memcpy(writer->header.sky_lin, lighting->sky_lin, sizeof lighting->sky_lin);
+        writer->header.shading = lighting->shading;
+    }
+    return ok;
+}
+
 static bool add_errors(Writer *writer, const DipError *errors, size_t count, PackSection *section) {
     PackError *records = calloc(count + 1, sizeof *records);
     for (size_t i = 0; records && i < count; ++i) {
@@ -191,7 +219,8 @@ static bool write_scene(Writer *writer, const DipSceneDef *scene) {
     memcpy(header->background_lin, scene->background_lin, sizeof header->background_lin);
     header->near_m = scene->near_m;
     return add_textures(writer, scene) && add_materials(writer, scene) &&
-           add_meshes(writer, scene) && add_objects(writer, scene);
+           add_meshes(writer, scene) && add_objects(writer, scene) &&
+           add_lights(writer, scene->lighting);
 }
 
 static bool write_all(Writer *writer, const DipScenePack *pack) {

@@ -27,19 +27,10 @@ static DipUpAxis up_is_z(const struct aiScene *scene, const char *path) {
     return DIP_UP_z;
 }
 
-static const struct aiMetadataEntry *find_metadata(const struct aiMetadata *meta, const char *key) {
-    for (unsigned i = 0; meta && i < meta->mNumProperties; ++i) {
-        if (strcmp(meta->mKeys[i].data, key) == 0) {
-            return &meta->mValues[i];
-        }
-    }
-    return NULL;
-}
-
 // FBX: the global settings name the axis by its number.
 static DipUpAxis up_of_fbx(const struct aiScene *scene, const char *path) {
     (void)path;
-    const struct aiMetadataEntry *axis = find_metadata(scene->mMetaData, "UpAxis");
+    const struct aiMetadataEntry *axis = dip_model_metadata(scene->mMetaData, "UpAxis");
     const bool is_z = axis && axis->mType == AI_INT32 && *(const int32_t *)axis->mData == 2;
     return is_z ? DIP_UP_z : DIP_UP_y;
 }

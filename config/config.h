@@ -12,6 +12,7 @@
 #include "config/config_list.h"
 #include "renderer/base/error.h"
 #include "renderer/base/isa.h"
+#include "renderer/scene/lights.h"
 #include "renderer/scene/quality.h"
 
 #include <stdbool.h>
@@ -110,6 +111,32 @@ typedef struct DipConfigName {
     char text[DIP_CONFIG_MAX_NAME];
 } DipConfigName;
 
+// Lights, ready for a scene; their names are NULL. The DipConfig owns them.
+typedef struct DipConfigLights {
+    DipLightDef *items;
+    size_t count; // 0..DIP_MAX_LIGHTS
+} DipConfigLights;
+
+// A factor, or "auto".
+typedef struct DipConfigScale {
+    bool automatic;
+    double factor; // 0 if automatic
+} DipConfigScale;
+
+// Where the light of lit surfaces is computed.
+#define DIP_CONFIG_SHADING_LIST(X)                                                                 \
+    X(auto)                                                                                        \
+    X(flat)                                                                                        \
+    X(gouraud)                                                                                     \
+    X(phong)
+
+typedef enum DipConfigShading {
+#define DIP_CONFIG_SHADING_ENUM(name) DIP_CONFIG_SHADING_##name,
+    DIP_CONFIG_SHADING_LIST(DIP_CONFIG_SHADING_ENUM)
+#undef DIP_CONFIG_SHADING_ENUM
+        DIP_CONFIG_SHADING_COUNT
+} DipConfigShading;
+
 typedef DipConfigSize DipConfigFieldSIZE;
 typedef double DipConfigFieldNUMBER;
 typedef int DipConfigFieldINTEGER;
@@ -121,6 +148,9 @@ typedef DipConfigColor DipConfigFieldCOLOR;
 typedef DipConfigName DipConfigFieldNAME;
 typedef DipConfigMaterials DipConfigFieldMATERIALS;
 typedef DipConfigMaterials DipConfigFieldLIGHTMAPS;
+typedef DipConfigShading DipConfigFieldSHADING;
+typedef DipConfigLights DipConfigFieldLIGHTS;
+typedef DipConfigScale DipConfigFieldSCALE;
 typedef int DipConfigFieldISA; // a DipIsa or DIP_CONFIG_ISA_AUTO
 
 typedef struct DipConfig {

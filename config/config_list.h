@@ -14,9 +14,10 @@
 // Types and their fields: SIZE DipConfigSize, NUMBER double, INTEGER int, FLAG bool, FILE
 // DipConfigFile, FILES DipConfigFiles (the key may be repeated), SETTINGS DipQuality, COLOR
 // DipConfigColor, ISA int, NAME DipConfigName, MATERIALS and LIGHTMAPS DipConfigMaterials (these
-// keys may be repeated). The range applies to every number of a SIZE, NUMBER,
-// INTEGER or COLOR. The default "" leaves a FILE unnamed, a NAME empty, a NUMBER at 0 and every
-// setting of SETTINGS at its own default.
+// keys may be repeated), SHADING DipConfigShading, LIGHTS DipConfigLights (may be repeated), SCALE
+// DipConfigScale. The range applies to every number of a SIZE, NUMBER, INTEGER, COLOR or SCALE. The
+// default "" leaves a FILE unnamed, a NAME empty, a NUMBER at 0 and every setting of SETTINGS at
+// its own default.
 #define DIP_CONFIG_LIST(KEY, CAMERA, PICTURE)                                                      \
     KEY(RES, res, SIZE, DIP_CONFIG_REQUIRED, 1, 8192, "resolution of each of the two panes")       \
     KEY(REFLECTION_RES, reflection_res, SIZE, "320x240", 1, 8192,                                  \
@@ -34,7 +35,7 @@
     KEY(MATERIAL_CLIP, material_clip, MATERIALS, "", 0, 0,                                         \
         "materials of surfaces that the alpha of their colour texture clips")                      \
     KEY(MATERIAL_GLASS, material_glass, MATERIALS, "", 0, 0,                                       \
-        "materials of opaque surfaces that the fixed light does not light")                        \
+        "materials of opaque surfaces that no light but a light map lights")                       \
     KEY(MATERIAL_WATER, material_water, MATERIALS, "", 0, 0,                                       \
         "materials of water, which mirrors the scene")                                             \
     KEY(MATERIAL_SKY, material_sky, MATERIALS, "", 0, 0, "materials of the sky")                   \
@@ -106,6 +107,18 @@
         "speed of the second layer, texture widths per minute; negative: the opposite way")        \
     KEY(SKY_LAYER2_PERTURBATION, sky_layer2_perturbation, NUMBER, "0.05", -1, 1,                   \
         "greatest displacement of the second layer's clouds, texture widths")                      \
+    KEY(SHADING, shading, SHADING, "auto", 0, 0,                                                   \
+        "where the light of lit surfaces is computed; auto: phong in a scene with lights, and "    \
+        "the "                                                                                     \
+        "fixed light as it is in one without")                                                     \
+    KEY(LIGHT, light, LIGHTS, "", 0, 0,                                                            \
+        "light that is added to those of the models; repeat the key for more lights")              \
+    KEY(AMBIENT, ambient, COLOR, "89,89,89", 0, 255,                                               \
+        "light from all sides in a scene with lights: red, green, blue, sRGB; 89 is a tenth of "   \
+        "white")                                                                                   \
+    KEY(LIGHT_SCALE, light_scale, SCALE, "auto", 0, 1e6,                                           \
+        "factor of the models' lights; 0 ignores them; auto: their light is 1 at the models' "     \
+        "centre")                                                                                  \
     KEY(LOG, log, FILE, "", 0, 0, "file that receives a copy of all warnings and errors")          \
     KEY(SCENE, scene, NAME, "", 0, 0,                                                              \
         "scene of the gallery that is shown instead of the models, or `tour` (docs/gallery.md)")

@@ -19,7 +19,10 @@ typedef enum DipConfigType {
     DIP_TYPE_ISA,
     DIP_TYPE_NAME,
     DIP_TYPE_MATERIALS,
-    DIP_TYPE_LIGHTMAPS
+    DIP_TYPE_LIGHTMAPS,
+    DIP_TYPE_SHADING,
+    DIP_TYPE_LIGHTS,
+    DIP_TYPE_SCALE
 } DipConfigType;
 
 typedef struct DipConfigKeyInfo {
@@ -50,6 +53,11 @@ void dip_config_describe(DipConfigKey key, char *buffer, size_t size_bytes);
 // Parses a value's text into the key's field. line is where the ini gives the value, 0 for a
 // default. On failure leaves the field unchanged and fills *err except for its file and line.
 bool dip_config_set_value(DipConfig *config, DipConfigKey key, const char *text, int line,
+                          DipError *err);
+
+// lights.c: parses a light and adds it. On failure leaves *lights unchanged and fills *err except
+// for its file and line.
+bool dip_config_add_light(DipConfigKey key, const char *text, DipConfigLights *lights,
                           DipError *err);
 
 // Passes lines of the ini to inih's ini_parse_stream, but only lines that inih reads correctly.

@@ -45,7 +45,8 @@ const DipConfigKeyInfo *dip_config_key_info(DipConfigKey key) {
 }
 
 bool dip_config_may_repeat(DipConfigType type) {
-    return type == DIP_TYPE_FILES || type == DIP_TYPE_MATERIALS || type == DIP_TYPE_LIGHTMAPS;
+    return type == DIP_TYPE_FILES || type == DIP_TYPE_MATERIALS || type == DIP_TYPE_LIGHTMAPS ||
+           type == DIP_TYPE_LIGHTS;
 }
 
 const char *dip_config_key_name(DipConfigKey key) {
@@ -162,6 +163,16 @@ void dip_config_describe(DipConfigKey key, char *buffer, size_t size_bytes) {
     case DIP_TYPE_LIGHTMAPS:
         snprintf(buffer, size_bytes, "a name with * and ?, or NAME = PICTURE, up to %d times",
                  DIP_CONFIG_MAX_MATERIALS);
+        break;
+    case DIP_TYPE_SHADING:
+        snprintf(buffer, size_bytes, "auto flat gouraud phong");
+        break;
+    case DIP_TYPE_LIGHTS:
+        snprintf(buffer, size_bytes, "a light such as point at=0,3,0 strength=4, up to %d times",
+                 DIP_MAX_LIGHTS);
+        break;
+    case DIP_TYPE_SCALE:
+        snprintf(buffer, size_bytes, "auto or a number %g..%g", info->low, info->high);
         break;
     }
 }

@@ -27,6 +27,8 @@ static bool refuse_type(DipConfigKey key, const char *text, DipError *err) {
         return refuse(key, DIP_ERROR_TYPE, text, "is not a whole number", "", err);
     case DIP_TYPE_FLAG:
         return refuse(key, DIP_ERROR_TYPE, text, "is neither true nor false", "", err);
+    case DIP_TYPE_SCALE:
+        return refuse(key, DIP_ERROR_TYPE, text, "is neither auto nor a number", "", err);
     default:
         return refuse(key, DIP_ERROR_TYPE, text, "is not a number", "", err);
     }
@@ -118,6 +120,31 @@ static bool set_isa(DipConfigKey key, const char *text, int *isa, DipError *err)
         return refuse(key, DIP_ERROR_UNKNOWN, text, "is not an instruction set", "", err);
     }
     *isa = DIP_CONFIG_ISA_AUTO;
+    return true;
+}
+
+static bool set_shading(DipConfigKey key, const char *text, DipConfigShading *shading,
+                        DipError *err) {
+    static const char *const names[] = {
+#define SHADING_NAME(name) #name,
+        DIP_CONFIG_SHADING_LIST(SHADING_NAME)
+#undef SHADING_NAME
+    };
+    for (int i = 0; i < DIP_CONFIG_SHADING_COUNT; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            *shading = (DipConfigShading)i;
+            return true;
+        }
+    }
+    return refuse(key, DIP_ERROR_UNKNOWN, text, "is not a shading", "", err);
+}
+
+static bool set_scale(DipConfigKey key, const char *text, DipConfigScale *scale, DipError *err) {
+    DipConfigScale given = {.automatic = strcmp(text, "auto") == 0};
+    if (!given.automatic && !set_number(key, text, &given.factor, err)) {
+        return false;
+    }
+    *scale = given;
     return true;
 }
 
@@ -277,6 +304,12 @@ bool dip_config_set_value(DipConfig *config, DipConfigKey key, const char *text,
     case DIP_TYPE_MATERIALS:
     case DIP_TYPE_LIGHTMAPS:
         return add_material(config, key, text, line, field, err);
+    case DIP_TYPE_SHADING:
+        return set_shading(key, text, field, err);
+    case DIP_TYPE_LIGHTS:
+        return dip_config_add_light(key, text, field, err);
+    case DIP_TYPE_SCALE:
+        return set_scale(key, text, field, err);
     }
     return false;
 }
@@ -293,6 +326,8 @@ void dip_config_free(DipConfig *config) {
                 free_file(&files->items[i]);
             }
             free(files->items);
+        } else if (info->type == DIP_TYPE_LIGHTS) {
+            free(((DipConfigLights *)field)->items);
         } else if (dip_config_may_repeat(info->type)) {
             DipConfigMaterials *materials = field;
             for (size_t i = 0; i < materials->count; i++) {

@@ -48,6 +48,8 @@ static void add_session(DipCostSetup *setup, const DipSessionOptions *session) {
         add_number(setup, "--look", session->look + 1);
     }
     add_option(setup, "--up", session->up ? dip_up_axis_names[session->up] : NULL);
+    add_option(setup, "--shading",
+               session->has_shading ? dip_model_shading_names[session->shading] : NULL);
     if (session->import_seconds) {
         add_number(setup, "--import-seconds", session->import_seconds);
     }

@@ -142,6 +142,8 @@ most_lines=$importer_lines expect 2 \
     "$diptych" dump --hash --model crash.ply
 expect 2 'hang.ply: the importer hung while it read the model, accepted at most 2 s' \
     "$diptych" dump --hash --import-seconds 2 --model hang.ply
+expect 2 "\[--shading\] 'toon' is not a shading; give one of auto\|flat\|gouraud\|phong" \
+    "$diptych" dump --hash --shading toon
 expect 2 "\[--up\] 'x' is not an axis; give one of auto\|y\|z" "$diptych" dump --hash --up x
 printf 'v 0 0 0\nv 1e-10 0 0\nv 0 1e-10 0\nf 1 2 3\n' >tiny.obj
 expect 2 "tiny.obj: \[box\] the model's size is 1e-10" "$diptych" dump --hash --model tiny.obj

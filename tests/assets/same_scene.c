@@ -36,6 +36,8 @@ static void assert_same_material(const DipMaterialDef *one, const DipMaterialDef
     assert_memory_equal(&one->light_map_scale, &other->light_map_scale, sizeof(float));
     assert_memory_equal(&one->roughness, &other->roughness, sizeof(float));
     assert_memory_equal(&one->alpha_cutoff, &other->alpha_cutoff, sizeof(float));
+    assert_memory_equal(one->specular_lin, other->specular_lin, sizeof one->specular_lin);
+    assert_memory_equal(&one->shininess, &other->shininess, sizeof(float));
     assert_int_equal(one->double_sided, other->double_sided);
     assert_int_equal(one->lit, other->lit);
 }
@@ -54,6 +56,32 @@ static void assert_same_mesh(const DipMeshDef *one, const DipMeshDef *other) {
     assert_same_array(one->indices, other->indices, one->index_count * sizeof *one->indices);
 }
 
+static void assert_same_light(const DipLightDef *one, const DipLightDef *other) {
+    assert_string_equal(one->name, other->name);
+    assert_int_equal(one->kind, other->kind);
+    assert_memory_equal(one->colour_lin, other->colour_lin, sizeof one->colour_lin);
+    assert_memory_equal(one->position_world, other->position_world, sizeof one->position_world);
+    assert_memory_equal(one->direction_world, other->direction_world, sizeof one->direction_world);
+    assert_memory_equal(one->attenuation, other->attenuation, sizeof one->attenuation);
+    assert_memory_equal(&one->range_m, &other->range_m, sizeof(float));
+    assert_memory_equal(&one->inner_deg, &other->inner_deg, sizeof(float));
+    assert_memory_equal(&one->outer_deg, &other->outer_deg, sizeof(float));
+}
+
+static void assert_same_lighting(const DipLightingDef *one, const DipLightingDef *other) {
+    assert_int_equal(one == NULL, other == NULL);
+    if (!one) {
+        return;
+    }
+    assert_memory_equal(one->ambient_lin, other->ambient_lin, sizeof one->ambient_lin);
+    assert_memory_equal(one->sky_lin, other->sky_lin, sizeof one->sky_lin);
+    assert_int_equal(one->shading, other->shading);
+    assert_int_equal(one->light_count, other->light_count);
+    for (int i = 0; i < one->light_count; ++i) {
+        assert_same_light(&one->lights[i], &other->lights[i]);
+    }
+}
+
 void assert_same_scene(const DipSceneDef *one, const DipSceneDef *other) {
     assert_int_equal(one->texture_count, other->texture_count);
     assert_int_equal(one->material_count, other->material_count);
@@ -61,6 +89,7 @@ void assert_same_scene(const DipSceneDef *one, const DipSceneDef *other) {
     assert_int_equal(one->object_count, other->object_count);
     assert_memory_equal(one->background_lin, other->background_lin, sizeof one->background_lin);
     assert_memory_equal(&one->near_m, &other->near_m, sizeof(float));
+    assert_same_lighting(one->lighting, other->lighting);
     for (int i = 0; i < one->texture_count; ++i) {
         assert_same_texture(&one->textures[i], &other->textures[i]);
     }
@@ -107,6 +136,45 @@ static void check_material(const DipMaterialDef *material, int texture_count) {
     assert_in_unit(material->roughness);
     assert_in_unit(material->alpha_cutoff);
     assert_true(isfinite(material->light_map_scale));
+    assert_true(material->shininess >= 0.0f && material->shininess <= DIP_MAX_SHININESS);
+    for (int i = 0; i < 3; ++i) {
+        assert_true(material->specular_lin[i] >= 0.0f && isfinite(material->specular_lin[i]));
+    }
+}
+
+static void check_light(const DipLightDef *light) {
+    assert_in_range(light->kind, DIP_LIGHT_DIRECTIONAL, DIP_LIGHT_SPOT);
+    assert_finite(light->position_world, 3);
+    assert_finite(light->direction_world, 3);
+    float length = 0.0f;
+    float fading = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+        assert_true(light->colour_lin[i] >= 0.0f && isfinite(light->colour_lin[i]));
+        assert_true(light->attenuation[i] >= 0.0f && isfinite(light->attenuation[i]));
+        length += fabsf(light->direction_world[i]);
+        fading += light->attenuation[i];
+    }
+    assert_true(length > 0.0f || light->kind == DIP_LIGHT_POINT);
+    assert_true(fading > 0.0f || light->kind == DIP_LIGHT_DIRECTIONAL);
+    assert_true(light->range_m >= 0.0f && isfinite(light->range_m));
+    assert_true(light->kind != DIP_LIGHT_SPOT || light->outer_deg > 0.0f);
+    assert_true(light->outer_deg <= 90.0f && light->inner_deg >= 0.0f);
+    assert_true(light->inner_deg <= light->outer_deg);
+}
+
+static uint64_t sum_lighting(const DipLightingDef *lighting) {
+    uint64_t sum = 0;
+    assert_in_range(lighting->light_count, 0, DIP_MAX_LIGHTS);
+    assert_in_range(lighting->shading, DIP_SHADING_PHONG, DIP_SHADING_GOURAUD);
+    for (int i = 0; i < 3; ++i) {
+        assert_true(lighting->sky_lin[i] >= 0.0f && isfinite(lighting->ambient_lin[i]));
+        assert_true(lighting->sky_lin[i] <= lighting->ambient_lin[i]);
+    }
+    for (int i = 0; i < lighting->light_count; ++i) {
+        check_light(&lighting->lights[i]);
+        sum += strlen(lighting->lights[i].name);
+    }
+    return sum;
 }
 
 static uint64_t sum_mesh(const DipMeshDef *mesh) {
@@ -127,7 +195,7 @@ static uint64_t sum_mesh(const DipMeshDef *mesh) {
 }
 
 uint64_t read_whole_scene(const DipSceneDef *scene) {
-    uint64_t sum = 0;
+    uint64_t sum = scene->lighting ? sum_lighting(scene->lighting) : 0;
     assert_true(isfinite(scene->near_m) || scene->object_count == 0);
     assert_finite(scene->background_lin, 3);
     for (int i = 0; i < scene->texture_count; ++i) {

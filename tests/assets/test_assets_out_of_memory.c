@@ -67,8 +67,8 @@ static void check_loading(const char *how, const char *name, const DipImporter *
 
 static void model_is_loaded_whole_or_not_at_all(void **state) {
     (void)state;
-    static const char *const names[] = {"square.gltf", "seam.gltf", "square.obj", "tags.gltf",
-                                        "instances.gltf"};
+    static const char *const names[] = {"square.gltf", "seam.gltf",      "square.obj",
+                                        "tags.gltf",   "instances.gltf", "lights.gltf"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         check_loading("loading", names[i], NULL, 40);
     }
@@ -78,6 +78,7 @@ static void model_is_imported_whole_or_not_at_all(void **state) {
     (void)state;
     const DipImporter importer = {.program = "/proc/self/exe", .command = importer_word};
     check_loading("importing", "square.gltf", &importer, 0);
+    check_loading("importing", "lights.gltf", &importer, 0);
 }
 
 // --- pictures ------------------------------------------------------------------------------------

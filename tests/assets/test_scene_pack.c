@@ -56,7 +56,29 @@ static void trim(uint8_t *bytes, size_t *size_bytes) {
 // Returns the pack of a model that has every kind of record and array.
 static uint8_t *full_pack(size_t *size_bytes) {
     DipModel *model = load("seam.gltf");
+    static const DipLightDef lights[] = {
+        {.name = "sun", .colour_lin = {1, 2, 3}, .direction_world = {0, -1, 0}},
+        {.name = "bulb",
+         .kind = DIP_LIGHT_POINT,
+         .colour_lin = {1, 1, 1},
+         .position_world = {1, 2, 3},
+         .attenuation = {0, 0, 1},
+         .range_m = 5},
+        {.name = "cone",
+         .kind = DIP_LIGHT_SPOT,
+         .colour_lin = {1, 1, 1},
+         .position_world = {1, 2, 3},
+         .direction_world = {1, 0, 0},
+         .attenuation = {1, 0, 0},
+         .inner_deg = 10,
+         .outer_deg = 20}};
+    const DipLightingDef lighting = {.ambient_lin = {0.2f, 0.3f, 0.4f},
+                                     .sky_lin = {0.1f, 0.2f, 0.3f},
+                                     .lights = lights,
+                                     .light_count = 3,
+                                     .shading = DIP_SHADING_GOURAUD};
     DipScenePack pack = {.scene = *dip_model_scene_def(model)};
+    pack.scene.lighting = &lighting;
     DipError warning;
     dip_error_set(&warning, DIP_ERROR_UNSUPPORTED, "seam.gltf", 0, "key", "a warning");
     warning.severity = DIP_SEVERITY_WARNING;
@@ -70,7 +92,8 @@ static uint8_t *full_pack(size_t *size_bytes) {
 
 static void a_pack_gives_back_the_scene(void **state) {
     (void)state;
-    static const char *const names[] = {"seam.gltf", "tags.gltf", "instances.gltf", "square.ply"};
+    static const char *const names[] = {"seam.gltf", "tags.gltf", "instances.gltf", "square.ply",
+                                        "lights.gltf"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
         DipModel *model = load(names[i]);
         const DipScenePack written = {.scene = *dip_model_scene_def(model)};

@@ -147,6 +147,10 @@ static void keys_that_are_left_out_have_their_defaults(void **context) {
     assert_true(config.near_m == 0.1);
     assert_int_equal(config.background.rgb[1], 64);
     assert_null(config.log.path);
+    assert_int_equal(config.shading, DIP_CONFIG_SHADING_auto);
+    assert_int_equal(config.light.count, 0);
+    assert_int_equal(config.ambient.rgb[0], 89);
+    assert_true(config.light_scale.automatic);
     assert_int_equal(config.line[DIP_KEY_THREADS], 0);
     assert_int_equal(config.line[DIP_KEY_MIPDEBUG], 17);
     dip_config_free(&config);
@@ -257,6 +261,73 @@ static void materials_keep_their_names_and_light_maps(void **context) {
     dip_config_free(&config);
 }
 
+static void assert_near(const float *found, double x, double y, double z) {
+    const double expected[3] = {x, y, z};
+    for (int i = 0; i < 3; i++) {
+        if (!(found[i] >= expected[i] - 1e-5 && found[i] <= expected[i] + 1e-5)) {
+            fail_msg("component %d is %g, not %g", i, (double)found[i], expected[i]);
+        }
+    }
+}
+
+// The sRGB code 188 stands for the light 0.502886 (IEC 61966-2-1).
+static void lights_are_read(void **context) {
+    (void)context;
+    DipConfig config;
+    DipErrorList faults;
+    load_text("lights.ini",
+              SHORT "LIGHT: directional to=0,-3,4 colour=255,188,0 strength=2 ; the sun\n"
+                    "LIGHT = point\tat=1,2,-3.5  range=12 attenuation=1,0.5,0\n"
+                    "LIGHT: spot to=0,0,0 at=0,3,0 inner=15 outer=30 strength=9\n"
+                    "SHADING: gouraud\nLIGHT_SCALE: 0.25\nAMBIENT: 1,2,3\n",
+              &config, &faults);
+    assert_int_equal(faults.count, 0);
+    assert_int_equal(config.light.count, 3);
+    const DipLightDef *sun = &config.light.items[0];
+    assert_int_equal(sun->kind, DIP_LIGHT_DIRECTIONAL);
+    assert_near(sun->colour_lin, 2.0, 1.005773, 0.0);
+    assert_near(sun->direction_world, 0.0, -0.6, 0.8);
+    const DipLightDef *point = &config.light.items[1];
+    assert_int_equal(point->kind, DIP_LIGHT_POINT);
+    assert_near(point->colour_lin, 1.0, 1.0, 1.0);
+    assert_near(point->position_world, 1.0, 2.0, -3.5);
+    assert_near(point->attenuation, 1.0, 0.5, 0.0);
+    assert_true(point->range_m == 12.0f);
+    const DipLightDef *spot = &config.light.items[2];
+    assert_int_equal(spot->kind, DIP_LIGHT_SPOT);
+    assert_near(spot->position_world, 0.0, 3.0, 0.0);
+    assert_near(spot->direction_world, 0.0, -1.0, 0.0);
+    assert_near(spot->attenuation, 0.0, 0.0, 1.0);
+    assert_true(spot->inner_deg == 15.0f && spot->outer_deg == 30.0f && spot->range_m == 0.0f);
+    assert_int_equal(config.shading, DIP_CONFIG_SHADING_gouraud);
+    assert_false(config.light_scale.automatic);
+    assert_true(config.light_scale.factor == 0.25);
+    assert_int_equal(config.ambient.rgb[2], 3);
+    dip_config_free(&config);
+}
+
+static void there_are_at_most_64_lights(void **context) {
+    (void)context;
+    static char text[8192] = SHORT;
+    DipConfig config;
+    DipErrorList faults;
+    for (int i = 0; i < DIP_MAX_LIGHTS; i++) {
+        strcat(text, "LIGHT: point at=1,2,3\n");
+    }
+    load_text("many_lights.ini", text, &config, &faults);
+    assert_int_equal(config.light.count, DIP_MAX_LIGHTS);
+    dip_config_free(&config);
+    FILE *stream = fopen("many_lights.ini", "wb");
+    assert_non_null(stream);
+    fprintf(stream, "%sLIGHT: point at=1,2,3\n", text);
+    fclose(stream);
+    assert_false(dip_config_load("many_lights.ini", &config, &faults));
+    check_fault(&faults, 0, DIP_ERROR_OVERSIZED, DIP_SEVERITY_ERROR, 17 + DIP_MAX_LIGHTS + 1,
+                "LIGHT", "is given more than 64 times, accepted up to 64 lights");
+    dip_error_list_free(&faults);
+    remove("many_lights.ini");
+}
+
 static void comments_and_white_space_are_ignored(void **context) {
     (void)context;
     DipConfig config;
@@ -354,6 +425,8 @@ int main(void) {
         cmocka_unit_test(a_path_without_a_field_of_view_gets_the_default),
         cmocka_unit_test(settings_and_optional_keys_are_read),
         cmocka_unit_test(materials_keep_their_names_and_light_maps),
+        cmocka_unit_test(lights_are_read),
+        cmocka_unit_test(there_are_at_most_64_lights),
         cmocka_unit_test(comments_and_white_space_are_ignored),
         cmocka_unit_test(two_names_of_one_file_are_recognised),
         cmocka_unit_test(the_documentation_has_a_row_for_every_key),

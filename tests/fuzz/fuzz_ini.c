@@ -1,10 +1,12 @@
 // Fuzzes the reader of the configuration. A configuration that was read is the same when it is
-// written, with indentation and CRLF, and read again.
+// written, with indentation and CRLF, and read again. Its lights are within the ranges that a scene
+// accepts; they are not written, because their numbers no longer are those of the text.
 #include "config/config.h"
 #include "config/config_private.h"
 #include "renderer/base/number.h"
 #include "tests/fuzz/fuzz.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +26,14 @@ static void write_isa(FILE *out, int isa) {
 #undef ISA_NAME
     };
     fputs(isa == DIP_CONFIG_ISA_AUTO ? "auto" : names[isa], out);
+}
+
+static void write_scale(FILE *out, const DipConfigScale *scale) {
+    if (scale->automatic) {
+        fputs("auto", out);
+    } else {
+        write_number(out, scale->factor);
+    }
 }
 
 static void write_value(FILE *out, DipConfigType type, const void *field) {
@@ -68,6 +78,16 @@ static void write_value(FILE *out, DipConfigType type, const void *field) {
             fprintf(out, " = %s", material->light_map.text);
         }
         break;
+    case DIP_TYPE_SHADING: {
+        static const char *const names[] = {"auto", "flat", "gouraud", "phong"};
+        fputs(names[*(const DipConfigShading *)field], out);
+        break;
+    }
+    case DIP_TYPE_SCALE:
+        write_scale(out, field);
+        break;
+    case DIP_TYPE_LIGHTS:
+        break;
     }
 }
 
@@ -89,7 +109,8 @@ static void write_config(FILE *out, const DipConfig *config) {
         const DipConfigFiles *files = field;
         const DipConfigMaterials *materials = field;
         const bool repeats = dip_config_may_repeat(info->type);
-        const size_t count = config->line[k] == 0           ? 0
+        const bool unwritten = config->line[k] == 0 || info->type == DIP_TYPE_LIGHTS;
+        const size_t count = unwritten                      ? 0
                              : info->type == DIP_TYPE_FILES ? files->count
                              : repeats                      ? materials->count
                                                             : 1;
@@ -150,6 +171,13 @@ static bool same_value(DipConfigType type, const void *a, const void *b) {
     case DIP_TYPE_MATERIALS:
     case DIP_TYPE_LIGHTMAPS:
         return same_materials(a, b);
+    case DIP_TYPE_SHADING:
+        return memcmp(a, b, sizeof(DipConfigShading)) == 0;
+    case DIP_TYPE_SCALE:
+        return ((const DipConfigScale *)a)->automatic == ((const DipConfigScale *)b)->automatic &&
+               ((const DipConfigScale *)a)->factor == ((const DipConfigScale *)b)->factor;
+    case DIP_TYPE_LIGHTS:
+        return true;
     }
     return false;
 }
@@ -160,6 +188,31 @@ static void check_range(const DipConfigKeyInfo *info, const void *field) {
     if (info->type == DIP_TYPE_NUMBER && info->fallback && info->fallback[0]) {
         const double value = *(const double *)field;
         FUZZ_CHECK(value == 0.0 || (value >= info->low && value <= info->high));
+    }
+}
+
+static void check_light(const DipLightDef *light) {
+    const bool directional = light->kind == DIP_LIGHT_DIRECTIONAL;
+    const float *d = light->direction_world;
+    const float *a = light->attenuation;
+    for (int i = 0; i < 3; i++) {
+        FUZZ_CHECK(light->colour_lin[i] >= 0.0f && light->colour_lin[i] <= 1e6f);
+        FUZZ_CHECK(fabsf(light->position_world[i]) <= 1e9f && a[i] >= 0.0f && a[i] <= 1e9f);
+    }
+    FUZZ_CHECK(directional || a[0] > 0.0f || a[1] > 0.0f || a[2] > 0.0f);
+    FUZZ_CHECK(light->range_m >= 0.0f && light->range_m <= 1e9f);
+    const float square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    FUZZ_CHECK(light->kind == DIP_LIGHT_POINT || fabsf(square - 1.0f) < 1e-5f);
+    if (light->kind == DIP_LIGHT_SPOT) {
+        FUZZ_CHECK(light->outer_deg > 0.0f && light->outer_deg <= 90.0f);
+        FUZZ_CHECK(light->inner_deg >= 0.0f && light->inner_deg <= light->outer_deg);
+    }
+}
+
+static void check_lights(const DipConfigLights *lights) {
+    FUZZ_CHECK(lights->count <= DIP_MAX_LIGHTS);
+    for (size_t i = 0; i < lights->count; i++) {
+        check_light(&lights->items[i]);
     }
 }
 
@@ -174,6 +227,7 @@ static void check_accepted(const DipConfig *config) {
     DipErrorList faults = {0};
     FUZZ_CHECK(dip_config_load(fuzz_write("x.ini", text, size_bytes), &again, &faults));
     FUZZ_CHECK(faults.count == 0);
+    check_lights(&config->light);
     for (int k = 0; k < DIP_KEY_COUNT; k++) {
         const DipConfigKeyInfo *info = dip_config_key_info((DipConfigKey)k);
         check_range(info, field_of(config, k));

@@ -265,9 +265,44 @@ static void closing_twice_is_harmless(void **state) {
     dip_session_close(&session);
 }
 
+// The lights of the ini are for the ini's models. --shading is for those of --model, too.
+static void lights_and_shading_reach_the_scene(void **state) {
+    (void)state;
+    static const char lights[] = "NEAR: 0.1\nLIGHT: point at=1,2,3 strength=4\n"
+                                 "LIGHT: directional to=0,-1,0\nAMBIENT: 255,0,0\n"
+                                 "SHADING: gouraud\n";
+    char ini[64];
+    write_ini(ini, "NEAR", lights);
+    for (int what = 0; what < 4; what++) {
+        DipSessionOptions options = small_options();
+        options.config = ini;
+        options.model_count = what % 2;
+        options.has_shading = what >= 2;
+        options.shading = DIP_MODEL_SHADING_phong;
+        const DipSessionDef def = {.options = &options, .scene = true, .keep_model = true};
+        DipErrorList faults = {0};
+        DipSession session;
+        assert_true(dip_session_open(&session, &def, &faults));
+        dip_error_list_free(&faults);
+        const DipLightingDef *lighting = session.scene_def.lighting;
+        assert_int_equal(lighting == NULL, what == 1);
+        if (lighting) {
+            assert_int_equal(lighting->shading, what ? DIP_SHADING_PHONG : DIP_SHADING_GOURAUD);
+        }
+        if (what % 2 == 0) {
+            assert_int_equal(lighting->light_count, 2);
+            assert_true(lighting->lights[0].colour_lin[0] == 4.0f);
+            assert_true(lighting->ambient_lin[0] == 1.0f && lighting->ambient_lin[1] == 0.0f);
+        }
+        dip_session_close(&session);
+    }
+    remove(ini);
+}
+
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(session_loads_what_its_def_asks_for),
+        cmocka_unit_test(lights_and_shading_reach_the_scene),
         cmocka_unit_test(model_can_be_loaded_later),
         cmocka_unit_test(session_draws_both_panes),
         cmocka_unit_test(missing_ini_is_a_fault),

@@ -1,0 +1,56 @@
+// The bounds of a model and what follows from them.
+#include "assets/model_parts.h"
+
+#include <math.h>
+
+// Distance of the near plane as a fraction of the model's diagonal. Depth is reversed and has no
+// far plane, so a small distance costs no precision.
+static const double near_fraction = 1e-4;
+
+static void extend_bounds(DipModelBounds *bounds, const DipMeshDef *mesh,
+                          const float transform[12]) {
+    float mesh_low[3] = {INFINITY, INFINITY, INFINITY};
+    float mesh_high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const float p = mesh->positions[3 * (size_t)i + (size_t)axis];
+            mesh_low[axis] = fminf(mesh_low[axis], p);
+            mesh_high[axis] = fmaxf(mesh_high[axis], p);
+        }
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+        for (int axis = 0; axis < 3; ++axis) {
+            double p = transform[4 * axis + 3];
+            for (int k = 0; k < 3; ++k) {
+                p += (double)transform[4 * axis + k] *
+                     ((corner >> k & 1) ? mesh_high[k] : mesh_low[k]);
+            }
+            bounds->low[axis] = fmin(bounds->low[axis], p);
+            bounds->high[axis] = fmax(bounds->high[axis], p);
+        }
+    }
+}
+
+DipModelBounds dip_model_bounds(const DipModel *model) {
+    DipModelBounds bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+    for (int i = 0; i < model->def.object_count; ++i) {
+        const DipMeshDef *mesh = &model->meshes[model->objects[i].mesh];
+        if (model->materials[mesh->material].surface != DIP_SURFACE_SKY) {
+            extend_bounds(&bounds, mesh, model->objects[i].transform);
+        }
+    }
+    double square = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double size = bounds.high[axis] - bounds.low[axis];
+        square += size * size;
+    }
+    bounds.diagonal = sqrt(square);
+    return bounds;
+}
+
+float dip_model_near_distance(const DipModelBounds *bounds) {
+    const double near_m = near_fraction * bounds->diagonal;
+    return isfinite(near_m)
+               ? (float)fmin(fmax(near_m, (double)DIP_MIN_NEAR_M), (double)DIP_MAX_NEAR_M)
+               : 0.01f;
+}
