@@ -10,20 +10,6 @@ const char *const dip_model_shading_names[DIP_MODEL_SHADING_COUNT] = {
 #undef DIP_MODEL_SHADING_NAME
 };
 
-// Stands in for the renderer's function until the renderer has it; the renderer's own outranks it.
-__attribute__((weak)) const DipLightingDef *dip_lighting_fixed(void) {
-    static const DipLightDef sun = {.name = "sun",
-                                    .kind = DIP_LIGHT_DIRECTIONAL,
-                                    .colour_lin = {0.65f, 0.65f, 0.65f},
-                                    .direction_world = {0.42f, -0.67f, -0.61f}};
-    static const DipLightingDef fixed = {.ambient_lin = {0.35f, 0.35f, 0.35f},
-                                         .sky_lin = {0.15f, 0.15f, 0.15f},
-                                         .lights = &sun,
-                                         .light_count = 1,
-                                         .shading = DIP_SHADING_GOURAUD};
-    return &fixed;
-}
-
 // --- the lights of the files ---------------------------------------------------------------------
 
 static double distance(const DipLightDef *light, const double point[3]) {
@@ -99,7 +85,7 @@ void dip_model_scale_lights(DipModel *model, const DipModelBounds *bounds) {
     }
     for (int c = 0; c < 3; ++c) {
         model->lighting.ambient_lin[c] =
-            (float)fmin(scale * model->ambient_lin[c], (double)DIP_MODEL_MAX_LIGHT);
+            (float)fmin(scale * model->ambient_lin[c], (double)DIP_MAX_LIGHT_LIN);
     }
     model->lighting.lights = model->lights;
     model->lighting.light_count = kept;
@@ -128,10 +114,10 @@ bool dip_model_check_lights(const DipModelOptions *options, DipError *err) {
     }
     for (int c = 0; options->ambient_lin && c < 3; ++c) {
         const float ambient = options->ambient_lin[c];
-        if (!(ambient >= 0.0f && ambient <= DIP_MODEL_MAX_LIGHT)) {
+        if (!(ambient >= 0.0f && ambient <= DIP_MAX_LIGHT_LIN)) {
             return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, NULL,
                                  "the ambient light is %g, accepted 0..%g", (double)ambient,
-                                 (double)DIP_MODEL_MAX_LIGHT);
+                                 (double)DIP_MAX_LIGHT_LIN);
         }
     }
     return options->shading < DIP_MODEL_SHADING_COUNT ||
@@ -171,7 +157,7 @@ static bool join_lights(DipModel *model, const DipModelLoad *load, const DipLigh
 static void set_ambient(DipModel *model, const float *ambient_lin, const DipLightingDef *files) {
     for (int c = 0; c < 3; ++c) {
         const float own = ambient_lin ? ambient_lin[c] : DIP_MODEL_AMBIENT_LIN;
-        model->lighting.ambient_lin[c] = fminf(own + files->ambient_lin[c], DIP_MODEL_MAX_LIGHT);
+        model->lighting.ambient_lin[c] = fminf(own + files->ambient_lin[c], DIP_MAX_LIGHT_LIN);
     }
 }
 

@@ -31,7 +31,7 @@ static bool is_finite(const float v[3]) {
 }
 
 const char *dip_light_fault(const DipLightDef *light) {
-    const float most = DIP_MODEL_MAX_LIGHT;
+    const float most = DIP_MAX_LIGHT_LIN;
     if (light->kind != DIP_LIGHT_DIRECTIONAL && light->kind != DIP_LIGHT_POINT &&
         light->kind != DIP_LIGHT_SPOT) {
         return "its kind is unknown";
@@ -130,7 +130,7 @@ static float range_of(const struct aiNode *node) {
     } else if (entry && entry->mType == AI_DOUBLE) {
         range = *(const double *)entry->mData;
     }
-    return range > 0.0 && range <= (double)DIP_MODEL_MAX_LIGHT ? (float)range : 0.0f;
+    return range > 0.0 && range <= (double)DIP_MAX_LIGHT_LIN ? (float)range : 0.0f;
 }
 
 // assimp gives the half angles of glTF, and the full angles of other formats.
@@ -178,7 +178,7 @@ static void add_ambient(DipModel *model, const DipModelFile *file, const struct 
     double lin[3];
     set_colour(&light->mColorAmbient, file->linear_colours, lin);
     for (int c = 0; c < 3; ++c) {
-        if (!(lin[c] >= 0.0 && lin[c] <= (double)DIP_MODEL_MAX_LIGHT)) {
+        if (!(lin[c] >= 0.0 && lin[c] <= (double)DIP_MAX_LIGHT_LIN)) {
             warn(model, file, light,
                  "its colour or strength is negative, too large or not a number");
             return;

@@ -233,7 +233,7 @@ static void set_highlight(const DipModelFile *file, const struct aiMaterial *mat
         set_gltf_highlight(material, def);
     } else if (shininess > 0.0f && strength > 0.0f &&
                aiGetMaterialColor(material, AI_MATKEY_COLOR_SPECULAR, &specular) == AI_SUCCESS) {
-        const float scale = fminf(strength, DIP_MODEL_MAX_LIGHT);
+        const float scale = fminf(strength, DIP_MAX_LIGHT_LIN);
         def->shininess = fminf(shininess, (float)DIP_MAX_SHININESS);
         def->specular_lin[0] = scale * dip_model_colour_to_linear(specular.r, false);
         def->specular_lin[1] = scale * dip_model_colour_to_linear(specular.g, false);

@@ -195,9 +195,6 @@ float dip_model_near_distance(const DipModelBounds *bounds);
 bool dip_model_read_lights(DipModel *model, const DipModelFile *file, const double world[12],
                            DipError *err);
 
-// Greatest colour, range and attenuation of a light, and greatest colour of a highlight.
-#define DIP_MODEL_MAX_LIGHT 1e9f
-
 // lights.c: returns what is wrong with a light, "its ...", or NULL if it is within the ranges of
 // renderer/scene/lights.h. Fields that the light's kind does not use must be in range, too, but may
 // be 0.

@@ -61,7 +61,7 @@ static bool within_unit(float value) {
 static bool are_light(const float lin[3]) {
     bool ok = true;
     for (int c = 0; c < 3; ++c) {
-        ok = ok && lin[c] >= 0.0f && lin[c] <= DIP_MODEL_MAX_LIGHT;
+        ok = ok && lin[c] >= 0.0f && lin[c] <= DIP_MAX_LIGHT_LIN;
     }
     return ok;
 }
