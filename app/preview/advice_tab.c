@@ -1,6 +1,7 @@
 // The tab of advice: the best settings for a time budget, and all measured combinations in a plot
 // of time and error.
 #include "app/preview/advice_plot.h"
+#include "app/preview/advice_tab_private.h"
 #include "app/preview/price_text.h"
 #include "app/preview/style.h"
 #include "app/preview/tabs.h"
@@ -9,45 +10,20 @@
 #include <stdio.h>
 #include <string.h>
 
-enum {
-    SIZE = 13,
-    NOTE_SIZE = 11,
-    SUM_SIZE = 22,
-    MARGIN = 10,
-    GAP = 20,
-    LEFT_WIDTH = 272,
-    RIGHT_WIDTH = 300,
-    BUDGET_COLUMNS = 4,
-    BUTTON_HEIGHT = 28
-};
-
-enum { ID_BUDGETS = 1, ID_TRY = 100, ID_UP, ID_DOWN, ID_TABLE };
+enum { MARGIN = 10, GAP = 20, RIGHT_WIDTH = 300 };
+enum { ID_UP = DIP_ADVICE_ID_FIRST_FREE, ID_DOWN, ID_TABLE };
 
 static DipUiId id_of(int index) {
     return DIP_UI_ID(DIP_UI_ADVICE, index);
 }
 
-// Draws a line of text at *y and moves *y behind it.
-static void write_line(DipUi *ui, int size, DipColour colour, DipRect room, int *y,
-                       const char *text) {
+void dip_advice_line(DipUi *ui, int size, DipColour colour, DipRect room, int *y,
+                     const char *text) {
     const int height = dip_ui_line_height(ui, size);
     if (*y + height <= room.y + room.height) {
         dip_ui_text(ui, size, colour, DIP_ALIGN_LEFT, room.x, *y, room.width, text);
     }
     *y += height + dip_ui_px(ui, 3);
-}
-
-// --- without a report ----------------------------------------------------------------------------
-
-static void declare_how_to(DipUi *ui, const DipWindow *window, DipRect room) {
-    char text[2 * DIP_SCENE_WORDS_BYTES + 256];
-    snprintf(text, sizeof text,
-             "Advice comes from a cost report, which measures every step of every setting in this "
-             "scene. This makes one in some minutes, and then starts the preview with it:\n"
-             "diptych cost%s --out report\n"
-             "diptych%s --cost report/cost.json",
-             window->state->scene_words, window->state->scene_words);
-    dip_ui_text_block(ui, SIZE, dip_style_soft, room, text);
 }
 
 // --- budgets -------------------------------------------------------------------------------------
@@ -62,15 +38,18 @@ static int chosen_advice(const DipPreviewState *state) {
 static int declare_budgets(DipUi *ui, DipWindow *window, DipRect room) {
     DipPreviewState *state = window->state;
     const DipCosts *costs = state->costs;
-    const int gap = dip_ui_px(ui, 6), height = dip_ui_px(ui, BUTTON_HEIGHT);
-    const int width = (room.width - (BUDGET_COLUMNS - 1) * gap) / BUDGET_COLUMNS;
-    const int rows = (costs->advice_count + BUDGET_COLUMNS - 1) / BUDGET_COLUMNS;
+    const int gap = dip_ui_px(ui, 6), height = dip_ui_px(ui, DIP_ADVICE_BUTTON_HEIGHT);
+    const int width =
+        (room.width - (DIP_ADVICE_BUDGET_COLUMNS - 1) * gap) / DIP_ADVICE_BUDGET_COLUMNS;
+    const int rows =
+        (costs->advice_count + DIP_ADVICE_BUDGET_COLUMNS - 1) / DIP_ADVICE_BUDGET_COLUMNS;
     for (int i = 0; i < costs->advice_count; ++i) {
-        const DipRect button = {room.x + i % BUDGET_COLUMNS * (width + gap),
-                                room.y + i / BUDGET_COLUMNS * (height + gap), width, height};
+        const DipRect button = {room.x + i % DIP_ADVICE_BUDGET_COLUMNS * (width + gap),
+                                room.y + i / DIP_ADVICE_BUDGET_COLUMNS * (height + gap), width,
+                                height};
         char name[32];
         snprintf(name, sizeof name, "%.4g ms", costs->advice[i].budget_ms);
-        if (dip_ui_button(ui, id_of(ID_BUDGETS + i), button, name,
+        if (dip_ui_button(ui, id_of(DIP_ADVICE_ID_BUDGETS + i), button, name,
                           i == chosen_advice(state) ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
                           "Shows the settings with the least error within this time per frame. "
                           "They change nothing until you try them.")) {
@@ -80,8 +59,7 @@ static int declare_budgets(DipUi *ui, DipWindow *window, DipRect room) {
     return rows * (height + gap);
 }
 
-// Gives the requested pane settings and says so.
-static void try_settings(DipUi *ui, DipWindow *window, const DipQuality *quality) {
+void dip_advice_try(DipUi *ui, DipWindow *window, const DipQuality *quality) {
     char text[160];
     dip_settings_text(quality, text, sizeof text);
     dip_preview_set_quality(window->state, DIP_PANE_REQUESTED, quality, dip_ui_now_ns(ui));
@@ -93,7 +71,7 @@ static void write_picked(DipUi *ui, const DipWindow *window, const DipCostsAdvic
     const DipCosts *costs = window->state->costs;
     char text[200], flip[DIP_STEP_NAME_BYTES];
     snprintf(text, sizeof text, "%.1f ms", advice->ms);
-    write_line(ui, SUM_SIZE, dip_style_accent, room, y, text);
+    dip_advice_line(ui, DIP_ADVICE_SUM_SIZE, dip_style_accent, room, y, text);
     dip_flip_text(advice->flip, false, flip);
     if (costs->baseline.found && costs->baseline.flip > 0.0) {
         const double change = 100.0 * (advice->flip / costs->baseline.flip - 1.0);
@@ -102,41 +80,41 @@ static void write_picked(DipUi *ui, const DipWindow *window, const DipCostsAdvic
     } else {
         snprintf(text, sizeof text, "FLIP %s", flip);
     }
-    write_line(ui, NOTE_SIZE, dip_style_soft, room, y, text);
+    dip_advice_line(ui, DIP_ADVICE_NOTE_SIZE, dip_style_soft, room, y, text);
     dip_settings_text(&advice->quality, text, sizeof text);
-    write_line(ui, NOTE_SIZE, dip_style_white, room, y, text);
+    dip_advice_line(ui, DIP_ADVICE_NOTE_SIZE, dip_style_white, room, y, text);
     if (costs->width != window->frames[0].width || costs->height != window->frames[0].height) {
         snprintf(text, sizeof text, "The report is of %dx%d, the panes are %dx%d.", costs->width,
                  costs->height, window->frames[0].width, window->frames[0].height);
-        write_line(ui, NOTE_SIZE, dip_style_worse, room, y, text);
+        dip_advice_line(ui, DIP_ADVICE_NOTE_SIZE, dip_style_worse, room, y, text);
     }
 }
 
 static void declare_picked(DipUi *ui, DipWindow *window, DipRect room) {
     const DipCostsAdvice *advice = &window->state->costs->advice[chosen_advice(window->state)];
-    const int height = dip_ui_px(ui, BUTTON_HEIGHT), gap = dip_ui_px(ui, 8);
+    const int height = dip_ui_px(ui, DIP_ADVICE_BUTTON_HEIGHT), gap = dip_ui_px(ui, 8);
     int y = room.y;
-    write_line(ui, SIZE, dip_style_white, room, &y, "Best picture within");
+    dip_advice_line(ui, DIP_ADVICE_SIZE, dip_style_white, room, &y, "Best picture within");
     y += declare_budgets(ui, window, (DipRect){room.x, y, room.width, 0});
     if (advice->found) {
         write_picked(ui, window, advice, room, &y);
     } else {
         const bool nothing_fits = window->state->costs->point_count == 0 ||
                                   window->state->costs->points[0].ms > advice->budget_ms;
-        write_line(ui, SIZE, dip_style_worse, room, &y,
-                   nothing_fits ? "Nothing measured is as fast."
-                                : "The report gives no advice for this time.");
+        dip_advice_line(ui, DIP_ADVICE_SIZE, dip_style_worse, room, &y,
+                        nothing_fits ? "Nothing measured is as fast."
+                                     : "The report gives no advice for this time.");
     }
     const int width = (room.width - gap) / 2;
     y = dip_style_min(y + gap / 2, room.y + room.height - height);
     const bool same =
         advice->found && memcmp(&advice->quality, &window->state->quality[DIP_PANE_REQUESTED],
                                 sizeof advice->quality) == 0;
-    if (dip_ui_button(ui, id_of(ID_TRY), (DipRect){room.x, y, width, height}, "Try it right",
-                      advice->found && !same ? DIP_UI_PRIMARY : DIP_UI_OFF,
+    if (dip_ui_button(ui, id_of(DIP_ADVICE_ID_TRY), (DipRect){room.x, y, width, height},
+                      "Try it right", advice->found && !same ? DIP_UI_PRIMARY : DIP_UI_OFF,
                       same ? "The right pane has these settings."
                            : "Gives the requested pane these settings. Apply is separate (K).")) {
-        try_settings(ui, window, &advice->quality);
+        dip_advice_try(ui, window, &advice->quality);
     }
     if (dip_ui_button(ui, id_of(ID_TABLE), (DipRect){room.x + width + gap, y, width, height},
                       "All steps", DIP_UI_PLAIN,
@@ -166,8 +144,8 @@ static int declare_step(DipUi *ui, DipWindow *window, const DipCostsAdvice *advi
                         DipRect room) {
     const DipCosts *costs = window->state->costs;
     const int step = dip_costs_front_step(costs, advice->ms, direction);
-    const int pad = dip_ui_px(ui, 8), line = dip_ui_line_height(ui, SIZE);
-    const int note = dip_ui_line_height(ui, NOTE_SIZE);
+    const int pad = dip_ui_px(ui, 8), line = dip_ui_line_height(ui, DIP_ADVICE_SIZE);
+    const int note = dip_ui_line_height(ui, DIP_ADVICE_NOTE_SIZE);
     const DipRect box = {room.x, room.y, room.width, line + note + pad};
     const char *name = direction > 0 ? "up" : "down";
     char text[160], flip[DIP_STEP_NAME_BYTES];
@@ -181,16 +159,16 @@ static int declare_step(DipUi *ui, DipWindow *window, const DipCostsAdvice *advi
                                          "and loses. A click tries it in the right pane.",
                             .disabled = step < 0});
     dip_ui_fill_round(ui, box, dip_ui_px(ui, 4), dip_style_raised);
-    dip_ui_text(ui, SIZE, dip_style_white, DIP_ALIGN_LEFT, box.x + pad, box.y + pad / 2, box.width,
-                name);
+    dip_ui_text(ui, DIP_ADVICE_SIZE, dip_style_white, DIP_ALIGN_LEFT, box.x + pad, box.y + pad / 2,
+                box.width, name);
     if (input.hovered && step >= 0) {
         dip_ui_outline(ui, box, dip_ui_px(ui, 4), dip_ui_px(ui, 1), dip_style_soft);
     }
     dip_ui_focus_ring(ui, box, dip_ui_px(ui, 4), &input);
     const int right = box.x + box.width - pad;
     if (step < 0) {
-        dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, right, box.y + pad / 2,
-                    box.width - 6 * pad,
+        dip_ui_text(ui, DIP_ADVICE_NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, right,
+                    box.y + pad / 2, box.width - 6 * pad,
                     direction > 0 ? "nothing measured is better" : "nothing measured is faster");
         return box.height;
     }
@@ -198,16 +176,16 @@ static int declare_step(DipUi *ui, DipWindow *window, const DipCostsAdvice *advi
     dip_flip_text(point->flip - advice->flip, true, flip);
     snprintf(text, sizeof text, "%s%.1f ms", point->ms < advice->ms ? "\u2212" : "+",
              fabs(point->ms - advice->ms));
-    const int flip_width = dip_ui_text_width(ui, SIZE, flip) + pad;
-    dip_ui_text(ui, SIZE, direction > 0 ? dip_style_gain : dip_style_worse, DIP_ALIGN_RIGHT, right,
-                box.y + pad / 2, flip_width, flip);
-    dip_ui_text(ui, SIZE, dip_style_soft, DIP_ALIGN_RIGHT, right - flip_width, box.y + pad / 2,
-                box.width / 2, text);
+    const int flip_width = dip_ui_text_width(ui, DIP_ADVICE_SIZE, flip) + pad;
+    dip_ui_text(ui, DIP_ADVICE_SIZE, direction > 0 ? dip_style_gain : dip_style_worse,
+                DIP_ALIGN_RIGHT, right, box.y + pad / 2, flip_width, flip);
+    dip_ui_text(ui, DIP_ADVICE_SIZE, dip_style_soft, DIP_ALIGN_RIGHT, right - flip_width,
+                box.y + pad / 2, box.width / 2, text);
     format_change(&advice->quality, &point->quality, text);
-    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, box.x + pad, box.y + pad / 2 + line,
-                box.width - 2 * pad, text);
+    dip_ui_text(ui, DIP_ADVICE_NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, box.x + pad,
+                box.y + pad / 2 + line, box.width - 2 * pad, text);
     if (input.pressed) {
-        try_settings(ui, window, &point->quality);
+        dip_advice_try(ui, window, &point->quality);
     }
     return box.height;
 }
@@ -215,7 +193,7 @@ static int declare_step(DipUi *ui, DipWindow *window, const DipCostsAdvice *advi
 static void declare_steps(DipUi *ui, DipWindow *window, DipRect room) {
     const DipCostsAdvice *advice = &window->state->costs->advice[chosen_advice(window->state)];
     int y = room.y;
-    write_line(ui, SIZE, dip_style_white, room, &y, "One step");
+    dip_advice_line(ui, DIP_ADVICE_SIZE, dip_style_white, room, &y, "One step");
     if (!advice->found) {
         return;
     }
@@ -224,7 +202,7 @@ static void declare_steps(DipUi *ui, DipWindow *window, DipRect room) {
                           (DipRect){room.x, y, room.width, room.height}) +
              dip_ui_px(ui, 6);
     }
-    dip_ui_text_block(ui, NOTE_SIZE, dip_style_dim,
+    dip_ui_text_block(ui, DIP_ADVICE_NOTE_SIZE, dip_style_dim,
                       (DipRect){room.x, y, room.width, room.y + room.height - y},
                       window->state->costs->heading);
 }
@@ -236,10 +214,10 @@ void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body) {
     const DipRect room = {body.x + margin, body.y + margin / 2, body.width - 2 * margin,
                           body.height - margin};
     if (!window->state->costs) {
-        declare_how_to(ui, window, room);
+        dip_advice_declare_rough(ui, window, room);
         return;
     }
-    const int left = dip_style_min(dip_ui_px(ui, LEFT_WIDTH), room.width);
+    const int left = dip_style_min(dip_ui_px(ui, DIP_ADVICE_LEFT_WIDTH), room.width);
     const int right = dip_ui_px(ui, RIGHT_WIDTH);
     declare_picked(ui, window, (DipRect){room.x, room.y, left, room.height});
     int middle = room.width - left - gap;

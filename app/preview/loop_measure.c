@@ -21,12 +21,13 @@ static bool wants_prices(const DipPreview *preview) {
            dip_preview_rests(state, preview->flying);
 }
 
-// Returns whether the tags of the settings wait for the truth, from which their errors are
-// measured. It is drawn only once all times are known, because it would disturb them.
+// Returns whether the tags of the settings or the advice wait for the truth, from which their
+// errors are measured. It is drawn only once all times are known, because it would disturb them.
 static bool prices_need_truth(const DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
-    return (state->tools.tab == DIP_TAB_SETTINGS || state->wants_prices) && !preview->no_truth &&
-           wants_prices(preview) && dip_live_prices_have_times(preview->live_prices);
+    const bool shown = state->tools.tab == DIP_TAB_SETTINGS || state->tools.tab == DIP_TAB_ADVICE;
+    return (shown || state->wants_prices) && !preview->no_truth && wants_prices(preview) &&
+           dip_live_prices_have_times(preview->live_prices);
 }
 
 // Returns whether the user looks at errors or at the truth.

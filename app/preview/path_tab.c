@@ -151,10 +151,12 @@ static void declare_paths(Flow *flow) {
     }
     const int arrows = 2 * (button_width(flow, "<") + flow->gap);
     const bool all = width <= flow->body.width;
-    if (!all && flow_button(flow, ID_PATHS - 2, "<", DIP_UI_PLAIN, "The path before (Left arrow).")) {
+    if (!all &&
+        flow_button(flow, ID_PATHS - 2, "<", DIP_UI_PLAIN, "The path before (Left arrow).")) {
         act(flow, DIP_ACTION_NEXT_PATH, 0, true);
     }
-    if (!all && flow_button(flow, ID_PATHS - 1, ">", DIP_UI_PLAIN, "The next path (P, or Right arrow).")) {
+    if (!all &&
+        flow_button(flow, ID_PATHS - 1, ">", DIP_UI_PLAIN, "The next path (P, or Right arrow).")) {
         act(flow, DIP_ACTION_NEXT_PATH, 0, false);
     }
     const int row = flow->y;

@@ -1,0 +1,137 @@
+// Tests advice from rough prices against a search over nested loops of known sums.
+#include "app/preview/rough_advice.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define BASE_MS   5.0
+#define BASE_FLIP 0.08
+
+// What the steps add, in the order of the steps' indices.
+static const double aa_ms[] = {0.0, 1.0, 1.9, 2.7, 3.4};
+static const double aa_flip[] = {0.0, -0.02, -0.03, -0.034, -0.036};
+static const double af_ms[] = {0.0, 0.4, 0.9, 1.6, 2.6};
+static const double af_flip[] = {0.0, -0.008, -0.012, -0.015, -0.016};
+static const double opt_ms[] = {0.0, -0.3, -0.9};
+static const double opt_flip[] = {0.0, 0.004, 0.02};
+static const double mip_ms[] = {-0.8, -0.5, -0.2, 0.0};
+static const double mip_flip[] = {0.05, 0.03, 0.01, 0.0};
+
+static DipPrices *prices;
+
+static DipQuality quality_of(const char *text) {
+    DipQuality quality;
+    assert_true(dip_quality_parse(text, &quality, NULL));
+    return quality;
+}
+
+static void add_steps(DipSetting setting, const double *ms, const double *flip, int base,
+                      bool errors) {
+    for (int i = 0; i < dip_setting_info(setting)->step_count; i++) {
+        DipQuality quality = quality_of("aa=none");
+        quality.step[setting] = (uint8_t)i;
+        if (i != base) {
+            assert_true(dip_prices_add_rough(prices, &quality, BASE_MS + ms[i], BASE_MS + ms[i],
+                                             BASE_MS + ms[i], errors ? BASE_FLIP + flip[i] : -1.0));
+        }
+    }
+}
+
+static void add_all(bool errors) {
+    const DipQuality base = quality_of("aa=none");
+    assert_true(
+        dip_prices_add_rough(prices, &base, BASE_MS, BASE_MS, BASE_MS, errors ? BASE_FLIP : -1.0));
+    add_steps(DIP_SETTING_AA, aa_ms, aa_flip, 0, errors);
+    add_steps(DIP_SETTING_AF, af_ms, af_flip, 0, errors);
+    add_steps(DIP_SETTING_OPT, opt_ms, opt_flip, 0, errors);
+    add_steps(DIP_SETTING_MIPLOD, mip_ms, mip_flip, 3, errors);
+}
+
+// The least error of the combinations whose time is within the budget, or INFINITY.
+static double least_flip(double budget_ms) {
+    double least = INFINITY;
+    for (int aa = 0; aa < 5; aa++) {
+        for (int af = 0; af < 5; af++) {
+            for (int opt = 0; opt < 3; opt++) {
+                for (int mip = 0; mip < 4; mip++) {
+                    const double ms = BASE_MS + aa_ms[aa] + af_ms[af] + opt_ms[opt] + mip_ms[mip];
+                    const double flip =
+                        BASE_FLIP + aa_flip[aa] + af_flip[af] + opt_flip[opt] + mip_flip[mip];
+                    least = ms <= budget_ms && flip < least ? flip : least;
+                }
+            }
+        }
+    }
+    return least;
+}
+
+static void the_advice_is_within_one_percent_of_the_best(void **state) {
+    (void)state;
+    const DipQuality like = quality_of("aa=none");
+    prices = dip_prices_create(NULL);
+    add_all(true);
+    int found = 0;
+    for (double budget_ms = 2.5; budget_ms < 13.0; budget_ms += 0.05) {
+        const DipRoughAdvice advice = dip_rough_advice(prices, &like, budget_ms);
+        const double least = least_flip(budget_ms);
+        if (isinf(least)) {
+            assert_int_equal(advice.state, DIP_ROUGH_ADVICE_TOO_SLOW);
+            assert_true(fabs(advice.ms - (BASE_MS - 0.9 - 0.8)) < 1e-9);
+            continue;
+        }
+        assert_int_equal(advice.state, DIP_ROUGH_ADVICE_FOUND);
+        assert_true(advice.ms <= budget_ms);
+        assert_true(advice.flip >= least - 1e-9 && advice.flip <= 1.03 * least);
+        assert_int_equal(advice.quality.step[DIP_SETTING_AAA], 0); // It has no price here.
+        const uint8_t *step = advice.quality.step;
+        const double ms = BASE_MS + aa_ms[step[DIP_SETTING_AA]] + af_ms[step[DIP_SETTING_AF]] +
+                          opt_ms[step[DIP_SETTING_OPT]] + mip_ms[step[DIP_SETTING_MIPLOD]];
+        assert_true(fabs(ms - advice.ms) < 1e-9);
+        found++;
+    }
+    assert_true(found > 100);
+    dip_prices_destroy(&prices);
+}
+
+static void steps_that_need_company_are_considered_beside_it(void **state) {
+    (void)state;
+    const DipQuality like = quality_of("aa=4,af=8");
+    prices = dip_prices_create(NULL);
+    add_all(true);
+    assert_int_equal(dip_rough_advice(prices, &like, 33.0).state, DIP_ROUGH_ADVICE_NO_TIMES);
+    const DipQuality adaptive = quality_of("aa=4,aaa=on");
+    const DipQuality exact = quality_of("af=8,aaf=on");
+    assert_true(dip_prices_add_rough(prices, &adaptive, 8.0, 8.0, 8.0, 0.04));
+    assert_true(dip_prices_add_rough(prices, &exact, 7.0, 7.0, 7.0, 0.06));
+    const DipRoughAdvice advice = dip_rough_advice(prices, &like, 33.0);
+    assert_int_equal(advice.state, DIP_ROUGH_ADVICE_FOUND);
+    assert_int_equal(advice.quality.step[DIP_SETTING_AAA], 1);
+    assert_int_equal(advice.quality.step[DIP_SETTING_AAF], 1);
+    dip_prices_destroy(&prices);
+}
+
+static void without_errors_there_is_no_advice(void **state) {
+    (void)state;
+    const DipQuality like = quality_of("aa=none");
+    prices = dip_prices_create(NULL);
+    assert_int_equal(dip_rough_advice(prices, &like, 16.0).state, DIP_ROUGH_ADVICE_NO_TIMES);
+    add_all(false);
+    assert_int_equal(dip_rough_advice(prices, &like, 16.0).state, DIP_ROUGH_ADVICE_NO_ERRORS);
+    dip_prices_destroy(&prices);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_advice_is_within_one_percent_of_the_best),
+        cmocka_unit_test(steps_that_need_company_are_considered_beside_it),
+        cmocka_unit_test(without_errors_there_is_no_advice),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
