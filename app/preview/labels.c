@@ -25,6 +25,15 @@ static void format_time(const DipPaneFigures *figures, bool brief, char *text, s
     }
 }
 
+// Returns the width that a time takes: that of the longest usual text, so that the settings beside
+// it stay where they are when the preview pauses or a time has a digit more. If there is no room
+// for that, returns the width of the text itself.
+static int reserve_time(const DipUi *ui, const char *time, int most) {
+    const int width = dip_ui_text_width(ui, LABEL_SIZE, time);
+    const int usual = dip_ui_text_width(ui, LABEL_SIZE, "88.8 ms this frame");
+    return width < usual && usual <= most ? usual : width;
+}
+
 // Writes the settings with the words that fit: in full, briefly, or not at all.
 static void format_settings(const DipUi *ui, const DipQuality *quality, int room, char *text,
                             size_t size_bytes) {
@@ -54,7 +63,7 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     if (dip_ui_text_width(ui, LABEL_SIZE, time) > most) {
         format_time(&window->figures[pane], true, time, sizeof time);
     }
-    const int time_width = dip_ui_text_width(ui, LABEL_SIZE, time);
+    const int time_width = reserve_time(ui, time, most);
     const int used = title_width + time_width + 3 * pad;
     const int room = rect.width - 2 * margin - used - pad;
     format_settings(ui, &window->state->quality[pane], room, settings, sizeof settings);

@@ -121,6 +121,8 @@ bool dip_loop_measure_prices(DipPreview *preview) {
     if (!preview->live_prices) {
         return false;
     }
+    dip_prices_prefer_rough(preview->prices, preview->state.measures_here ||
+                                                 dip_prices_are_of_other_scene(preview->prices));
     if (!wants_prices(preview)) {
         dip_live_prices_pause(preview->live_prices);
         return false;

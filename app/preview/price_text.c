@@ -165,11 +165,15 @@ void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const cha
     char name[DIP_STEP_NAME_BYTES], cost[240];
     dip_step_name(setting, step, name);
     format_price(price, cost, sizeof cost);
-    snprintf(text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s%s", name,
-             dip_step_explanation(setting, step), why[0] ? "\n" : "", why,
-             setting == DIP_SETTING_MIPDEBUG ? "" : cost,
-             dip_price_is_doubtful(price) ? "\nToo noisy to tell a cost from a gain." : "",
-             price->has_flip ? "\nFLIP is the error that people see, from 0 to 1." : "");
+    snprintf(
+        text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s%s%s", name,
+        dip_step_explanation(setting, step), why[0] ? "\n" : "", why,
+        setting == DIP_SETTING_MIPDEBUG ? "" : cost,
+        dip_price_is_doubtful(price) ? "\nToo noisy to tell a cost from a gain." : "",
+        price->doubtful && price->state != DIP_PRICE_UNKNOWN
+            ? "\nThe machine was too busy while the report was measured: do not trust this time."
+            : "",
+        price->has_flip ? "\nFLIP is the error that people see, from 0 to 1." : "");
 }
 
 void dip_settings_text(const DipQuality *quality, char *text, size_t size_bytes) {

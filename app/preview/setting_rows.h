@@ -13,6 +13,7 @@ enum {
     DIP_ID_UNDO,
     DIP_ID_COPY,
     DIP_ID_PAUSE,
+    DIP_ID_MEASURE_HERE,
     DIP_ID_MORE
 };
 

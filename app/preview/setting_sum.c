@@ -147,7 +147,7 @@ static double end_of_scale(double ms) {
 // Draws the parts of the sum on one scale with the budget.
 static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART_COUNT],
                         DipRect rect) {
-    const double end_ms = end_of_scale(sum->ms);
+    const double end_ms = end_of_scale(sum->ms - fmin(sum->together_ms, 0.0));
     const double per_ms = rect.width / end_ms;
     const int budget_x = rect.x + (int)(dip_budget_ms * per_ms);
     double at_ms = 0.0;
@@ -166,6 +166,12 @@ static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART
         const int from = rect.x + (int)(at_ms * per_ms);
         const int width = dip_style_max(1, (int)(sum->together_ms * per_ms));
         fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_accent);
+    }
+    if (sum->together_ms <
+        0.0) { // The parts take less time together: what they save is struck out.
+        const int from = rect.x + (int)(sum->ms * per_ms);
+        const int width = rect.x + (int)(at_ms * per_ms) - from - 1;
+        fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_well);
     }
     if (sum->ms > dip_budget_ms) {
         fill_hatched(
@@ -257,6 +263,33 @@ static void draw_sum(DipUi *ui, const DipPriceSum *sum, DipRect rect) {
                 rect.x + rect.width - x, note);
 }
 
+// Declares a button at the right end of a line that measures prices here, where the report is of
+// another size, machine or number of threads, or goes back to the report. Returns the room that is
+// left beside it.
+static int declare_measure_here(DipUi *ui, DipWindow *window, DipRect line) {
+    DipPreviewState *state = window->state;
+    const char *text = state->measures_here ? "Use the report" : "Measure here";
+    char source[400];
+    const int width = dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 16);
+    const DipRect button = {line.x + line.width - width, line.y, width, dip_ui_px(ui, SUM_HEIGHT)};
+    const bool stale = dip_prices_source(window->prices, window->frames[0].width,
+                                         window->frames[0].height, source, sizeof source);
+    if (!dip_prices_has_report(window->prices) || !(stale || state->measures_here) ||
+        dip_prices_are_of_other_scene(window->prices) || 2 * width > line.width) {
+        return line.width;
+    }
+    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_MEASURE_HERE), button, text,
+                      DIP_UI_PLAIN,
+                      state->measures_here
+                          ? "Shows the prices of the report again."
+                          : "The report's prices do not hold for these panes. Measures prices of "
+                            "this view instead, while the picture rests.")) {
+        state->measures_here = !state->measures_here;
+        ++state->scene_changes;
+    }
+    return line.width - width;
+}
+
 // Declares a button that pauses at the right end of a line, where prices are measured only at rest
 // and are not known yet. Returns the room that is left beside it.
 static int declare_pause(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect line) {
@@ -322,7 +355,11 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     find_parts(&sum, parts);
     const int bottom = rect.y + rect.height;
     int y = rect.y;
-    const int room = declare_pause(ui, window, &sum, (DipRect){rect.x, y, rect.width, 0});
+    const DipRect line = {rect.x, y, rect.width, 0};
+    int room = declare_pause(ui, window, &sum, line);
+    if (room == line.width) {
+        room = declare_measure_here(ui, window, line);
+    }
     if (dip_ui_is_drawing(ui)) {
         draw_sum(ui, &sum, (DipRect){rect.x, y, room, 0});
     }
