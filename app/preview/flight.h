@@ -18,6 +18,9 @@ typedef struct DipFlight {
     double drag_right;
     double drag_up;
     int zoom_steps;
+    // Steps that buttons have asked for since the last turn of the loop.
+    int right_steps;
+    int forward_steps;
     bool pressed;  // A button that flies the camera was pressed over a pane and is held.
     bool dragging; // It has moved so far that this is no click.
     int press_x;   // Where the button was pressed, in pixels of the window.

@@ -312,6 +312,22 @@ static void declare_camera(Flow *flow) {
     flow_text(flow, dip_style_soft, text);
 }
 
+static void declare_steps(Flow *flow) {
+    static const struct {
+        const char *text;
+        int right, forward;
+        const char *tip;
+    } steps[] = {{"Forward", 0, 1, "Moves the free camera forward (W while held)."},
+                 {"Back", 0, -1, "Moves the free camera back (S while held)."},
+                 {"Left", -1, 0, "Moves the free camera to the left (A while held)."},
+                 {"Right", 1, 0, "Moves the free camera to the right (D while held)."}};
+    for (unsigned i = 0; i < sizeof steps / sizeof *steps; ++i) {
+        if (flow_button(flow, ID_CAMERA + 5 + i, steps[i].text, DIP_UI_PLAIN, steps[i].tip)) {
+            dip_pilot_step(flow->state, steps[i].right, steps[i].forward, dip_ui_now_ns(flow->ui));
+        }
+    }
+}
+
 void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body) {
     Flow flow = flow_make(ui, window->state, body);
     declare_paths(&flow);
@@ -327,4 +343,5 @@ void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body) {
     declare_ends(&flow);
     next_group(&flow);
     declare_camera(&flow);
+    declare_steps(&flow);
 }

@@ -14,6 +14,7 @@ enum { DRAG_PX = 4, STEPS_TO_DOUBLE = 4, MOST_STEPS = 40 };
 static const double look_deg = 90.0;
 static const double orbit_deg = 180.0;
 static const double zoom_per_step = 0.9;
+static const double step_s = 0.25;
 
 double dip_flight_speed(const DipFlight *flight) {
     return flight->base_speed_m_per_s * exp2((double)flight->speed_steps / STEPS_TO_DOUBLE);
@@ -91,6 +92,12 @@ void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns) 
     dip_path_editor_choose(state->editor, index);
     dip_preview_notice(state, now_ns, "Key %zu of %zu", index + 1,
                        dip_path_editor_count(state->editor));
+}
+
+void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_ns) {
+    make_free(state, now_ns);
+    state->flight.right_steps += right;
+    state->flight.forward_steps += forward;
 }
 
 void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
@@ -215,7 +222,23 @@ static bool move_by_mouse(DipFlight *flight, const DipSession *session, DipPose 
     return true;
 }
 
+// Carries out the steps that buttons have asked for. Returns whether there were any.
+static bool move_by_steps(const DipFlight *flight, DipPose *pose) {
+    const DipCameraKeys right = {.right = 1.0};
+    const DipCameraKeys forward = {.forward = 1.0};
+    const double step_m_per_s = dip_flight_speed(flight) * step_s;
+    bool moved = false;
+    if (flight->right_steps) {
+        moved |= dip_camera_move(pose, &right, step_m_per_s, flight->right_steps);
+    }
+    if (flight->forward_steps) {
+        moved |= dip_camera_move(pose, &forward, step_m_per_s, flight->forward_steps);
+    }
+    return moved;
+}
+
 static void forget_mouse(DipFlight *flight) {
+    flight->right_steps = flight->forward_steps = 0;
     flight->drag_right = flight->drag_up = 0.0;
     flight->zoom_steps = 0;
 }
@@ -259,6 +282,7 @@ bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *p
     flight->reset = false;
     if (state->manual) {
         moved |= move_by_mouse(flight, turn->session, pose);
+        moved |= move_by_steps(flight, pose);
         const double seconds = 1e-9 * (double)turn->elapsed_ns;
         const double speed_m_per_s = dip_flight_speed(flight);
         moved |= dip_camera_move(pose, &turn->keys, speed_m_per_s, seconds);

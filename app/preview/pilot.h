@@ -14,6 +14,10 @@ void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool 
 // Chooses a key of the path editor, and moves the free camera there.
 void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns);
 
+// Moves the camera by steps to the right and forward, and makes it free if it was not. A step takes
+// the camera as far as it flies in a quarter of a second.
+void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_ns);
+
 // Lets the mouse fly the camera. `panes`: what the user did with the panes' own controls in this
 // pass. Dragging with the right button turns the camera, and makes it free if it was not. The left
 // button does so too if the camera is free and no tool uses the button. The wheel changes the speed

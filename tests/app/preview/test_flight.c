@@ -372,6 +372,20 @@ static void jumps_reach_the_time_on_the_path(void **unused) {
     }
 }
 
+static void buttons_move_the_camera_by_a_quarter_of_a_second(void **unused) {
+    (void)unused;
+    pose.orientation[1] = sin(-45 * rad); // Looks along +X.
+    pose.orientation[3] = cos(-45 * rad);
+    dip_pilot_step(&state, 0, 3, 0);
+    dip_pilot_step(&state, -1, 0, 0);
+    assert_true(state.manual);
+    assert_true(turn());
+    assert_true(fabs(pose.position_world[0] - (1.0 + 3 * 0.25 * 3.0)) < 1e-12);
+    assert_true(fabs(pose.position_world[1] - 2.0) < 1e-12);
+    assert_true(fabs(pose.position_world[2] - (3.0 - 0.25 * 3.0)) < 1e-12); // -Z is to the left.
+    assert_false(turn());
+}
+
 int main(void) {
 #define FLIGHT_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
@@ -386,6 +400,7 @@ int main(void) {
         FLIGHT_TEST(the_loupe_keeps_its_wheel),
         FLIGHT_TEST(home_takes_the_camera_back),
         FLIGHT_TEST(only_given_models_are_orbited_at_first),
+        FLIGHT_TEST(buttons_move_the_camera_by_a_quarter_of_a_second),
         FLIGHT_TEST(the_end_of_paths_changes_without_a_jump),
         FLIGHT_TEST(jumps_reach_the_time_on_the_path),
     };
