@@ -21,7 +21,7 @@ typedef struct DipSessionOptions {
     DipUpAxis up; // Axis of the model files that points up.
     bool has_shading;
     DipModelShading shading; // Where the light of lit surfaces is computed.
-    int look;                // Variant of the gallery\'s scene, counted from 0.
+    int look;                // Variant of the gallery's scene, counted from 0.
     const char *scene;  // Scene of the gallery to show, "tour", or "models" for the ini's models.
     int import_seconds; // Longest time that importing the models may take, in seconds; 0: default.
     bool force_all_effects;
