@@ -94,6 +94,8 @@ static void add_work(Lines *lines, const DipCounters *counters) {
     add_count(lines, false, "Triangles submitted", counters->triangles_in);
     add_count(lines, false, "Pixels resolved", counters->pixels_resolved);
     add_count(lines, false, "Tiles drawn", counters->tiles_drawn);
+    add_count(lines, false, "Objects in view", counters->draws_in_view);
+    add_count(lines, false, "Objects culled", counters->draws_culled);
 }
 
 int dip_panel_lines(const DipPaneFigures *figures, int pane,

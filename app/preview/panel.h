@@ -39,7 +39,7 @@ typedef struct DipPanelLine {
     char value[40];
 } DipPanelLine;
 
-enum { DIP_PANEL_MAX_LINES = 20 };
+enum { DIP_PANEL_MAX_LINES = 24 };
 
 // Fills in the panel's lines, the most important first, so that a caller with little room can leave
 // out the last lines. Returns the number of lines.
