@@ -27,8 +27,8 @@ typedef struct DipRoughAdvice {
 // Finds the combination of aa, aaa, af, aaf, opt and miplod with the least error whose time is
 // within the budget; of combinations whose errors differ by less than 1 %, the fastest. The other
 // settings are those of the base. Settings that need others, such as adaptive AA, are considered
-// only if the combination `like` has what they need, because they are priced beside it. Takes some
-// microseconds.
+// only if the combination `like` has what they need, because they are priced beside it. Takes
+// about a tenth of a millisecond.
 DipRoughAdvice dip_rough_advice(const DipPrices *prices, const DipQuality *like, double budget_ms);
 
 #endif
