@@ -13,12 +13,14 @@ static bool measure(DipCostAxes *axes, const DipSession *session,
                     const DipCostAxesArguments *arguments, DipError *err) {
     char cache[PATH_MAX];
     DipCostAxesDrawing drawing;
+    DipEnergyMeter meter;
     if (!dip_cost_find_cache(arguments->cost.cache, cache, err) ||
         !dip_cost_axes_open_drawing(&drawing, session, axes, err)) {
         return false;
     }
+    dip_energy_open(&meter, arguments->values.powercap);
     const bool done = dip_cost_axes_judge(&drawing, cache[0] ? cache : NULL, err) &&
-                      dip_cost_axes_time(&drawing, arguments->values.powercap, err);
+                      dip_cost_axes_time(&drawing, &meter, err);
     dip_cost_axes_close_drawing(&drawing);
     return done;
 }

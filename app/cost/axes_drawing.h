@@ -4,6 +4,7 @@
 #define DIP_APP_COST_AXES_DRAWING_H
 
 #include "app/cost/axes.h"
+#include "app/cost/axes_energy.h"
 #include "app/cost/axes_enlarge.h"
 
 // What draws a row. Owned.
@@ -48,6 +49,6 @@ bool dip_cost_axes_interrupted(DipError *err);
 bool dip_cost_axes_judge(DipCostAxesDrawing *drawing, const char *cache, DipError *err);
 
 // Times every row beside the base, measures energy, and estimates the report's times.
-bool dip_cost_axes_time(DipCostAxesDrawing *drawing, const char *powercap, DipError *err);
+bool dip_cost_axes_time(DipCostAxesDrawing *drawing, const DipEnergyMeter *meter, DipError *err);
 
 #endif

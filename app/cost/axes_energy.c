@@ -43,7 +43,8 @@ static bool zone_file(char file[PATH_MAX], const char *folder, int zone, const c
 
 static void refuse(DipEnergyMeter *meter, const char *file) {
     meter->count = 0;
-    snprintf(meter->why, sizeof meter->why, "%.180s cannot be read: %.60s", file, strerror(errno));
+    snprintf(meter->text, sizeof meter->text, "%.180s cannot be read: %.60s", file,
+             strerror(errno));
 }
 
 // Adds the package of a zone. Returns false if the machine does not tell.
@@ -52,7 +53,7 @@ static bool add_package(DipEnergyMeter *meter, const char *folder, int zone) {
     uint64_t now_uj;
     if (meter->count == DIP_ENERGY_MAX_PACKAGES) {
         meter->count = 0;
-        snprintf(meter->why, sizeof meter->why, "the machine has more than %d packages",
+        snprintf(meter->text, sizeof meter->text, "the machine has more than %d packages",
                  DIP_ENERGY_MAX_PACKAGES);
         return false;
     }
@@ -81,11 +82,17 @@ void dip_energy_open(DipEnergyMeter *meter, const char *folder) {
         }
     }
     if (meter->count == 0) {
-        snprintf(meter->why, sizeof meter->why, "%.180s has no counters of packages", folder);
+        snprintf(meter->text, sizeof meter->text, "%.180s has no counters of packages", folder);
+        return;
     }
+    snprintf(meter->text, sizeof meter->text, "%d package%s in %.180s", meter->count,
+             meter->count == 1 ? "" : "s", folder);
 }
 
 bool dip_energy_read(const DipEnergyMeter *meter, DipEnergyReading *reading) {
+    if (meter->read) {
+        return meter->read(meter->context, reading);
+    }
     bool read = meter->count > 0;
     for (int i = 0; read && i < meter->count; i++) {
         read = read_number(meter->packages[i].file, &reading->uj[i]);

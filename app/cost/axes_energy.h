@@ -14,23 +14,26 @@
 
 #define DIP_ENERGY_FOLDER "/sys/class/powercap"
 
-enum { DIP_ENERGY_MAX_PACKAGES = 16, DIP_ENERGY_WHY = 288 };
+enum { DIP_ENERGY_MAX_PACKAGES = 16, DIP_ENERGY_TEXT = 288 };
 
 typedef struct DipEnergyPackage {
     char file[PATH_MAX]; // Its energy_uj.
     uint64_t range_uj;   // Greatest value of the counter.
 } DipEnergyPackage;
 
-typedef struct DipEnergyMeter {
-    DipEnergyPackage packages[DIP_ENERGY_MAX_PACKAGES];
-    int count;                // Number of packages; 0: the machine does not tell.
-    char why[DIP_ENERGY_WHY]; // Why it does not, as the end of a sentence; "" if it does.
-} DipEnergyMeter;
-
 // The counters at one time.
 typedef struct DipEnergyReading {
     uint64_t uj[DIP_ENERGY_MAX_PACKAGES];
 } DipEnergyReading;
+
+typedef struct DipEnergyMeter {
+    DipEnergyPackage packages[DIP_ENERGY_MAX_PACKAGES];
+    int count;                  // Number of packages; 0: the machine does not tell.
+    char text[DIP_ENERGY_TEXT]; // Where the energy comes from, or why the machine does not tell.
+    // Reads the counters instead of the files, for tests. NULL: the files are read.
+    bool (*read)(void *context, DipEnergyReading *reading);
+    void *context;
+} DipEnergyMeter;
 
 // Finds the counters in a folder, usually DIP_ENERGY_FOLDER. If any package's counter cannot be
 // read, or if there are more packages than fit, the machine does not tell.

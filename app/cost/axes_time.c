@@ -1,6 +1,5 @@
 // Timing the rows beside the base, and measuring the energy of their visits.
 #include "app/cost/axes_drawing.h"
-#include "app/cost/axes_energy.h"
 #include "app/measure/paired_timing.h"
 #include "app/progress.h"
 
@@ -19,7 +18,7 @@ typedef struct RowEnergy {
 
 typedef struct AxesTiming {
     DipCostAxesDrawing *drawing;
-    DipEnergyMeter meter;
+    const DipEnergyMeter *meter;
     DipEnergyReading before; // At the begin of the visit.
     bool has_energy;         // Every reading so far succeeded.
     RowEnergy energy[DIP_COST_AXES_MAX_ROWS];
@@ -49,14 +48,14 @@ static void count_energy(AxesTiming *t, const DipTimingTurn *turn) {
         return;
     }
     if (turn->phase == DIP_TIMING_REWARM) {
-        t->has_energy = dip_energy_read(&t->meter, &t->before);
+        t->has_energy = dip_energy_read(t->meter, &t->before);
     } else if (turn->phase == DIP_TIMING_TIMED &&
                turn->frame / options->rounds == options->timed_frames - 1) {
         DipEnergyReading after;
-        t->has_energy = dip_energy_read(&t->meter, &after);
+        t->has_energy = dip_energy_read(t->meter, &after);
         if (t->has_energy) {
             RowEnergy *energy = &t->energy[turn->subject];
-            energy->uj += (double)dip_energy_between_uj(&t->meter, &t->before, &after);
+            energy->uj += (double)dip_energy_between_uj(t->meter, &t->before, &after);
             energy->frames += options->timed_frames;
         }
     }
@@ -98,15 +97,14 @@ static double wait_share(const AxesTiming *t, bool has_wait) {
     return t->room_ms > 0.0 ? waited_ms / t->room_ms : 0.0;
 }
 
-static void keep_energy(AxesTiming *t, const char *folder) {
+static void keep_energy(const AxesTiming *t) {
     DipCostAxes *axes = t->drawing->axes;
     if (!t->has_energy) {
         snprintf(axes->energy, sizeof axes->energy, "not told by this machine: %s",
-                 *t->meter.why ? t->meter.why : "a counter could be read only for a while");
+                 t->meter->count > 0 ? "a counter could be read only for a while" : t->meter->text);
         return;
     }
-    snprintf(axes->energy, sizeof axes->energy, "%d package%s in %.200s", t->meter.count,
-             dip_cost_plural(t->meter.count), folder);
+    snprintf(axes->energy, sizeof axes->energy, "%s", t->meter->text);
     for (int r = 0; r < axes->report.row_count; r++) {
         if (t->energy[r].frames > 0) {
             axes->rows[r].frame_mj = 1e-3 * t->energy[r].uj / (double)t->energy[r].frames;
@@ -153,7 +151,7 @@ static bool run_timing(AxesTiming *t, DipTimePair *pairs, DipError *err) {
     return done;
 }
 
-bool dip_cost_axes_time(DipCostAxesDrawing *drawing, const char *powercap, DipError *err) {
+bool dip_cost_axes_time(DipCostAxesDrawing *drawing, const DipEnergyMeter *meter, DipError *err) {
     const DipCostReport *report = &drawing->axes->report;
     const size_t count = (size_t)report->row_count * (size_t)dip_cost_frame_count(report);
     DipTimePair *pairs = calloc(count, sizeof *pairs);
@@ -162,10 +160,10 @@ bool dip_cost_axes_time(DipCostAxesDrawing *drawing, const char *powercap, DipEr
         (pairs && t) || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost axes", "out of memory");
     if (done) {
         t->drawing = drawing;
-        dip_energy_open(&t->meter, powercap);
-        t->has_energy = t->meter.count > 0;
+        t->meter = meter;
+        t->has_energy = meter->count > 0;
         done = run_timing(t, pairs, err) && keep_times(t, pairs, err);
-        keep_energy(t, powercap);
+        keep_energy(t);
     }
     free(pairs);
     free(t);
