@@ -51,11 +51,9 @@ static bool write_report(DipCostContext *cost, const char *folder, DipError *err
            write_file(cost->report, folder, "cost.json", dip_cost_write_json, err);
 }
 
-// Finds the folder of the cached truths: the folder of --cache if it is given, otherwise the user's
-// cache folder. Writes "" if there is no cache.
-static bool find_cache(const DipCostArguments *arguments, char folder[PATH_MAX], DipError *err) {
-    if (arguments->cost.cache) {
-        snprintf(folder, PATH_MAX, "%s", arguments->cost.cache);
+bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err) {
+    if (given) {
+        snprintf(folder, PATH_MAX, "%s", given);
     } else if (!dip_truth_default_folder(folder, PATH_MAX)) {
         folder[0] = '\0';
     }
@@ -94,7 +92,8 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     char plan[33];
     char cache[PATH_MAX];
     DipCostContext cost;
-    if (!find_cache(arguments, cache, err) || !dip_folder_make(arguments->out, "--out", err)) {
+    if (!dip_cost_find_cache(arguments->cost.cache, cache, err) ||
+        !dip_folder_make(arguments->out, "--out", err)) {
         return false;
     }
     dip_cost_plan_hash(report, session, plan);

@@ -5,6 +5,12 @@
 #include "app/cost/options.h"
 #include "app/session.h"
 
+#include <limits.h>
+
+// Finds the folder of the cached truths (converged pictures): `given` (--cache) if it is not NULL,
+// otherwise the user's cache folder. Makes the folder. Writes "" if there is no cache.
+bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err);
+
 // Measures the time and the error of each setting, writes the report and prints its table.
 bool dip_cost_run(DipSession *session, const DipCostArguments *arguments, DipError *err);
 

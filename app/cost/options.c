@@ -26,7 +26,8 @@ static bool read_part(void *fields, const DipOptionRow *row, const char *value, 
     return true;
 }
 
-static bool read_samples(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+bool dip_cost_read_samples(void *fields, const DipOptionRow *row, const char *value,
+                           DipError *err) {
     DipCostOptions *cost = fields;
     int count;
     if (!dip_integer_parse(value, strlen(value), &count) || count < 1 || count > 4096 ||
@@ -237,7 +238,7 @@ static const DipOptionRow error_rows[] = {
      .text = "Draw the converged picture in two halves with this many samples per pixel each. The "
              "number must be a square. The default is 64.",
      .kind = DIP_OPTION_CUSTOM,
-     .read = read_samples},
+     .read = dip_cost_read_samples},
     {.name = "--pixels-per-degree",
      .argument = "X",
      .text = "Pixels per degree of the viewer's field of view, for FLIP. The default 67.02 is for "

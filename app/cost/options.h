@@ -87,7 +87,9 @@ extern const DipOptionParts dip_cost_option_parts;
 extern const DipOptionParts dip_cost_merge_option_parts;
 extern const DipOptionParts dip_cost_assets_option_parts;
 
-// Read a value of --budget-ms, and the value of --budget-of, into DipCostOptions.
+// Read the value of --samples, a value of --budget-ms, and the value of --budget-of, into
+// DipCostOptions.
+bool dip_cost_read_samples(void *fields, const DipOptionRow *row, const char *value, DipError *err);
 bool dip_cost_read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err);
 bool dip_cost_read_budget_of(void *fields, const DipOptionRow *row, const char *value,
                              DipError *err);

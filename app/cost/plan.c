@@ -285,7 +285,7 @@ static void hash_gallery(const char *name, char hex[33]) {
     dip_hash_hex(&hash, hex);
 }
 
-static void describe(DipCostReport *report, const DipSession *session) {
+void dip_cost_describe(DipCostReport *report, const DipSession *session) {
     dip_cost_scene_name(session, report->scene);
     if (session->shows_gallery) {
         hash_gallery(report->scene, report->scene_hash);
@@ -351,7 +351,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     if (!report->options.end_place) {
         report->options.end_place = report->options.places;
     }
-    describe(report, session);
+    dip_cost_describe(report, session);
     add_row(report, &report->options.baseline, add_path(report, session, DIP_CATEGORY_DEFAULT));
     for (int s = 0; s < DIP_SETTING_COUNT && !options->predict; s++) {
         if (s == DIP_SETTING_AAA) {

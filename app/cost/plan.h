@@ -14,6 +14,9 @@
 bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCostOptions *options,
                    DipError *err);
 
+// Fills in the report's scene and its hash, machine, program, threads and size.
+void dip_cost_describe(DipCostReport *report, const DipSession *session);
+
 // Writes the file name of the first model, without its folder.
 void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]);
 

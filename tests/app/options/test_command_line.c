@@ -29,6 +29,7 @@ static const char *const complete[] = {
     "cost diff x y",
     "cost advise x --budget-ms 8",
     "cost assets",
+    "cost axes",
     "path info x",
     "path convert x y.pth",
     "verify",
