@@ -153,6 +153,7 @@ for wait in 0 1.5; do
     "$diptych" cost axes --cache other --rounds 5000 >out.txt 2>err.txt &
     for tenth in $(seq 600); do
         catches $! && break
+        kill -0 $! 2>/dev/null || break
         sleep 0.1
     done
     sleep $wait
