@@ -110,7 +110,9 @@ static void print_columns(const DipCostAxes *axes, DipCostAxis axis, FILE *out) 
         fprintf(out, " %8s", "ns/pixel");
     } else if (axis == DIP_COST_AXIS_SCALE) {
         fprintf(out, " %8s %8s", "drawing", "enlarge");
-        fprintf(out, is_judged(axes, 0) ? " %8s %8s" : "", "RMSE", "FLIP");
+        if (is_judged(axes, 0)) {
+            fprintf(out, " %8s %8s", "RMSE", "FLIP");
+        }
     } else if (axis == DIP_COST_AXIS_THREADS) {
         fprintf(out, " %8s %-17s %8s", "speed-up", "95 % interval", "of ideal");
     }

@@ -1,6 +1,8 @@
 // Tests what the writers and readers of reports do when memory runs out: a file is written whole or
 // stays as it was, and a journal never loses a measurement.
 #include "app/cost/advise_output.h"
+#include "app/cost/axes.h"
+#include "app/cost/axes_enlarge.h"
 #include "app/cost/data_uri.h"
 #include "app/cost/diff.h"
 #include "app/cost/diff_cause.h"
@@ -91,6 +93,27 @@ static bool write_pfm(void *context, DipError *err) {
     return dip_pfm_write(w.file, rgb, 8, 6, err);
 }
 
+static DipCostAxes axes;
+
+static bool write_axes_json(void *context, DipError *err) {
+    (void)context;
+    return dip_cost_axes_write_json(&axes, w.file, err);
+}
+
+static bool write_axes_csv(void *context, DipError *err) {
+    (void)context;
+    return dip_cost_axes_write_csv(&axes, w.file, err);
+}
+
+static bool enlarge(void *context, DipError *err) {
+    (void)context;
+    const DipEnlargerDef def = {32, 24, 64, 48, NULL};
+    DipEnlarger *enlarger = dip_enlarger_create(&def, err);
+    const bool made = enlarger && dip_enlarger_run(enlarger, w.rgba8, 4 * 64);
+    dip_enlarger_destroy(&enlarger);
+    return made;
+}
+
 // Encoders of pictures in memory have no error of their own.
 static bool encode_pictures(void *context, DipError *err) {
     unsigned char *png = NULL;
@@ -173,6 +196,10 @@ static void files_are_written_whole_or_stay(void **state) {
     check_writer("a PFM", "picture.pfm", write_pfm, 0);
     check_writer("cost.csv", "cost.csv", write_csv, 0);
     check_writer("cost.html", "cost.html", write_html, 100);
+    axes.report = w.report; // Borrowed.
+    assert_true(axes.report.row_count <= DIP_COST_AXES_MAX_ROWS);
+    check_writer("axes.json", "axes.json", write_axes_json, 200);
+    check_writer("axes.csv", "axes.csv", write_axes_csv, 0);
     dip_cost_report_free(&w.report);
 }
 
@@ -316,6 +343,8 @@ static void pictures_are_encoded_whole_or_not_at_all(void **state) {
     (void)state;
     dip_out_of_memory_check(
         &(DipOutOfMemory){.name = "pictures in memory", .run = encode_pictures});
+    dip_out_of_memory_check(
+        &(DipOutOfMemory){.name = "enlarging", .run = enlarge, .needs_every_allocation = true});
 }
 
 // --- reading a report ----------------------------------------------------------------------------
