@@ -83,7 +83,7 @@ typedef struct DipFrameTiles {
 // The renderer that drew a frame owns its pixels and its tiles. They are valid until that renderer
 // draws again, is resized or is destroyed.
 typedef struct DipFrame {
-    const uint8_t *rgba8; // sRGB, alpha 255, top row first
+    const uint8_t *rgba8; // sRGB, top row first; alpha is 255 in the frames of a DipRenderer
     size_t stride_bytes;
     int width;
     int height;
