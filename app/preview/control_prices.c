@@ -36,6 +36,9 @@ static void add_step(cJSON *steps, const char *name, const DipPrice *price) {
     if (price->has_flip) {
         cJSON_AddNumberToObject(step, "flip", price->flip);
     }
+    if (price->beside[0]) {
+        cJSON_AddStringToObject(step, "beside", price->beside);
+    }
     if (!cJSON_AddItemToArray(steps, step)) {
         cJSON_Delete(step);
     }

@@ -95,6 +95,22 @@ static void ask_group_size(DipPriceQuestion *question, int step, const DipQualit
     }
 }
 
+// AF and advanced AF cost more where antialiasing shades more fragments.
+static bool is_filtering(DipSetting setting) {
+    return setting == DIP_SETTING_AF || setting == DIP_SETTING_AAF;
+}
+
+// Gives both combinations the antialiasing of the pane.
+static void keep_antialiasing(DipPriceQuestion *question, const DipQuality *base,
+                              const DipQuality *quality) {
+    static const DipSetting settings[] = {DIP_SETTING_AA, DIP_SETTING_AAA, DIP_SETTING_ASD};
+    const DipQuality pane = dip_price_normal(base, quality);
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        question->with.step[settings[i]] = pane.step[settings[i]];
+        question->without.step[settings[i]] = pane.step[settings[i]];
+    }
+}
+
 DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, int step,
                                     const DipQuality *quality) {
     DipPriceQuestion question = {.with = *base, .without = *base};
@@ -122,6 +138,8 @@ DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, 
     }
     if (question.is_base) {
         question.needs[0] = '\0';
+    } else if (is_filtering(setting)) {
+        keep_antialiasing(&question, base, quality);
     }
     return question;
 }
@@ -147,19 +165,36 @@ static void want(Wanted *wanted, const DipQuality *quality) {
     }
 }
 
-// Adds the combinations of all steps that lie `distance` steps from the pane's own.
+// Adds the combinations of a setting's steps that lie `distance` steps from the pane's own.
+static void want_steps_of(Wanted *wanted, const DipQuality *pane, DipSetting setting,
+                          int distance) {
+    for (int step = 0; step < dip_setting_info(setting)->step_count; step++) {
+        if (abs(step - pane->step[setting]) == distance) {
+            const DipPriceQuestion question = dip_price_question(wanted->base, setting, step, pane);
+            want(wanted, &question.without);
+            want(wanted, &question.with);
+        }
+    }
+}
+
 static void want_steps(Wanted *wanted, const DipQuality *pane, int distance) {
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
-        const int count =
-            s == DIP_SETTING_MIPDEBUG ? 0 : dip_setting_info((DipSetting)s)->step_count;
-        for (int step = 0; step < count; step++) {
-            if (abs(step - pane->step[s]) == distance) {
-                const DipPriceQuestion question =
-                    dip_price_question(wanted->base, (DipSetting)s, step, pane);
-                want(wanted, &question.without);
-                want(wanted, &question.with);
-            }
+        if (s != DIP_SETTING_MIPDEBUG) {
+            want_steps_of(wanted, pane, (DipSetting)s, distance);
         }
+    }
+}
+
+// Adds the combinations of filtering without antialiasing, from which sums of other combinations
+// are guessed.
+static void want_filtering_alone(Wanted *wanted, const DipQuality *pane) {
+    DipQuality plain = *pane;
+    plain.step[DIP_SETTING_AA] = wanted->base->step[DIP_SETTING_AA];
+    plain.step[DIP_SETTING_AAA] = wanted->base->step[DIP_SETTING_AAA];
+    plain.step[DIP_SETTING_ASD] = wanted->base->step[DIP_SETTING_ASD];
+    for (int distance = 0; distance < DIP_MAX_STEPS; distance++) {
+        want_steps_of(wanted, &plain, DIP_SETTING_AF, distance);
+        want_steps_of(wanted, &plain, DIP_SETTING_AAF, distance);
     }
 }
 
@@ -187,5 +222,6 @@ int dip_price_list_wanted(const DipQuality *base, const DipQuality *current,
         want_steps(&wanted, requested, distance);
     }
     want_neighbours(&wanted, requested);
+    want_filtering_alone(&wanted, requested);
     return wanted.count;
 }

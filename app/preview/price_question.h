@@ -3,6 +3,10 @@
 // A setting that does nothing alone is priced beside its company, which both combinations have:
 // temporal AA and adaptive AA beside the AA of the pane, advanced AF beside the AF of the pane. The
 // group sizes of adaptive AA are priced together with adaptive AA, against the same AA without it.
+//
+// AF and advanced AF also have the antialiasing of the pane as company. They cost more where
+// antialiasing shades more fragments, so their prices alone would not add up to the time of the
+// whole: the courtyard in 8x AA with adaptive AA and AF 16x takes 11 % more than that sum.
 #ifndef DIP_APP_PREVIEW_PRICE_QUESTION_H
 #define DIP_APP_PREVIEW_PRICE_QUESTION_H
 
@@ -33,8 +37,8 @@ bool dip_price_is_same(const DipQuality *a, const DipQuality *b);
 
 // Lists the combinations that must be timed so that every step has a price, and so that the sums of
 // both panes and of every combination one step away from the requested pane are known: the base and
-// the panes first, then the steps in the order of their distance from the requested pane's. Writes
-// at most `room`; returns their number.
+// the panes first, then the steps in the order of their distance from the requested pane's, and at
+// the end the steps of filtering without antialiasing. Writes at most `room`; returns their number.
 enum { DIP_PRICE_MAX_WANTED = 96 };
 int dip_price_list_wanted(const DipQuality *base, const DipQuality *current,
                           const DipQuality *requested, DipQuality *list, int room);

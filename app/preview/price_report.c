@@ -203,10 +203,24 @@ const DipPrice *dip_price_report_find(const DipPriceReport *report, DipSetting s
     return NULL;
 }
 
+// Returns room for another tag, or NULL if memory runs out.
+static DipPriceTag *new_tag(DipPriceReport *made) {
+    if (made->tag_count == made->tag_room) {
+        const int room = made->tag_room ? 2 * made->tag_room : 64;
+        DipPriceTag *tags = realloc(made->tags, (size_t)room * sizeof *tags);
+        if (!tags) {
+            return NULL;
+        }
+        made->tags = tags;
+        made->tag_room = room;
+    }
+    return &made->tags[made->tag_count++];
+}
+
 static bool add_tag(DipPriceReport *made, const DipCostReport *report, DipSetting setting, int step,
                     const DipQuality *pane, DipError *err) {
     const DipPriceQuestion question = dip_price_question(&made->base, setting, step, pane);
-    if (made->tag_count == DIP_PRICE_MAX_TAGS || dip_price_report_find(made, setting, &question)) {
+    if (dip_price_report_find(made, setting, &question)) {
         return true;
     }
     const int path = question.is_base ? find_base_path(report, &made->base, setting, pane)
@@ -215,7 +229,10 @@ static bool add_tag(DipPriceReport *made, const DipCostReport *report, DipSettin
     if (with < 0) {
         return true;
     }
-    DipPriceTag *tag = &made->tags[made->tag_count++];
+    DipPriceTag *tag = new_tag(made);
+    if (!tag) {
+        return out_of_memory(err);
+    }
     *tag = (DipPriceTag){.with = question.with, .without = question.without, .setting = setting};
     snprintf(tag->price.path, sizeof tag->price.path, "%s", report->paths[path]);
     tag->price.doubtful = made->doubtful;
@@ -227,17 +244,24 @@ static bool add_tag(DipPriceReport *made, const DipCostReport *report, DipSettin
     return fill_step(&tag->price, report, with, without, err);
 }
 
-// Makes the tags of every step beside every company.
+// Makes the tags of the steps of a combination, each beside the company that it has there.
+static bool add_tags_of(DipPriceReport *made, const DipCostReport *report,
+                        const DipQuality *quality, DipError *err) {
+    bool done = true;
+    for (int s = 0; done && s < DIP_SETTING_COUNT; s++) {
+        done = add_tag(made, report, (DipSetting)s, quality->step[s], quality, err);
+    }
+    return done;
+}
+
+// Makes the tags of every step beside every company that the report has.
 static bool make_tags(DipPriceReport *made, const DipCostReport *report, DipError *err) {
     bool done = true;
-    for (int company = 0; company < DIP_MAX_STEPS; company++) {
-        DipQuality pane = made->base;
-        pane.step[DIP_SETTING_AA] = pane.step[DIP_SETTING_AF] = (uint8_t)company;
-        for (int s = 0; s < DIP_SETTING_COUNT; s++) {
-            for (int step = 0; done && step < dip_setting_info((DipSetting)s)->step_count; step++) {
-                done = add_tag(made, report, (DipSetting)s, step, &pane, err);
-            }
-        }
+    for (int r = 0; done && r < report->row_count; r++) {
+        done = add_tags_of(made, report, &report->rows[r].quality, err);
+    }
+    for (int i = 0; done && i < report->same_count; i++) {
+        done = add_tags_of(made, report, &report->same[i].quality, err);
     }
     return done;
 }
@@ -268,6 +292,7 @@ bool dip_price_report_make(DipPriceReport *made, const DipCostReport *report, Di
 
 void dip_price_report_free(DipPriceReport *report) {
     free(report->known.items);
+    free(report->tags);
     dip_price_model_destroy(&report->model);
     *report = (DipPriceReport){0};
 }

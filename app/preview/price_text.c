@@ -129,8 +129,11 @@ void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) 
 }
 
 static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
-    char flip[DIP_STEP_NAME_BYTES] = "", where[80] = "";
+    char flip[DIP_STEP_NAME_BYTES] = "", beside[64] = "", where[80] = "";
     text[0] = '\0';
+    if (price->beside[0]) {
+        snprintf(beside, sizeof beside, " beside %s", price->beside);
+    }
     if (price->path[0]) { // A rough price is that of one picture, not of a path.
         snprintf(where, sizeof where, " on path %s", price->path);
     }
@@ -145,8 +148,8 @@ static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
     case DIP_PRICE_MEASURED:
     case DIP_PRICE_PREDICTED:
     case DIP_PRICE_ROUGH:
-        snprintf(text, size_bytes, "\n%+.2f ms (%.2f to %.2f)%s%s%s, %s.", price->ms, price->ms_low,
-                 price->ms_high, flip[0] ? ", FLIP " : "", flip, where,
+        snprintf(text, size_bytes, "\n%+.2f ms (%.2f to %.2f)%s%s%s%s, %s.", price->ms,
+                 price->ms_low, price->ms_high, flip[0] ? ", FLIP " : "", flip, beside, where,
                  price->state == DIP_PRICE_ROUGH       ? "roughly measured just now"
                  : price->state == DIP_PRICE_PREDICTED ? "predicted"
                                                        : "measured");

@@ -3,7 +3,9 @@
 // A price is the difference between a step and the base, on the path that the price was measured
 // on. The base has the default settings; a setting that has no effect alone is priced beside its
 // company, the settings that it needs (adaptive AA beside the AA of the quality, advanced AF beside
-// AF), at the base and at the step.
+// AF), at the base and at the step. AF and advanced AF are also priced beside the antialiasing of
+// the quality, so that prices add up (price_question.h). If that price is not known, the price
+// beside the same AA without adaptive AA stands for it, or else the price without antialiasing.
 //
 // Prices come from one of two sources. A cost report (`diptych cost`, docs/cost.md) gives measured
 // prices with intervals. Without a report, the preview measures rough prices in the background
@@ -42,7 +44,8 @@ typedef struct DipPrice {
     bool needs_company; // The step does nothing with the quality that the price was asked for;
                         // `needs` says what it needs, such as "AF".
     char needs[24];
-    char path[32]; // The path that the price was measured on: "DEFAULT"; "" for rough prices.
+    char beside[48]; // The company that both times have: "aa=8,aaa=on"; "" if none.
+    char path[32];   // The path that the price was measured on: "DEFAULT"; "" for rough prices.
     // The machine was too busy for the report's times to be believed (its verdict is red).
     bool doubtful;
 } DipPrice;

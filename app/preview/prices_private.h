@@ -32,8 +32,6 @@ typedef struct DipPriceTag {
     DipPrice price;
 } DipPriceTag;
 
-enum { DIP_PRICE_MAX_TAGS = 128 };
-
 // What prices take from a report.
 typedef struct DipPriceReport {
     char scene[DIP_COST_TEXT];
@@ -48,10 +46,20 @@ typedef struct DipPriceReport {
     bool doubtful;
     DipQuality base;
     DipPriceList known; // Combinations on path 0, measured or predicted.
-    DipPriceTag tags[DIP_PRICE_MAX_TAGS];
+    DipPriceTag *tags;  // Owned.
     int tag_count;
+    int tag_room;
     DipPriceModel *model; // Owned; NULL if the report has too few times.
 } DipPriceReport;
+
+struct DipPrices {
+    bool has_report;
+    DipPriceReport report;
+    bool prefers_rough;
+    DipPriceList rough;
+    DipPriceConditions conditions;
+    char progress[DIP_PRICE_PROGRESS];
+};
 
 // Fills in everything that prices need of a report. Fails with MEMORY.
 bool dip_price_report_make(DipPriceReport *made, const DipCostReport *report, DipError *err);
@@ -61,6 +69,9 @@ void dip_price_report_free(DipPriceReport *report);
 // paths, so the setting counts for them.
 const DipPrice *dip_price_report_find(const DipPriceReport *report, DipSetting setting,
                                       const DipPriceQuestion *question);
+
+// The combinations that prices are made of now: of the report, or measured live.
+const DipPriceList *dip_prices_list(const DipPrices *prices);
 
 // Returns the combination with these settings (or, of several, the first), or NULL.
 const DipPriceKnown *dip_price_list_find(const DipPriceList *list, const DipQuality *quality);

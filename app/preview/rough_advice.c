@@ -35,10 +35,14 @@ static Table make_table(const DipPrices *prices, const DipQuality *like) {
     const DipPrice start =
         dip_prices_step(prices, DIP_SETTING_AA, base.step[DIP_SETTING_AA], &base);
     take_price(&start, &table.base_ms, &table.base_flip, &table);
+    DipQuality plain = *like; // Filtering without antialiasing: it is added to any.
+    plain.step[DIP_SETTING_AA] = base.step[DIP_SETTING_AA];
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
         for (int i = 0; settings >> s & 1 && i < dip_setting_info((DipSetting)s)->step_count; ++i) {
             if (i != base.step[s]) {
-                const DipPrice price = dip_prices_step(prices, (DipSetting)s, i, like);
+                const bool filters = s == DIP_SETTING_AF || s == DIP_SETTING_AAF;
+                const DipPrice price =
+                    dip_prices_step(prices, (DipSetting)s, i, filters ? &plain : like);
                 if (price.needs_company) {
                     table.ms[s][i] = table.flip[s][i] = NAN; // Without a price, not to be chosen.
                 } else {

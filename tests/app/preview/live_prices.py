@@ -7,7 +7,8 @@ Measures a report of the courtyard, or takes one that was measured with its ini 
 Then rests at N poses along the path DEFAULT and measures there as the preview does (MEASURE,
 measure_prices.c). Prints, for each step, the report's price (PRINT, print_prices.c) with its
 interval and the mean of the rough prices over the poses; which share of the steps lies within the
-report's interval; and how well prices that are added up predict the sums that were measured.
+report's interval; and how well prices that are added up predict the sums that were measured: with
+all prices of the report, and without those of combinations of adaptive AA or advanced AF.
 Asserts only that every price is known, since times depend on the machine.
 """
 import argparse
@@ -96,14 +97,40 @@ def compare_sums(lines, known, rough):
                   f'({100 * (added / price["ms"] - 1):+.1f} %), rough {ms:7.3f} +- {2 * error:.3f}')
 
 
-def compare_all_sums(options, report):
+def print_misses(what, rows, sums):
+    misses = sorted((abs(ms / row["ms"] - 1), row["settings"]) for row, ms in zip(rows, sums))
+    within = sum(miss <= 0.10 for miss, _ in misses)
+    print(f"{what} are within 10 % of {within} of {len(misses)} measured sums; median "
+          f"{100 * misses[len(misses) // 2][0]:.1f} %, worst {100 * misses[-1][0]:.1f} %: "
+          f"{misses[-1][1]}")
+
+
+def write_smaller_report(report, out):
+    """Writes the report without adaptive AA beside AF, and without advanced AF beside AA."""
+    def is_kept(index):
+        steps = dict(part.split("=") for part in report["rows"][index]["settings"].split(","))
+        return ((steps["aaa"] == "off" or steps["af"] == "none") and
+                (steps["aaf"] == "off" or steps["aa"] == "none"))
+    first = report["combined_first"]
+    kept = list(range(first)) + [i for i in range(first, len(report["rows"])) if is_kept(i)]
+    index_of = {old: new for new, old in enumerate(kept)}
+    same = [dict(pair, row=index_of[pair["row"]]) for pair in report["same_pictures"]
+            if pair["row"] in index_of]
+    (out / "smaller.json").write_text(json.dumps(dict(
+        report, rows=[report["rows"][i] for i in kept], same_pictures=same)))
+    return out / "smaller.json"
+
+
+def compare_all_sums(options, file, out):
     """Adds up the prices of every combination that the report measured on path DEFAULT."""
-    rows = [row for row in json.loads(report.read_text())["rows"] if row["path"] == 0]
-    answers = run([options.print, report], [f'sum {row["settings"]}' for row in rows])
-    misses = sorted(abs((a["ms"] - a["together"]) / a["ms"] - 1) for a in answers)
-    within = sum(miss <= 0.10 for miss in misses)
-    print(f"prices added up predict {within} of {len(misses)} measured sums within 10 %; "
-          f"median {100 * statistics.median(misses):.1f} %, worst {100 * misses[-1]:.1f} %")
+    report = json.loads(file.read_text())
+    rows = [row for row in report["rows"] if row["path"] == 0]
+    lines = [f'sum {row["settings"]}' for row in rows]
+    smaller = write_smaller_report(report, out)
+    for name, prices in (("the report", file), ("a smaller report", smaller)):
+        answers = run([options.print, prices], lines)
+        print_misses(f"{name}'s prices added up", rows, [a["ms"] - a["together"] for a in answers])
+        print_misses(f"the sums that are shown for {name}", rows, [a["ms"] for a in answers])
 
 
 def main():
@@ -128,7 +155,7 @@ def main():
         rough = list(mean_of(answers, len(lines), options.poses, level))
         compare_steps(lines, known, rough)
         compare_sums(lines, known, rough)
-        compare_all_sums(options, report)
+        compare_all_sums(options, report, pathlib.Path(work))
 
 
 main()

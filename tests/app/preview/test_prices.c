@@ -105,6 +105,7 @@ static void a_price_is_what_a_step_adds_to_the_base(void **state) {
     const DipQuality pane = settings("aa=8,af=2,opt=advanced"); // Other settings do not matter.
     DipPrice price = dip_prices_step(prices, DIP_SETTING_AA, 1, &pane);
     check_price(&price, 3.0, 1.0);
+    assert_string_equal(price.beside, "");
     assert_string_equal(price.path, "DEFAULT");
     assert_false(price.needs_company);
     price = dip_prices_step(prices, DIP_SETTING_AF, 4, &pane);
@@ -145,6 +146,30 @@ static void steps_that_need_others_are_priced_beside_them(void **state) {
     price = dip_prices_step(prices, DIP_SETTING_ASD, 3, &pane);
     assert_int_equal(price.state, DIP_PRICE_UNKNOWN);
     assert_string_equal(price.needs, "AA 8x");
+}
+
+// aa=4 with AF was measured with adaptive AA in pairs only.
+static void filtering_is_priced_beside_antialiasing(void **state) {
+    (void)state;
+    add_row("aa=4,af=4", 0, 4.5, 1.0, 0.3);
+    take_report();
+    DipQuality pane = settings("aa=4,aaa=on,asd=2");
+    DipPrice price = dip_prices_step(prices, DIP_SETTING_AF, 4, &pane);
+    check_price(&price, 8.2 / 6.0, 6.0);
+    assert_string_equal(price.beside, "aa=4,aaa=on,asd=2");
+    price = dip_prices_step(prices, DIP_SETTING_AF, 2, &pane); // Beside the same AA.
+    check_price(&price, 4.5 / 4.0, 4.0);
+    assert_string_equal(price.beside, "aa=4");
+    price = dip_prices_step(prices, DIP_SETTING_AAF, 1, &pane); // Without antialiasing.
+    check_price(&price, 2.75 / 2.5, 2.5);
+    assert_string_equal(price.beside, "af=16");
+    price = dip_prices_step(prices, DIP_SETTING_AF, 0, &pane); // The base is that of all prices.
+    assert_int_equal(price.state, DIP_PRICE_BASE);
+    check_near(price.ms, 1.0);
+    pane = settings("aa=2,aaa=on,asd=2"); // One group, so adaptive AA has no effect.
+    price = dip_prices_step(prices, DIP_SETTING_AF, 4, &pane);
+    check_price(&price, 2.5, 1.0);
+    assert_string_equal(price.beside, "");
 }
 
 static void steps_without_their_company_say_what_they_need(void **state) {
@@ -209,6 +234,7 @@ static double add_up(const DipPriceSum *sum) {
 
 static void a_measured_sum_is_its_parts_and_what_they_miss(void **state) {
     (void)state;
+    add_row("aa=4,opt=standard", 0, 4.2, 1.0, 0.3);
     take_report();
     const DipQuality quality = settings("aa=4,aaa=on,asd=2,af=16");
     const DipPriceSum sum = dip_prices_sum(prices, &quality);
@@ -218,8 +244,10 @@ static void a_measured_sum_is_its_parts_and_what_they_miss(void **state) {
     check_near(sum.parts_ms[DIP_SETTING_AA], 3.0);
     check_near(sum.parts_ms[DIP_SETTING_AAA], 2.0);
     check_near(sum.parts_ms[DIP_SETTING_ASD], 0.0);
-    check_near(sum.parts_ms[DIP_SETTING_AF], 1.5);
-    check_near(sum.together_ms, 8.2 - 7.5);
+    check_near(sum.parts_ms[DIP_SETTING_AF], 2.2);
+    check_near(sum.together_ms, 0.0);
+    const DipQuality compressed = settings("aa=4,opt=standard");
+    check_near(dip_prices_sum(prices, &compressed).together_ms, 4.2 - 4.001);
     assert_true(add_up(&sum) == sum.ms);
     assert_true(sum.ms_low < 8.2 && sum.ms_high > 8.2);
     assert_true(sum.has_flip);
@@ -245,7 +273,7 @@ static void a_sum_that_was_not_measured_adds_the_parts(void **state) {
     DipPriceSum sum = dip_prices_sum(prices, &quality);
     assert_int_equal(sum.state, DIP_PRICE_ROUGH);
     check_near(sum.ms, 8.2 - 0.5);
-    check_near(sum.together_ms, 0.7);
+    check_near(sum.together_ms, 0.0);
     assert_true(add_up(&sum) == sum.ms);
     check_near(sum.ms_high - sum.ms,
                hypot(8.2 * (exp(half_width) - 1.0), 1.5 * (exp(half_width) - 1.0)));
@@ -254,6 +282,9 @@ static void a_sum_that_was_not_measured_adds_the_parts(void **state) {
     assert_int_equal(sum.state, DIP_PRICE_ROUGH);
     check_near(sum.ms, 1.0 + 2.0 + 1.5);
     check_near(sum.together_ms, 0.0);
+    quality = settings("aa=2,af=16,aaf=on"); // Advanced AF was measured without AA only.
+    sum = dip_prices_sum(prices, &quality);
+    check_near(sum.ms, 1.0 + 2.0 + 1.5 + 0.25);
     quality = settings("aa=8,af=16"); // The part of aa=8 is not known.
     sum = dip_prices_sum(prices, &quality);
     assert_int_equal(sum.state, DIP_PRICE_UNKNOWN);
@@ -393,6 +424,12 @@ static void rough_prices_are_differences_of_whole_times(void **state) {
     add_rough("aa=4,aaa=on,af=8", 8.0, 0.2, -1.0); // Measured together.
     sum = dip_prices_sum(prices, &pane);
     check_near(sum.ms, 8.0);
+    check_near(sum.parts_ms[DIP_SETTING_AF], 0.8); // Beside the antialiasing.
+    check_near(sum.together_ms, 0.0);
+    add_rough("opt=advanced", 4.5, 0.1, -1.0);
+    add_rough("aa=4,opt=advanced", 6.3, 0.1, -1.0);
+    const DipQuality optimised = settings("aa=4,opt=advanced");
+    sum = dip_prices_sum(prices, &optimised);
     check_near(sum.together_ms, -0.2);
     assert_true(add_up(&sum) == sum.ms);
 }
@@ -439,6 +476,7 @@ int main(void) {
         TEST(a_price_is_what_a_step_adds_to_the_base),
         TEST(a_price_within_the_noise_is_zero),
         TEST(steps_that_need_others_are_priced_beside_them),
+        TEST(filtering_is_priced_beside_antialiasing),
         TEST(steps_without_their_company_say_what_they_need),
         TEST(gains_are_differences_of_flip),
         TEST(other_paths_are_named),
