@@ -395,8 +395,9 @@ void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, 
     input.began = input.moved = input.pressed = false;
     change_by(ui, window, setting, &input, 0);
     const bool marked = input.hovered || input.focused;
-    const int pad = dip_ui_px(ui, 5), price_width = dip_ui_px(ui, 34);
+    const int pad = dip_ui_px(ui, 5);
     const int size = rect.height < dip_ui_line_height(ui, LINE_SIZE) ? LINE_SIZE - 2 : LINE_SIZE;
+    const int price_width = dip_ui_text_width(ui, size, DIP_ROUGH_MARK "+88.8");
     const int y = rect.y + (rect.height - dip_ui_line_height(ui, size)) / 2;
     if (marked) {
         dip_ui_fill(ui, rect, dip_style_raised);
