@@ -91,7 +91,7 @@ static bool open_judge(Judge *j, DipCostAxesDrawing *drawing, const char *cache,
     const int width = report->width, height = report->height;
     const double ppd = report->options.pixels_per_degree;
     *j = (Judge){.drawing = drawing};
-    if (!dip_cost_context_open(&j->truths, drawing->session, report, NULL, cache, err)) {
+    if (!dip_cost_context_open(&j->truths, drawing->session, report, NULL, cache, true, err)) {
         return false;
     }
     return (dip_flip_init(&j->flip, width, height, ppd) &&

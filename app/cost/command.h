@@ -7,8 +7,9 @@
 extern const DipCommand dip_cost_command;
 extern const DipCommand dip_cost_merge_command;
 extern const DipCommand dip_cost_assets_command;
-extern const DipCommand dip_cost_diff_command;   // in diff_command.c
-extern const DipCommand dip_cost_advise_command; // in advise_command.c
-extern const DipCommand dip_cost_axes_command;   // in axes_command.c
+extern const DipCommand dip_cost_diff_command;    // in diff_command.c
+extern const DipCommand dip_cost_advise_command;  // in advise_command.c
+extern const DipCommand dip_cost_axes_command;    // in axes_command.c
+extern const DipCommand dip_cost_predict_command; // in predict_command.c
 
 #endif

@@ -4,11 +4,9 @@
 #include "app/cost/formats.h"
 #include "app/cost/front.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost advise", "out of memory");
@@ -148,17 +146,6 @@ bool dip_cost_common_match(DipCostCommon *common, DipError *err) {
 
 // --- reading -------------------------------------------------------------------------------------
 
-static bool read_report(const char *name, DipCostReport *report, DipError *err) {
-    struct stat status;
-    char file[PATH_MAX];
-    const bool is_folder = stat(name, &status) == 0 && S_ISDIR(status.st_mode);
-    const int length = snprintf(file, sizeof file, is_folder ? "%s/cost.json" : "%s", name);
-    if (length < 0 || (size_t)length >= sizeof file) {
-        return dip_error_set(err, DIP_ERROR_OVERSIZED, name, 0, NULL, "the name is too long");
-    }
-    return dip_cost_read_json(report, file, err);
-}
-
 bool dip_cost_common_read(DipCostCommon *common, const char *const *files, int count,
                           DipCostBudgetOf budget_of, DipError *err) {
     *common = (DipCostCommon){.reports = calloc((size_t)count, sizeof *common->reports)};
@@ -167,7 +154,7 @@ bool dip_cost_common_read(DipCostCommon *common, const char *const *files, int c
     }
     for (int i = 0; i < count; i++) {
         DipCostReport *report = &common->reports[i];
-        if (!read_report(files[i], report, err)) {
+        if (!dip_cost_read_report(files[i], report, err)) {
             return false;
         }
         report->options.budget_of = budget_of;

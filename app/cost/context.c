@@ -21,11 +21,14 @@ static bool prepare_textures(const DipCostContext *cost, DipError *err) {
 
 // Opens what the pictures are drawn from: the gallery, or the reference renderer, which draws the
 // truths of models.
-static bool open_source(DipCostContext *cost, DipError *err) {
+static bool open_source(DipCostContext *cost, bool judges, DipError *err) {
     const DipSession *session = cost->session;
     if (session->shows_gallery) {
         cost->gallery = dip_session_open_gallery(session, session->pool, session->isa, err);
         return cost->gallery != NULL;
+    }
+    if (!judges) {
+        return true;
     }
     cost->reference = dip_reference_create(&session->scene_def, err);
     if (cost->reference) {
@@ -35,7 +38,7 @@ static bool open_source(DipCostContext *cost, DipError *err) {
 }
 
 bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipCostReport *report,
-                           DipCostJournal *journal, const char *cache, DipError *err) {
+                           DipCostJournal *journal, const char *cache, bool judges, DipError *err) {
     *cost =
         (DipCostContext){.session = session, .report = report, .journal = journal, .cache = cache};
     const DipRendererDef def = {
@@ -47,7 +50,7 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
         .reflection = session->reflection,
         .force_all_effects = session->force_all_effects,
     };
-    bool opened = open_source(cost, err);
+    bool opened = open_source(cost, judges, err);
     for (int gi = 0; opened && gi < 2; gi++) {
         cost->renderers[gi] = dip_painter_create(&def, cost->gallery, err);
         opened = cost->renderers[gi] != NULL;

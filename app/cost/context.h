@@ -16,7 +16,7 @@ typedef struct DipCostContext {
     DipCostReport *report;
     DipCostJournal *journal;
     const char *cache;       // Folder of the cached truths; NULL for no cache.
-    DipReference *reference; // NULL for scenes of the gallery
+    DipReference *reference; // NULL for scenes of the gallery, and without truths
     DipGallery *gallery;     // NULL for models
     // Indexed by the step of the setting gi (instancing). Renderer [0] draws the rows with gi=off
     // and keeps the copies of meshes that these rows need. Renderer [1] draws all other rows.
@@ -24,8 +24,9 @@ typedef struct DipCostContext {
     DipPainter *renderers[2];
 } DipCostContext;
 
+// Opens the context of a report. Without `judges`, it has no truths: it draws and times only.
 bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipCostReport *report,
-                           DipCostJournal *journal, const char *cache, DipError *err);
+                           DipCostJournal *journal, const char *cache, bool judges, DipError *err);
 void dip_cost_context_close(DipCostContext *cost);
 
 // Draws a row's frame at a time on the row's camera path. frame_index selects the sample pattern of

@@ -69,7 +69,9 @@ static bool measure(DipCostContext *cost, DipError *err) {
         return dip_cost_predict(cost, err) && dip_cost_advise(cost, err);
     }
     return dip_cost_judge(cost, err) && dip_cost_join_same_pictures(cost->report, err) &&
-           (options->errors_only || (dip_cost_time_rows(cost, err) && dip_cost_advise(cost, err)));
+           (options->errors_only ||
+            (dip_cost_time_rows(cost, err) && dip_cost_time_smaller(cost, err) &&
+             dip_cost_advise(cost, err)));
 }
 
 // Writes the time of day into the report.
@@ -98,8 +100,8 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     }
     dip_cost_plan_hash(report, session, plan);
     DipCostJournal *journal = dip_cost_journal_open(arguments->out, plan, err);
-    if (!journal ||
-        !dip_cost_context_open(&cost, session, report, journal, cache[0] ? cache : NULL, err)) {
+    if (!journal || !dip_cost_context_open(&cost, session, report, journal, cache[0] ? cache : NULL,
+                                           true, err)) {
         dip_cost_journal_close(&journal, false);
         return false;
     }

@@ -201,17 +201,18 @@ bool dip_cost_frame_times(const DipCostReport *report, const int *rows, int coun
     return done;
 }
 
-// Computes how the row's mean time divides into the stages: the shares of the frames that the
-// estimate uses, weighted by the baseline's times. Rows that were read from a file have no shares,
-// and keep the times of the stages that the file has.
+// Computes how a mean time divides into the stages: the shares of the frames that the estimate
+// uses, weighted by the baseline's times. Pairs that were read from a file have no shares; then the
+// stages keep the times that the file has.
 static void divide_into_stages(const DipCostReport *report, const PathLevel *level,
-                               DipCostRow *row) {
+                               const DipTimePair *pairs, double mean_ms,
+                               double stage_ms[DIP_COST_STAGE_COUNT]) {
     double sums[DIP_TIME_PARTS] = {0};
     double weight = 0.0, all = 0.0;
     const int frames = dip_cost_frame_count(report);
-    const bool most = 2 * count_disturbed(row->pairs, row->pairs, frames) > frames;
+    const bool most = 2 * count_disturbed(pairs, pairs, frames) > frames;
     for (int f = 0; f < frames; f++) {
-        const DipTimePair *pair = &row->pairs[f];
+        const DipTimePair *pair = &pairs[f];
         const double share = pair->shares[0] + pair->shares[1] + pair->shares[2] + pair->shares[3];
         if (share > 0.0 && (most || !dip_time_pair_is_disturbed(pair))) {
             weight += level->level_ms[f];
@@ -222,11 +223,26 @@ static void divide_into_stages(const DipCostReport *report, const PathLevel *lev
     }
     if (weight > 0.0) {
         for (int i = 0; i < DIP_TIME_PARTS; i++) {
-            row->stage_ms[i] = row->time.mean_ms.value * sums[i] / weight;
-            all += row->stage_ms[i];
+            stage_ms[i] = mean_ms * sums[i] / weight;
+            all += stage_ms[i];
         }
-        row->stage_ms[DIP_COST_STAGE_rest] = fmax(row->time.mean_ms.value - all, 0.0);
+        stage_ms[DIP_COST_STAGE_rest] = fmax(mean_ms - all, 0.0);
     }
+}
+
+bool dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimePair *pairs,
+                                 DipCostElsewhere *row, DipError *err) {
+    PathLevel level;
+    DipPathEstimate time = {0};
+    bool done = open_level(&level, report, 0) || out_of_memory(err);
+    if (done) {
+        const DipPathTimes times = times_of(report, &level, own_ms, own_base_ms, pairs, pairs);
+        done = dip_path_estimate(&times, &time, err);
+        row->ms = time.mean_ms;
+        divide_into_stages(report, &level, pairs, row->ms.value, row->stage_ms);
+    }
+    close_level(&level);
+    return done;
 }
 
 static bool estimate_sweeps(DipCostReport *report, DipError *err) {
@@ -251,7 +267,8 @@ bool dip_cost_estimate_times(DipCostReport *report, DipError *err) {
                 const DipPathTimes times =
                     times_of(report, &level, own_ms, own_base_ms, row->pairs, row->pairs);
                 done = dip_path_estimate(&times, &row->time, err);
-                divide_into_stages(report, &level, row);
+                divide_into_stages(report, &level, row->pairs, row->time.mean_ms.value,
+                                   row->stage_ms);
             }
         }
         close_level(&level);

@@ -12,38 +12,79 @@ typedef struct Equations {
     DipNormalEquations stages[DIP_COST_STAGE_COUNT];
 } Equations;
 
-static void begin(Equations *equations, const DipCostReport *report, const int *rows, int count) {
-    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
-        double scale[DIP_COST_MAX_TERMS] = {0};
-        const int terms = dip_cost_term_count((DipCostStage)stage);
-        for (int r = 0; r < count; r++) {
-            double amounts[DIP_COST_MAX_TERMS];
-            const DipCostRow *row = &report->rows[rows[r]];
-            dip_cost_terms((DipCostStage)stage, row->counters, &row->quality, amounts);
-            for (int t = 0; t < terms; t++) {
-                scale[t] = fmax(scale[t], amounts[t]);
-            }
-        }
-        dip_normal_equations_begin(&equations->stages[stage], terms, scale);
+// What a row, or a combination that was timed elsewhere, tells about prices.
+typedef struct Sample {
+    const double *counters;
+    const double *stage_ms;
+    const DipQuality *quality;
+} Sample;
+
+static Sample sample_of(const DipCostRow *row) {
+    return (Sample){row->counters, row->stage_ms, &row->quality};
+}
+
+static Sample smaller_sample(const DipCostElsewhere *row) {
+    return (Sample){row->counters, row->stage_ms, &row->quality};
+}
+
+static void enlarge_scale(const Sample *sample, DipCostStage stage,
+                          double scale[DIP_COST_MAX_TERMS]) {
+    double amounts[DIP_COST_MAX_TERMS];
+    dip_cost_terms(stage, sample->counters, sample->quality, amounts);
+    for (int t = 0; t < dip_cost_term_count(stage); t++) {
+        scale[t] = fmax(scale[t], amounts[t]);
     }
 }
 
-static double whole_ms(const DipCostRow *row) {
+static double whole_of(const Sample *sample) {
     double ms = 0.0;
     for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
-        ms += row->stage_ms[stage];
+        ms += sample->stage_ms[stage];
     }
     return ms;
 }
 
-// Adds a row (sign 1) or takes it away (sign -1).
-static void add(Equations *equations, const DipCostRow *row, double sign) {
-    const double weight = 1.0 / (whole_ms(row) * whole_ms(row));
+static double whole_ms(const DipCostRow *row) {
+    const Sample sample = sample_of(row);
+    return whole_of(&sample);
+}
+
+// Adds a sample (sign 1) or takes it away (sign -1).
+static void add(Equations *equations, const Sample *sample, double sign) {
+    const double ms = whole_of(sample);
     for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
         double amounts[DIP_COST_MAX_TERMS];
-        dip_cost_terms((DipCostStage)stage, row->counters, &row->quality, amounts);
-        dip_normal_equations_add(&equations->stages[stage], amounts, row->stage_ms[stage],
-                                 sign * weight);
+        dip_cost_terms((DipCostStage)stage, sample->counters, sample->quality, amounts);
+        dip_normal_equations_add(&equations->stages[stage], amounts, sample->stage_ms[stage],
+                                 sign / (ms * ms));
+    }
+}
+
+static void add_row(Equations *equations, const DipCostRow *row, double sign) {
+    const Sample sample = sample_of(row);
+    add(equations, &sample, sign);
+}
+
+// Starts the equations of some rows, and adds the combinations that were timed at a smaller size.
+static void begin(Equations *equations, const DipCostReport *report, const int *rows, int count) {
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        double scale[DIP_COST_MAX_TERMS] = {0};
+        for (int r = 0; r < count; r++) {
+            const Sample sample = sample_of(&report->rows[rows[r]]);
+            enlarge_scale(&sample, (DipCostStage)stage, scale);
+        }
+        for (int i = 0; i < report->smaller_count; i++) {
+            const Sample sample = smaller_sample(&report->smaller[i]);
+            enlarge_scale(&sample, (DipCostStage)stage, scale);
+        }
+        dip_normal_equations_begin(&equations->stages[stage],
+                                   dip_cost_term_count((DipCostStage)stage), scale);
+    }
+    for (int i = 0; i < report->smaller_count; i++) {
+        const Sample sample = smaller_sample(&report->smaller[i]);
+        if (whole_of(&sample) > 0.0) {
+            add(equations, &sample, 1.0);
+        }
     }
 }
 
@@ -65,7 +106,7 @@ DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, in
     begin(&equations, report, rows, count);
     for (int r = 0; r < count; r++) {
         if (is_known(&report->rows[rows[r]])) {
-            add(&equations, &report->rows[rows[r]], 1.0);
+            add_row(&equations, &report->rows[rows[r]], 1.0);
             known++;
         }
     }
@@ -138,15 +179,15 @@ DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const in
     begin(&equations, report, rows, count);
     for (int r = 0; r < count; r++) {
         if (is_known(&report->rows[rows[r]])) {
-            add(&equations, &report->rows[rows[r]], 1.0);
+            add_row(&equations, &report->rows[rows[r]], 1.0);
         }
     }
     for (int r = 0; r < count; r++) {
         const DipCostRow *row = &report->rows[rows[r]];
         if (is_known(row)) {
-            add(&equations, row, -1.0);
+            add_row(&equations, row, -1.0);
             const DipCostModel others = solve(&equations, count - 1);
-            add(&equations, row, 1.0);
+            add_row(&equations, row, 1.0);
             misses[known++] = miss_of(&others, row);
         }
     }

@@ -13,9 +13,9 @@ typedef struct DipCostModel {
     int rows; // Number of rows that the prices come from; 0 if there are none.
 } DipCostModel;
 
-// Fits prices to rows whose times and stages are known: for each stage, the prices >= 0 with the
-// least sum of squared errors, each relative to the row's whole time, so that slow rows have no
-// more weight than fast ones.
+// Fits prices to rows whose times and stages are known, and to the report's combinations at a
+// smaller size: for each stage, the prices >= 0 with the least sum of squared errors, each relative
+// to the row's whole time, so that slow rows have no more weight than fast ones.
 DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count);
 
 // Returns the mean time of a frame with these counters and settings, in milliseconds.

@@ -126,13 +126,18 @@ static void write_fit(const DipCostReport *report, FILE *out) {
     if (fit.rows == 0) {
         return;
     }
+    char smaller[64] = "";
+    if (report->smaller_count > 0) {
+        snprintf(smaller, sizeof smaller, " and of %d combinations at %d&times;%d",
+                 report->smaller_count, report->smaller_width, report->smaller_height);
+    }
     dip_html_table_begin(out, "prices-of-work", "");
     fprintf(out,
-            "A linear fit explains the times of the stages of %d rows by their work counters: "
+            "A linear fit explains the times of the stages of %d rows%s by their work counters: "
             "R&sup2; is %.3f, the median error is %.1f %%. If each row is predicted from all "
             "others, the median error is %.1f %%, and %.0f %% of the rows are predicted within "
             "10 %%.",
-            fit.rows, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
+            fit.rows, smaller, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
             100.0 * fit.others.within_10);
     dip_html_columns_begin(out);
     dip_html_text_column(out, "unit of work");

@@ -326,8 +326,7 @@ static void hash_pose(DipHash *hash, const DipCostReport *report, const DipSessi
     dip_hash_number(hash, pose.fov_y_deg);
 }
 
-// Hashes the poses at all viewpoints of a path.
-static void hash_path(DipCostReport *report, const DipSession *session, int path) {
+void dip_cost_hash_path(DipCostReport *report, const DipSession *session, int path) {
     const DipCostOptions *options = &report->options;
     DipHash hash = dip_hash_begin(0);
     for (int i = 0; i < options->places * options->burst; i++) {
@@ -366,7 +365,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
         return false;
     }
     for (int path = 0; path < report->path_count; path++) {
-        hash_path(report, session, path);
+        dip_cost_hash_path(report, session, path);
     }
     return dip_cost_report_alloc(report, err);
 }

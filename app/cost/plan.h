@@ -25,6 +25,9 @@ int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession 
 DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, int path,
                       int64_t time_ns);
 
+// Fills in the hash of the poses at all viewpoints of a path.
+void dip_cost_hash_path(DipCostReport *report, const DipSession *session, int path);
+
 // Returns the time of a frame at a viewpoint. The path is divided into equal parts, and each
 // viewpoint is the middle of a part. At each viewpoint, a burst of successive frames is drawn.
 // These frames are 1/30 s apart, and `frame` is the index in the burst.

@@ -234,7 +234,7 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
     predicted->trained = count;
     if (!dip_cost_choose_training(report, count, chosen, err) ||
         !add_rows(report, chosen, count, rows, err) || !dip_cost_judge(cost, err) ||
-        !dip_cost_time_rows(cost, err)) {
+        !dip_cost_time_rows(cost, err) || !dip_cost_time_smaller(cost, err)) {
         return false;
     }
     dip_cost_scale_counters(report);

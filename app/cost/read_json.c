@@ -5,13 +5,16 @@
 #include "app/cost/json_frames.h"
 #include "app/cost/json_memory.h"
 #include "app/cost/json_read.h"
+#include "app/cost/json_smaller.h"
 #include "app/cost/read_parts.h"
 #include "renderer/base/file.h"
 
 #include <cjson/cJSON.h>
 #include <limits.h>
 #include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { MAX_FILE_BYTES = 1 << 29 };
 
@@ -224,6 +227,9 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
         !dip_cost_frames_read(root, report, file, err)) {
         return false;
     }
+    if (!dip_cost_smaller_read(root, report)) {
+        return dip_json_missing(file, "smaller", err);
+    }
     dip_cost_read_advice(root, report);
     if (report->rounds == 0) {
         return true;
@@ -253,4 +259,16 @@ bool dip_cost_read_json(DipCostReport *report, const char *file, DipError *err) 
         dip_cost_report_free(report);
     }
     return read;
+}
+
+bool dip_cost_read_report(const char *name, DipCostReport *report, DipError *err) {
+    struct stat status;
+    char file[PATH_MAX];
+    const bool is_folder = stat(name, &status) == 0 && S_ISDIR(status.st_mode);
+    const int length = snprintf(file, sizeof file, is_folder ? "%s/cost.json" : "%s", name);
+    if (length < 0 || (size_t)length >= sizeof file) {
+        *report = (DipCostReport){0};
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, name, 0, NULL, "the name is too long");
+    }
+    return dip_cost_read_json(report, file, err);
 }

@@ -44,6 +44,7 @@ enum {
     DIP_COST_MAX_SWEEP_ROWS = 8,
     DIP_COST_MAX_REFUSED = 24,
     DIP_COST_MAX_ROWS = 4096,
+    DIP_COST_MAX_SMALLER = 4,
     DIP_COST_TEXT = 160,
     DIP_COST_REASON = 512
 };
@@ -90,6 +91,16 @@ typedef struct DipCostAdvice {
     int runner_up;                // The row that is most likely better, or -1.
     double runner_up_probability; // That the runner-up is the best instead.
 } DipCostAdvice;
+
+// A combination that was timed elsewhere than the rows: at another size, on another camera path or
+// with another number of threads. Each frame was timed beside a frame of path 0's baseline, so the
+// times are milliseconds of this report.
+typedef struct DipCostElsewhere {
+    DipQuality quality;
+    double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
+    DipStatsEstimate ms;                     // Mean time of a frame.
+    double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of ms.value; they add up to it.
+} DipCostElsewhere;
 
 // How far predictions lie from measurements: |predicted / measured - 1| over some rows.
 typedef struct DipCostMisses {
@@ -181,7 +192,14 @@ typedef struct DipCostReport {
     DipCostAdvice advice[DIP_COST_MAX_BUDGETS];
     int advice_count;
     DipCostPredictions predicted; // Empty without --predict.
-    DipCostKeptFrames kept;       // Frames that a part keeps for the merged page. Owned.
+    // A few combinations on path 0, drawn at about half the width and height. They tell the price
+    // of work that grows with the picture from the price of work that does not, which the model of
+    // times (fit.h) needs to predict other sizes.
+    DipCostElsewhere smaller[DIP_COST_MAX_SMALLER];
+    int smaller_count; // 0 if they were not timed.
+    int smaller_width; // Pixels.
+    int smaller_height;
+    DipCostKeptFrames kept; // Frames that a part keeps for the merged page. Owned.
 } DipCostReport;
 
 // Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in
@@ -290,6 +308,12 @@ bool dip_cost_frame_times(const DipCostReport *report, const int *rows, int coun
 
 // The time of a row, of the kind that budgets are meant for (--budget-of).
 DipStatsEstimate dip_cost_budget_time(const DipCostReport *report, int row);
+
+// Computes the times of a combination that was timed elsewhere from `pairs`, the times of
+// dip_cost_frame_count frames beside the baseline of path 0. The report's times must be estimated.
+// Fails with DIP_ERROR_MEMORY, or with DIP_ERROR_RUNTIME if too many frames were disturbed.
+bool dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimePair *pairs,
+                                 DipCostElsewhere *row, DipError *err);
 
 // Computes the ratio of the times of two rows of one path. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEstimate *ratio,

@@ -18,6 +18,11 @@ bool dip_cost_judge(DipCostContext *cost, DipError *err);
 // and computes the verdict on the machine.
 bool dip_cost_time_rows(DipCostContext *cost, DipError *err);
 
+// Times a few combinations at half the width and height, for the model of times (report.h). The
+// journal does not keep these times, which take seconds. Pictures of less than 64 x 64 pixels have
+// no smaller ones. Comes after dip_cost_time_rows.
+bool dip_cost_time_smaller(DipCostContext *cost, DipError *err);
+
 // Times rows of path 0 again, each next to the baseline, in as many rounds as dip_cost_time_rows,
 // and joins the times to those before. `times_before` is how often the rows were timed before. The
 // caller estimates the report's times again.

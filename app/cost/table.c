@@ -137,13 +137,18 @@ static void print_fit(const DipCostReport *report, FILE *out) {
     if (fit.rows == 0) {
         return;
     }
+    char smaller[48] = "";
+    if (report->smaller_count > 0) {
+        snprintf(smaller, sizeof smaller, " and %d at %dx%d", report->smaller_count,
+                 report->smaller_width, report->smaller_height);
+    }
     fprintf(out,
             "\n"
-            "Linear fit of the time of each stage to its work (%d rows, R2 %.3f, median error "
+            "Linear fit of the time of each stage to its work (%d rows%s, R2 %.3f, median error "
             "%.1f %%).\n"
             "Each row predicted from all others: median error %.1f %%, %.0f %% within 10 %%.\n"
             "Nanoseconds per unit of work:\n",
-            fit.rows, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
+            fit.rows, smaller, fit.r2, 100.0 * fit.median_miss, 100.0 * fit.others.median,
             100.0 * fit.others.within_10);
     for (int i = 0; i < fit.count; i++) {
         if (fit.ns[i] > 0.0) {

@@ -37,6 +37,8 @@ typedef struct Work {
 #define SHADING_TERMS(X)                                                                           \
     X("frame", 1.0)                                                                                \
     X("fragment shaded", C(fragments_shaded))                                                      \
+    X("fragment shaded outside of whole blocks", C(fragments_shaded) - C(fragments_of_blocks))     \
+    X("batch of fragments", C(shader_batches))                                                     \
     X("texture probe", C(texture_probes) - C(clip_probes))                                         \
     X("texel fetched", C(texels_fetched))                                                          \
     X("fragment with a normal map", C(fragments_normal_mapped))                                    \

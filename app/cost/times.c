@@ -18,6 +18,7 @@ typedef struct RowTiming {
     DipFrame frame; // The frame of the latest run.
     DipProgress progress;
     int64_t drawn;
+    bool again; // Rounds with disturbed frames are being timed again.
 } RowTiming;
 
 static bool out_of_memory(DipError *err) {
@@ -86,13 +87,29 @@ static void stage_ms(void *context, double ms[DIP_TIME_PARTS]) {
     write_stage_ms(&t->frame, ms);
 }
 
+// The frames until times are steady are not known in advance, so the progress does not include
+// them. Of the rounds that have disturbed frames, these are timed again, with a progress of their
+// own.
+static void show_round(RowTiming *t, const DipTimingTurn *turn) {
+    const int rounds = t->cost->report->options.rounds;
+    if (turn->round < rounds) {
+        t->drawn += turn->phase != DIP_TIMING_SETTLE;
+        return;
+    }
+    if (!t->again) {
+        t->again = true;
+        dip_progress_end(&t->progress, t->drawn);
+        t->progress =
+            dip_progress_begin("rounds searched for disturbed frames to time again", rounds);
+    }
+    t->drawn = turn->round - rounds;
+}
+
 static bool after_draw(void *context, const DipTimingTurn *turn, double ms, DipError *err) {
     (void)ms;
     RowTiming *t = context;
     count_work(t, turn->subject, turn->frame);
-    // The frames until times are steady, and those that are timed again, are not known in advance,
-    // so the progress does not include them.
-    t->drawn += turn->phase != DIP_TIMING_SETTLE && turn->round < t->cost->report->options.rounds;
+    show_round(t, turn);
     dip_progress_show(&t->progress, t->drawn);
     return !dip_cost_interrupted(t->cost, err);
 }

@@ -6,6 +6,7 @@
 #include "app/cost/json_fields.h"
 #include "app/cost/json_frames.h"
 #include "app/cost/json_memory.h"
+#include "app/cost/json_smaller.h"
 #include "app/cost/json_tail.h"
 #include "app/cost/viewpoints.h"
 #include "app/files/whole_file.h"
@@ -367,6 +368,7 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     add_interactions(root, report);
     add_fit(root, report);
     add_predictions(root, report);
+    dip_cost_smaller_add(root, report);
     add_advice(root, report);
     dip_cost_frames_add(root, report);
     char *text = cJSON_PrintUnformatted(root);

@@ -481,6 +481,17 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
         assert_true(a->predicted.times.within_10 == b->predicted.times.within_10);
         assert_true(a->predicted.errors_left_out.p90 == b->predicted.errors_left_out.p90);
     }
+    assert_int_equal(a->smaller_count, b->smaller_count);
+    assert_int_equal(a->smaller_width, b->smaller_width);
+    assert_int_equal(a->smaller_height, b->smaller_height);
+    for (int i = 0; i < a->smaller_count; i++) {
+        const DipCostElsewhere *x = &a->smaller[i];
+        const DipCostElsewhere *y = &b->smaller[i];
+        assert_memory_equal(&x->quality, &y->quality, sizeof x->quality);
+        check_values(&x->ms, &y->ms, sizeof x->ms);
+        check_values(x->counters, y->counters, sizeof x->counters);
+        check_values(x->stage_ms, y->stage_ms, sizeof x->stage_ms);
+    }
     assert_int_equal(a->kept.count, b->kept.count);
     assert_int_equal(a->kept.viewpoint, b->kept.viewpoint);
     for (int i = 0; i < a->kept.count; i++) {
@@ -556,8 +567,17 @@ static void json_without_a_date_is_read(void **state) {
 // file.
 static void broken_json_is_refused(void **state) {
     (void)state;
-    static const char *const fields[] = {"\"width\"",   "\"rows\"", "\"sums\"",    "\"base_ms\"",
-                                         "\"setting\"", "\"path\"", "\"baseline\""};
+    static const char *const fields[] = {
+        "\"width\"",
+        "\"rows\"",
+        "\"sums\"",
+        "\"base_ms\"",
+        "\"setting\"",
+        "\"path\"",
+        "\"baseline\"",
+        "\"combinations\":[{\"settings\":\"aa=none,taa=off,aaa=off,"
+        "asd=1,af=none,aaf=off,opt=off,miplod=high-quality,gi=on,"
+        "mipdebug=off\",\"ms\":0.5"};
     DipCostReport report;
     DipCostReport read;
     DipError err = {0};

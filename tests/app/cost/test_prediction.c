@@ -4,6 +4,7 @@
 #include "app/cost/fit.h"
 #include "app/cost/interaction.h"
 #include "app/cost/predict.h"
+#include "app/cost/predict_elsewhere.h"
 #include "app/cost/prediction_counts.h"
 #include "app/cost/same_pictures.h"
 #include "tests/renderer/random.h"
@@ -331,6 +332,106 @@ static void pictures_that_are_not_known_are_not_the_same(void **state) {
     dip_cost_report_free(&report);
 }
 
+// --- other sizes ---------------------------------------------------------------------------------
+
+// Makes the work of a picture with `area` times the pixels. Its triangles are the same.
+static void scale_work(double *counters, double area) {
+    static const int grows[] = {
+        DIP_COST_COUNTER_sub_blocks_tested,     DIP_COST_COUNTER_sub_blocks_accepted,
+        DIP_COST_COUNTER_fragments_clip_tested, DIP_COST_COUNTER_clip_sample_groups,
+        DIP_COST_COUNTER_fragments_shaded,      DIP_COST_COUNTER_samples_shown,
+        DIP_COST_COUNTER_pixels_resolved,       DIP_COST_COUNTER_texture_probes,
+        DIP_COST_COUNTER_texels_fetched};
+    for (size_t i = 0; i < sizeof grows / sizeof *grows; i++) {
+        counters[grows[i]] *= area;
+    }
+}
+
+// Returns the median of the misses of all combinations in a picture twice as wide and high.
+static double miss_at_twice_the_size(const DipCostReport *report, const DipCostModel *model) {
+    double misses[COMBINATIONS];
+    for (int i = 0; i < COMBINATIONS; i++) {
+        DipCostRow larger = report->rows[i];
+        scale_work(larger.counters, 4.0);
+        make_times(&larger, 1.0);
+        misses[i] = fabs(dip_cost_model_ms(model, larger.counters, &larger.quality) /
+                             larger.time.mean_ms.value -
+                         1.0);
+    }
+    return dip_cost_misses_of(misses, COMBINATIONS).median;
+}
+
+static void add_smaller(DipCostReport *report, int row) {
+    DipCostRow smaller = report->rows[row];
+    scale_work(smaller.counters, 0.25);
+    make_times(&smaller, 1.0);
+    DipCostElsewhere *to = &report->smaller[report->smaller_count++];
+    to->quality = smaller.quality;
+    memcpy(to->counters, smaller.counters, sizeof to->counters);
+    memcpy(to->stage_ms, smaller.stage_ms, sizeof to->stage_ms);
+}
+
+// From noisy times of one size, no one can tell what grows with the picture. A few times of half
+// the size tell it.
+static void a_smaller_size_tells_the_prices_of_others(void **state) {
+    (void)state;
+    double without = 0.0, with = 0.0;
+    for (int seed = 1; seed <= 8; seed++) {
+        DipCostReport report;
+        int chosen[TRAINED];
+        make_report(&report, courtyard_flip, 0.04, (uint64_t)seed);
+        assert_true(dip_cost_choose_training(&report, TRAINED, chosen, NULL));
+        DipCostModel model = dip_cost_model_fit(&report, chosen, TRAINED);
+        without += miss_at_twice_the_size(&report, &model) / 8.0;
+        const int rows[] = {0, 40, 80, COMBINATIONS - 1};
+        for (int i = 0; i < 4; i++) {
+            add_smaller(&report, rows[i]);
+        }
+        model = dip_cost_model_fit(&report, chosen, TRAINED);
+        with += miss_at_twice_the_size(&report, &model) / 8.0;
+        dip_cost_report_free(&report);
+    }
+    if (!(with < 0.03 && with < 0.6 * without)) {
+        fail_msg("median misses %.4f with smaller pictures, %.4f without", with, without);
+    }
+}
+
+// Five combinations, of which three are timed to correct the others and one is checked.
+static void predictions_are_corrected_by_what_was_timed(void **state) {
+    (void)state;
+    DipCostPredictedThere list[5];
+    DipCostElsewherePrediction *p = calloc(1, sizeof *p);
+    assert_non_null(p);
+    p->list = list;
+    p->count = 5;
+    p->timed_count = 3;
+    p->checked_count = 1;
+    const double as_is[] = {1.0, 2.0, 4.0, 5.0, 8.0};
+    const double timed[] = {1.2, 2.2, 4.0, 6.0};
+    for (int i = 0; i < 5; i++) {
+        list[i] = (DipCostPredictedThere){.as_is_ms = as_is[i], .timed = i < 4 ? i : -1};
+        p->timed[i].ms.value = i < 4 ? timed[i] : 0.0;
+    }
+    dip_cost_correct_there(p);
+    assert_true(fabs(p->factor - 1.1) < 1e-12); // The median of 1.2, 1.1 and 1.
+    assert_true(fabs(list[4].ms - 8.8) < 1e-12);
+    assert_int_equal(p->timed_as_is.rows, 3);
+    assert_true(fabs(p->timed_as_is.median - (1.0 - 1.0 / 1.1)) < 1e-12);
+    // With the factor of the two others: sqrt(1.1), sqrt(1.2) and sqrt(1.32).
+    assert_true(fabs(p->timed_with_factor.p90 - (sqrt(1.32) - 1.0)) < 1e-12);
+    assert_int_equal(p->checked_as_is.rows, 1);
+    assert_true(fabs(p->checked_as_is.median - (1.0 - 5.0 / 6.0)) < 1e-12);
+    assert_true(fabs(p->checked_with_factor.median - (1.0 - 5.5 / 6.0)) < 1e-12);
+    p->timed_count = p->checked_count = 0;
+    for (int i = 0; i < 5; i++) {
+        list[i].timed = -1;
+    }
+    dip_cost_correct_there(p);
+    assert_true(p->factor == 1.0 && list[4].ms == 8.0);
+    assert_int_equal(p->timed_as_is.rows, 0);
+    free(p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(times_follow_from_work),
@@ -342,6 +443,8 @@ int main(void) {
         cmocka_unit_test(interactions_are_what_both_add),
         cmocka_unit_test(combinations_with_the_same_pictures_are_one_row),
         cmocka_unit_test(pictures_that_are_not_known_are_not_the_same),
+        cmocka_unit_test(a_smaller_size_tells_the_prices_of_others),
+        cmocka_unit_test(predictions_are_corrected_by_what_was_timed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

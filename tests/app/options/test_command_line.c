@@ -30,6 +30,7 @@ static const char *const complete[] = {
     "cost advise x --budget-ms 8",
     "cost assets",
     "cost axes",
+    "cost predict x",
     "path info x",
     "path convert x y.pth",
     "verify",

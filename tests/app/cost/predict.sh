@@ -1,0 +1,119 @@
+#!/bin/sh
+# Runs `cost predict` as users do: faults of its options and of reports, its table and its files. No
+# check looks at a time.
+# Usage: predict.sh DIPTYCH SOURCES
+set -u
+diptych=$1
+square=$2/tests/assets/data/square.gltf
+courtyard=$2/config/courtyard.ini
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() {
+    failures=$((failures + 1))
+    echo "FAILED: $*"
+    sed 's/^/  | /' err.txt
+}
+
+# predict CODE ARGUMENT...: cost predict must end with this exit code, and a fault must be one line.
+predict() {
+    code=$1
+    shift
+    "$diptych" cost predict "$@" >out.txt 2>err.txt
+    found=$?
+    [ $found = "$code" ] || fail "cost predict $*: exit code $found, expected $code"
+    [ "$code" != 2 ] || [ "$(wc -l <err.txt)" = 1 ] || fail "cost predict $*: expected one line"
+}
+
+# refuses REGEX ARGUMENT...
+refuses() {
+    regex=$1
+    shift
+    predict 2 "$@"
+    grep -qE -- "$regex" err.txt || fail "cost predict $*: no line matches $regex"
+}
+
+# has REGEX
+has() {
+    grep -qE -- "$1" out.txt || {
+        fail "nothing matches $1 in:"
+        sed 's/^/  | /' out.txt
+    }
+}
+
+# measure FOLDER ARGUMENT...
+measure() {
+    folder=$1
+    shift
+    "$diptych" cost --out "$folder" --places 1 --samples 4 --cache truths --pictures none "$@" \
+        >out.txt 2>err.txt || fail "cost $* does not run"
+}
+
+measure report --model "$square" --size 96x64 --rounds 2 --timed 2
+measure tiny --model "$square" --size 48x36 --rounds 2 --timed 2
+measure errors --model "$square" --size 96x64 --errors-only
+
+# --- faults
+refuses "there is no report; give the cost.json of one: cost predict REPORT --size WxH$"
+refuses "\[errors\] is one argument too many" report errors
+refuses "nothing/cost.json|nothing: .*cannot be opened|nothing" nothing
+refuses "report: is of another scene \(square.gltf\)" report --config "$courtyard"
+refuses "errors: has no times; measure the report without --errors-only$" errors --model "$square"
+refuses "\[--time\] '201' is not a whole number from 0 to 200$" report --time 201
+refuses "\[--check\] '-1'" report --check -1
+
+# --- half the size was timed, unless the picture is small
+python3 - <<'PYTHON' || fail "the reports do not have the combinations of half the size"
+import json
+smaller = json.load(open("report/cost.json"))["smaller"]
+assert (smaller["width"], smaller["height"]) == (48, 32) and len(smaller["combinations"]) == 4
+for c in smaller["combinations"]:
+    assert abs(sum(c["stages_ms"].values()) / c["ms"] - 1) < 1e-9
+    assert 0 < c["counters"]["fragments_shaded"] <= 48 * 32
+assert "smaller" not in json.load(open("tiny/cost.json"))
+PYTHON
+
+# --- from the report alone: exact, and the same each time
+predict 0 report/cost.json --model "$square" --size 192x128 --time 0 --csv a.csv --json a.json
+has "^there    192x128 pixels, path DEFAULT, "
+has "^model    prices of work from [0-9]+ rows and 4 at 48x32 of the report$"
+has "^timed    nothing: the predictions come from the report alone$"
+predict 0 report --model "$square" --size 192x128 --time 0 --csv b.csv
+cmp a.csv b.csv || fail "two predictions from the same report differ"
+predict 0 report --model "$square" --size 192x128 --time 3 --check 4 --csv c.csv --json c.json
+has "^timed    3 combinations there, "
+has "^checked  4 other combinations there$"
+predict 0 tiny --model "$square" --threads 1 --time 1
+has "^there    48x36 pixels, path DEFAULT, 1 thread, "
+python3 - <<'PYTHON' || fail "the files are not as expected"
+import csv, json
+alone, timed = json.load(open("a.json")), json.load(open("c.json"))
+combined = json.load(open("report/cost.json"))
+measured = {r["settings"]: r["ms"] for r in combined["rows"][combined["combined_first"]:]}
+assert alone["factor"] == 1 and timed["factor"] > 0 and list(alone["misses"]) == [
+    "report_rows_left_out"]
+roles = [c["role"] for c in timed["combinations"]]
+assert roles.count("timed") == 3 and roles.count("checked") == 4
+for a, c, line in zip(alone["combinations"], timed["combinations"],
+                      csv.DictReader(open("c.csv")), strict=True):
+    assert a["settings"] == c["settings"] == line["settings"] and line["role"] == c["role"]
+    assert abs(a["report_ms"] / measured[a["settings"]] - 1) < 1e-9
+    assert a["report_alone_ms"] == a["ms"] == c["report_alone_ms"] > 0
+    assert abs(c["ms"] / (timed["factor"] * a["ms"]) - 1) < 1e-9
+    assert ("timed_ms" in c) == (line["timed_ms"] != "") == (c["role"] != "predicted")
+    assert "timed_ms" not in c or c["timed_ms_low"] <= c["timed_ms"] <= c["timed_ms_high"]
+assert len(measured) == len(alone["combinations"])
+PYTHON
+
+# --- another camera path of the courtyard, and a scene of the gallery
+measure court --config "$courtyard" --size 96x72 --rounds 2 --timed 1 --combine af
+predict 0 court --config "$courtyard" --category AAA --time 2
+has "^there    96x72 pixels, path AAA, "
+measure blend --scene blend --size 96x72 --rounds 2 --timed 1 --combine aa
+predict 0 blend --scene blend --size 64x64 --time 2
+refuses "blend: is of another scene " blend --scene toon
+
+[ $failures = 0 ] && echo "cost predict does what it should"
+exit $((failures > 0))
