@@ -9,6 +9,9 @@
 typedef struct Work {
     const double *counters;
     double samples;     // Per pixel.
+    double several;     // 1 with several samples per pixel.
+    double adaptive;    // 1 with adaptive AA.
+    double anisotropic; // 1 with anisotropic filtering.
     double full_levels; // 1 if the finest mip levels are read.
     double raw;         // 1 if colour textures are not compressed.
     double advanced;    // 1 with opt=advanced.
@@ -25,8 +28,12 @@ typedef struct Work {
 #define RASTER_TERMS(X)                                                                            \
     X("frame", 1.0)                                                                                \
     X("triangle in a tile", C(tile_triangles))                                                     \
+    X("triangle in a tile, of several samples", C(tile_triangles) * w->several)                    \
     X("sub-block tested", C(sub_blocks_tested))                                                    \
     X("sub-block tested, per sample", C(sub_blocks_tested) * w->samples)                           \
+    X("sub-block tested, adaptive AA", C(sub_blocks_tested) * w->adaptive)                         \
+    X("sub-block tested, adaptive AA, per sample",                                                 \
+      C(sub_blocks_tested) * w->adaptive * w->samples)                                             \
     X("sub-block accepted, per sample", C(sub_blocks_accepted) * w->samples)                       \
     X("fragment clip tested", C(fragments_clip_tested))                                            \
     X("sample group of a clipped triangle", C(clip_sample_groups))                                 \
@@ -37,6 +44,7 @@ typedef struct Work {
 #define SHADING_TERMS(X)                                                                           \
     X("frame", 1.0)                                                                                \
     X("fragment shaded", C(fragments_shaded))                                                      \
+    X("fragment shaded, anisotropic filtering", C(fragments_shaded) * w->anisotropic)              \
     X("fragment shaded outside of whole blocks", C(fragments_shaded) - C(fragments_of_blocks))     \
     X("batch of fragments", C(shader_batches))                                                     \
     X("texture probe", C(texture_probes) - C(clip_probes))                                         \
@@ -97,6 +105,9 @@ void dip_cost_terms(DipCostStage stage, const double counters[DIP_COST_COUNTER_C
     const Work work = {
         .counters = counters,
         .samples = dip_quality_sample_count(quality),
+        .several = dip_quality_sample_count(quality) > 1,
+        .adaptive = quality->step[DIP_SETTING_AAA] != 0,
+        .anisotropic = dip_quality_max_anisotropy(quality) > 1,
         .full_levels = quality->step[DIP_SETTING_MIPLOD] == DIP_MIPLOD_HIGH_QUALITY,
         .raw = !dip_quality_compresses(quality),
         .advanced = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,

@@ -10,7 +10,7 @@
 #include "app/cost/report.h"
 
 enum {
-    DIP_COST_MAX_TERMS = 16,                                       // Of one stage.
+    DIP_COST_MAX_TERMS = 20,                                       // Of one stage.
     DIP_COST_ALL_TERMS = DIP_COST_STAGE_COUNT * DIP_COST_MAX_TERMS // Of all stages, at most.
 };
 
