@@ -7,6 +7,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+// How often the combinations that were timed there count together, for each time that the report's
+// rows count together. From 3 to 100 it matters little: 6 combinations of the courtyard, at two
+// sizes and on three other paths, then predict the others about as well.
+static const double there_weight = 30.0;
+
 // The equations of all stages.
 typedef struct Equations {
     DipNormalEquations stages[DIP_COST_STAGE_COUNT];
@@ -23,7 +28,7 @@ static Sample sample_of(const DipCostRow *row) {
     return (Sample){row->counters, row->stage_ms, &row->quality};
 }
 
-static Sample smaller_sample(const DipCostElsewhere *row) {
+static Sample elsewhere_sample(const DipCostElsewhere *row) {
     return (Sample){row->counters, row->stage_ms, &row->quality};
 }
 
@@ -49,20 +54,31 @@ static double whole_ms(const DipCostRow *row) {
     return whole_of(&sample);
 }
 
-// Adds a sample (sign 1) or takes it away (sign -1).
-static void add(Equations *equations, const Sample *sample, double sign) {
+// Adds a sample `weight` times. A weight of -1 takes it away.
+static void add(Equations *equations, const Sample *sample, double weight) {
     const double ms = whole_of(sample);
     for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
         double amounts[DIP_COST_MAX_TERMS];
         dip_cost_terms((DipCostStage)stage, sample->counters, sample->quality, amounts);
         dip_normal_equations_add(&equations->stages[stage], amounts, sample->stage_ms[stage],
-                                 sign / (ms * ms));
+                                 weight / (ms * ms));
     }
 }
 
-static void add_row(Equations *equations, const DipCostRow *row, double sign) {
+static void add_row(Equations *equations, const DipCostRow *row, double weight) {
     const Sample sample = sample_of(row);
-    add(equations, &sample, sign);
+    add(equations, &sample, weight);
+}
+
+// Adds combinations that were timed elsewhere.
+static void add_elsewhere(Equations *equations, const DipCostElsewhere *list, int count,
+                          double weight) {
+    for (int i = 0; i < count; i++) {
+        const Sample sample = elsewhere_sample(&list[i]);
+        if (whole_of(&sample) > 0.0) {
+            add(equations, &sample, weight);
+        }
+    }
 }
 
 // Starts the equations of some rows, and adds the combinations that were timed at a smaller size.
@@ -74,18 +90,13 @@ static void begin(Equations *equations, const DipCostReport *report, const int *
             enlarge_scale(&sample, (DipCostStage)stage, scale);
         }
         for (int i = 0; i < report->smaller_count; i++) {
-            const Sample sample = smaller_sample(&report->smaller[i]);
+            const Sample sample = elsewhere_sample(&report->smaller[i]);
             enlarge_scale(&sample, (DipCostStage)stage, scale);
         }
         dip_normal_equations_begin(&equations->stages[stage],
                                    dip_cost_term_count((DipCostStage)stage), scale);
     }
-    for (int i = 0; i < report->smaller_count; i++) {
-        const Sample sample = smaller_sample(&report->smaller[i]);
-        if (whole_of(&sample) > 0.0) {
-            add(equations, &sample, 1.0);
-        }
-    }
+    add_elsewhere(equations, report->smaller, report->smaller_count, 1.0);
 }
 
 static DipCostModel solve(const Equations *equations, int rows) {
@@ -100,7 +111,8 @@ static bool is_known(const DipCostRow *row) {
     return whole_ms(row) > 0.0;
 }
 
-DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count) {
+DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
+                                      const DipCostElsewhere *there, int there_count) {
     Equations equations;
     int known = 0;
     begin(&equations, report, rows, count);
@@ -110,7 +122,13 @@ DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, in
             known++;
         }
     }
-    return solve(&equations, known);
+    add_elsewhere(&equations, there, there_count,
+                  there_weight * (known + report->smaller_count) / there_count);
+    return solve(&equations, known + there_count);
+}
+
+DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count) {
+    return dip_cost_model_fit_there(report, rows, count, NULL, 0);
 }
 
 double dip_cost_model_ms(const DipCostModel *model, const double counters[DIP_COST_COUNTER_COUNT],

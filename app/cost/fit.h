@@ -18,6 +18,13 @@ typedef struct DipCostModel {
 // to the row's whole time, so that slow rows have no more weight than fast ones.
 DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count);
 
+// Fits prices as dip_cost_model_fit does, and also to combinations that were timed at another size,
+// on another camera path or with other threads ("there"). Prices are meant for that place: these
+// combinations together count 30 times as often as the report's rows together, which tell what
+// they leave open.
+DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
+                                      const DipCostElsewhere *there, int there_count);
+
 // Returns the mean time of a frame with these counters and settings, in milliseconds.
 double dip_cost_model_ms(const DipCostModel *model, const double counters[DIP_COST_COUNTER_COUNT],
                          const DipQuality *quality);

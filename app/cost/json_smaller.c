@@ -7,11 +7,7 @@
 
 enum { MOST_SIDE = 16384 }; // Pixels.
 
-static void add_combination(cJSON *list, const DipCostElsewhere *row) {
-    char settings[256];
-    cJSON *object = cJSON_CreateObject();
-    dip_quality_format(&row->quality, settings, sizeof settings);
-    cJSON_AddStringToObject(object, "settings", settings);
+void dip_cost_elsewhere_add_times(struct cJSON *object, const DipCostElsewhere *row) {
     cJSON_AddNumberToObject(object, "ms", row->ms.value);
     cJSON_AddNumberToObject(object, "ms_low", row->ms.low);
     cJSON_AddNumberToObject(object, "ms_high", row->ms.high);
@@ -23,6 +19,14 @@ static void add_combination(cJSON *list, const DipCostElsewhere *row) {
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         cJSON_AddNumberToObject(counters, dip_cost_counter_names[c], row->counters[c]);
     }
+}
+
+static void add_combination(cJSON *list, const DipCostElsewhere *row) {
+    char settings[256];
+    cJSON *object = cJSON_CreateObject();
+    dip_quality_format(&row->quality, settings, sizeof settings);
+    cJSON_AddStringToObject(object, "settings", settings);
+    dip_cost_elsewhere_add_times(object, row);
     if (!cJSON_AddItemToArray(list, object)) {
         cJSON_Delete(object);
     }
@@ -41,15 +45,10 @@ void dip_cost_smaller_add(struct cJSON *root, const DipCostReport *report) {
     }
 }
 
-static bool read_combination(const cJSON *object, DipCostElsewhere *row) {
+bool dip_cost_elsewhere_read_times(const struct cJSON *object, DipCostElsewhere *row) {
     bool ok = true;
-    const cJSON *settings = cJSON_GetObjectItemCaseSensitive(object, "settings");
     const cJSON *stages = cJSON_GetObjectItemCaseSensitive(object, "stages_ms");
     const cJSON *counters = cJSON_GetObjectItemCaseSensitive(object, "counters");
-    if (!cJSON_IsString(settings) ||
-        !dip_quality_parse(settings->valuestring, &row->quality, NULL)) {
-        return false;
-    }
     row->ms.value = dip_json_number(object, "ms", DIP_JSON_MAX_MS, &ok);
     row->ms.low = dip_json_number(object, "ms_low", DIP_JSON_MAX_MS, &ok);
     row->ms.high = dip_json_number(object, "ms_high", DIP_JSON_MAX_MS, &ok);
@@ -61,6 +60,13 @@ static bool read_combination(const cJSON *object, DipCostElsewhere *row) {
             dip_json_number(counters, dip_cost_counter_names[c], DIP_JSON_MAX_COUNT, &ok);
     }
     return ok && row->ms.value >= DIP_JSON_MIN_MS;
+}
+
+static bool read_combination(const cJSON *object, DipCostElsewhere *row) {
+    const cJSON *settings = cJSON_GetObjectItemCaseSensitive(object, "settings");
+    return cJSON_IsString(settings) &&
+           dip_quality_parse(settings->valuestring, &row->quality, NULL) &&
+           dip_cost_elsewhere_read_times(object, row);
 }
 
 bool dip_cost_smaller_read(const struct cJSON *root, DipCostReport *report) {

@@ -53,9 +53,10 @@ const DipCommand dip_cost_predict_command = {
         "path or with another number of threads, and predicts their times from the report's prices "
         "of work.\n\n"
         "Then it times six of them there (--time), each beside the report's baseline, so that all "
-        "times are milliseconds of the report's run, however fast the machine is today. The usual "
-        "quotient of their times and predictions corrects all predictions, and how far they then "
-        "miss tells how good the predictions are. docs/cost.md tells what was measured.\n\n"
+        "times are milliseconds of the report's run, however fast the machine is today. Prices are "
+        "fitted anew to the report and to these six, and predict all others. How far the six are "
+        "missed, each predicted from the report and the five others, tells how good the "
+        "predictions are. docs/cost.md tells what was measured.\n\n"
         "Errors are not predicted.",
     .examples = examples,
     .example_count = DIP_ARRAY_COUNT(examples),

@@ -1,4 +1,4 @@
-// Counting and timing combinations there, and predicting from the report's prices.
+// Counting and timing combinations there, and predicting from prices.
 #include "app/cost/predict_elsewhere.h"
 
 #include "app/cost/formats.h"
@@ -35,10 +35,11 @@ static bool check_report(const DipCostReport *report, const DipSession *session,
     }
     dip_cost_hash_path(&now, session, 0);
     return strcmp(now.path_hashes[0], report->path_hashes[0]) == 0 ||
-           dip_error_set(err, DIP_ERROR_CONFLICT, name, 0, NULL,
-                         "has another camera path %.15s than the scene has now; measure the report "
-                         "again",
-                         report->paths[0]);
+           dip_error_set(
+               err, DIP_ERROR_CONFLICT, name, 0, NULL,
+               "has another camera path %.15s than the scene has now; give its --path, or "
+               "measure the report again",
+               report->paths[0]);
 }
 
 // Adds the combinations of path 0: those that were measured, then those that were predicted.
@@ -51,8 +52,11 @@ static bool list_combinations(DipCostElsewherePrediction *p, const char *name, D
         return out_of_memory(err);
     }
     for (int r = report->combined_first; r < report->row_count; r++) {
-        p->list[p->count++] = (DipCostPredictedThere){
-            .quality = report->rows[r].quality, .report_ms = dip_cost_ms(report, r), .timed = -1};
+        if (report->rows[r].path == 0) {
+            p->list[p->count++] = (DipCostPredictedThere){.quality = report->rows[r].quality,
+                                                          .report_ms = dip_cost_ms(report, r),
+                                                          .timed = -1};
+        }
     }
     for (int i = 0; i < report->predicted.count; i++) {
         if (report->predicted.list[i].row < 0) {
@@ -111,20 +115,6 @@ static bool scale_counters(DipCostContext *there, DipError *err) {
     return true;
 }
 
-// Predicts from all rows of the report, on all of its paths.
-static void predict_as_is(DipCostElsewherePrediction *p) {
-    int rows[DIP_COST_MAX_ROWS];
-    for (int r = 0; r < p->report.row_count; r++) {
-        rows[r] = r;
-    }
-    const DipCostModel model = dip_cost_model_fit(&p->report, rows, p->report.row_count);
-    p->fit = dip_cost_model_leave_one_out(&p->report, rows, p->report.row_count);
-    for (int i = 0; i < p->count; i++) {
-        const DipCostPrediction *work = &p->there.predicted.list[i];
-        p->list[i].as_is_ms = dip_cost_model_ms(&model, work->counters, &work->quality);
-    }
-}
-
 // --- timing --------------------------------------------------------------------------------------
 
 static void add_timed(DipCostElsewherePrediction *p, int index) {
@@ -175,45 +165,71 @@ static bool time_there(DipCostElsewherePrediction *p, DipCostContext *here, DipC
     return true;
 }
 
-// --- correcting ----------------------------------------------------------------------------------
+// --- predicting and judging ----------------------------------------------------------------------
 
-// The quotient of a timed combination's time and its prediction.
-static double quotient(const DipCostElsewherePrediction *p, const DipCostPredictedThere *c) {
-    return p->timed[c->timed].ms.value / c->as_is_ms;
+static void list_rows(const DipCostReport *report, int rows[DIP_COST_MAX_ROWS]) {
+    for (int r = 0; r < report->row_count; r++) {
+        rows[r] = r;
+    }
 }
 
-// The usual quotient of the combinations that make the factor, without one of them (-1: with all).
-static double factor_without(const DipCostElsewherePrediction *p, int without) {
-    double logs[DIP_COST_MOST_TIMED];
+// Fits prices to all rows of the report, on all of its paths, and to combinations timed there.
+static DipCostModel fit(const DipCostElsewherePrediction *p, const DipCostElsewhere *timed,
+                        int count) {
+    int rows[DIP_COST_MAX_ROWS];
+    list_rows(&p->report, rows);
+    return dip_cost_model_fit_there(&p->report, rows, p->report.row_count, timed, count);
+}
+
+static double predict(const DipCostElsewherePrediction *p, const DipCostModel *model, int index) {
+    return dip_cost_model_ms(model, p->there.predicted.list[index].counters,
+                             &p->list[index].quality);
+}
+
+// Predicts a timed combination from the report and from all others that were timed.
+static double predict_left_out(const DipCostElsewherePrediction *p, int index) {
+    DipCostElsewhere others[DIP_COST_MOST_TIMED];
     int count = 0;
+    for (int i = 0; i < p->timed_count; i++) {
+        if (i != p->list[index].timed) {
+            others[count++] = p->timed[i];
+        }
+    }
+    const DipCostModel model = fit(p, others, count);
+    return predict(p, &model, index);
+}
+
+static void predict_all(DipCostElsewherePrediction *p) {
+    const DipCostModel as_is = fit(p, NULL, 0);
+    const DipCostModel fitted = fit(p, p->timed, p->timed_count);
+    for (int i = 0; i < p->count; i++) {
+        p->list[i].as_is_ms = predict(p, &as_is, i);
+        p->list[i].ms = predict(p, &fitted, i);
+    }
+}
+
+void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
+    double as_is[2][DIP_COST_MOST_TIMED], fitted[2][DIP_COST_MOST_TIMED], logs[DIP_COST_MOST_TIMED];
+    int count[2] = {0, 0};
+    predict_all(p);
     for (int i = 0; i < p->count; i++) {
         const DipCostPredictedThere *c = &p->list[i];
-        if (c->timed >= 0 && c->timed < p->timed_count && c->timed != without) {
-            logs[count++] = log(quotient(p, c));
-        }
-    }
-    return count > 0 ? exp(dip_stats_median(logs, count)) : 1.0;
-}
-
-void dip_cost_correct_there(DipCostElsewherePrediction *p) {
-    double as_is[2][DIP_COST_MOST_TIMED], corrected[2][DIP_COST_MOST_TIMED];
-    int count[2] = {0, 0};
-    p->factor = factor_without(p, -1);
-    for (int i = 0; i < p->count; i++) {
-        DipCostPredictedThere *c = &p->list[i];
-        c->ms = c->as_is_ms * p->factor;
         if (c->timed >= 0) {
+            const double ms = p->timed[c->timed].ms.value;
             const bool checked = c->timed >= p->timed_count;
-            const double factor = checked ? p->factor : factor_without(p, c->timed);
             const int k = count[checked]++;
-            as_is[checked][k] = fabs(1.0 / quotient(p, c) - 1.0);
-            corrected[checked][k] = fabs(factor / quotient(p, c) - 1.0);
+            if (!checked) {
+                logs[k] = log(ms / c->as_is_ms);
+            }
+            as_is[checked][k] = fabs(c->as_is_ms / ms - 1.0);
+            fitted[checked][k] = fabs((checked ? c->ms : predict_left_out(p, i)) / ms - 1.0);
         }
     }
+    p->factor = count[0] > 0 ? exp(dip_stats_median(logs, count[0])) : 1.0;
     p->timed_as_is = dip_cost_misses_of(as_is[0], count[0]);
-    p->timed_with_factor = dip_cost_misses_of(corrected[0], count[0]);
+    p->timed_left_out = dip_cost_misses_of(fitted[0], count[0]);
     p->checked_as_is = dip_cost_misses_of(as_is[1], count[1]);
-    p->checked_with_factor = dip_cost_misses_of(corrected[1], count[1]);
+    p->checked_fitted = dip_cost_misses_of(fitted[1], count[1]);
 }
 
 // --- the whole -----------------------------------------------------------------------------------
@@ -271,7 +287,7 @@ static bool measure(DipCostElsewherePrediction *p, Place *here, Place *there,
         dip_cost_context_open(&base, &here->session, &p->report, NULL, NULL, false, err) &&
         dip_cost_context_open(&context, &there->session, &p->there, NULL, NULL, false, err) &&
         dip_cost_count_combinations(&context, err) && scale_counters(&context, err) &&
-        (predict_as_is(p), time_there(p, &base, &context, arguments, err));
+        time_there(p, &base, &context, arguments, err);
     dip_cost_context_close(&context);
     dip_cost_context_close(&base);
     return done;
@@ -294,7 +310,10 @@ bool dip_cost_predict_there(DipCostElsewherePrediction *p, const DipSession *ses
                            arguments->session.has_isa ? session->isa : isa, err) &&
                 measure(p, &here, &there, arguments, err);
     if (done) {
-        dip_cost_correct_there(p);
+        int rows[DIP_COST_MAX_ROWS];
+        list_rows(&p->report, rows);
+        p->fit = dip_cost_model_leave_one_out(&p->report, rows, p->report.row_count);
+        dip_cost_predict_and_judge_there(p);
     }
     dip_pool_destroy(&here.pool);
     dip_pool_destroy(&there.pool);

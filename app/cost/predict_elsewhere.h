@@ -3,8 +3,8 @@
 //
 // A combination is a set of quality settings on the camera path. The report's model of times
 // (fit.h) knows the price of each kind of work. The work is counted there, and the sum of work
-// times price is the prediction "as it is". If some combinations are timed there, the usual
-// quotient of their times and predictions is a factor for all others.
+// times price is the prediction "as it is". If some combinations are timed there, prices are fitted
+// anew to them and to the report, and predict all others.
 #ifndef DIP_APP_COST_PREDICT_ELSEWHERE_H
 #define DIP_APP_COST_PREDICT_ELSEWHERE_H
 
@@ -18,7 +18,7 @@ typedef struct DipCostPredictedThere {
     DipQuality quality;
     double report_ms; // In the report: measured, or predicted there.
     double as_is_ms;  // Predicted from the report alone.
-    double ms;        // as_is_ms times the factor.
+    double ms;        // Predicted from the report and from what was timed there.
     int timed;        // Index in `timed`, or -1.
 } DipCostPredictedThere;
 
@@ -31,13 +31,13 @@ typedef struct DipCostElsewherePrediction {
     DipCostPredictedThere *list; // Owned; `count` of them, in the order of the report.
     int count;
     DipCostElsewhere timed[2 * DIP_COST_MOST_TIMED];
-    int timed_count;                 // The first ones, which make the factor.
-    int checked_count;               // The others, which do not.
-    double factor;                   // 1 if none was timed.
-    DipCostMisses timed_as_is;       // Of those that make the factor.
-    DipCostMisses timed_with_factor; // Each of these with the factor of the others.
+    int timed_count;           // The first ones, to which prices are fitted.
+    int checked_count;         // The others, to which they are not.
+    double factor;             // The usual quotient of the former's times and as_is_ms; 1 without.
+    DipCostMisses timed_as_is; // Of those to which prices are fitted: how far as_is_ms misses,
+    DipCostMisses timed_left_out; // and each with prices fitted to the others.
     DipCostMisses checked_as_is;
-    DipCostMisses checked_with_factor;
+    DipCostMisses checked_fitted;
     double wait; // Share of their time that threads waited for a core while times were taken.
 } DipCostElsewherePrediction;
 
@@ -48,8 +48,9 @@ bool dip_cost_predict_there(DipCostElsewherePrediction *prediction, const DipSes
                             const DipCostPredictArguments *arguments, DipError *err);
 void dip_cost_predict_there_free(DipCostElsewherePrediction *prediction);
 
-// Computes the factor and all misses of combinations that were timed.
-void dip_cost_correct_there(DipCostElsewherePrediction *prediction);
+// Predicts all combinations from the report and from what was timed there, and computes all misses.
+// Needs the report's rows, the counters of `there`, the list and the timed combinations.
+void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *prediction);
 
 void dip_cost_predict_there_print(const DipCostElsewherePrediction *prediction, FILE *out);
 bool dip_cost_predict_there_write_json(const DipCostElsewherePrediction *prediction,

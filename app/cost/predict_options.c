@@ -9,9 +9,9 @@ static const DipOptionRow prediction_rows[] = {
     {.name = "--time",
      .argument = "N",
      .text =
-         "Time this many combinations there, those that tell most about all others, and correct "
-         "all predictions by the factor by which these were missed. With 0, nothing is timed "
-         "and the predictions come from the report alone. The default is 6.",
+         "Time this many combinations there, those that tell most about all others, and predict "
+         "the others from these and from the report. With 0, nothing is timed and the predictions "
+         "come from the report alone. The default is 6.",
      .kind = DIP_OPTION_INTEGER,
      .field = FIELD(timed),
      .most = DIP_COST_MOST_TIMED},
@@ -41,6 +41,7 @@ static const DipOptionTable prediction_table = {"Predicting", prediction_rows,
 static const DipOptionPart parts[] = {
     {&prediction_table, 0},
     {&dip_scene_option_table, FIELD(session)},
+    {&dip_path_option_table, FIELD(session)},
     {&dip_category_option_table, FIELD(session)},
     {&dip_size_option_table, FIELD(session)},
     {&dip_threads_option_table, FIELD(session)},

@@ -12,7 +12,7 @@ typedef struct DipCostPredictArguments {
     DipSessionOptions session;
     const char *report; // A cost.json, or a folder that has one.
     int report_count;
-    int timed;        // Combinations to time there, for the factor; 0: predict as it is.
+    int timed;        // Combinations to time there, to predict from; 0: from the report alone.
     int checked;      // Further combinations to time there, to compare the predictions with.
     const char *json; // Files to write, or NULL.
     const char *csv;

@@ -2,6 +2,7 @@
 #include "app/cost/predict_elsewhere.h"
 
 #include "app/cost/json_memory.h"
+#include "app/cost/json_smaller.h"
 #include "app/cost/verdict.h"
 #include "app/files/whole_file.h"
 
@@ -19,27 +20,28 @@ static void print_place(const char *what, const DipCostReport *place, FILE *out)
 }
 
 static void print_misses(const char *what, const DipCostMisses *misses, FILE *out) {
-    fprintf(out, "         %-44s median %5.1f %%, 90 %% within %5.1f %%\n", what,
+    fprintf(out, "         %-46s median %5.1f %%, 90 %% within %5.1f %%\n", what,
             100.0 * misses->median, 100.0 * misses->p90);
 }
 
 static void print_checks(const DipCostElsewherePrediction *p, FILE *out) {
+    static const char alone[] = "the report alone misses them by";
     if (p->timed_count > 0) {
         fprintf(out,
                 "timed    %d combination%s there, each beside the report's baseline: they take "
-                "%.3f times as long as predicted, which corrects all predictions\n",
+                "%.3f times as long as the report alone predicts\n",
                 p->timed_count, dip_cost_plural(p->timed_count), p->factor);
-        print_misses("without this factor, they are missed by", &p->timed_as_is, out);
-        print_misses("each with the factor of the others:", &p->timed_with_factor, out);
+        print_misses(alone, &p->timed_as_is, out);
+        print_misses("each predicted from the report and the others", &p->timed_left_out, out);
     } else {
         fprintf(out, "timed    nothing: the predictions come from the report alone\n");
     }
     if (p->checked_count > 0) {
         fprintf(out, "checked  %d other combination%s there\n", p->checked_count,
                 dip_cost_plural(p->checked_count));
-        print_misses("the report alone misses them by", &p->checked_as_is, out);
+        print_misses(alone, &p->checked_as_is, out);
         if (p->timed_count > 0) {
-            print_misses("with the factor:", &p->checked_with_factor, out);
+            print_misses("the predictions miss them by", &p->checked_fitted, out);
         }
     }
     if (p->wait > dip_cost_wait_limits.green) {
@@ -73,7 +75,7 @@ void dip_cost_predict_there_print(const DipCostElsewherePrediction *p, FILE *out
                 p->report.smaller_height);
     }
     fprintf(out, " of the report\n");
-    print_misses("each row predicted from the others:", &p->fit, out);
+    print_misses("each row predicted from the others", &p->fit, out);
     print_checks(p, out);
     fprintf(out,
             "\nMean times of a frame, in milliseconds of the report's run:\n"
@@ -119,10 +121,7 @@ static void add_combination(cJSON *list, const DipCostElsewherePrediction *p,
     cJSON_AddNumberToObject(object, "report_alone_ms", c->as_is_ms);
     cJSON_AddNumberToObject(object, "ms", c->ms);
     if (c->timed >= 0) {
-        const DipStatsEstimate *ms = &p->timed[c->timed].ms;
-        cJSON_AddNumberToObject(object, "timed_ms", ms->value);
-        cJSON_AddNumberToObject(object, "timed_ms_low", ms->low);
-        cJSON_AddNumberToObject(object, "timed_ms_high", ms->high);
+        dip_cost_elsewhere_add_times(cJSON_AddObjectToObject(object, "timed"), &p->timed[c->timed]);
     }
     if (!cJSON_AddItemToArray(list, object)) {
         cJSON_Delete(object);
@@ -141,9 +140,9 @@ static void add_all(cJSON *root, const DipCostElsewherePrediction *p) {
     cJSON *misses = cJSON_AddObjectToObject(root, "misses");
     add_misses(misses, "report_rows_left_out", &p->fit);
     add_misses(misses, "timed_by_report_alone", &p->timed_as_is);
-    add_misses(misses, "timed_with_factor_of_others", &p->timed_with_factor);
+    add_misses(misses, "timed_left_out", &p->timed_left_out);
     add_misses(misses, "checked_by_report_alone", &p->checked_as_is);
-    add_misses(misses, "checked_with_factor", &p->checked_with_factor);
+    add_misses(misses, "checked", &p->checked_fitted);
     cJSON *list = cJSON_AddArrayToObject(root, "combinations");
     for (int i = 0; i < p->count; i++) {
         add_combination(list, p, &p->list[i]);

@@ -1,21 +1,29 @@
 // Trains the prediction on a few combinations of a report, and prints how far it misses the others.
 //
-//     prediction_study A/cost.json [B/cost.json]...
+//     prediction_study REPORT/cost.json [THERE.json]...
 //
-// A is a report with combinations (diptych cost --combine aa,aaa,asd,af,aaf). The first lines are
-// about A's own combinations. Each further report, of another size, thread count or camera path, is
-// predicted with A's prices: as it is, and with one factor from six rows that were timed there.
+// The report has combinations (diptych cost --combine aa,aaa,asd,af,aaf). The first lines are about
+// these. THERE.json has combinations of the same scene that were timed beside the report's baseline
+// at another size or on another camera path:
+//
+//     diptych cost predict REPORT --size 1280x960 --time 0 --check 200 --json THERE.json
+//
+// They are predicted from the trained ones of the report, and from these and six that were timed
+// there.
 #include "app/cost/fit.h"
 #include "app/cost/formats.h"
+#include "app/cost/json_smaller.h"
 #include "app/cost/predict.h"
+#include "renderer/base/file.h"
 #include "renderer/base/assert.h"
 
+#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { TRAINED = 16, ROWS_ELSEWHERE = 6 };
+enum { TRAINED = 16, TIMED_THERE = 6, MOST_THERE = 1024, MOST_BYTES = 1 << 26 };
 
 static void print_misses(const char *what, const DipCostMisses *misses) {
     printf("  %-52s median %5.1f %%, 90 %% within %5.1f %%, %3.0f %% within 10 %%, %3.0f %% within "
@@ -65,16 +73,26 @@ static int list_others(const DipCostReport *report, const int *rows, int count, 
     return found;
 }
 
-static bool study_own(DipCostReport *report, DipCostModel *model, DipError *err) {
-    int rows[DIP_COST_MAX_ROWS], others[DIP_COST_MAX_ROWS];
-    const int count = choose(report, TRAINED, rows, err);
+// What the predictions come from: the trained rows of a report.
+typedef struct Trained {
+    DipCostReport *report;
+    int rows[DIP_COST_MAX_ROWS];
+    int count;
+} Trained;
+
+static bool study_own(Trained *trained, DipError *err) {
+    DipCostReport *report = trained->report;
+    int others[DIP_COST_MAX_ROWS];
+    const int *rows = trained->rows;
+    const int count = choose(report, TRAINED, trained->rows, err);
+    trained->count = count;
     if (count == 0) {
         return false;
     }
     const int other_count = list_others(report, rows, count, others);
-    *model = dip_cost_model_fit(report, rows, count);
+    const DipCostModel model = dip_cost_model_fit(report, rows, count);
     const DipCostErrorModel errors = dip_cost_error_model_fit(report, rows, count);
-    const DipCostMisses time_misses = dip_cost_model_misses(report, model, others, other_count);
+    const DipCostMisses time_misses = dip_cost_model_misses(report, &model, others, other_count);
     const DipCostMisses flip_misses =
         dip_cost_error_model_misses(report, &errors, others, other_count);
     const DipCostMisses left_out = dip_cost_model_leave_one_out(report, rows, count);
@@ -85,58 +103,119 @@ static bool study_own(DipCostReport *report, DipCostModel *model, DipError *err)
     return true;
 }
 
-// The usual quotient of measured and predicted time at some rows.
-static double factor_at(const DipCostReport *report, const DipCostModel *model, const int *rows,
-                        int count) {
-    double logs[DIP_COST_MAX_ROWS];
-    for (int i = 0; i < count; i++) {
-        const DipCostRow *row = &report->rows[rows[i]];
-        logs[i] =
-            log(row->time.mean_ms.value / dip_cost_model_ms(model, row->counters, &row->quality));
-    }
-    return exp(dip_stats_median(logs, count));
-}
+// --- elsewhere -----------------------------------------------------------------------------------
 
-static bool study_elsewhere(DipCostReport *report, const DipCostModel *model, DipError *err) {
-    int rows[DIP_COST_MAX_ROWS], others[DIP_COST_MAX_ROWS];
-    const int count = choose(report, ROWS_ELSEWHERE, rows, err);
-    if (count == 0) {
-        return false;
-    }
-    const int other_count = list_others(report, rows, count, others);
-    const double factor = factor_at(report, model, rows, count);
-    DipCostModel scaled = *model;
-    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
-        for (int t = 0; t < DIP_COST_MAX_TERMS; t++) {
-            scaled.price_ms[stage][t] *= factor;
+typedef struct There {
+    DipCostElsewhere rows[MOST_THERE];
+    int count;
+} There;
+
+static bool read_combinations(const cJSON *root, There *there) {
+    const cJSON *object;
+    cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "combinations")) {
+        const cJSON *timed = cJSON_GetObjectItemCaseSensitive(object, "timed");
+        const cJSON *settings = cJSON_GetObjectItemCaseSensitive(object, "settings");
+        DipCostElsewhere *row = &there->rows[there->count];
+        if (timed && there->count < MOST_THERE) {
+            if (!cJSON_IsString(settings) ||
+                !dip_quality_parse(settings->valuestring, &row->quality, NULL) ||
+                !dip_cost_elsewhere_read_times(timed, row)) {
+                return false;
+            }
+            there->count++;
         }
     }
-    const DipCostMisses as_it_is = dip_cost_model_misses(report, model, others, other_count);
-    const DipCostMisses with_factor = dip_cost_model_misses(report, &scaled, others, other_count);
-    print_misses("with the prices of the first report", &as_it_is);
-    printf("  factor from %d rows timed there: %.3f\n", count, factor);
-    print_misses("with this factor", &with_factor);
+    return there->count > TIMED_THERE;
+}
+
+static bool read_there(const char *file, There *there, DipError *err) {
+    unsigned char *text;
+    size_t size_bytes;
+    there->count = 0;
+    if (!dip_file_read(file, "prediction", MOST_BYTES, &text, &size_bytes, err)) {
+        return false;
+    }
+    cJSON *root = cJSON_ParseWithLength((const char *)text, size_bytes);
+    const bool read = root && read_combinations(root, there);
+    cJSON_Delete(root);
+    free(text);
+    return read || dip_error_set(err, DIP_ERROR_FORMAT, file, 0, NULL,
+                                 "has no more than %d timed combinations", TIMED_THERE);
+}
+
+// Misses of all combinations from index `first` on.
+static DipCostMisses misses_there(const There *there, const DipCostModel *model, int first) {
+    double misses[MOST_THERE];
+    for (int i = first; i < there->count; i++) {
+        const DipCostElsewhere *row = &there->rows[i];
+        misses[i - first] =
+            fabs(dip_cost_model_ms(model, row->counters, &row->quality) / row->ms.value - 1.0);
+    }
+    return dip_cost_misses_of(misses, there->count - first);
+}
+
+// Moves the combinations that tell most about all others to the front.
+static bool choose_there(const Trained *trained, There *there, DipError *err) {
+    DipCostReport place = {.options = trained->report->options};
+    int chosen[TIMED_THERE];
+    place.predicted.list = calloc((size_t)there->count, sizeof *place.predicted.list);
+    if (!place.predicted.list) {
+        return false;
+    }
+    place.predicted.count = there->count;
+    for (int i = 0; i < there->count; i++) {
+        DipCostPrediction *p = &place.predicted.list[i];
+        *p = (DipCostPrediction){.quality = there->rows[i].quality, .row = -1};
+        memcpy(p->counters, there->rows[i].counters, sizeof p->counters);
+    }
+    const bool done = dip_cost_choose_training(&place, TIMED_THERE, chosen, err);
+    free(place.predicted.list);
+    for (int i = 0; done && i < TIMED_THERE; i++) {
+        const DipCostElsewhere moved = there->rows[chosen[i]];
+        there->rows[chosen[i]] = there->rows[i];
+        there->rows[i] = moved;
+        for (int k = i + 1; k < TIMED_THERE; k++) {
+            chosen[k] = chosen[k] == i ? chosen[i] : chosen[k];
+        }
+    }
+    return done;
+}
+
+static bool study_there(const Trained *trained, const char *file, DipError *err) {
+    static There there;
+    if (!read_there(file, &there, err) || !choose_there(trained, &there, err)) {
+        return false;
+    }
+    const DipCostModel alone = dip_cost_model_fit(trained->report, trained->rows, trained->count);
+    const DipCostModel fitted = dip_cost_model_fit_there(trained->report, trained->rows,
+                                                         trained->count, there.rows, TIMED_THERE);
+    const DipCostMisses all = misses_there(&there, &alone, 0);
+    const DipCostMisses others = misses_there(&there, &fitted, TIMED_THERE);
+    printf("%s:\n", file);
+    print_misses("from the trained rows alone", &all);
+    print_misses("from these and six that were timed there", &others);
     return true;
 }
 
 int main(int argc, char **argv) {
-    DipCostModel model = {.rows = 0};
-    bool done = argc > 1;
-    for (int i = 1; done && i < argc; i++) {
-        DipCostReport report;
-        DipError err = {0};
-        if (!dip_cost_read_json(&report, argv[i], &err)) {
-            fprintf(stderr, "%s: %s\n", argv[i], err.message);
-            return 2;
-        }
-        printf("%s: %s, %dx%d, %d threads, path %s, %s\n", argv[i], report.scene, report.width,
-               report.height, report.threads, report.paths[0],
-               dip_cost_verdict_names[report.verdict]);
-        done = i == 1 ? study_own(&report, &model, &err) : study_elsewhere(&report, &model, &err);
-        dip_cost_report_free(&report);
+    static DipCostReport report;
+    static Trained trained = {.report = &report};
+    DipError err = {0};
+    if (argc < 2 || !dip_cost_read_json(&report, argv[1], &err)) {
+        fprintf(stderr, "%s\n", argc < 2 ? "give a report" : err.message);
+        return 2;
+    }
+    printf("%s: %s, %dx%d, %d threads, path %s, %s\n", argv[1], report.scene, report.width,
+           report.height, report.threads, report.paths[0], dip_cost_verdict_names[report.verdict]);
+    bool done = study_own(&trained, &err) ||
+                dip_error_set(&err, DIP_ERROR_MISSING, argv[1], 0, NULL,
+                              "has no times, or no more than %d combinations", TRAINED);
+    for (int i = 2; done && i < argc; i++) {
+        done = study_there(&trained, argv[i], &err);
     }
     if (!done) {
-        fprintf(stderr, "give reports with times and more than %d combinations\n", TRAINED);
+        fprintf(stderr, "%s\n", err.message);
     }
+    dip_cost_report_free(&report);
     return done ? 0 : 2;
 }
