@@ -53,54 +53,61 @@ static const DipCostPrediction *find(const DipCostPredictions *predicted,
     return NULL;
 }
 
-// True if the combination has the baseline's antialiasing or the baseline's filtering.
-static bool is_plain(const DipCostReport *report, const DipQuality *quality) {
+// The two combinations that a combination is composed of: one with its antialiasing and the
+// baseline's filtering, and one with its filtering and the baseline's antialiasing. NULL if the
+// list lacks them, as a list can from which combinations with the same pictures were joined.
+typedef struct Parts {
+    const DipCostPrediction *sampling;
+    const DipCostPrediction *filtering;
+} Parts;
+
+static Parts parts_of(const DipCostReport *report, const DipQuality *quality) {
     const DipQuality *baseline = &report->options.baseline;
-    const unsigned sampling = dip_cost_sampling_settings();
-    const DipQuality no_sampling = dip_cost_take_settings(quality, baseline, sampling);
-    const DipQuality no_filtering = dip_cost_take_settings(quality, baseline, ~sampling);
-    return is_same(&no_sampling, quality) || is_same(&no_filtering, quality);
+    const unsigned settings = dip_cost_sampling_settings();
+    const DipQuality sampling = dip_cost_take_settings(quality, baseline, ~settings);
+    const DipQuality filtering = dip_cost_take_settings(quality, baseline, settings);
+    return (Parts){find(&report->predicted, &sampling), find(&report->predicted, &filtering)};
 }
 
-// Composes the counters of a combination. The plain combinations that it needs are in the list,
-// since the list has every combination of the steps.
+// True if the combination is the product of two others rather than drawn.
+static bool is_composed(const DipCostReport *report, const DipCostPrediction *combination) {
+    if (report->predicted.count <= DIP_COST_MOST_COUNTED ||
+        !find(&report->predicted, &report->options.baseline)) {
+        return false;
+    }
+    const Parts parts = parts_of(report, &combination->quality);
+    return parts.sampling && parts.filtering && parts.sampling != combination &&
+           parts.filtering != combination;
+}
+
 static void compose(const DipCostReport *report, DipCostPrediction *to) {
-    const DipCostPredictions *predicted = &report->predicted;
-    const DipQuality *baseline = &report->options.baseline;
-    const unsigned sampling = dip_cost_sampling_settings();
-    const DipQuality a = dip_cost_take_settings(&to->quality, baseline, ~sampling);
-    const DipQuality b = dip_cost_take_settings(&to->quality, baseline, sampling);
-    const DipCostPrediction *with_sampling = find(predicted, &a);
-    const DipCostPrediction *with_filtering = find(predicted, &b);
-    const DipCostPrediction *neither = find(predicted, baseline);
+    const DipCostPrediction *neither = find(&report->predicted, &report->options.baseline);
+    const Parts parts = parts_of(report, &to->quality);
     for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
         const double base = neither->counters[c];
         to->counters[c] = base > 0.0
-                              ? with_sampling->counters[c] * with_filtering->counters[c] / base
-                              : with_sampling->counters[c];
+                              ? parts.sampling->counters[c] * parts.filtering->counters[c] / base
+                              : parts.sampling->counters[c];
     }
 }
 
 bool dip_cost_count_combinations(DipCostContext *cost, DipError *err) {
-    DipCostReport *report = cost->report;
-    DipCostPredictions *predicted = &report->predicted;
-    const bool all =
-        predicted->count <= DIP_COST_MOST_COUNTED || !find(predicted, &report->options.baseline);
+    const DipCostReport *report = cost->report;
+    DipCostPredictions *predicted = &cost->report->predicted;
     int64_t drawn = 0;
     for (int i = 0; i < predicted->count; i++) {
-        drawn += all || is_plain(report, &predicted->list[i].quality);
+        drawn += !is_composed(report, &predicted->list[i]);
     }
     Counting c = {.cost = cost, .predicted = predicted};
     c.progress = dip_progress_begin("frames counted", drawn * DIP_COST_COUNTED_FRAMES);
     bool counted = true;
     for (int i = 0; counted && i < predicted->count; i++) {
         DipCostPrediction *to = &predicted->list[i];
-        counted =
-            !(all || is_plain(report, &to->quality)) || count(&c, &to->quality, to->counters, err);
+        counted = is_composed(report, to) || count(&c, &to->quality, to->counters, err);
     }
     dip_progress_end(&c.progress, c.drawn);
     for (int i = 0; counted && i < predicted->count; i++) {
-        if (!all && !is_plain(report, &predicted->list[i].quality)) {
+        if (is_composed(report, &predicted->list[i])) {
             compose(report, &predicted->list[i]);
         }
     }

@@ -75,7 +75,8 @@ static bool read_header(const cJSON *root, DipCostReport *report) {
 #define READ_OPTION(field, most) options->field = dip_json_integer(root, #field, 0, most, &ok);
     DIP_COST_OPTION_NUMBERS(READ_OPTION)
 #undef READ_OPTION
-    ok = ok && options->places > 0 && options->burst > 0 && options->timed_frames > 0 &&
+    ok = ok && report->threads > 0 && report->width > 0 && report->height > 0 &&
+         options->places > 0 && options->burst > 0 && options->timed_frames > 0 &&
          report->rounds != 1; // One round has no interval.
     options->rounds = report->rounds;
     options->end_place = options->places;
