@@ -222,30 +222,6 @@ bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int wid
 
 // --- events ------------------------------------------------------------------------------------
 
-// Gives the panes that the keys change another step of a setting. A notice says if the step does
-// not fit the other settings.
-static void set_step(DipPreviewState *state, DipSetting setting, int step, int64_t now_ns) {
-    const DipSettingInfo *info = dip_setting_info(setting);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        DipQuality candidate = state->quality[p];
-        candidate.step[setting] = (uint8_t)step;
-        if (setting == DIP_SETTING_AA && !dip_quality_check(&candidate, NULL)) {
-            candidate.step[DIP_SETTING_ASD] = dip_quality_default().step[DIP_SETTING_ASD];
-        }
-        if (!state->edited[p]) {
-            continue;
-        }
-        if (!dip_quality_check(&candidate, NULL)) {
-            dip_preview_notice(state, now_ns, "%s: %s does not fit the other settings", info->title,
-                               info->steps[step]);
-            continue;
-        }
-        state->quality[p] = candidate;
-        dip_preview_notice(state, now_ns, "%s: %s", info->title, info->steps[step]);
-        ++state->scene_changes;
-    }
-}
-
 static int edited_pane(const DipPreviewState *state) {
     return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
 }
@@ -256,7 +232,7 @@ static void move_step(const DipTextView *view, DipPreviewState *state, int by, i
     const int now = state->quality[edited_pane(state)].step[view->focus];
     for (int i = 0; i < count; ++i) {
         if (dip_text_step_at(view->focus, i) == now && i + by >= 0 && i + by < count) {
-            set_step(state, view->focus, dip_text_step_at(view->focus, i + by), now_ns);
+            dip_preview_set_step(state, view->focus, dip_text_step_at(view->focus, i + by), now_ns);
             return;
         }
     }
@@ -304,7 +280,7 @@ static bool click(const DipTextView *view, DipPreviewState *state, const DipEven
         const int row = event->y / 2 - target->area.row;
         const int column = event->x - target->area.column;
         if (row >= 0 && row < target->area.rows && column >= 0 && column < target->area.columns) {
-            set_step(state, target->setting, target->step, now_ns);
+            dip_preview_set_step(state, target->setting, target->step, now_ns);
             return true;
         }
     }
