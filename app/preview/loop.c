@@ -44,6 +44,7 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     memcpy(preview->first_quality, preview->drawn_quality, sizeof preview->first_quality);
     preview->state = dip_preview_state_make(preview->drawn_quality, &def->session->track);
     preview->state.costs = def->costs;
+    preview->state.in_terminal = def->display.set_text != NULL;
     dip_scene_words(def->session->options, preview->state.scene_words);
     preview->state.shows_gallery = def->session->shows_gallery;
     dip_pilot_enter(&preview->state.flight, def->session);

@@ -45,6 +45,10 @@ static void change_look(DipPreviewState *state, bool reverse, int64_t now_ns) {
 
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns) {
+    if (state->in_terminal && dip_preview_needs_window(action)) {
+        dip_preview_notice(state, now_ns, "This key acts in a window, not in a terminal");
+        return;
+    }
     if (dip_state_act_on_tools(state, action, argument, reverse, now_ns)) {
         dip_preview_follow_dock(state);
         return;

@@ -99,6 +99,7 @@ typedef struct DipPreviewState {
     int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.
     int pane_height;
     bool quit;
+    bool in_terminal; // The preview shows characters, without the window's tools.
     bool full_screen;
     DipToolState tools;
     DipQuality undo[DIP_UNDO_DEPTH][DIP_PANE_COUNT]; // Settings before each change, a ring.
@@ -121,7 +122,11 @@ typedef struct DipPreviewState {
 DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
                                        DipCamTrack *track);
 
-// Carries out an action. reverse: Shift is held, so that steps and paths go backwards.
+// Returns whether only a window shows what the action does, and a terminal does not.
+bool dip_preview_needs_window(DipAction action);
+
+// Carries out an action. reverse: Shift is held, so that steps and paths go backwards. In a
+// terminal, a notice stands for an action that needs a window.
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns);
 

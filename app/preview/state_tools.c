@@ -46,6 +46,25 @@ void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns) {
     dip_preview_notice(state, now_ns, "Size of the panel: %.0f %%", 100.0 * state->tools.ui_scale);
 }
 
+bool dip_preview_needs_window(DipAction action) {
+    switch (action) {
+    case DIP_ACTION_TAB:
+    case DIP_ACTION_DOCK:
+    case DIP_ACTION_BARE:
+    case DIP_ACTION_LOUPE:
+    case DIP_ACTION_ZOOM:
+    case DIP_ACTION_COMPARISON:
+    case DIP_ACTION_MAP:
+    case DIP_ACTION_ADJUST:
+    case DIP_ACTION_BLINK:
+    case DIP_ACTION_PATH_EDIT:
+    case DIP_ACTION_FULL_SCREEN:
+        return true;
+    default:
+        return false;
+    }
+}
+
 bool dip_state_act_on_tools(DipPreviewState *state, DipAction action, int argument, bool reverse,
                             int64_t now_ns) {
     DipToolState *tools = &state->tools;

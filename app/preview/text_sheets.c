@@ -113,7 +113,7 @@ void dip_text_draw_help(DipTextScreen *screen, DipTextArea area) {
     }
     for (int i = 0; i < dip_key_row_count; ++i) {
         const DipKeyRow *key = &dip_key_rows[i];
-        if (key->label) {
+        if (key->label && !dip_preview_needs_window(key->action)) {
             const bool setting = key->action == DIP_ACTION_SETTING;
             draw_key(screen, area, rows, index++, key->label,
                      setting ? dip_setting_info((DipSetting)key->argument)->title : key->text);

@@ -324,6 +324,28 @@ static void frames_are_due_in_steps_of_the_refresh(void **state) {
     assert_int_equal(dip_taa_pace_next_ns(120, 105, 10, 106), 115); // the refresh became shorter
 }
 
+// A key that only a window can follow changes nothing in a terminal, and a notice says so.
+static void a_terminal_names_what_needs_a_window(void **state) {
+    static const DipAction actions[] = {
+        DIP_ACTION_LOUPE, DIP_ACTION_COMPARISON, DIP_ACTION_MAP,   DIP_ACTION_BARE,
+        DIP_ACTION_DOCK,  DIP_ACTION_PATH_EDIT,  DIP_ACTION_BLINK, DIP_ACTION_FULL_SCREEN};
+    Fixture *f = *state;
+    const DipToolState tools = f->state.tools;
+    f->state.in_terminal = true;
+    for (size_t i = 0; i < sizeof actions / sizeof *actions; ++i) {
+        f->state.notice[0] = '\0';
+        press(f, actions[i], 0, false);
+        assert_non_null(strstr(f->state.notice, "window"));
+        assert_false(f->state.full_screen);
+        assert_memory_equal(&f->state.tools, &tools, sizeof tools);
+    }
+    press(f, DIP_ACTION_PANEL, 0, false);
+    assert_true(f->state.panel);
+    f->state.in_terminal = false;
+    press(f, DIP_ACTION_LOUPE, 0, false);
+    assert_true(f->state.tools.loupe);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slow_temporal_antialiasing_is_named),
@@ -339,6 +361,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(a_setting_chooses_its_path, set_up, tear_down),
         cmocka_unit_test_setup_teardown(time_stops_while_paused_or_flying, set_up, tear_down),
         cmocka_unit_test_setup_teardown(notices_disappear, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_terminal_names_what_needs_a_window, set_up, tear_down),
         cmocka_unit_test(settings_are_described_in_words),
         cmocka_unit_test(the_camera_moves_and_turns),
         cmocka_unit_test(the_median_covers_the_last_second),
