@@ -77,10 +77,10 @@ void dip_cost_predict_there_print(const DipCostElsewherePrediction *p, FILE *out
     fprintf(out, " of the report\n");
     print_misses("each row predicted from the others", &p->fit, out);
     print_checks(p, out);
-    fprintf(out,
-            "\nMean times of a frame, in milliseconds of the report's run:\n"
-            "  %-34s %9s %9s %9s %s\n",
-            "combination", "report", "predicted", "timed", "95 % interval");
+    const bool any_timed = p->timed_count + p->checked_count > 0;
+    fprintf(out, "\nMean times of a frame, in milliseconds of the report's run:\n");
+    fprintf(out, "  %-34s %9s %9s%s\n", "combination", "report", "predicted",
+            any_timed ? "     timed 95 % interval" : "");
     for (int i = 0; i < p->count; i++) {
         print_combination(p, &p->list[i], out);
     }
