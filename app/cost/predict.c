@@ -5,6 +5,7 @@
 #include "app/cost/prediction_counts.h"
 #include "app/cost/steps.h"
 #include "app/measure/least_squares.h"
+#include "renderer/base/assert.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,6 +43,8 @@ static int design_terms(const DipCostPrediction *prediction, double terms[DESIGN
     terms[count++] = 1.0;
     for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
         dip_cost_terms((DipCostStage)stage, prediction->counters, &prediction->quality, amounts);
+        DIP_ASSERT(count + dip_cost_term_count((DipCostStage)stage) + DIP_COST_ERROR_TERMS <=
+                   DESIGN_TERMS + 2); // Without the constant terms of the stage and of FLIP.
         for (int t = 1; t < dip_cost_term_count((DipCostStage)stage); t++) {
             terms[count++] = amounts[t];
         }
