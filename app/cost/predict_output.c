@@ -27,10 +27,12 @@ static void print_misses(const char *what, const DipCostMisses *misses, FILE *ou
 static void print_checks(const DipCostElsewherePrediction *p, FILE *out) {
     static const char alone[] = "the report alone misses them by";
     if (p->timed_count > 0) {
-        fprintf(out,
-                "timed    %d combination%s there, each beside the report's baseline: they take "
-                "%.3f times as long as the report alone predicts\n",
-                p->timed_count, dip_cost_plural(p->timed_count), p->factor);
+        fprintf(
+            out,
+            "timed    %d combination%s there, beside the report's baseline: %s %.3f times as long "
+            "as the report alone predicts\n",
+            p->timed_count, dip_cost_plural(p->timed_count),
+            p->timed_count == 1 ? "it takes" : "they take", p->factor);
         print_misses(alone, &p->timed_as_is, out);
         print_misses("each predicted from the report and the others", &p->timed_left_out, out);
     } else {
