@@ -114,10 +114,12 @@ def order(options):
 
 
 def advice(options):
-    """Compares advice with the best combination by the ratios of all green runs together.
+    """Compares advice with the best of all measured combinations, in two ways.
 
-    The milliseconds of a run are those of its own machine level, so a combination's time in a run
-    is its usual ratio to the baseline, times the run's own baseline.
+    First with those that surely fit by their intervals in the same run, as advice is meant. Then
+    with those that fit by the ratios of all green runs together, which one run cannot know. The
+    milliseconds of a run are those of its own machine level, so a combination's time in a run is
+    its usual ratio to the baseline, times the run's own baseline.
     """
     reports = green(options.reports)
     if not reports:
@@ -130,6 +132,7 @@ def advice(options):
         for row in rows:
             ratios.setdefault(row["settings"], []).append(row[kind] / report["base_ms"])
     usual = {key: statistics.median(values) for key, values in ratios.items()}
+    surely = together = count = 0
     for report in reports:
         rows = {row["settings"]: row for row in report["rows"][report["combined_first"]:]}
         for item in report["advice"]:
@@ -141,10 +144,17 @@ def advice(options):
                 continue
             best = rows[min(fitting, key=lambda key: flip(rows[key]))]
             row = report["rows"][item["row"]]
+            least = min(flip(other) for other in rows.values()
+                        if other[kind + "_high"] <= item["budget_ms"])
+            count += 1
+            surely += flip(row) <= 1.01 * least
+            together += flip(row) <= 1.01 * flip(best)
             print("%s %6g ms: %s, %.2f ms, FLIP %.5f; best %s, %.2f ms, %.5f (%+.1f %%)" % (
                 report["folder"], item["budget_ms"], row["text"], time[row["settings"]], flip(row),
                 best["text"], time[best["settings"]], flip(best),
                 100 * (flip(row) / flip(best) - 1)))
+    print("of %d pieces of advice, %d are within 1 %% of the FLIP of the best that surely fits in "
+          "their run, %d of the best that fits by all runs together" % (count, surely, together))
 
 
 def set_of(row):

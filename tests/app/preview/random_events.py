@@ -151,18 +151,28 @@ class Session(Actions):
     def dock_is_open(self):
         return self.state()["height"] < REST_SIZE[1] - BAR_PX
 
-    def rest_window(self):
-        """Gives the window its size. SDL keeps the screen's size for a window that is full screen,
-        whatever size another program gives it.
+    def takes_rest_size(self, within_s):
+        """Asks for the size until the window has it. A slow scene needs seconds to follow, and a
+        window that leaves full screen takes its former size at first.
         """
-        self.input.show(True)
-        for _ in range(20):
-            self.input.focus()
+        end = time.monotonic() + within_s
+        while time.monotonic() < end:
             self.input.resize(*REST_SIZE)
             time.sleep(0.3)
             state = self.state()
             if self.input.size() == REST_SIZE and state["width"] <= REST_SIZE[0] and \
                     state["height"] <= REST_SIZE[1]:
+                return True
+        return False
+
+    def rest_window(self):
+        """Gives the window its size. SDL keeps the screen's size for a window that is full screen,
+        whatever size another program gives it.
+        """
+        self.input.show(True)
+        for _ in range(12):
+            self.input.focus()
+            if self.takes_rest_size(within_s=4.0):
                 return
             self.press("F11")
         raise Failure(f"the window does not get the size {REST_SIZE}")
