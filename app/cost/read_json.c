@@ -53,6 +53,12 @@ static bool read_machine(const cJSON *root, DipCostReport *report) {
             .deviation = dip_json_number(level, "deviation", DIP_JSON_MAX_MS, &ok),
             .factor = dip_json_number(level, "factor", DIP_JSON_MAX_MS, &ok),
         };
+        if (cJSON_GetObjectItemCaseSensitive(level, "ratio_factor")) { // Not in older reports.
+            report->level_spread.ratio_deviation =
+                dip_json_number(level, "ratio_deviation", DIP_JSON_MAX_MS, &ok);
+            report->level_spread.ratio_factor =
+                dip_json_number(level, "ratio_factor", DIP_JSON_MAX_MS, &ok);
+        }
     }
     return ok;
 }

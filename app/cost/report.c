@@ -116,12 +116,17 @@ const char *dip_cost_floor_mark(const DipCostReport *report, int row) {
 void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]) {
     const DipCostLevelSpread *spread = &report->level_spread;
     if (spread->factor > 0.0) {
+        char ratios[96] = "repeat far better";
+        if (spread->ratio_factor > 0.0) {
+            snprintf(ratios, sizeof ratios, "of steps lie within %.1f %% of those of another run",
+                     100.0 * (spread->ratio_factor - 1.0));
+        }
         snprintf(text, DIP_COST_REASON,
                  "Milliseconds are those of this run. In %d runs on this machine the baseline took "
                  "%.2f to %.2f ms, so in another run all times may be %.0f %% longer or %.0f %% "
-                 "shorter; ratios repeat far better.",
+                 "shorter; ratios %s.",
                  spread->runs, spread->least_ms, spread->most_ms, 100.0 * (spread->factor - 1.0),
-                 100.0 * (1.0 - 1.0 / spread->factor));
+                 100.0 * (1.0 - 1.0 / spread->factor), ratios);
     } else {
         snprintf(text, DIP_COST_REASON,
                  "Milliseconds are those of this run. In another run all times may differ by a "

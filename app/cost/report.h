@@ -142,13 +142,16 @@ typedef enum DipCostVerdict {
 
 extern const char *const dip_cost_verdict_names[]; // "green", "amber", "red"
 
-// How far the baseline's times lie apart in several runs on one machine (levels.h).
+// How far the baseline's times, and the ratios of steps, lie apart in several runs on one machine
+// (levels.h).
 typedef struct DipCostLevelSpread {
-    int runs;         // Number of runs, with this one; 0 if they are not known.
-    double least_ms;  // Of the baseline, in the fastest run.
-    double most_ms;   // In the slowest run.
-    double deviation; // Standard deviation of the logarithm.
-    double factor;    // 95 % of the ratios of two runs are at most this; 0 for too few runs.
+    int runs;               // Number of runs, with this one; 0 if they are not known.
+    double least_ms;        // Of the baseline, in the fastest run.
+    double most_ms;         // In the slowest run.
+    double deviation;       // Standard deviation of the logarithm.
+    double factor;          // 95 % of the ratios of two runs are at most this; 0 for too few runs.
+    double ratio_deviation; // The same for the ratio of a step's time to that of its sweep's base,
+    double ratio_factor;    // over all steps; 0 for too few runs.
 } DipCostLevelSpread;
 
 typedef struct DipCostReport {

@@ -310,6 +310,8 @@ static void add_machine(cJSON *root, const DipCostReport *report) {
     cJSON_AddNumberToObject(level, "most_ms", report->level_spread.most_ms);
     cJSON_AddNumberToObject(level, "deviation", report->level_spread.deviation);
     cJSON_AddNumberToObject(level, "factor", report->level_spread.factor);
+    cJSON_AddNumberToObject(level, "ratio_deviation", report->level_spread.ratio_deviation);
+    cJSON_AddNumberToObject(level, "ratio_factor", report->level_spread.ratio_factor);
 }
 
 // Adds the noise floor of a path's truths in every metric.

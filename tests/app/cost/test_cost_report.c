@@ -403,6 +403,19 @@ static void the_spread_of_runs_has_its_closed_form(void **state) {
     expect_near(log(spread.factor), 3.182 * sqrt(2.0) * deviation, 1e-3);
 }
 
+// Two steps in three runs, and one in one: the deviation pools the distances from the means of 1, 2
+// and 3 and of 5, 5 and 8: sqrt((2 + 6) / (3 + 3 + 1 - 3)).
+static void the_spread_of_ratios_has_its_closed_form(void **state) {
+    (void)state;
+    DipCostRememberedRatio ratios[] = {{"b", 5.0}, {"a", 3.0}, {"c", 9.0}, {"a", 1.0},
+                                       {"b", 8.0}, {"b", 5.0}, {"a", 2.0}};
+    int runs;
+    expect_near(dip_cost_ratio_deviation(ratios, 7, &runs), sqrt(2.0), 1e-12);
+    assert_int_equal(runs, 3);
+    assert_true(dip_cost_ratio_deviation(ratios, 0, &runs) == 0.0 && runs == 0);
+    assert_true(dip_cost_ratio_deviation(ratios, 1, &runs) == 0.0 && runs == 1);
+}
+
 // The fourth run of the same measurement knows the three before; runs of another size, and runs on
 // a busy machine, stand apart.
 static void runs_are_remembered_in_the_cache(void **state) {
@@ -411,9 +424,16 @@ static void runs_are_remembered_in_the_cache(void **state) {
     assert_non_null(mkdtemp(folder));
     DipCostReport report;
     dip_made_report(&report, 2);
+    const DipCostSweep *sweep = &report.sweeps[0];
+    const int step = sweep->rows[sweep->rows[0] == sweep->base];
     for (int run = 1; run <= 4; run++) {
         report.verdict = DIP_COST_GREEN;
         report.rows[report.base_rows[0]].time.mean_ms.value = 4.0 + run;
+        for (int i = 0; i < sweep->row_count; i++) {
+            report.rows[sweep->rows[i]].time.mean_ms.value = 10.0;
+        }
+        report.rows[sweep->base].time.mean_ms.value = 4.0 + run;
+        report.rows[step].time.mean_ms.value = (4.0 + run) * exp(0.02 * run);
         dip_cost_remember_level(&report, folder);
         assert_int_equal(report.level_spread.runs, run);
         report.verdict = DIP_COST_RED;
@@ -422,6 +442,9 @@ static void runs_are_remembered_in_the_cache(void **state) {
     }
     assert_true(report.level_spread.factor > 1.0);
     expect_near(report.level_spread.most_ms, 8.0, 1e-9);
+    assert_true(report.level_spread.ratio_deviation > 0.0);
+    expect_near(log(report.level_spread.ratio_factor),
+                3.182 * sqrt(2.0) * report.level_spread.ratio_deviation, 1e-3);
     report.verdict = DIP_COST_GREEN;
     report.width *= 2;
     dip_cost_remember_level(&report, folder);
@@ -670,6 +693,7 @@ int main(void) {
         cmocka_unit_test(rows_below_the_floor_rank_alike),
         cmocka_unit_test(the_knee_is_farthest_below_the_line),
         cmocka_unit_test(the_spread_of_runs_has_its_closed_form),
+        cmocka_unit_test(the_spread_of_ratios_has_its_closed_form),
         cmocka_unit_test(runs_are_remembered_in_the_cache),
         cmocka_unit_test(json_keeps_everything),
         cmocka_unit_test(json_without_a_date_is_read),
