@@ -134,6 +134,20 @@ void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]
     }
 }
 
+bool dip_cost_ratio_over_runs(const DipCostReport *report, const DipStatsEstimate *ratio,
+                              DipStatsEstimate *over_runs) {
+    const DipCostLevelSpread *spread = &report->level_spread;
+    if (!(spread->ratio_factor > 0.0) || !(ratio->low > 0.0)) {
+        return false;
+    }
+    // The factor is for two runs: exp(t sqrt(2) deviation).
+    const double between = log(spread->ratio_factor) / sqrt(2.0);
+    const double half = hypot(log(ratio->high / ratio->low) / 2.0, between);
+    *over_runs = (DipStatsEstimate){
+        .value = ratio->value, .low = ratio->value * exp(-half), .high = ratio->value * exp(half)};
+    return true;
+}
+
 // --- errors ------------------------------------------------------------------------------------
 
 DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints) {

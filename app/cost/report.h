@@ -291,6 +291,12 @@ bool dip_cost_at_floor(const DipCostReport *report, int row);
 
 // --- times -------------------------------------------------------------------------------------
 
+// The interval of a step's ratio that holds its usual value over many runs on this machine: the
+// ratio's own interval, which knows this run alone, and the spread between runs (level_spread), as
+// the root of the sum of squares. Returns false if too few runs are known.
+bool dip_cost_ratio_over_runs(const DipCostReport *report, const DipStatsEstimate *ratio,
+                              DipStatsEstimate *over_runs);
+
 // Number of frames that are timed along a path.
 int dip_cost_frame_count(const DipCostReport *report);
 

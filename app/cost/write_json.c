@@ -190,7 +190,11 @@ static void add_sweeps(cJSON *root, const DipCostReport *report) {
             cJSON *step = cJSON_CreateObject();
             cJSON_AddNumberToObject(step, "row", sweep->rows[i]);
             if (dip_cost_is_timed(report, sweep->rows[i])) {
+                DipStatsEstimate over_runs;
                 add_estimate(step, "ratio", &sweep->ratios[i]);
+                if (dip_cost_ratio_over_runs(report, &sweep->ratios[i], &over_runs)) {
+                    add_estimate(step, "ratio_over_runs", &over_runs);
+                }
             }
             for (int m = 0; m < DIP_COST_METRIC_COUNT; m++) {
                 add_metric(

@@ -22,6 +22,8 @@ import subprocess
 import sys
 import tempfile
 
+# Student's t that 97.5 % do not exceed, by degrees of freedom.
+T_975 = [math.nan, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179]
 BUDGETS = "4,8,16,33,5.3,6.7,9.1,11.9,14.2"
 
 
@@ -70,6 +72,20 @@ def repeat(options):
             load.kill()
 
 
+def interval_over_runs(run, others, key):
+    """Adds to a ratio's interval the spread between the other runs, as dip_cost_ratio_over_runs does.
+
+    Returns whether the interval holds the median of the other runs, and its half width.
+    """
+    squares = sum((math.log(other[step][0]) - statistics.mean(math.log(o[step][0]) for o in others))
+                  ** 2 for step in run for other in others)
+    deviation = math.sqrt(squares / (len(run) * (len(others) - 1)))
+    ratio, low, high = run[key]
+    half = math.hypot(math.log(high / low) / 2, T_975[len(others) - 1] * deviation)
+    truth = statistics.median(other[key][0] for other in others)
+    return abs(math.log(ratio / truth)) <= half, half
+
+
 def coverage(options):
     runs = [ratios_of(read(folder)) for folder in options.reports]
     held, total, halves = 0, 0, []
@@ -82,6 +98,11 @@ def coverage(options):
             halves.append(math.log(high / low) / 2)
     print("%d of %d intervals (%.1f %%) hold the median of the other runs; median half width "
           "%.1f %%" % (held, total, 100 * held / total, 100 * statistics.median(halves)))
+    wide = [interval_over_runs(run, runs[:index] + runs[index + 1:], key)
+            for index, run in enumerate(runs) for key in run]
+    print("%d of them (%.1f %%) do with the spread of the other runs; median half width %.1f %%" % (
+        sum(inside for inside, _ in wide), 100 * sum(inside for inside, _ in wide) / total,
+        100 * statistics.median(half for _, half in wide)))
     levels = [read(folder)["rows"][0]["ms"] for folder in options.reports]
     print("milliseconds of the baseline: %s" % ", ".join("%.2f" % level for level in levels))
 

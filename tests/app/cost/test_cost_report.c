@@ -416,6 +416,20 @@ static void the_spread_of_ratios_has_its_closed_form(void **state) {
     assert_true(dip_cost_ratio_deviation(ratios, 1, &runs) == 0.0 && runs == 1);
 }
 
+// A step's interval of 3 % to both sides and a spread between runs of 4 % make 5 %, in logarithms.
+static void intervals_over_runs_add_the_spread(void **state) {
+    (void)state;
+    DipCostReport report = {.level_spread = {.runs = 5, .ratio_factor = exp(0.04 * sqrt(2.0))}};
+    const DipStatsEstimate ratio = {1.5, 1.5 * exp(-0.03), 1.5 * exp(0.03)};
+    DipStatsEstimate over_runs;
+    assert_true(dip_cost_ratio_over_runs(&report, &ratio, &over_runs));
+    expect_near(over_runs.value, 1.5, 0.0);
+    expect_near(over_runs.low, 1.5 * exp(-0.05), 1e-12);
+    expect_near(over_runs.high, 1.5 * exp(0.05), 1e-12);
+    report.level_spread.ratio_factor = 0.0;
+    assert_false(dip_cost_ratio_over_runs(&report, &ratio, &over_runs));
+}
+
 // The fourth run of the same measurement knows the three before; runs of another size, and runs on
 // a busy machine, stand apart.
 static void runs_are_remembered_in_the_cache(void **state) {
@@ -694,6 +708,7 @@ int main(void) {
         cmocka_unit_test(the_knee_is_farthest_below_the_line),
         cmocka_unit_test(the_spread_of_runs_has_its_closed_form),
         cmocka_unit_test(the_spread_of_ratios_has_its_closed_form),
+        cmocka_unit_test(intervals_over_runs_add_the_spread),
         cmocka_unit_test(runs_are_remembered_in_the_cache),
         cmocka_unit_test(json_keeps_everything),
         cmocka_unit_test(json_without_a_date_is_read),
