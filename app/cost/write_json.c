@@ -68,6 +68,17 @@ static void add_estimate(cJSON *to, const char *name, const DipStatsEstimate *es
     cJSON_AddNumberToObject(to, high, estimate->high);
 }
 
+// Adds the ends of the interval over runs, or null if too few runs are known.
+static void add_over_runs(cJSON *to, const DipCostReport *report, const DipStatsEstimate *ratio) {
+    DipStatsEstimate over_runs;
+    if (dip_cost_ratio_over_runs(report, ratio, &over_runs)) {
+        const double ends[2] = {over_runs.low, over_runs.high};
+        cJSON_AddItemToObject(to, "ratio_over_runs", cJSON_CreateDoubleArray(ends, 2));
+    } else {
+        cJSON_AddNullToObject(to, "ratio_over_runs");
+    }
+}
+
 // Adds an estimate of a metric. Without an interval, nothing is added.
 static void add_metric(cJSON *to, const char *what, int metric, DipStatsEstimate estimate) {
     char name[40];
@@ -190,11 +201,8 @@ static void add_sweeps(cJSON *root, const DipCostReport *report) {
             cJSON *step = cJSON_CreateObject();
             cJSON_AddNumberToObject(step, "row", sweep->rows[i]);
             if (dip_cost_is_timed(report, sweep->rows[i])) {
-                DipStatsEstimate over_runs;
                 add_estimate(step, "ratio", &sweep->ratios[i]);
-                if (dip_cost_ratio_over_runs(report, &sweep->ratios[i], &over_runs)) {
-                    add_estimate(step, "ratio_over_runs", &over_runs);
-                }
+                add_over_runs(step, report, &sweep->ratios[i]);
             }
             for (int m = 0; m < DIP_COST_METRIC_COUNT; m++) {
                 add_metric(

@@ -73,11 +73,27 @@ static bool is_one_of(const char *key, const char *const *keys) {
 }
 
 static bool is_time(const char *key) {
-    static const char *const keys[] = {"seed",        "date",       "machine",      "fit",
-                                       "advice",      "time",       "ms",           "ms_low",
-                                       "ms_high",     "p95_ms",     "p95_ms_low",   "ratio",
-                                       "p95_ms_high", "worst_ms",   "worst_ms_low", "worst_ms_high",
-                                       "ratio_low",   "ratio_high", "stages_ms",    NULL};
+    static const char *const keys[] = {"seed",
+                                       "date",
+                                       "machine",
+                                       "fit",
+                                       "advice",
+                                       "time",
+                                       "ms",
+                                       "ms_low",
+                                       "ms_high",
+                                       "p95_ms",
+                                       "p95_ms_low",
+                                       "ratio",
+                                       "p95_ms_high",
+                                       "worst_ms",
+                                       "worst_ms_low",
+                                       "worst_ms_high",
+                                       "ratio_low",
+                                       "ratio_high",
+                                       "ratio_over_runs",
+                                       "stages_ms",
+                                       NULL};
     return is_one_of(key, keys);
 }
 
