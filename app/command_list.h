@@ -2,7 +2,7 @@
 #ifndef DIP_APP_COMMAND_LIST_H
 #define DIP_APP_COMMAND_LIST_H
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 extern const DipCommandList dip_command_list;
 

@@ -1,11 +1,12 @@
 // The program: reads the command line, runs the command, prints what went wrong.
-#include "app/command_line.h"
+#include "app/session/session.h"
+#include "app/cli/command_line.h"
 #include "app/command_list.h"
-#include "app/help.h"
+#include "app/cli/help.h"
 #include "app/import/import.h"
-#include "app/log.h"
-#include "app/machine.h"
-#include "app/output.h"
+#include "app/cli/log.h"
+#include "app/cli/machine.h"
+#include "app/cli/output.h"
 #include "renderer/base/clock.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 // A program for the build: prints the manual page.
 #include "app/command_list.h"
-#include "app/manual.h"
-#include "app/output.h"
+#include "app/cli/manual.h"
+#include "app/cli/output.h"
 
 int main(void) {
     dip_manual_print(&dip_command_list, stdout);

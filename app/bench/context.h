@@ -1,7 +1,7 @@
 // The bench context: the thread pools and scenes that the bench draws with, and a renderer for each
 // combination of values (settings, threads, size, ...; plan.h).
-#ifndef DIP_APP_BENCH_RIG_H
-#define DIP_APP_BENCH_RIG_H
+#ifndef DIP_APP_BENCH_CONTEXT_H
+#define DIP_APP_BENCH_CONTEXT_H
 
 #include "app/bench/plan.h"
 

@@ -1,8 +1,8 @@
 // Measuring the combinations and programs in turn.
 #include "app/bench/measure.h"
 
-#include "app/measure/timing.h"
-#include "app/progress.h"
+#include "app/measure/timing/timing.h"
+#include "app/cli/progress.h"
 
 typedef struct BenchTiming {
     const DipBenchSource *sources;

@@ -4,8 +4,8 @@
 #ifndef DIP_APP_BENCH_OPTIONS_H
 #define DIP_APP_BENCH_OPTIONS_H
 
-#include "app/command.h"
-#include "app/session_options.h"
+#include "app/cli/command.h"
+#include "app/session/session_options.h"
 #include "renderer/base/isa.h"
 #include "renderer/scene/quality.h"
 

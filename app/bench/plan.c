@@ -1,7 +1,7 @@
 // Making every combination of the values of all axes.
 #include "app/bench/plan.h"
 
-#include "app/machine.h"
+#include "app/cli/machine.h"
 #include "renderer/base/clock.h"
 
 #include <stdio.h>

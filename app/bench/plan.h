@@ -4,7 +4,7 @@
 #define DIP_APP_BENCH_PLAN_H
 
 #include "app/bench/options.h"
-#include "app/session.h"
+#include "app/session/session.h"
 
 // X(NAME, name): the axes. From row to row of the printed table, the last axis changes fastest.
 #define DIP_BENCH_AXIS_LIST(X)                                                                     \

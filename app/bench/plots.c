@@ -1,9 +1,9 @@
 // Making the four plots. Each line of a plot is a series.
 #include "app/bench/plots.h"
 
-#include "app/machine.h"
-#include "app/measure/statistics.h"
-#include "app/plot/plot.h"
+#include "app/cli/machine.h"
+#include "app/measure/stats/statistics.h"
+#include "app/report/page/plot.h"
 
 #include <limits.h>
 #include <stdio.h>

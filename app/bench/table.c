@@ -2,8 +2,8 @@
 #include "app/bench/table.h"
 
 #include "app/files/whole_file.h"
-#include "app/machine.h"
-#include "app/measure/statistics.h"
+#include "app/cli/machine.h"
+#include "app/measure/stats/statistics.h"
 
 #include <inttypes.h>
 #include <math.h>

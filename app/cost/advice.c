@@ -3,9 +3,9 @@
 // are on one side.
 #include "app/cost/steps.h"
 
-#include "app/cost/verdict.h"
-#include "app/measure/choice.h"
-#include "app/progress.h"
+#include "app/report/verdict.h"
+#include "app/measure/stats/choice.h"
+#include "app/cli/progress.h"
 
 #include <stdlib.h>
 

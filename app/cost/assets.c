@@ -3,7 +3,7 @@
 
 #include "app/files/png.h"
 #include "app/files/zip.h"
-#include "app/measure/statistics.h"
+#include "app/measure/stats/statistics.h"
 #include "campaths/campath.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/file.h"

@@ -9,11 +9,6 @@ static bool run_cost(DipSession *session, const void *arguments, DipError *err) 
     return dip_cost_run(session, arguments, err);
 }
 
-static bool run_merge(DipSession *session, const void *arguments, DipError *err) {
-    (void)session;
-    return dip_cost_merge_run(arguments, err);
-}
-
 static bool run_assets(DipSession *session, const void *arguments, DipError *err) {
     (void)arguments;
     if (session->shows_gallery) {
@@ -50,11 +45,6 @@ static const DipExample cost_examples[] = {
     {"diptych cost merge --out report part0/cost.json part1/cost.json", "joins the two parts"},
 };
 
-static const DipExample merge_examples[] = {
-    {"diptych cost merge --out report part0/cost.json part1/cost.json",
-     "joins the parts that two machines measured"},
-};
-
 static const DipExample assets_examples[] = {
     {"diptych cost assets", "prints the sizes and load times of the courtyard's files"},
     {"diptych cost assets --model scene.glb",
@@ -79,26 +69,6 @@ const DipCommand dip_cost_command = {
     .check = dip_cost_options_check,
     .describe_session = describe_cost,
     .run = run_cost,
-};
-
-const DipCommand dip_cost_merge_command = {
-    .name = "cost merge",
-    .summary = "join the parts of a report that several machines measured",
-    .usage = "--out DIR PART/cost.json...",
-    .text = "Cost merge joins reports that have the same scene, size, settings, number of "
-            "viewpoints (--places) and samples. Each report has the errors of some of the "
-            "viewpoints (--part). The times come from the first report that has times, because "
-            "times of different machines cannot be mixed. If several reports have times, a table "
-            "compares their machines. The pictures of the page are made from the frames that each "
-            "part keeps in the folder `frames` beside its cost.json.",
-    .examples = merge_examples,
-    .example_count = DIP_ARRAY_COUNT(merge_examples),
-    .parts = &dip_cost_merge_option_parts,
-    .operands = {offsetof(DipCostMergeArguments, parts),
-                 offsetof(DipCostMergeArguments, part_count), DIP_COST_MAX_PARTS},
-    .options_size = sizeof(DipCostMergeArguments),
-    .check = dip_cost_merge_options_check,
-    .run = run_merge,
 };
 
 const DipCommand dip_cost_assets_command = {

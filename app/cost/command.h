@@ -2,14 +2,14 @@
 #ifndef DIP_APP_COST_COMMAND_H
 #define DIP_APP_COST_COMMAND_H
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 extern const DipCommand dip_cost_command;
-extern const DipCommand dip_cost_merge_command;
+extern const DipCommand dip_cost_merge_command; // in merge/merge_command.c
 extern const DipCommand dip_cost_assets_command;
-extern const DipCommand dip_cost_diff_command;    // in diff_command.c
-extern const DipCommand dip_cost_advise_command;  // in advise_command.c
-extern const DipCommand dip_cost_axes_command;    // in axes_command.c
-extern const DipCommand dip_cost_predict_command; // in predict_command.c
+extern const DipCommand dip_cost_diff_command;    // in diff/diff_command.c
+extern const DipCommand dip_cost_advise_command;  // in advise/advise_command.c
+extern const DipCommand dip_cost_axes_command;    // in axes/axes_command.c
+extern const DipCommand dip_cost_predict_command; // in predict/predict_command.c
 
 #endif

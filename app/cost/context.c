@@ -3,7 +3,7 @@
 #include "app/cost/context.h"
 
 #include "app/cost/gallery_truth.h"
-#include "app/interrupt.h"
+#include "app/cli/interrupt.h"
 
 // Compresses the textures if the settings of any row of the report need it. This is done before any
 // frame is drawn or timed.

@@ -1,13 +1,13 @@
 // The cost context: the session, the report, the journal, the reference renderer and the renderers.
 // The steps that make a report (steps.h) use it. A row of the report (report.h) is one
-// combination: quality settings on a camera path. A truth (app/measure/truth.h) is a converged
-// picture.
+// combination: quality settings on a camera path. A truth (app/measure/metrics/truth.h) is a
+// converged picture.
 #ifndef DIP_APP_COST_CONTEXT_H
 #define DIP_APP_COST_CONTEXT_H
 
 #include "app/cost/journal.h"
 #include "app/cost/plan.h"
-#include "app/measure/truth.h"
+#include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
 
 // Session, report and journal are borrowed. Not thread-safe.

@@ -3,15 +3,15 @@
 #include "app/cost/cost.h"
 
 #include "app/cost/drawn_frames.h"
-#include "app/cost/formats.h"
-#include "app/cost/html.h"
-#include "app/cost/levels.h"
-#include "app/cost/report_pictures.h"
-#include "app/cost/same_pictures.h"
+#include "app/report/format/formats.h"
+#include "app/report/page/html.h"
+#include "app/report/levels.h"
+#include "app/report/page/report_pictures.h"
+#include "app/report/same_pictures.h"
 #include "app/cost/steps.h"
 #include "app/cost/truth_files.h"
 #include "app/files/folder.h"
-#include "app/interrupt.h"
+#include "app/cli/interrupt.h"
 
 #include <limits.h>
 #include <stdio.h>

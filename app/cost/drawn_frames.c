@@ -2,7 +2,7 @@
 #include "app/cost/drawn_frames.h"
 
 #include "app/files/folder.h"
-#include "app/progress.h"
+#include "app/cli/progress.h"
 
 #include <limits.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #define DIP_APP_COST_DRAWN_FRAMES_H
 
 #include "app/cost/context.h"
-#include "app/cost/picture_set.h"
+#include "app/report/page/picture_set.h"
 
 // Returns a source that draws every frame at the middle one of the viewpoints of this run. It
 // borrows the context.

@@ -2,8 +2,8 @@
 #include "app/cost/elsewhere.h"
 
 #include "app/cost/steps.h"
-#include "app/measure/paired_timing.h"
-#include "app/progress.h"
+#include "app/measure/timing/paired_timing.h"
+#include "app/cli/progress.h"
 
 #include <stdio.h>
 #include <stdlib.h>

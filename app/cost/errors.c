@@ -1,9 +1,9 @@
 // Making the truths (converged pictures), and judging every row: measuring its pictures' errors
 // against the truths.
 #include "app/cost/steps.h"
-#include "app/interrupt.h"
-#include "app/measure/meter.h"
-#include "app/progress.h"
+#include "app/cli/interrupt.h"
+#include "app/measure/metrics/meter.h"
+#include "app/cli/progress.h"
 #include "renderer/base/hash.h"
 
 #include <stdlib.h>

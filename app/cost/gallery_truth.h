@@ -6,7 +6,7 @@
 #define DIP_APP_COST_GALLERY_TRUTH_H
 
 #include "app/gallery/gallery.h"
-#include "app/measure/truth.h"
+#include "app/measure/metrics/truth.h"
 
 typedef struct DipGalleryTruth {
     DipGallery *gallery; // borrowed

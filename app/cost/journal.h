@@ -7,8 +7,8 @@
 #ifndef DIP_APP_COST_JOURNAL_H
 #define DIP_APP_COST_JOURNAL_H
 
-#include "app/measure/flip_tail.h"
-#include "app/measure/metrics.h"
+#include "app/measure/metrics/flip_tail.h"
+#include "app/measure/metrics/metrics.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>

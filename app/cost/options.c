@@ -1,7 +1,7 @@
 // The options of `diptych cost`, `cost merge` and `cost assets`.
 #include "app/cost/options.h"
 
-#include "app/measure/flip.h"
+#include "app/measure/metrics/flip.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/number.h"
 
@@ -93,12 +93,6 @@ static bool read_viewing(void *fields, const DipOptionRow *row, const char *valu
                              "phone, monitor, uhd or headset");
 }
 
-const char *const dip_cost_budget_of_names[3] = {
-    [DIP_COST_BUDGET_P95] = "p95",
-    [DIP_COST_BUDGET_MEAN] = "mean",
-    [DIP_COST_BUDGET_WORST] = "worst",
-};
-
 bool dip_cost_read_budget_of(void *fields, const DipOptionRow *row, const char *value,
                              DipError *err) {
     for (int i = 0; i < (int)DIP_ARRAY_COUNT(dip_cost_budget_of_names); i++) {
@@ -109,12 +103,6 @@ bool dip_cost_read_budget_of(void *fields, const DipOptionRow *row, const char *
     }
     return dip_option_refuse(err, DIP_ERROR_UNKNOWN, row->name, value, "p95, mean or worst");
 }
-
-const char *const dip_cost_picture_kind_names[3] = {
-    [DIP_COST_PICTURES_CROPS] = "crops",
-    [DIP_COST_PICTURES_FULL] = "full",
-    [DIP_COST_PICTURES_NONE] = "none",
-};
 
 static bool read_kind(DipCostPictureKind *kind, const DipOptionRow *row, const char *value,
                       DipError *err) {

@@ -2,9 +2,9 @@
 // path; a sweep is the rows of all steps of one setting.
 #include "app/cost/plan.h"
 
-#include "app/cost/combinations.h"
+#include "app/report/combinations.h"
 #include "app/cost/scene_hash.h"
-#include "app/machine.h"
+#include "app/cli/machine.h"
 #include "renderer/base/hash.h"
 
 #include <stdio.h>

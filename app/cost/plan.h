@@ -5,8 +5,8 @@
 #define DIP_APP_COST_PLAN_H
 
 #include "app/cost/options.h"
-#include "app/cost/report.h"
-#include "app/session.h"
+#include "app/report/report.h"
+#include "app/session/session.h"
 
 // A sweep is all steps of one setting. Fills in the rows and sweeps of an empty report and
 // allocates its memory. Steps that the renderer refuses are left out and listed with the reason.

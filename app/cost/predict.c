@@ -1,10 +1,10 @@
 // Predicting combinations from a few of them.
 #include "app/cost/predict.h"
 
-#include "app/cost/fit.h"
+#include "app/report/fit.h"
 #include "app/cost/prediction_counts.h"
 #include "app/cost/steps.h"
-#include "app/measure/least_squares.h"
+#include "app/measure/stats/least_squares.h"
 #include "renderer/base/assert.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef DIP_APP_COST_PREDICT_H
 #define DIP_APP_COST_PREDICT_H
 
-#include "app/cost/report.h"
+#include "app/report/report.h"
 
 // Returns how many combinations are measured to predict `count` combinations of these settings
 // (bit s: setting s): 16 for antialiasing and anisotropic filtering, and two more for every further

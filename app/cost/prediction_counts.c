@@ -1,8 +1,8 @@
 // Drawing a few frames of many combinations, for their counters.
 #include "app/cost/prediction_counts.h"
 
-#include "app/cost/combinations.h"
-#include "app/progress.h"
+#include "app/report/combinations.h"
+#include "app/cli/progress.h"
 
 #include <string.h>
 

@@ -4,10 +4,7 @@
 
 #include "app/cost/context.h"
 
-enum {
-    DIP_COST_COUNTED_FRAMES = 8, // Frames of path 0 that are counted, spread evenly.
-    DIP_COST_MOST_COUNTED = 256  // Combinations that are counted one by one.
-};
+enum { DIP_COST_COUNTED_FRAMES = 8 }; // Frames of path 0 that are counted, spread evenly.
 
 // Fills in the counters of all of report->predicted: means over the counted frames. Up to
 // DIP_COST_MOST_COUNTED combinations are drawn one by one. Of more, only those are drawn that have

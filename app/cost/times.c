@@ -1,8 +1,8 @@
 // Timing every row beside the baseline of its path, and counting its work. Counters are the same
 // in every run of a frame, so each frame is counted once.
 #include "app/cost/steps.h"
-#include "app/measure/paired_timing.h"
-#include "app/progress.h"
+#include "app/measure/timing/paired_timing.h"
+#include "app/cli/progress.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 
 #include "app/files/folder.h"
 #include "app/files/pfm.h"
-#include "app/interrupt.h"
-#include "app/progress.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/progress.h"
 
 #include <limits.h>
 #include <stdio.h>

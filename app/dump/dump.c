@@ -6,10 +6,10 @@
 #include "app/dump/stream.h"
 #include "app/files/folder.h"
 #include "app/files/png.h"
-#include "app/interrupt.h"
-#include "app/machine.h"
-#include "app/picture_texts.h"
-#include "app/progress.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/machine.h"
+#include "app/session/picture_texts.h"
+#include "app/cli/progress.h"
 #include "renderer/base/assert.h"
 
 #include <limits.h>

@@ -2,7 +2,7 @@
 #ifndef DIP_APP_DUMP_DUMP_H
 #define DIP_APP_DUMP_DUMP_H
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 extern const DipCommand dip_dump_command;
 

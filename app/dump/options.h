@@ -2,9 +2,9 @@
 #ifndef DIP_APP_DUMP_OPTIONS_H
 #define DIP_APP_DUMP_OPTIONS_H
 
-#include "app/command.h"
+#include "app/cli/command.h"
 #include "app/dump/stream.h"
-#include "app/session_options.h"
+#include "app/session/session_options.h"
 
 #include <stdbool.h>
 #include <stdint.h>

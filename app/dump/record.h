@@ -11,7 +11,7 @@
 #ifndef DIP_APP_DUMP_RECORD_H
 #define DIP_APP_DUMP_RECORD_H
 
-#include "app/start_times.h"
+#include "app/session/start_times.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/pose.h"

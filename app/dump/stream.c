@@ -1,7 +1,7 @@
 // Writing streams of video.
 #include "app/dump/stream.h"
 
-#include "app/log.h"
+#include "app/cli/log.h"
 #include "renderer/base/assert.h"
 
 #include <errno.h>

@@ -2,7 +2,7 @@
 #ifndef DIP_APP_IMPORT_IMPORT_H
 #define DIP_APP_IMPORT_IMPORT_H
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 extern const DipCommand dip_import_command;
 

@@ -2,7 +2,7 @@
 #ifndef DIP_APP_PATH_OPTIONS_H
 #define DIP_APP_PATH_OPTIONS_H
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 #include <stdbool.h>
 

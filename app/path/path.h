@@ -2,7 +2,7 @@
 #ifndef DIP_APP_PATH_PATH_H
 #define DIP_APP_PATH_PATH_H
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 extern const DipCommand dip_path_info_command;
 extern const DipCommand dip_path_convert_command;

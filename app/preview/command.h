@@ -2,7 +2,7 @@
 #ifndef DIP_APP_PREVIEW_COMMAND_H
 #define DIP_APP_PREVIEW_COMMAND_H
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 extern const DipCommand dip_preview_command;
 

@@ -4,12 +4,12 @@
 #include "app/cost/plan.h"
 #include "app/display/sdl/sdl_display.h"
 #include "app/display/terminal/terminal_display.h"
-#include "app/log.h"
-#include "app/preview/control.h"
-#include "app/preview/loop.h"
-#include "app/preview/reload.h"
-#include "app/preview/speed.h"
-#include "app/preview/view.h"
+#include "app/cli/log.h"
+#include "app/preview/control/control.h"
+#include "app/preview/loop/loop.h"
+#include "app/preview/loop/reload.h"
+#include "app/preview/state/speed.h"
+#include "app/preview/loop/view.h"
 #include "renderer/base/clock.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #define DIP_APP_PREVIEW_PREVIEW_H
 
 #include "app/preview/options.h"
-#include "app/session.h"
+#include "app/session/session.h"
 
 // Shows the session until the user quits. Fails with RUNTIME if there is no display, with MISSING
 // if there is no font, or if drawing fails.

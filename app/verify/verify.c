@@ -2,12 +2,12 @@
 // catalogue of hard cases, and prints two tables.
 #include "app/verify/verify.h"
 
-#include "app/machine.h"
-#include "app/progress.h"
+#include "app/cli/machine.h"
+#include "app/cli/progress.h"
 #include "app/verify/options.h"
 #include "renderer/base/assert.h"
-#include "tests/stability/shipped_hashes.h"
-#include "tests/stability/stability.h"
+#include "renderer/catalogue/shipped_hashes.h"
+#include "renderer/catalogue/stability.h"
 
 #include <stdio.h>
 

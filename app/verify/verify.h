@@ -3,7 +3,7 @@
 #ifndef DIP_APP_VERIFY_VERIFY_H
 #define DIP_APP_VERIFY_VERIFY_H
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 extern const DipCommand dip_verify_command;
 

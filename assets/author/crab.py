@@ -13,7 +13,7 @@ GOLDEN = (1 + math.sqrt(5)) / 2
 
 
 def normals_of_md2(table):
-    """table: the rows of assets/md2_normals.c, p and q of each coordinate p + q * phi."""
+    """table: the rows of assets/animation/md2_normals.c, p and q of each coordinate p + q * phi."""
     vectors = np.array(table, float).reshape(-1, 3, 2) @ np.array([1, GOLDEN])
     return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
 

@@ -11,7 +11,7 @@
 #include "renderer/pipeline/geometry/setup.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/texture_layout.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <stdio.h>
 #include <stdlib.h>

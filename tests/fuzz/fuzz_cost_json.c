@@ -1,8 +1,8 @@
 // Fuzzes the reader of cost.json, which `diptych cost merge` joins with others. A report that was
 // read can be written in every format, and is the same when its JSON is read again.
-#include "app/cost/diff.h"
-#include "app/cost/formats.h"
-#include "app/cost/html.h"
+#include "app/cost/diff/diff.h"
+#include "app/report/format/formats.h"
+#include "app/report/page/html.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <math.h>

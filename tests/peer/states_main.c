@@ -2,7 +2,7 @@
 //
 // Then it prints the time of a blended fragment beside that of an opaque one.
 // Usage: dip_peer_states [ROUNDS [SCENE]]     (default: 40 rounds, all scenes)
-#include "app/measure/statistics.h"
+#include "app/measure/stats/statistics.h"
 #include "renderer/base/clock.h"
 #include "tests/peer/likeness.h"
 #include "tests/peer/states_ours.h"

@@ -3,7 +3,7 @@
 
 #include "renderer/base/trig.h"
 #include "renderer/shapes/tessellate.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 const char *const dip_states_names[DIP_STATES_COUNT] = {"blend", "shadow", "prism"};
 

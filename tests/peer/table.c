@@ -1,8 +1,8 @@
 // Prints the table and writes the CSV file.
 #include "tests/peer/table.h"
 
-#include "app/machine.h"
-#include "app/measure/statistics.h"
+#include "app/cli/machine.h"
+#include "app/measure/stats/statistics.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -2,7 +2,7 @@
 #ifndef DIP_TESTS_STABILITY_DOCUMENT_H
 #define DIP_TESTS_STABILITY_DOCUMENT_H
 
-#include "tests/stability/stability.h"
+#include "renderer/catalogue/stability.h"
 
 // The greatest errors of one row, per instruction set.
 typedef struct StabilityErrors {

@@ -1,7 +1,7 @@
 // Measures the catalogue of hard cases and writes docs/stability.md.
 #include "tests/stability/document.h"
-#include "tests/stability/shipped_hashes.h"
-#include "tests/stability/stability.h"
+#include "renderer/catalogue/shipped_hashes.h"
+#include "renderer/catalogue/stability.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 // The smallest client of app/measure/. It compares the time and the error of two ways to fill a
 // picture. It links only dip_measure and uses none of Diptych's commands.
-#include "app/measure/flip.h"
-#include "app/measure/metrics.h"
-#include "app/measure/paired.h"
-#include "app/measure/statistics.h"
-#include "app/measure/timing.h"
+#include "app/measure/metrics/flip.h"
+#include "app/measure/metrics/metrics.h"
+#include "app/measure/stats/paired.h"
+#include "app/measure/stats/statistics.h"
+#include "app/measure/timing/timing.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,7 +11,7 @@
 //   compare_reports forge JOURNAL [errors] [round]
 //       Changes the values of these kinds of lines and mends the checksums. A report that joins
 //       such a line shows it.
-#include "app/measure/paired_timing.h"
+#include "app/measure/timing/paired_timing.h"
 #include "renderer/base/hash.h"
 
 #include <cjson/cJSON.h>

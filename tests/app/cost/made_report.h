@@ -2,7 +2,7 @@
 #ifndef DIP_TESTS_APP_COST_MADE_REPORT_H
 #define DIP_TESTS_APP_COST_MADE_REPORT_H
 
-#include "app/cost/report.h"
+#include "app/report/report.h"
 
 // Makes a report with two paths, three viewpoints and one sweep of AA. Its rows on path 0 are
 // aa=none, a second aa=none for the A/A test, aa=2 and aa=4; the only row of path 1 is aa=none. All

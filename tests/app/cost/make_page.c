@@ -1,6 +1,6 @@
 // Writes the page of a made-up report with made-up pictures, for page.py: make_page FILE.
-#include "app/cost/data_uri.h"
-#include "app/cost/html.h"
+#include "app/report/page/data_uri.h"
+#include "app/report/page/html.h"
 #include "app/files/jpeg.h"
 #include "app/files/png.h"
 #include "tests/app/cost/made_report.h"

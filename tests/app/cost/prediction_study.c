@@ -10,9 +10,9 @@
 //
 // They are predicted from the trained ones of the report, and from these and six that were timed
 // there.
-#include "app/cost/fit.h"
-#include "app/cost/formats.h"
-#include "app/cost/json_smaller.h"
+#include "app/report/fit.h"
+#include "app/report/format/formats.h"
+#include "app/report/format/json_smaller.h"
 #include "app/cost/predict.h"
 #include "renderer/base/file.h"
 #include "renderer/base/assert.h"

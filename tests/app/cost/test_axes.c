@@ -1,5 +1,5 @@
 // Tests of `cost axes`: enlarging, energy counters, the rows, and one run. No test looks at a time.
-#include "app/cost/axes_drawing.h"
+#include "app/cost/axes/axes_drawing.h"
 #include "renderer/base/srgb.h"
 
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 // Tests of common advice (cost advise): one choice of settings for several reports.
-#include "app/cost/advise_output.h"
-#include "app/cost/common_advice.h"
-#include "app/cost/formats.h"
+#include "app/cost/advise/advise_output.h"
+#include "app/cost/advise/common_advice.h"
+#include "app/report/format/formats.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>

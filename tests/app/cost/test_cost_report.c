@@ -1,11 +1,11 @@
 // Tests of the cost report: metrics and times, the Pareto front, the fit of prices, and a report
 // written to JSON and read back.
-#include "app/cost/fit.h"
-#include "app/cost/levels.h"
-#include "app/cost/html.h"
-#include "app/cost/order.h"
-#include "app/cost/formats.h"
-#include "app/cost/verdict.h"
+#include "app/report/fit.h"
+#include "app/report/levels.h"
+#include "app/report/page/html.h"
+#include "app/report/order.h"
+#include "app/report/format/formats.h"
+#include "app/report/verdict.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>

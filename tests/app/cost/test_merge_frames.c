@@ -1,9 +1,9 @@
 // Tests of the frames that the parts of a report keep, and of the pictures that the merged report
 // has from them. Frames are made by a formula, so that the same pictures can be made without files.
-#include "app/cost/formats.h"
-#include "app/cost/html.h"
-#include "app/cost/merge_frames.h"
-#include "app/cost/report_pictures.h"
+#include "app/report/format/formats.h"
+#include "app/report/page/html.h"
+#include "app/cost/merge/merge_frames.h"
+#include "app/report/page/report_pictures.h"
 #include "app/files/folder.h"
 #include "tests/app/cost/made_report.h"
 

@@ -1,5 +1,5 @@
 // Tests of the table that compares the machines of merged parts.
-#include "app/cost/merge_machines.h"
+#include "app/cost/merge/merge_machines.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>

@@ -1,13 +1,13 @@
 // Tests predictions: of times from made-up work and prices, of FLIP from recorded errors, and the
 // choice of what to measure.
-#include "app/cost/combinations.h"
-#include "app/cost/fit.h"
-#include "app/cost/interaction.h"
+#include "app/report/combinations.h"
+#include "app/report/fit.h"
+#include "app/report/interaction.h"
 #include "app/cost/predict.h"
-#include "app/cost/predict_elsewhere.h"
+#include "app/cost/predict/predict_elsewhere.h"
 #include "app/cost/prediction_counts.h"
-#include "app/cost/same_pictures.h"
-#include "tests/renderer/random.h"
+#include "app/report/same_pictures.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 // Tests of advice per segment of a path: times and errors of the segments against the formulas that
 // made them, and choices against trying all.
-#include "app/cost/segments_output.h"
+#include "app/report/segments_output.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>

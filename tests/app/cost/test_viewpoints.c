@@ -1,7 +1,7 @@
 // Tests of intervals over viewpoints and of noise floors, in every metric.
-#include "app/cost/viewpoints.h"
-#include "app/measure/difference.h"
-#include "app/measure/ssim.h"
+#include "app/report/viewpoints.h"
+#include "app/measure/metrics/difference.h"
+#include "app/measure/metrics/ssim.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>

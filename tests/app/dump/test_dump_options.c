@@ -1,5 +1,5 @@
 // Tests of the options of `diptych dump`, and of the record that it writes.
-#include "app/command_line.h"
+#include "app/cli/command_line.h"
 #include "app/dump/dump.h"
 #include "app/dump/options.h"
 #include "app/dump/record.h"

@@ -2,7 +2,7 @@
 #ifndef DIP_TESTS_APP_MEASURE_PATTERNS_H
 #define DIP_TESTS_APP_MEASURE_PATTERNS_H
 
-#include "app/measure/picture.h"
+#include "app/measure/metrics/picture.h"
 
 enum { DIP_PATTERN_SIZE = 80 }; // greatest width and height
 

@@ -1,5 +1,5 @@
 // Tests the odds of a choice against closed forms of the normal distribution.
-#include "app/measure/choice.h"
+#include "app/measure/stats/choice.h"
 
 #include <math.h>
 #include <setjmp.h>

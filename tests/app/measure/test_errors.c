@@ -1,8 +1,8 @@
 // Tests of RMSE, PSNR and SSIM against closed forms, and of the equation rms^2 = static^2 +
 // flicker^2.
-#include "app/measure/difference.h"
-#include "app/measure/flicker.h"
-#include "app/measure/ssim.h"
+#include "app/measure/metrics/difference.h"
+#include "app/measure/metrics/flicker.h"
+#include "app/measure/metrics/ssim.h"
 #include "renderer/base/srgb.h"
 #include "tests/app/measure/patterns.h"
 

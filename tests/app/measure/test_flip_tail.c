@@ -1,6 +1,6 @@
 // Tests of the distribution of FLIP: percentiles against sorted values, and the worst block against
 // trying all.
-#include "app/measure/flip_tail.h"
+#include "app/measure/metrics/flip_tail.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

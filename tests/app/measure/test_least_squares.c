@@ -1,8 +1,8 @@
 // Tests least squares against known prices and against the conditions that every least sum of
 // squares meets (Karush, Kuhn and Tucker), computed in a wider type; tests designs against the
 // determinant of the information that they give.
-#include "app/measure/least_squares.h"
-#include "tests/renderer/random.h"
+#include "app/measure/stats/least_squares.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,11 +1,11 @@
 // Tests what the metrics and the truths do when memory runs out: they say so and keep nothing, and
 // a second attempt gives the right numbers.
-#include "app/measure/meter.h"
-#include "app/measure/ssim.h"
-#include "app/measure/timing.h"
-#include "app/measure/truth.h"
+#include "app/measure/metrics/meter.h"
+#include "app/measure/metrics/ssim.h"
+#include "app/measure/timing/timing.h"
+#include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 #include "tests/support/out_of_memory.h"
 
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 // Estimates from paired times, on simulated noise whose truth is known: do intervals hold the truth
 // as often as they say, and how wide are they?
-#include "app/measure/paired.h"
+#include "app/measure/stats/paired.h"
 #include "renderer/base/assert.h"
 #include "tests/app/measure/noise.h"
 

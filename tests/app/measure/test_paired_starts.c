@@ -1,6 +1,6 @@
 // Two programs that are started anew several times, on simulated noise: how often is an equal
 // program called slower, and how often is a slower one found?
-#include "app/measure/paired_starts.h"
+#include "app/measure/stats/paired_starts.h"
 #include "tests/app/measure/noise.h"
 
 #include <setjmp.h>

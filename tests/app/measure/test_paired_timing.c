@@ -1,7 +1,7 @@
 // Paired timing on a made-up machine: a clock that the runs advance, and threads that wait when the
 // test says so.
-#include "app/measure/paired.h"
-#include "app/measure/paired_timing.h"
+#include "app/measure/stats/paired.h"
+#include "app/measure/timing/paired_timing.h"
 #include "renderer/base/assert.h"
 
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 // Tests of spending a budget on several parts: against trying all choices, and against a closed
 // form.
-#include "app/measure/spend.h"
+#include "app/measure/stats/spend.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 // Tests of quantiles, estimates and intervals with values whose statistics are known.
-#include "app/measure/statistics.h"
+#include "app/measure/stats/statistics.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

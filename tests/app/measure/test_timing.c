@@ -1,7 +1,7 @@
 // Tests of interleaved timing on a fake clock: when each subject runs, what is timed, and which
 // times are kept.
-#include "app/measure/paired.h"
-#include "app/measure/timing.h"
+#include "app/measure/stats/paired.h"
+#include "app/measure/timing/timing.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

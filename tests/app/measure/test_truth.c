@@ -1,9 +1,9 @@
 // Tests of truths (converged pictures): their cache, their noise floor, and errors of pictures
 // against them.
-#include "app/measure/meter.h"
-#include "app/measure/truth.h"
+#include "app/measure/metrics/meter.h"
+#include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <dirent.h>
 #include <setjmp.h>

@@ -1,9 +1,9 @@
 // Tests of the option tables of all commands. The parser reads every option of every command and
 // refuses wrong values, and the help explains every option.
-#include "app/command_line.h"
+#include "app/cli/command_line.h"
 #include "app/command_list.h"
-#include "app/help.h"
-#include "app/manual.h"
+#include "app/cli/help.h"
+#include "app/cli/manual.h"
 #include "renderer/base/assert.h"
 
 #include <ctype.h>

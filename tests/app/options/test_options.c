@@ -1,5 +1,5 @@
 // Tests of options.h with a table that has one option of each kind and fills a struct of this test.
-#include "app/options.h"
+#include "app/cli/options.h"
 #include "renderer/base/assert.h"
 #include "renderer/scene/quality.h"
 

@@ -1,5 +1,5 @@
 // Tests of plots: what the file must contain in any layout.
-#include "app/plot/plot.h"
+#include "app/report/page/plot.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -8,8 +8,8 @@
 #include "app/cost/plan.h"
 #include "app/display/fake/fake_display.h"
 #include "app/files/png.h"
-#include "app/preview/loop.h"
-#include "app/session.h"
+#include "app/preview/loop/loop.h"
+#include "app/session/session.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 // Standard input asks for prices, one per line (price_lines.h). The program rests at as many poses
 // as it is told, spread evenly along the path DEFAULT of the ini. At each pose it measures with
 // every line's settings in the requested pane, and answers all lines.
-#include "app/preview/live_prices.h"
+#include "app/preview/live/live_prices.h"
 #include "tests/app/preview/price_lines.h"
 
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef DIP_TESTS_APP_PREVIEW_PRICE_LINES_H
 #define DIP_TESTS_APP_PREVIEW_PRICE_LINES_H
 
-#include "app/preview/prices.h"
+#include "app/preview/prices/prices.h"
 
 // Answers a line that asks for one price with a line of JSON on standard output: "step KEY INDEX
 // SETTINGS" for a step of a setting in a pane with these settings, or "sum SETTINGS". Returns false

@@ -1,7 +1,7 @@
 // Tests of the comparisons: where pictures show, what the difference is, and what a wipe shows on
 // both sides of its divider.
-#include "app/preview/compare.h"
-#include "app/preview/strip.h"
+#include "app/preview/tools/compare.h"
+#include "app/preview/tools/strip.h"
 #include "tests/app/preview/tool_window.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // Tests of game controllers without any device: events go in; actions, keys and poses come out.
-#include "app/preview/controller.h"
+#include "app/preview/state/controller.h"
 
-#include "app/preview/camera.h"
+#include "app/preview/state/camera.h"
 
 #include <math.h>
 #include <setjmp.h>

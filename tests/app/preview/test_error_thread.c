@@ -1,10 +1,10 @@
 // Tests of the errors that are measured while the camera rests. The job's results are compared with
 // the truth and the meter of the cost report, and the thread's results with those of the job.
-#include "app/measure/difference.h"
-#include "app/measure/meter.h"
-#include "app/measure/truth.h"
-#include "app/preview/error_thread.h"
-#include "tests/renderer/scene/scenes.h"
+#include "app/measure/metrics/difference.h"
+#include "app/measure/metrics/meter.h"
+#include "app/measure/metrics/truth.h"
+#include "app/preview/live/error_thread.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <math.h>
 #include <setjmp.h>

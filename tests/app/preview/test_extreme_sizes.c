@@ -2,10 +2,10 @@
 // test_extreme_sizes [--big]. With --big, the panes have 8192x8192 pixels and more; this takes 3 GB
 // of memory.
 #include "app/display/fake/fake_display.h"
-#include "app/preview/loop.h"
-#include "app/preview/view.h"
+#include "app/preview/loop/loop.h"
+#include "app/preview/loop/view.h"
 #include "config/config.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

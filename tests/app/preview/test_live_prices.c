@@ -1,8 +1,8 @@
 // Tests of rough prices with real painters: of models, and of a scene of the gallery. No time is
 // asserted, since the machine may be busy.
-#include "app/measure/flip.h"
-#include "app/preview/live_prices.h"
-#include "tests/renderer/scene/scenes.h"
+#include "app/measure/metrics/flip.h"
+#include "app/preview/live/live_prices.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -14,11 +14,11 @@
 // Usage: test_long_run SOURCE_FOLDER [--hour]. Without --hour, the clouds are faster, so that a
 // repetition takes 120 s of playback; there are three.
 #include "app/display/fake/fake_display.h"
-#include "app/preview/loop.h"
+#include "app/preview/loop/loop.h"
 #include "renderer/base/srgb.h"
 #include "renderer/reference/reference.h"
 #include "tests/support/live_blocks.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <malloc.h>
 #include <math.h>

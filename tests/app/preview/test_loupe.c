@@ -1,7 +1,7 @@
 // Tests of the loupe: which pixels it shows, what the crops look like, how it follows the pointer,
 // and the samples that it reads.
-#include "app/preview/compare.h"
-#include "app/preview/loupe.h"
+#include "app/preview/tools/compare.h"
+#include "app/preview/tools/loupe.h"
 #include "tests/app/preview/tool_window.h"
 
 #include <math.h>

@@ -1,11 +1,11 @@
 // Drops 24 good and bad files onto the preview on a fake display, and puts each in the place of a
 // file that the preview watches. The preview must live on, say what came of the file, and draw.
 // Usage: test_many_files SOURCE_FOLDER
-#include "app/cost/formats.h"
+#include "app/report/format/formats.h"
 #include "app/cost/plan.h"
 #include "app/display/fake/fake_display.h"
-#include "app/preview/loop.h"
-#include "app/preview/reload.h"
+#include "app/preview/loop/loop.h"
+#include "app/preview/loop/reload.h"
 #include "tests/app/cost/made_report.h"
 
 #include <setjmp.h>

@@ -1,10 +1,10 @@
 // Tests of the maps: their colours, their scale, the pixel under the pointer, the pictures, and the
 // work that they measure.
 #include "app/canvas/canvas.h"
-#include "app/measure/magma.h"
-#include "app/preview/map_colours.h"
-#include "app/preview/maps.h"
-#include "tests/renderer/scene/scenes.h"
+#include "app/measure/metrics/magma.h"
+#include "app/preview/tools/map_colours.h"
+#include "app/preview/tools/maps.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,8 +1,8 @@
 // Tests of the panel's lines of times, errors and work, and of the costs and advice that come from
 // a cost report.
-#include "app/cost/formats.h"
-#include "app/preview/panel.h"
-#include "app/preview/state.h"
+#include "app/report/format/formats.h"
+#include "app/preview/live/panel.h"
+#include "app/preview/state/state.h"
 #include "tests/app/cost/made_report.h"
 
 #include <math.h>

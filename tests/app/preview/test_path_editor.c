@@ -1,7 +1,7 @@
 // Tests of the path that the user makes in the window: edits follow a plain model, a saved file is
 // read back with the same poses, and between keys it agrees with an evaluation in long double.
-#include "app/preview/keys.h"
-#include "app/preview/pilot.h"
+#include "app/preview/state/keys.h"
+#include "app/preview/state/pilot.h"
 #include "config/config.h"
 
 #include <math.h>

@@ -1,13 +1,13 @@
 // Tests of the control channel on the preview: requests over a socket change what the panes show.
 // The preview runs on a fake display.
 #include "app/display/fake/fake_display.h"
-#include "app/preview/control.h"
-#include "app/preview/loop.h"
-#include "app/preview/view.h"
+#include "app/preview/control/control.h"
+#include "app/preview/loop/loop.h"
+#include "app/preview/loop/view.h"
 #include "config/config.h"
 #include "tests/app/control/line_client.h"
 #include "tests/app/control/random_lines.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>

@@ -2,10 +2,10 @@
 // that change. The session is opened from an ini, a model and a path in a folder of the test's own.
 #include "app/display/fake/fake_display.h"
 #include "app/files/png.h"
-#include "app/preview/loop.h"
-#include "app/preview/poses.h"
-#include "app/preview/reload.h"
-#include "app/preview/view.h"
+#include "app/preview/loop/loop.h"
+#include "app/preview/state/poses.h"
+#include "app/preview/loop/reload.h"
+#include "app/preview/loop/view.h"
 #include "tests/app/preview/png_parts.h"
 
 #include <setjmp.h>

@@ -2,11 +2,11 @@
 // linked.
 #include "app/display/fake/fake_display.h"
 #include "app/files/png.h"
-#include "app/preview/loop.h"
-#include "app/preview/view.h"
+#include "app/preview/loop/loop.h"
+#include "app/preview/loop/view.h"
 #include "config/config.h"
 #include "tests/app/preview/png_parts.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

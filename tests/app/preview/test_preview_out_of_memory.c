@@ -2,10 +2,10 @@
 // size, it shows the old picture and says why. Every other failure ends with an error, and the next
 // turn shows the right picture.
 #include "app/display/fake/fake_display.h"
-#include "app/preview/loop.h"
-#include "app/preview/view.h"
+#include "app/preview/loop/loop.h"
+#include "app/preview/loop/view.h"
 #include "config/config.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 #include "tests/support/allocation.h"
 #include "tests/support/out_of_memory.h"
 

@@ -1,10 +1,10 @@
 // Tests of the actions that change the preview's state, of the free camera, and of the median of
 // frame times.
-#include "app/preview/camera.h"
-#include "app/preview/figures.h"
-#include "app/preview/state.h"
-#include "app/preview/taa_pace.h"
-#include "app/preview/timing.h"
+#include "app/preview/state/camera.h"
+#include "app/preview/live/figures.h"
+#include "app/preview/state/state.h"
+#include "app/preview/live/taa_pace.h"
+#include "app/preview/live/timing.h"
 #include "config/config.h"
 
 #include <math.h>

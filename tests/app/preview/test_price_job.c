@@ -1,5 +1,5 @@
 // Tests of the measurement of rough prices, with a painter and a clock that are made up.
-#include "app/preview/price_job.h"
+#include "app/preview/live/price_job.h"
 
 #include <math.h>
 #include <setjmp.h>

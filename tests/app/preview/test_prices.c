@@ -1,6 +1,6 @@
 // Tests of prices: from reports with made-up times, whose prices are computed by hand, and from
 // rough times.
-#include "app/preview/prices.h"
+#include "app/preview/prices/prices.h"
 #include "tests/app/cost/made_report.h"
 
 #include <math.h>
@@ -17,7 +17,8 @@
 enum { ROUNDS = 3 };
 
 // The 97.5 % quantile of Student's t with two degrees of freedom (tables), times the least standard
-// error of a ratio's logarithm (app/measure/paired.h). Times without noise have no other error.
+// error of a ratio's logarithm (app/measure/stats/paired.h). Times without noise have no other
+// error.
 static const double half_width = 4.302653 * 0.002;
 
 static DipCostReport report;

@@ -1,5 +1,5 @@
 // Tests advice from rough prices against a search over nested loops of known sums.
-#include "app/preview/rough_advice.h"
+#include "app/preview/prices/rough_advice.h"
 
 #include <math.h>
 #include <setjmp.h>

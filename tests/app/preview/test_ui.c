@@ -1,6 +1,6 @@
 // Tests of the controls: which one takes an event, the order of the focus, dragging, the wheel, and
 // tips. Two controls overlap, one is disabled.
-#include "app/preview/ui.h"
+#include "app/ui/ui.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

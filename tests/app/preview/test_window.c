@@ -1,8 +1,8 @@
 // Tests of the window's layout and of its settings tab: at every size, nothing leaves the window,
 // and the keyboard reaches every setting and Apply; clicks, drags and the wheel change steps.
-#include "app/preview/loop.h"
-#include "app/preview/setting_rows.h"
-#include "app/preview/view.h"
+#include "app/preview/loop/loop.h"
+#include "app/preview/tabs/setting_rows.h"
+#include "app/preview/loop/view.h"
 #include "config/config.h"
 
 #include <setjmp.h>

@@ -2,8 +2,8 @@
 #ifndef DIP_TESTS_APP_PREVIEW_TOOL_WINDOW_H
 #define DIP_TESTS_APP_PREVIEW_TOOL_WINDOW_H
 
-#include "app/preview/tabs.h"
-#include "tests/renderer/scene/scenes.h"
+#include "app/preview/tabs/tabs.h"
+#include "renderer/catalogue/scenes.h"
 
 typedef struct DipToolWindow {
     DipTestScene scene;

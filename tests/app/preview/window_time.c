@@ -5,7 +5,7 @@
 // does nothing else. Fails if a window cannot be drawn; never because of a time.
 //
 // Usage: window_time
-#include "app/preview/view.h"
+#include "app/preview/loop/view.h"
 #include "config/config.h"
 #include "renderer/base/clock.h"
 #include "tests/app/cost/made_report.h"

@@ -1,6 +1,6 @@
 // Tests of session.h: what a session loads, that it reports every fault, and that neither a failed
 // nor a closed session keeps memory. Usage: test_session SOURCE_FOLDER
-#include "app/session.h"
+#include "app/session/session.h"
 #include "tests/support/allocation.h"
 
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 // Tests what opening a session does when memory runs out: the session opens whole or stays empty.
 // Usage: test_session_out_of_memory SOURCE_FOLDER [--long]
-#include "app/session.h"
+#include "app/session/session.h"
 #include "assets/importer.h"
 #include "renderer/base/hash.h"
 #include "tests/support/out_of_memory.h"

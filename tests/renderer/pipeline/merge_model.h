@@ -5,7 +5,7 @@
 #define DIP_TESTS_RENDERER_PIPELINE_MERGE_MODEL_H
 
 #include "renderer/pipeline/pipeline.h"
-#include "tests/renderer/pipeline/oracle.h"
+#include "renderer/catalogue/oracle.h"
 
 enum { MODEL_WIDTH = 72, MODEL_HEIGHT = 40, MODEL_TRIANGLES = 3 };
 

@@ -8,7 +8,7 @@
 #define DIP_TESTS_RENDERER_PIPELINE_SCREEN_H
 
 #include "renderer/reference/reference.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 enum { DIP_SCREEN = 64 };
 

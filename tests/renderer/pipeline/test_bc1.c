@@ -4,7 +4,7 @@
 #include "renderer/pipeline/bc1.h"
 #include "renderer/pipeline/texture/texture_layout.h"
 #include "renderer/reference/internal/texture.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

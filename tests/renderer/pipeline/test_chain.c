@@ -4,7 +4,7 @@
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/bc1.h"
 #include "renderer/pipeline/texture/texture_layout.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

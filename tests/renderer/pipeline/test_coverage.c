@@ -6,7 +6,7 @@
 #include "renderer/base/assert.h"
 #include "renderer/pipeline/geometry/setup.h"
 #include "renderer/pipeline/kernels/kernels.h"
-#include "tests/renderer/pipeline/oracle.h"
+#include "renderer/catalogue/oracle.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

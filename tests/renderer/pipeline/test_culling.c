@@ -6,7 +6,7 @@
 #include "renderer/pipeline/geometry/mesh_layout.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/plan/parts.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -7,7 +7,7 @@
 // the footprint is therefore an ellipse with known axes. Mip colours show which level was read.
 #include "renderer/base/srgb.h"
 #include "renderer/scene/renderer.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -5,7 +5,7 @@
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/texture_layout.h"
 #include "renderer/scene/materials/surface.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

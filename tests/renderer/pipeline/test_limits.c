@@ -2,7 +2,7 @@
 // triangles of a pass.
 #include "renderer/pipeline/geometry/clip.h"
 #include "renderer/pipeline/pipeline.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,7 +3,7 @@
 // force, formats, viewports, and the fields that a pass check refuses.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,7 +2,7 @@
 // update changes nothing.
 #include "renderer/pipeline/geometry/mesh_layout.h"
 #include "renderer/pipeline/pipeline.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

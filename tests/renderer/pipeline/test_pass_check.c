@@ -2,7 +2,7 @@
 // must name the field at fault. Also tests that passes drawn in one call have the same results as
 // passes drawn one by one.
 #include "renderer/pipeline/pipeline.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -5,7 +5,7 @@
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/texture_layout.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

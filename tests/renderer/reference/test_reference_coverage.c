@@ -3,7 +3,7 @@
 #include "renderer/base/assert.h"
 #include "renderer/pipeline/pattern.h"
 #include "tests/renderer/pipeline/screen.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

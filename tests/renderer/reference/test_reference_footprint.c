@@ -1,7 +1,7 @@
 // Tests the level of detail and the anisotropy that the reference computes from a Jacobian (the
 // derivatives of texture coordinates). The axes of the tests' Jacobians are known.
 #include "renderer/reference/internal/footprint.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,7 +2,7 @@
 // all, and after a failed picture it draws the right one.
 #include "renderer/reference/convergence.h"
 #include "renderer/reference/reference.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 #include "tests/support/out_of_memory.h"
 
 #include <setjmp.h>

@@ -3,7 +3,7 @@
 // Also tests light, light maps, alpha, and which input the reference refuses.
 #include "renderer/pipeline/pattern.h"
 #include "tests/renderer/pipeline/screen.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

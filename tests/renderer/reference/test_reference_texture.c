@@ -1,6 +1,6 @@
 // Compares the reference's decoding, mip chains and filtering with closed forms.
 #include "renderer/reference/internal/texture.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -3,7 +3,7 @@
 #include "renderer/reference/reference.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/image.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,7 +2,7 @@
 // scene with any settings and any camera must not call an allocator. tests/support/allocation.h
 // counts the calls.
 #include "renderer/scene/renderer.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 #include "tests/support/allocation.h"
 
 #include <setjmp.h>

@@ -3,7 +3,7 @@
 // work or memory for them.
 #include "renderer/scene/materials/sky.h"
 #include "renderer/scene/renderer.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -4,7 +4,7 @@
 #include "renderer/scene/lights.h"
 
 #include "renderer/scene/renderer.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <math.h>
 #include <setjmp.h>

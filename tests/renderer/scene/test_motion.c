@@ -1,5 +1,5 @@
 // Measures how continuous the courtyard's pictures are along the shipped camera paths. The camera
-// turns and moves by 1/256 of a pixel (tests/stability/motion.h has the measurements), and it
+// turns and moves by 1/256 of a pixel (renderer/catalogue/motion.h has the measurements), and it
 // crosses the moments at which the plan switches an effect or culling changes what is drawn.
 //
 // The test samples each path at equal times. For every sampled pose it draws the settings in turn,
@@ -7,7 +7,7 @@
 // test_motion [--frames N] [--all]
 #include "assets/model.h"
 #include "campaths/campath.h"
-#include "tests/stability/motion.h"
+#include "renderer/catalogue/motion.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 // no pixel of the frame.
 #include "renderer/pipeline/pattern.h"
 #include "renderer/scene/renderer.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -3,9 +3,9 @@
 #include "renderer/reference/reference.h"
 #include "renderer/scene/draw/draws.h"
 #include "renderer/scene/renderer.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 #include "tests/renderer/scene/image.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

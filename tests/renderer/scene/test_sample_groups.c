@@ -5,7 +5,7 @@
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/reference/reference.h"
 #include "renderer/scene/renderer.h"
-#include "tests/renderer/pipeline/oracle.h"
+#include "renderer/catalogue/oracle.h"
 #include "tests/renderer/pipeline/screen.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 // Tests the creation of scenes: computes bounds, and refuses inconsistent descriptions.
 #include "renderer/scene/scene.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,7 +2,7 @@
 // nothing and changes nothing. Afterwards, the renderer draws the right picture.
 #include "renderer/base/hash.h"
 #include "renderer/scene/renderer.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 #include "tests/support/out_of_memory.h"
 
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 // Tests that any number of threads draws the same picture and counts the same work. Also tests that
 // drawing a scene again, or at another size, does not change later pictures.
 #include "renderer/scene/renderer.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <pthread.h>
 #include <setjmp.h>

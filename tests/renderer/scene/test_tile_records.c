@@ -1,7 +1,7 @@
 // Tests the records of tiles. In every scene, with every instruction set and several numbers of
 // threads, the records add up to the counters of the frame, and recording changes no pixel.
 #include "renderer/scene/renderer.h"
-#include "tests/renderer/scene/scenes.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

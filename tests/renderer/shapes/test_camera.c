@@ -1,6 +1,6 @@
 // Tests matrices against formulas in long double.
 #include "renderer/shapes/camera.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <math.h>
 #include <setjmp.h>

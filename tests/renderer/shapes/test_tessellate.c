@@ -1,7 +1,7 @@
 // Tests tessellation: the counts and positions of Direct3D 11's tessellator, areas that sum to the
 // domain's, and surfaces without cracks or T-junctions.
 #include "renderer/shapes/tessellate.h"
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 #include "tests/renderer/shapes/manifold.h"
 
 #include <math.h>

@@ -8,7 +8,7 @@
 #ifndef DIP_TESTS_STABILITY_SEARCH_CHOICES_H
 #define DIP_TESTS_STABILITY_SEARCH_CHOICES_H
 
-#include "tests/renderer/random.h"
+#include "renderer/catalogue/random.h"
 
 #include <stdbool.h>
 #include <stdint.h>

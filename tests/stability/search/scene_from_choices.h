@@ -3,8 +3,8 @@
 #define DIP_TESTS_STABILITY_SEARCH_SCENE_FROM_CHOICES_H
 
 #include "renderer/scene/quality.h"
-#include "tests/renderer/scene/scenes.h"
-#include "tests/stability/pictures.h"
+#include "renderer/catalogue/scenes.h"
+#include "renderer/catalogue/pictures.h"
 #include "tests/stability/search/choices.h"
 
 #include <stdio.h>

@@ -2,8 +2,8 @@
 // setting, changes it, applies it, goes to the next path, pauses, flies, and is unplugged. SDL's
 // dummy driver stands for the screen.
 #include "app/display/sdl/sdl_display.h"
-#include "app/preview/loop.h"
-#include "tests/renderer/scene/scenes.h"
+#include "app/preview/loop/loop.h"
+#include "renderer/catalogue/scenes.h"
 
 #include <SDL2/SDL.h>
 

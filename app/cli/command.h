@@ -1,0 +1,71 @@
+// A command of the program. To add a command, make a folder that defines one DipCommand, and add
+// that DipCommand to the list in command_list.c.
+#ifndef DIP_APP_CLI_COMMAND_H
+#define DIP_APP_CLI_COMMAND_H
+
+#include "app/cli/options.h"
+
+typedef struct DipSession DipSession;       // app/session/session.h
+typedef struct DipSessionDef DipSessionDef; // app/session/session.h
+
+// Options that every command has. Every command's struct of options begins with this struct.
+typedef struct DipProgramOptions {
+    const char *log; // File that gets a copy of warnings and errors, or NULL.
+    bool help;
+    bool version;
+} DipProgramOptions;
+
+extern const DipOptionTable dip_program_option_table;
+
+// Arguments that are not options, such as the files of `diptych path convert`. They are stored as
+// an array of `const char *`.
+typedef struct DipOperands {
+    size_t field; // Offset of the array in the command's struct of options.
+    size_t count; // Offset of the int that holds the number of operands.
+    int most;     // Greatest number of operands; 0: the command takes none.
+} DipOperands;
+
+// An example in the help of a command.
+typedef struct DipExample {
+    const char *typed; // The command line: "diptych dump --out out".
+    const char *does;  // What the command does, beginning with a verb: "draws one frame".
+} DipExample;
+
+typedef struct DipCommand {
+    const char *name;    // "dump", "cost merge": one word or two.
+    const char *summary; // Starts with a verb; one line in the list of commands.
+    const char *usage;   // Command line after the name: "--out DIR [OPTION]..."
+    const char *text;    // Paragraphs that explain the command, separated by "\n\n".
+    const DipExample *examples;
+    size_t example_count;
+    bool lists_settings; // The help also lists the settings, because an option takes a SET.
+    const DipOptionParts *parts;
+    DipOperands operands;
+    size_t options_size; // Bytes of the command's struct of options.
+
+    // Fills in the default of every option. The struct is zero before the call. argv is the whole
+    // command line. NULL: zero is the default of every option.
+    void (*set_defaults)(void *options, int argc, char *const *argv);
+
+    // Returns false and fills *err if options contradict each other or a necessary option is
+    // missing. NULL: any options may be combined.
+    bool (*check)(const void *options, DipError *err);
+
+    // Fills in *def with what the session must load. NULL: the command runs without a session.
+    void (*describe_session)(const void *options, DipSessionDef *def);
+
+    // Does the command's work. The session is NULL if describe_session is NULL.
+    bool (*run)(DipSession *session, const void *options, DipError *err);
+} DipCommand;
+
+// The commands of a program. The first one runs if the command line names none. Hidden commands run
+// when they are named, but neither the help nor the manual page shows them, because the program
+// itself starts them. Their names are single words.
+typedef struct DipCommandList {
+    const DipCommand *const *commands;
+    size_t count;
+    const DipCommand *const *hidden;
+    size_t hidden_count;
+} DipCommandList;
+
+#endif

@@ -1,0 +1,12 @@
+// The help that --help prints, made from the commands and their tables of options.
+#ifndef DIP_APP_CLI_HELP_H
+#define DIP_APP_CLI_HELP_H
+
+#include "app/cli/command_line.h"
+
+#include <stdio.h>
+
+// Prints the help of the command that was named, of a group such as `path`, or of all commands.
+void dip_help_print(const DipCommandList *list, const DipCommandLine *line, FILE *out);
+
+#endif

@@ -1,0 +1,20 @@
+// Prints warnings and errors on standard error and, on request, to a log file.
+#ifndef DIP_APP_CLI_LOG_H
+#define DIP_APP_CLI_LOG_H
+
+#include "renderer/base/error.h"
+
+#include <stdbool.h>
+
+// From now on, also appends every line to this file. Fails with DIP_ERROR_IO.
+bool dip_log_open(const char *file, DipError *err);
+void dip_log_close(void);
+
+// Prints one line "diptych: file:line: [key] message" for each error.
+void dip_log_error(const DipError *err);
+void dip_log_errors(const DipErrorList *list);
+
+// Prints a note (not an error) as one line "diptych: ...".
+void dip_log_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+#endif

@@ -1,0 +1,20 @@
+// Properties of the machine that a measurement reports.
+#ifndef DIP_APP_CLI_MACHINE_H
+#define DIP_APP_CLI_MACHINE_H
+
+#include <stddef.h>
+
+// Copies the name of the processor, as Linux gives it, or "unknown processor".
+void dip_machine_processor(char *name, size_t size_bytes);
+
+// Writes a hash of this program's file, which differs between any two builds, or "" if the file
+// cannot be read.
+void dip_machine_build(char hex[33]);
+
+// Returns the number of processors that are online, at least 1.
+int dip_machine_processor_count(void);
+
+// Returns the greatest resident memory of this process so far, in bytes, or 0 if it is unknown.
+size_t dip_machine_peak_rss_bytes(void);
+
+#endif

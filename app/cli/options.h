@@ -1,0 +1,103 @@
+// Options of a command line, described by tables. Each command has its own tables (command.h). The
+// parser, the help and the manual page all use these tables.
+#ifndef DIP_APP_CLI_OPTIONS_H
+#define DIP_APP_CLI_OPTIONS_H
+
+#include "renderer/base/error.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// How an option's value is read, and the type of the field that stores the value.
+typedef enum DipOptionKind {
+    DIP_OPTION_FLAG,     // bool; the option takes no value
+    DIP_OPTION_TEXT,     // const char *, borrowed from argv
+    DIP_OPTION_TEXTS,    // const char *[most]; the option may be repeated
+    DIP_OPTION_INTEGER,  // int in least..most
+    DIP_OPTION_NUMBER,   // double in least..most
+    DIP_OPTION_SIZE,     // DipOptionSize
+    DIP_OPTION_SETTINGS, // DipQuality
+    DIP_OPTION_LIST,     // `read` stores each value; there are at most `most`
+    DIP_OPTION_CUSTOM    // `read` stores the value
+} DipOptionKind;
+
+typedef struct DipOptionSize {
+    int width; // Pixels.
+    int height;
+} DipOptionSize;
+
+typedef struct DipOptionRow DipOptionRow;
+
+// Stores a value in the struct that the row's table describes. Returns false and fills *err if the
+// value is wrong.
+typedef bool DipOptionReader(void *fields, const DipOptionRow *row, const char *value,
+                             DipError *err);
+
+// One option.
+struct DipOptionRow {
+    const char *name;     // "--size"
+    const char *argument; // "WxH", for the help; NULL for a FLAG
+    const char *text;     // Whole sentences for the help and the manual page.
+    DipOptionKind kind;
+    size_t field; // Offset of the field that holds the value.
+    size_t given; // Offset of a bool that becomes true when the option is given; 0: there is none.
+    size_t count; // TEXTS and LIST: offset of an int that holds the number of values.
+    double least; // INTEGER and NUMBER: the least value.
+    double most;  // INTEGER and NUMBER: the greatest value. TEXTS and LIST: most values.
+    // What a value must be, for the message "'value' is not accepted". NULL: the kind of the
+    // option decides the message.
+    const char *accepted;
+    char separator;        // LIST: the character between two values.
+    DipOptionReader *read; // LIST and CUSTOM: the function that stores a value.
+};
+
+// A group of options. Their fields are in one struct.
+typedef struct DipOptionTable {
+    const char *title; // Heading of these options in the help: "Scene and camera".
+    const DipOptionRow *rows;
+    size_t count;
+} DipOptionTable;
+
+// A table of options as a part of a command's options. Several commands can share a table.
+typedef struct DipOptionPart {
+    const DipOptionTable *table;
+    size_t offset; // Offset of the table's struct in the command's struct of options.
+} DipOptionPart;
+
+// All options of a command.
+typedef struct DipOptionParts {
+    const DipOptionPart *items;
+    size_t count;
+} DipOptionParts;
+
+// Reads the option argv[*index] and stores its value in `options`, the command's struct of options.
+// The value may be in argv[*index + 1]. Leaves *index at the last argument read. `command` is the
+// command's name, for messages.
+bool dip_option_parse(const DipOptionParts *parts, const char *command, int argc, char *const *argv,
+                      int *index, void *options, DipError *err);
+
+// Finds a row by its name. Returns NULL if no part has it.
+const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *name);
+
+// --- for readers of values -----------------------------------------------------------------------
+
+// Fills *err with the message "'value' is not what". Returns false.
+bool dip_option_refuse(DipError *err, DipErrorCode code, const char *key, const char *value,
+                       const char *what);
+
+// Splits `value` at the separators and calls `read` for each part. Refuses empty parts.
+bool dip_option_each(void *fields, const DipOptionRow *row, const char *value, char separator,
+                     DipOptionReader *read, DipError *err);
+
+// Reads at most `count` whole numbers between separators. Returns how many there are. Returns 0 if
+// a part is not a whole number or there are more than `count` parts.
+int dip_option_integers(const char *text, char separator, int count, int *values);
+
+// Reads a whole number in the row's range.
+bool dip_option_integer(const DipOptionRow *row, const char *value, int *number, DipError *err);
+
+// Reads WIDTHxHEIGHT.
+bool dip_option_size(const DipOptionRow *row, const char *value, DipOptionSize *size,
+                     DipError *err);
+
+#endif

@@ -1,0 +1,43 @@
+// Counting what is done, and estimating the time left from the rate so far.
+#include "app/cli/progress.h"
+
+#include "renderer/base/clock.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <unistd.h>
+
+static const int64_t terminal_period_ns = 100000000;
+static const int64_t other_period_ns = INT64_C(10000000000);
+
+DipProgress dip_progress_begin(const char *things, int64_t total) {
+    const int64_t now_ns = dip_clock_ns();
+    return (DipProgress){things, total, now_ns, now_ns, isatty(STDERR_FILENO) != 0};
+}
+
+static void print(const DipProgress *progress, int64_t done, int64_t now_ns) {
+    fprintf(stderr, "%s%" PRId64 " of %" PRId64 " %s", progress->terminal ? "\r" : "", done,
+            progress->total, progress->things);
+    if (done > 0 && done < progress->total) {
+        const double elapsed_s = 1e-9 * (double)(now_ns - progress->begin_ns);
+        fprintf(stderr, ", %.0f s left",
+                elapsed_s * (double)(progress->total - done) / (double)done);
+    }
+    fputs(progress->terminal ? "\033[K" : "\n", stderr);
+}
+
+void dip_progress_show(DipProgress *progress, int64_t done) {
+    const int64_t now_ns = dip_clock_ns();
+    if (now_ns - progress->shown_ns >=
+        (progress->terminal ? terminal_period_ns : other_period_ns)) {
+        print(progress, done, now_ns);
+        progress->shown_ns = now_ns;
+    }
+}
+
+void dip_progress_end(DipProgress *progress, int64_t done) {
+    if (progress->terminal) {
+        print(progress, done, dip_clock_ns());
+        fputc('\n', stderr);
+    }
+}

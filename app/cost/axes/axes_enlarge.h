@@ -1,0 +1,37 @@
+// Enlarging a picture, bilinearly in linear light, as a display does that gets a picture of fewer
+// pixels than it has.
+//
+// The centre of the destination's pixel x lies at (x + 1/2) from / to - 1/2 in the source, counted
+// in pixels from the centre of its first pixel. Its value is interpolated between the two nearest
+// pixels, first along x, then along y; beyond the outermost centres the picture is constant. sRGB
+// codes are decoded before and encoded after, rounded to the nearest code; alpha is interpolated as
+// it is. The result has the same bits on every machine and with any number of threads.
+#ifndef DIP_APP_COST_AXES_AXES_ENLARGE_H
+#define DIP_APP_COST_AXES_AXES_ENLARGE_H
+
+#include "renderer/base/error.h"
+#include "renderer/base/pool.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct DipEnlarger DipEnlarger;
+
+typedef struct DipEnlargerDef {
+    int from_width; // Pixels, at least 1.
+    int from_height;
+    int to_width; // Pixels, at least from_width.
+    int to_height;
+    DipPool *pool; // Borrowed; must outlive the enlarger. NULL: the calling thread works alone.
+} DipEnlargerDef;
+
+// Fails with DIP_ERROR_MEMORY.
+DipEnlarger *dip_enlarger_create(const DipEnlargerDef *def, DipError *err);
+// *enlarger may be NULL and becomes NULL.
+void dip_enlarger_destroy(DipEnlarger **enlarger);
+
+// Enlarges a picture of 8-bit sRGB pixels with alpha, the top row first. Returns the enlarged
+// picture, rows packed. The enlarger owns it until the next call.
+const uint8_t *dip_enlarger_run(DipEnlarger *enlarger, const uint8_t *rgba8, size_t stride_bytes);
+
+#endif

@@ -1,0 +1,222 @@
+// Printing the rows of `diptych cost axes` for a terminal, and writing them as CSV.
+#include "app/cost/axes/axes.h"
+
+#include "app/files/whole_file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double mebibyte = 1024.0 * 1024.0;
+
+static const DipPathEstimate *time_of(const DipCostAxes *axes, int row) {
+    return &axes->report.rows[row].time;
+}
+
+static double ns_per_pixel(const DipCostAxes *axes, int row) {
+    const DipCostAxisRow *r = &axes->rows[row];
+    return 1e6 * time_of(axes, row)->mean_ms.value / ((double)r->shown_width * r->shown_height);
+}
+
+// The parts of a time that axes_time.c hands out.
+static double draw_ms(const DipCostAxes *axes, int row) {
+    return axes->report.rows[row].stage_ms[0];
+}
+
+static double enlarge_ms(const DipCostAxes *axes, int row) {
+    return axes->report.rows[row].stage_ms[1];
+}
+
+static bool is_judged(const DipCostAxes *axes, int row) {
+    return axes->report.rows[row].judged[0];
+}
+
+// --- the table -----------------------------------------------------------------------------------
+
+static void print_errors_heading(const DipCostAxes *axes, FILE *out) {
+    const DipCostReport *report = &axes->report;
+    const int places = report->options.end_place;
+    if (!is_judged(axes, 0)) {
+        fprintf(out, "errors   not measured\n");
+        return;
+    }
+    const DipMetrics base = dip_cost_row_metrics(report, 0, 0);
+    fprintf(out,
+            "errors   %d viewpoint%s, against a converged picture (truth) of 2 x %d samples per "
+            "pixel; the base has RMSE %.5f, FLIP %.5f; the truth's own noise has RMSE %.5f, FLIP "
+            "%.5f\n",
+            places, dip_cost_plural(places), report->options.samples, base.rmse_lin, base.flip,
+            dip_cost_floor_rmse(report, 0, 0), dip_cost_floor_flip(report, 0));
+}
+
+static double counter(const DipCostAxes *axes, const char *name) {
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        if (strcmp(dip_cost_counter_names[c], name) == 0) {
+            return axes->report.rows[0].counters[c];
+        }
+    }
+    return 0.0;
+}
+
+static void print_heading(const DipCostAxes *axes, FILE *out) {
+    const DipCostReport *report = &axes->report;
+    char settings[DIP_COST_TEXT];
+    dip_cost_settings_text(&report->options.baseline, settings);
+    fprintf(out, "scene    %s, path %s\n", report->scene, report->paths[0]);
+    fprintf(out, "machine  %s\n", report->processor);
+    fprintf(out, "base     %dx%d pixels, %d thread%s, %s, settings %s\n", report->width,
+            report->height, report->threads, dip_cost_plural(report->threads), report->isa,
+            settings);
+    fprintf(out,
+            "times    %d frames along the path in %d rounds, each beside the base, in an order by "
+            "seed %d; ratio = time / the base's time\n",
+            dip_cost_frame_count(report), report->rounds, report->options.seed);
+    fprintf(out, "machine was %s: %s\n", dip_cost_verdict_names[report->verdict],
+            report->verdict_reason);
+    fprintf(out, "energy   %s\n", axes->energy);
+    print_errors_heading(axes, out);
+    fprintf(out,
+            "memory   of the row's renderer; all rows share the scene's textures, %.1f MiB, and "
+            "geometry, %.1f MiB\n",
+            (double)axes->scene_texture_bytes / mebibyte,
+            counter(axes, "geometry_bytes") / mebibyte);
+    fprintf(out, "pictures %lld were compared with the base's and have the same bits\n",
+            (long long)axes->checked_pictures);
+    if (*axes->note) {
+        fprintf(out, "note     %s\n", axes->note);
+    }
+}
+
+// Prints a number in a column of 8, or a dash if it is not known.
+static void print_known(double value, int digits, FILE *out) {
+    if (isfinite(value)) {
+        fprintf(out, " %8.*f", digits, value);
+    } else {
+        fprintf(out, " %8s", "-");
+    }
+}
+
+static void print_estimate(const DipStatsEstimate *estimate, int digits, FILE *out) {
+    char interval[48];
+    snprintf(interval, sizeof interval, "%.*f to %.*f", digits, estimate->low, digits,
+             estimate->high);
+    fprintf(out, " %8.*f %-17s", digits, estimate->value, interval);
+}
+
+static void print_columns(const DipCostAxes *axes, DipCostAxis axis, FILE *out) {
+    fprintf(out, "\n%-22s %8s %-17s %8s %-17s %8s %8s", dip_cost_axis_titles[axis], "mean ms",
+            "95 % interval", "ratio", "95 % interval", "MiB", "mJ/frame");
+    if (axis == DIP_COST_AXIS_SIZE) {
+        fprintf(out, " %8s", "ns/pixel");
+    } else if (axis == DIP_COST_AXIS_SCALE) {
+        fprintf(out, " %8s %8s", "drawing", "enlarge");
+        if (is_judged(axes, 0)) {
+            fprintf(out, " %8s %8s", "RMSE", "FLIP");
+        }
+    } else if (axis == DIP_COST_AXIS_THREADS) {
+        fprintf(out, " %8s %-17s %8s", "speed-up", "95 % interval", "of ideal");
+    }
+    fputc('\n', out);
+}
+
+static void print_row(const DipCostAxes *axes, int row, FILE *out) {
+    const DipCostAxisRow *r = &axes->rows[row];
+    char name[2 * DIP_COST_AXIS_NAME];
+    snprintf(name, sizeof name, r->axis == DIP_COST_AXIS_SCALE ? "%s (%dx%d)" : "%s", r->name,
+             r->width, r->height);
+    fprintf(out, "  %-20s", name);
+    print_estimate(&time_of(axes, row)->mean_ms, 2, out);
+    print_estimate(&time_of(axes, row)->ratio, 3, out);
+    print_known(r->memory_bytes / mebibyte, 2, out);
+    print_known(r->frame_mj, 1, out);
+    if (r->axis == DIP_COST_AXIS_SIZE) {
+        print_known(ns_per_pixel(axes, row), 2, out);
+    } else if (r->axis == DIP_COST_AXIS_SCALE) {
+        print_known(draw_ms(axes, row), 2, out);
+        print_known(enlarge_ms(axes, row), 2, out);
+        if (is_judged(axes, row)) {
+            const DipMetrics errors = dip_cost_row_metrics(&axes->report, row, 0);
+            print_known(errors.rmse_lin, 5, out);
+            print_known(errors.flip, 5, out);
+        }
+    } else if (r->axis == DIP_COST_AXIS_THREADS) {
+        print_estimate(&r->speed_up, 2, out);
+        fprintf(out, " %6.0f %%", 100.0 * r->efficiency);
+    }
+    fputc('\n', out);
+}
+
+void dip_cost_axes_print(const DipCostAxes *axes, FILE *out) {
+    print_heading(axes, out);
+    DipCostAxis axis = DIP_COST_AXIS_COUNT;
+    for (int row = 0; row < axes->report.row_count; row++) {
+        if (row == 0 || axes->rows[row].axis != axis) {
+            axis = axes->rows[row].axis;
+            print_columns(axes, axis, out);
+        }
+        print_row(axes, row, out);
+    }
+}
+
+// --- CSV -----------------------------------------------------------------------------------------
+
+static void write_known(double value, FILE *out) {
+    if (isfinite(value)) {
+        fprintf(out, ",%.8g", value);
+    } else {
+        fputc(',', out);
+    }
+}
+
+static void write_estimate(const DipStatsEstimate *estimate, FILE *out) {
+    write_known(estimate->value, out);
+    write_known(estimate->low, out);
+    write_known(estimate->high, out);
+}
+
+static void write_row(const DipCostAxes *axes, int row, FILE *out) {
+    const DipCostReport *report = &axes->report;
+    const DipCostAxisRow *r = &axes->rows[row];
+    const bool scaled = r->axis == DIP_COST_AXIS_SCALE, threads = r->axis == DIP_COST_AXIS_THREADS;
+    const DipStatsEstimate none = {NAN, NAN, NAN};
+    DipMetrics errors = {.rmse_lin = NAN, .flip = NAN};
+    if (is_judged(axes, row)) {
+        errors = dip_cost_row_metrics(report, row, 0);
+    }
+    fprintf(out, "%s,%s,%d,%d,%d,%d,%d,%s", dip_cost_axis_names[r->axis], r->name, r->width,
+            r->height, r->shown_width, r->shown_height, r->threads, dip_isa_name(r->isa));
+    write_estimate(&time_of(axes, row)->mean_ms, out);
+    write_estimate(&time_of(axes, row)->ratio, out);
+    write_known(ns_per_pixel(axes, row), out);
+    write_known(scaled ? draw_ms(axes, row) : NAN, out);
+    write_known(scaled ? enlarge_ms(axes, row) : NAN, out);
+    write_known(errors.rmse_lin, out);
+    write_known(errors.flip, out);
+    write_estimate(threads ? &r->speed_up : &none, out);
+    write_known(threads ? r->efficiency : NAN, out);
+    write_known(r->memory_bytes, out);
+    write_known(r->frame_mj, out);
+    fprintf(out, ",%s\n", dip_cost_verdict_names[report->verdict]);
+}
+
+bool dip_cost_axes_write_csv(const DipCostAxes *axes, const char *file, DipError *err) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    }
+    fprintf(out, "axis,value,width,height,shown_width,shown_height,threads,isa,ms,ms_low,ms_high,"
+                 "ratio,ratio_low,ratio_high,ns_per_pixel,draw_ms,enlarge_ms,rmse_lin,flip,"
+                 "speed_up,speed_up_low,speed_up_high,efficiency,memory_bytes,frame_mj,verdict\n");
+    for (int row = 0; row < axes->report.row_count; row++) {
+        write_row(axes, row, out);
+    }
+    bool made = !ferror(out);
+    made = fclose(out) == 0 && made && text; // glibc sets it to NULL if memory runs out here.
+    const bool written = made
+                             ? dip_whole_file_write(file, text, size, err)
+                             : dip_error_set(err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    free(text);
+    return written;
+}

@@ -1,0 +1,145 @@
+// `diptych cost diff`: what got slower or worse between two reports or two programs.
+//
+// A comparison has rows. A row is one combination of settings on one camera path that both sides
+// have. Side 0 is A, side 1 is B. Each row has the values of some quantities on both sides. A
+// quantity is an error or a counter; quantities are exact, so that any difference has a cause. A
+// row also has times, which are noisy and have intervals.
+#ifndef DIP_APP_COST_DIFF_DIFF_H
+#define DIP_APP_COST_DIFF_DIFF_H
+
+#include "app/bench/result.h"
+#include "app/report/report.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// X(name, "title", higher is better): the errors that are compared.
+#define DIP_COST_DIFF_ERROR_LIST(X)                                                                \
+    X(rmse, "RMSE", false)                                                                         \
+    X(psnr, "PSNR", true)                                                                          \
+    X(ssim, "SSIM", true)                                                                          \
+    X(flip, "FLIP", false)                                                                         \
+    X(flicker, "flicker", false)                                                                   \
+    X(two_mean, "two-frame mean", false)
+
+// Indices of the quantities: errors, then the number of pictures that differ, then the counters.
+enum {
+#define DIP_COST_DIFF_ERROR(name, title, higher) DIP_COST_DIFF_##name,
+    DIP_COST_DIFF_ERROR_LIST(DIP_COST_DIFF_ERROR)
+#undef DIP_COST_DIFF_ERROR
+        DIP_COST_DIFF_ERROR_COUNT,
+    DIP_COST_DIFF_pictures = DIP_COST_DIFF_ERROR_COUNT,
+    DIP_COST_DIFF_FIRST_COUNTER,
+    DIP_COST_DIFF_QUANTITY_COUNT = DIP_COST_DIFF_FIRST_COUNTER + DIP_COST_COUNTER_COUNT
+};
+
+enum {
+    DIP_COST_DIFF_MAX_NOTES = 32,
+    DIP_COST_DIFF_NOTE = 320,
+    // The stages of a frame; the total is not one of them.
+    DIP_COST_DIFF_STAGES = DIP_BENCH_STAGE_total
+};
+
+typedef enum DipCostDiffMark {
+    DIP_COST_DIFF_SAME,
+    DIP_COST_DIFF_SLOWER,
+    DIP_COST_DIFF_FASTER
+} DipCostDiffMark;
+
+typedef struct DipCostDiffRow {
+    DipQuality quality;
+    char path[16];
+    double values[2][DIP_COST_DIFF_QUANTITY_COUNT]; // NAN: not known, or not comparable.
+    bool timed;                                     // Both sides have a time.
+    bool is_base;                                   // The baseline of a report's path.
+    double ms[2];                                   // Mean time of a frame.
+    DipStatsEstimate ratios[2];                     // Reports only: the time over the baseline's.
+    DipStatsEstimate change; // How many times as long B takes, with its 95 % interval.
+    double surely_above;     // The change is surely greater than this; see dip_cost_diff_mark.
+    double surely_below;
+    // Programs only: 1 + (B's time in a stage - A's time in it) / A's time of the frame.
+    DipStatsEstimate stages[DIP_COST_DIFF_STAGES];
+    DipCostDiffMark mark;
+} DipCostDiffRow;
+
+// What the times come from.
+typedef enum DipCostDiffKind {
+    DIP_COST_DIFF_REPORTS, // Ratios to the baseline, measured in two runs.
+    DIP_COST_DIFF_PROGRAMS // Two programs that took turns.
+} DipCostDiffKind;
+
+typedef struct DipCostDiff {
+    DipCostDiffKind kind;
+    const char *names[2];       // As on the command line. Borrowed.
+    char machines[2][256];      // "Xeon, 2 threads, avx512"; "" if not known.
+    char builds[2][33];         // Hash of the program's file; "" if not known.
+    char scene[DIP_COST_TEXT];  // "court.gltf, 640x480 pixels"; "" if not known.
+    bool some_rows;             // One side has only some rows of the other, on purpose.
+    bool same_machine;          // The sides' machines, threads and instruction sets are the same.
+    bool has_times;             // The times may be compared.
+    DipCostVerdict verdicts[2]; // How quiet each side's machine was; for programs both are equal.
+    char reasons[2][DIP_COST_REASON];
+    DipCostDiffRow *rows; // Owned.
+    int row_count;
+    char notes[DIP_COST_DIFF_MAX_NOTES][DIP_COST_DIFF_NOTE]; // Differences of a whole side.
+    int note_count;
+    char cause[512];  // The likely cause of a slowdown; "" if nothing is sure.
+    double limit;     // A row is slower if it surely takes more than this many times as long.
+    double fail_over; // The same limit for failing, and for errors; 0: never fail.
+    int slower;       // Number of rows with each mark.
+    int faster;
+    int failed_times;  // Rows beyond fail_over.
+    int failed_errors; // Rows with an error that grew beyond fail_over.
+} DipCostDiff;
+
+// Appends a note; ignores it if there are too many.
+void dip_cost_diff_note(DipCostDiff *diff, const char *format, ...) DIP_PRINTF(2, 3);
+
+// Frees the rows.
+void dip_cost_diff_free(DipCostDiff *diff);
+
+// Returns the title of a quantity: "FLIP", "texels_fetched".
+const char *dip_cost_diff_title(int quantity);
+
+// True if a row's quantity is known on both sides and differs.
+bool dip_cost_diff_differs(const DipCostDiffRow *row, int quantity);
+
+// Returns by what share an error grew from A to B (0.1: B's error is 10 % greater), or 0 if it is
+// not known. PSNR and SSIM are turned into errors that grow when the picture gets worse: the root
+// mean square difference that PSNR stands for, and 1 - SSIM. For other quantities, returns the
+// growth of the value.
+double dip_cost_diff_growth(const DipCostDiffRow *row, int quantity);
+
+// Leaves out the counters that are 0 in all rows of one side and in no row of the other, with a
+// note: an older build does not count what a newer one does.
+void dip_cost_diff_leave_out_uncounted(DipCostDiff *diff);
+
+// Computes the rows' marks and the counts from the rows and the limits. A row is marked as slower
+// if surely_above is greater than the limit, and as faster if surely_below is less than its
+// inverse. Times are left out if the times may not be compared, if a machine is red, or if two
+// reports come from different machines.
+void dip_cost_diff_mark(DipCostDiff *diff);
+
+// True if a side's machine was too busy for its times to be believed.
+bool dip_cost_diff_is_busy(const DipCostDiff *diff);
+
+// Compares two reports. The names, limits and some_rows of *diff must be filled in before. Fails
+// with DIP_ERROR_MEMORY. On success the caller frees the comparison.
+bool dip_cost_diff_reports(const DipCostReport *a, const DipCostReport *b, DipCostDiff *diff,
+                           DipError *err);
+
+// Prints the comparison for a terminal. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_diff_print(const DipCostDiff *diff, FILE *out, DipError *err);
+
+// Writes the comparison to a JSON file.
+bool dip_cost_diff_write_json(const DipCostDiff *diff, const char *file, DipError *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

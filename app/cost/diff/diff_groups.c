@@ -1,0 +1,221 @@
+// Finding the quantities that differ in the same rows, and describing these rows in a few words.
+#include "app/cost/diff/diff_groups.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- describing rows -----------------------------------------------------------------------------
+
+enum { ANY = -1, NOT_DEFAULT = -2 };
+
+// A condition on rows: on a path, and on the steps of up to two settings.
+typedef struct Condition {
+    int path_row;    // The rows on the path of this row; ANY: on any path.
+    int settings[2]; // ANY: no condition.
+    int steps[2];    // NOT_DEFAULT: any step but the default.
+} Condition;
+
+static bool meets(const DipCostDiff *diff, int row, const Condition *condition) {
+    const DipQuality standard = dip_quality_default();
+    if (condition->path_row != ANY &&
+        strcmp(diff->rows[row].path, diff->rows[condition->path_row].path) != 0) {
+        return false;
+    }
+    for (int i = 0; i < 2; i++) {
+        const int setting = condition->settings[i];
+        if (setting == ANY) {
+            continue;
+        }
+        const int step = diff->rows[row].quality.step[setting];
+        if (condition->steps[i] == NOT_DEFAULT ? step == standard.step[setting]
+                                               : step != condition->steps[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static int term_count(const Condition *condition) {
+    return (condition->path_row != ANY) + (condition->settings[0] != ANY) +
+           (condition->settings[1] != ANY);
+}
+
+typedef struct Search {
+    const DipCostDiff *diff;
+    const bool *rows; // [row]: it is one of those to describe.
+    Condition best;
+    int best_count; // Rows that meet the best condition; 0 if there is none yet.
+} Search;
+
+// Keeps a condition that holds for all wanted rows if it holds for fewer others than the best so
+// far, or for as many and has fewer terms.
+static void consider(Search *search, const Condition *condition) {
+    int count = 0;
+    for (int r = 0; r < search->diff->row_count; r++) {
+        const bool met = meets(search->diff, r, condition);
+        if (search->rows[r] && !met) {
+            return;
+        }
+        count += met;
+    }
+    if (search->best_count == 0 || count < search->best_count ||
+        (count == search->best_count && term_count(condition) < term_count(&search->best))) {
+        search->best = *condition;
+        search->best_count = count;
+    }
+}
+
+static bool is_first_of_path(const DipCostDiff *diff, int row) {
+    for (int r = 0; r < row; r++) {
+        if (strcmp(diff->rows[r].path, diff->rows[row].path) == 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Considers all steps of the i-th setting of a condition, and of the settings after it.
+static void consider_settings(Search *search, Condition condition, int i) {
+    consider(search, &condition);
+    for (int s = i > 0 ? condition.settings[0] + 1 : 0; i < 2 && s < DIP_SETTING_COUNT; s++) {
+        condition.settings[i] = s;
+        for (int step = NOT_DEFAULT; step < dip_setting_info((DipSetting)s)->step_count; step++) {
+            condition.steps[i] = step;
+            if (step != ANY) {
+                consider_settings(search, condition, i + 1);
+            }
+        }
+        condition.settings[i] = ANY;
+    }
+}
+
+static void format_condition(const DipCostDiff *diff, const Condition *condition, char *text,
+                             size_t size) {
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < 2; i++) {
+        if (condition->settings[i] == ANY) {
+            continue;
+        }
+        const DipSettingInfo *info = dip_setting_info((DipSetting)condition->settings[i]);
+        const int step = condition->steps[i];
+        used += (size_t)snprintf(text + used, size - used, "%s%s%s%s", used ? " and " : " with ",
+                                 info->key, step == NOT_DEFAULT ? " other than " : "=",
+                                 info->steps[step == NOT_DEFAULT ? info->default_step : step]);
+    }
+    if (condition->path_row != ANY) {
+        snprintf(text + used, size - used, " on path %s", diff->rows[condition->path_row].path);
+    }
+}
+
+// Describes the rows, of which there is at least one.
+static void describe(const DipCostDiff *diff, const bool *rows, char *text, size_t size) {
+    Search search = {.diff = diff, .rows = rows};
+    int count = 0, first = 0;
+    for (int r = diff->row_count - 1; r >= 0; r--) {
+        count += rows[r];
+        first = rows[r] ? r : first;
+    }
+    if (count == 1) {
+        char settings[DIP_COST_TEXT];
+        dip_cost_settings_text(&diff->rows[first].quality, settings);
+        snprintf(text, size, "1 of %d rows: %s on path %s", diff->row_count, settings,
+                 diff->rows[first].path);
+        return;
+    }
+    consider_settings(&search, (Condition){ANY, {ANY, ANY}, {0, 0}}, 0);
+    for (int r = 0; r < diff->row_count; r++) {
+        if (rows[r] && is_first_of_path(diff, r)) {
+            consider_settings(&search, (Condition){r, {ANY, ANY}, {0, 0}}, 0);
+        }
+    }
+    char condition[160];
+    format_condition(diff, &search.best, condition, sizeof condition);
+    if (count == search.best_count) {
+        snprintf(text, size, "all %d rows%s", count, condition);
+    } else {
+        snprintf(text, size, "%d of the %d rows%s", count, search.best_count, condition);
+    }
+}
+
+// --- grouping ------------------------------------------------------------------------------------
+
+static bool is_error(int quantity) {
+    return quantity < DIP_COST_DIFF_ERROR_COUNT;
+}
+
+static DipCostDiffChange change_of(const DipCostDiff *diff, int quantity) {
+    DipCostDiffChange change = {.quantity = quantity, .least = INFINITY, .most = -INFINITY};
+    double greatest = -1.0;
+    for (int r = 0; r < diff->row_count; r++) {
+        if (!dip_cost_diff_differs(&diff->rows[r], quantity)) {
+            continue;
+        }
+        const double growth = dip_cost_diff_growth(&diff->rows[r], quantity);
+        change.rows++;
+        change.least = fmin(change.least, growth);
+        change.most = fmax(change.most, growth);
+        if (fabs(growth) > greatest) {
+            greatest = fabs(growth);
+            change.greatest = r;
+        }
+    }
+    return change;
+}
+
+// Marks the rows in which a quantity differs. Returns false if there is none.
+static bool mark_rows(const DipCostDiff *diff, int quantity, bool *rows) {
+    bool any = false;
+    for (int r = 0; r < diff->row_count; r++) {
+        rows[r] = dip_cost_diff_differs(&diff->rows[r], quantity);
+        any |= rows[r];
+    }
+    return any;
+}
+
+// Returns the group that a quantity belongs to, which may be a new one at the end.
+static int find_group(const DipCostDiffGroup *groups, int count, const bool *group_rows,
+                      const bool *rows, int quantity, int row_count) {
+    for (int g = 0; g < count; g++) {
+        const int other = groups[g].changes[0].quantity;
+        const bool same = memcmp(group_rows + g * row_count, rows, (size_t)row_count) == 0;
+        if (is_error(quantity) ? is_error(other) : !is_error(other) && same) {
+            return g;
+        }
+    }
+    return count;
+}
+
+int dip_cost_diff_group(const DipCostDiff *diff,
+                        DipCostDiffGroup groups[DIP_COST_DIFF_QUANTITY_COUNT]) {
+    const int rows = diff->row_count;
+    bool *group_rows = malloc((DIP_COST_DIFF_QUANTITY_COUNT + 1) * ((size_t)rows + 1));
+    bool *differing = group_rows + DIP_COST_DIFF_QUANTITY_COUNT * rows;
+    int count = 0;
+    for (int q = 0; group_rows && q < DIP_COST_DIFF_QUANTITY_COUNT; q++) {
+        if (!mark_rows(diff, q, differing)) {
+            continue;
+        }
+        const int g = find_group(groups, count, group_rows, differing, q, rows);
+        bool *kept = group_rows + g * rows;
+        if (g == count) {
+            groups[count++] = (DipCostDiffGroup){.change_count = 0};
+            memset(kept, 0, (size_t)rows);
+        }
+        for (int r = 0; r < rows; r++) {
+            kept[r] = kept[r] || differing[r];
+        }
+        groups[g].changes[groups[g].change_count++] = change_of(diff, q);
+    }
+    for (int g = 0; g < count; g++) {
+        for (int r = 0; r < rows; r++) {
+            groups[g].row_count += group_rows[g * rows + r];
+        }
+        describe(diff, group_rows + g * rows, groups[g].which, sizeof groups[g].which);
+    }
+    const bool made = group_rows != NULL;
+    free(group_rows);
+    return made ? count : -1;
+}

@@ -1,0 +1,132 @@
+// The options of `diptych cost diff`.
+#include "app/cost/diff/diff_options.h"
+
+#include "renderer/base/assert.h"
+#include "renderer/base/number.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#define FIELD(name) offsetof(DipCostDiffArguments, name)
+
+// Settings that use each part of the renderer: samples, filters, sample groups, compression, and
+// all of them.
+static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=8,af=16;aa=8,aaa=on;opt=advanced;"
+                                   "aa=8,aaa=on,asd=2,af=16,aaf=on";
+
+static bool read_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    (void)row;
+    DipCostDiffArguments *diff = fields;
+    DipBenchSet *set = &diff->sets[diff->set_count];
+    snprintf(set->text, sizeof set->text, "%s", value);
+    return dip_quality_parse(value, &set->quality, err);
+}
+
+static bool read_share(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipCostDiffArguments *diff = fields;
+    const size_t length = strlen(value);
+    double percent;
+    if (length < 2 || value[length - 1] != '%' || !dip_number_parse(value, length - 1, &percent) ||
+        percent < 0.1 || percent > 1000.0) {
+        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
+                                 "a share from 0.1% to 1000%, such as 3%");
+    }
+    diff->fail_over = 1.0 + percent / 100.0;
+    return true;
+}
+
+static const DipOptionRow judge_rows[] = {
+    {.name = "--fail-over",
+     .argument = "P%",
+     .text = "Exit with code 1 if B takes surely more than P % longer with any settings, or if an "
+             "error grew by more than P %. Without the option, differences are only reported.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_share},
+    {.name = "--json",
+     .argument = "FILE",
+     .text = "Also write the comparison to this file.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(json)},
+};
+
+static const DipOptionRow run_rows[] = {
+    {.name = "--sets",
+     .argument = "LIST",
+     .text = "Settings to time, as SET;SET;... in quotes. The default is eight sets that use every "
+             "part of the renderer.",
+     .kind = DIP_OPTION_LIST,
+     .count = FIELD(set_count),
+     .most = DIP_COST_DIFF_MAX_SETS,
+     .separator = ';',
+     .read = read_set},
+    {.name = "--starts",
+     .argument = "N",
+     .text = "Start each program anew this many times. The default is 6.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(starts),
+     .least = 2,
+     .most = 100},
+    {.name = "--rounds",
+     .argument = "N",
+     .text = "In each start, draw every frame this many times. The default is 8, or 1 if a program "
+             "is compared with a report.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(rounds),
+     .least = 1,
+     .most = 1000},
+    {.name = "--frames",
+     .argument = "N",
+     .text = "Draw this many frames, which divide the camera path evenly. The default is 6. If a "
+             "program is compared with a report, the frames are those of the report.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(frames),
+     .least = 1,
+     .most = 1000},
+    {.name = "--seed",
+     .argument = "N",
+     .text = "Seed of the random order of the frames. The default comes from the clock.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(seed),
+     .given = FIELD(has_seed),
+     .most = INT32_MAX},
+};
+
+static const DipOptionTable judge_table = {"Judging and output", judge_rows,
+                                           DIP_ARRAY_COUNT(judge_rows)};
+static const DipOptionTable run_table = {"Timing programs", run_rows, DIP_ARRAY_COUNT(run_rows)};
+
+static const DipOptionPart parts[] = {
+    {&judge_table, 0},
+    {&run_table, 0},
+    {&dip_scene_option_table, offsetof(DipCostDiffArguments, session)},
+    {&dip_path_option_table, offsetof(DipCostDiffArguments, session)},
+    {&dip_category_option_table, offsetof(DipCostDiffArguments, session)},
+    {&dip_size_option_table, offsetof(DipCostDiffArguments, session)},
+    {&dip_threads_option_table, offsetof(DipCostDiffArguments, session)},
+    {&dip_program_option_table, offsetof(DipCostDiffArguments, program)},
+};
+const DipOptionParts dip_cost_diff_option_parts = {parts, DIP_ARRAY_COUNT(parts)};
+
+static bool add_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipCostDiffArguments *diff = fields;
+    return read_set(fields, row, value, err) && ++diff->set_count;
+}
+
+void dip_cost_diff_options_default(void *arguments, int argc, char *const *argv) {
+    (void)argc;
+    (void)argv;
+    DipCostDiffArguments *diff = arguments;
+    diff->starts = DIP_COST_DIFF_STARTS;
+    dip_option_each(diff, &run_rows[0], default_sets, ';', add_set, NULL);
+}
+
+bool dip_cost_diff_options_check(const void *arguments, DipError *err) {
+    const DipCostDiffArguments *diff = arguments;
+    if (diff->side_count != 2) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost diff",
+                             "there is nothing to compare; give two reports or programs: cost diff "
+                             "A B");
+    }
+    return dip_session_options_check(&diff->session, err);
+}

@@ -1,0 +1,338 @@
+// Comparing two reports: their scenes, paths and rows, exact quantities, and ratios of times.
+#include "app/cost/diff/diff.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Two runs of one program differ by this standard deviation in their ratios, whatever their own
+// intervals say.
+static const double luck_of_a_start = 0.006;
+
+enum { NAMED_ROWS = 4 }; // Rows that a note names; the others are counted.
+
+// What of two reports may be compared.
+typedef struct Comparable {
+    bool pictures;                   // The scene and the size.
+    bool errors;                     // The converged pictures and viewpoints, too.
+    bool counters;                   // The timed frames, too.
+    bool ratios;                     // The baselines.
+    bool poses[DIP_COST_MAX_PATHS];  // Path of A: B has the same poses.
+    int path_of[DIP_COST_MAX_PATHS]; // Path of A: the path of B with this name, or -1.
+} Comparable;
+
+// --- headings ------------------------------------------------------------------------------------
+
+static void describe(const DipCostReport *report, int side, DipCostDiff *diff) {
+    snprintf(diff->machines[side], sizeof diff->machines[side], "%s, %d thread%s, %s",
+             report->processor, report->threads, dip_cost_plural(report->threads), report->isa);
+    snprintf(diff->builds[side], sizeof diff->builds[side], "%s", report->build);
+    diff->verdicts[side] = report->verdict;
+    snprintf(diff->reasons[side], sizeof diff->reasons[side], "%s", report->verdict_reason);
+}
+
+static void compare_options(const DipCostReport *a, const DipCostReport *b, Comparable *can,
+                            DipCostDiff *diff) {
+    const DipCostOptions *o = &a->options, *p = &b->options;
+    const bool judged = o->places > 0 && p->places > 0;
+    can->errors = can->pictures && judged && o->places == p->places && o->burst == p->burst &&
+                  o->samples == p->samples && o->pixels_per_degree == p->pixels_per_degree;
+    if (can->pictures && judged && !can->errors) {
+        dip_cost_diff_note(diff,
+                           "errors are not compared: A has %d viewpoints, %d frames at each, %d "
+                           "samples and %.4g pixels per degree; B has %d, %d, %d and %.4g",
+                           o->places, o->burst, o->samples, o->pixels_per_degree, p->places,
+                           p->burst, p->samples, p->pixels_per_degree);
+    }
+    const bool timed = a->rounds > 0 && b->rounds > 0;
+    can->counters = can->pictures && timed && dip_cost_frame_count(a) == dip_cost_frame_count(b);
+    if (can->pictures && timed && !can->counters) {
+        dip_cost_diff_note(diff, "counters are not compared: A counts %d frames of each path, B %d",
+                           dip_cost_frame_count(a), dip_cost_frame_count(b));
+    }
+    can->ratios =
+        can->pictures && timed && memcmp(&o->baseline, &p->baseline, sizeof o->baseline) == 0;
+    if (can->pictures && timed && !can->ratios) {
+        char texts[2][DIP_COST_TEXT];
+        dip_cost_settings_text(&o->baseline, texts[0]);
+        dip_cost_settings_text(&p->baseline, texts[1]);
+        dip_cost_diff_note(diff, "times are not compared: the baseline of A is %s, that of B is %s",
+                           texts[0], texts[1]);
+    }
+    for (int side = 0; side < 2; side++) {
+        const DipCostReport *report = side ? b : a;
+        if (report->rounds == 0) {
+            dip_cost_diff_note(diff, "times and counters are not compared: %s has none",
+                               side ? "B" : "A");
+        }
+    }
+}
+
+static void compare_headers(const DipCostReport *a, const DipCostReport *b, Comparable *can,
+                            DipCostDiff *diff) {
+    const bool scene =
+        strcmp(a->scene_hash, b->scene_hash) == 0 || !*a->scene_hash || !*b->scene_hash;
+    const bool size = a->width == b->width && a->height == b->height;
+    if (!scene) {
+        dip_cost_diff_note(diff,
+                           "scene differs: A has %.60s (hash %.12s), B has %.60s (hash %.12s)",
+                           a->scene, a->scene_hash, b->scene, b->scene_hash);
+    }
+    if (!size) {
+        dip_cost_diff_note(diff, "size differs: A has %dx%d pixels, B has %dx%d", a->width,
+                           a->height, b->width, b->height);
+    }
+    can->pictures = scene && size;
+    if (can->pictures) {
+        snprintf(diff->scene, sizeof diff->scene, "%.100s, %dx%d pixels", a->scene, a->width,
+                 a->height);
+    } else {
+        dip_cost_diff_note(diff, "errors, counters and ratios of different pictures are not "
+                                 "compared");
+    }
+    compare_options(a, b, can, diff);
+    diff->same_machine = strcmp(diff->machines[0], diff->machines[1]) == 0;
+    diff->has_times = can->ratios;
+}
+
+// --- paths ---------------------------------------------------------------------------------------
+
+static int find_path(const DipCostReport *report, const char *name) {
+    for (int p = 0; p < report->path_count; p++) {
+        if (strcmp(report->paths[p], name) == 0) {
+            return p;
+        }
+    }
+    return -1;
+}
+
+// Unknown poses, as those of a program are, pass for the same.
+static bool same_poses(const char *a, const char *b) {
+    return !*a || !*b || strcmp(a, b) == 0;
+}
+
+static void compare_paths(const DipCostReport *a, const DipCostReport *b, Comparable *can,
+                          DipCostDiff *diff) {
+    for (int p = 0; p < a->path_count; p++) {
+        const int q = find_path(b, a->paths[p]);
+        can->path_of[p] = q;
+        can->poses[p] = q >= 0 && same_poses(a->path_hashes[p], b->path_hashes[q]);
+        if (q < 0 && !diff->some_rows) {
+            dip_cost_diff_note(diff, "path only in A: %s", a->paths[p]);
+        } else if (q >= 0 && !can->poses[p]) {
+            dip_cost_diff_note(diff,
+                               "poses differ on path %s: its rows are not compared, because the "
+                               "camera path changed",
+                               a->paths[p]);
+        }
+    }
+    for (int q = 0; q < b->path_count; q++) {
+        if (find_path(a, b->paths[q]) < 0 && !diff->some_rows) {
+            dip_cost_diff_note(diff, "path only in B: %s", b->paths[q]);
+        }
+    }
+}
+
+// --- rows ----------------------------------------------------------------------------------------
+
+static bool is_repeated_baseline(const DipCostReport *report, int row) {
+    return report->same_rows[report->rows[row].path] == row &&
+           report->base_rows[report->rows[row].path] != row;
+}
+
+// Finds the first row of B that has the settings and path of a row of A and is not taken.
+static int find_row(const DipCostReport *a, int row, const DipCostReport *b, const Comparable *can,
+                    const bool *taken) {
+    const DipCostRow *wanted = &a->rows[row];
+    for (int r = 0; r < b->row_count; r++) {
+        if (!taken[r] && b->rows[r].path == can->path_of[wanted->path] &&
+            !is_repeated_baseline(b, r) &&
+            memcmp(&wanted->quality, &b->rows[r].quality, sizeof wanted->quality) == 0) {
+            return r;
+        }
+    }
+    return -1;
+}
+
+static void note_lonely(DipCostDiff *diff, const DipCostReport *report, const bool *lonely,
+                        const char *side) {
+    char text[DIP_COST_DIFF_NOTE] = "";
+    int count = 0;
+    for (int r = 0; r < report->row_count; r++) {
+        if (!lonely[r]) {
+            continue;
+        }
+        if (count++ < NAMED_ROWS) {
+            char settings[DIP_COST_TEXT];
+            const size_t used = strlen(text);
+            dip_cost_settings_text(&report->rows[r].quality, settings);
+            snprintf(text + used, sizeof text - used, "%s%.60s on %s", used ? "; " : "", settings,
+                     report->paths[report->rows[r].path]);
+        }
+    }
+    if (diff->some_rows) {
+        return;
+    }
+    if (count > NAMED_ROWS) {
+        dip_cost_diff_note(diff, "settings only in %s: %d rows: %.240s; ...", side, count, text);
+    } else if (count > 0) {
+        dip_cost_diff_note(diff, "settings only in %s: %.280s", side, text);
+    }
+}
+
+// Copies the errors of the viewpoints that both reports judged. `row` holds an index per side.
+static void copy_errors(const DipCostReport *const reports[2], const int rows[2],
+                        DipCostDiffRow *to) {
+    DipMetricSums sums[2] = {{.bursts = 0.0}, {.bursts = 0.0}};
+    int viewpoints = 0;
+    for (int p = 0; p < reports[0]->options.places; p++) {
+        if (reports[0]->rows[rows[0]].judged[p] && reports[1]->rows[rows[1]].judged[p]) {
+            dip_metric_sums_add(&sums[0], &reports[0]->rows[rows[0]].viewpoints[p]);
+            dip_metric_sums_add(&sums[1], &reports[1]->rows[rows[1]].viewpoints[p]);
+            viewpoints++;
+        }
+    }
+    for (int side = 0; viewpoints > 0 && side < 2; side++) {
+        const DipMetrics metrics = dip_metrics_of(&sums[side], 0);
+        const DipFlickerMetrics flicker = dip_flicker_metrics_of(&sums[side]);
+        double *values = to->values[side];
+        values[DIP_COST_DIFF_rmse] = metrics.rmse_lin;
+        values[DIP_COST_DIFF_psnr] = metrics.psnr_db;
+        values[DIP_COST_DIFF_ssim] = metrics.ssim;
+        values[DIP_COST_DIFF_flip] = metrics.flip;
+        values[DIP_COST_DIFF_flicker] = flicker.flicker;
+        values[DIP_COST_DIFF_two_mean] = flicker.two_mean;
+    }
+}
+
+// Counters are whole numbers. A report has their means, whose rounding may differ.
+static void copy_counters(const DipCostReport *const reports[2], const int rows[2],
+                          DipCostDiffRow *to) {
+    for (int side = 0; side < 2; side++) {
+        const double frames = dip_cost_frame_count(reports[side]);
+        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+            to->values[side][DIP_COST_DIFF_FIRST_COUNTER + c] =
+                round(reports[side]->rows[rows[side]].counters[c] * frames) / frames;
+        }
+    }
+}
+
+// Half the width of an interval, as a logarithm.
+static double log_half(const DipStatsEstimate *e) {
+    return 0.5 * log(e->high / e->low);
+}
+
+// The quotient of two ratios. Its logarithm's error is that of both ratios and the luck of a start
+// in quadrature.
+static void compare_times(const DipCostReport *const reports[2], const int rows[2],
+                          DipCostDiffRow *to) {
+    const int rounds = reports[0]->options.rounds < reports[1]->options.rounds
+                           ? reports[0]->options.rounds
+                           : reports[1]->options.rounds;
+    for (int side = 0; side < 2; side++) {
+        to->ratios[side] = reports[side]->rows[rows[side]].time.ratio;
+        to->ms[side] = reports[side]->rows[rows[side]].time.mean_ms.value;
+    }
+    to->timed = to->ratios[0].value > 0.0 && to->ratios[1].value > 0.0;
+    if (!to->timed) {
+        return;
+    }
+    const double t = dip_student_quantile(0.975, rounds - 1);
+    const double half = sqrt(pow(log_half(&to->ratios[0]), 2.0) +
+                             pow(log_half(&to->ratios[1]), 2.0) + pow(t * luck_of_a_start, 2.0));
+    const double change = to->ratios[1].value / to->ratios[0].value;
+    to->change = (DipStatsEstimate){change, change * exp(-half), change * exp(half)};
+}
+
+// Widens the intervals so that all rows together are judged with 95 %: of a hundred intervals of 95
+// %, five miss (Bonferroni).
+static void widen_bounds(DipCostDiff *diff, int rounds) {
+    int count = 0;
+    for (int r = 0; r < diff->row_count; r++) {
+        count += diff->rows[r].timed;
+    }
+    const double one = dip_student_quantile(0.975, rounds - 1);
+    const double all =
+        dip_student_quantile(fmin(1.0 - 0.025 / fmax(count, 1.0), 0.9999), rounds - 1);
+    for (int r = 0; r < diff->row_count; r++) {
+        DipCostDiffRow *row = &diff->rows[r];
+        const double half = row->timed ? log_half(&row->change) * all / one : 0.0;
+        row->surely_above = row->change.value * exp(-half);
+        row->surely_below = row->change.value * exp(half);
+    }
+}
+
+static void add_row(const DipCostReport *const reports[2], const int rows[2], const Comparable *can,
+                    DipCostDiff *diff) {
+    DipCostDiffRow *to = &diff->rows[diff->row_count++];
+    const int path = reports[0]->rows[rows[0]].path;
+    *to = (DipCostDiffRow){.quality = reports[0]->rows[rows[0]].quality,
+                           .is_base = reports[0]->base_rows[path] == rows[0]};
+    snprintf(to->path, sizeof to->path, "%s", reports[0]->paths[path]);
+    for (int q = 0; q < DIP_COST_DIFF_QUANTITY_COUNT; q++) {
+        to->values[0][q] = to->values[1][q] = NAN;
+    }
+    if (can->poses[path] && can->errors) {
+        copy_errors(reports, rows, to);
+    }
+    if (can->poses[path] && can->counters) {
+        copy_counters(reports, rows, to);
+    }
+    if (can->poses[path] && can->ratios) {
+        compare_times(reports, rows, to);
+    }
+}
+
+static void compare_rows(const DipCostReport *const reports[2], const Comparable *can, bool *taken,
+                         bool *lonely, DipCostDiff *diff) {
+    const DipCostReport *a = reports[0], *b = reports[1];
+    for (int r = 0; r < a->row_count; r++) {
+        const int path = a->rows[r].path;
+        if (is_repeated_baseline(a, r) || can->path_of[path] < 0) {
+            continue;
+        }
+        const int other = find_row(a, r, b, can, taken);
+        lonely[r] = other < 0;
+        if (other >= 0) {
+            taken[other] = true;
+            add_row(reports, (const int[2]){r, other}, can, diff);
+        }
+    }
+    note_lonely(diff, a, lonely, "A");
+    for (int r = 0; r < b->row_count; r++) {
+        lonely[r] = !taken[r] && !is_repeated_baseline(b, r) &&
+                    find_path(a, b->paths[b->rows[r].path]) >= 0;
+    }
+    note_lonely(diff, b, lonely, "B");
+}
+
+bool dip_cost_diff_reports(const DipCostReport *a, const DipCostReport *b, DipCostDiff *diff,
+                           DipError *err) {
+    const size_t most = (size_t)(a->row_count > b->row_count ? a->row_count : b->row_count);
+    const DipCostReport *const reports[2] = {a, b};
+    bool *taken = calloc(most, sizeof *taken), *lonely = calloc(most, sizeof *lonely);
+    diff->rows = calloc((size_t)a->row_count, sizeof *diff->rows);
+    diff->kind = DIP_COST_DIFF_REPORTS;
+    const bool made = (taken && lonely && diff->rows) ||
+                      dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost diff", "out of memory");
+    if (made) {
+        Comparable can = {.pictures = true};
+        describe(a, 0, diff);
+        describe(b, 1, diff);
+        compare_headers(a, b, &can, diff);
+        compare_paths(a, b, &can, diff);
+        compare_rows(reports, &can, taken, lonely, diff);
+        dip_cost_diff_leave_out_uncounted(diff);
+        if (diff->has_times) {
+            widen_bounds(diff, a->options.rounds < b->options.rounds ? a->options.rounds
+                                                                     : b->options.rounds);
+        }
+        dip_cost_diff_mark(diff);
+    } else {
+        dip_cost_diff_free(diff);
+    }
+    free(taken);
+    free(lonely);
+    return made;
+}

@@ -1,0 +1,39 @@
+// A table that compares the machines whose times `diptych cost merge` finds in its parts. The
+// merged report has the times of only one of them.
+#ifndef DIP_APP_COST_MERGE_MERGE_MACHINES_H
+#define DIP_APP_COST_MERGE_MERGE_MACHINES_H
+
+#include "app/report/report.h"
+
+#include <stdio.h>
+
+enum { DIP_COST_MACHINE_ROWS = DIP_SETTING_COUNT };
+
+// What one part tells about its machine and its times.
+typedef struct DipCostMachine {
+    char processor[DIP_COST_TEXT];
+    char isa[16];
+    int threads;
+    DipCostVerdict verdict;
+    double base_ms; // Mean time of the baseline on path 0.
+    DipStatsEstimate ratios[DIP_COST_MACHINE_ROWS];
+} DipCostMachine;
+
+// The machines in the order of the parts. Zero-initialise it; it owns nothing.
+typedef struct DipCostMachines {
+    DipCostMachine list[DIP_COST_MAX_PARTS];
+    int count;
+    // Names of the compared ratios: the last step of the first sweep of each setting (or the first
+    // step, if the last one is the sweep's base) over the base, "aa 8 / none".
+    char rows[DIP_COST_MACHINE_ROWS][DIP_COST_TEXT];
+    int row_count;
+} DipCostMachines;
+
+// Adds the machine of a part. A part without times is passed over. All parts must have the same
+// sweeps.
+void dip_cost_machines_add(DipCostMachines *machines, const DipCostReport *part);
+
+// Prints the table if at least two parts have times.
+void dip_cost_machines_print(const DipCostMachines *machines, FILE *out);
+
+#endif

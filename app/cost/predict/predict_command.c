@@ -1,0 +1,71 @@
+// The command `diptych cost predict`: predicts, prints and writes the files.
+#include "app/cost/command.h"
+#include "app/cost/predict/predict_elsewhere.h"
+#include "app/cli/interrupt.h"
+#include "renderer/base/assert.h"
+
+#include <stdlib.h>
+
+static bool run(DipSession *session, const void *all_arguments, DipError *err) {
+    const DipCostPredictArguments *arguments = all_arguments;
+    DipCostElsewherePrediction *prediction = calloc(1, sizeof *prediction);
+    if (!prediction) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost predict", "out of memory");
+    }
+    dip_interrupt_watch();
+    bool done = dip_cost_predict_there(prediction, session, arguments, err);
+    if (done) {
+        dip_cost_predict_there_print(prediction, stdout);
+        done =
+            (!arguments->json ||
+             dip_cost_predict_there_write_json(prediction, arguments->json, err)) &&
+            (!arguments->csv || dip_cost_predict_there_write_csv(prediction, arguments->csv, err));
+    }
+    dip_cost_predict_there_free(prediction);
+    free(prediction);
+    return done;
+}
+
+static void describe(const void *arguments, DipSessionDef *def) {
+    def->options = &((const DipCostPredictArguments *)arguments)->session;
+    def->scene = true;
+    def->keep_model = true; // The hash of the scene comes from the model.
+}
+
+static const DipExample examples[] = {
+    {"diptych cost predict report --size 1920x1080",
+     "predicts all combinations of the report in full HD, and times six of them there"},
+    {"diptych cost predict report --size 1920x1080 --time 0",
+     "predicts them from the report alone, within seconds"},
+    {"diptych cost predict report --category AAA --csv aaa.csv",
+     "predicts them on the camera path AAA, and writes a table for other programs"},
+    {"diptych cost predict report --size 320x240 --check 20",
+     "also times twenty combinations to tell how far the predictions lie from them"},
+};
+
+const DipCommand dip_cost_predict_command = {
+    .name = "cost predict",
+    .summary = "predict a report's times at another size, path or thread count",
+    .usage = "REPORT [--size WxH] [OPTION]...",
+    .text =
+        "Cost predict reads a report (a cost.json, or a folder that has one) of the same scene. It "
+        "counts the work of all its combinations of settings at another size, on another camera "
+        "path or with another number of threads, and predicts their times from the report's prices "
+        "of work.\n\n"
+        "Then it times six of them there (--time), each beside the report's baseline, so that all "
+        "times are milliseconds of the report's run, however fast the machine is today. Prices are "
+        "fitted anew to the report and to these six, and predict all others. How far the six are "
+        "missed, each predicted from the report and the five others, tells how good the "
+        "predictions are. docs/cost.md tells what was measured.\n\n"
+        "Errors are not predicted.",
+    .examples = examples,
+    .example_count = DIP_ARRAY_COUNT(examples),
+    .parts = &dip_cost_predict_option_parts,
+    .operands = {offsetof(DipCostPredictArguments, report),
+                 offsetof(DipCostPredictArguments, report_count), 1},
+    .options_size = sizeof(DipCostPredictArguments),
+    .set_defaults = dip_cost_predict_options_default,
+    .check = dip_cost_predict_options_check,
+    .describe_session = describe,
+    .run = run,
+};

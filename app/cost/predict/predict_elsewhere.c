@@ -1,0 +1,328 @@
+// Counting and timing combinations there, and predicting from prices.
+#include "app/cost/predict/predict_elsewhere.h"
+
+#include "app/report/format/formats.h"
+#include "app/cost/plan.h"
+#include "app/cost/predict.h"
+#include "app/cost/prediction_counts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool out_of_memory(DipError *err) {
+    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost predict", "out of memory");
+}
+
+// --- the report ----------------------------------------------------------------------------------
+
+// Checks that the report can be used with the session's scene.
+static bool check_report(const DipCostReport *report, const DipSession *session, const char *name,
+                         DipError *err) {
+    DipCostReport now = {.options = report->options, .path_count = 1};
+    memcpy(now.paths[0], report->paths[0], sizeof now.paths[0]);
+    dip_cost_describe(&now, session);
+    if (strcmp(now.scene_hash, report->scene_hash) != 0) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, name, 0, NULL,
+                             "is of another scene (%.100s) or of other files of it than %.100s; "
+                             "give its --config, --model or --scene",
+                             report->scene, now.scene);
+    }
+    if (report->rounds == 0) {
+        return dip_error_set(err, DIP_ERROR_MISSING, name, 0, NULL,
+                             "has no times; measure the report without --errors-only");
+    }
+    dip_cost_hash_path(&now, session, 0);
+    return strcmp(now.path_hashes[0], report->path_hashes[0]) == 0 ||
+           dip_error_set(
+               err, DIP_ERROR_CONFLICT, name, 0, NULL,
+               "has another camera path %.15s than the scene has now; give its --path, or "
+               "measure the report again",
+               report->paths[0]);
+}
+
+// Adds the combinations of path 0: those that were measured, then those that were predicted.
+static bool list_combinations(DipCostElsewherePrediction *p, const char *name, DipError *err) {
+    const DipCostReport *report = &p->report;
+    const size_t most = (size_t)report->row_count + (size_t)report->predicted.count + 1;
+    p->list = calloc(most, sizeof *p->list);
+    p->there.predicted.list = calloc(most, sizeof *p->there.predicted.list);
+    if (!p->list || !p->there.predicted.list) {
+        return out_of_memory(err);
+    }
+    for (int r = report->combined_first; r < report->row_count; r++) {
+        if (report->rows[r].path == 0) {
+            p->list[p->count++] = (DipCostPredictedThere){.quality = report->rows[r].quality,
+                                                          .report_ms = dip_cost_ms(report, r),
+                                                          .timed = -1};
+        }
+    }
+    for (int i = 0; i < report->predicted.count; i++) {
+        if (report->predicted.list[i].row < 0) {
+            p->list[p->count++] =
+                (DipCostPredictedThere){.quality = report->predicted.list[i].quality,
+                                        .report_ms = report->predicted.list[i].ms,
+                                        .timed = -1};
+        }
+    }
+    for (int i = 0; i < p->count; i++) {
+        p->there.predicted.list[i] = (DipCostPrediction){.quality = p->list[i].quality, .row = -1};
+    }
+    p->there.predicted.count = p->count;
+    return p->count > 0 ||
+           dip_error_set(err, DIP_ERROR_MISSING, name, 0, NULL,
+                         "has no combinations of settings; measure the report with --combine or "
+                         "--predict");
+}
+
+// --- predicting ----------------------------------------------------------------------------------
+
+static const DipCostPrediction *find_baseline(const DipCostReport *report) {
+    for (int i = 0; i < report->predicted.count; i++) {
+        if (memcmp(&report->predicted.list[i].quality, &report->options.baseline,
+                   sizeof(DipQuality)) == 0) {
+            return &report->predicted.list[i];
+        }
+    }
+    return &report->predicted.list[0];
+}
+
+// Frames that are counted are a few of those that are timed. The work of the baseline in all of
+// them tells by how much the few differ from all.
+static bool scale_counters(DipCostContext *there, DipError *err) {
+    DipCostReport *report = there->report;
+    const int frames = dip_cost_frame_count(report);
+    double all[DIP_COST_COUNTER_COUNT] = {0};
+    const DipCostPrediction baseline = *find_baseline(report);
+    for (int f = 0; f < frames; f++) {
+        DipFrame frame;
+        if (dip_cost_interrupted(there, err) ||
+            !dip_cost_draw_settings(there, &baseline.quality, f, &frame, err)) {
+            return false;
+        }
+        double *value = all;
+#define ADD_COUNTER(name, text) *value++ += (double)frame.counters.name / frames;
+        DIP_COUNTER_LIST(ADD_COUNTER)
+#undef ADD_COUNTER
+    }
+    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        const double scale = baseline.counters[c] > 0.0 ? all[c] / baseline.counters[c] : 1.0;
+        for (int i = 0; i < report->predicted.count; i++) {
+            report->predicted.list[i].counters[c] *= scale;
+        }
+    }
+    return true;
+}
+
+// --- timing --------------------------------------------------------------------------------------
+
+static void add_timed(DipCostElsewherePrediction *p, int index) {
+    p->list[index].timed = p->timed_count + p->checked_count;
+    p->timed[p->list[index].timed].quality = p->list[index].quality;
+}
+
+// Chooses what to time: what tells most, and then every so-maniest of the others.
+static bool choose_timed(DipCostElsewherePrediction *p, int timed, int checked, DipError *err) {
+    int chosen[DIP_COST_MAX_ROWS];
+    const int most = timed < p->count ? timed : p->count;
+    if (most > 0 && !dip_cost_choose_training(&p->there, most, chosen, err)) {
+        return false;
+    }
+    for (int i = 0; i < most; i++) {
+        add_timed(p, chosen[i]);
+        p->timed_count++;
+    }
+    const int left = p->count - most;
+    const int wanted = checked < left ? checked : left;
+    int seen = 0;
+    for (int i = 0; i < p->count; i++) {
+        if (p->list[i].timed < 0) {
+            // The k-th of `wanted` equal parts begins at its first whole index.
+            if (p->checked_count < wanted &&
+                (int64_t)seen * wanted >= (int64_t)p->checked_count * left) {
+                add_timed(p, i);
+                p->checked_count++;
+            }
+            seen++;
+        }
+    }
+    return true;
+}
+
+static bool time_there(DipCostElsewherePrediction *p, DipCostContext *here, DipCostContext *there,
+                       const DipCostPredictArguments *arguments, DipError *err) {
+    DipPairedTimingResult machine = {.wait = 0.0};
+    if (!choose_timed(p, arguments->timed, arguments->checked, err)) {
+        return false;
+    }
+    const int count = p->timed_count + p->checked_count;
+    if (count > 0 &&
+        !dip_cost_time_elsewhere(here, there, p->timed, count, "frames timed", &machine, err)) {
+        return false;
+    }
+    p->wait = machine.wait;
+    return true;
+}
+
+// --- predicting and judging ----------------------------------------------------------------------
+
+static void list_rows(const DipCostReport *report, int rows[DIP_COST_MAX_ROWS]) {
+    for (int r = 0; r < report->row_count; r++) {
+        rows[r] = r;
+    }
+}
+
+// Fits prices to all rows of the report, on all of its paths, and to combinations timed there.
+static DipCostModel fit(const DipCostElsewherePrediction *p, const DipCostElsewhere *timed,
+                        int count) {
+    int rows[DIP_COST_MAX_ROWS];
+    list_rows(&p->report, rows);
+    return dip_cost_model_fit_there(&p->report, rows, p->report.row_count, timed, count);
+}
+
+static double predict(const DipCostElsewherePrediction *p, const DipCostModel *model, int index) {
+    return dip_cost_model_ms(model, p->there.predicted.list[index].counters,
+                             &p->list[index].quality);
+}
+
+// Predicts a timed combination from the report and from all others that were timed.
+static double predict_left_out(const DipCostElsewherePrediction *p, int index) {
+    DipCostElsewhere others[DIP_COST_MOST_TIMED];
+    int count = 0;
+    for (int i = 0; i < p->timed_count; i++) {
+        if (i != p->list[index].timed) {
+            others[count++] = p->timed[i];
+        }
+    }
+    const DipCostModel model = fit(p, others, count);
+    return predict(p, &model, index);
+}
+
+static void predict_all(DipCostElsewherePrediction *p) {
+    const DipCostModel as_is = fit(p, NULL, 0);
+    const DipCostModel fitted = fit(p, p->timed, p->timed_count);
+    for (int i = 0; i < p->count; i++) {
+        p->list[i].as_is_ms = predict(p, &as_is, i);
+        p->list[i].ms = predict(p, &fitted, i);
+    }
+}
+
+void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
+    double as_is[2][DIP_COST_MOST_TIMED], fitted[2][DIP_COST_MOST_TIMED], logs[DIP_COST_MOST_TIMED];
+    int count[2] = {0, 0};
+    predict_all(p);
+    for (int i = 0; i < p->count; i++) {
+        const DipCostPredictedThere *c = &p->list[i];
+        if (c->timed >= 0) {
+            const double ms = p->timed[c->timed].ms.value;
+            const bool checked = c->timed >= p->timed_count;
+            const int k = count[checked]++;
+            if (!checked) {
+                logs[k] = log(ms / c->as_is_ms);
+            }
+            as_is[checked][k] = fabs(c->as_is_ms / ms - 1.0);
+            fitted[checked][k] = fabs((checked ? c->ms : predict_left_out(p, i)) / ms - 1.0);
+        }
+    }
+    p->factor = count[0] > 0 ? exp(dip_stats_median(logs, count[0])) : 1.0;
+    p->timed_as_is = dip_cost_misses_of(as_is[0], count[0]);
+    p->timed_left_out = dip_cost_misses_of(fitted[0], count[0]);
+    p->checked_as_is = dip_cost_misses_of(as_is[1], count[1]);
+    p->checked_fitted = dip_cost_misses_of(fitted[1], count[1]);
+}
+
+// --- the whole -----------------------------------------------------------------------------------
+
+// A session as the report was measured, or as it is to be predicted: the same scene with other
+// threads and another instruction set. `pool` is owned, or NULL if the session's is the right one.
+typedef struct Place {
+    DipSession session;
+    DipPool *pool;
+} Place;
+
+static bool open_place(Place *place, const DipSession *session, int threads, DipIsa isa,
+                       DipError *err) {
+    *place = (Place){.session = *session};
+    place->session.isa = isa;
+    if (threads != dip_pool_thread_count(session->pool)) {
+        place->pool = dip_pool_create(threads, err);
+        place->session.pool = place->pool;
+    }
+    return place->session.pool != NULL;
+}
+
+static bool find_isa(const DipCostReport *report, DipIsa *isa, const char *name, DipError *err) {
+    for (int i = 0; i < DIP_ISA_COUNT; i++) {
+        if (strcmp(report->isa, dip_isa_name((DipIsa)i)) == 0 && dip_isa_available((DipIsa)i)) {
+            *isa = (DipIsa)i;
+            return true;
+        }
+    }
+    return dip_error_set(err, DIP_ERROR_UNSUPPORTED, name, 0, "isa",
+                         "'%.15s' is an instruction set that this machine does not have; measure "
+                         "the report on this machine",
+                         report->isa);
+}
+
+// Fills in size, path and threads: those of the command line, otherwise those of the report.
+static void describe_there(DipCostElsewherePrediction *p, const DipSession *session,
+                           const DipSessionOptions *options, DipIsa isa) {
+    const DipCostReport *report = &p->report;
+    const bool sized = options->has_size;
+    dip_cost_elsewhere_begin(&p->there, report, sized ? options->size.width : report->width,
+                             sized ? options->size.height : report->height,
+                             options->category ? dip_session_category(session->track.active)
+                                               : report->paths[0]);
+    p->there.threads =
+        options->has_threads ? dip_pool_thread_count(session->pool) : report->threads;
+    snprintf(p->there.isa, sizeof p->there.isa, "%s",
+             dip_isa_name(options->has_isa ? session->isa : isa));
+}
+
+static bool measure(DipCostElsewherePrediction *p, Place *here, Place *there,
+                    const DipCostPredictArguments *arguments, DipError *err) {
+    DipCostContext base = {.session = NULL}, context = {.session = NULL};
+    const bool done =
+        dip_cost_context_open(&base, &here->session, &p->report, NULL, NULL, false, err) &&
+        dip_cost_context_open(&context, &there->session, &p->there, NULL, NULL, false, err) &&
+        dip_cost_count_combinations(&context, err) && scale_counters(&context, err) &&
+        time_there(p, &base, &context, arguments, err);
+    dip_cost_context_close(&context);
+    dip_cost_context_close(&base);
+    return done;
+}
+
+bool dip_cost_predict_there(DipCostElsewherePrediction *p, const DipSession *session,
+                            const DipCostPredictArguments *arguments, DipError *err) {
+    DipIsa isa = session->isa;
+    Place here = {.pool = NULL}, there = {.pool = NULL};
+    *p = (DipCostElsewherePrediction){.factor = 1.0};
+    if (!dip_cost_read_report(arguments->report, &p->report, err) ||
+        !check_report(&p->report, session, arguments->report, err) ||
+        !find_isa(&p->report, &isa, arguments->report, err)) {
+        return false;
+    }
+    describe_there(p, session, &arguments->session, isa);
+    bool done = list_combinations(p, arguments->report, err) &&
+                open_place(&here, session, p->report.threads, isa, err) &&
+                open_place(&there, session, p->there.threads,
+                           arguments->session.has_isa ? session->isa : isa, err) &&
+                measure(p, &here, &there, arguments, err);
+    if (done) {
+        int rows[DIP_COST_MAX_ROWS];
+        list_rows(&p->report, rows);
+        p->fit = dip_cost_model_leave_one_out(&p->report, rows, p->report.row_count);
+        dip_cost_predict_and_judge_there(p);
+    }
+    dip_pool_destroy(&here.pool);
+    dip_pool_destroy(&there.pool);
+    return done;
+}
+
+void dip_cost_predict_there_free(DipCostElsewherePrediction *p) {
+    dip_cost_report_free(&p->report);
+    dip_cost_report_free(&p->there);
+    free(p->list);
+    p->list = NULL;
+}

@@ -1,0 +1,62 @@
+// Computes squared differences of pictures, and means of these differences.
+#include "app/measure/metrics/difference.h"
+
+#include "renderer/base/srgb.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+void dip_difference_lin(const DipSrgbPicture *test, const float *truth_lin, float *error_lin) {
+    DipSrgbDecodeTable srgb;
+    dip_srgb_decode_table(&srgb);
+    for (int y = 0; y < test->height; y++) {
+        const uint8_t *row = test->rgba8 + (size_t)y * test->stride_bytes;
+        for (int x = 0; x < test->width; x++) {
+            for (int c = 0; c < 3; c++) {
+                *error_lin++ = (float)(srgb.linear[row[4 * x + c]] - (double)*truth_lin++);
+            }
+        }
+    }
+}
+
+void dip_difference_squared_map(const float *error_lin, size_t pixel_count, float *map) {
+    for (size_t i = 0; i < pixel_count; i++, error_lin += 3) {
+        map[i] = (error_lin[0] * error_lin[0] + error_lin[1] * error_lin[1] +
+                  error_lin[2] * error_lin[2]) /
+                 3.0f;
+    }
+}
+
+void dip_difference_codes_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map) {
+    for (int y = 0; y < test->height; y++) {
+        const uint8_t *a = test->rgba8 + (size_t)y * test->stride_bytes;
+        const uint8_t *b = truth->rgba8 + (size_t)y * truth->stride_bytes;
+        for (int x = 0; x < test->width; x++, a += 4, b += 4) {
+            int sum = 0;
+            for (int c = 0; c < 3; c++) {
+                sum += (a[c] - b[c]) * (a[c] - b[c]);
+            }
+            *map++ = (float)sum / 3.0f;
+        }
+    }
+}
+
+DipMapSum dip_map_sum(const float *map, size_t pixel_count, DipPixelMask mask) {
+    DipMapSum sum = {0};
+    for (size_t i = 0; i < pixel_count; i++) {
+        const bool counts = !mask.classes || mask.classes[i] == mask.wanted;
+        if (counts && !isnan(map[i])) {
+            sum.sum += (double)map[i];
+            sum.pixel_count += 1.0;
+        }
+    }
+    return sum;
+}
+
+double dip_map_mean(DipMapSum sum) {
+    return sum.pixel_count > 0.0 ? sum.sum / sum.pixel_count : 0.0;
+}
+
+double dip_psnr_db(double mean_squared_codes) {
+    return mean_squared_codes > 0.0 ? 10.0 * log10(255.0 * 255.0 / mean_squared_codes) : INFINITY;
+}

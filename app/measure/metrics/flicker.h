@@ -1,0 +1,59 @@
+// Error over time, split into a part that stays constant and a part that flickers.
+//
+// Let e = test - truth be the difference of a tested picture from the converged picture (the truth)
+// of the same instant, per pixel and channel, in linear light. Over a burst (a few successive
+// frames), the mean of e^2 equals the square of the mean of e plus the variance of e. Averaged over
+// the whole picture, the first term is the squared static error and the second term is the squared
+// flicker:
+//     rms^2 = static^2 + flicker^2.
+#ifndef DIP_APP_MEASURE_METRICS_FLICKER_H
+#define DIP_APP_MEASURE_METRICS_FLICKER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Running sums over a burst of successive frames. Owns its arrays. Use one per thread.
+typedef struct DipFlicker {
+    double *mean;      // Mean of e so far, per value.
+    double *deviation; // Sum of squared deviations of e from its mean, per value.
+    float *last;       // e of the previous frame.
+    size_t value_count;
+    int frame_count;
+    double squares;      // Sum of e^2 over all values and frames.
+    double step_squares; // Sum of (e - previous e)^2 over all values and pairs of frames.
+    double pair_squares; // Sum of ((e + previous e) / 2)^2 over all values and pairs of frames.
+} DipFlicker;
+
+// value_count is the number of pixels times the number of channels. Returns false when memory runs
+// out; *flicker then owns nothing.
+bool dip_flicker_init(DipFlicker *flicker, size_t value_count);
+void dip_flicker_free(DipFlicker *flicker);
+
+// Begins a new burst.
+void dip_flicker_restart(DipFlicker *flicker);
+
+// Adds the next frame: value_count differences as dip_difference_lin writes them.
+void dip_flicker_add(DipFlicker *flicker, const float *error_lin);
+
+// Mean squares over all values of the burst. A single frame has no previous frame, so its
+// squared_step and squared_two_mean are 0.
+typedef struct DipFlickerResult {
+    double squared;         // e^2.
+    double squared_static;  // Square of the mean of e over time.
+    double squared_flicker; // Variance of e over time.
+    double squared_step;    // Squared change of e from one frame to the next.
+    // Square of the mean of two successive frames' e. A viewer of a fast display sees this mean.
+    double squared_two_mean;
+} DipFlickerResult;
+
+DipFlickerResult dip_flicker_result(const DipFlicker *flicker);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

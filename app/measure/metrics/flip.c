@@ -1,0 +1,268 @@
+// FLIP version 1.6, step by step: opponent colours, contrast sensitivity, CIELab with Hunt's
+// effect, HyAB distance, edges and points, error.
+#include "app/measure/metrics/flip.h"
+
+#include "app/measure/metrics/internal/convolve.h"
+#include "app/measure/metrics/internal/flip_kernels.h"
+#include "renderer/base/srgb.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// White point D65 in XYZ, the reference white of both the opponent colours and CIELab.
+static const float white[3] = {0.950428545f, 1.0f, 1.088900371f};
+
+// Planes of a DipFlipAnalysis.
+enum {
+    PLANE_L,
+    PLANE_A,
+    PLANE_B,
+    PLANE_EDGE_X,
+    PLANE_EDGE_Y,
+    PLANE_POINT_X,
+    PLANE_POINT_Y,
+    PLANE_COUNT
+};
+
+// --- memory ------------------------------------------------------------------------------------
+
+enum { SCRATCH_PLANES = 6 };
+
+static size_t plane_size(const DipFlip *flip) {
+    return (size_t)flip->width * (size_t)flip->height;
+}
+
+bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree) {
+    DipSrgbDecodeTable srgb;
+    dip_srgb_decode_table(&srgb);
+    flip->kernels = malloc(sizeof *flip->kernels);
+    if (flip->kernels) {
+        *flip->kernels = dip_flip_kernels(pixels_per_degree);
+    }
+    flip->width = width;
+    flip->height = height;
+    for (int i = 0; i < 256; i++) {
+        flip->light[i] = (float)srgb.linear[i];
+    }
+    const size_t padded = (size_t)width + 2 * DIP_KERNEL_MAX_RADIUS;
+    flip->scratch = malloc((SCRATCH_PLANES * plane_size(flip) + padded) * sizeof(float));
+    return flip->kernels && flip->scratch;
+}
+
+void dip_flip_free(DipFlip *flip) {
+    free(flip->kernels);
+    free(flip->scratch);
+    flip->kernels = NULL;
+    flip->scratch = NULL;
+}
+
+bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis) {
+    analysis->memory = malloc(PLANE_COUNT * plane_size(flip) * sizeof(float));
+    for (int i = 0; i < PLANE_COUNT; i++) {
+        analysis->planes[i] =
+            analysis->memory ? analysis->memory + (size_t)i * plane_size(flip) : NULL;
+    }
+    return analysis->memory != NULL;
+}
+
+void dip_flip_analysis_free(DipFlipAnalysis *analysis) {
+    free(analysis->memory);
+    *analysis = (DipFlipAnalysis){0};
+}
+
+// --- analysing a picture -----------------------------------------------------------------------
+
+// Converts linear sRGB to the opponent colours Y, Cx, Cz. The matrix follows from sRGB's primaries
+// and D65; its entries are exact fractions.
+static void to_opponent(const float rgb[3], float *luma, float *red_green, float *blue) {
+    static const float m[3][3] = {{(float)(10135552.0 / 24577794.0),
+                                   (float)(8788810.0 / 24577794.0),
+                                   (float)(4435075.0 / 24577794.0)},
+                                  {(float)(2613072.0 / 12288897.0), (float)(8788810.0 / 12288897.0),
+                                   (float)(887015.0 / 12288897.0)},
+                                  {(float)(1425312.0 / 73733382.0), (float)(8788810.0 / 73733382.0),
+                                   (float)(70074185.0 / 73733382.0)}};
+    float xyz[3];
+    for (int i = 0; i < 3; i++) {
+        xyz[i] = (m[i][0] * rgb[0] + m[i][1] * rgb[1] + m[i][2] * rgb[2]) / white[i];
+    }
+    *luma = 116.0f * xyz[1] - 16.0f;
+    *red_green = 500.0f * (xyz[0] - xyz[1]);
+    *blue = 200.0f * (xyz[1] - xyz[2]);
+}
+
+// CIELab's compressive function.
+static float lightness(float x) {
+    const float limit = 6.0f / 29.0f;
+    return x > limit * limit * limit ? cbrtf(x) : x / (3.0f * limit * limit) + 4.0f / 29.0f;
+}
+
+// Converts filtered opponent colours to CIELab. The linear light of the colours is clamped to 0..1,
+// since a screen shows no other values. Chroma is scaled by lightness, since dark colours look less
+// colourful (Hunt's effect).
+static void to_lab(float luma, float red_green, float blue, float lab[3]) {
+    static const float to_rgb[3][3] = {{3.241003275f, -1.537398934f, -0.498615861f},
+                                       {-0.969224334f, 1.875930071f, 0.041554224f},
+                                       {0.055639423f, -0.204011202f, 1.057148933f}};
+    static const float to_xyz[3][3] = {
+        {(float)(10135552.0 / 24577794.0), (float)(8788810.0 / 24577794.0),
+         (float)(4435075.0 / 24577794.0)},
+        {(float)(2613072.0 / 12288897.0), (float)(8788810.0 / 12288897.0),
+         (float)(887015.0 / 12288897.0)},
+        {(float)(1425312.0 / 73733382.0), (float)(8788810.0 / 73733382.0),
+         (float)(70074185.0 / 73733382.0)}};
+    const float y = (luma + 16.0f) / 116.0f;
+    const float xyz[3] = {(y + red_green / 500.0f) * white[0], y * white[1],
+                          (y - blue / 200.0f) * white[2]};
+    float rgb[3];
+    for (int i = 0; i < 3; i++) {
+        const float value = to_rgb[i][0] * xyz[0] + to_rgb[i][1] * xyz[1] + to_rgb[i][2] * xyz[2];
+        rgb[i] = value < 0.0f ? 0.0f : value > 1.0f ? 1.0f : value;
+    }
+    float f[3];
+    for (int i = 0; i < 3; i++) {
+        f[i] = lightness((to_xyz[i][0] * rgb[0] + to_xyz[i][1] * rgb[1] + to_xyz[i][2] * rgb[2]) /
+                         white[i]);
+    }
+    lab[0] = 116.0f * f[1] - 16.0f;
+    lab[1] = 500.0f * (f[0] - f[1]) * (0.01f * lab[0]);
+    lab[2] = 200.0f * (f[1] - f[2]) * (0.01f * lab[0]);
+}
+
+typedef struct Scratch {
+    float *opponent[3];
+    float *rows;
+    float *other;
+    float *grey;
+    float *padded;
+} Scratch;
+
+static Scratch scratch_of(const DipFlip *flip) {
+    const size_t plane = plane_size(flip);
+    float *at = flip->scratch;
+    return (Scratch){{at, at + plane, at + 2 * plane},
+                     at + 3 * plane,
+                     at + 4 * plane,
+                     at + 5 * plane,
+                     at + 6 * plane};
+}
+
+static void filter(const DipFlip *flip, const Scratch *s, const DipKernel1D *across,
+                   const DipKernel1D *down, const float *in, float *out) {
+    dip_convolve_rows(across, in, flip->width, flip->height, s->padded, s->rows);
+    dip_convolve_columns(down, s->rows, flip->width, flip->height, out);
+}
+
+static void analyse_colours(const DipFlip *flip, const Scratch *s, DipFlipAnalysis *analysis) {
+    const DipFlipKernels *k = flip->kernels;
+    float *const *lab = analysis->planes;
+    filter(flip, s, &k->luma, &k->luma, s->opponent[0], lab[0]);
+    filter(flip, s, &k->red_green, &k->red_green, s->opponent[1], lab[1]);
+    filter(flip, s, &k->blue[0], &k->blue[0], s->opponent[2], lab[2]);
+    filter(flip, s, &k->blue[1], &k->blue[1], s->opponent[2], s->other);
+    for (size_t i = 0; i < plane_size(flip); i++) {
+        float pixel[3];
+        to_lab(lab[0][i], lab[1][i], lab[2][i] + s->other[i], pixel);
+        lab[0][i] = pixel[0];
+        lab[1][i] = pixel[1];
+        lab[2][i] = pixel[2];
+    }
+}
+
+// Each feature detector is a derivative along one axis and a Gaussian along the other.
+static void analyse_features(const DipFlip *flip, const Scratch *s, DipFlipAnalysis *analysis) {
+    const DipFlipKernels *k = flip->kernels;
+    float *const *out = analysis->planes;
+    const int width = flip->width, height = flip->height;
+    dip_convolve_rows(&k->edge, s->grey, width, height, s->padded, s->rows);
+    dip_convolve_columns(&k->gauss, s->rows, width, height, out[PLANE_EDGE_X]);
+    dip_convolve_rows(&k->point, s->grey, width, height, s->padded, s->rows);
+    dip_convolve_columns(&k->gauss, s->rows, width, height, out[PLANE_POINT_X]);
+    dip_convolve_rows(&k->gauss, s->grey, width, height, s->padded, s->rows);
+    dip_convolve_columns(&k->edge, s->rows, width, height, out[PLANE_EDGE_Y]);
+    dip_convolve_columns(&k->point, s->rows, width, height, out[PLANE_POINT_Y]);
+}
+
+void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnalysis *analysis) {
+    const Scratch s = scratch_of(flip);
+    size_t i = 0;
+    for (int y = 0; y < flip->height; y++) {
+        const uint8_t *row = picture->rgba8 + (size_t)y * picture->stride_bytes;
+        for (int x = 0; x < flip->width; x++, i++) {
+            const float rgb[3] = {flip->light[row[4 * x]], flip->light[row[4 * x + 1]],
+                                  flip->light[row[4 * x + 2]]};
+            to_opponent(rgb, &s.opponent[0][i], &s.opponent[1][i], &s.opponent[2][i]);
+            s.grey[i] = (s.opponent[0][i] + 16.0f) / 116.0f;
+        }
+    }
+    analyse_colours(flip, &s, analysis);
+    analyse_features(flip, &s, analysis);
+}
+
+// --- comparing ---------------------------------------------------------------------------------
+
+static const float colour_exponent = 0.7f;
+static const float feature_exponent = 0.5f;
+
+// Returns the colour distance between green and blue, raised to colour_exponent. No two colours
+// have a greater distance.
+static float greatest_distance(void) {
+    const float primaries[2][3] = {{0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+    float lab[2][3];
+    for (int i = 0; i < 2; i++) {
+        float opponent[3];
+        to_opponent(primaries[i], &opponent[0], &opponent[1], &opponent[2]);
+        to_lab(opponent[0], opponent[1], opponent[2], lab[i]);
+    }
+    return powf(fabsf(lab[0][0] - lab[1][0]) + hypotf(lab[0][1] - lab[1][1], lab[0][2] - lab[1][2]),
+                colour_exponent);
+}
+
+static float length(float x, float y) {
+    return sqrtf(x * x + y * y);
+}
+
+// Maps the colour distance of a pixel to 0..1. Distances up to `share` times the greatest one map
+// to 0..used, and greater distances to used..1.
+static float colour_error(const DipFlipAnalysis *a, const DipFlipAnalysis *b, size_t i,
+                          float greatest) {
+    const float share = 0.4f, used = 0.95f;
+    const float distance = fabsf(a->planes[PLANE_L][i] - b->planes[PLANE_L][i]) +
+                           length(a->planes[PLANE_A][i] - b->planes[PLANE_A][i],
+                                  a->planes[PLANE_B][i] - b->planes[PLANE_B][i]);
+    const float powered = powf(distance, colour_exponent);
+    const float limit = share * greatest;
+    return powered < limit ? powered * used / limit
+                           : used + (powered - limit) / (greatest - limit) * (1.0f - used);
+}
+
+static float feature_error(const DipFlipAnalysis *a, const DipFlipAnalysis *b, size_t i) {
+    const float edge = fabsf(length(a->planes[PLANE_EDGE_X][i], a->planes[PLANE_EDGE_Y][i]) -
+                             length(b->planes[PLANE_EDGE_X][i], b->planes[PLANE_EDGE_Y][i]));
+    const float point = fabsf(length(a->planes[PLANE_POINT_X][i], a->planes[PLANE_POINT_Y][i]) -
+                              length(b->planes[PLANE_POINT_X][i], b->planes[PLANE_POINT_Y][i]));
+    return powf(fmaxf(edge, point) / sqrtf(2.0f), feature_exponent);
+}
+
+void dip_flip_compare(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
+                      float *map) {
+    const float greatest = greatest_distance();
+    for (size_t i = 0; i < plane_size(flip); i++) {
+        const float colour = colour_error(a, b, i, greatest);
+        map[i] = colour > 0.0f ? powf(colour, 1.0f - feature_error(a, b, i)) : 0.0f;
+    }
+}
+
+// --- reach -------------------------------------------------------------------------------------
+
+int dip_flip_reach_px(double pixels_per_degree) {
+    const DipFlipKernels k = dip_flip_kernels(pixels_per_degree);
+    const int radii[] = {k.luma.radius,  k.red_green.radius, k.blue[0].radius, k.blue[1].radius,
+                         k.gauss.radius, k.edge.radius,      k.point.radius};
+    int reach = 0;
+    for (size_t i = 0; i < sizeof radii / sizeof *radii; i++) {
+        reach = radii[i] > reach ? radii[i] : reach;
+    }
+    return reach;
+}

@@ -1,0 +1,62 @@
+// LDR-FLIP 1.6 (Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild, "FLIP: A
+// Difference Evaluator for Alternating Images", 2020): how different two pictures look to a viewer
+// who alternates between them. FLIP gives each pixel a value in 0..1.
+//
+// Each picture is analysed on its own, so that a picture is filtered once and can be compared with
+// many others. A DipFlip is not thread-safe; use one per thread.
+#ifndef DIP_APP_MEASURE_METRICS_FLIP_H
+#define DIP_APP_MEASURE_METRICS_FLIP_H
+
+#include "app/measure/metrics/picture.h"
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// The default is for a screen that is 0.7 m and 3840 pixels wide, seen from a distance of 0.7 m.
+#define DIP_FLIP_PIXELS_PER_DEGREE     67.0206451
+#define DIP_FLIP_MIN_PIXELS_PER_DEGREE 5.0
+#define DIP_FLIP_MAX_PIXELS_PER_DEGREE 500.0
+
+// Filters and scratch memory for pictures of one size at one viewing distance.
+typedef struct DipFlip {
+    struct DipFlipKernels *kernels; // Owned.
+    int width;
+    int height;
+    float *scratch;   // Owned.
+    float light[256]; // Linear light of each 8-bit sRGB value.
+} DipFlip;
+
+// The result of analysing a picture. Each plane has width * height values.
+typedef struct DipFlipAnalysis {
+    float *planes[7]; // L*, a*, b* as the eye resolves them, with Hunt's effect; edges in x and y;
+                      // points in x and y.
+    float *memory;    // Owned; holds all planes.
+} DipFlipAnalysis;
+
+// pixels_per_degree: DIP_FLIP_MIN_PIXELS_PER_DEGREE..DIP_FLIP_MAX_PIXELS_PER_DEGREE. Both functions
+// return false when memory runs out. Even then, the caller must free the object.
+bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree);
+bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis);
+void dip_flip_free(DipFlip *flip);
+void dip_flip_analysis_free(DipFlipAnalysis *analysis);
+
+// Analyses a picture, which must have the size that dip_flip_init received.
+void dip_flip_analyse(DipFlip *flip, const DipSrgbPicture *picture, DipFlipAnalysis *analysis);
+
+// Writes width * height FLIP values; 0 where the pictures look the same. Swapping `a` and `b` does
+// not change the values.
+void dip_flip_compare(const DipFlip *flip, const DipFlipAnalysis *a, const DipFlipAnalysis *b,
+                      float *map);
+
+// Returns the greatest distance in pixels, along x or y, at which one pixel influences the FLIP
+// value of another.
+int dip_flip_reach_px(double pixels_per_degree);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,62 @@
+// The distribution of FLIP over the pixels of a burst (a series of successive frames, flicker.h),
+// and the part of the pictures where FLIP is worst. A mean over a picture hides small parts that
+// look bad.
+#ifndef DIP_APP_MEASURE_METRICS_FLIP_TAIL_H
+#define DIP_APP_MEASURE_METRICS_FLIP_TAIL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Side of the blocks among which the worst one is found, in pixels.
+enum { DIP_FLIP_TAIL_BLOCK = 32 };
+
+// Holds doubles only, so that it can be written and read as an array of DIP_FLIP_TAIL_COUNT
+// numbers.
+typedef struct DipFlipTail {
+    // Percentiles: at least this share of all pixels of all frames has at most this FLIP. They are
+    // exact to 1 / 65536.
+    double p50;
+    double p95;
+    double p99;
+    double worst; // Mean FLIP of the worst block. 0: all pictures are the same as the standard.
+    double worst_frame; // Index of the frame with the worst block.
+    double worst_x;     // Left edge of the worst block, in pixels.
+    double worst_y;     // Top edge.
+    double worst_width; // 0 if nothing was measured.
+    double worst_height;
+} DipFlipTail;
+
+enum { DIP_FLIP_TAIL_COUNT = sizeof(DipFlipTail) / sizeof(double) };
+
+// Collects the FLIP values of a burst. Not thread-safe; use one per thread.
+typedef struct DipFlipTailMeter {
+    uint32_t *histogram; // Owned.
+    int frames;
+    DipFlipTail worst; // Only the fields of the worst block are valid.
+} DipFlipTailMeter;
+
+// Returns false when memory runs out. Even then, the caller must free the meter.
+bool dip_flip_tail_init(DipFlipTailMeter *meter);
+void dip_flip_tail_free(DipFlipTailMeter *meter);
+
+// Begins a burst.
+void dip_flip_tail_restart(DipFlipTailMeter *meter);
+
+// Adds a picture: width * height FLIP values in 0..1. The picture is divided into blocks of 32 x 32
+// pixels from the top left on. The last block of a row or a column ends at the edge of the picture,
+// so it may overlap with the one before. A picture that is smaller than a block is one block.
+void dip_flip_tail_add(DipFlipTailMeter *meter, const float *map, int width, int height);
+
+// Returns the distribution of everything added since the burst began, and the worst block. Of equal
+// blocks, it returns the first one.
+DipFlipTail dip_flip_tail_result(const DipFlipTailMeter *meter);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

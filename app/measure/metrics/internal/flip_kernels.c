@@ -1,0 +1,89 @@
+// Sampling the eye's contrast sensitivity and the feature detectors.
+#include "app/measure/metrics/internal/flip_kernels.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+// Fills a kernel with factor * exp(-pi^2 x^2 / b), x in degrees: the spatial form of a Gaussian
+// contrast sensitivity. The paper's a * sqrt(pi / b) is part of `factor`.
+static void fill_gaussian(DipKernel1D *kernel, int radius, double ppd, double factor, double b) {
+    kernel->radius = radius;
+    for (int i = -radius; i <= radius; i++) {
+        const double x = i / ppd;
+        kernel->weights[i + radius] = (float)(factor * exp(-pi * pi * x * x / b));
+    }
+}
+
+// Returns the sum of the weights that fill_gaussian would write.
+static double sum_gaussian(int radius, double ppd, double factor, double b) {
+    double sum = 0.0;
+    for (int i = -radius; i <= radius; i++) {
+        const double x = i / ppd;
+        sum += factor * exp(-pi * pi * x * x / b);
+    }
+    return sum;
+}
+
+static void make_sensitivity(DipFlipKernels *kernels, double ppd) {
+    static const double luma_b = 0.0047, red_green_b = 0.0053;
+    static const double blue_a[2] = {34.1, 13.5}, blue_b[2] = {0.04, 0.025};
+    const int radius = (int)ceil(3.0 * sqrt(blue_b[0] / (2.0 * pi * pi)) * ppd);
+    fill_gaussian(&kernels->luma, radius, ppd, 1.0 / sum_gaussian(radius, ppd, 1.0, luma_b),
+                  luma_b);
+    fill_gaussian(&kernels->red_green, radius, ppd,
+                  1.0 / sum_gaussian(radius, ppd, 1.0, red_green_b), red_green_b);
+    // The filter of Cz is the sum of two Gaussians in two dimensions. Each Gaussian is separable,
+    // so its weights add up to the square of a one-dimensional sum. The weights of both together
+    // are scaled to add up to 1.
+    double factors[2], squares = 0.0;
+    for (int i = 0; i < 2; i++) {
+        factors[i] = sqrt(blue_a[i] * sqrt(pi / blue_b[i]));
+        const double sum = sum_gaussian(radius, ppd, factors[i], blue_b[i]);
+        squares += sum * sum;
+    }
+    for (int i = 0; i < 2; i++) {
+        fill_gaussian(&kernels->blue[i], radius, ppd, factors[i] / sqrt(squares), blue_b[i]);
+    }
+}
+
+// Scales positive and negative weights separately, so that the positive ones add up to 1 and the
+// negative ones to -1.
+static void normalise_lobes(const double *weights, DipKernel1D *kernel) {
+    double positive = 0.0, negative = 0.0;
+    for (int i = 0; i <= 2 * kernel->radius; i++) {
+        positive += weights[i] > 0.0 ? weights[i] : 0.0;
+        negative -= weights[i] < 0.0 ? weights[i] : 0.0;
+    }
+    for (int i = 0; i <= 2 * kernel->radius; i++) {
+        kernel->weights[i] = (float)(weights[i] / (weights[i] > 0.0 ? positive : negative));
+    }
+}
+
+static void make_features(DipFlipKernels *kernels, double ppd) {
+    const double sigma = 0.5 * 0.082 * ppd; // half the width of a visible edge, 0.082 degrees
+    const int radius = (int)ceil(3.0 * sigma);
+    double gauss[2 * DIP_KERNEL_MAX_RADIUS + 1];
+    double edge[2 * DIP_KERNEL_MAX_RADIUS + 1];
+    double point[2 * DIP_KERNEL_MAX_RADIUS + 1];
+    for (int i = -radius; i <= radius; i++) {
+        const double g = exp(-i * i / (2.0 * sigma * sigma));
+        gauss[i + radius] = g;
+        edge[i + radius] = -i * g;
+        point[i + radius] = (i * i / (sigma * sigma) - 1.0) * g;
+    }
+    kernels->gauss.radius = kernels->edge.radius = kernels->point.radius = radius;
+    normalise_lobes(gauss, &kernels->gauss);
+    normalise_lobes(edge, &kernels->edge);
+    normalise_lobes(point, &kernels->point);
+    kernels->edge.weights[radius] = 0.0f; // the middle weight of a first derivative is 0
+}
+
+DipFlipKernels dip_flip_kernels(double pixels_per_degree) {
+    DipFlipKernels kernels;
+    memset(&kernels, 0, sizeof kernels);
+    make_sensitivity(&kernels, pixels_per_degree);
+    make_features(&kernels, pixels_per_degree);
+    return kernels;
+}

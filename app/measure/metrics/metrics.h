@@ -1,0 +1,73 @@
+// The metrics by which a picture is judged, and the sums that they are computed from.
+//
+// A burst is a series of successive frames (flicker.h). Sums can be added, also if they come from
+// several pictures, bursts or machines. The metrics of the total are then means over all pixels of
+// all pictures. All functions are thread-safe.
+#ifndef DIP_APP_MEASURE_METRICS_METRICS_H
+#define DIP_APP_MEASURE_METRICS_METRICS_H
+
+#include "renderer/reference/seen.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Region 0 is the whole picture. Region 1 + c holds the pixels of class c (DipSeen: what a pixel
+// shows).
+enum { DIP_METRIC_REGION_COUNT = 1 + DIP_SEEN_COUNT };
+
+extern const char *const dip_metric_region_names[DIP_METRIC_REGION_COUNT]; // "all", "edges", ...
+
+// Sums over the pixels of one region. A squared difference is a mean over the three channels.
+typedef struct DipMetricRegionSums {
+    double pixels;        // Number of pixels.
+    double squared_lin;   // Sum of squared differences in linear light.
+    double squared_codes; // Sum of squared differences of sRGB codes.
+    double ssim;          // Sum of structural similarities.
+    double ssim_pixels;   // Number of pixels that have an SSIM value.
+    double flip;          // Sum of FLIP values.
+} DipMetricRegionSums;
+
+// Holds doubles only, so that it can be added, written and read as an array of
+// DIP_METRIC_SUM_COUNT numbers.
+typedef struct DipMetricSums {
+    DipMetricRegionSums regions[DIP_METRIC_REGION_COUNT];
+    // Number of bursts. Each field below is the sum, over the bursts, of the mean square of the
+    // same name in DipFlickerResult.
+    double bursts;
+    double squared_static;
+    double squared_flicker;
+    double squared_step;
+    double squared_two_mean;
+} DipMetricSums;
+
+enum { DIP_METRIC_SUM_COUNT = sizeof(DipMetricSums) / sizeof(double) };
+
+void dip_metric_sums_add(DipMetricSums *to, const DipMetricSums *sums);
+
+// Metrics of one region. A region without pixels has rmse_lin 0, flip 0, ssim 1 and an infinite
+// psnr_db.
+typedef struct DipMetrics {
+    double rmse_lin; // Root mean square error in linear light, 0..1.
+    double psnr_db;  // Peak signal-to-noise ratio on sRGB codes, decibels.
+    double ssim;     // Mean structural similarity, at most 1.
+    double flip;     // Mean FLIP, 0..1.
+} DipMetrics;
+
+DipMetrics dip_metrics_of(const DipMetricSums *sums, int region);
+
+// Flicker metrics: root mean squares in linear light over all bursts; see flicker.h.
+typedef struct DipFlickerMetrics {
+    double steady;   // Error that does not change within a burst.
+    double flicker;  // Deviation of the error over time.
+    double step;     // Change of the error from one frame to the next.
+    double two_mean; // Error of the mean of two successive frames.
+} DipFlickerMetrics;
+
+DipFlickerMetrics dip_flicker_metrics_of(const DipMetricSums *sums);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

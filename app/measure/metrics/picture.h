@@ -1,0 +1,33 @@
+// The pictures that metrics compare, and selections of the pixels that a metric covers.
+#ifndef DIP_APP_MEASURE_METRICS_PICTURE_H
+#define DIP_APP_MEASURE_METRICS_PICTURE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// A view of a picture in 8-bit sRGB. A code is the 8-bit value of one channel. A pixel has four
+// bytes: the codes of red, green and blue, and a fourth byte that no metric reads. The top row
+// comes first, as in a DipFrame. The bytes are borrowed.
+typedef struct DipSrgbPicture {
+    const uint8_t *rgba8;
+    size_t stride_bytes; // Bytes from one row to the next, at least 4 * width.
+    int width;           // Pixels.
+    int height;          // Pixels.
+} DipSrgbPicture;
+
+// Selects the pixels whose class equals `wanted`, or all pixels if `classes` is NULL. `classes`
+// holds one byte per pixel, rows packed, and is borrowed.
+typedef struct DipPixelMask {
+    const uint8_t *classes;
+    uint8_t wanted;
+} DipPixelMask;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,49 @@
+// What the threads of a process got from the processor: time on a core, time spent waiting for
+// one, and how often another process took their core away.
+//
+// A frame whose threads waited was disturbed by another process, whatever its time says. On Linux
+// the figures come from /proc/self/task/*/schedstat (the first number is the time on a core, the
+// second the time on the run queue, both in nanoseconds) and from getrusage. Where the machine does
+// not tell the waiting time, has_wait is false.
+#ifndef DIP_APP_MEASURE_TIMING_THREAD_USE_H
+#define DIP_APP_MEASURE_TIMING_THREAD_USE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Sums over all threads since the process began.
+typedef struct DipThreadUse {
+    int64_t cpu_ns;   // Time on a core.
+    int64_t wait_ns;  // Time on the run queue, ready to run; 0 if has_wait is false.
+    int64_t switches; // Involuntary context switches.
+    bool has_wait;
+} DipThreadUse;
+
+// Watches the threads that exist when it is opened, of this process or of another one. Not
+// thread-safe.
+typedef struct DipThreadWatch DipThreadWatch;
+
+// Opens a watch. Threads that are started later are not seen, so open it after the thread pool.
+// Returns NULL if the machine does not tell or memory runs out; dip_thread_watch_read accepts NULL.
+DipThreadWatch *dip_thread_watch_open(void);
+void dip_thread_watch_close(DipThreadWatch **watch);
+
+// Opens a watch of another process of the same user.
+DipThreadWatch *dip_thread_watch_open_process(long pid);
+
+// Returns the number of threads that are watched; 0 without a watch.
+int dip_thread_watch_count(const DipThreadWatch *watch);
+
+// Reads the sums. Takes a few microseconds per thread. Without a watch only the processor time of
+// this process and its switches are known. The switches are always those of this process.
+DipThreadUse dip_thread_watch_read(const DipThreadWatch *watch);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

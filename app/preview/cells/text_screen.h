@@ -1,0 +1,48 @@
+// A screen of character cells (display.h), and functions that write text into it.
+#ifndef DIP_APP_PREVIEW_CELLS_TEXT_SCREEN_H
+#define DIP_APP_PREVIEW_CELLS_TEXT_SCREEN_H
+
+#include "app/display/display.h"
+
+// A rectangle in cells.
+typedef struct DipTextArea {
+    int column;
+    int row;
+    int columns;
+    int rows;
+} DipTextArea;
+
+// Zero-initialise.
+typedef struct DipTextScreen {
+    DipTextCell *cells; // Owned; the top row first.
+    int columns;
+    int rows;
+} DipTextScreen;
+
+// The colours of a text.
+typedef struct DipTextColours {
+    DipColour ink;
+    DipColour paper;
+} DipTextColours;
+
+// Sets the size and clears all cells, so that they show the picture. Fails with MEMORY.
+bool dip_text_screen_begin(DipTextScreen *screen, int columns, int rows, DipError *err);
+void dip_text_screen_free(DipTextScreen *screen);
+
+// Fills an area with spaces.
+void dip_text_screen_fill(DipTextScreen *screen, DipTextArea area, DipColour paper);
+
+// Returns the number of characters of a UTF-8 text. Every character is one cell wide.
+int dip_text_length(const char *text);
+
+// Writes a text into a row, from a column to the column before `end`. A text that is too long ends
+// in an ellipsis. Returns the column after the text. Cells outside the screen are left out.
+int dip_text_put(DipTextScreen *screen, int row, int column, int end, DipTextColours colours,
+                 const char *text);
+
+// Writes a text whose last character stands in the column before `end`, but not before `column`.
+// Returns the column of the text's first character.
+int dip_text_put_right(DipTextScreen *screen, int row, int column, int end, DipTextColours colours,
+                       const char *text);
+
+#endif

@@ -1,0 +1,297 @@
+// Lays out the screen of characters, draws labels, bar and keys, and handles events.
+#include "app/preview/cells/text_view.h"
+
+#include "app/ui/style.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    MIN_PANE_ROWS = 8,    // The settings show by themselves if the panes keep this many rows.
+    ROOMY_PANE_ROWS = 14, // Settings that the user did not ask for leave the panes more rows.
+    LEAST_ROWS = 6        // A screen with fewer rows shows the panes and their labels only.
+};
+
+static const DipTextColours title = {{255, 255, 255, 255}, {10, 11, 14, 255}};
+static const DipTextColours soft = {{196, 202, 210, 255}, {10, 11, 14, 255}};
+static const DipTextColours accent = {{255, 190, 92, 255}, {10, 11, 14, 255}};
+static const DipTextColours bar = {{196, 202, 210, 255}, {32, 36, 43, 255}};
+static const DipTextColours bar_title = {{255, 255, 255, 255}, {32, 36, 43, 255}};
+static const DipTextColours bar_accent = {{255, 190, 92, 255}, {32, 36, 43, 255}};
+
+void dip_text_view_free(DipTextView *view) {
+    dip_text_screen_free(&view->screen);
+}
+
+// --- layout ------------------------------------------------------------------------------------
+
+// Returns the number of rows for settings, times or costs on a screen whose panes would otherwise
+// have pane_rows rows.
+static int body_rows(const DipTextView *view, const DipPreviewState *state, int columns,
+                     int pane_rows) {
+    const bool asked = view->focused || state->panel || state->show_costs;
+    const int wanted = state->panel || state->show_costs
+                           ? pane_rows / 2
+                           : dip_text_settings_rows(columns, state->costs != NULL);
+    const int least_pane_rows = asked ? MIN_PANE_ROWS : ROOMY_PANE_ROWS;
+    if (wanted + least_pane_rows <= pane_rows) {
+        return wanted;
+    }
+    return asked && pane_rows / 2 > 1 ? dip_style_min(wanted, pane_rows / 2) : 0;
+}
+
+DipTextLayout dip_text_view_layout(const DipTextView *view, const DipPreviewState *state, int width,
+                                   int height) {
+    DipTextLayout layout = {.columns = width, .rows = height / 2, .bar_row = -1, .keys_row = -1};
+    const int label_rows = layout.rows > 1 ? 1 : 0;
+    int pane_rows = layout.rows - label_rows;
+    if (layout.rows >= LEAST_ROWS) {
+        pane_rows -= 2;
+        layout.keys_row = layout.rows - 1;
+        layout.body.columns = width;
+        layout.body.rows = body_rows(view, state, width, pane_rows);
+        layout.body.row = layout.keys_row - layout.body.rows;
+        layout.bar_row = layout.body.row - 1;
+        pane_rows -= layout.body.rows;
+    }
+    const int pane_columns = width > 2 ? (width - 1) / 2 : 1;
+    layout.panes[DIP_PANE_CURRENT] =
+        (DipTextArea){0, label_rows, pane_columns, dip_style_max(1, pane_rows)};
+    layout.panes[DIP_PANE_REQUESTED] = layout.panes[DIP_PANE_CURRENT];
+    layout.panes[DIP_PANE_REQUESTED].column = dip_style_max(0, width - pane_columns);
+    return layout;
+}
+
+void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, int width,
+                         int height, DipRect panes[DIP_PANE_COUNT]) {
+    const DipTextLayout layout = dip_text_view_layout(view, state, width, height);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipTextArea area = layout.panes[p];
+        panes[p] = (DipRect){area.column, 2 * area.row, area.columns, 2 * area.rows};
+    }
+}
+
+bool dip_text_view_follow(DipTextView *view, const DipPreviewState *state, int width, int height) {
+    DipRect panes[DIP_PANE_COUNT];
+    dip_text_view_panes(view, state, width, height, panes);
+    const bool changed = !dip_rect_equals(panes[0], view->last_pane);
+    view->last_pane = panes[0];
+    return changed;
+}
+
+// --- labels, bar and keys ----------------------------------------------------------------------
+
+// Writes a pane's name, its frame time and its settings.
+static void draw_label(DipTextView *view, const DipPreviewState *state, int pane, DipTextArea area,
+                       const DipPaneFigures *figures) {
+    static const char *const names[DIP_PANE_COUNT] = {"Current", "Requested"};
+    const int end = area.column + area.columns;
+    char text[256];
+    int column = dip_text_put(&view->screen, 0, area.column + 1, end,
+                              state->edited[pane] ? accent : title, names[pane]);
+    if (figures->copied) {
+        snprintf(text, sizeof text, "  copied");
+    } else if (figures->fps > 0 && area.columns >= 60) {
+        snprintf(text, sizeof text, "  %4.1f ms  %d fps", figures->ms, figures->fps);
+    } else {
+        snprintf(text, sizeof text, "  %4.1f ms", figures->ms);
+    }
+    column = dip_text_put(&view->screen, 0, column, end, title, text);
+    const int room = end - column - 2;
+    dip_preview_describe(&state->quality[pane], false, text, sizeof text);
+    if (dip_text_length(text) > room) {
+        dip_preview_describe(&state->quality[pane], true, text, sizeof text);
+    }
+    if (room > 4) {
+        dip_text_put(&view->screen, 0, column + 2, end, soft, text);
+    }
+}
+
+static void draw_labels(DipTextView *view, const DipPreviewState *state,
+                        const DipTextLayout *layout, const DipPaneFigures figures[DIP_PANE_COUNT]) {
+    if (layout->panes[0].row == 0) {
+        return;
+    }
+    dip_text_screen_fill(&view->screen, (DipTextArea){0, 0, layout->columns, 1}, title.paper);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        draw_label(view, state, p, layout->panes[p], &figures[p]);
+    }
+}
+
+// Draws a line between the panes, in the accent colour beside the edited pane.
+static void draw_divider(DipTextView *view, const DipTextLayout *layout) {
+    const DipTextArea left = layout->panes[DIP_PANE_CURRENT];
+    const DipTextArea right = layout->panes[DIP_PANE_REQUESTED];
+    const int first = left.column + left.columns;
+    const DipTextArea gap = {first, left.row, right.column - first, left.rows};
+    dip_text_screen_fill(&view->screen, gap, accent.paper);
+    for (int row = gap.row; gap.columns > 0 && row < gap.row + gap.rows; ++row) {
+        dip_text_put(&view->screen, row, right.column - 1, right.column, accent, "│");
+    }
+}
+
+static void format_place(const DipPreviewState *state, char *text, size_t size_bytes) {
+    const double play_s = 1e-9 * (double)state->play_ns;
+    const char *mark = state->paused ? "   paused" : "";
+    if (state->manual) {
+        snprintf(text, size_bytes, "Free camera ");
+    } else if (state->scene_title) {
+        snprintf(text, size_bytes, "%s: %s  %.1f s%s ", state->scene_title, state->scene_look,
+                 play_s, mark);
+    } else {
+        snprintf(text, size_bytes, "Path: %s  %.1f s%s ",
+                 dip_preview_path_title(state, state->track->active),
+                 1e-9 * (double)dip_camtrack_time(state->track, state->play_ns), mark);
+    }
+}
+
+// Writes the names of what the body can show on the left, and the path and its time on the right.
+static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
+    const int columns = view->screen.columns;
+    const bool settings = !state->panel && !state->show_costs;
+    char place[128];
+    int column = 1;
+    dip_text_screen_fill(&view->screen, (DipTextArea){0, row, columns, 1}, bar.paper);
+    format_place(state, place, sizeof place);
+    const int end = dip_text_put_right(&view->screen, row, dip_style_min(columns / 3, 30), columns,
+                                       bar, place) -
+                    1;
+    const struct {
+        const char *text;
+        DipTextColours colours;
+    } names[] = {
+        {"↓ Settings", settings ? bar_title : bar},
+        {"   R Times", state->panel ? bar_accent : bar},
+        {"   U Costs", state->show_costs ? bar_accent : bar},
+        {"   F1 Keys", state->help ? bar_accent : bar},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        if (column + dip_text_length(names[i].text) < end) {
+            column = dip_text_put(&view->screen, row, column, end, names[i].colours, names[i].text);
+        }
+    }
+}
+
+// Writes the most useful keys, or what just happened.
+static void draw_keys(DipTextView *view, const DipPreviewState *state, int row) {
+    static const char *const keys[] = {
+        "↑ ↓ setting   ← → step   Enter apply   Space pause   F1 keys   Esc quit",
+        "   X AA   F AF   V adaptive   O textures   L mip detail   . step"};
+    const int columns = view->screen.columns;
+    dip_text_screen_fill(&view->screen, (DipTextArea){0, row, columns, 1}, title.paper);
+    if (state->notice[0]) {
+        dip_text_put(&view->screen, row, 1, columns, accent, state->notice);
+        return;
+    }
+    const int column = dip_text_put(&view->screen, row, 1, columns, soft, keys[0]);
+    if (column + dip_text_length(keys[1]) <= columns) {
+        dip_text_put(&view->screen, row, column, columns, soft, keys[1]);
+    }
+}
+
+bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int width, int height,
+                        const DipPaneFigures figures[DIP_PANE_COUNT], DipError *err) {
+    const DipTextLayout layout = dip_text_view_layout(view, state, width, height);
+    if (!dip_text_screen_begin(&view->screen, layout.columns, layout.rows, err)) {
+        return false;
+    }
+    view->target_count = 0;
+    draw_labels(view, state, &layout, figures);
+    draw_divider(view, &layout);
+    if (layout.bar_row >= 0) {
+        draw_bar(view, state, layout.bar_row);
+        draw_keys(view, state, layout.keys_row);
+    }
+    if (layout.body.rows > 0) {
+        dip_text_screen_fill(&view->screen, layout.body, title.paper);
+        if (state->show_costs) {
+            dip_text_draw_costs(&view->screen, layout.body, state);
+        } else if (state->panel) {
+            dip_text_draw_times(&view->screen, layout.body, &layout, figures);
+        } else {
+            dip_text_draw_settings(view, state, layout.body);
+        }
+    }
+    if (state->help) {
+        const int first = layout.panes[0].row;
+        const int last = layout.keys_row >= 0 ? layout.keys_row : layout.rows;
+        dip_text_draw_help(&view->screen, (DipTextArea){0, first, layout.columns, last - first});
+    }
+    return true;
+}
+
+// --- events ------------------------------------------------------------------------------------
+
+static int edited_pane(const DipPreviewState *state) {
+    return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
+}
+
+// Moves the focused setting by one position in the order of dip_text_step_at.
+static void move_step(const DipTextView *view, DipPreviewState *state, int by, int64_t now_ns) {
+    const int count = dip_setting_info(view->focus)->step_count;
+    const int now = state->quality[edited_pane(state)].step[view->focus];
+    for (int i = 0; i < count; ++i) {
+        if (dip_text_step_at(view->focus, i) == now && i + by >= 0 && i + by < count) {
+            dip_preview_set_step(state, view->focus, dip_text_step_at(view->focus, i + by), now_ns);
+            return;
+        }
+    }
+}
+
+static void move_focus(DipTextView *view, int by) {
+    if (!view->focused) {
+        view->focused = true;
+        return;
+    }
+    view->focus = (DipSetting)(((int)view->focus + by + DIP_SETTING_COUNT) % DIP_SETTING_COUNT);
+}
+
+static bool press_key(DipTextView *view, DipPreviewState *state, const DipEvent *event,
+                      int64_t now_ns) {
+    const bool settings_show = !state->help && !state->panel && !state->show_costs;
+    if (!settings_show || (event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT)) {
+        return false;
+    }
+    switch (event->key) {
+    case DIP_KEYCODE_UP:
+    case DIP_KEYCODE_DOWN:
+        move_focus(view, event->key == DIP_KEYCODE_UP ? -1 : 1);
+        return true;
+    case DIP_KEYCODE_LEFT:
+    case DIP_KEYCODE_RIGHT:
+        if (view->focused) {
+            move_step(view, state, event->key == DIP_KEYCODE_LEFT ? -1 : 1, now_ns);
+        }
+        return view->focused;
+    case DIP_KEYCODE_ESCAPE: {
+        const bool was_focused = view->focused;
+        view->focused = false;
+        return was_focused;
+    }
+    default:
+        return false;
+    }
+}
+
+static bool click(const DipTextView *view, DipPreviewState *state, const DipEvent *event,
+                  int64_t now_ns) {
+    for (int i = 0; i < view->target_count; ++i) {
+        const DipTextTarget *target = &view->targets[i];
+        const int row = event->y / 2 - target->area.row;
+        const int column = event->x - target->area.column;
+        if (row >= 0 && row < target->area.rows && column >= 0 && column < target->area.columns) {
+            dip_preview_set_step(state, target->setting, target->step, now_ns);
+            return true;
+        }
+    }
+    return false;
+}
+
+bool dip_text_view_event(DipTextView *view, DipPreviewState *state, const DipEvent *event,
+                         int64_t now_ns) {
+    if (event->kind == DIP_EVENT_KEY_DOWN) {
+        return press_key(view, state, event, now_ns);
+    }
+    return event->kind == DIP_EVENT_MOUSE_DOWN && event->button == DIP_MOUSE_LEFT &&
+           click(view, state, event, now_ns);
+}

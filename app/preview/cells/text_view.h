@@ -1,0 +1,83 @@
+// The preview's labels, status line, settings and help in character cells, for a display that shows
+// characters (display.h). The panes' pictures fill the cells that hold no text.
+//
+// The screen has, from top to bottom: a row of labels, the panes, a bar with the camera path, the
+// settings (or the times, or the costs), and a row of keys.
+#ifndef DIP_APP_PREVIEW_CELLS_TEXT_VIEW_H
+#define DIP_APP_PREVIEW_CELLS_TEXT_VIEW_H
+
+#include "app/preview/live/panel.h"
+#include "app/preview/state/state.h"
+#include "app/preview/cells/text_screen.h"
+
+enum { DIP_TEXT_MAX_TARGETS = 64 };
+
+// An area that a mouse click acts on: a step of a setting.
+typedef struct DipTextTarget {
+    DipTextArea area;
+    DipSetting setting;
+    int step;
+} DipTextTarget;
+
+// Where the parts of the screen lie, in cells.
+typedef struct DipTextLayout {
+    int columns;
+    int rows;
+    DipTextArea panes[DIP_PANE_COUNT];
+    int bar_row;      // -1: there is no bar.
+    DipTextArea body; // Settings, times or costs; without rows if nothing of them shows.
+    int keys_row;     // -1: there is no row of keys.
+} DipTextLayout;
+
+// Zero-initialise.
+typedef struct DipTextView {
+    DipTextScreen screen;
+    DipTextTarget targets[DIP_TEXT_MAX_TARGETS]; // Of the last drawing.
+    int target_count;
+    bool focused;      // The arrow keys act on the settings.
+    DipSetting focus;  // The setting that they act on.
+    DipRect last_pane; // Used by dip_text_view_follow.
+} DipTextView;
+
+void dip_text_view_free(DipTextView *view);
+
+// Lays out the screen for a picture of the given size in pixels.
+DipTextLayout dip_text_view_layout(const DipTextView *view, const DipPreviewState *state, int width,
+                                   int height);
+
+// Fills in the rectangles of the panes, in pixels of the picture.
+void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, int width,
+                         int height, DipRect panes[DIP_PANE_COUNT]);
+
+// Returns whether the size of the panes differs from that of the previous call.
+bool dip_text_view_follow(DipTextView *view, const DipPreviewState *state, int width, int height);
+
+// Writes all texts. Fails with MEMORY.
+bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int width, int height,
+                        const DipPaneFigures figures[DIP_PANE_COUNT], DipError *err);
+
+// Hands an event to the settings. The up and down arrow keys choose a setting, the left and right
+// ones change the chosen setting, Escape leaves the settings; a click chooses a step. Returns
+// whether the settings have taken the event, which then must do nothing else.
+bool dip_text_view_event(DipTextView *view, DipPreviewState *state, const DipEvent *event,
+                         int64_t now_ns);
+
+// --- for the parts of the view -----------------------------------------------------------------
+
+// The order in which the settings show a setting's steps, from the cheapest picture to the best.
+// Returns the step at a position from 0.
+int dip_text_step_at(DipSetting setting, int position);
+
+// Each fills the body.
+void dip_text_draw_settings(DipTextView *view, const DipPreviewState *state, DipTextArea body);
+void dip_text_draw_times(DipTextScreen *screen, DipTextArea body, const DipTextLayout *layout,
+                         const DipPaneFigures figures[DIP_PANE_COUNT]);
+void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPreviewState *state);
+
+// Covers the area with the list of keys.
+void dip_text_draw_help(DipTextScreen *screen, DipTextArea area);
+
+// Returns the number of rows that the settings need in a body of the given width.
+int dip_text_settings_rows(int columns, bool has_costs);
+
+#endif

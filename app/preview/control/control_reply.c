@@ -1,0 +1,183 @@
+// Writes the preview's state, times and errors as JSON.
+#include "app/preview/control/control_reply.h"
+
+#include "app/preview/loop/view.h"
+#include "config/config.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+
+// Adds a time in milliseconds or seconds, rounded to 1e-6.
+static void add_time(cJSON *object, const char *name, double time) {
+    cJSON_AddNumberToObject(object, name, floor(1e6 * time + 0.5) / 1e6);
+}
+
+// --- state and settings --------------------------------------------------------------------------
+
+double dip_reply_path_time_s(const DipPreviewState *state) {
+    const DipCamTrack *track = state->track;
+    const bool has_path = track->categories[track->active].path || track->categories[0].path;
+    const int64_t time_ns =
+        has_path ? dip_preview_path_ns(state) : dip_camtrack_time(track, state->play_ns);
+    return 1e-9 * (double)time_ns;
+}
+
+const char *dip_reply_scene_name(const DipSession *session) {
+    if (!session->shows_gallery) {
+        return "models";
+    }
+    return session->gallery_scene == DIP_GALLERY_TOUR
+               ? "tour"
+               : dip_gallery_info(session->gallery_scene)->name;
+}
+
+static void add_size(cJSON *object, const DipPreviewMoment *moment) {
+    cJSON_AddNumberToObject(object, "width", moment->panes[0].width);
+    cJSON_AddNumberToObject(object, "height", moment->panes[0].height);
+}
+
+void dip_reply_state(cJSON *object, const DipPreviewMoment *moment) {
+    const DipPreviewState *state = moment->state;
+    cJSON_AddBoolToObject(object, "paused", state->paused);
+    add_time(object, "time_s", dip_reply_path_time_s(state));
+    cJSON_AddStringToObject(object, "category", dip_preview_path_name(state, state->track->active));
+    cJSON_AddBoolToObject(object, "free_camera", state->manual);
+    cJSON_AddStringToObject(object, "scene", dip_reply_scene_name(moment->session));
+    add_size(object, moment);
+}
+
+void dip_reply_settings(cJSON *object, const DipPreviewState *state) {
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        char text[256];
+        dip_quality_format(&state->quality[p], text, sizeof text);
+        cJSON_AddStringToObject(object, dip_pane_names[p], text);
+    }
+}
+
+// --- times and errors ----------------------------------------------------------------------------
+
+static void add_pane_times(cJSON *object, const char *name, const DipPaneFigures *figures) {
+    static const char *const stages[] = {
+#define STAGE_NAME(name, text) #name,
+        DIP_STAGE_LIST(STAGE_NAME)
+#undef STAGE_NAME
+    };
+    cJSON *pane = cJSON_AddObjectToObject(object, name);
+    add_time(pane, "ms", figures->ms);
+    cJSON_AddNumberToObject(pane, "fps", figures->fps);
+    cJSON_AddBoolToObject(pane, "copied", figures->copied);
+    cJSON *times = cJSON_AddObjectToObject(pane, "stages_ms");
+    for (int s = 0; s < DIP_STAGE_COUNT; ++s) {
+        add_time(times, stages[s], figures->stage_ms[s]);
+    }
+}
+
+void dip_reply_times(cJSON *object, const DipPreviewMoment *moment) {
+    add_time(object, "time_s", dip_reply_path_time_s(moment->state));
+    add_size(object, moment);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        add_pane_times(object, dip_pane_names[p], &moment->figures[p]);
+    }
+}
+
+static const char *status_name(const DipPaneFigures *figures) {
+    static const char *const names[] = {
+        [DIP_ERROR_STATUS_PAUSED] = "paused",
+        [DIP_ERROR_STATUS_WORKING] = "working",
+        [DIP_ERROR_STATUS_DONE] = "done",
+        [DIP_ERROR_STATUS_FAILED] = "failed",
+    };
+    return figures->no_errors ? "unavailable" : names[figures->errors.status];
+}
+
+void dip_reply_errors(cJSON *object, const DipPreviewMoment *moment) {
+    const DipPaneFigures *figures = &moment->figures[DIP_PANE_CURRENT];
+    const DipErrorJobResult *result = &figures->errors.result;
+    cJSON_AddStringToObject(object, "status", status_name(figures));
+    cJSON_AddNumberToObject(object, "samples", result->samples);
+    cJSON_AddBoolToObject(object, "final", result->last);
+    for (int p = 0; p < DIP_PANE_COUNT && result->samples > 0; ++p) {
+        cJSON *pane = cJSON_AddObjectToObject(object, dip_pane_names[p]);
+        cJSON_AddNumberToObject(pane, "rmse_lin", result->panes[p].rmse_lin);
+        cJSON_AddNumberToObject(pane, "psnr_db", result->panes[p].psnr_db);
+        cJSON_AddNumberToObject(pane, "flip", result->panes[p].flip);
+        cJSON_AddBoolToObject(pane, "at_floor", result->panes[p].at_floor);
+    }
+}
+
+// --- lists ---------------------------------------------------------------------------------------
+
+void dip_reply_paths(cJSON *object, const DipPreviewState *state) {
+    cJSON *paths = cJSON_AddArrayToObject(object, "paths");
+    for (int c = 0; c < DIP_CAMTRACK_CATEGORIES; ++c) {
+        if (c >= DIP_CATEGORY_COUNT && !state->track->categories[c].path) {
+            break; // There are no more cameras of the models.
+        }
+        cJSON *path = cJSON_CreateObject();
+        cJSON_AddStringToObject(path, "category", dip_preview_path_name(state, c));
+        cJSON_AddStringToObject(path, "title", dip_preview_path_title(state, c));
+        cJSON_AddBoolToObject(path, "available", state->track->categories[c].path != NULL);
+        if (!cJSON_AddItemToArray(paths, path)) {
+            cJSON_Delete(path);
+        }
+    }
+}
+
+static void add_name(cJSON *array, const char *name) {
+    cJSON *item = cJSON_CreateStringReference(name);
+    if (!cJSON_AddItemToArray(array, item)) {
+        cJSON_Delete(item);
+    }
+}
+
+void dip_reply_scenes(cJSON *object, const DipSession *session) {
+    cJSON *scenes = cJSON_AddArrayToObject(object, "scenes");
+    for (int s = 0; s < dip_gallery_scene_count(); ++s) {
+        add_name(scenes, dip_gallery_info(s)->name);
+    }
+    if (session->scene) {
+        add_name(scenes, "models");
+    }
+}
+
+static cJSON *describe_setting(DipSetting setting) {
+    const DipSettingInfo *info = dip_setting_info(setting);
+    const int category = dip_preview_category_of(setting);
+    cJSON *object = cJSON_CreateObject();
+    cJSON_AddStringToObject(object, "key", info->key);
+    cJSON_AddStringToObject(object, "title", info->title);
+    cJSON_AddStringToObject(object, "text", info->text);
+    cJSON *steps = cJSON_AddArrayToObject(object, "steps");
+    for (int i = 0; i < info->step_count; ++i) {
+        add_name(steps, info->steps[i]);
+    }
+    cJSON_AddStringToObject(object, "default", info->steps[info->default_step]);
+    if (category >= 0) {
+        cJSON_AddStringToObject(object, "category", dip_preview_category_name(category));
+    }
+    return object;
+}
+
+void dip_reply_steps(cJSON *object) {
+    cJSON *settings = cJSON_AddArrayToObject(object, "steps");
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        cJSON *setting = describe_setting((DipSetting)s);
+        if (!cJSON_AddItemToArray(settings, setting)) {
+            cJSON_Delete(setting);
+        }
+    }
+}
+
+void dip_reply_pick(cJSON *object, const DipPreviewMoment *moment, int x, int y) {
+    cJSON_AddNumberToObject(object, "x", x);
+    cJSON_AddNumberToObject(object, "y", y);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipFrame *frame = &moment->panes[p];
+        const uint8_t *pixel = frame->rgba8 + (size_t)y * frame->stride_bytes + 4 * (size_t)x;
+        const int colour[] = {pixel[0], pixel[1], pixel[2]};
+        cJSON *array = cJSON_CreateIntArray(colour, 3);
+        if (!cJSON_AddItemToObject(object, dip_pane_names[p], array)) {
+            cJSON_Delete(array);
+        }
+    }
+}

@@ -1,0 +1,88 @@
+// Measures the errors of both panes' pictures against the converged picture from the same pose.
+//
+// The converged picture (the truth) is refined in levels of rising sample counts; each level gives
+// a better result. The work is cut into small steps, so that the caller can drop the work between
+// any two steps.
+#ifndef DIP_APP_PREVIEW_LIVE_ERROR_JOB_H
+#define DIP_APP_PREVIEW_LIVE_ERROR_JOB_H
+
+#include "app/session/session.h"
+#include "renderer/reference/reference.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { DIP_ERROR_JOB_LEVELS = 3 };
+
+// Samples per pixel of one half of the truth, for each level. A level is the mean of two halves
+// with independent samples; the difference of the halves shows the truth's own noise. The last
+// level has the default number of samples of `diptych cost`.
+extern const int dip_error_job_samples[DIP_ERROR_JOB_LEVELS];
+
+// A still: the panes' pictures of one pose, time and size.
+typedef struct DipStill {
+    DipPose pose;
+    int64_t time_ns;
+    int width;
+    int height;
+    size_t stride_bytes;
+    // If both panes show the same picture, the requested pane's pointer is NULL.
+    const uint8_t *rgba8[DIP_PANE_COUNT];
+    // The pane does not show the scene as the truth does (it shows mip colours), so it has no
+    // error.
+    bool unjudged[DIP_PANE_COUNT];
+} DipStill;
+
+// Returns whether two stills are compared with the same truth.
+bool dip_still_has_same_truth(const DipStill *a, const DipStill *b);
+
+// One pane's errors, as docs/cost.md defines them.
+typedef struct DipPaneError {
+    double rmse_lin;
+    double psnr_db;
+    double flip;
+    bool at_floor; // The error is too small to be told from the truth's own noise.
+    bool unjudged; // As in DipStill. The other members are 0.
+} DipPaneError;
+
+typedef struct DipErrorJobResult {
+    int samples; // Samples per pixel of the truth's two halves together; 0: no result yet.
+    bool last;   // True if no further level will refine the truth.
+    // The truth's own noise: half of the root mean square difference of its halves, linear light.
+    double floor_rmse;
+    DipPaneError panes[DIP_PANE_COUNT];
+} DipErrorJobResult;
+
+typedef struct DipErrorJob DipErrorJob;
+
+// The reference renderer is borrowed. The job sets the renderer's time to the time of each still.
+DipErrorJob *dip_error_job_create(DipReference *reference, DipError *err);
+void dip_error_job_destroy(DipErrorJob **job);
+
+// Begins to measure a still, in place of the previous still. The new still's pictures are borrowed
+// until the next call of this function. If both stills have the same truth, the job keeps what it
+// has drawn of the truth. After a failure the job has no still.
+bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err);
+
+typedef enum DipErrorJobStep {
+    DIP_ERROR_JOB_WORKING,
+    DIP_ERROR_JOB_NEW_RESULT,
+    DIP_ERROR_JOB_DONE, // There is nothing left to do.
+    DIP_ERROR_JOB_FAILED
+} DipErrorJobStep;
+
+// Does a few milliseconds of work.
+DipErrorJobStep dip_error_job_step(DipErrorJob *job, DipError *err);
+
+const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job);
+
+// The pictures that belong to the result. They are complete between the step that returned
+// NEW_RESULT and the next step; later steps overwrite them. Rows are packed.
+
+// Returns the FLIP value of each pixel of a pane, or NULL if the pane is not judged.
+const float *dip_error_job_flip(const DipErrorJob *job, int pane);
+
+// Returns the truth in 8-bit sRGB, four bytes per pixel.
+const uint8_t *dip_error_job_truth(const DipErrorJob *job);
+
+#endif

@@ -1,0 +1,383 @@
+// Runs the thread that measures errors, passes stills (DipStill) to it, and reads its results.
+#define _GNU_SOURCE // SCHED_IDLE
+
+#include "app/preview/live/error_thread.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+// A still that owns its pictures.
+typedef struct Still {
+    DipStill def; // Its pictures point into `memory`.
+    uint8_t *memory;
+    size_t size_bytes;
+} Still;
+
+// Pictures of a result, which pass from the thread to the caller. There are three of these: the
+// thread fills one, the caller reads another, and the third one holds the newest pictures that the
+// caller has not asked for yet. They change places under the lock, so nobody copies pixels there.
+typedef struct Pictures {
+    DipErrorPictures out; // Its pointers point into the arrays below.
+    DipStill still;       // The still that was measured; its pictures are not valid.
+    unsigned number;      // The number of this still; 0: there are no pictures.
+    uint8_t *truth_rgba8; // Owned.
+    float *flip;          // Owned; the maps of both panes.
+    size_t pixels;        // Size of the arrays.
+} Pictures;
+
+struct DipErrorThread {
+    const DipSceneDef *scene;
+    DipReflectionDef reflection;
+    Still staged; // The next still, which the caller fills without holding the lock.
+    unsigned picture_number;
+    bool shown;
+    Pictures held; // What the caller reads.
+    DipStill last; // The last still, whose number is last_number.
+    unsigned last_number;
+    pthread_t thread;
+    bool running;
+    atomic_bool stop;
+
+    // The lock guards everything below. The caller and the thread hold it only to copy a few bytes,
+    // since the thread may lose the processor for a long time while it holds the lock.
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    Still asked;
+    unsigned asked_number; // Number of the last still; results of older stills are dropped.
+    bool resting;
+    DipErrorReading reading;
+    bool news;
+    Pictures newest;
+    bool has_newest; // The caller has not taken `newest` yet.
+};
+
+// --- the thread --------------------------------------------------------------------------------
+
+typedef struct Worker {
+    DipErrorThread *owner;
+    DipReference *reference;
+    DipErrorJob *job;
+    Still still;
+    unsigned number;
+    bool idle;
+    Pictures pictures; // What the thread fills.
+    DipFlipTailMeter tail;
+    uint64_t version;
+} Worker;
+
+static void yield_to_all(pthread_t thread, bool yields) {
+    const struct sched_param param = {0};
+#ifdef SCHED_IDLE
+    pthread_setschedparam(thread, yields ? SCHED_IDLE : SCHED_OTHER, &param);
+#else
+    (void)thread;
+    (void)yields;
+    (void)param;
+#endif
+}
+
+static void answer(Worker *worker, DipErrorStatus status) {
+    DipErrorThread *owner = worker->owner;
+    pthread_mutex_lock(&owner->lock);
+    if (owner->asked_number == worker->number && !owner->resting) {
+        owner->reading.status = status;
+        if (worker->job) {
+            owner->reading.result = *dip_error_job_result(worker->job);
+        }
+        owner->news = true;
+    }
+    pthread_mutex_unlock(&owner->lock);
+    worker->idle = status != DIP_ERROR_STATUS_WORKING;
+}
+
+static void free_pictures(Pictures *pictures) {
+    free(pictures->truth_rgba8);
+    free(pictures->flip);
+    *pictures = (Pictures){.pixels = 0};
+}
+
+static bool make_room(Pictures *pictures, size_t pixels) {
+    if (pictures->pixels == pixels) {
+        return true;
+    }
+    free_pictures(pictures);
+    pictures->truth_rgba8 = malloc(4 * pixels);
+    pictures->flip = malloc(DIP_PANE_COUNT * pixels * sizeof(float));
+    if (!pictures->truth_rgba8 || !pictures->flip) {
+        free_pictures(pictures);
+        return false;
+    }
+    pictures->pixels = pixels;
+    return true;
+}
+
+static void measure_spread(DipFlipTailMeter *meter, const float *flip, int width, int height,
+                           DipErrorSpread *spread) {
+    const size_t pixels = (size_t)width * (size_t)height;
+    *spread = (DipErrorSpread){.bins = {0}};
+    for (size_t i = 0; i < pixels; i++) {
+        const int bin = (int)(flip[i] * DIP_ERROR_BINS);
+        spread->bins[bin < DIP_ERROR_BINS ? bin : DIP_ERROR_BINS - 1]++;
+    }
+    dip_flip_tail_restart(meter);
+    dip_flip_tail_add(meter, flip, width, height);
+    spread->tail = dip_flip_tail_result(meter);
+}
+
+// Copies the pictures of the job's result, without the lock.
+static bool fill_pictures(Worker *worker) {
+    const DipStill *still = &worker->still.def;
+    const size_t pixels = (size_t)still->width * (size_t)still->height;
+    Pictures *to = &worker->pictures;
+    if (!make_room(to, pixels) || (!worker->tail.histogram && !dip_flip_tail_init(&worker->tail))) {
+        return false;
+    }
+    to->still = *still;
+    to->number = worker->number;
+    to->out = (DipErrorPictures){
+        .version = ++worker->version,
+        .width = still->width,
+        .height = still->height,
+        .result = *dip_error_job_result(worker->job),
+        .truth_rgba8 = to->truth_rgba8,
+    };
+    memcpy(to->truth_rgba8, dip_error_job_truth(worker->job), 4 * pixels);
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const float *from = dip_error_job_flip(worker->job, p);
+        if (from) {
+            float *copy = to->flip + (size_t)p * pixels;
+            memcpy(copy, from, pixels * sizeof *copy);
+            to->out.flip[p] = copy;
+            measure_spread(&worker->tail, copy, still->width, still->height, &to->out.spread[p]);
+        }
+    }
+    return true;
+}
+
+// Makes the pictures that the thread has filled the newest ones.
+static void pass_pictures(Worker *worker) {
+    DipErrorThread *owner = worker->owner;
+    pthread_mutex_lock(&owner->lock);
+    const Pictures swap = owner->newest;
+    owner->newest = worker->pictures;
+    owner->has_newest = true;
+    pthread_mutex_unlock(&owner->lock);
+    worker->pictures = swap;
+}
+
+// Waits while there is nothing to do. Sets *fresh if there is a new still. Returns false if the
+// thread must end.
+static bool wait_for_still(Worker *worker, bool *fresh) {
+    DipErrorThread *owner = worker->owner;
+    pthread_mutex_lock(&owner->lock);
+    while (!atomic_load(&owner->stop) &&
+           (owner->resting || (worker->idle && owner->asked_number == worker->number))) {
+        pthread_cond_wait(&owner->changed, &owner->lock);
+    }
+    *fresh = owner->asked_number != worker->number;
+    if (*fresh) {
+        const Still swap = worker->still;
+        worker->still = owner->asked;
+        owner->asked = swap;
+        worker->number = owner->asked_number;
+    }
+    pthread_mutex_unlock(&owner->lock);
+    return !atomic_load(&owner->stop);
+}
+
+static bool prepare(Worker *worker, DipError *err) {
+    const DipErrorThread *owner = worker->owner;
+    if (!worker->reference) {
+        worker->reference = dip_reference_create_for_truth(owner->scene, &owner->stop, err);
+        if (worker->reference) {
+            dip_reference_set_reflection(worker->reference, &owner->reflection);
+        }
+    }
+    if (worker->reference && !worker->job) {
+        worker->job = dip_error_job_create(worker->reference, err);
+    }
+    return worker->job != NULL;
+}
+
+static void work(Worker *worker, bool fresh) {
+    DipError err;
+    if (fresh) {
+        worker->idle = false;
+        if (!prepare(worker, &err) || !dip_error_job_begin(worker->job, &worker->still.def, &err)) {
+            answer(worker, DIP_ERROR_STATUS_FAILED);
+            return;
+        }
+    }
+    switch (dip_error_job_step(worker->job, &err)) {
+    case DIP_ERROR_JOB_WORKING:
+        break;
+    case DIP_ERROR_JOB_NEW_RESULT:
+        if (!fill_pictures(worker)) {
+            answer(worker, DIP_ERROR_STATUS_FAILED);
+            break;
+        }
+        pass_pictures(worker);
+        answer(worker, DIP_ERROR_STATUS_WORKING);
+        break;
+    case DIP_ERROR_JOB_DONE:
+        answer(worker, DIP_ERROR_STATUS_DONE);
+        break;
+    case DIP_ERROR_JOB_FAILED:
+        answer(worker, DIP_ERROR_STATUS_FAILED);
+        break;
+    }
+}
+
+static void *run(void *context) {
+    Worker worker = {.owner = context, .idle = true};
+    bool fresh = false;
+    yield_to_all(pthread_self(), true);
+    while (wait_for_still(&worker, &fresh)) {
+        work(&worker, fresh);
+    }
+    dip_error_job_destroy(&worker.job);
+    dip_reference_destroy(&worker.reference);
+    free(worker.still.memory);
+    free_pictures(&worker.pictures);
+    dip_flip_tail_free(&worker.tail);
+    return NULL;
+}
+
+// --- the caller --------------------------------------------------------------------------------
+
+DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
+                                        const DipReflectionDef *reflection, DipError *err) {
+    DipErrorThread *owner = calloc(1, sizeof *owner);
+    if (!owner) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "truth", "out of memory");
+        return NULL;
+    }
+    owner->scene = scene;
+    owner->reflection = *reflection;
+    owner->resting = true;
+    pthread_mutex_init(&owner->lock, NULL);
+    pthread_cond_init(&owner->changed, NULL);
+    return owner;
+}
+
+void dip_error_thread_destroy(DipErrorThread **owner_pointer) {
+    DipErrorThread *owner = *owner_pointer;
+    if (!owner) {
+        return;
+    }
+    *owner_pointer = NULL;
+    if (owner->running) {
+        pthread_mutex_lock(&owner->lock);
+        atomic_store(&owner->stop, true);
+        pthread_cond_signal(&owner->changed);
+        pthread_mutex_unlock(&owner->lock);
+        // The caller waits for the thread, so the thread should end soon.
+        yield_to_all(owner->thread, false);
+        pthread_join(owner->thread, NULL);
+    }
+    pthread_cond_destroy(&owner->changed);
+    pthread_mutex_destroy(&owner->lock);
+    free(owner->staged.memory);
+    free(owner->asked.memory);
+    free_pictures(&owner->held);
+    free_pictures(&owner->newest);
+    free(owner);
+}
+
+// Copies a still with its pictures.
+static bool stage(Still *staged, const DipStill *still) {
+    const size_t row_bytes = 4 * (size_t)still->width;
+    const size_t picture_bytes = row_bytes * (size_t)still->height;
+    if (staged->size_bytes != DIP_PANE_COUNT * picture_bytes) {
+        free(staged->memory);
+        staged->memory = malloc(DIP_PANE_COUNT * picture_bytes);
+        staged->size_bytes = staged->memory ? DIP_PANE_COUNT * picture_bytes : 0;
+    }
+    if (!staged->memory) {
+        return false;
+    }
+    staged->def = *still;
+    staged->def.stride_bytes = row_bytes;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        uint8_t *const copy = staged->memory + (size_t)p * picture_bytes;
+        for (size_t y = 0; still->rgba8[p] && y < (size_t)still->height; y++) {
+            memcpy(copy + y * row_bytes, still->rgba8[p] + y * still->stride_bytes, row_bytes);
+        }
+        staged->def.rgba8[p] = still->rgba8[p] ? copy : NULL;
+    }
+    return true;
+}
+
+static bool start(DipErrorThread *owner) {
+    if (!owner->running) {
+        owner->running = pthread_create(&owner->thread, NULL, run, owner) == 0;
+    }
+    return owner->running;
+}
+
+void dip_error_thread_measure(DipErrorThread *owner, const DipStill *still,
+                              unsigned picture_number) {
+    if (owner->shown && owner->picture_number == picture_number) {
+        return;
+    }
+    const bool staged = start(owner) && stage(&owner->staged, still);
+    owner->shown = true;
+    owner->picture_number = picture_number;
+    pthread_mutex_lock(&owner->lock);
+    if (staged) {
+        const Still swap = owner->asked;
+        owner->asked = owner->staged;
+        owner->staged = swap;
+        owner->last = *still;
+        owner->last_number = ++owner->asked_number;
+    }
+    owner->resting = !staged;
+    owner->reading =
+        (DipErrorReading){.status = staged ? DIP_ERROR_STATUS_WORKING : DIP_ERROR_STATUS_FAILED};
+    owner->news = true;
+    pthread_cond_signal(&owner->changed);
+    pthread_mutex_unlock(&owner->lock);
+}
+
+void dip_error_thread_pause(DipErrorThread *owner) {
+    if (!owner->shown) {
+        return;
+    }
+    owner->shown = false;
+    pthread_mutex_lock(&owner->lock);
+    owner->resting = true;
+    owner->reading = (DipErrorReading){.status = DIP_ERROR_STATUS_PAUSED};
+    owner->news = true;
+    pthread_mutex_unlock(&owner->lock);
+}
+
+bool dip_error_thread_read(DipErrorThread *owner, DipErrorReading *reading) {
+    pthread_mutex_lock(&owner->lock);
+    const bool news = owner->news;
+    *reading = owner->reading;
+    owner->news = false;
+    pthread_mutex_unlock(&owner->lock);
+    return news;
+}
+
+const DipErrorPictures *dip_error_thread_pictures(DipErrorThread *owner) {
+    pthread_mutex_lock(&owner->lock);
+    if (owner->has_newest) {
+        const Pictures swap = owner->held;
+        owner->held = owner->newest;
+        owner->newest = swap;
+        owner->has_newest = false;
+    }
+    pthread_mutex_unlock(&owner->lock);
+    Pictures *held = &owner->held;
+    if (!owner->shown || !held->number || !dip_still_has_same_truth(&held->still, &owner->last)) {
+        return NULL;
+    }
+    if (held->number != owner->last_number) {
+        held->out.flip[DIP_PANE_CURRENT] = held->out.flip[DIP_PANE_REQUESTED] = NULL;
+    }
+    return &held->out;
+}

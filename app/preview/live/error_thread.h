@@ -1,0 +1,72 @@
+// Measures the errors of both panes' pictures on a thread of its own while the camera rests.
+//
+// The thread runs only when no other thread needs the processor. Its work is a DipErrorJob, in
+// steps of a few milliseconds. When the pictures change, the thread drops the work after the
+// current step.
+#ifndef DIP_APP_PREVIEW_LIVE_ERROR_THREAD_H
+#define DIP_APP_PREVIEW_LIVE_ERROR_THREAD_H
+
+#include "app/measure/metrics/flip_tail.h"
+#include "app/preview/live/error_job.h"
+
+typedef struct DipErrorThread DipErrorThread;
+
+// The scene is borrowed. The thread starts, and allocates memory, with the first measurement.
+DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
+                                        const DipReflectionDef *reflection, DipError *err);
+
+// Ends the thread. Waits until the thread has finished its current step.
+void dip_error_thread_destroy(DipErrorThread **thread);
+
+// Begins to measure a still (both panes' pictures of one pose and time) and forgets the previous
+// still. The still's pictures are copied. The caller must change the picture number whenever the
+// pictures change: a call with the same number as the previous call does nothing.
+void dip_error_thread_measure(DipErrorThread *thread, const DipStill *still,
+                              unsigned picture_number);
+
+// Stops measuring and forgets all results. Call it while the camera moves.
+void dip_error_thread_pause(DipErrorThread *thread);
+
+typedef enum DipErrorStatus {
+    DIP_ERROR_STATUS_PAUSED,
+    DIP_ERROR_STATUS_WORKING, // The result is still being refined.
+    DIP_ERROR_STATUS_DONE,    // The result is final.
+    DIP_ERROR_STATUS_FAILED   // Memory ran out, or no thread could start.
+} DipErrorStatus;
+
+typedef struct DipErrorReading {
+    DipErrorStatus status;
+    DipErrorJobResult result;
+} DipErrorReading;
+
+// Reads the result for the last still. Returns whether the result is new since the previous call.
+bool dip_error_thread_read(DipErrorThread *thread, DipErrorReading *reading);
+
+// Bins of FLIP from 0 to 1 in which pixels are counted.
+enum { DIP_ERROR_BINS = 100 };
+
+// How FLIP is distributed over the pixels of a pane.
+typedef struct DipErrorSpread {
+    DipFlipTail tail;
+    uint32_t bins[DIP_ERROR_BINS]; // Numbers of pixels.
+} DipErrorSpread;
+
+// The pictures behind a result: the truth, and the FLIP map of each pane. Rows are packed.
+typedef struct DipErrorPictures {
+    uint64_t version; // Equal versions mean equal pictures; grows with each result.
+    int width;
+    int height;
+    DipErrorJobResult result;
+    const uint8_t *truth_rgba8; // sRGB, four bytes per pixel.
+    // FLIP of each pixel. NULL if the pane is not judged, or if the panes' pictures have changed
+    // since while the truth still holds.
+    const float *flip[DIP_PANE_COUNT];
+    DipErrorSpread spread[DIP_PANE_COUNT];
+} DipErrorPictures;
+
+// Returns the newest pictures that belong to the last still, or NULL if there are none (yet). They
+// are valid until the next call of any function of this thread but dip_error_thread_read. Only the
+// thread that calls dip_error_thread_measure may call this function.
+const DipErrorPictures *dip_error_thread_pictures(DipErrorThread *thread);
+
+#endif

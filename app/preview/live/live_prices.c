@@ -1,0 +1,281 @@
+// Draws the frames that rough prices come from.
+#include "app/preview/live/live_prices.h"
+
+#include "app/cost/plan.h"
+#include "app/cli/machine.h"
+#include "app/preview/live/price_errors.h"
+#include "renderer/base/clock.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const int64_t progress_period_ns = 250000000;
+enum { MOST_ERRORS = 2 * DIP_PRICE_JOB_ROUNDS * 16 }; // More than the rough prices of a picture.
+
+struct DipLivePrices {
+    DipSession *session;
+    DipPrices *prices;
+    DipPriceJob *job;
+    // Indexed by the step of the setting gi, as in the cost report: a renderer that draws copies of
+    // meshes keeps them.
+    DipPainter *painters[2];
+    DipLivePicture picture;
+    bool has_picture;
+    DipFrame frame; // The frame that was drawn last.
+    char scene[DIP_COST_TEXT];
+    char processor[DIP_COST_TEXT];
+
+    DipPriceErrors errors;
+    bool measures_errors; // A picture is being compared with the truth.
+    bool errors_failed;
+    DipQuality judged; // Settings of this picture.
+    uint64_t truth_version;
+    int errors_left;     // Combinations whose errors are not known, if there is a truth.
+    int64_t progress_ns; // When the text of the progress was written last.
+};
+
+// --- painters ------------------------------------------------------------------------------------
+
+static DipPainter *painter_for(DipLivePrices *live, const DipQuality *quality, DipError *err) {
+    const DipSession *session = live->session;
+    DipPainter **painter = &live->painters[quality->step[DIP_SETTING_GI] != 0];
+    if (!*painter) {
+        const DipRendererDef def = {
+            .pool = session->pool,
+            .isa = session->isa,
+            .width = live->picture.width,
+            .height = live->picture.height,
+            .quality = *quality,
+            .reflection = session->reflection,
+            .force_all_effects = session->force_all_effects,
+        };
+        *painter = dip_painter_create(&def, session->gallery, err);
+    }
+    return *painter;
+}
+
+static bool draw(void *context, const DipQuality *quality, uint64_t frame_index, DipError *err) {
+    DipLivePrices *live = context;
+    DipPainter *painter = painter_for(live, quality, err);
+    if (!painter) {
+        return false;
+    }
+    dip_painter_set_frame_index(painter, frame_index);
+    return dip_painter_set_quality(painter, quality, err) &&
+           dip_painter_draw(painter, live->session->scene, &live->picture.pose,
+                            live->picture.time_ns, &live->frame, err);
+}
+
+static void forget(DipLivePrices *live) {
+    dip_price_job_forget(live->job);
+    live->measures_errors = live->errors_failed = false;
+    live->errors_left = 0;
+    live->has_picture = false;
+    live->progress_ns = -progress_period_ns; // The next text is shown at once.
+}
+
+static void destroy_painters(DipLivePrices *live) {
+    dip_painter_destroy(&live->painters[0]);
+    dip_painter_destroy(&live->painters[1]);
+}
+
+void dip_live_prices_leave_scene(DipLivePrices *live) {
+    forget(live);
+    destroy_painters(live);
+}
+
+void dip_live_prices_enter_scene(DipLivePrices *live) {
+    const DipSession *session = live->session;
+    dip_cost_scene_name(session, live->scene);
+    dip_machine_processor(live->processor, sizeof live->processor);
+    const DipPriceConditions conditions = {
+        .scene = live->scene,
+        .processor = live->processor,
+        .isa = dip_isa_name(session->isa),
+        .threads = dip_pool_thread_count(session->pool),
+    };
+    dip_prices_set_conditions(live->prices, &conditions);
+    dip_prices_prefer_rough(live->prices, dip_prices_are_of_other_scene(live->prices));
+}
+
+DipLivePrices *dip_live_prices_create(DipSession *session, DipPrices *prices, DipError *err) {
+    DipLivePrices *live = calloc(1, sizeof *live);
+    if (!live) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
+        return NULL;
+    }
+    live->session = session;
+    live->prices = prices;
+    live->job =
+        dip_price_job_create(&(DipPriceJobCalls){.draw = draw, .context = live}, prices, err);
+    if (!live->job) {
+        dip_live_prices_destroy(&live);
+    }
+    return live;
+}
+
+void dip_live_prices_destroy(DipLivePrices **live) {
+    if (*live) {
+        destroy_painters(*live);
+        dip_price_errors_free(&(*live)->errors);
+        dip_price_job_destroy(&(*live)->job);
+        free(*live);
+        *live = NULL;
+    }
+}
+
+// --- following the picture -----------------------------------------------------------------------
+
+static bool is_same_picture(const DipLivePicture *a, const DipLivePicture *b) {
+    return memcmp(&a->pose, &b->pose, sizeof a->pose) == 0 && a->time_ns == b->time_ns &&
+           a->width == b->width && a->height == b->height && a->look == b->look;
+}
+
+// Forgets the prices of another picture. A painter that cannot have the new size is destroyed; the
+// next frame then fails with the reason.
+static void follow_picture(DipLivePrices *live, const DipLivePicture *picture) {
+    if (live->has_picture && is_same_picture(&live->picture, picture)) {
+        return;
+    }
+    forget(live);
+    live->picture = *picture;
+    live->has_picture = true;
+    for (int i = 0; i < 2; i++) {
+        if (live->painters[i] &&
+            !dip_painter_resize(live->painters[i], picture->width, picture->height, NULL)) {
+            dip_painter_destroy(&live->painters[i]);
+        }
+    }
+}
+
+// --- errors --------------------------------------------------------------------------------------
+
+static void begin_errors(DipLivePrices *live) {
+    DipQuality list[MOST_ERRORS];
+    dip_prices_list_without_flip(live->prices, list, MOST_ERRORS);
+    live->judged = list[0];
+    live->measures_errors = draw(live, &live->judged, 0, NULL);
+    if (live->measures_errors) {
+        const DipSrgbPicture picture = {live->frame.rgba8, live->frame.stride_bytes,
+                                        live->frame.width, live->frame.height};
+        live->measures_errors = dip_price_errors_begin(&live->errors, &picture);
+    }
+    live->errors_failed = !live->measures_errors;
+    live->errors_left = live->errors_failed ? 0 : live->errors_left;
+}
+
+// Draws a picture or measures a block of it; there is a combination whose error is not known.
+// Returns whether an error has become known.
+static bool step_errors(DipLivePrices *live, const DipSrgbPicture *truth) {
+    double flip;
+    if (!live->measures_errors) {
+        begin_errors(live);
+        return false;
+    }
+    switch (dip_price_errors_step(&live->errors, truth, &flip)) {
+    case DIP_PRICE_ERRORS_WORKING:
+        return false;
+    case DIP_PRICE_ERRORS_DONE:
+        dip_prices_add_rough_flip(live->prices, &live->judged, flip);
+        live->measures_errors = false;
+        live->errors_left--;
+        return true;
+    case DIP_PRICE_ERRORS_FAILED:
+        live->measures_errors = false;
+        live->errors_failed = true;
+        live->errors_left = 0;
+        return false;
+    }
+    return false;
+}
+
+static bool measure_errors(DipLivePrices *live, const DipSrgbPicture *truth, int64_t end_ns) {
+    bool news = false;
+    do {
+        news |= step_errors(live, truth);
+    } while (live->errors_left > 0 && dip_clock_ns() < end_ns);
+    return news;
+}
+
+static bool fits(const DipSrgbPicture *truth, const DipLivePicture *picture) {
+    return truth && truth->width == picture->width && truth->height == picture->height;
+}
+
+static void follow_truth(DipLivePrices *live, uint64_t truth_version) {
+    if (live->truth_version != truth_version) {
+        live->truth_version = truth_version;
+        live->measures_errors = live->errors_failed = false;
+        dip_prices_forget_rough_flip(live->prices);
+    }
+}
+
+static void count_errors_left(DipLivePrices *live, const DipSrgbPicture *truth) {
+    DipQuality list[MOST_ERRORS];
+    live->errors_left = fits(truth, &live->picture) && !live->errors_failed
+                            ? dip_prices_list_without_flip(live->prices, list, MOST_ERRORS)
+                            : 0;
+}
+
+// --- progress ------------------------------------------------------------------------------------
+
+// Writes "3 of 8 frames, 4 s left", "errors of 5 pictures left", or "" if nothing is left.
+static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
+    dip_price_job_describe(live->job, text, size_bytes);
+    if (text[0] == '\0' && live->errors_left > 0) {
+        snprintf(text, size_bytes, "errors of %d picture%s left", live->errors_left,
+                 live->errors_left == 1 ? "" : "s");
+    }
+}
+
+// Tells the panel what is being measured, now and then. Returns whether the text is new.
+static bool show_progress(DipLivePrices *live) {
+    const int64_t now_ns = dip_clock_ns();
+    char text[DIP_PRICE_PROGRESS];
+    if (dip_live_prices_are_working(live) && now_ns - live->progress_ns < progress_period_ns) {
+        return false;
+    }
+    live->progress_ns = now_ns;
+    describe(live, text, sizeof text);
+    return dip_prices_set_progress(live->prices, text);
+}
+
+// --- the whole -----------------------------------------------------------------------------------
+
+static bool measure(DipLivePrices *live, const DipSrgbPicture *truth, double budget_ms) {
+    const int64_t end_ns = dip_clock_ns() + (int64_t)(1e6 * budget_ms);
+    if (dip_price_job_progress(live->job).working) {
+        const bool news = dip_price_job_step(live->job, budget_ms);
+        count_errors_left(live, truth);
+        return news;
+    }
+    count_errors_left(live, truth);
+    return live->errors_left > 0 && measure_errors(live, truth, end_ns);
+}
+
+bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
+                          const DipQuality quality[DIP_PANE_COUNT], const DipSrgbPicture *truth,
+                          uint64_t truth_version, double budget_ms) {
+    follow_picture(live, picture);
+    dip_price_job_follow(live->job, &quality[DIP_PANE_CURRENT], &quality[DIP_PANE_REQUESTED]);
+    if (fits(truth, picture)) {
+        follow_truth(live, truth_version);
+    }
+    const bool news = measure(live, truth, budget_ms);
+    return show_progress(live) || news;
+}
+
+void dip_live_prices_pause(DipLivePrices *live) {
+    dip_price_job_interrupt(live->job);
+    live->measures_errors = false;
+    dip_prices_set_progress(live->prices, "");
+}
+
+bool dip_live_prices_have_times(const DipLivePrices *live) {
+    return live->has_picture && !dip_price_job_progress(live->job).working;
+}
+
+bool dip_live_prices_are_working(const DipLivePrices *live) {
+    return live->has_picture &&
+           (dip_price_job_progress(live->job).working || live->errors_left > 0);
+}

@@ -1,0 +1,62 @@
+// Measures rough prices while the preview rests, a frame at a time.
+//
+// The job times combinations of settings in blocks: the base and a few combinations, each drawn
+// once in every round, in an order that is shuffled anew. A visit draws one frame untimed, because
+// the previous combination has used the caches, and times the next one. After eight rounds the
+// ratios of each combination to the base give its price with an interval
+// (app/measure/stats/paired.h). The combinations nearest to the requested settings come first.
+//
+// What draws and what tells the time are functions of the caller, so that tests need neither.
+#ifndef DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
+#define DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
+
+#include "app/preview/prices/prices.h"
+#include "renderer/base/error.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { DIP_PRICE_JOB_ROUNDS = 8 };
+
+typedef struct DipPriceJobCalls {
+    // Draws a frame with these settings. frame_index: see dip_painter_set_frame_index. If it
+    // fails, the job ends until it is told to forget.
+    bool (*draw)(void *context, const DipQuality *quality, uint64_t frame_index, DipError *err);
+    int64_t (*now_ns)(void *context); // NULL means dip_clock_ns.
+    void *context;
+} DipPriceJobCalls;
+
+typedef struct DipPriceJob DipPriceJob;
+
+// Writes prices into *prices, which is borrowed. Fails with MEMORY.
+DipPriceJob *dip_price_job_create(const DipPriceJobCalls *calls, DipPrices *prices, DipError *err);
+void dip_price_job_destroy(DipPriceJob **job); // *job may be NULL.
+
+// Drops the block that is being timed and forgets all rough prices. Call it when pose, time, size
+// or scene of the picture change.
+void dip_price_job_forget(DipPriceJob *job);
+
+// Drops the block that is being timed, because the preview no longer rests.
+void dip_price_job_interrupt(DipPriceJob *job);
+
+// Tells the panes' settings. Combinations that are known already are not timed again.
+void dip_price_job_follow(DipPriceJob *job, const DipQuality *current, const DipQuality *requested);
+
+// Draws frames until the budget is used up, at least one. Returns whether there are new prices.
+bool dip_price_job_step(DipPriceJob *job, double budget_ms);
+
+typedef struct DipPriceProgress {
+    bool working;        // There are combinations left to time.
+    bool failed;         // A frame could not be drawn, or memory ran out.
+    int rounds;          // Rounds of the block that are complete.
+    int combinations;    // Combinations that are left, with those of the block.
+    double seconds_left; // Of drawing, with the frames' times so far; 0 before the first frame.
+} DipPriceProgress;
+
+DipPriceProgress dip_price_job_progress(const DipPriceJob *job);
+
+// Writes "3 of 8 frames, 4 s left", or "" if there is nothing to measure.
+void dip_price_job_describe(const DipPriceJob *job, char *text, size_t size_bytes);
+
+#endif

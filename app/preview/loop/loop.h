@@ -1,0 +1,77 @@
+// The preview on any display: handles events, lets time pass, draws and presents.
+//
+// The owner calls dip_preview_turn until dip_preview_has_quit. A turn handles the events that have
+// arrived, and draws and presents at most one frame. If the turn presented a frame, it then waits
+// for the display's next refresh. Otherwise it waits a short time for an event.
+#ifndef DIP_APP_PREVIEW_LOOP_LOOP_H
+#define DIP_APP_PREVIEW_LOOP_LOOP_H
+
+#include "app/display/display.h"
+#include "app/preview/tools/layout.h"
+#include "app/preview/live/panel.h"
+#include "app/preview/prices/prices.h"
+#include "app/preview/state/state.h"
+#include "app/session/session.h"
+
+typedef struct DipPreview DipPreview;
+
+// What a control of the preview sees between two turns.
+typedef struct DipPreviewMoment {
+    DipPreviewState *state; // The control may change it, as keys do.
+    DipSession *session;
+    const DipDisplay *display;
+    const DipPaneFigures *figures; // One for each pane.
+    const DipPrices *prices;
+    const DipFrame *panes; // The frames drawn last, one for each pane; no pixels before the first.
+    DipPixels picture;     // The picture presented last.
+    bool drawn;            // The frames and the picture show what the state asks for.
+    int64_t now_ns;
+} DipPreviewMoment;
+
+// A further source of events beside the display: another program that controls the preview
+// (app/preview/control/control.h). NULL functions are not called.
+typedef struct DipPreviewControl {
+    void *context;
+    // Called once in each turn, before drawing. Returns whether the overlay may have changed.
+    bool (*turn)(void *context, const DipPreviewMoment *moment);
+    // Called when the user presses a mouse button, before the preview acts on it.
+    void (*press)(void *context, const DipPreviewMoment *moment, const DipEvent *event);
+} DipPreviewControl;
+
+typedef struct DipPreviewDef {
+    DipSession *session;         // Borrowed.
+    DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
+    const DipCosts *costs;       // Borrowed; NULL if there is no cost report.
+    struct DipReload *reload;    // Borrowed; NULL: the preview ignores dropped files.
+    DipPrices *prices;           // Borrowed; NULL: the preview has prices of its own.
+    bool measures_prices;        // Measure rough prices while the dock is open and nothing moves.
+    double flying_speed_m_per_s; // Speed of the free camera.
+    DipPreviewControl control;   // Its context is borrowed.
+    double ui_scale;             // Factor by which controls are enlarged; 0 stands for 1.
+    const char *notice;          // Shown at first for a few seconds; may be NULL. Copied.
+
+    // Loads session->scene_def, which is needed to measure errors. Called when the user first asks
+    // for errors, since the load takes time and memory.
+    bool (*load_scene_def)(void *context, DipError *err);
+    void *context;
+} DipPreviewDef;
+
+// Fails with MISSING if there is no font.
+DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err);
+void dip_preview_destroy(DipPreview **preview);
+
+// Runs one turn. Fails if drawing or presenting fails.
+bool dip_preview_turn(DipPreview *preview, DipError *err);
+
+// Returns whether the user has left the preview.
+bool dip_preview_has_quit(const DipPreview *preview);
+
+const DipPreviewState *dip_preview_state(const DipPreview *preview);
+
+// Returns where the panes and the dock lie now.
+DipLayout dip_preview_layout(DipPreview *preview);
+
+// Returns the picture that was drawn last. It has the display's size.
+DipPixels dip_preview_picture(const DipPreview *preview);
+
+#endif

@@ -1,0 +1,146 @@
+// Measures errors and rough prices while nothing moves.
+#include "app/preview/loop/loop_private.h"
+
+#include "app/preview/tools/maps.h"
+
+// Rough prices are measured for about this time in each turn.
+static const double price_budget_ms = 8.0;
+static const int least_truth_samples = 32; // Errors of prices against a coarser truth mislead.
+
+void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading) {
+    dip_maps_set_errors(dip_tools_maps(preview->tools), reading,
+                        preview->errors ? dip_error_thread_pictures(preview->errors) : NULL);
+}
+
+// Returns whether rough prices are measured: the dock or another program shows them, and nothing
+// moves.
+static bool wants_prices(const DipPreview *preview) {
+    const DipPreviewState *state = &preview->state;
+    const bool shown = (state->tools.open && !state->tools.bare) || state->wants_prices;
+    return preview->live_prices && dip_prices_are_rough(preview->prices) && shown &&
+           dip_preview_rests(state, preview->flying);
+}
+
+// Returns whether the tags of the settings or the advice wait for the truth, from which their
+// errors are measured. It is drawn only once all times are known, because it would disturb them.
+static bool prices_need_truth(const DipPreview *preview) {
+    const DipPreviewState *state = &preview->state;
+    const bool shown = state->tools.tab == DIP_TAB_SETTINGS || state->tools.tab == DIP_TAB_ADVICE;
+    return (shown || state->wants_prices) && !preview->no_truth && wants_prices(preview) &&
+           dip_live_prices_have_times(preview->live_prices);
+}
+
+// Returns whether the user looks at errors or at the truth.
+static bool shows_errors(const DipPreview *preview) {
+    const DipPreviewState *state = &preview->state;
+    return state->panel || state->wants_errors || dip_maps_need_errors(&state->tools);
+}
+
+static bool wants_errors(const DipPreview *preview) {
+    return !preview->def.session->shows_gallery &&
+           dip_preview_rests(&preview->state, preview->flying) &&
+           (shows_errors(preview) || prices_need_truth(preview));
+}
+
+static void close_errors(DipPreview *preview) {
+    preview->state.tools.open = preview->state.wants_errors = false;
+    dip_maps_choose(&preview->state.tools, DIP_MAP_NONE);
+    preview->resized = true;
+    dip_preview_follow_dock(&preview->state);
+}
+
+static bool create_errors(DipPreview *preview, int64_t now_ns) {
+    const DipSession *session = preview->def.session;
+    DipError err;
+    if (!preview->errors && preview->def.load_scene_def(preview->def.context, &err)) {
+        preview->errors = dip_error_thread_create(&session->scene_def, &session->reflection, &err);
+    }
+    if (!preview->errors) {
+        dip_loop_report(preview, &err, now_ns);
+        if (shows_errors(preview)) {
+            close_errors(preview);
+        }
+        preview->no_truth = true;
+    }
+    return preview->errors != NULL;
+}
+
+static bool shows_mips(const DipPreview *preview, int pane) {
+    return preview->drawn.quality[pane].step[DIP_SETTING_MIPDEBUG] != 0;
+}
+
+static DipStill still_of(const DipPreview *preview) {
+    const DipFrame *current = &preview->frame.panes[DIP_PANE_CURRENT];
+    const DipFrame *requested = &preview->frame.panes[DIP_PANE_REQUESTED];
+    return (DipStill){
+        .pose = preview->drawn.pose,
+        .time_ns = preview->drawn.play_ns,
+        .width = current->width,
+        .height = current->height,
+        .stride_bytes = current->stride_bytes,
+        .rgba8 = {current->rgba8, preview->frame.copied ? NULL : requested->rgba8},
+        .unjudged = {shows_mips(preview, DIP_PANE_CURRENT),
+                     shows_mips(preview, DIP_PANE_REQUESTED)},
+    };
+}
+
+bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns) {
+    const bool gallery = preview->def.session->shows_gallery;
+    const bool measures = wants_errors(preview);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        preview->figures.shown[p].no_errors = gallery;
+        preview->figures.shown[p].mip_colours = shows_mips(preview, p);
+    }
+    if (!preview->errors && !(measures && create_errors(preview, now_ns))) {
+        return false;
+    }
+    if (measures) {
+        const DipStill still = still_of(preview);
+        dip_error_thread_measure(preview->errors, &still, preview->picture_number);
+    } else {
+        dip_error_thread_pause(preview->errors);
+    }
+    DipErrorReading reading;
+    const bool news = dip_error_thread_read(preview->errors, &reading);
+    dip_loop_show_errors(preview, &reading);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        preview->figures.shown[p].errors = reading;
+    }
+    return news;
+}
+
+// Returns the truth of the picture that the panes show, or NULL while it is too noisy for prices.
+static const DipErrorPictures *truth_for_prices(const DipPreview *preview) {
+    const DipErrorPictures *pictures = preview->errors && wants_errors(preview)
+                                           ? dip_error_thread_pictures(preview->errors)
+                                           : NULL;
+    return pictures && pictures->result.samples >= least_truth_samples ? pictures : NULL;
+}
+
+bool dip_loop_measure_prices(DipPreview *preview) {
+    if (!preview->live_prices) {
+        return false;
+    }
+    dip_prices_prefer_rough(preview->prices, preview->state.measures_here ||
+                                                 dip_prices_are_of_other_scene(preview->prices));
+    if (!wants_prices(preview)) {
+        dip_live_prices_pause(preview->live_prices);
+        return false;
+    }
+    const DipLivePicture picture = {
+        .pose = preview->drawn.pose,
+        .time_ns = preview->drawn.play_ns,
+        .width = preview->drawn.width,
+        .height = preview->drawn.height,
+        .look = preview->drawn.look,
+    };
+    const DipErrorPictures *pictures = truth_for_prices(preview);
+    const DipSrgbPicture truth =
+        pictures ? (DipSrgbPicture){pictures->truth_rgba8, 4 * (size_t)pictures->width,
+                                    pictures->width, pictures->height}
+                 : (DipSrgbPicture){.width = 0};
+    // A picture has one truth for each number of samples.
+    return dip_live_prices_step(preview->live_prices, &picture, preview->drawn_quality,
+                                pictures ? &truth : NULL,
+                                pictures ? (uint64_t)pictures->result.samples : 0, price_budget_ms);
+}

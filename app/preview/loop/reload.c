@@ -1,0 +1,382 @@
+// Opening sessions on a thread.
+#include "app/preview/loop/reload.h"
+
+#include "app/cost/plan.h"
+#include "app/cli/log.h"
+#include "app/preview/loop/watch.h"
+#include "renderer/base/clock.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+enum { MAX_DROPS = 64 };
+
+// What is opened, and what came of it. The thread alone uses it while `running`.
+typedef struct Opening {
+    pthread_t thread;
+    bool running;
+    atomic_bool done;
+    bool dropped;                   // False: a file has changed.
+    char name[DIP_WATCH_NAME_SIZE]; // The file that was dropped or has changed, without its folder.
+    DipSessionOptions options;
+    const DipImporter *importer;
+    DipSession session;
+    DipErrorList faults;
+    bool opened;
+} Opening;
+
+struct DipReload {
+    DipSession *session;
+    const DipSessionOptions *first_options; // Of the session as it was at first.
+    DipSessionOptions options;              // Of the session that the preview shows.
+    DipWatch *watch;                        // NULL without --watch.
+    bool changed;                           // A file has changed, and the session is to be opened.
+    char changed_name[DIP_WATCH_NAME_SIZE];
+    const char *drops[MAX_DROPS]; // Files that wait, the first one first. They are in `names`.
+    int drop_count;
+    char **names; // Every name that was ever dropped, once. Options point to these names.
+    int name_count;
+    Opening opening;
+    DipPrices *prices; // Borrowed, or NULL.
+    DipCosts *costs;
+};
+
+// --- the files of a session ----------------------------------------------------------------------
+
+static void watch_model(DipWatch *watch, const char *file) {
+    dip_watch_file(watch, file);
+    dip_watch_folder(watch, file);
+}
+
+static void watch_config(DipWatch *watch, const DipConfig *config) {
+    dip_watch_file(watch, config->file);
+    for (size_t i = 0; i < config->xfile.count; ++i) {
+        watch_model(watch, config->xfile.items[i].path);
+    }
+    for (int c = 0; c < DIP_CATEGORY_COUNT; ++c) {
+        if (config->camera[c].file.path) {
+            dip_watch_file(watch, config->camera[c].file.path);
+        }
+    }
+    for (int m = 0; m < DIP_MIP_LEVEL_COUNT; ++m) {
+        if (config->mip_picture[m].path) {
+            dip_watch_file(watch, config->mip_picture[m].path);
+        }
+    }
+}
+
+// Watches the files of the session, and the files in which an opening has found faults, because the
+// user is about to mend these.
+static void watch_session(DipReload *reload, const DipErrorList *faults) {
+    const DipSessionOptions *options = &reload->options;
+    if (!reload->watch) {
+        return;
+    }
+    dip_watch_begin_list(reload->watch);
+    if (reload->session->config.file) {
+        watch_config(reload->watch, &reload->session->config);
+    }
+    for (int i = 0; i < options->model_count; ++i) {
+        watch_model(reload->watch, options->models[i]);
+    }
+    if (options->path) {
+        dip_watch_file(reload->watch, options->path);
+    }
+    for (size_t i = 0; i < faults->count; ++i) {
+        if (faults->items[i].file[0]) {
+            dip_watch_file(reload->watch, faults->items[i].file);
+        }
+    }
+    dip_watch_end_list(reload->watch);
+}
+
+// --- creating and destroying ---------------------------------------------------------------------
+
+DipReload *dip_reload_create(DipSession *session, bool watch, DipError *err) {
+    DipReload *reload = calloc(1, sizeof *reload);
+    if (!reload || (watch && !(reload->watch = dip_watch_create()))) {
+        free(reload);
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
+        return NULL;
+    }
+    reload->session = session;
+    reload->first_options = session->options;
+    reload->options = *session->options;
+    watch_session(reload, &(DipErrorList){0});
+    return reload;
+}
+
+static void join(Opening *opening) {
+    if (opening->running) {
+        pthread_join(opening->thread, NULL);
+        opening->running = false;
+    }
+}
+
+static void drop_opening(Opening *opening) {
+    if (opening->opened) {
+        dip_session_close(&opening->session);
+        opening->opened = false;
+    }
+    dip_error_list_free(&opening->faults);
+}
+
+void dip_reload_destroy(DipReload **reload_pointer) {
+    DipReload *reload = *reload_pointer;
+    if (!reload) {
+        return;
+    }
+    *reload_pointer = NULL;
+    join(&reload->opening);
+    drop_opening(&reload->opening);
+    reload->session->options = reload->first_options;
+    dip_watch_destroy(&reload->watch);
+    for (int i = 0; i < reload->name_count; ++i) {
+        free(reload->names[i]);
+    }
+    free(reload->names);
+    free(reload->costs);
+    free(reload);
+}
+
+// --- dropped files -------------------------------------------------------------------------------
+
+// Returns a copy of the name that lives as long as the reload, or NULL when memory runs out.
+static const char *keep_name(DipReload *reload, const char *file) {
+    for (int i = 0; i < reload->name_count; ++i) {
+        if (strcmp(reload->names[i], file) == 0) {
+            return reload->names[i];
+        }
+    }
+    char **grown = realloc(reload->names, ((size_t)reload->name_count + 1) * sizeof *grown);
+    if (!grown) {
+        return NULL;
+    }
+    reload->names = grown;
+    char *name = strdup(file);
+    if (name) {
+        reload->names[reload->name_count++] = name;
+    }
+    return name;
+}
+
+bool dip_reload_drop(DipReload *reload, const char *file) {
+    const char *name = reload->drop_count < MAX_DROPS ? keep_name(reload, file) : NULL;
+    if (name) {
+        reload->drops[reload->drop_count++] = name;
+    }
+    return name != NULL;
+}
+
+static bool ends_with(const char *file, const char *ending) {
+    const size_t length = strlen(file);
+    const size_t tail = strlen(ending);
+    return length >= tail && strcasecmp(file + length - tail, ending) == 0;
+}
+
+// Changes the options as if the command line named the file.
+static void aim(DipSessionOptions *options, const char *file) {
+    options->category = NULL;
+    options->has_pose = false;
+    options->path = NULL;
+    if (ends_with(file, ".pth") || ends_with(file, ".bth")) {
+        options->path = file;
+        return;
+    }
+    options->scene = NULL;
+    options->look = 0;
+    options->model_count = 0;
+    if (ends_with(file, ".ini")) {
+        options->config = file;
+        options->has_current = options->has_requested = false;
+    } else {
+        options->models[options->model_count++] = file;
+    }
+}
+
+// --- opening -------------------------------------------------------------------------------------
+
+static void *open_session(void *context) {
+    Opening *opening = context;
+    const DipSessionDef def = {
+        .options = &opening->options,
+        .importer = opening->importer,
+        .log = "", // Not NULL: the log that is open stays open.
+        .scene = true,
+        .renderers = true,
+        .begin_ns = dip_clock_ns(),
+    };
+    opening->opened = dip_session_open(&opening->session, &def, &opening->faults);
+    atomic_store(&opening->done, true);
+    return NULL;
+}
+
+static const char *base_name(const char *file) {
+    const char *slash = strrchr(file, '/');
+    return slash ? slash + 1 : file;
+}
+
+static bool tell(DipReloadNews *news, DipReloadKind kind, const char *what, const char *name) {
+    news->kind = kind;
+    snprintf(news->notice, sizeof news->notice, "%s%.100s", what, name);
+    return true;
+}
+
+static bool tell_fault(DipReloadNews *news, const DipErrorList *faults) {
+    char line[512] = "out of memory";
+    for (size_t i = 0; i < faults->count; ++i) {
+        if (faults->items[i].severity == DIP_SEVERITY_ERROR || faults->error_count == 0) {
+            dip_error_format(&faults->items[i], line, sizeof line);
+            break;
+        }
+    }
+    news->kind = DIP_RELOAD_FAULT;
+    snprintf(news->notice, sizeof news->notice, "%.150s", line);
+    return true;
+}
+
+// Tells about an error and writes it to the log.
+static bool tell_error(DipReloadNews *news, const DipError *err) {
+    DipErrorList faults = {0};
+    dip_error_list_add(&faults, err);
+    dip_log_errors(&faults);
+    tell_fault(news, &faults);
+    dip_error_list_free(&faults);
+    return true;
+}
+
+// Returns whether the name belongs to a folder, a named pipe or a device. The reader of ini files
+// accepts a pipe, as the shell makes one for the command line, but a pipe can be read only once,
+// and to wait for its writer could take for ever.
+static bool is_no_file(const char *file) {
+    struct stat status;
+    return file && stat(file, &status) == 0 && !S_ISREG(status.st_mode);
+}
+
+// Begins to open a session. `file` was dropped; NULL: the files of the present session are opened
+// again.
+static bool begin(DipReload *reload, const char *file, const char *name, DipReloadNews *news) {
+    Opening *opening = &reload->opening;
+    opening->options = reload->options;
+    opening->importer = reload->session->importer;
+    opening->dropped = file != NULL;
+    opening->opened = false;
+    snprintf(opening->name, sizeof opening->name, "%.255s", name);
+    if (file) {
+        aim(&opening->options, file);
+    }
+    news->dropped = opening->dropped;
+    if (is_no_file(opening->options.config)) {
+        DipError err;
+        dip_error_set(&err, DIP_ERROR_IO, opening->options.config, 0, NULL,
+                      "is not a file, accepted an ini file");
+        return tell_error(news, &err);
+    }
+    atomic_store(&opening->done, false);
+    opening->running = pthread_create(&opening->thread, NULL, open_session, opening) == 0;
+    return opening->running ? tell(news, DIP_RELOAD_BEGUN, "Opening ", opening->name)
+                            : tell(news, DIP_RELOAD_FAULT, "No thread could start for ", name);
+}
+
+// Returns whether a file that has changed, or has disappeared, was left out of the new session. A
+// picture that cannot be read is only a warning, and its surfaces lose their texture.
+static bool lacks_changed_file(const Opening *opening) {
+    const char *sign = opening->name[0] ? opening->name : "is missing";
+    for (size_t i = 0; !opening->dropped && i < opening->faults.count; ++i) {
+        const DipError *fault = &opening->faults.items[i];
+        if (strstr(fault->message, sign) || strstr(fault->file, sign)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Takes the result of the thread, which has ended.
+static bool finish(DipReload *reload, DipReloadNews *news) {
+    Opening *opening = &reload->opening;
+    join(opening);
+    dip_log_errors(&opening->faults);
+    news->dropped = opening->dropped;
+    if (opening->opened && !lacks_changed_file(opening)) {
+        return tell(news, DIP_RELOAD_SESSION, opening->dropped ? "Opened " : "Reloaded ",
+                    opening->name[0] ? opening->name : "the scene");
+    }
+    tell_fault(news, &opening->faults);
+    watch_session(reload, &opening->faults);
+    drop_opening(opening);
+    return true;
+}
+
+void dip_reload_take(DipReload *reload) {
+    Opening *opening = &reload->opening;
+    const DipStartTimes times = reload->session->times;
+    dip_session_close(reload->session);
+    *reload->session = opening->session;
+    opening->opened = false;
+    reload->options = opening->options;
+    reload->session->options = &reload->options;
+    reload->session->times = times; // --timing tells about the start of the program.
+    watch_session(reload, &opening->faults);
+    dip_error_list_free(&opening->faults);
+}
+
+// --- cost reports --------------------------------------------------------------------------------
+
+static bool open_costs(DipReload *reload, const char *file, DipReloadNews *news) {
+    char scene[DIP_COST_TEXT];
+    DipError err;
+    DipCosts *costs = calloc(1, sizeof *costs);
+    dip_cost_scene_name(reload->session, scene);
+    news->dropped = true;
+    if (costs && dip_costs_load(costs, reload->prices, file, scene, &err)) {
+        free(reload->costs);
+        reload->costs = costs;
+        return tell(news, DIP_RELOAD_COSTS, "Opened ", base_name(file));
+    }
+    if (!costs) {
+        dip_error_set(&err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
+    }
+    free(costs);
+    return tell_error(news, &err);
+}
+
+void dip_reload_set_prices(DipReload *reload, DipPrices *prices) {
+    reload->prices = prices;
+}
+
+const DipCosts *dip_reload_costs(const DipReload *reload) {
+    return reload->costs;
+}
+
+// --- turns ---------------------------------------------------------------------------------------
+
+static bool open_next_drop(DipReload *reload, DipReloadNews *news) {
+    const char *file = reload->drops[0];
+    --reload->drop_count;
+    memmove(reload->drops, reload->drops + 1, (size_t)reload->drop_count * sizeof file);
+    return ends_with(file, ".json") ? open_costs(reload, file, news)
+                                    : begin(reload, file, base_name(file), news);
+}
+
+bool dip_reload_poll(DipReload *reload, int64_t now_ns, DipReloadNews *news) {
+    *news = (DipReloadNews){.kind = DIP_RELOAD_NOTHING};
+    if (reload->watch && dip_watch_poll(reload->watch, now_ns, reload->changed_name)) {
+        reload->changed = true;
+    }
+    if (reload->opening.running) {
+        return atomic_load(&reload->opening.done) && finish(reload, news);
+    }
+    if (reload->drop_count > 0) {
+        return open_next_drop(reload, news);
+    }
+    if (reload->changed) {
+        reload->changed = false;
+        return begin(reload, NULL, reload->changed_name, news);
+    }
+    return false;
+}

@@ -1,0 +1,60 @@
+// The preview as one picture: both panes (the pictures of the current and the requested settings)
+// side by side, and the overlay over the panes.
+#ifndef DIP_APP_PREVIEW_LOOP_VIEW_H
+#define DIP_APP_PREVIEW_LOOP_VIEW_H
+
+#include "app/canvas/draw_list.h"
+#include "app/preview/tabs/tabs.h"
+#include "app/preview/cells/text_view.h"
+
+typedef struct DipView DipView;
+
+// text: the view's texts are character cells (text_view.h), drawn by `text`, which is borrowed; the
+// picture then holds the panes only. NULL: all texts are drawn into the picture. Fails with MISSING
+// if the picture needs a font and there is none.
+DipView *dip_view_create(DipTextView *text, DipError *err);
+void dip_view_destroy(DipView **view);
+
+// Sets a pane's frame. The frame's pixels are borrowed until the pane's next frame is set.
+void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame);
+
+// Returns the version of a pane's picture: equal versions mean equal pixels.
+uint64_t dip_view_version(const DipView *view, int pane);
+
+// What the window shows besides the panes' frames. All of it is borrowed for a call.
+typedef struct DipViewInput {
+    int width; // Size of the window in pixels.
+    int height;
+    double scale; // The display's scale.
+    int64_t now_ns;
+    DipPreviewState *state;
+    const DipPaneFigures *figures; // [DIP_PANE_COUNT]
+    const DipPrices *prices;
+    DipTools *tools;
+    DipTextView *text; // The texts, if they are character cells; otherwise NULL.
+    bool still;        // Camera and scene stand still.
+} DipViewInput;
+
+// Returns where panes and dock lie.
+DipLayout dip_view_layout(const DipViewInput *input);
+
+// Hands an event to the window's controls, which change input->state. Returns whether one of them
+// took the event.
+bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *event);
+
+// Draws what has changed since the last call, or everything if the size has changed.
+bool dip_view_draw(DipView *view, const DipViewInput *input, DipError *err);
+
+// The controls: their focus, and when the window must be drawn again (ui.h).
+DipUi *dip_view_ui(DipView *view);
+
+// Returns the picture, which is valid until the next dip_view_draw.
+DipPixels dip_view_picture(const DipView *view);
+
+// Returns the rectangles that have changed since the previous call, and forgets them.
+DipDamage dip_view_take_damage(DipView *view);
+
+// Marks the whole picture as changed.
+void dip_view_damage_all(DipView *view);
+
+#endif

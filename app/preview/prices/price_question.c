@@ -1,0 +1,227 @@
+// Finding the company of each setting, and listing the combinations that prices are made of.
+#include "app/preview/prices/price_question.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Company for a pane that has none: the steps that `diptych cost` sweeps with.
+enum { COMPANY_AA = 2, COMPANY_AF = 4 };
+
+bool dip_price_is_same(const DipQuality *a, const DipQuality *b) {
+    return memcmp(a, b, sizeof *a) == 0;
+}
+
+// Returns whether adaptive AA with these settings divides the samples into two groups or more.
+static bool has_groups(const DipQuality *quality) {
+    DipQuality on = *quality;
+    on.step[DIP_SETTING_AAA] = 1;
+    return dip_quality_check(&on, NULL) &&
+           dip_quality_samples_per_group(&on) < dip_quality_sample_count(&on);
+}
+
+DipQuality dip_price_normal(const DipQuality *base, const DipQuality *quality) {
+    DipQuality normal = *quality;
+    uint8_t *step = normal.step;
+    step[DIP_SETTING_MIPDEBUG] = base->step[DIP_SETTING_MIPDEBUG];
+    step[DIP_SETTING_AAF] = step[DIP_SETTING_AF] ? step[DIP_SETTING_AAF] : 0;
+    step[DIP_SETTING_TAA] = step[DIP_SETTING_AA] ? step[DIP_SETTING_TAA] : 0;
+    step[DIP_SETTING_AAA] = has_groups(&normal) ? step[DIP_SETTING_AAA] : 0;
+    step[DIP_SETTING_ASD] = step[DIP_SETTING_AAA] ? step[DIP_SETTING_ASD] : 0;
+    return normal;
+}
+
+// --- company -------------------------------------------------------------------------------------
+
+static void need(DipPriceQuestion *question, const char *what) {
+    snprintf(question->needs, sizeof question->needs, "%s", what);
+}
+
+// Gives both combinations the pane's step of `company`, or `otherwise` if the pane has it off.
+static void keep_company(DipPriceQuestion *question, DipSetting company, uint8_t otherwise,
+                         const DipQuality *quality, const char *name) {
+    uint8_t step = quality->step[company];
+    if (step == 0) {
+        step = otherwise;
+        need(question, name);
+    }
+    question->with.step[company] = question->without.step[company] = step;
+}
+
+// Gives both combinations AA without adaptive AA: the pane's AA if it can be divided into groups of
+// this size, otherwise the fewest samples that can.
+static void keep_samples(DipPriceQuestion *question, int asd, const DipQuality *quality) {
+    const DipSettingInfo *aa = dip_setting_info(DIP_SETTING_AA);
+    DipQuality try = question->without;
+    try.step[DIP_SETTING_ASD] = (uint8_t)asd;
+    try.step[DIP_SETTING_AA] = quality->step[DIP_SETTING_AA];
+    for (int step = 1; !has_groups(&try) && step < aa->step_count; step++) {
+        try.step[DIP_SETTING_AA] = (uint8_t)step;
+        snprintf(question->needs, sizeof question->needs, "AA %.8sx", aa->steps[step]);
+    }
+    if (quality->step[DIP_SETTING_AA] == 0 && asd == 0) {
+        try.step[DIP_SETTING_AA] = COMPANY_AA;
+        need(question, "AA");
+    }
+    question->without.step[DIP_SETTING_AA] = try.step[DIP_SETTING_AA];
+    question->without.step[DIP_SETTING_AAA] = 0;
+    question->without.step[DIP_SETTING_ASD] = 0;
+    question->with = question->without;
+}
+
+static void turn_adaptive_on(DipPriceQuestion *question, int asd) {
+    question->with.step[DIP_SETTING_AAA] = 1;
+    question->with.step[DIP_SETTING_ASD] = (uint8_t)asd;
+}
+
+static void ask_adaptive(DipPriceQuestion *question, int step, const DipQuality *quality) {
+    const bool idle = quality->step[DIP_SETTING_AA] != 0 && !has_groups(quality);
+    const int asd = has_groups(quality) ? quality->step[DIP_SETTING_ASD] : 0;
+    keep_samples(question, asd, quality);
+    question->is_base = step == 0;
+    if (!question->is_base) {
+        turn_adaptive_on(question, asd);
+        if (idle) {
+            need(question, "smaller groups");
+        }
+    }
+}
+
+static void ask_group_size(DipPriceQuestion *question, int step, const DipQuality *quality) {
+    keep_samples(question, step, quality);
+    turn_adaptive_on(question, step);
+    if (!question->needs[0] && quality->step[DIP_SETTING_AAA] == 0) {
+        need(question, "adaptive AA");
+    }
+}
+
+// AF and advanced AF cost more where antialiasing shades more fragments.
+static bool is_filtering(DipSetting setting) {
+    return setting == DIP_SETTING_AF || setting == DIP_SETTING_AAF;
+}
+
+// Gives both combinations the antialiasing of the pane.
+static void keep_antialiasing(DipPriceQuestion *question, const DipQuality *base,
+                              const DipQuality *quality) {
+    static const DipSetting settings[] = {DIP_SETTING_AA, DIP_SETTING_AAA, DIP_SETTING_ASD};
+    const DipQuality pane = dip_price_normal(base, quality);
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        question->with.step[settings[i]] = pane.step[settings[i]];
+        question->without.step[settings[i]] = pane.step[settings[i]];
+    }
+}
+
+DipPriceQuestion dip_price_question(const DipQuality *base, DipSetting setting, int step,
+                                    const DipQuality *quality) {
+    DipPriceQuestion question = {.with = *base, .without = *base};
+    switch (setting) {
+    case DIP_SETTING_AAA:
+        ask_adaptive(&question, step, quality);
+        break;
+    case DIP_SETTING_ASD:
+        ask_group_size(&question, step, quality);
+        break;
+    case DIP_SETTING_TAA:
+    case DIP_SETTING_AAF: {
+        const bool taa = setting == DIP_SETTING_TAA;
+        keep_company(&question, taa ? DIP_SETTING_AA : DIP_SETTING_AF,
+                     taa ? COMPANY_AA : COMPANY_AF, quality, taa ? "AA" : "AF");
+        question.without.step[setting] = 0;
+        question.with.step[setting] = (uint8_t)step;
+        question.is_base = step == 0;
+        break;
+    }
+    default:
+        question.with.step[setting] = (uint8_t)step;
+        question.is_base = step == base->step[setting];
+        break;
+    }
+    if (question.is_base) {
+        question.needs[0] = '\0';
+    } else if (is_filtering(setting)) {
+        keep_antialiasing(&question, base, quality);
+    }
+    return question;
+}
+
+// --- the combinations to time --------------------------------------------------------------------
+
+typedef struct Wanted {
+    const DipQuality *base;
+    DipQuality *list;
+    int room;
+    int count;
+} Wanted;
+
+static void want(Wanted *wanted, const DipQuality *quality) {
+    const DipQuality normal = dip_price_normal(wanted->base, quality);
+    for (int i = 0; i < wanted->count; i++) {
+        if (dip_price_is_same(&wanted->list[i], &normal)) {
+            return;
+        }
+    }
+    if (wanted->count < wanted->room && dip_quality_check(&normal, NULL)) {
+        wanted->list[wanted->count++] = normal;
+    }
+}
+
+// Adds the combinations of a setting's steps that lie `distance` steps from the pane's own.
+static void want_steps_of(Wanted *wanted, const DipQuality *pane, DipSetting setting,
+                          int distance) {
+    for (int step = 0; step < dip_setting_info(setting)->step_count; step++) {
+        if (abs(step - pane->step[setting]) == distance) {
+            const DipPriceQuestion question = dip_price_question(wanted->base, setting, step, pane);
+            want(wanted, &question.without);
+            want(wanted, &question.with);
+        }
+    }
+}
+
+static void want_steps(Wanted *wanted, const DipQuality *pane, int distance) {
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        if (s != DIP_SETTING_MIPDEBUG) {
+            want_steps_of(wanted, pane, (DipSetting)s, distance);
+        }
+    }
+}
+
+// Adds the combinations of filtering without antialiasing, from which sums of other combinations
+// are guessed.
+static void want_filtering_alone(Wanted *wanted, const DipQuality *pane) {
+    DipQuality plain = *pane;
+    plain.step[DIP_SETTING_AA] = wanted->base->step[DIP_SETTING_AA];
+    plain.step[DIP_SETTING_AAA] = wanted->base->step[DIP_SETTING_AAA];
+    plain.step[DIP_SETTING_ASD] = wanted->base->step[DIP_SETTING_ASD];
+    for (int distance = 0; distance < DIP_MAX_STEPS; distance++) {
+        want_steps_of(wanted, &plain, DIP_SETTING_AF, distance);
+        want_steps_of(wanted, &plain, DIP_SETTING_AAF, distance);
+    }
+}
+
+// Adds the combinations that differ from the pane's by one step of one setting.
+static void want_neighbours(Wanted *wanted, const DipQuality *pane) {
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        for (int way = -1; s != DIP_SETTING_MIPDEBUG && way <= 1; way += 2) {
+            const int step = pane->step[s] + way;
+            if (step >= 0 && step < dip_setting_info((DipSetting)s)->step_count) {
+                DipQuality neighbour = *pane;
+                neighbour.step[s] = (uint8_t)step;
+                want(wanted, &neighbour);
+            }
+        }
+    }
+}
+
+int dip_price_list_wanted(const DipQuality *base, const DipQuality *current,
+                          const DipQuality *requested, DipQuality *list, int room) {
+    Wanted wanted = {.base = base, .list = list, .room = room};
+    want(&wanted, base);
+    want(&wanted, requested);
+    want(&wanted, current);
+    for (int distance = 0; distance < DIP_MAX_STEPS; distance++) {
+        want_steps(&wanted, requested, distance);
+    }
+    want_neighbours(&wanted, requested);
+    want_filtering_alone(&wanted, requested);
+    return wanted.count;
+}

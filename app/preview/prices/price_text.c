@@ -1,0 +1,192 @@
+// Formats settings, steps and prices.
+#include "app/preview/prices/price_text.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void dip_step_name(DipSetting setting, int step, char name[DIP_STEP_NAME_BYTES]) {
+    static const char *const miplod[] = {"high perf.", "perform.", "quality", "high qual."};
+    const char *text =
+        setting == DIP_SETTING_MIPLOD ? miplod[step] : dip_setting_info(setting)->steps[step];
+    const bool times = (setting == DIP_SETTING_AA || setting == DIP_SETTING_AF) && step > 0;
+    snprintf(name, DIP_STEP_NAME_BYTES, "%s%s", text, times ? "x" : "");
+}
+
+const char *dip_step_explanation(DipSetting setting, int step) {
+    static const char *const texts[DIP_SETTING_COUNT][DIP_MAX_STEPS] = {
+        [DIP_SETTING_AA] = {"One sample per pixel, so edges are stair-stepped.",
+                            "Two samples per pixel for edges; surfaces are shaded once.",
+                            "Four samples per pixel for edges; surfaces are shaded once.",
+                            "Six samples per pixel for edges; surfaces are shaded once.",
+                            "Eight samples per pixel for edges; surfaces are shaded once."},
+        [DIP_SETTING_TAA] = {"Every frame uses the same sample pattern.",
+                             "Two sample patterns alternate from frame to frame, so a moving "
+                             "picture shows twice as many samples."},
+        [DIP_SETTING_AAA] = {"Leaves and fences have stair-stepped edges: their holes are cut once "
+                             "per pixel.",
+                             "The holes of leaves and fences are cut and shaded once per group of "
+                             "samples."},
+        [DIP_SETTING_ASD] = {"Each sample is a group of its own: the smoothest holes.",
+                             "Two samples share a group.", "Three samples share a group.",
+                             "Four samples share a group: the fastest."},
+        [DIP_SETTING_AF] = {"Trilinear: surfaces seen at a low angle are blurred.",
+                            "Up to 2 texture probes along the long axis of a footprint.",
+                            "Up to 4 texture probes along the long axis of a footprint.",
+                            "Up to 8 texture probes along the long axis of a footprint.",
+                            "Up to 16 texture probes along the long axis of a footprint."},
+        [DIP_SETTING_AAF] = {"Footprints are estimated, so sharpness depends on a surface's angle.",
+                             "Footprints are exact ellipses, so sharpness does not depend on a "
+                             "surface's angle."},
+        [DIP_SETTING_OPT] = {"Textures are drawn as they are.",
+                             "Colour textures are compressed with BC1.",
+                             "Colour textures are compressed and filtered with fewer probes."},
+        [DIP_SETTING_MIPLOD] = {"Much smaller mip levels, and the largest ones are dropped.",
+                                "Smaller mip levels: textures are blurred.",
+                                "Slightly smaller mip levels.",
+                                "The mip level that fits each pixel."},
+        [DIP_SETTING_GI] = {"Each repeated object has a copy of its mesh; the picture is the same.",
+                            "Repeated objects share one mesh; the picture is the same."},
+        [DIP_SETTING_MIPDEBUG] = {"Textures show their own colours.",
+                                  "Each mip level of a colour texture shows as a flat colour."},
+    };
+    return texts[setting][step];
+}
+
+const char *dip_setting_short_title(DipSetting setting) {
+    static const char *const titles[DIP_SETTING_COUNT] = {
+        [DIP_SETTING_AA] = "Antialias.", [DIP_SETTING_TAA] = "Temporal",
+        [DIP_SETTING_AAA] = "Adaptive",  [DIP_SETTING_ASD] = "Group size",
+        [DIP_SETTING_AF] = "Anisotrop.", [DIP_SETTING_AAF] = "Adv. AF",
+        [DIP_SETTING_OPT] = "Tex. opt.", [DIP_SETTING_MIPLOD] = "Mip detail",
+        [DIP_SETTING_GI] = "Instancing", [DIP_SETTING_MIPDEBUG] = "Mip col.",
+    };
+    return titles[setting];
+}
+
+const char *dip_setting_needs(DipSetting setting, const DipQuality *quality) {
+    const bool has_samples = dip_quality_sample_count(quality) > 1;
+    switch (setting) {
+    case DIP_SETTING_TAA:
+    case DIP_SETTING_AAA:
+        return has_samples ? NULL : "needs AA";
+    case DIP_SETTING_ASD:
+        return quality->step[DIP_SETTING_AAA] && has_samples ? NULL : "needs adaptive AA";
+    case DIP_SETTING_AAF:
+        return quality->step[DIP_SETTING_AF] ? NULL : "needs AF";
+    default:
+        return NULL;
+    }
+}
+
+static bool is_reversed(DipSetting setting) {
+    return setting == DIP_SETTING_OPT || setting == DIP_SETTING_ASD;
+}
+
+int dip_step_at(DipSetting setting, int position) {
+    return is_reversed(setting) ? dip_setting_info(setting)->step_count - 1 - position : position;
+}
+
+int dip_step_position(DipSetting setting, int step) {
+    return dip_step_at(setting, step);
+}
+
+bool dip_price_is_doubtful(const DipPrice *price) {
+    return price->state == DIP_PRICE_ROUGH && !price->ms_is_zero && price->ms_low <= 0.0 &&
+           price->ms_high >= 0.0;
+}
+
+void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
+    const char *rough = price->state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "";
+    if (price->state == DIP_PRICE_UNKNOWN) {
+        snprintf(text, DIP_STEP_NAME_BYTES, "%s",
+                 price->needs_company ? "\u2013" : "\u00b7 \u00b7 \u00b7");
+    } else if (price->state == DIP_PRICE_BASE) {
+        snprintf(text, DIP_STEP_NAME_BYTES, "base");
+    } else if (price->ms_is_zero) {
+        snprintf(text, DIP_STEP_NAME_BYTES, "\u2248 0");
+    } else {
+        snprintf(text, DIP_STEP_NAME_BYTES, "%s%s%.1f%s", rough, price->ms < 0.0 ? "\u2212" : "+",
+                 fabs(price->ms), dip_price_is_doubtful(price) ? "?" : "");
+    }
+}
+
+void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]) {
+    char digits[16];
+    snprintf(digits, sizeof digits, "%.4f", fabs(flip) < 99.0 ? fabs(flip) : 99.0);
+    const char *sign = !change ? "" : flip > 0.0 ? "+" : "\u2212";
+    snprintf(text, DIP_STEP_NAME_BYTES, "%s%s", sign, digits[0] == '0' ? digits + 1 : digits);
+}
+
+void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
+    text[0] = '\0';
+    if (price->has_flip) {
+        dip_flip_text(price->flip, price->state != DIP_PRICE_BASE, text);
+    } else {
+        snprintf(text, DIP_STEP_NAME_BYTES, "%s",
+                 price->needs_company ? "\u2013" : "\u00b7 \u00b7 \u00b7");
+    }
+}
+
+static void format_price(const DipPrice *price, char *text, size_t size_bytes) {
+    char flip[DIP_STEP_NAME_BYTES] = "", beside[64] = "", where[80] = "";
+    text[0] = '\0';
+    if (price->beside[0]) {
+        snprintf(beside, sizeof beside, " beside %s", price->beside);
+    }
+    if (price->path[0]) { // A rough price is that of one picture, not of a path.
+        snprintf(where, sizeof where, " on path %s", price->path);
+    }
+    if (price->has_flip) {
+        dip_flip_text(price->flip, price->state != DIP_PRICE_BASE, flip);
+    }
+    switch (price->state) {
+    case DIP_PRICE_BASE:
+        snprintf(text, size_bytes, "\nThe base of all prices%s: %.2f ms%s%s.", where, price->ms,
+                 flip[0] ? ", FLIP " : "", flip);
+        break;
+    case DIP_PRICE_MEASURED:
+    case DIP_PRICE_PREDICTED:
+    case DIP_PRICE_ROUGH:
+        snprintf(text, size_bytes, "\n%+.2f ms (%.2f to %.2f)%s%s%s%s, %s.", price->ms,
+                 price->ms_low, price->ms_high, flip[0] ? ", FLIP " : "", flip, beside, where,
+                 price->state == DIP_PRICE_ROUGH       ? "roughly measured just now"
+                 : price->state == DIP_PRICE_PREDICTED ? "predicted"
+                                                       : "measured");
+        break;
+    default:
+        snprintf(text, size_bytes, "\n%s%s.",
+                 price->needs_company ? "It has no effect: it needs "
+                                      : "Its price is not measured yet",
+                 price->needs_company ? price->needs : "");
+        break;
+    }
+}
+
+void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const char *why,
+                  char text[DIP_STEP_TEXT_BYTES]) {
+    char name[DIP_STEP_NAME_BYTES], cost[240];
+    dip_step_name(setting, step, name);
+    format_price(price, cost, sizeof cost);
+    snprintf(
+        text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s%s%s", name,
+        dip_step_explanation(setting, step), why[0] ? "\n" : "", why,
+        setting == DIP_SETTING_MIPDEBUG ? "" : cost,
+        dip_price_is_doubtful(price) ? "\nToo noisy to tell a cost from a gain." : "",
+        price->doubtful && price->state != DIP_PRICE_UNKNOWN
+            ? "\nThe machine was too busy while the report was measured: do not trust this time."
+            : "",
+        price->has_flip ? "\nFLIP is the error that people see, from 0 to 1." : "");
+}
+
+void dip_settings_text(const DipQuality *quality, char *text, size_t size_bytes) {
+    size_t length = 0;
+    snprintf(text, size_bytes, "defaults");
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
+        if (quality->step[s] != info->default_step && length < size_bytes) {
+            length += (size_t)snprintf(text + length, size_bytes - length, "%s%s=%s",
+                                       length ? "," : "", info->key, info->steps[quality->step[s]]);
+        }
+    }
+}

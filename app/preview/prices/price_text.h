@@ -1,0 +1,57 @@
+// Settings, steps and prices as the panel writes them.
+#ifndef DIP_APP_PREVIEW_PRICES_PRICE_TEXT_H
+#define DIP_APP_PREVIEW_PRICES_PRICE_TEXT_H
+
+#include "app/preview/prices/prices.h"
+#include "renderer/scene/quality.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// Stands before times that come from a few frames.
+#define DIP_ROUGH_MARK "\u2248 "
+
+enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
+
+// Writes a step's name as its pill shows it: "4x", "high perf.".
+void dip_step_name(DipSetting setting, int step, char name[DIP_STEP_NAME_BYTES]);
+
+// Returns a sentence about what a step does.
+const char *dip_step_explanation(DipSetting setting, int step);
+
+// Returns the name of a setting for a narrow list: "Antialias.".
+const char *dip_setting_short_title(DipSetting setting);
+
+// Returns what a setting needs to have an effect with the other settings of a quality, such as
+// "needs AF", or NULL if it has an effect.
+const char *dip_setting_needs(DipSetting setting, const DipQuality *quality);
+
+// Returns the step at a position of a slider. The better picture is on the right.
+int dip_step_at(DipSetting setting, int position);
+
+// Returns the position of a step; the opposite of dip_step_at.
+int dip_step_position(DipSetting setting, int step);
+
+// Returns whether a rough price cannot tell a gain from a cost: its interval holds 0 and is wide.
+bool dip_price_is_doubtful(const DipPrice *price);
+
+// Writes a price's time without its unit: "+1.2", "≈ +1.2", "≈ +1.2?" if it is
+// doubtful, "≈ 0", "base", or dots if it is
+// unknown.
+void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
+
+// Writes a FLIP error without the zero before the point: ".0354", and a change with its sign.
+void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]);
+
+// Writes a price's error, or "" if it is unknown.
+void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
+
+// Writes the tip of a step: what it does, and its price. why: why it cannot be chosen, or "".
+void dip_step_tip(DipSetting setting, int step, const DipPrice *price, const char *why,
+                  char text[DIP_STEP_TEXT_BYTES]);
+
+// Writes the settings that differ from the defaults as the command line takes them: "aa=4,af=16",
+// or "defaults".
+void dip_settings_text(const DipQuality *quality, char *text, size_t size_bytes);
+
+#endif

@@ -1,0 +1,41 @@
+// The camera that the user flies.
+#ifndef DIP_APP_PREVIEW_STATE_CAMERA_H
+#define DIP_APP_PREVIEW_STATE_CAMERA_H
+
+#include "renderer/scene/pose.h"
+
+#include <stdbool.h>
+
+// How far the user steers in each direction, -1..1.
+typedef struct DipCameraKeys {
+    double right;   // Key D is 1, A is -1.
+    double up;      // Key Q is 1, E is -1.
+    double forward; // Key W is 1, S is -1.
+    bool turn;      // Shift: the camera turns instead of moving.
+} DipCameraKeys;
+
+// Moves the camera along its own axes by speed_m_per_s * seconds, or turns the camera if `turn` is
+// set. Left and right turn the camera about the world's vertical axis. Forward and back turn the
+// camera about its right axis, and up and down about its line of sight. Returns whether the pose
+// changed.
+bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_per_s,
+                     double seconds);
+
+// Turns the camera by angles in degrees: to the right about the world's vertical axis, and upwards
+// about the camera's right axis. Stops 1 degree before the camera looks straight up or down.
+void dip_camera_look(DipPose *pose, double right_deg, double up_deg);
+
+// Turns the camera about a point by angles in degrees, so that the point keeps its place in the
+// picture: to the right about the vertical axis through the point, and upwards about the camera's
+// right axis. Stops 1 degree before the camera looks straight up or down.
+void dip_camera_orbit(DipPose *pose, const double centre_world[3], double right_deg, double up_deg);
+
+// Moves the camera to `factor` times its distance from a point, which must be above 0.
+void dip_camera_zoom(DipPose *pose, const double centre_world[3], double factor);
+
+// Writes the point on the camera's line of sight that is nearest to a given point, but at least
+// `least_m` before the camera.
+void dip_camera_point_ahead(const DipPose *pose, const double near_world[3], double least_m,
+                            double ahead_world[3]);
+
+#endif

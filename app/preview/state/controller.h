@@ -1,0 +1,37 @@
+// Game controllers. A button does what its key does, and sticks and triggers fly the camera.
+#ifndef DIP_APP_PREVIEW_STATE_CONTROLLER_H
+#define DIP_APP_PREVIEW_STATE_CONTROLLER_H
+
+#include "app/display/display.h"
+#include "app/preview/state/state.h"
+#include "renderer/scene/pose.h"
+
+#include <stdbool.h>
+
+enum { DIP_MAX_CONTROLLERS = 4 };
+
+// The controllers that are connected. Any of them steers. Zero-initialise.
+typedef struct DipControllers {
+    struct {
+        bool used;
+        int controller; // The number in the controller's events.
+        double axes[DIP_CONTROLLER_AXIS_COUNT];
+    } slots[DIP_MAX_CONTROLLERS];
+} DipControllers;
+
+// Returns whether the event is one of a controller.
+bool dip_controllers_concern(const DipEvent *event);
+
+// Handles an event of a controller. Shows a notice when a controller is connected or disconnected.
+// Carries out the action of a button that was pressed. If the button stands for a key instead,
+// fills in the event of that key and returns true; the caller then handles the event as the
+// keyboard's.
+bool dip_controllers_handle(DipControllers *controllers, DipPreviewState *state,
+                            const DipEvent *event, int64_t now_ns, DipEvent *key);
+
+// Moves the camera as the left sticks and the triggers say, then turns it as the right sticks say.
+// A fully tilted stick is as fast as a key. Returns whether the pose changed.
+bool dip_controllers_fly(const DipControllers *controllers, DipPose *pose, double speed_m_per_s,
+                         double seconds);
+
+#endif

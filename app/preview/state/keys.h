@@ -1,0 +1,38 @@
+// The keys and their actions. One table defines both what a key does and what the help says.
+#ifndef DIP_APP_PREVIEW_STATE_KEYS_H
+#define DIP_APP_PREVIEW_STATE_KEYS_H
+
+#include "app/display/display.h"
+#include "app/preview/state/camera.h"
+#include "app/preview/state/state.h"
+
+typedef struct DipKeyRow {
+    int key;   // A DipKeycode. DIP_KEYCODE_NONE: only the help uses the row.
+    int other; // A second key that does the same, or DIP_KEYCODE_NONE.
+    DipAction action;
+    int argument;
+    bool repeats;      // The action is repeated while the key is held.
+    const char *label; // The key's name in the help; NULL: the help leaves the row out.
+    const char *text;  // The help's text; NULL: the help shows the setting's title.
+} DipKeyRow;
+
+extern const DipKeyRow dip_key_rows[];
+extern const int dip_key_row_count;
+
+// Carries out the action of the key in a KEY_DOWN event. Returns whether the key has an action.
+bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_ns);
+
+// The letters and modifiers that are held. They fly the camera. Zero-initialise.
+typedef struct DipHeldKeys {
+    bool letters[26]; // By the key's position on a US keyboard, 'a' first.
+    unsigned modifiers;
+} DipHeldKeys;
+
+// Updates the held keys from a KEY_DOWN or KEY_UP event.
+void dip_keys_hold(DipHeldKeys *held, const DipEvent *event);
+
+// Returns the directions in which the held keys fly the camera. All are 0 while Ctrl, Alt or Super
+// is held.
+DipCameraKeys dip_keys_camera(const DipHeldKeys *held);
+
+#endif

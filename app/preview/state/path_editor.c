@@ -1,0 +1,320 @@
+// Keeps the keys of the path that the user makes, flies the path and saves it.
+#include "app/preview/state/path_editor.h"
+
+#include "app/preview/state/poses.h"
+#include "renderer/base/assert.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_FILES = 9999, FILE_BYTES = 32 };
+
+// The times from key to key that the user steps through.
+static const int64_t periods_ns[] = {100000000,  250000000,  500000000,  1000000000, 1500000000,
+                                     2000000000, 3000000000, 5000000000, 10000000000};
+
+struct DipPathEditor {
+    DipCamKey *keys;
+    size_t count;
+    size_t capacity;
+    size_t chosen;
+    int64_t period_ns;
+    DipCamKey seen;  // The camera's pose.
+    bool has_seen;   // `seen` is known.
+    bool jumps;      // The camera goes to the chosen key in the next turn.
+    DipCamPath *fly; // The path while it is flown; otherwise NULL.
+    DipCamPathEnd end;
+    int64_t at_ns; // Time since the path's beginning while it is flown.
+    bool unsaved;
+    char file[FILE_BYTES];
+};
+
+DipPathEditor *dip_path_editor_create(DipError *err) {
+    DipPathEditor *editor = calloc(1, sizeof *editor);
+    if (!editor) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "path", "out of memory");
+        return NULL;
+    }
+    editor->period_ns = INT64_C(1000000000);
+    return editor;
+}
+
+void dip_path_editor_destroy(DipPathEditor **editor_pointer) {
+    DipPathEditor *editor = *editor_pointer;
+    if (editor) {
+        *editor_pointer = NULL;
+        dip_campath_destroy(&editor->fly);
+        free(editor->keys);
+        free(editor);
+    }
+}
+
+void dip_path_editor_see(DipPathEditor *editor, const DipPose *pose) {
+    memcpy(editor->seen.position_world, pose->position_world, sizeof pose->position_world);
+    memcpy(editor->seen.orientation, pose->orientation, sizeof pose->orientation);
+    editor->has_seen = true;
+}
+
+// --- keys ----------------------------------------------------------------------------------------
+
+static bool reserve(DipPathEditor *editor, size_t count) {
+    if (count <= editor->capacity) {
+        return true;
+    }
+    const size_t capacity = count < 64 ? 64 : 2 * count;
+    DipCamKey *keys = realloc(editor->keys, capacity * sizeof *keys);
+    if (!keys) {
+        return false;
+    }
+    editor->keys = keys;
+    editor->capacity = capacity;
+    return true;
+}
+
+static bool say(char *text, size_t size_bytes, bool done, const char *what) {
+    snprintf(text, size_bytes, "%s", what);
+    return done;
+}
+
+static bool add(DipPathEditor *editor, char *text, size_t size_bytes) {
+    if (!editor->has_seen) {
+        return say(text, size_bytes, false, "The camera has no pose yet");
+    }
+    if (editor->count >= DIP_PATH_EDITOR_MAX_KEYS) {
+        return say(text, size_bytes, false, "The path has 10000 keys, and cannot have more");
+    }
+    if (!reserve(editor, editor->count + 1)) {
+        return say(text, size_bytes, false, "There is no memory for another key");
+    }
+    const size_t at = editor->count ? editor->chosen + 1 : 0;
+    memmove(editor->keys + at + 1, editor->keys + at, (editor->count - at) * sizeof *editor->keys);
+    editor->keys[at] = editor->seen;
+    editor->chosen = at;
+    editor->count++;
+    editor->unsaved = true;
+    snprintf(text, size_bytes, "Added key %zu of %zu", at + 1, editor->count);
+    return true;
+}
+
+static bool replace(DipPathEditor *editor, char *text, size_t size_bytes) {
+    editor->keys[editor->chosen] = editor->seen;
+    editor->unsaved = true;
+    snprintf(text, size_bytes, "Key %zu of %zu has the camera's pose now", editor->chosen + 1,
+             editor->count);
+    return true;
+}
+
+static bool delete_chosen(DipPathEditor *editor, char *text, size_t size_bytes) {
+    const size_t at = editor->chosen;
+    editor->count--;
+    memmove(editor->keys + at, editor->keys + at + 1, (editor->count - at) * sizeof *editor->keys);
+    editor->chosen = at > 0 ? at - 1 : 0;
+    editor->unsaved = editor->count > 0;
+    snprintf(text, size_bytes, "Deleted key %zu; the path has %zu now", at + 1, editor->count);
+    return true;
+}
+
+void dip_path_editor_choose(DipPathEditor *editor, size_t index) {
+    DIP_ASSERT(index < editor->count);
+    dip_path_editor_stop(editor);
+    editor->chosen = index;
+    editor->jumps = true;
+}
+
+static bool choose_beside(DipPathEditor *editor, size_t by, char *text, size_t size_bytes) {
+    dip_path_editor_choose(editor, (editor->chosen + by) % editor->count);
+    snprintf(text, size_bytes, "Key %zu of %zu", editor->chosen + 1, editor->count);
+    return true;
+}
+
+static bool take(DipPathEditor *editor, const DipCamPath *playing, char *text, size_t size_bytes) {
+    if (!playing) {
+        return say(text, size_bytes, false, "There is no path");
+    }
+    const DipCamPathInfo info = dip_campath_info(playing);
+    if (info.key_count > DIP_PATH_EDITOR_MAX_KEYS || !reserve(editor, info.key_count)) {
+        return say(text, size_bytes, false, "The path has too many keys to be edited");
+    }
+    for (size_t i = 0; i < info.key_count; ++i) {
+        editor->keys[i] = dip_campath_key(playing, i);
+    }
+    editor->count = info.key_count;
+    editor->chosen = 0;
+    editor->period_ns = info.period_ns;
+    editor->unsaved = false;
+    snprintf(text, size_bytes, "Took the %zu keys of the path", editor->count);
+    return true;
+}
+
+// Takes the next time from key to key of the list. Times of paths that were taken may lie between.
+static bool change_period(DipPathEditor *editor, bool longer, char *text, size_t size_bytes) {
+    const int count = (int)DIP_ARRAY_COUNT(periods_ns);
+    int64_t found_ns = editor->period_ns;
+    for (int i = 0; i < count && longer && found_ns == editor->period_ns; ++i) {
+        found_ns = periods_ns[i] > editor->period_ns ? periods_ns[i] : found_ns;
+    }
+    for (int i = count - 1; i >= 0 && !longer && found_ns == editor->period_ns; --i) {
+        found_ns = periods_ns[i] < editor->period_ns ? periods_ns[i] : found_ns;
+    }
+    editor->unsaved |= found_ns != editor->period_ns && editor->count > 0;
+    editor->period_ns = found_ns;
+    snprintf(text, size_bytes, "%.3g s from key to key", 1e-9 * (double)found_ns);
+    return true;
+}
+
+// --- the whole path ------------------------------------------------------------------------------
+
+static bool make_path(const DipPathEditor *editor, DipCamPath **path, char *text,
+                      size_t size_bytes) {
+    DipError err;
+    if (dip_campath_create(editor->keys, editor->count, editor->period_ns, path, &err)) {
+        return true;
+    }
+    snprintf(text, size_bytes, "%.150s", err.message);
+    return false;
+}
+
+static bool fly(DipPathEditor *editor, DipCamPathEnd end, char *text, size_t size_bytes) {
+    if (!make_path(editor, &editor->fly, text, size_bytes)) {
+        return false;
+    }
+    const bool last = editor->chosen + 1 == editor->count;
+    editor->end = end;
+    editor->at_ns = last ? 0 : (int64_t)editor->chosen * editor->period_ns;
+    snprintf(text, size_bytes, "Flying the path from key %zu of %zu", last ? 1 : editor->chosen + 1,
+             editor->count);
+    return true;
+}
+
+static bool free_name(char *file, size_t size_bytes) {
+    for (int i = 1; i <= MAX_FILES; ++i) {
+        snprintf(file, size_bytes, "path-%04d.pth", i);
+        if (access(file, F_OK) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool save(DipPathEditor *editor, char *text, size_t size_bytes) {
+    DipCamPath *path;
+    DipError err;
+    char file[FILE_BYTES], what[64];
+    if (!free_name(file, sizeof file)) {
+        return say(text, size_bytes, false, "No name from path-0001.pth to path-9999.pth is free");
+    }
+    if (!make_path(editor, &path, text, size_bytes)) {
+        return false;
+    }
+    const bool saved = dip_campath_save_pth(path, file, &err);
+    dip_campath_destroy(&path);
+    if (!saved) {
+        dip_error_format(&err, text, size_bytes);
+        return false;
+    }
+    memcpy(editor->file, file, sizeof file);
+    editor->unsaved = false;
+    snprintf(what, sizeof what, "Saved %zu %s to", editor->count,
+             editor->count == 1 ? "key" : "keys");
+    dip_saved_describe(what, file, text, size_bytes);
+    return true;
+}
+
+bool dip_path_editor_edit(DipPathEditor *editor, DipPathEdit edit, const DipCamPath *playing,
+                          DipCamPathEnd end, char *text, size_t size_bytes) {
+    const bool flew = editor->fly != NULL;
+    dip_path_editor_stop(editor);
+    switch (edit) {
+    case DIP_PATH_EDIT_ADD:
+        return add(editor, text, size_bytes);
+    case DIP_PATH_EDIT_TAKE:
+        return take(editor, playing, text, size_bytes);
+    case DIP_PATH_EDIT_SLOWER:
+    case DIP_PATH_EDIT_FASTER:
+        return change_period(editor, edit == DIP_PATH_EDIT_SLOWER, text, size_bytes);
+    default:
+        break;
+    }
+    if (editor->count == 0) {
+        return say(text, size_bytes, false, "The path has no key yet; Ctrl+N adds one");
+    }
+    switch (edit) {
+    case DIP_PATH_EDIT_REPLACE:
+        return replace(editor, text, size_bytes);
+    case DIP_PATH_EDIT_DELETE:
+        return delete_chosen(editor, text, size_bytes);
+    case DIP_PATH_EDIT_NEXT:
+        return choose_beside(editor, 1, text, size_bytes);
+    case DIP_PATH_EDIT_BEFORE:
+        return choose_beside(editor, editor->count - 1, text, size_bytes);
+    case DIP_PATH_EDIT_FLY:
+        return flew ? say(text, size_bytes, true, "Stopped") : fly(editor, end, text, size_bytes);
+    default:
+        return save(editor, text, size_bytes);
+    }
+}
+
+// --- the loop's turn -----------------------------------------------------------------------------
+
+void dip_path_editor_stop(DipPathEditor *editor) {
+    dip_campath_destroy(&editor->fly);
+    editor->jumps = false;
+}
+
+bool dip_path_editor_turn(DipPathEditor *editor, int64_t elapsed_ns, DipPose *pose) {
+    if (editor->jumps && editor->count > 0) {
+        const DipCamKey *key = &editor->keys[editor->chosen];
+        memcpy(pose->position_world, key->position_world, sizeof key->position_world);
+        memcpy(pose->orientation, key->orientation, sizeof key->orientation);
+        editor->jumps = false;
+        return true;
+    }
+    if (!editor->fly) {
+        return false;
+    }
+    editor->at_ns += elapsed_ns;
+    dip_campath_sample(editor->fly,
+                       dip_campath_time_at_end(editor->fly, editor->end, editor->at_ns), pose);
+    if (editor->end == DIP_CAMPATH_END_once &&
+        editor->at_ns >= dip_campath_span_ns(editor->fly, editor->end)) {
+        dip_path_editor_stop(editor);
+    }
+    return true;
+}
+
+// --- looking -------------------------------------------------------------------------------------
+
+size_t dip_path_editor_count(const DipPathEditor *editor) {
+    return editor->count;
+}
+
+size_t dip_path_editor_chosen(const DipPathEditor *editor) {
+    return editor->chosen;
+}
+
+DipCamKey dip_path_editor_key(const DipPathEditor *editor, size_t index) {
+    DIP_ASSERT(index < editor->count);
+    return editor->keys[index];
+}
+
+int64_t dip_path_editor_period_ns(const DipPathEditor *editor) {
+    return editor->period_ns;
+}
+
+bool dip_path_editor_flies(const DipPathEditor *editor) {
+    return editor->fly != NULL;
+}
+
+int64_t dip_path_editor_time_ns(const DipPathEditor *editor) {
+    return editor->fly ? dip_campath_time_at_end(editor->fly, editor->end, editor->at_ns) : 0;
+}
+
+bool dip_path_editor_is_unsaved(const DipPathEditor *editor) {
+    return editor->unsaved;
+}
+
+const char *dip_path_editor_file(const DipPathEditor *editor) {
+    return editor->file;
+}

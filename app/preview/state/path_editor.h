@@ -1,0 +1,70 @@
+// The camera path that the user makes in the window, key by key, from poses of the camera.
+//
+// One of the keys is the chosen one: a new key follows it, and it can be replaced or deleted. The
+// path is saved in the text format (campaths/campath.h) under a name that no file has yet.
+#ifndef DIP_APP_PREVIEW_STATE_PATH_EDITOR_H
+#define DIP_APP_PREVIEW_STATE_PATH_EDITOR_H
+
+#include "campaths/campath.h"
+#include "renderer/base/error.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct DipPathEditor DipPathEditor;
+
+enum { DIP_PATH_EDITOR_MAX_KEYS = 10000 };
+
+typedef enum DipPathEdit {
+    DIP_PATH_EDIT_ADD,     // Inserts the camera's pose behind the chosen key, and chooses it.
+    DIP_PATH_EDIT_REPLACE, // Gives the chosen key the camera's pose.
+    DIP_PATH_EDIT_DELETE,  // Deletes the chosen key. The key before it becomes the chosen one.
+    DIP_PATH_EDIT_NEXT,    // Chooses the next key and moves the camera there.
+    DIP_PATH_EDIT_BEFORE,  // Chooses the key before and moves the camera there.
+    DIP_PATH_EDIT_FLY,     // Flies the path from the chosen key on; a second time: stops.
+    DIP_PATH_EDIT_SAVE,
+    DIP_PATH_EDIT_TAKE,   // Takes the keys of the path that plays, in place of the editor's keys.
+    DIP_PATH_EDIT_SLOWER, // The next longer time from key to key.
+    DIP_PATH_EDIT_FASTER, // The next shorter time from key to key.
+    DIP_PATH_EDIT_COUNT
+} DipPathEdit;
+
+DipPathEditor *dip_path_editor_create(DipError *err);
+void dip_path_editor_destroy(DipPathEditor **editor);
+
+// Tells the editor the pose of the camera, which new keys get.
+void dip_path_editor_see(DipPathEditor *editor, const DipPose *pose);
+
+// Carries out an edit. playing: the path that the preview plays; NULL if there is none. end: what
+// paths do at their end. Writes what happened, or why nothing did, into `text` for a notice.
+// Returns false if nothing happened.
+bool dip_path_editor_edit(DipPathEditor *editor, DipPathEdit edit, const DipCamPath *playing,
+                          DipCamPathEnd end, char *text, size_t size_bytes);
+
+// Chooses a key and moves the camera there. index: 0 to below the number of keys.
+void dip_path_editor_choose(DipPathEditor *editor, size_t index);
+
+// Lets time pass. If the editor moves the camera, sets the pose's position and orientation and
+// returns true.
+bool dip_path_editor_turn(DipPathEditor *editor, int64_t elapsed_ns, DipPose *pose);
+
+// Stops flying the path.
+void dip_path_editor_stop(DipPathEditor *editor);
+
+size_t dip_path_editor_count(const DipPathEditor *editor);
+size_t dip_path_editor_chosen(const DipPathEditor *editor); // 0 if there are no keys.
+DipCamKey dip_path_editor_key(const DipPathEditor *editor, size_t index);
+int64_t dip_path_editor_period_ns(const DipPathEditor *editor);
+bool dip_path_editor_flies(const DipPathEditor *editor);
+
+// Time on the path that the editor flies.
+int64_t dip_path_editor_time_ns(const DipPathEditor *editor);
+
+// Returns whether there are changes that have not been saved.
+bool dip_path_editor_is_unsaved(const DipPathEditor *editor);
+
+// Returns the name of the file that was saved last, or "".
+const char *dip_path_editor_file(const DipPathEditor *editor);
+
+#endif

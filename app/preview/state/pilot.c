@@ -1,0 +1,223 @@
+// Turns what actions and drags ask for into movements of the free camera.
+#include "app/preview/state/pilot.h"
+
+#include "app/preview/state/speed.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { STEPS_TO_DOUBLE = 4, MOST_STEPS = 40 };
+
+// A drag by the height of a pane turns the camera by these angles.
+static const double look_deg = 90.0;
+static const double orbit_deg = 180.0;
+static const double zoom_per_step = 0.9;
+static const double step_s = 0.25;
+
+double dip_flight_speed(const DipFlight *flight) {
+    return flight->base_speed_m_per_s * exp2((double)flight->speed_steps / STEPS_TO_DOUBLE);
+}
+
+void dip_pilot_enter(DipFlight *flight, const DipSession *session) {
+    flight->orbits = dip_flight_should_orbit(session);
+    flight->speed_steps = 0;
+    flight->knows_centre = false;
+}
+
+// --- actions -------------------------------------------------------------------------------------
+
+static void change_speed(DipPreviewState *state, int steps, int64_t now_ns) {
+    DipFlight *flight = &state->flight;
+    const int wanted = flight->speed_steps + steps;
+    flight->speed_steps = wanted > MOST_STEPS    ? MOST_STEPS
+                          : wanted < -MOST_STEPS ? -MOST_STEPS
+                                                 : wanted;
+    dip_preview_notice(state, now_ns, "Speed: %.3g m/s", dip_flight_speed(flight));
+}
+
+static void say_camera(DipPreviewState *state, int64_t now_ns) {
+    dip_preview_notice(state, now_ns,
+                       state->flight.orbits ? "Free camera: dragging orbits, the wheel zooms"
+                                            : "Free camera: dragging turns it, the wheel changes "
+                                              "its speed");
+}
+
+void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns) {
+    if (!state->manual) {
+        state->manual = true;
+        ++state->scene_changes;
+        say_camera(state, now_ns);
+    }
+}
+
+static void choose_end(DipPreviewState *state, int step, int64_t now_ns) {
+    static const char *const texts[DIP_CAMPATH_END_COUNT] = {[DIP_CAMPATH_END_loop] = "loop",
+                                                             [DIP_CAMPATH_END_once] = "play once",
+                                                             [DIP_CAMPATH_END_back] =
+                                                                 "there and back"};
+    DipCamTrack *track = state->track;
+    const int64_t path_ns = dip_preview_path_ns(state);
+    const int end = ((int)track->end + step + DIP_CAMPATH_END_COUNT) % DIP_CAMPATH_END_COUNT;
+    dip_camtrack_set_end(track, (DipCamPathEnd)end);
+    dip_camtrack_restart(track, state->play_ns - path_ns); // The camera stays where it is.
+    dip_preview_notice(state, now_ns, "At the end of paths: %s", texts[end]);
+    ++state->scene_changes;
+}
+
+static const DipCamPath *playing_path(const DipPreviewState *state) {
+    const DipCamCategory *categories = state->track->categories;
+    const DipCamPath *path = categories[state->track->active].path;
+    return path ? path : categories[0].path;
+}
+
+static void edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns) {
+    char text[DIP_NOTICE_SIZE];
+    if (!state->editor) {
+        return;
+    }
+    const bool done = dip_path_editor_edit(state->editor, edit, playing_path(state),
+                                           state->track->end, text, sizeof text);
+    const bool moves =
+        edit == DIP_PATH_EDIT_NEXT || edit == DIP_PATH_EDIT_BEFORE || edit == DIP_PATH_EDIT_FLY;
+    if (done && moves) {
+        dip_pilot_make_free(state, now_ns);
+    }
+    dip_preview_notice(state, now_ns, "%s", text);
+}
+
+void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns) {
+    dip_pilot_make_free(state, now_ns);
+    dip_path_editor_choose(state->editor, index);
+    dip_preview_notice(state, now_ns, "Key %zu of %zu", index + 1,
+                       dip_path_editor_count(state->editor));
+}
+
+void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_ns) {
+    dip_pilot_make_free(state, now_ns);
+    state->flight.right_steps += right;
+    state->flight.forward_steps += forward;
+}
+
+void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
+                   int64_t now_ns) {
+    switch (action) {
+    case DIP_ACTION_CAMERA_BACK:
+        state->flight.reset = state->manual;
+        dip_preview_notice(state, now_ns,
+                           state->manual
+                               ? "The free camera has the pose of its path; C follows the path"
+                               : "The camera follows its path");
+        break;
+    case DIP_ACTION_ORBIT:
+        state->flight.orbits = state->manual ? !state->flight.orbits : state->flight.orbits;
+        dip_pilot_make_free(state, now_ns);
+        state->flight.knows_centre = false;
+        say_camera(state, now_ns);
+        break;
+    case DIP_ACTION_SPEED:
+        change_speed(state, reverse ? -argument : argument, now_ns);
+        break;
+    case DIP_ACTION_PATH_END:
+        choose_end(state, reverse ? -argument : argument, now_ns);
+        break;
+    case DIP_ACTION_PATH_EDIT:
+        edit_path(state, (DipPathEdit)argument, now_ns);
+        break;
+    default:
+        break;
+    }
+}
+
+// --- the loop's turn -----------------------------------------------------------------------------
+
+// Carries out drags and zooming. Returns whether there were any.
+static bool move_by_mouse(DipFlight *flight, const DipSession *session, DipPose *pose) {
+    if (flight->drag_right == 0.0 && flight->drag_up == 0.0 && flight->zoom_steps == 0) {
+        return false;
+    }
+    if (!flight->orbits) {
+        dip_camera_look(pose, look_deg * flight->drag_right, look_deg * flight->drag_up);
+        return true;
+    }
+    if (!flight->knows_centre) {
+        dip_orbit_centre(session, pose, flight->centre_world);
+        flight->knows_centre = true;
+    }
+    // The scene follows the pointer: what lies before the centre moves with it.
+    dip_camera_orbit(pose, flight->centre_world, orbit_deg * flight->drag_right,
+                     orbit_deg * flight->drag_up);
+    dip_camera_zoom(pose, flight->centre_world, pow(zoom_per_step, flight->zoom_steps));
+    return true;
+}
+
+// Carries out the steps that buttons have asked for. Returns whether there were any.
+static bool move_by_steps(const DipFlight *flight, DipPose *pose) {
+    const DipCameraKeys right = {.right = 1.0};
+    const DipCameraKeys forward = {.forward = 1.0};
+    const double step_m_per_s = dip_flight_speed(flight) * step_s;
+    bool moved = false;
+    if (flight->right_steps) {
+        moved |= dip_camera_move(pose, &right, step_m_per_s, flight->right_steps);
+    }
+    if (flight->forward_steps) {
+        moved |= dip_camera_move(pose, &forward, step_m_per_s, flight->forward_steps);
+    }
+    return moved;
+}
+
+static void forget_mouse(DipFlight *flight) {
+    flight->right_steps = flight->forward_steps = 0;
+    flight->drag_right = flight->drag_up = 0.0;
+    flight->zoom_steps = 0;
+}
+
+// A camera that is free before the first frame has no pose yet.
+static bool has_pose(const DipPose *pose) {
+    const double *q = pose->orientation;
+    return q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;
+}
+
+// Lets the path editor move the camera until the user does.
+static bool move_by_editor(DipPreviewState *state, bool moved, int64_t elapsed_ns, DipPose *pose) {
+    if (!state->editor) {
+        return false;
+    }
+    if (!state->manual || moved) {
+        dip_path_editor_stop(state->editor);
+    }
+    const bool flown = dip_path_editor_turn(state->editor, elapsed_ns, pose);
+    if (has_pose(pose)) {
+        dip_path_editor_see(state->editor, pose);
+    }
+    return flown;
+}
+
+// Keeps the camera where a path can have a key.
+static void keep_in_world(DipPose *pose) {
+    for (int i = 0; i < 3; ++i) {
+        pose->position_world[i] = fmax(-DIP_CAMPATH_MAX_POSITION,
+                                       fmin(pose->position_world[i], DIP_CAMPATH_MAX_POSITION));
+    }
+}
+
+bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose) {
+    DipFlight *flight = &state->flight;
+    bool moved = false;
+    flight->base_speed_m_per_s = turn->speed_m_per_s;
+    if (state->manual && (flight->reset || !has_pose(pose))) {
+        moved |= dip_camtrack_pose(state->track, state->play_ns, pose);
+    }
+    flight->reset = false;
+    if (state->manual) {
+        moved |= move_by_mouse(flight, turn->session, pose);
+        moved |= move_by_steps(flight, pose);
+        const double seconds = 1e-9 * (double)turn->elapsed_ns;
+        const double speed_m_per_s = dip_flight_speed(flight);
+        moved |= dip_camera_move(pose, &turn->keys, speed_m_per_s, seconds);
+        moved |= turn->controllers &&
+                 dip_controllers_fly(turn->controllers, pose, speed_m_per_s, seconds);
+        keep_in_world(pose);
+    }
+    forget_mouse(flight);
+    return move_by_editor(state, moved, turn->elapsed_ns, pose) || moved;
+}

@@ -1,0 +1,40 @@
+// Flying the free camera: the actions of the camera, and the loop's turn.
+#ifndef DIP_APP_PREVIEW_STATE_PILOT_H
+#define DIP_APP_PREVIEW_STATE_PILOT_H
+
+#include "app/preview/state/camera.h"
+#include "app/preview/state/controller.h"
+#include "app/preview/state/state.h"
+
+// Carries out an action of the camera or of the path editor. Does nothing for other actions.
+void dip_pilot_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
+                   int64_t now_ns);
+
+// Chooses a key of the path editor, and moves the free camera there.
+void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns);
+
+// Moves the camera by steps to the right and forward, and makes it free if it was not. A step takes
+// the camera as far as it flies in a quarter of a second.
+void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_ns);
+
+// Makes the camera free if it follows the path, and says so in a notice.
+void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns);
+
+// Prepares the free camera for what a session shows.
+void dip_pilot_enter(DipFlight *flight, const DipSession *session);
+
+// What the loop knows in a turn.
+typedef struct DipPilotTurn {
+    const DipSession *session;
+    DipCameraKeys keys;                // What the held keys ask for.
+    const DipControllers *controllers; // NULL: there are none.
+    double speed_m_per_s;              // Speed of the free camera before the wheel has changed it.
+    int64_t elapsed_ns;
+} DipPilotTurn;
+
+// Carries out what mouse, keys, controllers and the path editor have asked of the free camera since
+// the last turn. The path editor stops when the user moves the camera. Returns whether the pose
+// changed.
+bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose);
+
+#endif

@@ -1,0 +1,24 @@
+// Files that the user saves: the notice that names one, and the file of poses, a camera path in the
+// text format (campaths/campath.h), with a period of a second from key to key. `--path poses.pth`
+// flies from pose to pose, and the seven numbers of a line can be given to --pose.
+#ifndef DIP_APP_PREVIEW_STATE_POSES_H
+#define DIP_APP_PREVIEW_STATE_POSES_H
+
+#include "renderer/base/error.h"
+#include "renderer/scene/pose.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#define DIP_POSES_FILE "poses.pth" // In the working folder.
+
+// Appends a pose as the last key of a path file, with its field of view in a comment. Makes the
+// file if there is none. Sets *count to the number of poses in the file. If the file is not a
+// camera path in the text format, or cannot be written, fails and leaves the file as it is.
+bool dip_poses_append(const char *file, const DipPose *pose, size_t *count, DipError *err);
+
+// Writes a notice that names a file in the working folder and the folder: "Saved diptych-0001.png
+// in /home/me". A long folder loses its beginning.
+void dip_saved_describe(const char *what, const char *file, char *text, size_t size_bytes);
+
+#endif

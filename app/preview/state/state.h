@@ -1,0 +1,192 @@
+// The state of the preview, and how the user's actions change it. This part of the preview knows
+// neither pixels nor displays.
+#ifndef DIP_APP_PREVIEW_STATE_STATE_H
+#define DIP_APP_PREVIEW_STATE_STATE_H
+
+#include "app/preview/prices/costs.h"
+#include "app/preview/state/flight.h"
+#include "app/preview/state/path_editor.h"
+#include "app/preview/state/scene_words.h"
+#include "app/preview/state/tool_state.h"
+#include "app/session/session.h"
+#include "campaths/camtrack.h"
+#include "renderer/scene/quality.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// What a key can ask for. The argument of SETTING is a DipSetting; the argument of PATH is a
+// category of camera paths.
+typedef enum DipAction {
+    DIP_ACTION_SETTING,
+    DIP_ACTION_NEXT_PANE,
+    DIP_ACTION_APPLY,
+    DIP_ACTION_PAUSE,
+    DIP_ACTION_STEP,
+    DIP_ACTION_STEP_BACK,
+    DIP_ACTION_NEXT_PATH,
+    DIP_ACTION_PREVIOUS_PATH,
+    DIP_ACTION_PATH,
+    DIP_ACTION_NEXT_SCENE,
+    DIP_ACTION_LOOK,
+    DIP_ACTION_CAMERA,
+    DIP_ACTION_CAMERA_BACK, // Gives the free camera the pose of the path.
+    DIP_ACTION_ORBIT,       // Dragging turns the free camera about a point, or about itself.
+    DIP_ACTION_SPEED,       // Makes the free camera faster by `argument` steps.
+    DIP_ACTION_PATH_END,    // Chooses what paths do at their end; the argument is 1 for the next.
+    DIP_ACTION_PATH_EDIT,   // Edits a path; the argument is a DipPathEdit.
+    DIP_ACTION_HELP,
+    DIP_ACTION_PANEL,
+    DIP_ACTION_COSTS,
+    DIP_ACTION_ADVICE,
+    DIP_ACTION_TAB,    // Opens the dock at the tab `argument`; folds it if that tab shows already.
+    DIP_ACTION_DOCK,   // Folds or opens the dock.
+    DIP_ACTION_BARE,   // Shows the panes without anything over or beneath them, or all again.
+    DIP_ACTION_UNDO,   // Takes the last change of settings back; reverse: makes it again.
+    DIP_ACTION_PRESET, // Gives the requested pane a preset; the argument is a DipPreset.
+    DIP_ACTION_SEEK,   // Moves the time on the path by `argument` milliseconds.
+    DIP_ACTION_LOUPE,
+    DIP_ACTION_ZOOM,       // The loupe's next zoom.
+    DIP_ACTION_COMPARISON, // The next comparison.
+    DIP_ACTION_MAP,        // The next map.
+    DIP_ACTION_ADJUST,     // Moves the divider, or changes gain or brightness of what shows.
+    DIP_ACTION_BLINK,
+    DIP_ACTION_SCREENSHOT,
+    DIP_ACTION_SAVE_POSE,
+    DIP_ACTION_FULL_SCREEN,
+    DIP_ACTION_QUIT
+} DipAction;
+
+enum { DIP_NOTICE_SIZE = 160, DIP_UNDO_DEPTH = 32 };
+
+// Settings that a user can ask for by name.
+typedef enum DipPreset {
+    DIP_PRESET_PERFORMANCE,
+    DIP_PRESET_BALANCED,
+    DIP_PRESET_QUALITY,
+    DIP_PRESET_BEST,
+    DIP_PRESET_INI,     // The settings that the requested pane began with.
+    DIP_PRESET_CURRENT, // The current pane's settings.
+    DIP_PRESET_COUNT
+} DipPreset;
+
+typedef struct DipPreviewState {
+    DipQuality quality[DIP_PANE_COUNT];
+    DipQuality ini_quality;      // Settings that the requested pane began with.
+    bool edited[DIP_PANE_COUNT]; // The panes whose settings the keys change.
+    DipCamTrack *track;          // Borrowed.
+    int64_t play_ns;             // Time on the path, never below 0.
+    int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
+    bool paused;
+    DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
+    DipFlight flight;      // How the user flies the camera.
+
+    bool manual;             // The user flies the camera; time stands still.
+    bool shows_gallery;      // The panes show a scene of the gallery.
+    int scene_step;          // The scene that the user asked for: 1 the next, -1 the one before.
+    int look;                // The scene's variant; the scene wraps it around.
+    const char *scene_title; // Of the gallery's scene; NULL if the panes show models.
+    const char *scene_look;  // Name of its variant.
+    bool help;               // The help shows.
+    bool panel;              // Each pane shows its times, errors and work.
+    const DipCosts *costs;   // Borrowed; NULL if there is no cost report.
+    bool show_costs;         // The table of costs shows.
+    int next_advice;         // Index in costs->advice of the next advice to give.
+    bool wants_errors;       // Another program has asked for the errors, shown or not.
+    bool wants_prices;       // Another program has asked for the prices, shown or not.
+    bool measures_here;      // Prices are measured in this view although there is a report.
+    char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
+    int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.
+    int pane_height;
+    bool quit;
+    bool in_terminal; // The preview shows characters, without the window's tools.
+    bool full_screen;
+    DipToolState tools;
+    DipQuality undo[DIP_UNDO_DEPTH][DIP_PANE_COUNT]; // Settings before each change, a ring.
+    int undo_first;
+    int undo_count;
+    int redo_count;
+    bool screenshot;       // The user asked for a screenshot. Cleared when it is saved.
+    bool plain_screenshot; // The screenshot shows the panes without overlays.
+    bool save_pose;        // The user asked to save the pose. Cleared when it is saved.
+    int settings_group;    // Group of settings that a narrow settings tab shows.
+    bool copy_settings;    // The user asked to copy the requested settings. Cleared when done.
+    bool paste_settings;   // The user asked to paste settings. Cleared when done.
+    char notice[DIP_NOTICE_SIZE]; // What just happened, for the status line; may be empty.
+    int64_t notice_end_ns;        // Time at which the notice goes away, on the clock of `now_ns`.
+    unsigned scene_changes;       // Grows whenever the panes' pictures have to change.
+} DipPreviewState;
+
+// Makes the initial state, in which the keys change the requested pane. The track must outlive the
+// state.
+DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
+                                       DipCamTrack *track);
+
+// Returns whether only a window shows what the action does, and a terminal does not.
+bool dip_preview_needs_window(DipAction action);
+
+// Carries out an action. reverse: Shift is held, so that steps and paths go backwards. In a
+// terminal, a notice stands for an action that needs a window.
+void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
+                     int64_t now_ns);
+
+// Gives a setting of the panes whose settings the keys change one step. If the step does not fit
+// the other settings, a notice says why and nothing changes.
+void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, int64_t now_ns);
+
+// Gives a pane new settings as one change that UNDO takes back.
+void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
+                             int64_t now_ns);
+
+// Enlarges controls by a difference of the factor, which stays within 0.75 and 4.
+void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
+
+// Returns a preset's settings, and its name for a button ("Balanced").
+DipQuality dip_preview_preset(const DipPreviewState *state, DipPreset preset);
+const char *dip_preview_preset_name(DipPreset preset);
+
+// Sets state->panel by what the dock shows. Call it after a change of state->tools.
+void dip_preview_follow_dock(DipPreviewState *state);
+
+// Goes to a play time.
+void dip_preview_seek(DipPreviewState *state, int64_t play_ns);
+
+// Returns whether camera and scene stand still. flying: the user is moving the free camera.
+bool dip_preview_rests(const DipPreviewState *state, bool flying);
+
+// Lets time pass. Moves on along the path unless the preview is paused or the user flies the
+// camera. Removes a notice that has ended.
+void dip_preview_advance(DipPreviewState *state, int64_t elapsed_ns, int64_t now_ns);
+
+// Time on the active camera path, from 0 to its length, and its length; 0 without a path. A path
+// that does not loop ends at its last key. A path that goes back has the time of its way there.
+int64_t dip_preview_path_ns(const DipPreviewState *state);
+int64_t dip_preview_path_length_ns(const DipPreviewState *state);
+
+// Moves the time on the active path to `path_ns` (0 to its length).
+void dip_preview_seek_path(DipPreviewState *state, int64_t path_ns);
+
+// Shows a notice for a few seconds.
+void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+// Returns the name that the ini gives to a category of paths: "DEFAULT", "AA", ...
+const char *dip_preview_category_name(int category);
+
+// Returns the name or the title of a path of the state's track. The name is that of its category,
+// or of the model's camera that it follows; the title prefers the camera.
+const char *dip_preview_path_name(const DipPreviewState *state, int category);
+const char *dip_preview_path_title(const DipPreviewState *state, int category);
+
+// Returns the name of a category of paths for display: "Default", or the title of the setting that
+// its path shows best.
+const char *dip_preview_category_title(int category);
+
+// Returns the category whose path shows a setting best, or -1 if the setting has no such path.
+int dip_preview_category_of(DipSetting setting);
+
+// Names the settings that differ from their defaults, in full ("Antialiasing 4x, Adaptive AA") or
+// briefly ("AA 4x, adaptive AA"). The text is cut if it does not fit.
+void dip_preview_describe(const DipQuality *quality, bool brief, char *text, size_t size_bytes);
+
+#endif

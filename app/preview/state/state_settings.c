@@ -1,0 +1,316 @@
+// Changes settings: by steps, presets, advice and undo; and describes them.
+#include "app/preview/state/state_private.h"
+
+#include "renderer/base/assert.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+int dip_preview_category_of(DipSetting setting) {
+    switch (setting) {
+    case DIP_SETTING_AA:
+        return DIP_CATEGORY_AA;
+    case DIP_SETTING_TAA:
+        return DIP_CATEGORY_TAA;
+    case DIP_SETTING_AAA:
+    case DIP_SETTING_ASD:
+        return DIP_CATEGORY_AAA;
+    case DIP_SETTING_AF:
+        return DIP_CATEGORY_AF;
+    case DIP_SETTING_AAF:
+        return DIP_CATEGORY_AAF;
+    case DIP_SETTING_OPT:
+        return DIP_CATEGORY_CAI;
+    case DIP_SETTING_MIPLOD:
+        return DIP_CATEGORY_MIPLOD;
+    case DIP_SETTING_GI:
+        return DIP_CATEGORY_GI;
+    default:
+        return -1; // Mip colours show on any path.
+    }
+}
+
+static int undo_slot(const DipPreviewState *state, int index) {
+    return (state->undo_first + index) % DIP_UNDO_DEPTH;
+}
+
+// Remembers both panes' settings before a change. Forgets what has been undone.
+static void remember(DipPreviewState *state) {
+    if (state->undo_count == DIP_UNDO_DEPTH) {
+        state->undo_first = undo_slot(state, 1);
+        state->undo_count--;
+    }
+    memcpy(state->undo[undo_slot(state, state->undo_count)], state->quality, sizeof state->quality);
+    state->undo_count++;
+    state->redo_count = 0;
+}
+
+static void swap_settings(DipPreviewState *state, int slot) {
+    DipQuality held[DIP_PANE_COUNT];
+    memcpy(held, state->undo[slot], sizeof held);
+    memcpy(state->undo[slot], state->quality, sizeof held);
+    memcpy(state->quality, held, sizeof held);
+    ++state->scene_changes;
+}
+
+void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
+    if (reverse ? state->redo_count == 0 : state->undo_count == 0) {
+        dip_preview_notice(state, now_ns, reverse ? "Nothing to do again" : "Nothing to undo");
+        return;
+    }
+    if (reverse) {
+        swap_settings(state, undo_slot(state, state->undo_count));
+        state->undo_count++;
+        state->redo_count--;
+    } else {
+        state->undo_count--;
+        state->redo_count++;
+        swap_settings(state, undo_slot(state, state->undo_count));
+    }
+    dip_preview_notice(state, now_ns, reverse ? "Made the change again" : "Took the change back");
+}
+
+// Says which step a setting has now. While the camera flies along its paths, chooses the one that
+// shows the setting best. While it rests, the picture that the user looks at stays.
+static void follow_setting(DipPreviewState *state, DipSetting setting, const char *step,
+                           int64_t now_ns) {
+    const int category = dip_preview_category_of(setting);
+    const DipCamPath *before = dip_state_playing_path(state);
+    if (category >= 0 && !state->manual && !state->paused) {
+        dip_camtrack_switch(state->track, category, state->play_ns);
+    }
+    const bool moved = dip_state_playing_path(state) != before;
+    dip_preview_notice(state, now_ns, "%s: %s%s%s", dip_setting_info(setting)->title, step,
+                       moved ? ", on the path " : "",
+                       moved ? dip_preview_path_title(state, state->track->active) : "");
+    ++state->scene_changes;
+}
+
+void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, int64_t now_ns) {
+    DipQuality wanted[DIP_PANE_COUNT];
+    DipError err;
+    memcpy(wanted, state->quality, sizeof wanted);
+    for (int pane = 0; pane < DIP_PANE_COUNT; ++pane) {
+        if (!state->edited[pane]) {
+            continue;
+        }
+        wanted[pane].step[setting] = (uint8_t)step;
+        if (setting == DIP_SETTING_AA && !dip_quality_check(&wanted[pane], NULL)) {
+            wanted[pane].step[DIP_SETTING_ASD] = dip_quality_default().step[DIP_SETTING_ASD];
+        }
+        if (!dip_quality_check(&wanted[pane], &err)) {
+            dip_preview_notice(state, now_ns, "%s", err.message);
+            return;
+        }
+    }
+    if (memcmp(wanted, state->quality, sizeof wanted) == 0) {
+        return;
+    }
+    remember(state);
+    memcpy(state->quality, wanted, sizeof wanted);
+    follow_setting(state, setting, dip_setting_info(setting)->steps[step], now_ns);
+}
+
+void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
+                             int64_t now_ns) {
+    char text[96];
+    if (memcmp(&state->quality[pane], quality, sizeof *quality) != 0) {
+        remember(state);
+        state->quality[pane] = *quality;
+        dip_preview_describe(quality, true, text, sizeof text);
+        dip_preview_notice(state, now_ns, "%s: %s",
+                           pane == DIP_PANE_CURRENT ? "Current" : "Requested", text);
+        ++state->scene_changes;
+    }
+}
+
+DipQuality dip_preview_preset(const DipPreviewState *state, DipPreset preset) {
+    static const char *const texts[] = {
+        [DIP_PRESET_PERFORMANCE] = "opt=advanced,miplod=performance",
+        [DIP_PRESET_BALANCED] = "aa=2,af=4",
+        [DIP_PRESET_QUALITY] = "aa=4,aaa=on,asd=2,af=16",
+        [DIP_PRESET_BEST] = "aa=8,aaa=on,af=16,aaf=on",
+    };
+    DipQuality quality = dip_quality_default();
+    switch (preset) {
+    case DIP_PRESET_INI:
+        return state->ini_quality;
+    case DIP_PRESET_CURRENT:
+        return state->quality[DIP_PANE_CURRENT];
+    default:
+        DIP_ASSERT(dip_quality_parse(texts[preset], &quality, NULL));
+        return quality;
+    }
+}
+
+const char *dip_preview_preset_name(DipPreset preset) {
+    static const char *const names[DIP_PRESET_COUNT] = {"Performance", "Balanced",    "Quality",
+                                                        "Best",        "As at start", "As current"};
+    return names[preset];
+}
+
+void dip_state_choose_preset(DipPreviewState *state, DipPreset preset, int64_t now_ns) {
+    const DipQuality quality = dip_preview_preset(state, preset);
+    dip_preview_set_quality(state, DIP_PANE_REQUESTED, &quality, now_ns);
+    dip_preview_notice(state, now_ns, "Requested: %s", dip_preview_preset_name(preset));
+}
+
+// Sets a setting to its next step that is valid with the other settings. If a new number of samples
+// does not fit the group size of adaptive AA, resets the group size to its default. Returns false
+// if no other step is valid.
+static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
+    const DipSettingInfo *info = dip_setting_info(setting);
+    DipQuality candidate;
+    for (int i = 1; i < info->step_count; ++i) {
+        const int offset = reverse ? info->step_count - i : i;
+        const int step = (quality->step[setting] + offset) % info->step_count;
+        candidate = *quality;
+        candidate.step[setting] = (uint8_t)step;
+        if (setting == DIP_SETTING_AA && !dip_quality_check(&candidate, NULL)) {
+            candidate.step[DIP_SETTING_ASD] = dip_quality_default().step[DIP_SETTING_ASD];
+        }
+        if (dip_quality_check(&candidate, NULL)) {
+            *quality = candidate;
+            return true;
+        }
+    }
+    return false;
+}
+
+void dip_state_change_setting(DipPreviewState *state, DipSetting setting, bool reverse,
+                              int64_t now_ns) {
+    const DipSettingInfo *info = dip_setting_info(setting);
+    bool changed = false;
+    const char *step = "";
+    DipQuality before[DIP_PANE_COUNT];
+    memcpy(before, state->quality, sizeof before);
+    for (int pane = 0; pane < DIP_PANE_COUNT; ++pane) {
+        if (state->edited[pane] && cycle(&state->quality[pane], setting, reverse)) {
+            changed = true;
+            step = info->steps[state->quality[pane].step[setting]];
+        }
+    }
+    if (!changed) {
+        dip_preview_notice(state, now_ns, "%s: no other step fits the other settings", info->title);
+        return;
+    }
+    DipQuality after[DIP_PANE_COUNT];
+    memcpy(after, state->quality, sizeof after);
+    memcpy(state->quality, before, sizeof before);
+    remember(state);
+    memcpy(state->quality, after, sizeof after);
+    follow_setting(state, setting, step, now_ns);
+}
+
+void dip_state_choose_pane(DipPreviewState *state, int64_t now_ns) {
+    bool *edited = state->edited;
+    const bool both = edited[DIP_PANE_CURRENT] && edited[DIP_PANE_REQUESTED];
+    const bool current_only = edited[DIP_PANE_CURRENT] && !both;
+    edited[DIP_PANE_REQUESTED] = both || current_only;
+    edited[DIP_PANE_CURRENT] = !both;
+    const char *which = edited[0] && edited[1] ? "both panes"
+                        : edited[0]            ? "the current pane"
+                                               : "the requested pane";
+    dip_preview_notice(state, now_ns, "Keys change %s", which);
+}
+
+void dip_state_apply(DipPreviewState *state, int64_t now_ns) {
+    dip_preview_set_quality(state, DIP_PANE_CURRENT, &state->quality[DIP_PANE_REQUESTED], now_ns);
+    dip_preview_notice(state, now_ns, "Copied requested to current");
+}
+
+void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
+    const DipCosts *costs = state->costs;
+    if (!costs) {
+        dip_preview_notice(state, now_ns, "No cost report is loaded; U says how to make one");
+        return;
+    }
+    const int count = costs->advice_count;
+    const int index = (state->next_advice + (reverse ? count - 2 : 0) + count) % count;
+    const DipCostsAdvice *advice = &costs->advice[index];
+    char text[DIP_NOTICE_SIZE];
+    if (advice->found) {
+        const unsigned changes = state->scene_changes;
+        dip_preview_set_quality(state, DIP_PANE_REQUESTED, &advice->quality, now_ns);
+        state->scene_changes = changes + 1;
+    }
+    dip_costs_describe(costs, index, text, sizeof text);
+    if (state->pane_width > 0 &&
+        (state->pane_width != costs->width || state->pane_height != costs->height)) {
+        dip_preview_notice(state, now_ns, "%s (measured at %dx%d)", text, costs->width,
+                           costs->height);
+    } else {
+        dip_preview_notice(state, now_ns, "%s", text);
+    }
+    state->notice_end_ns =
+        now_ns + 2 * dip_state_notice_ns; // This text is longer than other notices.
+    state->next_advice = (index + 1) % count;
+}
+
+// Returns the short form of a setting, in which %s stands for the step. A setting that is either on
+// or off has a short form without a step; if the setting is off, "no" precedes the short form.
+static const char *brief_form(DipSetting setting) {
+    switch (setting) {
+    case DIP_SETTING_AA:
+        return "AA %sx";
+    case DIP_SETTING_TAA:
+        return "temporal AA";
+    case DIP_SETTING_AAA:
+        return "adaptive AA";
+    case DIP_SETTING_ASD:
+        return "groups of %s";
+    case DIP_SETTING_AF:
+        return "AF %sx";
+    case DIP_SETTING_AAF:
+        return "advanced AF";
+    case DIP_SETTING_OPT:
+        return "%s textures";
+    case DIP_SETTING_MIPLOD:
+        return "mip detail %s";
+    case DIP_SETTING_GI:
+        return "instancing";
+    default:
+        return "mip colours";
+    }
+}
+
+// Writes a setting in its short form: "AA 4x", "no instancing".
+static void describe_briefly(DipSetting setting, const char *step, char *text, size_t size_bytes) {
+    const char *form = brief_form(setting);
+    const char *mark = strstr(form, "%s");
+    if (mark) {
+        snprintf(text, size_bytes, "%.*s%s%s", (int)(mark - form), form, step, mark + 2);
+    } else {
+        snprintf(text, size_bytes, "%s%s", strcmp(step, "off") == 0 ? "no " : "", form);
+    }
+}
+
+// Writes a setting in full: "Antialiasing 4x", "Geometry instancing off", "Adaptive AA".
+static void describe_fully(DipSetting setting, const char *step, char *text, size_t size_bytes) {
+    const bool on = strcmp(step, "on") == 0;
+    const bool times = setting == DIP_SETTING_AA || setting == DIP_SETTING_AF;
+    const bool number = isdigit((unsigned char)step[0]) != 0;
+    snprintf(text, size_bytes, "%s%s%s%s", dip_setting_info(setting)->title, on ? "" : " ",
+             on ? "" : step, times && number ? "x" : "");
+}
+
+void dip_preview_describe(const DipQuality *quality, bool brief, char *text, size_t size_bytes) {
+    size_t length = 0;
+    text[0] = '\0';
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
+        if (quality->step[s] == info->default_step || length + 1 >= size_bytes) {
+            continue;
+        }
+        char one[64];
+        (brief ? describe_briefly : describe_fully)((DipSetting)s, info->steps[quality->step[s]],
+                                                    one, sizeof one);
+        const int written =
+            snprintf(text + length, size_bytes - length, "%s%s", length ? ", " : "", one);
+        length += written > 0 ? (size_t)written : 0;
+    }
+    if (!text[0]) {
+        snprintf(text, size_bytes, "Default settings");
+    }
+}

@@ -1,0 +1,66 @@
+// What the user has chosen of the tools for looking closer: the tab, the loupe, the comparison and
+// the map.
+#ifndef DIP_APP_PREVIEW_STATE_TOOL_STATE_H
+#define DIP_APP_PREVIEW_STATE_TOOL_STATE_H
+
+#include <stdbool.h>
+
+// The tabs of the dock, from left to right.
+typedef enum DipTab {
+    DIP_TAB_SETTINGS,
+    DIP_TAB_LOUPE,
+    DIP_TAB_COMPARE,
+    DIP_TAB_MAPS,
+    DIP_TAB_ADVICE,
+    DIP_TAB_TIMES,
+    DIP_TAB_PATH,
+    DIP_TAB_COUNT
+} DipTab;
+
+// How the two pictures stand beside each other.
+typedef enum DipComparison {
+    DIP_COMPARE_SIDE_BY_SIDE,
+    DIP_COMPARE_WIPE,  // One picture: current left of a divider, requested right of it.
+    DIP_COMPARE_BLINK, // One picture that changes between both while a key is held, or by time.
+    DIP_COMPARE_DIFFERENCE, // Absolute difference of the two, times a gain.
+    DIP_COMPARE_ALONE,      // One pane alone fills the place of both.
+    DIP_COMPARE_TRUTH,      // The converged picture in the current pane's place.
+    DIP_COMPARISON_COUNT
+} DipComparison;
+
+// What is shown over each pane's picture in place of its colours.
+typedef enum DipMap {
+    DIP_MAP_NONE,
+    DIP_MAP_FLIP,      // FLIP error of each pixel against the converged picture.
+    DIP_MAP_TIME,      // Time per tile.
+    DIP_MAP_FRAGMENTS, // Fragments shaded per pixel.
+    DIP_MAP_PROBES,    // Texture probes per pixel.
+    DIP_MAP_SAMPLES,   // Pixels whose samples differ.
+    DIP_MAP_MIPS,      // Mip level of each surface patch.
+    DIP_MAP_COUNT
+} DipMap;
+
+enum { DIP_LOUPE_MIN_ZOOM = 2, DIP_LOUPE_MAX_ZOOM = 32 };
+
+// What the user has chosen. Plain data; part of the preview's state.
+typedef struct DipToolState {
+    DipTab tab;
+    bool open;       // The dock shows its tab.
+    bool bare;       // The window shows nothing but the panes.
+    double ui_scale; // 0.5..4; multiplies the display's scale.
+    bool loupe;      // The loupe follows the pointer or shows the pinned pixel.
+    int zoom;        // 2, 4, 8, 16 or 32.
+    bool pinned;
+    int x; // The loupe's pixel, in pixels of a pane's picture. Below 0: the picture's middle.
+    int y;
+    DipComparison comparison;
+    double divider; // WIPE: 0 is the pane's left edge, 1 its right edge.
+    int gain;       // DIFFERENCE: 1, 2, 4, ... 64.
+    bool blinked;   // BLINK: shows the requested pane.
+    bool blinks;    // BLINK: changes between the panes by itself, twice a second.
+    DipMap map;
+    double brightness; // Maps: the value that the end of the colour scale stands for is divided by
+                       // this.
+} DipToolState;
+
+#endif

@@ -1,0 +1,359 @@
+// The dock's bar: tabs on the left; playback, the time line, help and folding on the right.
+//
+// If the bar is narrow, it first leaves out words: tabs become symbols. Then it leaves out what
+// keys do as well: the steps by one frame, the time line, the name of the path, and playback.
+#include "app/preview/tabs/icons.h"
+#include "app/preview/tabs/labels.h"
+#include "app/ui/style.h"
+
+#include <stdio.h>
+
+// Numbers of buttons at the bar's end: folding alone; with help; with the panes alone and the full
+// screen.
+enum { TAIL_FOLD = 1, TAIL_HELP = 2, TAIL_ALL = 4 };
+enum { TAB_SIZE = 13, TAB_PAD = 11, BUTTON = 28, ICON_TAB = 32, LEAST_LINE = 60, MOST_LINE = 270 };
+
+typedef enum BarControl {
+    BAR_TABS, // One for each tab.
+    BAR_BACK = BAR_TABS + DIP_TAB_COUNT,
+    BAR_PLAY,
+    BAR_ON,
+    BAR_TIME_LINE,
+    BAR_PLACE,
+    BAR_HELP,
+    BAR_PANES,
+    BAR_FULL_SCREEN,
+    BAR_FOLD
+} BarControl;
+
+static const char *const tab_names[DIP_TAB_COUNT] = {"Settings", "Loupe", "Compare", "Maps",
+                                                     "Advice",   "Times", "Path"};
+static const char *const tab_tips[DIP_TAB_COUNT] = {
+    "Settings: what each costs and gains (Y)",
+    "Loupe: pixels enlarged, with their samples and values (Z)",
+    "Compare: wipe, blink, difference, one picture alone, the converged picture (J)",
+    "Maps: where error and work are (N)",
+    "Advice: the best settings for a time budget (K)",
+    "Times: stages, errors and work of both panes (R)",
+    "Path: fly the camera, make a path from its poses (Ctrl+P)"};
+
+// What of the bar fits.
+typedef struct Bar {
+    DipRect rect;
+    int button; // Width of a button.
+    bool words; // Tabs show their names, otherwise symbols.
+    int tab_width[DIP_TAB_COUNT];
+    int tabs_width;
+    int tail; // Number of buttons at the right end. Folding is the last one.
+    int play; // Playback's buttons: 3, 1 or 0.
+    int line; // Width of the time line, or 0.
+    char place[128];
+    int place_width; // 0: the place does not show.
+} Bar;
+
+static DipUiId bar_id(int control) {
+    return DIP_UI_ID(DIP_UI_BAR, control + 1);
+}
+
+// Declares a button of the bar and draws its ring. Returns what the user did.
+static DipUiInput declare_button(DipUi *ui, int control, DipRect rect, const char *tip) {
+    const DipUiInput input =
+        dip_ui_control(ui, &(DipUiControl){.id = bar_id(control), .rect = rect, .tip = tip});
+    if (input.focused) {
+        dip_ui_outline(ui, rect, dip_ui_px(ui, 3), dip_ui_px(ui, 2), dip_style_focus);
+    }
+    return input;
+}
+
+static DipColour colour_of(const DipUiInput *input, bool chosen) {
+    return chosen || input->hovered ? dip_style_white : dip_style_soft;
+}
+
+// --- what fits -----------------------------------------------------------------------------------
+
+// Writes where the camera is: the path and its time, or the gallery's scene.
+static void format_place(const DipPreviewState *state, int category, bool brief, int64_t path_ns,
+                         char *text, size_t size_bytes) {
+    const double seconds = 1e-9 * (double)path_ns;
+    const double length = 1e-9 * (double)dip_preview_path_length_ns(state);
+    const int decimals = state->paused ? 2 : 1; // A step of one frame shows.
+    if (state->manual) {
+        snprintf(text, size_bytes, "Free camera");
+    } else if (state->scene_title) {
+        snprintf(text, size_bytes, "%s%s%s  %.1f s", state->scene_title, brief ? "" : ": ",
+                 brief ? "" : state->scene_look, 1e-9 * (double)state->play_ns);
+    } else if (brief) {
+        snprintf(text, size_bytes, "%s %.*f s", dip_preview_path_name(state, category), decimals,
+                 seconds);
+    } else {
+        snprintf(text, size_bytes, "%s  %.*f of %.0f s", dip_preview_path_title(state, category),
+                 decimals, seconds, length);
+    }
+}
+
+static void measure_tabs(const DipUi *ui, Bar *bar, bool words) {
+    bar->words = words;
+    bar->tabs_width = 0;
+    for (int t = 0; t < DIP_TAB_COUNT; ++t) {
+        bar->tab_width[t] =
+            words ? dip_ui_text_width(ui, TAB_SIZE, tab_names[t]) + 2 * dip_ui_px(ui, TAB_PAD)
+                  : dip_ui_px(ui, ICON_TAB);
+        bar->tabs_width += bar->tab_width[t];
+    }
+}
+
+// Returns the width of the widest place, so that the buttons before it stand still while time
+// passes and paths change. All digits of a font with tabular figures are as wide as a zero.
+static int widest_place(const DipUi *ui, const DipPreviewState *state, bool brief) {
+    DipPreviewState still = *state;
+    char text[128];
+    int widest = 0;
+    still.paused = true;
+    still.manual = false;
+    for (int c = 0; c < DIP_CAMTRACK_CATEGORIES; ++c) {
+        if (!state->track->categories[c].path && c != state->track->active) {
+            continue;
+        }
+        format_place(&still, c, brief, dip_preview_path_length_ns(state), text, sizeof text);
+        for (char *letter = text; *letter; ++letter) {
+            *letter = *letter >= '0' && *letter <= '9' ? '0' : *letter;
+        }
+        widest = dip_style_max(widest, dip_ui_text_width(ui, TAB_SIZE, text));
+    }
+    return widest;
+}
+
+// Gives playback, the time line and the place what the tabs leave.
+static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, bool brief) {
+    const int gap = dip_ui_px(ui, 10);
+    int room = bar->rect.width - bar->tabs_width - bar->tail * bar->button - gap;
+    format_place(state, state->track->active, brief, dip_preview_path_ns(state), bar->place,
+                 sizeof bar->place);
+    const int place_width = widest_place(ui, state, brief) + 2 * gap;
+    bar->play = room >= 3 * bar->button ? 3 : room >= bar->button ? 1 : 0;
+    room -= bar->play * bar->button;
+    bar->place_width = room >= place_width ? place_width : 0;
+    room -= bar->place_width;
+    const bool has_line = dip_preview_path_length_ns(state) > 0; // The free camera keeps its room.
+    bar->line = has_line && room >= dip_ui_px(ui, LEAST_LINE)
+                    ? dip_style_min(room, dip_ui_px(ui, MOST_LINE))
+                    : 0;
+}
+
+static Bar measure(const DipUi *ui, const DipWindow *window) {
+    const DipPreviewState *state = window->state;
+    Bar bar = {.rect = window->layout->bar, .button = dip_ui_px(ui, BUTTON)};
+    bar.tail = TAIL_ALL;
+    for (int words = 1; words >= 0; --words) {
+        measure_tabs(ui, &bar, words);
+        share_room(ui, state, &bar, false);
+        if (bar.play == 3 && bar.place_width && bar.line) {
+            return bar;
+        }
+    }
+    share_room(ui, state, &bar, true);
+    if (bar.play < 3 || !bar.place_width) {
+        bar.tail = TAIL_HELP;
+        share_room(ui, state, &bar, true);
+    }
+    if (bar.tabs_width + 3 * bar.button > bar.rect.width) { // Symbols come closer together.
+        bar.tail = TAIL_FOLD;
+        const int narrow = dip_style_max(1, (bar.rect.width - bar.button) / DIP_TAB_COUNT);
+        for (int t = 0; t < DIP_TAB_COUNT; ++t) {
+            bar.tab_width[t] = dip_style_min(bar.tab_width[t], narrow);
+        }
+        bar.tabs_width = DIP_TAB_COUNT * bar.tab_width[0];
+        share_room(ui, state, &bar, true);
+    }
+    return bar;
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+static void declare_tabs(DipUi *ui, DipWindow *window, const Bar *bar) {
+    DipPreviewState *state = window->state;
+    const int inset = dip_ui_px(ui, 8), thick = dip_ui_px(ui, 2);
+    int x = bar->rect.x;
+    for (int t = 0; t < DIP_TAB_COUNT; ++t) {
+        const DipRect rect = {x, bar->rect.y, bar->tab_width[t], bar->rect.height};
+        const bool chosen = state->tools.open && (int)state->tools.tab == t;
+        const DipUiInput input = declare_button(ui, BAR_TABS + t, rect, tab_tips[t]);
+        if (input.pressed) {
+            dip_preview_act(state, DIP_ACTION_TAB, t, false, dip_ui_now_ns(ui));
+        }
+        if (chosen) {
+            dip_ui_fill(ui, rect, dip_style_dock);
+            dip_ui_fill(ui,
+                        (DipRect){rect.x + inset, rect.y + rect.height - thick,
+                                  rect.width - 2 * inset, thick},
+                        dip_style_white);
+        }
+        if (bar->words) {
+            dip_ui_text(ui, TAB_SIZE, colour_of(&input, chosen), DIP_ALIGN_CENTRE,
+                        rect.x + rect.width / 2,
+                        rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width,
+                        tab_names[t]);
+        } else {
+            dip_icon_tab(ui, (DipTab)t, rect, colour_of(&input, chosen));
+        }
+        x += rect.width;
+    }
+}
+
+// Declares the buttons of playback from x on.
+static void declare_playback(DipUi *ui, DipWindow *window, const Bar *bar, int x) {
+    static const struct {
+        BarControl control;
+        DipAction action;
+        const char *tip;
+    } buttons[3] = {{BAR_BACK, DIP_ACTION_STEP_BACK, "One frame back (,)"},
+                    {BAR_PLAY, DIP_ACTION_PAUSE, "Pause or play (Space)"},
+                    {BAR_ON, DIP_ACTION_STEP, "One frame on (.)"}};
+    const int first = bar->play == 3 ? 0 : 1, end = bar->play == 3 ? 3 : 1 + bar->play;
+    for (int i = first; i < end; ++i) {
+        const DipRect rect = {x, bar->rect.y, bar->button, bar->rect.height};
+        const DipUiInput input = declare_button(ui, buttons[i].control, rect, buttons[i].tip);
+        if (input.pressed) {
+            dip_preview_act(window->state, buttons[i].action, 0, false, dip_ui_now_ns(ui));
+        }
+        if (i == 1) {
+            dip_icon_play(ui, rect, window->state->paused, colour_of(&input, true));
+        } else {
+            dip_icon_step(ui, rect, i == 0, colour_of(&input, false));
+        }
+        x += bar->button;
+    }
+}
+
+// Moves the time to where the pointer is on the line.
+static void seek(DipPreviewState *state, const DipUiInput *input, DipRect rect) {
+    const int64_t length_ns = dip_preview_path_length_ns(state);
+    double share = rect.width > 1 ? (double)(input->x - rect.x) / (rect.width - 1) : 0.0;
+    share = share < 0.0 ? 0.0 : share > 0.9999 ? 0.9999 : share;
+    dip_preview_seek_path(state, (int64_t)(share * (double)length_ns));
+}
+
+// Declares the line of the path's time, on which a click or a drag moves the time.
+static void declare_time_line(DipUi *ui, DipWindow *window, DipRect rect) {
+    DipPreviewState *state = window->state;
+    const DipUiInput input = dip_ui_control(
+        ui, &(DipUiControl){.id = bar_id(BAR_TIME_LINE),
+                            .rect = rect,
+                            .tip = "Time on the camera path. Click or drag to move; arrow keys "
+                                   "move by 1 s.",
+                            .takes_arrows = true,
+                            .takes_wheel = true});
+    if (input.began || (input.held && input.moved)) {
+        seek(state, &input, rect);
+    } else if (input.steps) {
+        dip_preview_act(state, DIP_ACTION_SEEK,
+                        1000 * (input.steps < 0 ? -input.steps : input.steps), input.steps < 0,
+                        dip_ui_now_ns(ui));
+    } else if (input.to_first || input.to_last) {
+        const int64_t length_ns = dip_preview_path_length_ns(state);
+        dip_preview_seek_path(state, input.to_first ? 0 : length_ns - state->step_ns);
+    }
+    const int64_t length_ns = dip_preview_path_length_ns(state);
+    const double share =
+        length_ns > 0 ? (double)dip_preview_path_ns(state) / (double)length_ns : 0.0;
+    const int thick = dip_ui_px(ui, 2), knob = dip_ui_px(ui, 4);
+    const int x = rect.x + (int)(share * (rect.width - knob));
+    const int y = rect.y + (rect.height - thick) / 2;
+    dip_ui_fill(ui, (DipRect){rect.x, y, rect.width, thick}, dip_style_line);
+    dip_ui_fill(ui, (DipRect){rect.x, y, x - rect.x, thick}, dip_style_soft);
+    dip_ui_fill(ui, (DipRect){x, y - dip_ui_px(ui, 5), knob, 2 * dip_ui_px(ui, 5) + thick},
+                dip_style_white);
+    if (input.focused) {
+        dip_ui_outline(ui, rect, dip_ui_px(ui, 3), thick, dip_style_focus);
+    }
+}
+
+// Declares the camera's place as a button that plays the next path or shows the next scene.
+static void declare_place(DipUi *ui, DipWindow *window, const Bar *bar, DipRect rect) {
+    DipPreviewState *state = window->state;
+    const bool scene = state->scene_title != NULL;
+    const DipUiInput input = dip_ui_control(
+        ui, &(DipUiControl){.id = bar_id(BAR_PLACE),
+                            .rect = rect,
+                            .tip = scene ? "A click shows the next scene, the wheel the ones "
+                                           "before and after it (Ctrl+PageDown)."
+                                         : "A click plays the next camera path, the wheel the ones "
+                                           "before and after it (P).",
+                            .takes_wheel = true});
+    if (input.pressed || input.steps) {
+        dip_preview_act(state, scene ? DIP_ACTION_NEXT_SCENE : DIP_ACTION_NEXT_PATH, 0,
+                        input.steps > 0, dip_ui_now_ns(ui));
+    }
+    if (input.focused) {
+        dip_ui_outline(ui, rect, dip_ui_px(ui, 3), dip_ui_px(ui, 2), dip_style_focus);
+    }
+    dip_ui_text(ui, TAB_SIZE, colour_of(&input, false), DIP_ALIGN_RIGHT,
+                rect.x + rect.width - dip_ui_px(ui, 10),
+                rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width,
+                bar->place);
+}
+
+// Declares a button of the bar's end and draws its symbol. Moves *rect to the next button.
+static void declare_end(DipUi *ui, DipWindow *window, DipRect *rect, int control, DipAction action,
+                        const char *tip, void (*symbol)(DipUi *, DipRect, DipColour)) {
+    const DipUiInput input = declare_button(ui, control, *rect, tip);
+    if (input.pressed) {
+        dip_preview_act(window->state, action, 0, false, dip_ui_now_ns(ui));
+    }
+    symbol(ui, *rect, colour_of(&input, false));
+    rect->x += rect->width;
+}
+
+static void draw_question_mark(DipUi *ui, DipRect rect, DipColour colour) {
+    dip_ui_text(ui, TAB_SIZE, colour, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
+                rect.y + (rect.height - dip_ui_line_height(ui, TAB_SIZE)) / 2, rect.width, "?");
+}
+
+static void draw_fold_up(DipUi *ui, DipRect rect, DipColour colour) {
+    dip_icon_fold(ui, rect, true, colour);
+}
+
+static void draw_fold_down(DipUi *ui, DipRect rect, DipColour colour) {
+    dip_icon_fold(ui, rect, false, colour);
+}
+
+static void declare_tail(DipUi *ui, DipWindow *window, const Bar *bar, int x) {
+    const DipPreviewState *state = window->state;
+    const bool full = state->full_screen, open = state->tools.open;
+    DipRect rect = {x, bar->rect.y, bar->button, bar->rect.height};
+    if (bar->tail >= TAIL_HELP) {
+        declare_end(ui, window, &rect, BAR_HELP, DIP_ACTION_HELP, "All keys (F1)",
+                    draw_question_mark);
+    }
+    if (bar->tail >= TAIL_ALL) {
+        declare_end(ui, window, &rect, BAR_PANES, DIP_ACTION_BARE,
+                    "Panes only: no panel and no text (/)", dip_icon_panes);
+        declare_end(ui, window, &rect, BAR_FULL_SCREEN, DIP_ACTION_FULL_SCREEN,
+                    full ? "Back to a window (F11)" : "Full screen (F11)", dip_icon_full_screen);
+    }
+    declare_end(ui, window, &rect, BAR_FOLD, DIP_ACTION_DOCK,
+                open ? "Fold the panel (Y)" : "Open the panel (Y)",
+                open ? draw_fold_down : draw_fold_up);
+}
+
+void dip_bar_declare(DipUi *ui, DipWindow *window) {
+    const Bar bar = measure(ui, window);
+    const int gap = dip_ui_px(ui, 10);
+    const int tail_x = bar.rect.x + bar.rect.width - bar.tail * bar.button;
+    const int line_x = tail_x - bar.place_width - bar.line;
+    dip_ui_fill(ui, bar.rect, dip_style_bar);
+    dip_ui_fill(ui, (DipRect){bar.rect.x, bar.rect.y, bar.rect.width, 1}, dip_style_line);
+    declare_tabs(ui, window, &bar);
+    declare_playback(ui, window, &bar, line_x - bar.play * bar.button);
+    if (bar.line && !window->state->manual) {
+        declare_time_line(
+            ui, window,
+            (DipRect){line_x + gap / 2, bar.rect.y, bar.line - gap / 2, bar.rect.height});
+    }
+    if (bar.place_width) {
+        declare_place(
+            ui, window, &bar,
+            (DipRect){tail_x - bar.place_width, bar.rect.y, bar.place_width, bar.rect.height});
+    }
+    declare_tail(ui, window, &bar, tail_x);
+}

@@ -1,0 +1,242 @@
+// The legend of the maps' tab: colour scales with the distribution of values, and keys.
+#include "app/preview/tabs/maps_tab_private.h"
+
+#include "app/measure/metrics/magma.h"
+#include "app/preview/tools/map_colours.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// Counts the values of a pane in CHART_BINS bins up to `end`. Values beyond it are in the last bin.
+static bool count_values(const Tab *tab, int pane, double end, double counts[CHART_BINS]) {
+    const DipMapWork *work = dip_maps_work(tab->maps, pane);
+    const DipErrorPictures *errors = dip_maps_errors(tab->maps);
+    memset(counts, 0, CHART_BINS * sizeof *counts);
+    if (tab->tools->map == DIP_MAP_FLIP) {
+        for (int i = 0; errors && errors->flip[pane] && i < DIP_ERROR_BINS; i++) {
+            const int bin = (int)((i + 0.5) / DIP_ERROR_BINS / end * CHART_BINS);
+            counts[smaller(bin, CHART_BINS - 1)] += errors->spread[pane].bins[i];
+        }
+        return errors && errors->flip[pane];
+    }
+    for (int t = 0; work->draws && t < work->across * work->down; t++) {
+        const int bin = (int)(dip_map_value(work, tab->tools->map, t) / end * CHART_BINS);
+        counts[smaller(bin, CHART_BINS - 1)] += 1.0;
+    }
+    return work->draws > 0;
+}
+
+// Height of a count in the chart, 0..1. Pixels are shown on a logarithmic scale.
+static double chart_height(const Tab *tab, double count, double most) {
+    return tab->tools->map == DIP_MAP_FLIP ? log(count + 1.0) / log(most + 1.0) : count / most;
+}
+
+// Draws the outline of one pane's distribution; the requested pane's is dashed.
+static void draw_outline(const Tab *tab, DipRect area, int pane, const double counts[CHART_BINS],
+                         double most) {
+    const int thick = px(tab, 2), dash = px(tab, 5), hole = px(tab, 3);
+    int before = area.y + area.height - thick;
+    for (int i = 0; i < CHART_BINS; i++) {
+        const int left = area.x + area.width * i / CHART_BINS;
+        const int right = area.x + area.width * (i + 1) / CHART_BINS;
+        const int rise = (int)(chart_height(tab, counts[i], most) * (area.height - 2 * thick));
+        const int y = area.y + area.height - thick - rise;
+        const int top = smaller(y, before), height = (y > before ? y : before) - top;
+        dip_ui_fill(tab->ui, (DipRect){left, top, thick, height}, pane_colour(pane));
+        const int step = pane == DIP_PANE_CURRENT ? right - left + 1 : dash + hole;
+        for (int x = left; x < right + (pane == DIP_PANE_CURRENT); x += step) {
+            const int end = pane == DIP_PANE_CURRENT ? right + thick : smaller(x + dash, right);
+            dip_ui_fill(tab->ui, (DipRect){x, y, end - x, thick}, pane_colour(pane));
+        }
+        before = y;
+    }
+}
+
+static void draw_chart(const Tab *tab, DipRect area, double end) {
+    double counts[DIP_PANE_COUNT][CHART_BINS];
+    bool known[DIP_PANE_COUNT];
+    double most = 1.0;
+    dip_ui_fill(tab->ui, area, well);
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        known[p] = count_values(tab, p, end, counts[p]);
+        for (int i = 0; i < CHART_BINS; i++) {
+            most = counts[p][i] > most ? counts[p][i] : most;
+        }
+    }
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        if (known[p]) {
+            draw_outline(tab, area, p, counts[p], most);
+        }
+    }
+}
+
+// Draws the colour scale as 64 steps.
+static void draw_scale(const Tab *tab, DipRect area) {
+    enum { STEPS = 64 };
+    for (int i = 0; i < STEPS; i++) {
+        uint8_t rgb[3];
+        const int left = area.x + area.width * i / STEPS;
+        const int right = area.x + area.width * (i + 1) / STEPS;
+        (tab->tools->map == DIP_MAP_FLIP ? dip_magma : dip_cividis)((float)i / (STEPS - 1), rgb);
+        dip_ui_fill(tab->ui, (DipRect){left, area.y, right - left, area.height},
+                    (DipColour){rgb[0], rgb[1], rgb[2], 255});
+    }
+}
+
+double dip_maps_value_at(const Tab *tab, int pane, int x, int y) {
+    const DipErrorPictures *errors = dip_maps_errors(tab->maps);
+    const DipMapWork *work = dip_maps_work(tab->maps, pane);
+    if (tab->tools->map == DIP_MAP_FLIP) {
+        const bool known = errors && errors->flip[pane] && x < errors->width && y < errors->height;
+        return known ? (double)errors->flip[pane][(size_t)y * (size_t)errors->width + (size_t)x]
+                     : -1.0;
+    }
+    return work->draws && x < work->width && y < work->height
+               ? dip_map_value(work, tab->tools->map, dip_map_tile(work, x, y))
+               : -1.0;
+}
+
+// Marks the values of the pixel under the pointer on the scale.
+static void draw_scale_marks(const Tab *tab, DipRect area, double end) {
+    int x, y;
+    for (int p = 0; pointed_pixel(tab, &x, &y) && p < DIP_PANE_COUNT; p++) {
+        const double value = dip_maps_value_at(tab, p, x, y);
+        const double share = value < end ? value / end : 1.0;
+        if (value >= 0.0) {
+            dip_ui_fill(tab->ui,
+                        (DipRect){area.x + (int)(share * area.width) - px(tab, 1),
+                                  area.y - px(tab, 3), px(tab, 2), area.height + px(tab, 6)},
+                        pane_colour(p));
+        }
+    }
+}
+
+static void draw_ticks(const Tab *tab, DipRect area, double end) {
+    enum { TICKS = 5 };
+    for (int i = 0; i <= TICKS; i++) {
+        char text[16];
+        dip_map_format(end * i / TICKS, text, sizeof text - 2);
+        if (i == TICKS && tab->tools->brightness > 1.0) {
+            strcat(text, " +");
+        }
+        dip_ui_text(tab->ui, NOTE, soft,
+                    i == 0       ? DIP_ALIGN_LEFT
+                    : i == TICKS ? DIP_ALIGN_RIGHT
+                                 : DIP_ALIGN_CENTRE,
+                    area.x + area.width * i / TICKS, area.y, area.width / TICKS, text);
+    }
+}
+
+static void brightness_buttons(const Tab *tab, int x, int y) {
+    static const int steps[BRIGHTNESS_COUNT] = {1, 2, 4, 8};
+    const int width = px(tab, 30), gap = px(tab, 4);
+    x += put(tab, NOTE, soft, x, y + px(tab, 4), px(tab, 100), "Brightness") + px(tab, 8);
+    for (int i = 0; i < BRIGHTNESS_COUNT; i++, x += width + gap) {
+        char text[8];
+        snprintf(text, sizeof text, "%dx", steps[i]);
+        const double brightness = tab->tools->brightness >= 1.0 ? tab->tools->brightness : 1.0;
+        if (dip_ui_button(tab->ui, DIP_UI_ID(DIP_UI_MAPS, ID_BRIGHTNESS + i),
+                          (DipRect){x, y, width, px(tab, 20)}, text,
+                          brightness == steps[i] ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                          "Ends the scale at this fraction of its full range.\nKeys: [ and ]")) {
+            tab->tools->brightness = steps[i];
+        }
+    }
+}
+
+static const char *legend_title(DipMap map) {
+    switch (map) {
+    case DIP_MAP_FLIP:
+        return "FLIP error per pixel";
+    case DIP_MAP_TIME:
+        return "ms per tile of 64x64";
+    case DIP_MAP_FRAGMENTS:
+        return "Fragments per pixel, per tile of 64x64";
+    case DIP_MAP_PROBES:
+        return "Probes per pixel, per tile of 64x64";
+    default:
+        return dip_map_name(map);
+    }
+}
+
+static void scale_legend(const Tab *tab, DipRect area) {
+    const bool flip = tab->tools->map == DIP_MAP_FLIP;
+    const double end = dip_maps_end(tab->maps, tab->tools);
+    const int width = smaller(area.width, px(tab, 320));
+    int y = area.y;
+    put(tab, TEXT, white, area.x, y, width, legend_title(tab->tools->map));
+    put_right(tab, NOTE, soft, area.x + width, y + px(tab, 2),
+              flip ? "pixels, log scale" : "tiles");
+    y += px(tab, ROW);
+    draw_chart(tab, (DipRect){area.x, y, width, px(tab, CHART)}, end);
+    y += px(tab, CHART + 4);
+    const DipRect scale = {area.x, y, width, px(tab, BAR)};
+    draw_scale(tab, scale);
+    draw_scale_marks(tab, scale, end);
+    y += px(tab, BAR + 4);
+    draw_ticks(tab, (DipRect){area.x, y, width, px(tab, NOTE_ROW)}, end);
+    y += px(tab, 20);
+    const int named = put(tab, NOTE, white, area.x, y, width, "— Current");
+    put(tab, NOTE, amber, area.x + named + px(tab, 14), y, width, "- - Requested");
+    brightness_buttons(tab, area.x, y + px(tab, 20));
+}
+
+// A square of a colour with words beside it.
+static void draw_key(const Tab *tab, int x, int y, int room, DipColour colour, const char *text) {
+    const int side = px(tab, 14);
+    const DipRect square = {x, y + px(tab, 2), side, side};
+    dip_ui_fill(tab->ui, square, colour);
+    dip_ui_outline(tab->ui, square, 0, px(tab, 1), line);
+    put(tab, NOTE, soft, x + side + px(tab, 8), y + px(tab, 2), room - side - px(tab, 8), text);
+}
+
+static void mip_legend(const Tab *tab, DipRect area) {
+    put(tab, TEXT, white, area.x, area.y, area.width, "Mip level, by its size in texels");
+    for (int i = 0; i < DIP_MIP_DEBUG_LEVELS; i++) {
+        char text[32];
+        snprintf(text, sizeof text, "%d%s", 1024 >> i,
+                 i == 0                          ? " and more"
+                 : i == DIP_MIP_DEBUG_LEVELS - 1 ? " and fewer"
+                                                 : "");
+        draw_key(tab, area.x + i / 4 * area.width / 2, area.y + px(tab, ROW * (i % 4 + 1)),
+                 area.width / 2, dip_map_mip_colour(i), text);
+    }
+    put(tab, NOTE, soft, area.x, area.y + px(tab, 5 * ROW + 4), area.width,
+        "Where levels are blended, their colours mix.");
+    put(tab, NOTE, soft, area.x, area.y + px(tab, 5 * ROW + 4 + NOTE_ROW), area.width,
+        "Blurred: the level is too small. Shimmering: too large.");
+}
+
+static void samples_legend(const Tab *tab, DipRect area) {
+    uint8_t first[3], last[3];
+    dip_cividis(0.0f, first);
+    dip_cividis(1.0f, last);
+    put(tab, TEXT, white, area.x, area.y, area.width, "Samples of a pixel, per pixel");
+    draw_key(tab, area.x, area.y + px(tab, ROW), area.width,
+             (DipColour){last[0], last[1], last[2], 255}, "They show more than one surface.");
+    draw_key(tab, area.x, area.y + px(tab, 2 * ROW), area.width,
+             (DipColour){first[0], first[1], first[2], 255}, "They all show one.");
+    put(tab, NOTE, soft, area.x, area.y + px(tab, 3 * ROW + 4), area.width,
+        "Without antialiasing a pixel has one sample, so none differ.");
+}
+
+void dip_maps_legend_block(const Tab *tab, DipRect area) {
+    switch (tab->tools->map) {
+    case DIP_MAP_NONE:
+        put(tab, TEXT, white, area.x, area.y, area.width, "Where does it go?");
+        put(tab, NOTE, soft, area.x, area.y + px(tab, ROW), area.width,
+            "A map shows over each pane where its error lies");
+        put(tab, NOTE, soft, area.x, area.y + px(tab, ROW + NOTE_ROW), area.width,
+            "and where its work is done.");
+        return;
+    case DIP_MAP_MIPS:
+        mip_legend(tab, area);
+        return;
+    case DIP_MAP_SAMPLES:
+        samples_legend(tab, area);
+        return;
+    default:
+        scale_legend(tab, area);
+    }
+}

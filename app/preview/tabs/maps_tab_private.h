@@ -1,0 +1,97 @@
+// What the parts of the maps' tab share: maps_tab.c (buttons, and where the parts lie),
+// maps_legend.c, maps_tables.c, and maps_over.c (what shows over the panes).
+#ifndef DIP_APP_PREVIEW_TABS_MAPS_TAB_PRIVATE_H
+#define DIP_APP_PREVIEW_TABS_MAPS_TAB_PRIVATE_H
+
+#include "app/preview/tools/maps.h"
+#include "app/preview/tabs/maps_tab.h"
+
+static const DipColour white = {255, 255, 255, 255}; // The current pane, and values.
+static const DipColour soft = {196, 202, 210, 255};  // Words.
+static const DipColour dim = {152, 162, 174, 255};   // Notes.
+static const DipColour amber = {255, 190, 92, 255};  // The requested pane.
+static const DipColour gain = {95, 214, 189, 255};   // Less error.
+static const DipColour worse = {255, 154, 139, 255}; // More error.
+static const DipColour line = {51, 58, 68, 255};
+static const DipColour well = {12, 14, 17, 255};   // Ground of the chart.
+static const DipColour glass = {10, 12, 15, 199};  // Ground of words over a picture.
+static const DipColour shadow = {10, 12, 15, 255}; // Edges of marks over a picture.
+
+// Lengths at scale 1.
+enum {
+    MARGIN = 10,
+    GAP = 22, // Between the tab's blocks.
+    TEXT = 13,
+    NOTE = 11,
+    ROW = 21,
+    NOTE_ROW = 14,
+    BUTTON = 28,
+    SMALL_BUTTON = 24,
+    BUTTON_GAP = 6,
+    CHART = 64,
+    BAR = 16,
+    BUTTONS_WIDTH = 282,
+    LEGEND_WIDTH = 346,
+    TABLE_WIDTH = 282,
+};
+
+enum { ID_MAP = 1, ID_OVER = 20, ID_BRIGHTNESS = 30 };
+
+// The side of a worst block is that of dip_flip_tail_add.
+enum { CHART_BINS = 25, BRIGHTNESS_COUNT = 4, WORST_BLOCK = 32 };
+
+// What the blocks of the tab are drawn from.
+typedef struct Tab {
+    DipUi *ui;
+    DipWindow *window;
+    DipMaps *maps;
+    DipToolState *tools;
+} Tab;
+
+static inline int px(const Tab *tab, int length) {
+    return dip_ui_px(tab->ui, length);
+}
+
+static inline int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
+static inline DipColour pane_colour(int pane) {
+    return pane == DIP_PANE_CURRENT ? white : amber;
+}
+
+// Writes a line of text at scale-independent size, and returns its width.
+static inline int put(const Tab *tab, int size, DipColour colour, int x, int y, int room,
+                      const char *text) {
+    dip_ui_text(tab->ui, size, colour, DIP_ALIGN_LEFT, x, y, room, text);
+    return dip_ui_text_width(tab->ui, size, text);
+}
+
+static inline void put_right(const Tab *tab, int size, DipColour colour, int x, int y,
+                             const char *text) {
+    dip_ui_text(tab->ui, size, colour, DIP_ALIGN_RIGHT, x, y, px(tab, LEGEND_WIDTH), text);
+}
+
+static inline bool is_work_map(DipMap map) {
+    return map == DIP_MAP_TIME || map == DIP_MAP_FRAGMENTS || map == DIP_MAP_PROBES;
+}
+
+// Returns the pixel that the tab describes: the one under the pointer, or else the pinned one.
+static inline bool pointed_pixel(const Tab *tab, int *x, int *y) {
+    const DipMapView *view = dip_maps_view(tab->maps);
+    const DipPixels *frame = &tab->window->frames[DIP_PANE_CURRENT];
+    *x = view->pointed ? view->x : tab->tools->x;
+    *y = view->pointed ? view->y : tab->tools->y;
+    return (view->pointed || tab->tools->pinned) && *x >= 0 && *y >= 0 && *x < frame->width &&
+           *y < frame->height;
+}
+
+// Each draws a block of the tab into its area.
+void dip_maps_legend_block(const Tab *tab, DipRect area);
+void dip_maps_frame_block(const Tab *tab, DipRect area);
+void dip_maps_mouse_block(const Tab *tab, DipRect area);
+
+// Returns a pane's value at a pixel, or a number below 0 if it is not known.
+double dip_maps_value_at(const Tab *tab, int pane, int x, int y);
+
+#endif

@@ -1,0 +1,385 @@
+// The price of the requested settings, and the buttons that act on all settings.
+#include "app/preview/prices/price_text.h"
+#include "app/preview/tabs/setting_rows.h"
+#include "app/ui/style.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    SUM_SIZE = 22,
+    NOTE_SIZE = 11,
+    SMALL_SIZE = 10,
+    SUM_HEIGHT = 28,
+    BUDGET_HEIGHT = 18,
+    LEGEND_HEIGHT = 15,
+    SWATCH = 8,
+    HATCH_STEP = 6
+};
+
+// --- presets and buttons -------------------------------------------------------------------------
+
+int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns) {
+    const int gap = dip_ui_px(ui, 8), row_gap = dip_ui_px(ui, 5);
+    const int rows = (DIP_PRESET_COUNT + columns - 1) / columns;
+    const int width = (rect.width - (columns - 1) * gap) / columns;
+    const int height = dip_style_max(
+        1, dip_style_min(dip_ui_px(ui, 28), (rect.height - (rows - 1) * row_gap) / rows));
+    for (int p = 0; p < DIP_PRESET_COUNT; ++p) {
+        const DipRect button = {rect.x + p % columns * (width + gap),
+                                rect.y + p / columns * (height + row_gap), width, height};
+        const DipQuality quality = dip_preview_preset(window->state, (DipPreset)p);
+        const DipPriceSum sum = dip_prices_sum(window->prices, &quality);
+        char settings[200], tip[320];
+        dip_settings_text(&quality, settings, sizeof settings);
+        snprintf(tip, sizeof tip, "%s: %s", dip_preview_preset_name((DipPreset)p), settings);
+        if (sum.state != DIP_PRICE_UNKNOWN) {
+            snprintf(tip + strlen(tip), sizeof tip - strlen(tip), "\n%s%.1f ms",
+                     sum.state == DIP_PRICE_MEASURED ? "" : "\u2248 ", sum.ms);
+        }
+        const bool chosen =
+            memcmp(&quality, &window->state->quality[DIP_PANE_REQUESTED], sizeof quality) == 0;
+        if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PRESETS + p), button,
+                          dip_preview_preset_name((DipPreset)p),
+                          chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, tip)) {
+            dip_preview_act(window->state, DIP_ACTION_PRESET, p, false, dip_ui_now_ns(ui));
+        }
+    }
+    return rows * height + (rows - 1) * row_gap;
+}
+
+void dip_apply_declare(DipUi *ui, DipWindow *window, DipRect rect) {
+    DipPreviewState *state = window->state;
+    const bool same = memcmp(&state->quality[0], &state->quality[1], sizeof state->quality[0]) == 0;
+    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_APPLY), rect, same ? "Same" : "Apply",
+                      same ? DIP_UI_OFF : DIP_UI_PRIMARY,
+                      same ? "Both panes have the same settings, so there is nothing to apply."
+                           : "Gives the current pane the requested settings (Ctrl+Enter).")) {
+        dip_preview_act(state, DIP_ACTION_APPLY, 0, false, dip_ui_now_ns(ui));
+    }
+}
+
+static void declare_undo(DipUi *ui, DipWindow *window, DipRect rect) {
+    DipPreviewState *state = window->state;
+    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_UNDO), rect, "Undo",
+                      state->undo_count ? DIP_UI_PLAIN : DIP_UI_OFF,
+                      state->undo_count ? "Takes the last change of settings back (Ctrl+Z)."
+                                        : "There is no change of settings to take back.")) {
+        dip_preview_act(state, DIP_ACTION_UNDO, 0, false, dip_ui_now_ns(ui));
+    }
+}
+
+static void declare_copy(DipUi *ui, DipWindow *window, DipRect rect) {
+    const bool narrow = dip_ui_text_width(ui, 13, "Copy text") + dip_ui_px(ui, 8) > rect.width;
+    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_COPY), rect,
+                      narrow ? "Copy" : "Copy text", DIP_UI_PLAIN,
+                      "Copies the requested settings as text for --requested and the ini "
+                      "(Ctrl+C). Ctrl+V pastes settings.")) {
+        window->state->copy_settings = true;
+    }
+}
+
+void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect) {
+    const int gap = dip_ui_px(ui, 6);
+    const int width = (rect.width - 2 * gap) / 3;
+    const DipRect apply = {rect.x, rect.y, rect.width - 2 * (width + gap), rect.height};
+    const DipRect undo = {apply.x + apply.width + gap, rect.y, width, rect.height};
+    const DipRect copy = {undo.x + width + gap, rect.y, width, rect.height};
+    dip_apply_declare(ui, window, apply);
+    declare_undo(ui, window, undo);
+    declare_copy(ui, window, copy);
+}
+
+// --- the sum -------------------------------------------------------------------------------------
+
+// One part of the sum: its name in the legend, its time and its colour.
+typedef struct Part {
+    const char *name;
+    double ms;
+    DipColour colour;
+} Part;
+
+enum { PART_BASE, PART_AA, PART_ADAPTIVE, PART_AF, PART_OTHER, PART_COUNT };
+
+static void find_parts(const DipPriceSum *sum, Part parts[PART_COUNT]) {
+    static const Part names[PART_COUNT] = {{"base", 0.0, {139, 149, 162, 255}},
+                                           {"AA", 0.0, {255, 190, 92, 255}},
+                                           {"adaptive", 0.0, {240, 140, 58, 255}},
+                                           {"AF", 0.0, {255, 226, 143, 255}},
+                                           {"other", 0.0, {196, 202, 210, 255}}};
+    static const int part_of[DIP_SETTING_COUNT] = {
+        [DIP_SETTING_AA] = PART_AA,        [DIP_SETTING_TAA] = PART_AA,
+        [DIP_SETTING_AAA] = PART_ADAPTIVE, [DIP_SETTING_ASD] = PART_ADAPTIVE,
+        [DIP_SETTING_AF] = PART_AF,        [DIP_SETTING_AAF] = PART_AF,
+        [DIP_SETTING_OPT] = PART_OTHER,    [DIP_SETTING_MIPLOD] = PART_OTHER,
+        [DIP_SETTING_GI] = PART_OTHER,     [DIP_SETTING_MIPDEBUG] = PART_OTHER,
+    };
+    memcpy(parts, names, sizeof names);
+    parts[PART_BASE].ms = sum->base_ms;
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
+        parts[part_of[s]].ms += sum->parts_ms[s];
+    }
+}
+
+// Fills a rectangle with slanting stripes, for what the prices of single settings miss.
+static void fill_hatched(DipUi *ui, DipRect rect, DipColour colour) {
+    const int step = dip_ui_px(ui, HATCH_STEP);
+    for (int y = 0; y < rect.height; ++y) {
+        for (int x = -(y % step); x < rect.width; x += step) {
+            const DipRect stripe = {rect.x + x, rect.y + rect.height - 1 - y, step / 2, 1};
+            const DipRect row = {rect.x, stripe.y, rect.width, 1};
+            dip_ui_fill(ui, dip_rect_intersect(stripe, row), colour);
+        }
+    }
+}
+
+// Returns the end of the scale of times: 1.2 budgets or, for longer frames, as often twice that. So
+// the scale stands still while the time of the frames varies.
+static double end_of_scale(double ms) {
+    double end_ms = dip_budget_ms * 1.2;
+    while (end_ms < ms * 1.02 && end_ms < 1e6) {
+        end_ms *= 2.0;
+    }
+    return end_ms;
+}
+
+// Draws the parts of the sum on one scale with the budget.
+static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART_COUNT],
+                        DipRect rect) {
+    const double end_ms = end_of_scale(sum->ms - fmin(sum->together_ms, 0.0));
+    const double per_ms = rect.width / end_ms;
+    const int budget_x = rect.x + (int)(dip_budget_ms * per_ms);
+    double at_ms = 0.0;
+    dip_ui_fill(ui, rect, dip_style_well);
+    dip_ui_fill(ui, (DipRect){budget_x, rect.y, rect.x + rect.width - budget_x, rect.height},
+                dip_style_over);
+    for (int i = 0; i < PART_COUNT; ++i) {
+        const int from = rect.x + (int)(at_ms * per_ms);
+        at_ms += fmax(parts[i].ms, 0.0);
+        const int width = rect.x + (int)(at_ms * per_ms) - from - 1;
+        if (width > 0) {
+            dip_ui_fill(ui, (DipRect){from, rect.y, width, rect.height}, parts[i].colour);
+        }
+    }
+    if (sum->together_ms > 0.0) {
+        const int from = rect.x + (int)(at_ms * per_ms);
+        const int width = dip_style_max(1, (int)(sum->together_ms * per_ms));
+        fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_accent);
+    }
+    if (sum->together_ms <
+        0.0) { // The parts take less time together: what they save is struck out.
+        const int from = rect.x + (int)(sum->ms * per_ms);
+        const int width = rect.x + (int)(at_ms * per_ms) - from - 1;
+        fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_well);
+    }
+    if (sum->ms > dip_budget_ms) {
+        fill_hatched(
+            ui,
+            (DipRect){budget_x, rect.y, rect.x + (int)(sum->ms * per_ms) - budget_x, rect.height},
+            dip_style_worse);
+    }
+    dip_ui_fill(ui,
+                (DipRect){budget_x, rect.y - dip_ui_px(ui, 4), dip_ui_px(ui, 2),
+                          rect.height + 2 * dip_ui_px(ui, 4)},
+                dip_style_white);
+    const bool left = budget_x - rect.x < dip_ui_text_width(ui, NOTE_SIZE, "16.6 ms");
+    dip_ui_text(ui, NOTE_SIZE, dip_style_white, left ? DIP_ALIGN_LEFT : DIP_ALIGN_RIGHT,
+                left ? rect.x : budget_x - dip_ui_px(ui, 2),
+                rect.y - dip_ui_line_height(ui, NOTE_SIZE) - dip_ui_px(ui, 3), rect.width,
+                "16.6 ms");
+}
+
+// Draws an entry of the legend at *x, *y, or at the start of the next line if it does not fit.
+static void draw_entry(DipUi *ui, DipRect room, int *x, int *y, const char *text, DipColour colour,
+                       bool hatched) {
+    const int swatch = dip_ui_px(ui, SWATCH), gap = dip_ui_px(ui, 4);
+    const int width = swatch + gap + dip_ui_text_width(ui, NOTE_SIZE, text) + dip_ui_px(ui, 9);
+    if (*x + width - dip_ui_px(ui, 9) > room.x + room.width && *x > room.x) {
+        *x = room.x;
+        *y += dip_ui_px(ui, LEGEND_HEIGHT);
+    }
+    const DipRect box = {*x, *y + (dip_ui_line_height(ui, NOTE_SIZE) - swatch) / 2, swatch, swatch};
+    if (hatched) {
+        fill_hatched(ui, box, colour);
+    } else {
+        dip_ui_fill(ui, box, colour);
+    }
+    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, *x + swatch + gap, *y, width, text);
+    *x += width;
+}
+
+static int draw_legend(DipUi *ui, const DipPriceSum *sum, const Part parts[PART_COUNT],
+                       DipRect room) {
+    int x = room.x, y = room.y;
+    char text[48];
+    for (int i = 0; i < PART_COUNT; ++i) {
+        if (fabs(parts[i].ms) >= 0.05) {
+            const bool frame = i == PART_BASE && sum->state == DIP_PRICE_UNKNOWN;
+            snprintf(text, sizeof text, "%s %s%.1f", frame ? "a frame now" : parts[i].name,
+                     parts[i].ms < 0.0 ? "\u2212" : "", fabs(parts[i].ms));
+            draw_entry(ui, room, &x, &y, text, parts[i].colour, false);
+        }
+    }
+    if (fabs(sum->together_ms) >= 0.05) {
+        snprintf(text, sizeof text, "together %s%.1f", sum->together_ms < 0.0 ? "\u2212" : "+",
+                 fabs(sum->together_ms));
+        draw_entry(ui, room, &x, &y, text, dip_style_accent, true);
+    }
+    return y + dip_ui_px(ui, LEGEND_HEIGHT) - room.y;
+}
+
+// Returns the requested settings' sum or, without prices, the time of the requested pane's frames.
+static DipPriceSum sum_of(const DipWindow *window, int pane) {
+    DipPriceSum sum = dip_prices_sum(window->prices, &window->state->quality[pane]);
+    if (sum.state == DIP_PRICE_UNKNOWN) {
+        const DipPaneFigures *figures = &window->figures[pane];
+        const int drawn = figures->copied ? 1 - pane : pane;
+        sum.ms = sum.base_ms = window->figures[drawn].ms;
+    }
+    return sum;
+}
+
+// Draws the sum and, beside it, its interval or how far it is over the budget.
+static void draw_sum(DipUi *ui, const DipPriceSum *sum, DipRect rect) {
+    const bool over = sum->ms > dip_budget_ms;
+    char text[64], note[64] = "";
+    snprintf(text, sizeof text, "%s%.1f ms", sum->state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "",
+             sum->ms);
+    if (over) {
+        snprintf(note, sizeof note, "%.1f over %.1f", sum->ms - dip_budget_ms, dip_budget_ms);
+    } else if (sum->ms_high > sum->ms_low) {
+        snprintf(note, sizeof note, "%.1f to %.1f", sum->ms_low, sum->ms_high);
+    }
+    dip_ui_text(ui, SUM_SIZE, over ? dip_style_worse : dip_style_accent, DIP_ALIGN_LEFT, rect.x,
+                rect.y, rect.width, text);
+    const int x = rect.x + dip_ui_text_width(ui, SUM_SIZE, text) + dip_ui_px(ui, 9);
+    if (x + dip_ui_text_width(ui, NOTE_SIZE, note) > rect.x + rect.width) {
+        return; // The bar below shows it.
+    }
+    dip_ui_text(ui, NOTE_SIZE, over ? dip_style_worse : dip_style_soft, DIP_ALIGN_LEFT, x,
+                rect.y + dip_ui_line_height(ui, SUM_SIZE) - dip_ui_line_height(ui, NOTE_SIZE) -
+                    dip_ui_px(ui, 4),
+                rect.x + rect.width - x, note);
+}
+
+// Declares a button at the right end of a line that measures prices here, where the report is of
+// another size, machine or number of threads, or goes back to the report. Returns the room that is
+// left beside it.
+static int declare_measure_here(DipUi *ui, DipWindow *window, DipRect line) {
+    DipPreviewState *state = window->state;
+    const char *text = state->measures_here ? "Use the report" : "Measure here";
+    char source[400];
+    const int width = dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 16);
+    const DipRect button = {line.x + line.width - width, line.y, width, dip_ui_px(ui, SUM_HEIGHT)};
+    const bool stale = dip_prices_source(window->prices, window->frames[0].width,
+                                         window->frames[0].height, source, sizeof source);
+    if (!dip_prices_has_report(window->prices) || !(stale || state->measures_here) ||
+        dip_prices_are_of_other_scene(window->prices) || 2 * width > line.width) {
+        return line.width;
+    }
+    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_MEASURE_HERE), button, text,
+                      DIP_UI_PLAIN,
+                      state->measures_here
+                          ? "Shows the prices of the report again."
+                          : "The report's prices do not hold for these panes. Measures prices of "
+                            "this view instead, while the picture rests.")) {
+        state->measures_here = !state->measures_here;
+        ++state->scene_changes;
+    }
+    return line.width - width;
+}
+
+// Declares a button that pauses at the right end of a line, where prices are measured only at rest
+// and are not known yet. Returns the room that is left beside it.
+static int declare_pause(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect line) {
+    static const char text[] = "Pause to measure";
+    DipPreviewState *state = window->state;
+    const int width = dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 16);
+    const DipRect button = {line.x + line.width - width, line.y, width, dip_ui_px(ui, SUM_HEIGHT)};
+    if (sum->state != DIP_PRICE_UNKNOWN || !dip_prices_are_rough(window->prices) || state->paused ||
+        state->manual || 2 * width > line.width) {
+        return line.width;
+    }
+    if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PAUSE), button, text, DIP_UI_PLAIN,
+                      "The tags show what each step costs and gains once the picture rests. The "
+                      "space key pauses, too.")) {
+        dip_preview_act(state, DIP_ACTION_PAUSE, 0, false, dip_ui_now_ns(ui));
+    }
+    return line.width - width;
+}
+
+static void draw_comparison(DipUi *ui, const DipPriceSum *now, const DipPriceSum *sum,
+                            DipRect rect) {
+    char text[80], from[DIP_STEP_NAME_BYTES], to[DIP_STEP_NAME_BYTES];
+    snprintf(text, sizeof text, "current %.1f ms", now->ms);
+    int x = rect.x;
+    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, x, rect.y, rect.width, text);
+    x += dip_ui_text_width(ui, NOTE_SIZE, text) + dip_ui_px(ui, 14);
+    if (!sum->has_flip || !now->has_flip || now->flip <= 0.0) {
+        return;
+    }
+    dip_flip_text(now->flip, false, from);
+    dip_flip_text(sum->flip, false, to);
+    snprintf(text, sizeof text, "FLIP %s \u2192 %s", from, to);
+    dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, x, rect.y, rect.x + rect.width - x,
+                text);
+    x += dip_ui_text_width(ui, NOTE_SIZE, text) + dip_ui_px(ui, 9);
+    const double change = 100.0 * (sum->flip / now->flip - 1.0);
+    if (fabs(change) >= 0.5) {
+        snprintf(text, sizeof text, "%s%.0f %%", change < 0.0 ? "\u2212" : "+", fabs(change));
+        dip_ui_text(ui, NOTE_SIZE, change < 0.0 ? dip_style_gain : dip_style_worse, DIP_ALIGN_LEFT,
+                    x, rect.y, rect.x + rect.width - x, text);
+    }
+}
+
+// Draws the settings as text and where the prices come from, in the room below the buttons.
+static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
+    char text[400];
+    const int line = dip_ui_line_height(ui, NOTE_SIZE);
+    if (room.height < line) {
+        return;
+    }
+    dip_settings_text(&window->state->quality[DIP_PANE_REQUESTED], text, sizeof text);
+    dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, room.x, room.y, room.width, text);
+    const bool stale = dip_prices_source(window->prices, window->frames[0].width,
+                                         window->frames[0].height, text, sizeof text);
+    dip_ui_text_block(ui, SMALL_SIZE, stale ? dip_style_worse : dip_style_dim,
+                      (DipRect){room.x, room.y + line, room.width, room.height - line}, text);
+}
+
+void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
+    const DipPriceSum sum = sum_of(window, DIP_PANE_REQUESTED);
+    const DipPriceSum now = sum_of(window, DIP_PANE_CURRENT);
+    Part parts[PART_COUNT];
+    find_parts(&sum, parts);
+    const int bottom = rect.y + rect.height;
+    int y = rect.y;
+    const DipRect line = {rect.x, y, rect.width, 0};
+    int room = declare_pause(ui, window, &sum, line);
+    if (room == line.width) {
+        room = declare_measure_here(ui, window, line);
+    }
+    if (dip_ui_is_drawing(ui)) {
+        draw_sum(ui, &sum, (DipRect){rect.x, y, room, 0});
+    }
+    y += dip_ui_px(ui, SUM_HEIGHT);
+    if (dip_ui_is_drawing(ui)) {
+        draw_comparison(ui, &now, &sum, (DipRect){rect.x, y, rect.width, 0});
+    }
+    y += 2 * dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 5);
+    const int legend_y = y + dip_ui_px(ui, BUDGET_HEIGHT + 6);
+    if (dip_ui_is_drawing(ui)) {
+        draw_budget(ui, &sum, parts,
+                    (DipRect){rect.x, y, rect.width, dip_ui_px(ui, BUDGET_HEIGHT)});
+        draw_legend(ui, &sum, parts, (DipRect){rect.x, legend_y, rect.width, 0});
+    }
+    y = legend_y + dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3);
+    const int height = dip_ui_px(ui, 28);
+    y = dip_style_min(y, bottom - height);
+    dip_setting_buttons_declare(ui, window, (DipRect){rect.x, y, rect.width, height});
+    y += height + dip_ui_px(ui, 4);
+    if (dip_ui_is_drawing(ui)) {
+        draw_source(ui, window, (DipRect){rect.x, y, rect.width, bottom - y});
+    }
+}

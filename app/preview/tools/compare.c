@@ -1,0 +1,266 @@
+// Where the pictures of a comparison show, and the difference of both panes.
+#include "app/preview/tools/compare.h"
+
+#include "app/canvas/canvas.h"
+#include "app/preview/tools/loupe.h"
+#include "app/ui/style.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const int64_t blink_ns = 500000000; // How long BLINK shows a pane by itself.
+enum { DIVIDER_STEPS = 64 };               // Steps of the divider across the picture.
+
+struct DipComparer {
+    DipCanvas difference;
+    DipDifference found;
+    bool known; // The three members below say what `difference` shows.
+    uint64_t of[DIP_PANE_COUNT];
+    int gain;
+    uint64_t version;
+};
+
+const char *dip_compare_name(DipComparison comparison) {
+    static const char *const names[DIP_COMPARISON_COUNT] = {
+        [DIP_COMPARE_SIDE_BY_SIDE] = "Side by side",
+        [DIP_COMPARE_WIPE] = "Wipe",
+        [DIP_COMPARE_BLINK] = "Blink",
+        [DIP_COMPARE_DIFFERENCE] = "Difference",
+        [DIP_COMPARE_ALONE] = "One pane",
+        [DIP_COMPARE_TRUTH] = "Truth",
+    };
+    return names[comparison];
+}
+
+// --- arithmetic --------------------------------------------------------------------------------
+
+bool dip_compare_is_one_picture(DipComparison comparison) {
+    return comparison == DIP_COMPARE_WIPE || comparison == DIP_COMPARE_BLINK ||
+           comparison == DIP_COMPARE_DIFFERENCE || comparison == DIP_COMPARE_ALONE;
+}
+
+// Returns where a comparison that is one picture shows. A drawer covers the current pane.
+static DipRect area_of(const DipLayout *layout) {
+    if (layout->side == DIP_DOCK_DRAWER && !dip_rect_is_empty(layout->body)) {
+        return layout->panes[DIP_PANE_REQUESTED];
+    }
+    return dip_rect_unite(layout->panes[DIP_PANE_CURRENT], layout->panes[DIP_PANE_REQUESTED]);
+}
+
+void dip_compare_frame_size(const DipLayout *layout, DipComparison comparison, int *width,
+                            int *height) {
+    const DipRect area =
+        comparison == DIP_COMPARE_ALONE ? area_of(layout) : layout->panes[DIP_PANE_CURRENT];
+    *width = area.width;
+    *height = area.height;
+}
+
+DipRect dip_compare_fit(DipRect area, int width, int height) {
+    int shown_width = width;
+    int shown_height = height;
+    if (width < 1 || height < 1 || dip_rect_is_empty(area)) {
+        return (DipRect){area.x, area.y, 0, 0};
+    }
+    if (width <= area.width && height <= area.height) {
+        const int factor = dip_style_min(area.width / width, area.height / height);
+        shown_width *= factor;
+        shown_height *= factor;
+    } else if ((int64_t)width * area.height >= (int64_t)height * area.width) {
+        shown_width = area.width;
+        shown_height = dip_style_max(1, (int)((int64_t)height * area.width / width));
+    } else {
+        shown_height = area.height;
+        shown_width = dip_style_max(1, (int)((int64_t)width * area.height / height));
+    }
+    return (DipRect){area.x + (area.width - shown_width) / 2,
+                     area.y + (area.height - shown_height) / 2, shown_width, shown_height};
+}
+
+int dip_compare_pane(const DipPreviewState *state, int64_t now_ns) {
+    if (state->tools.comparison == DIP_COMPARE_ALONE) {
+        return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
+    }
+    const bool swapped = state->tools.blinks && now_ns / blink_ns % 2 != 0;
+    return state->tools.blinked != swapped ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
+}
+
+int64_t dip_compare_wakes_ns(const DipToolState *tools, int64_t now_ns) {
+    return tools->comparison == DIP_COMPARE_BLINK && tools->blinks
+               ? (now_ns / blink_ns + 1) * blink_ns
+               : INT64_MAX;
+}
+
+DipRect dip_compare_shown(const DipWindow *window, int pane) {
+    const DipComparison comparison = window->state->tools.comparison;
+    const DipPixels *frame = &window->frames[pane];
+    if (!dip_compare_is_one_picture(comparison)) {
+        return window->layout->panes[pane];
+    }
+    return dip_compare_fit(area_of(window->layout), frame->width, frame->height);
+}
+
+int dip_compare_divider_column(double divider, int width) {
+    const double bounded = divider > 0.0 ? (divider < 1.0 ? divider : 1.0) : 0.0;
+    return (int)(bounded * width + 0.5);
+}
+
+// The first column of the window right of the divider.
+static int divider_x(const DipWindow *window, DipRect shown) {
+    const int width = window->frames[DIP_PANE_CURRENT].width;
+    const int column = dip_compare_divider_column(window->state->tools.divider, width);
+    const DipRect left = {0, 0, column, 1};
+    return column > 0 ? shown.x + dip_loupe_mark(shown, width, 1, left).width : shown.x;
+}
+
+DipRect dip_compare_visible(const DipWindow *window, int pane) {
+    const DipPreviewState *state = window->state;
+    DipRect shown = dip_compare_shown(window, pane);
+    switch (state->tools.comparison) {
+    case DIP_COMPARE_WIPE: {
+        const int x = divider_x(window, shown);
+        shown.width = pane == DIP_PANE_CURRENT ? x - shown.x : shown.x + shown.width - x;
+        shown.x = pane == DIP_PANE_CURRENT ? shown.x : x;
+        return shown;
+    }
+    case DIP_COMPARE_BLINK:
+    case DIP_COMPARE_ALONE:
+        if (pane != dip_compare_pane(state, window->now_ns)) {
+            shown.width = 0;
+        }
+        return shown;
+    case DIP_COMPARE_DIFFERENCE: // Belongs to both panes; the label says so.
+    default:
+        return shown;
+    }
+}
+
+bool dip_compare_has_label(const DipWindow *window, int pane) {
+    const DipComparison comparison = window->state->tools.comparison;
+    const bool truth = comparison == DIP_COMPARE_TRUTH && window->truth && pane == DIP_PANE_CURRENT;
+    return comparison != DIP_COMPARE_DIFFERENCE && !truth &&
+           !dip_rect_is_empty(dip_compare_visible(window, pane));
+}
+
+bool dip_compare_pixel_at(const DipWindow *window, int window_x, int window_y, int *pane, int *x,
+                          int *y) {
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        if (dip_rect_holds(dip_compare_visible(window, p), window_x, window_y)) {
+            *pane = p;
+            return dip_loupe_pixel_at(dip_compare_shown(window, p), window->frames[p].width,
+                                      window->frames[p].height, window_x, window_y, x, y);
+        }
+    }
+    return false;
+}
+
+static void compare_row(const uint8_t *a, const uint8_t *b, int bytes, int gain, uint8_t *out) {
+    for (int i = 0; i < bytes; ++i) {
+        const int difference = a[i] > b[i] ? a[i] - b[i] : b[i] - a[i];
+        const int scaled = difference * gain;
+        out[i] = (uint8_t)(scaled < 255 ? scaled : 255);
+    }
+}
+
+static void count_row(const uint8_t *a, const uint8_t *b, int width, int y,
+                      DipDifference *difference) {
+    for (int x = 0; x < width; ++x) {
+        int greatest = 0;
+        for (int c = 0; c < 3; ++c) {
+            const int found = abs(a[4 * x + c] - b[4 * x + c]);
+            greatest = found > greatest ? found : greatest;
+        }
+        difference->differing += greatest > 0;
+        if (greatest > difference->greatest) {
+            difference->greatest = greatest;
+            difference->x = x;
+            difference->y = y;
+        }
+    }
+}
+
+DipDifference dip_compare_difference(const DipPixels *a, const DipPixels *b, int gain,
+                                     uint8_t *out) {
+    DipDifference difference = {.pixels = (int64_t)a->width * a->height};
+    const size_t row_bytes = 4 * (size_t)a->width;
+    for (int y = 0; y < a->height; ++y) {
+        const uint8_t *from = a->rgba8 + (size_t)y * a->stride_bytes;
+        const uint8_t *other = b->rgba8 + (size_t)y * b->stride_bytes;
+        uint8_t *to = out + (size_t)y * row_bytes;
+        compare_row(from, other, (int)row_bytes, gain, to);
+        for (int x = 0; x < a->width; ++x) {
+            to[4 * x + 3] = 255;
+        }
+        if (memcmp(from, other, row_bytes) != 0) {
+            count_row(from, other, a->width, y, &difference);
+        }
+    }
+    return difference;
+}
+
+// --- actions -----------------------------------------------------------------------------------
+
+bool dip_compare_adjust(DipToolState *tools, int steps) {
+    if (tools->comparison == DIP_COMPARE_WIPE) {
+        const double moved = tools->divider + (double)steps / DIVIDER_STEPS;
+        tools->divider = moved > 0.0 ? (moved < 1.0 ? moved : 1.0) : 0.0;
+        return true;
+    }
+    if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
+        tools->gain = dip_style_max(tools->gain, 1);
+        for (; steps > 0 && tools->gain < DIP_COMPARE_MAX_GAIN; --steps) {
+            tools->gain *= 2;
+        }
+        for (; steps < 0 && tools->gain > 1; ++steps) {
+            tools->gain /= 2;
+        }
+        return true;
+    }
+    return false;
+}
+
+// --- memory ------------------------------------------------------------------------------------
+
+DipComparer *dip_compare_create(DipError *err) {
+    DipComparer *compare = calloc(1, sizeof *compare);
+    if (!compare) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
+        return NULL;
+    }
+    compare->version = UINT64_C(5) << 60;
+    return compare;
+}
+
+void dip_compare_destroy(DipComparer **compare_pointer) {
+    DipComparer *compare = *compare_pointer;
+    if (compare) {
+        dip_canvas_free(&compare->difference);
+        free(compare);
+        *compare_pointer = NULL;
+    }
+}
+
+static bool shows(const DipComparer *compare, const DipWindow *window, int gain) {
+    return compare->known && compare->of[0] == window->versions[0] &&
+           compare->of[1] == window->versions[1] && compare->gain == gain;
+}
+
+const DipDifference *dip_compare_make_difference(DipComparer *compare, const DipWindow *window,
+                                                 DipPixels *picture, uint64_t *version) {
+    const DipPixels *a = &window->frames[DIP_PANE_CURRENT];
+    const DipPixels *b = &window->frames[DIP_PANE_REQUESTED];
+    const int gain = dip_style_max(1, window->state->tools.gain);
+    if (!shows(compare, window, gain)) {
+        compare->known = a->width == b->width && a->height == b->height &&
+                         dip_canvas_resize(&compare->difference, a->width, a->height, NULL);
+        if (!compare->known) {
+            return NULL;
+        }
+        compare->found = dip_compare_difference(a, b, gain, compare->difference.rgba8);
+        memcpy(compare->of, window->versions, sizeof compare->of);
+        compare->gain = gain;
+        ++compare->version;
+    }
+    *picture = dip_canvas_pixels(&compare->difference);
+    *version = compare->version;
+    return &compare->found;
+}

@@ -1,0 +1,200 @@
+// The comparisons' pictures, and what lies over them.
+#include "app/preview/tools/compare.h"
+#include "app/ui/style.h"
+#include "app/preview/tools/window.h"
+#include "app/preview/tools/tool_colours.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum {
+    TEXT = 12,    // Size of letters.
+    HANDLE = 18,  // Radius of the divider's handle.
+    ID_LINE = 64, // Beyond the ids of the comparisons' tab.
+};
+
+// --- pictures ------------------------------------------------------------------------------------
+
+// Draw lists compare versions instead of pixels. The comparisons show parts of frames, and the
+// whole of frames at other sizes, so each comparison has its own range of versions.
+static uint64_t own_version(uint64_t version, DipComparison comparison) {
+    return version ^ ((uint64_t)comparison + 1) << 56;
+}
+
+static DipPixels columns_of(const DipPixels *picture, int first, int count) {
+    return (DipPixels){picture->rgba8 + 4 * (size_t)first, picture->stride_bytes, count,
+                       picture->height};
+}
+
+static void draw_wipe(DipUi *ui, const DipWindow *window) {
+    const int width = window->frames[DIP_PANE_CURRENT].width;
+    const int column = dip_compare_divider_column(window->state->tools.divider, width);
+    const int first[DIP_PANE_COUNT] = {0, column};
+    const int count[DIP_PANE_COUNT] = {column, width - column};
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipRect visible = dip_compare_visible(window, p);
+        if (count[p] > 0 && !dip_rect_is_empty(visible)) {
+            const DipPixels part = columns_of(&window->frames[p], first[p], count[p]);
+            dip_ui_picture(ui, visible, &part, own_version(window->versions[p], DIP_COMPARE_WIPE));
+        }
+    }
+}
+
+static void draw_one(DipUi *ui, const DipWindow *window, int pane) {
+    const DipComparison comparison = window->state->tools.comparison;
+    dip_ui_picture(ui, dip_compare_shown(window, pane), &window->frames[pane],
+                   own_version(window->versions[pane], comparison));
+}
+
+static void draw_difference(DipUi *ui, const DipWindow *window) {
+    DipPixels picture;
+    uint64_t version;
+    if (dip_compare_make_difference(dip_tools_compare(window->tools), window, &picture, &version)) {
+        dip_ui_picture(ui, dip_compare_shown(window, DIP_PANE_CURRENT), &picture, version);
+    }
+}
+
+static void draw_panes(DipUi *ui, const DipWindow *window, bool truth) {
+    const DipRect *panes = window->layout->panes;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const bool replaced = truth && p == DIP_PANE_CURRENT;
+        dip_ui_picture(ui, panes[p], replaced ? window->truth : &window->frames[p],
+                       replaced ? window->truth_version : window->versions[p]);
+    }
+    const DipRect *left = &panes[DIP_PANE_CURRENT];
+    const int gap = panes[DIP_PANE_REQUESTED].x - left->x - left->width;
+    dip_ui_fill(ui, (DipRect){left->x + left->width, left->y, gap, left->height},
+                dip_style_background);
+}
+
+void dip_compare_pictures(DipUi *ui, DipWindow *window) {
+    const DipComparison comparison = window->state->tools.comparison;
+    if (!dip_ui_is_drawing(ui)) {
+        return;
+    }
+    if (!dip_compare_is_one_picture(comparison)) {
+        draw_panes(ui, window, comparison == DIP_COMPARE_TRUTH && window->truth);
+        return;
+    }
+    const DipRect *panes = window->layout->panes;
+    dip_ui_fill(ui, dip_rect_unite(panes[DIP_PANE_CURRENT], panes[DIP_PANE_REQUESTED]),
+                dip_style_background);
+    if (comparison == DIP_COMPARE_WIPE) {
+        draw_wipe(ui, window);
+    } else if (comparison == DIP_COMPARE_DIFFERENCE) {
+        draw_difference(ui, window);
+    } else {
+        draw_one(ui, window, dip_compare_pane(window->state, window->now_ns));
+    }
+}
+
+// --- over the panes ------------------------------------------------------------------------------
+
+// The pointer drags the divider from anywhere in the picture, since a press that moves can mean
+// nothing else there. While the user flies, only a press near the line drags it.
+static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) {
+    DipToolState *tools = &window->state->tools;
+    const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);
+    const DipRect left = dip_compare_visible(window, DIP_PANE_CURRENT);
+    const int off = abs(input->x - left.x - left.width);
+    if (!input->held || !input->moved || shown.width < 1 ||
+        (window->state->manual && off > 2 * dip_ui_px(ui, HANDLE))) {
+        return;
+    }
+    const double at = (input->x - shown.x + 0.5) / shown.width;
+    tools->divider = at > 0.0 ? (at < 1.0 ? at : 1.0) : 0.0;
+    if (input->modifiers & DIP_MODIFIER_SHIFT) {
+        tools->divider = 0.5;
+    }
+}
+
+// The line is a control of its own, because in the middle it lies in the gap between the panes.
+static DipUiInput declare_line(DipUi *ui, const DipWindow *window) {
+    const DipRect left = dip_compare_visible(window, DIP_PANE_CURRENT);
+    const int reach = dip_ui_px(ui, 8);
+    const DipUiControl control = {
+        .id = DIP_UI_ID(DIP_UI_COMPARE, ID_LINE),
+        .rect = {left.x + left.width - reach, left.y, 2 * reach, left.height},
+        .tip = "Drag: move the line. With Shift: to the middle.",
+        .skips_focus = true};
+    return dip_ui_control(ui, &control);
+}
+
+// A chevron that points left or right, from rectangles.
+static void draw_chevron(DipUi *ui, int x, int y, int size, int direction, DipColour colour) {
+    const int thick = dip_style_max(2, size / 3);
+    for (int i = 0; i <= size; ++i) {
+        const int reach = abs(i - size / 2);
+        dip_ui_fill(ui, (DipRect){x + direction * (size / 2 - reach), y + i - size / 2, thick, 1},
+                    colour);
+    }
+}
+
+static void draw_divider(DipUi *ui, const DipWindow *window) {
+    const DipRect left = dip_compare_visible(window, DIP_PANE_CURRENT);
+    const int unit = dip_style_max(1, dip_ui_px(ui, 1));
+    const int x = left.x + left.width - 2 * unit;
+    const int radius = dip_ui_px(ui, HANDLE);
+    const int middle = left.y + left.height / 2;
+    dip_ui_fill(ui, (DipRect){x, left.y, 4 * unit, left.height}, dip_tool_dark);
+    dip_ui_fill(ui, (DipRect){x + unit, left.y, unit, left.height}, dip_tool_white);
+    dip_ui_fill(ui, (DipRect){x + 2 * unit, left.y, unit, left.height}, dip_tool_accent);
+    if (left.height < 4 * radius) {
+        return;
+    }
+    const DipRect disc = {x + 2 * unit - radius, middle - radius, 2 * radius, 2 * radius};
+    const DipRect inner = {disc.x + 2 * unit, disc.y + 2 * unit, disc.width - 4 * unit,
+                           disc.height - 4 * unit};
+    dip_ui_fill_round(ui, disc, radius, dip_tool_white);
+    dip_ui_fill_round(ui, inner, radius - 2 * unit, dip_tool_well);
+    draw_chevron(ui, x + 2 * unit - radius / 2, middle, radius / 2, -1, dip_tool_white);
+    draw_chevron(ui, x + 2 * unit + radius / 3, middle, radius / 2, 1, dip_tool_accent);
+}
+
+// Says what one picture in place of two shows.
+static void draw_label(DipUi *ui, const DipWindow *window, const char *text, DipColour colour) {
+    const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);
+    const int height = dip_ui_line_height(ui, TEXT) + dip_ui_px(ui, 8);
+    const int width = dip_ui_text_width(ui, TEXT, text) + dip_ui_px(ui, 20);
+    if (width > shown.width || 2 * height > shown.height) {
+        return;
+    }
+    const DipRect rect = {shown.x + (shown.width - width) / 2, shown.y + dip_ui_px(ui, 8), width,
+                          height};
+    dip_ui_fill_round(ui, rect, dip_ui_px(ui, 3), dip_tool_glass);
+    dip_ui_text(ui, TEXT, colour, DIP_ALIGN_CENTRE, rect.x + width / 2, rect.y + dip_ui_px(ui, 4),
+                width, text);
+}
+
+static void label_picture(DipUi *ui, const DipWindow *window) {
+    const DipToolState *tools = &window->state->tools;
+    char text[64];
+    if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
+        snprintf(text, sizeof text, "Difference, times %d", dip_style_max(1, tools->gain));
+        draw_label(ui, window, text, dip_tool_white);
+    } else if (tools->comparison == DIP_COMPARE_TRUTH && window->truth) {
+        draw_label(ui, window, "Converged picture", dip_tool_white);
+    }
+}
+
+void dip_compare_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]) {
+    const DipToolState *tools = &window->state->tools;
+    if (tools->comparison == DIP_COMPARE_WIPE) {
+        const DipUiInput line = declare_line(ui, window);
+        drag_divider(ui, window, &line);
+        for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+            drag_divider(ui, window, &panes[p]);
+        }
+    }
+    if (!dip_ui_is_drawing(ui)) {
+        return;
+    }
+    if (tools->bare) {
+        return;
+    }
+    if (tools->comparison == DIP_COMPARE_WIPE) {
+        draw_divider(ui, window);
+    } else {
+        label_picture(ui, window);
+    }
+}

@@ -1,0 +1,55 @@
+// Lays the window out.
+#include "app/preview/tools/layout.h"
+
+#include "app/ui/style.h"
+
+enum { BAR_HEIGHT = 32, BODY_HEIGHT = 208, LEAST_PANE_HEIGHT = 130, LEAST_DOCK_WIDTH = 640 };
+
+int dip_layout_dock_height(void) {
+    return BAR_HEIGHT + BODY_HEIGHT;
+}
+
+// Places both panes side by side above y = height.
+static void place_panes(DipLayout *layout, int height) {
+    const int width =
+        layout->width > DIP_PANE_GAP_PX + 2 ? (layout->width - DIP_PANE_GAP_PX) / 2 : 1;
+    layout->panes[DIP_PANE_CURRENT] = (DipRect){0, 0, width, dip_style_max(1, height)};
+    layout->panes[DIP_PANE_REQUESTED] =
+        (DipRect){layout->width - width, 0, width, dip_style_max(1, height)};
+}
+
+DipLayout dip_layout_make(int width, int height, double scale, bool open, bool bare) {
+    DipLayout layout = {.width = width, .height = height, .scale = scale};
+    if (bare) {
+        place_panes(&layout, height);
+        return layout;
+    }
+    const int bar = dip_style_min(dip_style_scaled(BAR_HEIGHT, scale), height / 4);
+    const int body = dip_style_scaled(BODY_HEIGHT, scale);
+    const int least = dip_style_scaled(LEAST_PANE_HEIGHT, scale);
+    const bool fits =
+        height - bar - body >= least && width >= dip_style_scaled(LEAST_DOCK_WIDTH, scale);
+    layout.side = fits ? DIP_DOCK_BELOW : DIP_DOCK_DRAWER;
+    if (fits && open) {
+        place_panes(&layout, height - bar - body);
+        layout.bar = (DipRect){0, height - bar - body, width, bar};
+        layout.body = (DipRect){0, height - body, width, body};
+        return layout;
+    }
+    place_panes(&layout, height - bar);
+    layout.bar = (DipRect){0, height - bar, width, bar};
+    if (open) {
+        layout.body = layout.panes[DIP_PANE_CURRENT];
+    }
+    return layout;
+}
+
+void dip_layout_window_size(int pane_width, int pane_height, double scale, bool open, bool bare,
+                            int *width, int *height) {
+    *width = 2 * pane_width + DIP_PANE_GAP_PX;
+    *height = pane_height;
+    // The dock's height depends on the window's: a low window has a low bar and no room beneath it.
+    while (dip_layout_make(*width, *height, scale, open, bare).panes[0].height < pane_height) {
+        ++*height;
+    }
+}

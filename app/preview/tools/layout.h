@@ -1,0 +1,38 @@
+// Where the panes and the dock lie in a window of any size.
+//
+// The dock holds the preview's controls. It lies beneath the panes and does not cover them. In
+// windows that are too small for both, the open dock becomes a drawer that covers the current pane
+// only, since the requested pane shows what a control changes.
+#ifndef DIP_APP_PREVIEW_TOOLS_LAYOUT_H
+#define DIP_APP_PREVIEW_TOOLS_LAYOUT_H
+
+#include "app/canvas/pixels.h"
+#include "app/session/session.h"
+
+enum { DIP_PANE_GAP_PX = 2 }; // Width of the gap between the panes.
+
+typedef enum DipDockSide { DIP_DOCK_BELOW, DIP_DOCK_DRAWER } DipDockSide;
+
+typedef struct DipLayout {
+    int width;
+    int height;
+    double scale;
+    DipRect panes[DIP_PANE_COUNT]; // Where the pictures show. Both have the same size.
+    DipDockSide side;
+    DipRect bar;  // The dock's tabs and time line: one row, also while the dock is folded.
+    DipRect body; // The chosen tab's contents; empty while the dock is folded.
+} DipLayout;
+
+// Lays a window out. scale: the display's scale times that of --ui-scale. open: the dock shows a
+// tab. bare: the window shows nothing but the panes.
+DipLayout dip_layout_make(int width, int height, double scale, bool open, bool bare);
+
+// Finds a size of the window in which each pane has the given size in pixels.
+void dip_layout_window_size(int pane_width, int pane_height, double scale, bool open, bool bare,
+                            int *width, int *height);
+
+// Returns the height of the dock below panes at scale 1, with its bar, for a window that opens with
+// the dock.
+int dip_layout_dock_height(void);
+
+#endif

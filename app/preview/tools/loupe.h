@@ -1,0 +1,124 @@
+// The loupe's arithmetic and memory: which pixels it shows, where the panes mark them, and what the
+// samples of these pixels are.
+//
+// The loupe looks at one pixel of both panes. Below each pane, the dock shows the pixels around it,
+// each as a square of `zoom` x `zoom` pixels of the window, and the samples of the pixel itself.
+#ifndef DIP_APP_PREVIEW_TOOLS_LOUPE_H
+#define DIP_APP_PREVIEW_TOOLS_LOUPE_H
+
+#include "app/canvas/canvas.h"
+#include "app/preview/tools/tools.h"
+#include "app/session/session.h"
+#include "renderer/pipeline/pattern.h"
+#include "renderer/pipeline/readback.h"
+
+// --- arithmetic --------------------------------------------------------------------------------
+
+// The part of a picture that the loupe shows. The looked-at pixel lies in the middle; where the
+// picture ends, the loupe shows nothing.
+typedef struct DipLoupeCrop {
+    DipRect source; // Pixels of the picture that show; empty if the area is smaller than a pixel.
+    DipRect shown;  // Where `source` shows, in pixels of the window.
+    DipRect pixel;  // Where the looked-at pixel shows.
+    DipRect frame;  // Where all pixels would show if the picture had no end.
+    int zoom;
+} DipLoupeCrop;
+
+// Returns what a loupe at pixel x, y of a picture shows in an area of the window. The number of
+// columns and of rows is odd, and the largest that fits the area.
+DipLoupeCrop dip_loupe_crop(int width, int height, int x, int y, int zoom, DipRect area);
+
+// Finds the pixel of a picture of width x height pixels that the window shows at window_x,
+// window_y, if the picture is scaled to the rectangle `shown` as dip_canvas_copy does. Returns
+// false if the rectangle does not hold the position.
+bool dip_loupe_pixel_at(DipRect shown, int width, int height, int window_x, int window_y, int *x,
+                        int *y);
+
+// Returns the rectangle of the window that shows the given pixels of a picture scaled to `shown`.
+// If the picture is scaled down, the rectangle may be empty.
+DipRect dip_loupe_mark(DipRect shown, int width, int height, DipRect source);
+
+// Changes the zoom by factors of 2, within its range.
+void dip_loupe_zoom(DipToolState *tools, int steps);
+
+// Pins the loupe, and moves it by whole pixels within a picture of width x height pixels.
+void dip_loupe_move(DipToolState *tools, int dx, int dy, int width, int height);
+
+// Keeps the loupe's pixel within pictures of a size. A pixel below 0 becomes the picture's middle.
+void dip_loupe_keep_inside(DipToolState *tools, int width, int height);
+
+// Returns whether the loupe looks at the panes: it is on, or its tab shows.
+bool dip_loupe_is_on(const DipToolState *tools);
+
+// The number of samples and the number of them that show the patch that is nearest to the eye.
+typedef struct DipSampleCount {
+    int samples;
+    int front;   // Samples of the nearest patch.
+    int patches; // Distinct patches of all samples; the background counts as one.
+} DipSampleCount;
+
+// samples: `count` entries of a readback.
+DipSampleCount dip_loupe_count(const DipSampleValue *samples, int count);
+
+// Returns whether a sample shows the patch that is nearest to the eye.
+bool dip_loupe_is_front(const DipSampleValue *samples, int count, int sample);
+
+// --- memory ------------------------------------------------------------------------------------
+
+DipLoupe *dip_loupe_create(DipError *err);
+void dip_loupe_destroy(DipLoupe **loupe);
+
+// Tells the loupe which pixels the panes' crops show; called while the window is drawn. region: the
+// pixels whose samples are of interest.
+void dip_loupe_want(DipLoupe *loupe, DipTargetRegion region);
+
+// Reads the samples that the crops show, if the panes' pictures stand still and the samples are not
+// known yet. Returns whether something new is there to show. A failure leaves the samples unknown.
+bool dip_loupe_update(DipLoupe *loupe, const DipToolsInput *input);
+
+// Returns the samples of a pixel of a pane, in the pattern *pattern, or NULL if they are not known
+// for the picture with this version.
+const DipSampleValue *dip_loupe_samples(const DipLoupe *loupe, int pane, uint64_t version, int x,
+                                        int y, const DipSamplePattern **pattern);
+
+// Returns the patterns of the frame that was drawn last, from a pane's settings.
+const DipSamplePattern *dip_loupe_pattern(const DipLoupe *loupe, const DipQuality *quality);
+
+// Converts between 8-bit sRGB, 16-bit linear light and linear light from 0 to 1.
+uint8_t dip_loupe_code(const DipLoupe *loupe, uint16_t linear16);
+double dip_loupe_linear(const DipLoupe *loupe, uint8_t code);
+
+// --- pictures ----------------------------------------------------------------------------------
+
+// What the crop of a pane shows.
+typedef struct DipCropContent {
+    DipPixels frame;
+    uint64_t version;
+    DipLoupeCrop crop;
+} DipCropContent;
+
+// Returns the magnified pixels of a pane with marks of the samples of pixels that show several
+// patches, and its version, which lies in a range that no frame uses. The picture has the size of
+// crop.frame. Returns false if memory runs out. The pixels are valid until the next call for the
+// pane.
+bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *content,
+                            DipPixels *picture, uint64_t *version);
+
+// One pixel as a square with its samples.
+typedef struct DipBoxContent {
+    DipColour pixel;
+    const DipSamplePattern *pattern;
+    const DipSampleValue *samples; // pattern->count entries, or NULL if they are not known.
+    int side;                      // Width and height of the picture, in pixels of the window.
+} DipBoxContent;
+
+// Returns a picture of a pixel: its colour, a grid, and a disc at each sample's position, filled
+// with the sample's colour. Samples of the nearest patch have a whole ring; those of others a
+// dashed ring. Returns false if memory runs out.
+bool dip_loupe_box_picture(DipLoupe *loupe, int pane, const DipBoxContent *content,
+                           DipPixels *picture, uint64_t *version);
+
+// Returns where the box picture shows the middle of a sample, from its top left corner.
+void dip_loupe_box_position(const DipSamplePattern *pattern, int side, int sample, int *x, int *y);
+
+#endif

@@ -1,0 +1,140 @@
+// The loupe over the panes: its marks, the legend of mip colours, and how mouse and keys move it.
+#include "app/preview/tools/compare.h"
+#include "app/preview/tools/loupe.h"
+#include "app/ui/style.h"
+#include "app/preview/tools/window.h"
+#include "app/preview/tools/tool_colours.h"
+
+#include <stdlib.h>
+
+enum { TINY = 10 }; // Size of letters.
+
+// Returns the part of the panes that a crop shows, from the crop's usual width in the tab.
+static void mark_pane(DipUi *ui, const DipWindow *window, int pane) {
+    const DipToolState *tools = &window->state->tools;
+    const DipPixels *frame = &window->frames[pane];
+    const DipRect shown = dip_compare_shown(window, pane);
+    const DipRect area = {0, 0, dip_ui_px(ui, 368), dip_ui_px(ui, 176)};
+    const DipLoupeCrop crop =
+        dip_loupe_crop(frame->width, frame->height, tools->x, tools->y, tools->zoom, area);
+    const DipRect mark = dip_loupe_mark(shown, frame->width, frame->height, crop.source);
+    const DipRect inside = dip_rect_intersect(mark, dip_compare_visible(window, pane));
+    if (!dip_rect_is_empty(inside)) {
+        dip_tool_outline(ui, inside, pane == DIP_PANE_REQUESTED ? dip_tool_accent : dip_tool_white);
+    }
+}
+
+static void follow(DipWindow *window, const DipUiInput *input) {
+    DipToolState *tools = &window->state->tools;
+    int pane, x, y;
+    if (!dip_compare_pixel_at(window, input->x, input->y, &pane, &x, &y)) {
+        return;
+    }
+    if (input->right) {
+        const bool same = tools->pinned && tools->x == x && tools->y == y;
+        tools->pinned = !same;
+        tools->open = true;
+        tools->tab = DIP_TAB_LOUPE;
+    }
+    if (input->right || (!tools->pinned && dip_loupe_is_on(tools))) {
+        tools->x = x;
+        tools->y = y;
+    }
+}
+
+static void handle_panes(DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]) {
+    DipToolState *tools = &window->state->tools;
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipUiInput *input = &panes[p];
+        if (input->right || input->moved) {
+            follow(window, input);
+        }
+        if (input->steps && (input->modifiers & DIP_MODIFIER_CTRL)) {
+            tools->loupe = true;
+            dip_loupe_zoom(tools, input->steps);
+        }
+    }
+}
+
+// The colours of mip levels, from the largest level's.
+static const struct {
+    const char *name;
+    DipColour colour;
+} mip_colours[] = {
+    {"1024", {0, 0, 0, 255}},    {"512", {128, 0, 0, 255}},       {"256", {255, 0, 0, 255}},
+    {"128", {255, 128, 0, 255}}, {"64", {255, 255, 0, 255}},      {"32", {0, 255, 0, 255}},
+    {"16", {0, 0, 255, 255}},    {"\u22648", {128, 0, 128, 255}},
+};
+
+// Explains the colours of a pane that shows mip levels: size of the level in texels.
+static void draw_mip_legend(DipUi *ui, DipRect shown) {
+    enum { COUNT = sizeof mip_colours / sizeof *mip_colours };
+    const int margin = dip_ui_px(ui, 8);
+    const int cell = dip_ui_px(ui, 32);
+    const int height = dip_ui_line_height(ui, TINY) + dip_ui_px(ui, 4);
+    const int across = shown.width - 2 * margin >= COUNT * cell ? COUNT : COUNT / 2;
+    if (shown.width - 2 * margin < across * cell) {
+        return;
+    }
+    const int top = shown.y + shown.height - margin - height * (COUNT / across);
+    for (int i = 0; i < COUNT; ++i) {
+        const DipColour ground = mip_colours[i].colour;
+        const DipRect rect = {shown.x + margin + i % across * cell, top + i / across * height, cell,
+                              height};
+        dip_ui_fill(ui, rect, ground);
+        dip_ui_text(ui, TINY, dip_tool_contrast(ground), DIP_ALIGN_CENTRE, rect.x + cell / 2,
+                    rect.y + dip_ui_px(ui, 2), cell, mip_colours[i].name);
+    }
+    if (top - height >= shown.y + dip_ui_px(ui, 40)) {
+        const char *title = "Side of the mip level, texels";
+        const int width = dip_ui_text_width(ui, TINY, title) + dip_ui_px(ui, 8);
+        dip_ui_fill(ui, (DipRect){shown.x + margin, top - height, width, height}, dip_tool_glass);
+        dip_ui_text(ui, TINY, dip_tool_white, DIP_ALIGN_LEFT, shown.x + margin + dip_ui_px(ui, 4),
+                    top - height + dip_ui_px(ui, 2), width, title);
+    }
+}
+
+void dip_loupe_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]) {
+    const DipPreviewState *state = window->state;
+    if (!dip_ui_is_drawing(ui)) {
+        handle_panes(window, panes);
+        return;
+    }
+    if (state->tools.bare || window->frames[0].width < 1 || window->frames[1].width < 1) {
+        return;
+    }
+    dip_loupe_keep_inside(&window->state->tools, window->frames[DIP_PANE_CURRENT].width,
+                          window->frames[DIP_PANE_CURRENT].height);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        const DipRect visible = dip_compare_visible(window, p);
+        if (state->quality[p].step[DIP_SETTING_MIPDEBUG] && !dip_rect_is_empty(visible)) {
+            draw_mip_legend(ui, visible);
+        }
+        if (dip_loupe_is_on(&state->tools) && !dip_rect_is_empty(visible)) {
+            mark_pane(ui, window, p);
+        }
+    }
+}
+
+bool dip_loupe_press(DipPreviewState *state, int width, int height, const DipEvent *event) {
+    static const struct {
+        int key;
+        int dx, dy;
+    } moves[] = {{DIP_KEYCODE_LEFT, -1, 0},
+                 {DIP_KEYCODE_RIGHT, 1, 0},
+                 {DIP_KEYCODE_UP, 0, -1},
+                 {DIP_KEYCODE_DOWN, 0, 1}};
+    const unsigned command = DIP_MODIFIER_CTRL | DIP_MODIFIER_ALT | DIP_MODIFIER_SUPER;
+    if (event->kind != DIP_EVENT_KEY_DOWN || !dip_loupe_is_on(&state->tools) ||
+        (event->modifiers & command)) {
+        return false;
+    }
+    for (size_t i = 0; i < sizeof moves / sizeof *moves; ++i) {
+        if ((int)event->key == moves[i].key) {
+            const int step = event->modifiers & DIP_MODIFIER_SHIFT ? 8 : 1;
+            dip_loupe_move(&state->tools, step * moves[i].dx, step * moves[i].dy, width, height);
+            return true;
+        }
+    }
+    return false;
+}

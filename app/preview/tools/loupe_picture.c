@@ -1,0 +1,247 @@
+// Draws the loupe's pictures: magnified pixels, and one pixel with its samples.
+#include "app/preview/tools/loupe_memory.h"
+#include "app/ui/style.h"
+#include "app/preview/tools/tool_colours.h"
+
+#include <math.h>
+#include <string.h>
+
+// Zooms from which the crop marks samples. Below, the marks would hide the pixels.
+enum { MARKS_ZOOM = 16 };
+
+// Sides of a disc's mask at most; larger discs are cut.
+enum { MASK_SIDE = 64 };
+
+// --- the crop ------------------------------------------------------------------------------------
+
+static bool same_crop(const DipLoupeCrop *a, const DipLoupeCrop *b) {
+    return dip_rect_equals(a->source, b->source) && dip_rect_equals(a->shown, b->shown) &&
+           dip_rect_equals(a->frame, b->frame) && a->zoom == b->zoom;
+}
+
+// Returns the part of a picture that lies in a rectangle of its pixels.
+static DipPixels part_of(const DipPixels *picture, DipRect rect) {
+    const size_t offset = (size_t)rect.y * picture->stride_bytes + 4 * (size_t)rect.x;
+    return (DipPixels){picture->rgba8 + offset, picture->stride_bytes, rect.width, rect.height};
+}
+
+// Marks a sample of a pixel whose square has its top left corner at x, y: a core with a border. If
+// there is room, the core has the sample's colour.
+static void mark_sample(const DipLoupe *loupe, DipCanvas *canvas, int x, int y, int zoom,
+                        const DipSamplePattern *pattern, int s, const DipSampleValue *sample) {
+    const int core = zoom / 8;
+    const int left = x + pattern->x[s] * zoom / 256 - core / 2;
+    const int top = y + pattern->y[s] * zoom / 256 - core / 2;
+    const bool coloured = core >= 4;
+    const DipColour own = {dip_loupe_code(loupe, sample->linear16[0]),
+                           dip_loupe_code(loupe, sample->linear16[1]),
+                           dip_loupe_code(loupe, sample->linear16[2]), 255};
+    dip_canvas_fill(canvas, (DipRect){left - 1, top - 1, core + 2, core + 2}, dip_tool_white);
+    dip_canvas_fill(canvas, (DipRect){left, top, core, core}, coloured ? own : dip_tool_dark);
+}
+
+static void mark_samples(const DipLoupe *loupe, int pane, const DipCropContent *content,
+                         DipCanvas *canvas) {
+    const DipLoupeCrop *crop = &content->crop;
+    const DipRect *source = &crop->source;
+    for (int y = source->y; y < source->y + source->height; ++y) {
+        for (int x = source->x; x < source->x + source->width; ++x) {
+            const DipSamplePattern *pattern;
+            const DipSampleValue *samples =
+                dip_loupe_samples(loupe, pane, content->version, x, y, &pattern);
+            if (!samples || dip_loupe_count(samples, pattern->count).patches < 2) {
+                continue;
+            }
+            const int left = crop->shown.x - crop->frame.x + (x - source->x) * crop->zoom;
+            const int top = crop->shown.y - crop->frame.y + (y - source->y) * crop->zoom;
+            for (int s = 0; s < pattern->count; ++s) {
+                mark_sample(loupe, canvas, left, top, crop->zoom, pattern, s, &samples[s]);
+            }
+        }
+    }
+}
+
+static bool draw_crop(const DipLoupe *loupe, int pane, const DipCropContent *content,
+                      DipCanvas *canvas) {
+    const DipLoupeCrop *crop = &content->crop;
+    if (!dip_canvas_resize(canvas, crop->frame.width, crop->frame.height, NULL)) {
+        return false;
+    }
+    const DipRect all = {0, 0, crop->frame.width, crop->frame.height};
+    dip_canvas_set_clip(canvas, all);
+    dip_canvas_fill(canvas, all, dip_tool_well);
+    if (!dip_rect_is_empty(crop->source)) {
+        const DipPixels part = part_of(&content->frame, crop->source);
+        const DipRect shown = {crop->shown.x - crop->frame.x, crop->shown.y - crop->frame.y,
+                               crop->shown.width, crop->shown.height};
+        dip_canvas_copy(canvas, shown, &part);
+    }
+    if (crop->zoom >= MARKS_ZOOM) {
+        mark_samples(loupe, pane, content, canvas);
+    }
+    return true;
+}
+
+bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *content,
+                            DipPixels *picture, uint64_t *version) {
+    DipPaneSamples *held = &loupe->panes[pane];
+    const bool current = held->crop.valid && held->crop_frame_version == content->version &&
+                         held->crop_generation == loupe->generation &&
+                         same_crop(&held->crop_shown, &content->crop);
+    if (!current) {
+        held->crop.valid = draw_crop(loupe, pane, content, &held->crop.canvas);
+        held->crop.version = ++loupe->version;
+        held->crop_shown = content->crop;
+        held->crop_frame_version = content->version;
+        held->crop_generation = loupe->generation;
+    }
+    *picture = dip_canvas_pixels(&held->crop.canvas);
+    *version = held->crop.version;
+    return held->crop.valid;
+}
+
+// --- the box -------------------------------------------------------------------------------------
+
+// Width of the ground around the pixel's square, so that discs near its edges are not cut.
+static int box_margin(int side) {
+    return side / 12;
+}
+
+// Converts 1/256 pixel to a distance from the picture's edge.
+static int box_position(int side, int position) {
+    const int margin = box_margin(side);
+    return margin + (position * (side - 2 * margin) + 128) / 256;
+}
+
+void dip_loupe_box_position(const DipSamplePattern *pattern, int side, int sample, int *x, int *y) {
+    *x = box_position(side, pattern->x[sample]);
+    *y = box_position(side, pattern->y[sample]);
+}
+
+static double coverage(double edge, double distance) {
+    const double inside = edge - distance + 0.5;
+    return inside <= 0.0 ? 0.0 : inside >= 1.0 ? 1.0 : inside;
+}
+
+// Draws a disc, or a ring if `inner` is above 0. dashes: number of gaps in the ring, or 0.
+static void draw_disc(DipCanvas *canvas, int x, int y, double outer, double inner, int dashes,
+                      DipColour colour) {
+    uint8_t mask[MASK_SIDE * MASK_SIDE];
+    const int reach = dip_style_min((int)outer + 2, MASK_SIDE / 2);
+    const int side = 2 * reach;
+    for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) {
+            const double dx = j - reach + 0.5;
+            const double dy = i - reach + 0.5;
+            const double distance = sqrt(dx * dx + dy * dy);
+            double covered = coverage(outer, distance);
+            if (inner > 0.0) {
+                covered -= coverage(inner, distance);
+            }
+            if (dashes) {
+                const double turns = atan2(dy, dx) * dashes / 6.283185307179586;
+                covered = turns - floor(turns) < 0.5 ? covered : 0.0;
+            }
+            mask[i * side + j] = (uint8_t)(255.0 * covered + 0.5);
+        }
+    }
+    dip_canvas_mask(canvas, x - reach, y - reach, side, side, mask, colour);
+}
+
+static void draw_grid(DipCanvas *canvas, DipColour ground, int side, int cells) {
+    const DipColour edge = dip_tool_contrast(ground);
+    const DipColour line = {edge.red, edge.green, edge.blue, 60};
+    const int first = box_position(side, 0);
+    const int last = box_position(side, 256);
+    const int length = last - first;
+    for (int i = 0; i <= cells; ++i) {
+        const bool outer = i == 0 || i == cells;
+        const int at = first + (2 * length * i + cells) / (2 * cells) - (i == cells);
+        dip_canvas_fill(canvas, (DipRect){at, first, 1, length}, outer ? dip_tool_white : line);
+        dip_canvas_fill(canvas, (DipRect){first, at, length, 1}, outer ? dip_tool_white : line);
+    }
+}
+
+static DipColour sample_colour(const DipLoupe *loupe, const DipSampleValue *sample) {
+    return (DipColour){dip_loupe_code(loupe, sample->linear16[0]),
+                       dip_loupe_code(loupe, sample->linear16[1]),
+                       dip_loupe_code(loupe, sample->linear16[2]), 255};
+}
+
+static void draw_sample(const DipLoupe *loupe, DipCanvas *canvas, const DipBoxContent *content,
+                        int s) {
+    const int count = content->pattern->count;
+    const double radius = content->side / (count <= 4 ? 10.0 : 14.0);
+    const double ring = radius > 8.0 ? 2.0 : 1.5;
+    const bool front = !content->samples || dip_loupe_is_front(content->samples, count, s);
+    int x, y;
+    dip_loupe_box_position(content->pattern, content->side, s, &x, &y);
+    const DipColour fill =
+        content->samples ? sample_colour(loupe, &content->samples[s]) : content->pixel;
+    draw_disc(canvas, x, y, radius + 1.0, 0.0, 0, dip_tool_dark);
+    draw_disc(canvas, x, y, radius, 0.0, 0, front ? dip_tool_white : dip_tool_dark);
+    draw_disc(canvas, x, y, radius - ring, 0.0, 0, fill);
+    if (!front) {
+        draw_disc(canvas, x, y, radius, radius - ring, 8, dip_tool_white);
+    }
+}
+
+static bool draw_box(const DipLoupe *loupe, const DipBoxContent *content, DipCanvas *canvas) {
+    const int count = content->pattern->count;
+    if (!dip_canvas_resize(canvas, content->side, content->side, NULL)) {
+        return false;
+    }
+    const DipRect all = {0, 0, content->side, content->side};
+    dip_canvas_set_clip(canvas, all);
+    const int first = box_position(content->side, 0);
+    const int length = box_position(content->side, 256) - first;
+    dip_canvas_fill(canvas, all, dip_tool_ground);
+    dip_canvas_fill(canvas, (DipRect){first, first, length, length}, content->pixel);
+    draw_grid(canvas, content->pixel, content->side, count <= 4 ? 4 : count);
+    for (int s = 0; s < count; ++s) {
+        draw_sample(loupe, canvas, content, s);
+    }
+    return true;
+}
+
+static bool same_colour(DipColour a, DipColour b) {
+    return a.red == b.red && a.green == b.green && a.blue == b.blue && a.alpha == b.alpha;
+}
+
+static bool same_samples(const DipPaneSamples *held, const DipBoxContent *content) {
+    if (!content->samples) {
+        return !held->box_has_samples;
+    }
+    bool same = held->box_has_samples;
+    for (int s = 0; s < content->pattern->count && same; ++s) {
+        const DipSampleValue *a = &held->box_samples[s];
+        const DipSampleValue *b = &content->samples[s];
+        same = a->patch == b->patch && memcmp(&a->depth, &b->depth, sizeof a->depth) == 0 &&
+               memcmp(a->linear16, b->linear16, sizeof a->linear16) == 0;
+    }
+    return same;
+}
+
+bool dip_loupe_box_picture(DipLoupe *loupe, int pane, const DipBoxContent *content,
+                           DipPixels *picture, uint64_t *version) {
+    DipPaneSamples *held = &loupe->panes[pane];
+    const bool current = held->box.valid && held->box_side == content->side &&
+                         held->box_pattern == content->pattern &&
+                         same_colour(held->box_pixel, content->pixel) &&
+                         same_samples(held, content);
+    if (!current) {
+        held->box.valid = draw_box(loupe, content, &held->box.canvas);
+        held->box.version = ++loupe->version;
+        held->box_side = content->side;
+        held->box_pattern = content->pattern;
+        held->box_pixel = content->pixel;
+        held->box_has_samples = content->samples != NULL;
+        if (content->samples) {
+            memcpy(held->box_samples, content->samples,
+                   (size_t)content->pattern->count * sizeof *content->samples);
+        }
+    }
+    *picture = dip_canvas_pixels(&held->box.canvas);
+    *version = held->box.version;
+    return held->box.valid;
+}

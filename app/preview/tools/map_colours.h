@@ -1,0 +1,31 @@
+// Colour scales of the maps, and how their values are written.
+#ifndef DIP_APP_PREVIEW_TOOLS_MAP_COLOURS_H
+#define DIP_APP_PREVIEW_TOOLS_MAP_COLOURS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { DIP_MAP_COLOURS = 256 };
+
+// Writes the sRGB colour of a value in 0..1 in the palette "cividis", from dark blue to yellow.
+// Values outside 0..1 are clamped. Thread-safe.
+void dip_cividis(float value, uint8_t rgb[3]);
+
+// A palette as a table: entry i stands for i / 255.
+typedef void DipPalette(float value, uint8_t rgb[3]); // dip_magma (errors) or dip_cividis (work)
+void dip_map_table(DipPalette *palette, uint8_t rgb[DIP_MAP_COLOURS][3]);
+
+// Returns the index of the colour of a value on a scale from 0 to `end`.
+static inline int dip_map_colour_index(float value, float end) {
+    const float index = value / end * (DIP_MAP_COLOURS - 1) + 0.5f;
+    return index < (float)DIP_MAP_COLOURS ? (int)index : DIP_MAP_COLOURS - 1;
+}
+
+// Returns the smallest of 1, 1.5, 2, 3, 4, 5, 6 and 8 times a power of 10 that is at least `value`;
+// 1 for values of 0 and below.
+double dip_map_round_up(double value);
+
+// Writes a value below 1 as ".43", others as "4.3" or "43".
+void dip_map_format(double value, char *text, size_t size_bytes);
+
+#endif

@@ -1,0 +1,275 @@
+// Draws the maps' pictures.
+#include "app/measure/metrics/magma.h"
+#include "app/preview/tools/maps_memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// How much of a work map is colour, of 256; the rest is the grey picture beneath.
+enum { COLOUR_SHARE = 174 };
+
+typedef uint8_t Table[DIP_MAP_COLOURS][3];
+
+static void put(uint8_t *to, const uint8_t rgb[3]) {
+    memcpy(to, rgb, 3);
+    to[3] = 255;
+}
+
+static uint8_t grey_of(const uint8_t *rgba8) {
+    return (uint8_t)((54 * rgba8[0] + 183 * rgba8[1] + 19 * rgba8[2]) >> 8);
+}
+
+static void blend(uint8_t *to, const uint8_t *rgba8, const uint8_t rgb[3], int share) {
+    const int grey = grey_of(rgba8);
+    for (int c = 0; c < 3; c++) {
+        to[c] = (uint8_t)((rgb[c] * share + grey * (256 - share)) >> 8);
+    }
+    to[3] = 255;
+}
+
+// --- one map each --------------------------------------------------------------------------------
+
+static void draw_flip(DipMapPicture *picture, const float *flip) {
+    Table table;
+    dip_map_table(dip_magma, table);
+    for (size_t i = 0; i < picture->pixels; i++) {
+        put(picture->rgba8 + 4 * i, table[dip_map_colour_index(flip[i], (float)picture->end)]);
+    }
+}
+
+// Finds the colour of each tile of a row of tiles.
+static void colour_row(const DipMapPicture *picture, const DipMapWork *work, int row,
+                       uint8_t (*colours)[3]) {
+    for (int column = 0; column < work->across; column++) {
+        const double value = dip_map_value(work, picture->map, row * work->across + column);
+        dip_cividis((float)(value / picture->end), colours[column]);
+    }
+}
+
+// Colours each tile over the grey picture, with a dark line at its left and upper edge.
+static void draw_tiles(DipMapPicture *picture, const DipMapWork *work, const DipPixels *frame) {
+    uint8_t colours[DIP_MAX_TARGET_SIZE / DIP_TARGET_TILE][3];
+    for (int y = 0; y < picture->height; y++) {
+        const uint8_t *from = frame->rgba8 + (size_t)y * frame->stride_bytes;
+        uint8_t *to = picture->rgba8 + 4 * (size_t)y * (size_t)picture->width;
+        if (y % DIP_TARGET_TILE == 0) {
+            colour_row(picture, work, y / DIP_TARGET_TILE, colours);
+        }
+        for (int x = 0; x < picture->width; x++, from += 4, to += 4) {
+            blend(to, from, colours[x / DIP_TARGET_TILE], COLOUR_SHARE);
+            const bool edge = x % DIP_TARGET_TILE == 0 || y % DIP_TARGET_TILE == 0;
+            for (int c = 0; c < 3 && edge; c++) {
+                to[c] = (uint8_t)(to[c] * 5 / 8);
+            }
+        }
+    }
+}
+
+// Shows pixels whose samples differ in the scale's last colour, and all others dark.
+static void draw_mixed(DipMapPicture *picture, const DipMapWork *work, const DipPixels *frame) {
+    uint8_t first[3], last[3];
+    dip_cividis(0.0f, first);
+    dip_cividis(1.0f, last);
+    for (int y = 0; y < picture->height; y++) {
+        const uint8_t *from = frame->rgba8 + (size_t)y * frame->stride_bytes;
+        const size_t row = (size_t)y * (size_t)picture->width;
+        for (int x = 0; x < picture->width; x++) {
+            uint8_t *to = picture->rgba8 + 4 * (row + (size_t)x);
+            if (work->mixed[row + (size_t)x]) {
+                put(to, last);
+            } else {
+                blend(to, from + 4 * x, first, COLOUR_SHARE);
+            }
+        }
+    }
+}
+
+// --- any map -------------------------------------------------------------------------------------
+
+// Returns whether a pane's map is known for a frame of this size, and its version.
+static bool find_source(const DipMaps *maps, DipMap map, int pane, const DipPixels *frame,
+                        uint64_t *source) {
+    const DipPaneWork *work = dip_maps_pane(maps, pane);
+    const DipErrorPictures *errors = maps->errors;
+    *source = maps->generation;
+    switch (map) {
+    case DIP_MAP_NONE:
+    case DIP_MAP_COUNT:
+        return false;
+    case DIP_MAP_FLIP:
+        *source = errors ? errors->version : 0;
+        return errors && errors->flip[pane] && errors->width == frame->width &&
+               errors->height == frame->height;
+    case DIP_MAP_MIPS:
+        return work->mips && work->mips_width == frame->width && work->mips_height == frame->height;
+    default:
+        return work->work.draws && work->work.width == frame->width &&
+               work->work.height == frame->height;
+    }
+}
+
+static bool make_room(DipMapPicture *picture, const DipPixels *frame) {
+    const size_t pixels = (size_t)frame->width * (size_t)frame->height;
+    if (picture->pixels != pixels) {
+        free(picture->rgba8);
+        picture->rgba8 = malloc(4 * pixels);
+        picture->pixels = picture->rgba8 ? pixels : 0;
+    }
+    return picture->rgba8 != NULL;
+}
+
+static void draw(const DipMaps *maps, int pane, const DipPixels *frame, DipMapPicture *picture) {
+    const DipPaneWork *work = dip_maps_pane(maps, pane);
+    if (picture->map == DIP_MAP_FLIP) {
+        draw_flip(picture, maps->errors->flip[pane]);
+    } else if (picture->map == DIP_MAP_MIPS) {
+        memcpy(picture->rgba8, work->mips, 4 * picture->pixels);
+    } else if (picture->map == DIP_MAP_SAMPLES) {
+        draw_mixed(picture, &work->work, frame);
+    } else {
+        draw_tiles(picture, &work->work, frame);
+    }
+}
+
+bool dip_maps_picture(DipMaps *maps, const DipToolState *tools, int pane, const DipPixels *frame,
+                      uint64_t frame_version, DipPixels *out, uint64_t *version) {
+    DipMapPicture *picture = &maps->pictures[pane];
+    const double end = dip_maps_end(maps, tools);
+    uint64_t source;
+    if (!find_source(maps, tools->map, pane, frame, &source) || !make_room(picture, frame)) {
+        picture->made = false;
+        return false;
+    }
+    const bool same = picture->made && picture->map == tools->map && picture->end == end &&
+                      picture->source == source && picture->frame_version == frame_version &&
+                      picture->width == frame->width && picture->height == frame->height;
+    if (!same) {
+        picture->map = tools->map;
+        picture->end = end;
+        picture->source = source;
+        picture->frame_version = frame_version;
+        picture->width = frame->width;
+        picture->height = frame->height;
+        draw(maps, pane, frame, picture);
+        picture->made = true;
+        picture->version = DIP_MAP_PICTURE_VERSION + ++maps->picture_count;
+    }
+    *out = (DipPixels){picture->rgba8, 4 * (size_t)frame->width, frame->width, frame->height};
+    *version = picture->version;
+    return true;
+}
+
+// --- words ---------------------------------------------------------------------------------------
+
+static const char *flip_status(const DipMaps *maps, int pane, char *text, size_t size_bytes) {
+    const DipErrorReading *reading = &maps->reading;
+    if (reading->status == DIP_ERROR_STATUS_FAILED) {
+        return "There is not enough memory to measure the error.";
+    }
+    if (reading->result.samples == 0) {
+        return "Measuring: the converged picture is being drawn.";
+    }
+    if (reading->result.panes[pane].unjudged) {
+        return "Mip colours are no picture of the scene, so they have no error.";
+    }
+    if (reading->result.last) {
+        return "";
+    }
+    // The truth is the mean of two halves with equal numbers of samples.
+    snprintf(text, size_bytes, "Measuring: %d of %d samples per pixel.", reading->result.samples,
+             2 * dip_error_job_samples[DIP_ERROR_JOB_LEVELS - 1]);
+    return text;
+}
+
+static const char *work_status(const DipMaps *maps, DipMap map, int pane, char *text,
+                               size_t size_bytes) {
+    const DipPaneWork *work = dip_maps_pane(maps, pane);
+    const int draws = work->work.draws;
+    if (maps->failed) {
+        return "The frame could not be measured: memory ran out.";
+    }
+    if (map == DIP_MAP_MIPS ? !work->mips : draws == 0) {
+        return "Measuring.";
+    }
+    if (map != DIP_MAP_TIME || draws == DIP_MAP_DRAWS) {
+        return "";
+    }
+    snprintf(text, size_bytes, "Measuring: %d of %d draws.", draws, DIP_MAP_DRAWS);
+    return text;
+}
+
+const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gallery, bool still,
+                            char *text, size_t size_bytes) {
+    if (map == DIP_MAP_NONE) {
+        return "";
+    }
+    if (gallery && map == DIP_MAP_FLIP) {
+        return "Gallery scenes have no converged picture, so no error.";
+    }
+    if (gallery && map != DIP_MAP_MIPS) {
+        return "Gallery scenes do not record the work of their tiles.";
+    }
+    if (!still) {
+        return "Measured while the camera rests.";
+    }
+    return map == DIP_MAP_FLIP ? flip_status(maps, pane, text, size_bytes)
+                               : work_status(maps, map, pane, text, size_bytes);
+}
+
+static int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
+// --- mip levels ----------------------------------------------------------------------------------
+
+// The colours of mip debugging (renderer/scene/resources/mip_debug.c), in sRGB.
+static const DipColour mip_colours[DIP_MIP_DEBUG_LEVELS] = {
+    {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
+    {255, 255, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {128, 0, 128, 255},
+};
+
+DipColour dip_map_mip_colour(int index) {
+    return mip_colours[index];
+}
+
+// Returns the squared distance of a pixel from a colour that light may have dimmed.
+static double distance_from(const uint8_t *pixel, const double colour[3]) {
+    double product = 0.0, square = 1e-9, distance = 0.0;
+    for (int c = 0; c < 3; c++) {
+        product += pixel[c] * colour[c];
+        square += colour[c] * colour[c];
+    }
+    const double wanted = product / square;
+    const double light = wanted < 0.3 ? 0.3 : wanted > 1.0 ? 1.0 : wanted;
+    for (int c = 0; c < 3; c++) {
+        distance += (pixel[c] - light * colour[c]) * (pixel[c] - light * colour[c]);
+    }
+    return distance;
+}
+
+int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y) {
+    enum { BLENDS = 4, FARTHEST = 60 };
+    const DipPaneWork *work = dip_maps_pane(maps, pane);
+    if (!work->mips || x < 0 || y < 0 || x >= work->mips_width || y >= work->mips_height) {
+        return 0;
+    }
+    const uint8_t *pixel = work->mips + 4 * ((size_t)y * (size_t)work->mips_width + (size_t)x);
+    double least = FARTHEST * FARTHEST;
+    int size = 0;
+    for (int i = 0; i < BLENDS * (DIP_MIP_DEBUG_LEVELS - 1) + 1; i++) {
+        const int level = smaller(i / BLENDS, DIP_MIP_DEBUG_LEVELS - 2);
+        const double part = (double)(i - level * BLENDS) / BLENDS;
+        const DipColour *a = &mip_colours[level], *b = a + 1;
+        const double colour[3] = {a->red + part * (b->red - a->red),
+                                  a->green + part * (b->green - a->green),
+                                  a->blue + part * (b->blue - a->blue)};
+        const double distance = distance_from(pixel, colour);
+        if (distance < least) {
+            least = distance;
+            size = 1024 >> (part < 0.5 ? level : level + 1);
+        }
+    }
+    return size;
+}

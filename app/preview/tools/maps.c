@@ -1,0 +1,359 @@
+// The maps' memory: measures the work of the panes' frames with a renderer of its own, and keeps
+// what the error thread found.
+#include "app/preview/tools/maps.h"
+
+#include "app/preview/tools/maps_memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FIRST_DRAWS = 3 }; // Every pane is drawn this often before any pane is drawn more often.
+
+DipMaps *dip_maps_create(DipError *err) {
+    DipMaps *maps = calloc(1, sizeof *maps);
+    if (!maps) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "maps", "out of memory");
+    }
+    return maps;
+}
+
+static void free_work(DipPaneWork *pane) {
+    free(pane->records);
+    free(pane->draws_ms);
+    free(pane->ms);
+    free(pane->mixed);
+    free(pane->mips);
+    *pane = (DipPaneWork){.work = {.draws = 0}};
+}
+
+void dip_maps_destroy(DipMaps **maps_pointer) {
+    DipMaps *maps = *maps_pointer;
+    if (!maps) {
+        return;
+    }
+    *maps_pointer = NULL;
+    dip_painter_destroy(&maps->painter);
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        free_work(&maps->panes[p]);
+        free(maps->pictures[p].rgba8);
+    }
+    free(maps);
+}
+
+// --- errors --------------------------------------------------------------------------------------
+
+bool dip_maps_need_errors(const DipToolState *tools) {
+    return tools->map == DIP_MAP_FLIP || tools->comparison == DIP_COMPARE_TRUTH;
+}
+
+void dip_maps_set_errors(DipMaps *maps, const DipErrorReading *reading,
+                         const DipErrorPictures *pictures) {
+    maps->reading = *reading;
+    maps->errors = pictures;
+}
+
+const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version) {
+    const DipErrorPictures *errors = maps->errors;
+    if (!errors) {
+        return NULL;
+    }
+    maps->truth =
+        (DipPixels){errors->truth_rgba8, 4 * (size_t)errors->width, errors->width, errors->height};
+    *version = DIP_MAP_TRUTH_VERSION + errors->version;
+    return &maps->truth;
+}
+
+const DipErrorReading *dip_maps_reading(const DipMaps *maps) {
+    return &maps->reading;
+}
+
+const DipErrorPictures *dip_maps_errors(const DipMaps *maps) {
+    return maps->errors;
+}
+
+// --- what the user chooses -----------------------------------------------------------------------
+
+bool dip_maps_adjust(DipToolState *tools, int steps) {
+    if (tools->map == DIP_MAP_NONE) {
+        return false;
+    }
+    double brightness = tools->brightness >= 1.0 ? tools->brightness : 1.0;
+    for (; steps > 0 && brightness < DIP_MAP_MAX_BRIGHTNESS; steps--) {
+        brightness *= 2.0;
+    }
+    for (; steps < 0 && brightness > 1.0; steps++) {
+        brightness /= 2.0;
+    }
+    tools->brightness = brightness;
+    return true;
+}
+
+void dip_maps_choose(DipToolState *tools, DipMap map) {
+    tools->map = map;
+    if (map != DIP_MAP_NONE) {
+        tools->comparison = DIP_COMPARE_SIDE_BY_SIDE;
+    }
+}
+
+DipMapView *dip_maps_view(DipMaps *maps) {
+    return &maps->view;
+}
+
+void dip_maps_want(DipMaps *maps, DipMap map) {
+    maps->wanted = map;
+}
+
+// --- measuring work ------------------------------------------------------------------------------
+
+static bool make_arrays(DipPaneWork *pane, const DipFrame *frame) {
+    const size_t tiles = (size_t)frame->tiles.across * (size_t)frame->tiles.down;
+    const size_t pixels = (size_t)frame->width * (size_t)frame->height;
+    pane->records = malloc(tiles * sizeof *pane->records);
+    pane->draws_ms = malloc(tiles * DIP_MAP_DRAWS * sizeof *pane->draws_ms);
+    pane->ms = malloc(tiles * sizeof *pane->ms);
+    pane->mixed = malloc(pixels);
+    if (!pane->records || !pane->draws_ms || !pane->ms || !pane->mixed) {
+        free_work(pane);
+        return false;
+    }
+    pane->work = (DipMapWork){
+        .width = frame->width,
+        .height = frame->height,
+        .across = frame->tiles.across,
+        .down = frame->tiles.down,
+        .records = pane->records,
+        .ms = pane->ms,
+        .mixed = pane->mixed,
+    };
+    return true;
+}
+
+static int compare_numbers(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(const double *values, int count) {
+    double sorted[DIP_MAP_DRAWS];
+    memcpy(sorted, values, (size_t)count * sizeof *sorted);
+    qsort(sorted, (size_t)count, sizeof *sorted, compare_numbers);
+    return count % 2 ? sorted[count / 2] : (sorted[count / 2 - 1] + sorted[count / 2]) / 2.0;
+}
+
+// Adds a draw of a pane's frame to what is known about it. All draws count the same work.
+static bool add_draw(DipPaneWork *pane, const DipFrame *frame) {
+    if (!pane->records && !make_arrays(pane, frame)) {
+        return false;
+    }
+    DipMapWork *work = &pane->work;
+    const int tiles = work->across * work->down;
+    const int draw = work->draws++;
+    memcpy(pane->records, frame->tiles.records, (size_t)tiles * sizeof *pane->records);
+    memcpy(pane->mixed, frame->tiles.mixed, (size_t)work->width * (size_t)work->height);
+    work->mirrored_ms = frame->tiles.mirrored_times.total_ms;
+    work->geometry_ms = frame->stages.geometry_ms - frame->tiles.mirrored_times.geometry_ms;
+    for (int t = 0; t < tiles; t++) {
+        const DipTileRecord *record = &pane->records[t];
+        double *draws_ms = pane->draws_ms + (size_t)t * DIP_MAP_DRAWS;
+        draws_ms[draw] =
+            1e-6 * (double)(record->raster_ns + record->shading_ns + record->resolve_ns);
+        pane->ms[t] = median(draws_ms, work->draws);
+    }
+    return true;
+}
+
+static bool keep_mips(DipPaneWork *pane, const DipFrame *frame) {
+    const size_t row_bytes = 4 * (size_t)frame->width;
+    pane->mips = malloc(row_bytes * (size_t)frame->height);
+    if (!pane->mips) {
+        return false;
+    }
+    for (int y = 0; y < frame->height; y++) {
+        memcpy(pane->mips + (size_t)y * row_bytes, frame->rgba8 + (size_t)y * frame->stride_bytes,
+               row_bytes);
+    }
+    pane->mips_width = frame->width;
+    pane->mips_height = frame->height;
+    return true;
+}
+
+// Forgets all measurements if the panes no longer show the frames that were measured.
+static void follow_frames(DipMaps *maps, const DipToolsInput *input) {
+    DipMapKey key;
+    memset(&key, 0, sizeof key); // memcmp compares the padding, too.
+    key.pose = *input->pose;
+    key.play_ns = input->play_ns;
+    key.scene = input->session->scene;
+    key.gallery = input->session->gallery;
+    key.width = input->width;
+    key.height = input->height;
+    key.copied = input->copied;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const DipQuality quality = dip_painter_quality(input->session->renderers[p]);
+        // Temporal antialiasing changes the picture from frame to frame.
+        const bool steady = quality.step[DIP_SETTING_TAA] == 0;
+        memcpy(&key.quality[p], &quality, sizeof quality);
+        key.versions[p] = steady ? input->versions[p] : 0;
+    }
+    if (memcmp(&key, &maps->key, sizeof key) == 0) {
+        return;
+    }
+    if (key.gallery != maps->key.gallery || key.scene != maps->key.scene) {
+        dip_painter_destroy(&maps->painter);
+    }
+    maps->key = key;
+    maps->failed = false;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        free_work(&maps->panes[p]);
+    }
+    maps->generation++;
+}
+
+// Makes the maps' painter, or gives it the settings and the size of a pane.
+static bool prepare_painter(DipMaps *maps, const DipToolsInput *input, const DipQuality *quality) {
+    DipSession *session = input->session;
+    DipGallery *gallery = session->shows_gallery ? session->gallery : NULL;
+    DipError err;
+    if (maps->painter) {
+        return dip_painter_set_quality(maps->painter, quality, &err) &&
+               dip_painter_resize(maps->painter, input->width, input->height, &err);
+    }
+    const DipRendererDef def = {
+        .pool = session->pool,
+        .isa = session->isa,
+        .width = input->width,
+        .height = input->height,
+        .quality = *quality,
+        .reflection = session->reflection,
+        .force_all_effects = session->force_all_effects,
+    };
+    maps->painter = dip_painter_create(&def, gallery, &err);
+    return maps->painter && (gallery || dip_painter_record_tiles(maps->painter, true, &err));
+}
+
+static bool draw(DipMaps *maps, const DipToolsInput *input, int pane) {
+    DipQuality quality = dip_painter_quality(input->session->renderers[pane]);
+    DipFrame frame;
+    DipError err;
+    if (maps->wanted == DIP_MAP_MIPS) {
+        quality.step[DIP_SETTING_MIPDEBUG] = 1;
+    }
+    if (!prepare_painter(maps, input, &quality)) {
+        return false;
+    }
+    dip_painter_set_frame_index(maps->painter, input->frame_index);
+    if (!dip_painter_draw(maps->painter, input->session->scene, input->pose, input->play_ns, &frame,
+                          &err)) {
+        return false;
+    }
+    return maps->wanted == DIP_MAP_MIPS ? keep_mips(&maps->panes[pane], &frame)
+                                        : add_draw(&maps->panes[pane], &frame);
+}
+
+// Returns how often a pane is yet to be drawn for the wanted map.
+static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
+    const DipPaneWork *work = &maps->panes[pane];
+    if (pane == DIP_PANE_REQUESTED && maps->key.copied) {
+        return 0;
+    }
+    if (maps->wanted == DIP_MAP_MIPS) {
+        return work->mips ? 0 : 1;
+    }
+    return wanted_draws - work->work.draws;
+}
+
+// Returns the pane to draw next, or -1.
+static int next_pane(const DipMaps *maps) {
+    const int all = maps->wanted == DIP_MAP_TIME ? DIP_MAP_DRAWS : 1;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        if (draws_left(maps, p, all < FIRST_DRAWS ? all : FIRST_DRAWS) > 0) {
+            return p;
+        }
+    }
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        if (draws_left(maps, p, all) > 0) {
+            return p;
+        }
+    }
+    return -1;
+}
+
+bool dip_maps_update(DipMaps *maps, const DipToolsInput *input) {
+    const bool draws = maps->wanted != DIP_MAP_NONE && maps->wanted != DIP_MAP_FLIP;
+    if (!draws || !input->still ||
+        (input->session->shows_gallery && maps->wanted != DIP_MAP_MIPS)) {
+        return false;
+    }
+    follow_frames(maps, input);
+    const int pane = next_pane(maps);
+    if (pane < 0 || maps->failed) {
+        return false;
+    }
+    maps->failed = !draw(maps, input, pane);
+    maps->generation++;
+    return true;
+}
+
+// --- what is known -------------------------------------------------------------------------------
+
+const DipPaneWork *dip_maps_pane(const DipMaps *maps, int pane) {
+    return &maps->panes[maps->key.copied ? DIP_PANE_CURRENT : pane];
+}
+
+const DipMapWork *dip_maps_work(const DipMaps *maps, int pane) {
+    return &dip_maps_pane(maps, pane)->work;
+}
+
+int dip_map_tile(const DipMapWork *work, int x, int y) {
+    return y / DIP_TARGET_TILE * work->across + x / DIP_TARGET_TILE;
+}
+
+static int smaller(int a, int b) {
+    return a < b ? a : b;
+}
+
+int dip_map_tile_pixels(const DipMapWork *work, int tile) {
+    const int x = tile % work->across * DIP_TARGET_TILE;
+    const int y = tile / work->across * DIP_TARGET_TILE;
+    return smaller(work->width - x, DIP_TARGET_TILE) * smaller(work->height - y, DIP_TARGET_TILE);
+}
+
+double dip_map_value(const DipMapWork *work, DipMap map, int tile) {
+    const DipPipelineCounters *counters = &work->records[tile].counters;
+    const double pixels = dip_map_tile_pixels(work, tile);
+    switch (map) {
+    case DIP_MAP_TIME:
+        return work->ms[tile];
+    case DIP_MAP_FRAGMENTS:
+        return (double)(counters->fragments_shaded + counters->fragments_ordered) / pixels;
+    case DIP_MAP_PROBES:
+        return (double)counters->texture_probes / pixels;
+    case DIP_MAP_SAMPLES:
+        return (double)counters->pixels_resolved / pixels;
+    default:
+        return 0.0;
+    }
+}
+
+double dip_maps_end(const DipMaps *maps, const DipToolState *tools) {
+    double greatest = tools->map == DIP_MAP_FLIP ? 1.0 : 0.0;
+    for (int p = 0; p < DIP_PANE_COUNT && tools->map != DIP_MAP_FLIP; p++) {
+        const DipMapWork *work = dip_maps_work(maps, p);
+        for (int t = 0; work->draws && t < work->across * work->down; t++) {
+            const double value = dip_map_value(work, tools->map, t);
+            greatest = value > greatest ? value : greatest;
+        }
+    }
+    const double brightness = tools->brightness >= 1.0 ? tools->brightness : 1.0;
+    return dip_map_round_up(greatest) / brightness;
+}
+
+bool dip_map_pixel_at(DipRect shown, int width, int height, int window_x, int window_y, int *x,
+                      int *y) {
+    if (!dip_rect_holds(shown, window_x, window_y)) {
+        return false;
+    }
+    *x = (int)((2 * (int64_t)(window_x - shown.x) + 1) * width / (2 * (int64_t)shown.width));
+    *y = (int)((2 * (int64_t)(window_y - shown.y) + 1) * height / (2 * (int64_t)shown.height));
+    return true;
+}

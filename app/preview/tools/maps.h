@@ -1,0 +1,124 @@
+// The maps: pictures that show over each pane where its error lies and where its work goes.
+//
+// The FLIP map comes from the thread that measures errors. For the other maps, a renderer of the
+// maps' own draws each pane's frame again with a record of its tiles, while camera and scene rest.
+// The panes' own frames are drawn as always and take no more time.
+#ifndef DIP_APP_PREVIEW_TOOLS_MAPS_H
+#define DIP_APP_PREVIEW_TOOLS_MAPS_H
+
+#include "app/canvas/pixels.h"
+#include "app/preview/live/error_thread.h"
+#include "app/preview/tools/tools.h"
+#include "app/session/session.h"
+
+typedef struct DipMaps DipMaps;
+
+DipMaps *dip_maps_create(DipError *err);
+void dip_maps_destroy(DipMaps **maps);
+
+// --- what the preview's loop calls ---------------------------------------------------------------
+
+// Returns whether a tool shows errors or the truth, so that the loop must measure them at rest.
+bool dip_maps_need_errors(const DipToolState *tools);
+
+// Gives the maps the newest errors. pictures: NULL if there are none. Both are borrowed until the
+// next call. The loop calls this before it draws the window.
+void dip_maps_set_errors(DipMaps *maps, const DipErrorReading *reading,
+                         const DipErrorPictures *pictures);
+
+// Returns the truth's picture, or NULL if it is not known. Valid until the next call of
+// dip_maps_set_errors. `version` as in dip_draw_list_picture; no frame has the same number.
+const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version);
+
+// Draws at most one frame for the map that the window showed last (dip_maps_want), if nothing
+// moves. Returns whether the window must be drawn again. Runs on the thread that draws frames.
+bool dip_maps_update(DipMaps *maps, const DipToolsInput *input);
+
+// Moves the brightness by factors of 2, from 1 to 16. Returns false if no map shows.
+bool dip_maps_adjust(DipToolState *tools, int steps);
+
+// Chooses a map, or none. Maps show side by side.
+void dip_maps_choose(DipToolState *tools, DipMap map);
+
+// --- what is known about the panes ---------------------------------------------------------------
+
+enum { DIP_MAP_DRAWS = 15 }; // Draws of a frame from which the median time of a tile is taken.
+
+// The work of a pane's frame. The arrays are valid until the next dip_maps_update.
+typedef struct DipMapWork {
+    int draws; // Number of draws so far, 0..DIP_MAP_DRAWS. 0: nothing is known.
+    int width; // Size of the frame, in pixels.
+    int height;
+    int across; // Number of tiles.
+    int down;
+    const DipTileRecord *records; // Counters of each tile; the times are those of one draw.
+    const double *ms;             // Median time of each tile, on the worker that drew it.
+    const uint8_t *mixed;         // DipFrameTiles.mixed
+    double geometry_ms;           // Time of one draw before the tiles.
+    double mirrored_ms;           // Time of one draw for the mirrored scene.
+} DipMapWork;
+
+const DipMapWork *dip_maps_work(const DipMaps *maps, int pane);
+
+// Returns the tile that holds a pixel.
+int dip_map_tile(const DipMapWork *work, int x, int y);
+
+// Number of pixels of a tile that lie in the frame.
+int dip_map_tile_pixels(const DipMapWork *work, int tile);
+
+// Returns the value of a tile: ms for TIME, a mean per pixel for FRAGMENTS and PROBES, the share of
+// mixed pixels for SAMPLES.
+double dip_map_value(const DipMapWork *work, DipMap map, int tile);
+
+// Returns the value at the end of the colour scale, which is the same for both panes.
+double dip_maps_end(const DipMaps *maps, const DipToolState *tools);
+
+// Finds the pixel of a picture of width x height pixels that a window shows at window_x, window_y,
+// if the picture is scaled to `shown` as dip_canvas_copy does. Returns false outside of `shown`.
+bool dip_map_pixel_at(DipRect shown, int width, int height, int window_x, int window_y, int *x,
+                      int *y);
+
+// --- pictures ------------------------------------------------------------------------------------
+
+// Returns the map of a pane, of the frame's size, and its version; false if it is not known (yet).
+// frame: the pane's picture, which shows dimly through maps of work. Valid until the next call for
+// the pane.
+bool dip_maps_picture(DipMaps *maps, const DipToolState *tools, int pane, const DipPixels *frame,
+                      uint64_t frame_version, DipPixels *picture, uint64_t *version);
+
+// Says in one line why a pane has no map, or what the map still waits for; "" if it is final.
+// gallery: the panes show a scene of the gallery. still: camera and scene rest.
+const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gallery, bool still,
+                            char *text, size_t size_bytes);
+
+// Returns the size of the mip level, in texels, whose colour is most like that of a pixel of the
+// mip map, or 0 if the pixel has no such colour or the map is not known. Light may dim the colour,
+// and colours of two levels mix where levels are blended.
+int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y);
+
+// The colour of mip level `index` (0..7), which stands for 1024 >> index texels.
+DipColour dip_map_mip_colour(int index);
+
+// --- what the tab remembers ----------------------------------------------------------------------
+
+typedef enum DipMapOver {
+    DIP_MAP_OVER_BOTH,
+    DIP_MAP_OVER_CURRENT,
+    DIP_MAP_OVER_REQUESTED
+} DipMapOver;
+
+typedef struct DipMapView {
+    DipMapOver over;
+    bool pointed; // The pointer is over a pane.
+    int x;        // The pixel under the pointer.
+    int y;
+} DipMapView;
+
+DipMapView *dip_maps_view(DipMaps *maps);
+const DipErrorReading *dip_maps_reading(const DipMaps *maps);
+const DipErrorPictures *dip_maps_errors(const DipMaps *maps);
+
+// Notes which map the window shows; called while the window is drawn.
+void dip_maps_want(DipMaps *maps, DipMap map);
+
+#endif

@@ -1,0 +1,155 @@
+// Draws the thumbnails of a path with a renderer of their own, which exists while they are drawn.
+#include "app/preview/tools/strip.h"
+
+#include "app/canvas/canvas.h"
+#include "app/session/painter.h"
+#include "campaths/campath.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// What all thumbnails of a strip have in common.
+typedef struct StripSubject {
+    const DipCamPath *path;
+    double fov_y_deg;
+    const DipScene *scene;
+    DipQuality quality;
+    int width;
+    int height;
+} StripSubject;
+
+struct DipStrip {
+    StripSubject subject;
+    DipPainter *painter; // NULL unless thumbnails are being drawn.
+    DipCanvas pictures[DIP_STRIP_COUNT];
+    uint64_t versions[DIP_STRIP_COUNT];
+    uint64_t version; // Of the thumbnail that was drawn last.
+    int drawn;        // Number of thumbnails, from the first, that show the subject.
+    bool failed;      // The subject cannot be drawn.
+    bool wanted;
+    int wanted_width;
+    int wanted_height;
+    int64_t duration_ns;
+};
+
+DipStrip *dip_strip_create(DipError *err) {
+    DipStrip *strip = calloc(1, sizeof *strip);
+    if (!strip) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
+        return NULL;
+    }
+    strip->version = UINT64_C(6) << 60;
+    return strip;
+}
+
+void dip_strip_destroy(DipStrip **strip_pointer) {
+    DipStrip *strip = *strip_pointer;
+    if (!strip) {
+        return;
+    }
+    *strip_pointer = NULL;
+    dip_painter_destroy(&strip->painter);
+    for (int i = 0; i < DIP_STRIP_COUNT; ++i) {
+        dip_canvas_free(&strip->pictures[i]);
+    }
+    free(strip);
+}
+
+void dip_strip_want(DipStrip *strip, int width, int height) {
+    strip->wanted = width > 0 && height > 0;
+    strip->wanted_width = width;
+    strip->wanted_height = height;
+}
+
+static StripSubject subject_of(const DipStrip *strip, const DipToolsInput *input) {
+    const DipCamTrack *track = &input->session->track;
+    const DipCamCategory *category = &track->categories[track->active];
+    StripSubject subject;
+    memset(&subject, 0, sizeof subject); // memcmp compares the padding, too.
+    category = category->path ? category : &track->categories[0];
+    subject.path = category->path;
+    subject.fov_y_deg = category->fov_y_deg;
+    subject.scene = input->session->scene;
+    subject.quality = dip_painter_quality(input->session->renderers[DIP_PANE_CURRENT]);
+    subject.width = strip->wanted_width;
+    subject.height = strip->wanted_height;
+    return subject;
+}
+
+// Begins a new strip if the subject has changed.
+static void follow_subject(DipStrip *strip, const DipToolsInput *input) {
+    const StripSubject subject = subject_of(strip, input);
+    if (memcmp(&subject, &strip->subject, sizeof subject) == 0) {
+        return;
+    }
+    dip_painter_destroy(&strip->painter);
+    memcpy(&strip->subject, &subject, sizeof subject);
+    strip->drawn = 0;
+    strip->failed = false;
+    strip->duration_ns = subject.path ? dip_campath_info(subject.path).duration_ns : 0;
+}
+
+static int64_t time_of(const DipStrip *strip, int index) {
+    return strip->duration_ns / DIP_STRIP_COUNT * index;
+}
+
+static bool make_painter(DipStrip *strip, const DipToolsInput *input) {
+    DipRendererDef def = dip_renderer_default_def();
+    def.pool = input->session->pool;
+    def.isa = input->session->isa;
+    def.width = strip->subject.width;
+    def.height = strip->subject.height;
+    def.quality = strip->subject.quality;
+    def.reflection = input->session->reflection;
+    strip->painter = strip->painter ? strip->painter : dip_painter_create(&def, NULL, NULL);
+    return strip->painter != NULL;
+}
+
+static bool draw_thumbnail(DipStrip *strip, const DipToolsInput *input) {
+    const int index = strip->drawn;
+    DipCanvas *canvas = &strip->pictures[index];
+    const int64_t time_ns = time_of(strip, index);
+    DipPose pose = {.fov_y_deg = strip->subject.fov_y_deg};
+    DipFrame frame;
+    dip_campath_sample(strip->subject.path, time_ns, &pose);
+    if (!make_painter(strip, input) ||
+        !dip_canvas_resize(canvas, strip->subject.width, strip->subject.height, NULL) ||
+        !dip_painter_draw(strip->painter, input->session->scene, &pose, time_ns, &frame, NULL)) {
+        return false;
+    }
+    const DipRect all = {0, 0, frame.width, frame.height};
+    const DipPixels pixels = {frame.rgba8, frame.stride_bytes, frame.width, frame.height};
+    dip_canvas_set_clip(canvas, all);
+    dip_canvas_copy(canvas, all, &pixels);
+    strip->versions[index] = ++strip->version;
+    strip->drawn++;
+    return true;
+}
+
+bool dip_strip_update(DipStrip *strip, const DipToolsInput *input) {
+    const bool wanted = strip->wanted && input->still && !input->session->gallery;
+    strip->wanted = false;
+    if (!wanted) {
+        return false;
+    }
+    follow_subject(strip, input);
+    if (strip->failed || !strip->subject.path || strip->drawn == DIP_STRIP_COUNT) {
+        dip_painter_destroy(&strip->painter);
+        return false;
+    }
+    strip->failed = !draw_thumbnail(strip, input);
+    return !strip->failed;
+}
+
+DipThumbnail dip_strip_thumbnail(const DipStrip *strip, int index) {
+    DipThumbnail thumbnail = {.time_ns = time_of(strip, index)};
+    if (index < strip->drawn) {
+        thumbnail.picture = dip_canvas_pixels(&strip->pictures[index]);
+        thumbnail.version = strip->versions[index];
+    }
+    return thumbnail;
+}
+
+int64_t dip_strip_duration_ns(const DipStrip *strip) {
+    return strip->duration_ns;
+}

@@ -1,0 +1,35 @@
+// Thumbnails of the path: small pictures of the current pane at even times, which the user clicks
+// to jump there. They are drawn one after the other while the camera rests.
+#ifndef DIP_APP_PREVIEW_TOOLS_STRIP_H
+#define DIP_APP_PREVIEW_TOOLS_STRIP_H
+
+#include "app/canvas/pixels.h"
+#include "app/preview/tools/tools.h"
+
+enum { DIP_STRIP_COUNT = 10 };
+
+// One thumbnail.
+typedef struct DipThumbnail {
+    DipPixels picture; // The width is 0 until the thumbnail is drawn.
+    uint64_t version;
+    int64_t time_ns; // Time on the path.
+} DipThumbnail;
+
+DipStrip *dip_strip_create(DipError *err);
+void dip_strip_destroy(DipStrip **strip);
+
+// Asks for thumbnails of a size in pixels; called while the window is drawn with a strip. Without a
+// call since the last update, the strip draws nothing.
+void dip_strip_want(DipStrip *strip, int width, int height);
+
+// Draws the next thumbnail, if the strip is wanted, incomplete, and the camera rests. Returns
+// whether it drew one. Scenes of the gallery have no strip.
+bool dip_strip_update(DipStrip *strip, const DipToolsInput *input);
+
+// Returns one of DIP_STRIP_COUNT thumbnails. Its picture is valid until the next update.
+DipThumbnail dip_strip_thumbnail(const DipStrip *strip, int index);
+
+// Duration of the path that the strip shows, or 0 if it has none.
+int64_t dip_strip_duration_ns(const DipStrip *strip);
+
+#endif

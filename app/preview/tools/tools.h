@@ -1,0 +1,48 @@
+// The memory of the tools for looking closer: the loupe, comparisons, maps and the strip.
+#ifndef DIP_APP_PREVIEW_TOOLS_TOOLS_H
+#define DIP_APP_PREVIEW_TOOLS_TOOLS_H
+
+#include "app/canvas/pixels.h"
+#include "app/preview/state/tool_state.h"
+#include "app/session/session.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// Memory of the tools: pictures that they compute from the panes' frames. Owned by the preview's
+// loop.
+typedef struct DipTools DipTools;
+typedef struct DipLoupe DipLoupe;       // loupe.h
+typedef struct DipComparer DipComparer; // compare.h
+typedef struct DipStrip DipStrip;       // strip.h
+typedef struct DipMaps DipMaps;         // maps.h
+
+DipTools *dip_tools_create(DipError *err);
+void dip_tools_destroy(DipTools **tools);
+
+DipLoupe *dip_tools_loupe(DipTools *tools);
+DipComparer *dip_tools_compare(DipTools *tools);
+DipStrip *dip_tools_strip(DipTools *tools);
+DipMaps *dip_tools_maps(DipTools *tools);
+
+// What the tools need besides the window, to draw parts of frames again. All of it is borrowed for
+// the call.
+typedef struct DipToolsInput {
+    DipSession *session;
+    const DipPose *pose; // Pose, time and number of the frame that was drawn last.
+    int64_t play_ns;
+    uint64_t frame_index;
+    uint64_t versions[DIP_PANE_COUNT]; // Versions of the panes' pictures, as in DipWindow.
+    int width;                         // Size of the panes' pictures.
+    int height;
+    bool copied; // See DipSessionFrame.
+    bool still;  // Camera and scene stand still.
+} DipToolsInput;
+
+// Does work of the tools that needs the renderers: reads the samples that the loupe shows, and
+// draws one thumbnail of the path. The loop calls it after each window that it draws, on the thread
+// that draws frames. It does nothing unless a tool shows what it would draw and the pictures are
+// still. Returns whether the window must be drawn again.
+bool dip_tools_update(DipTools *tools, const DipToolsInput *input);
+
+#endif

@@ -1,0 +1,50 @@
+// What the window shows in one pass, and the tools that draw over its panes.
+#ifndef DIP_APP_PREVIEW_TOOLS_WINDOW_H
+#define DIP_APP_PREVIEW_TOOLS_WINDOW_H
+
+#include "app/preview/live/panel.h"
+#include "app/preview/prices/prices.h"
+#include "app/preview/state/state.h"
+#include "app/preview/tools/layout.h"
+#include "app/preview/tools/tools.h"
+#include "app/ui/ui.h"
+
+// Everything that the window shows. All pointers are borrowed for one pass.
+typedef struct DipWindow {
+    DipPreviewState *state;
+    const DipLayout *layout;
+    DipPixels frames[DIP_PANE_COUNT];  // The panes' newest pictures.
+    uint64_t versions[DIP_PANE_COUNT]; // Equal versions mean equal pixels (draw_list.h).
+    bool still;                        // Camera and scene stand still.
+    int64_t now_ns;                    // Time on the display's clock, as in DipUiPass.
+    const DipPaneFigures *figures;     // [DIP_PANE_COUNT]
+    const DipPrices *prices;
+    DipTools *tools; // What the tools have computed: loupe, comparison and maps.
+    // The converged picture of this pose, of the size of the frames; NULL if it is not known.
+    const DipPixels *truth;
+    uint64_t truth_version; // Equal versions mean equal pixels. No frame has the same number.
+} DipWindow;
+
+// Draws the panes' pictures: side by side, or as the chosen comparison or map shows them.
+void dip_compare_pictures(DipUi *ui, DipWindow *window);
+
+// Each declares what its tool shows over the panes: marks, dividers, the value under the pointer.
+// `panes`: what the user did with the panes' own control in this pass, for each pane.
+void dip_loupe_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]);
+void dip_compare_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]);
+void dip_maps_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DIP_PANE_COUNT]);
+
+// Lets the mouse fly the camera. `panes`: what the user did with the panes' own controls in this
+// pass. Dragging with the right button turns the camera, and makes it free if it was not. The left
+// button does so too if the camera is free and no tool uses the button. The wheel changes the speed
+// of the free camera, or zooms.
+//
+// Takes out of `panes` what has flown the camera, so that no tool acts on it: the wheel's steps,
+// and the right button's press. A press without a drag comes back when the button is released.
+void dip_fly_over_panes(DipUi *ui, DipWindow *window, DipUiInput panes[DIP_PANE_COUNT]);
+
+// Lets a key event act on the tools: while the loupe is on, arrow keys move it by a pixel. Call it
+// for keys that no control took. Returns whether the key did something.
+bool dip_loupe_press(DipPreviewState *state, int width, int height, const DipEvent *event);
+
+#endif

@@ -1,0 +1,28 @@
+// Interactions: whether two settings together do more or less than the sum of what each does alone.
+#ifndef DIP_APP_REPORT_INTERACTION_H
+#define DIP_APP_REPORT_INTERACTION_H
+
+#include "app/report/report.h"
+
+enum { DIP_COST_MAX_INTERACTIONS = DIP_SETTING_COUNT * (DIP_SETTING_COUNT - 1) / 2 };
+
+// The interaction of the largest effective steps of two settings, as a mean over all combinations
+// of the other settings in which all four pictures were measured: with neither, with a, with b and
+// with both.
+typedef struct DipCostInteraction {
+    DipSetting a;
+    DipSetting b;
+    int contexts; // Number of combinations of the other settings.
+    // Mean of FLIP(both) - FLIP(a) - FLIP(b) + FLIP(neither). Above 0: together they lower FLIP by
+    // less than the sum of what each lowers it alone.
+    double flip;
+    // Geometric mean of time(both) time(neither) / (time(a) time(b)). Above 1: together they cost
+    // more than the product of their ratios. 0 if the report has no times.
+    double time;
+} DipCostInteraction;
+
+// Computes the interactions of all pairs of combined settings. Returns their number.
+int dip_cost_interactions(const DipCostReport *report,
+                          DipCostInteraction list[DIP_COST_MAX_INTERACTIONS]);
+
+#endif

@@ -1,0 +1,150 @@
+// A table of what theory says about each setting, and the check whether the report agrees.
+#include "app/report/order.h"
+
+#include "app/report/same_pictures.h"
+
+#include <stdio.h>
+
+// How a value changes from one step of a setting to the next. FREE means that theory says nothing.
+// The steps have the order of DIP_SETTING_LIST, but the steps of adaptive AA go from few sample
+// groups to many.
+typedef enum Trend { FREE, FALLS, RISES, STAYS } Trend;
+
+typedef struct Theory {
+    DipSetting setting;
+    Trend error;
+    bool of_two_frames; // true: the error is the RMSE of the mean of two frames; false: it is FLIP
+    Trend work;         // trend of `counter`; a step with equal work also follows the trend
+    int counter;
+    const char *why;  // the likely reason if a step does not follow the trend
+    const char *idle; // what the path does not show if all steps draw the same pictures
+} Theory;
+
+#define FEW_VIEWPOINTS                                                                             \
+    "So small a difference may be due to the small number of viewpoints; --places N measures at "  \
+    "more of them"
+
+#define TEXTURES "colour textures that are smaller than their largest mip level"
+
+static const Theory theories[] = {
+    {DIP_SETTING_AA, FALLS, false, RISES, DIP_COST_COUNTER_samples_shown, FEW_VIEWPOINTS, "edges"},
+    {DIP_SETTING_AAA, FALLS, false, RISES, DIP_COST_COUNTER_clip_sample_groups, FEW_VIEWPOINTS,
+     "alpha-clipped surfaces"},
+    {DIP_SETTING_TAA, FALLS, true, FREE, 0,
+     "Where the camera moves far between two frames, their mean is blurred", "edges"},
+    {DIP_SETTING_AF, FALLS, false, RISES, DIP_COST_COUNTER_texture_probes, FEW_VIEWPOINTS,
+     "textures that are seen at an angle"},
+    {DIP_SETTING_AAF, FALLS, false, FREE, 0,
+     "Surfaces that tilt away at nearly a multiple of 45 degrees on the screen get as many probes "
+     "without aaf as with it",
+     "textures that are seen at an angle"},
+    {DIP_SETTING_OPT, RISES, false, FALLS, DIP_COST_COUNTER_texels_fetched, FEW_VIEWPOINTS,
+     TEXTURES},
+    {DIP_SETTING_MIPLOD, FALLS, false, RISES, DIP_COST_COUNTER_texels_fetched,
+     "With a bias, most reads take as many texels as without it, but from smaller mip levels; on a "
+     "magnified surface, a read may even take two levels instead of one",
+     TEXTURES},
+    {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COST_COUNTER_geometry_bytes, FEW_VIEWPOINTS, NULL},
+};
+
+static const char *const trend_words[] = {
+    [FALLS] = "falls", [RISES] = "rises", [STAYS] = "stays the same"};
+
+static bool follows(Trend trend, double before, double after, bool strictly) {
+    switch (trend) {
+    case FALLS:
+        return after < before || (!strictly && after == before);
+    case RISES:
+        return after > before || (!strictly && after == before);
+    case STAYS:
+        return after == before;
+    default:
+        return true;
+    }
+}
+
+static double error_of(const DipCostReport *report, const Theory *theory, int row, bool *judged) {
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    *judged = *judged && viewpoints > 0;
+    return theory->of_two_frames ? dip_flicker_metrics_of(&sums).two_mean
+                                 : dip_metrics_of(&sums, 0).flip;
+}
+
+// Returns the first step that does not follow theory, or sweep->row_count if all steps do.
+static int first_departure(const DipCostReport *report, const DipCostSweep *sweep,
+                           const Theory *theory, bool by_work, bool *judged) {
+    for (int i = 1; i < sweep->row_count; i++) {
+        const int before = sweep->rows[i - 1];
+        const int after = sweep->rows[i];
+        const bool right =
+            (theory->idle && dip_cost_same_pictures(report, before, after)) ||
+            (by_work ? follows(theory->work, report->rows[before].counters[theory->counter],
+                               report->rows[after].counters[theory->counter], false)
+                     : follows(theory->error, error_of(report, theory, before, judged),
+                               error_of(report, theory, after, judged), true));
+        if (!right) {
+            return i;
+        }
+    }
+    return sweep->row_count;
+}
+
+static bool is_counted(const DipCostReport *report, const DipCostSweep *sweep) {
+    bool timed = true; // only timed frames have counters
+    for (int i = 0; i < sweep->row_count; i++) {
+        timed = timed && dip_cost_is_timed(report, sweep->rows[i]);
+    }
+    return timed;
+}
+
+static bool all_same(const DipCostReport *report, const DipCostSweep *sweep) {
+    for (int i = 1; i < sweep->row_count; i++) {
+        if (!dip_cost_same_pictures(report, sweep->rows[0], sweep->rows[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep, char *text,
+                         size_t size_bytes) {
+    const Theory *theory = NULL;
+    for (size_t i = 0; i < sizeof theories / sizeof *theories; i++) {
+        theory = theories[i].setting == sweep->setting ? &theories[i] : theory;
+    }
+    bool judged = theory && sweep->row_count > 1;
+    const int by_error = judged ? first_departure(report, sweep, theory, false, &judged) : 0;
+    if (!judged) {
+        return false;
+    }
+    if (theory->idle && all_same(report, sweep)) {
+        snprintf(text, size_bytes,
+                 "All steps draw the same pictures: the viewpoints on this path show no %s.",
+                 theory->idle);
+        return true;
+    }
+    const bool counted = theory->work != FREE && is_counted(report, sweep);
+    const int by_work = counted ? first_departure(report, sweep, theory, true, &judged) : 0;
+    const char *error = theory->of_two_frames ? "the error of the mean of two frames" : "FLIP";
+    const char *work = counted ? dip_cost_counter_names[theory->counter] : "";
+    const bool error_departs = by_error < sweep->row_count;
+    const bool work_departs = counted && by_work < sweep->row_count;
+    if (!error_departs && !work_departs) {
+        snprintf(text, size_bytes, "As theory says: %s %s from step to step%s%s%s%s.", error,
+                 trend_words[theory->error], counted ? ", and the counter " : "", work,
+                 counted ? " " : "", counted ? trend_words[theory->work] : "");
+        return true;
+    }
+    char step[DIP_COST_TEXT];
+    const Trend expected = error_departs ? theory->error : theory->work;
+    dip_cost_step_text(report, sweep, sweep->rows[error_departs ? by_error : by_work], step);
+    snprintf(text, size_bytes,
+             "Not as theory says: at step \"%s\", %s%s should %s but does not. %s.", step,
+             error_departs ? "" : "the counter ", error_departs ? error : work,
+             expected == FALLS   ? "fall"
+             : expected == RISES ? "rise"
+                                 : "stay the same",
+             theory->why);
+    return true;
+}

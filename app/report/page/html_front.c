@@ -1,0 +1,266 @@
+// Time against error in the HTML page: the plot of all combinations, and their tables.
+#include "app/report/page/html_parts.h"
+
+#include "app/report/front.h"
+#include "app/report/page/html_points.h"
+
+#include <math.h>
+
+// A row whose title a point shows.
+typedef struct Titled {
+    const DipCostReport *report;
+    int row;
+} Titled;
+
+static void write_title(const void *context, FILE *out) {
+    const Titled *titled = context;
+    dip_html_row_title(titled->report, titled->row, out);
+}
+
+static bool add_row(const DipCostReport *report, DipHtmlPoints *points, int row) {
+    return dip_html_points_add(points, row, dip_cost_ms(report, row),
+                               dip_cost_row_metrics(report, row, 0).flip, write_title,
+                               &(Titled){report, row});
+}
+
+static bool contains(const DipHtmlPoints *points, int row) {
+    for (int i = 0; i < points->count; i++) {
+        if (points->rows[i] == row) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The series of the plot.
+typedef struct Parts {
+    DipHtmlPoints front;     // The thinned Pareto front of the measured combinations.
+    DipHtmlPoints others;    // All other measured combinations.
+    DipHtmlPoints predicted; // Combinations that were only predicted.
+} Parts;
+
+static void free_parts(Parts *parts) {
+    dip_html_points_free(&parts->front);
+    dip_html_points_free(&parts->others);
+    dip_html_points_free(&parts->predicted);
+}
+
+// Returns false when memory runs out.
+static bool split(const DipCostReport *report, Parts *parts) {
+    int all[DIP_COST_MAX_ROWS];
+    int front[DIP_COST_MAX_ROWS];
+    const int count = dip_cost_list_plotted(report, all);
+    const int front_count = dip_cost_list_front(report, front);
+    bool made = dip_html_points_alloc(&parts->front, front_count) &&
+                dip_html_points_alloc(&parts->others, count) &&
+                dip_html_predicted_points(report, &parts->predicted);
+    for (int i = 0; made && i < front_count; i++) {
+        made = add_row(report, &parts->front, front[i]);
+    }
+    for (int i = 0; made && i < count; i++) {
+        made = contains(&parts->front, all[i]) || add_row(report, &parts->others, all[i]);
+    }
+    return made;
+}
+
+static void write_plot(const DipCostReport *report, const Parts *parts, FILE *out) {
+    char subtitle[DIP_COST_TEXT];
+    snprintf(subtitle, sizeof subtitle,
+             "%d combinations on path %s, %dx%d pixels; mean of %d frames",
+             parts->front.count + parts->others.count, report->paths[0], report->width,
+             report->height, dip_cost_frame_count(report));
+    DipPlotSeries series[] = {
+        dip_html_points_series(&parts->predicted, "predicted only", "series-predicted"),
+        dip_html_points_series(&parts->others, "other combinations", "series-others"),
+        dip_html_points_series(&parts->front, "Pareto front", "series-front"),
+    };
+    series[2].marks_only = false;
+    series[2].labels = parts->front.labels;
+    const int first = parts->predicted.count == 0;
+    const DipPlot plot = {
+        .title = "Time against error",
+        .subtitle = subtitle,
+        .x_title = "time of a frame, ms",
+        .y_title = "FLIP against the truth, mean",
+        .log_x = true,
+        .log_y = true,
+        .series = series + first,
+        .series_count = 3 - first,
+        .set = "front",
+    };
+    fprintf(out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Plot of time "
+                 "against error\">\n");
+    dip_plot_print(out, &plot);
+    fprintf(out, "</div>\n");
+}
+
+// --- tables ------------------------------------------------------------------------------------
+
+// Writes FLIP with its interval, which a single viewpoint does not have.
+static void write_flip(const DipCostReport *report, int row, FILE *out) {
+    const DipStatsEstimate flip = dip_cost_flip(report, row);
+    fprintf(out, "<td>%.4f</td>", flip.value);
+    if (isfinite(flip.low) && isfinite(flip.high)) {
+        fprintf(out, "<td>%.4f to %.4f</td>", flip.low, flip.high);
+    } else {
+        fprintf(out, "<td></td>");
+    }
+}
+
+static double flicker_of(const DipCostReport *report, int row) {
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    return dip_flicker_metrics_of(&sums).flicker;
+}
+
+// Writes the changes from the row before, and what each 1 % of FLIP cost.
+static void write_changes(const DipCostReport *report, int row, int before, FILE *out) {
+    const double ms = dip_cost_ms(report, row) - dip_cost_ms(report, before);
+    const double flip = dip_cost_row_metrics(report, row, 0).flip;
+    const double flip_before = dip_cost_row_metrics(report, before, 0).flip;
+    fprintf(out, "<td>%+.2f</td><td>%+.4f</td>", ms, flip - flip_before);
+    if (flip > 0.0) {
+        fprintf(out, "<td>%.3f</td>", ms / (100.0 * log(flip_before / flip)));
+    } else {
+        fprintf(out, "<td></td>");
+    }
+}
+
+static void write_front_row(const DipCostReport *report, const DipHtmlPoints *front, int index,
+                            bool is_knee, FILE *out) {
+    const int row = front->rows[index];
+    dip_html_line_begin(out, row);
+    fprintf(out, "<th scope=\"row\">");
+    dip_html_settings(report, row, out);
+    fprintf(out, "</th><td>%d%s</td><td>%.2f</td>", index + 1, is_knee ? ", knee" : "",
+            front->x[index]);
+    write_flip(report, row, out);
+    fprintf(out, "<td>%.5f</td><td>%.5f</td>", flicker_of(report, row),
+            dip_cost_row_metrics(report, row, 0).rmse_lin);
+    if (index > 0) {
+        write_changes(report, row, front->rows[index - 1], out);
+    } else {
+        fprintf(out, "<td></td><td></td><td></td>");
+    }
+    fprintf(out, "</tr>\n");
+}
+
+static void write_front_table(const DipCostReport *report, const DipHtmlPoints *front, FILE *out) {
+    const int knee = dip_cost_knee(report, front->rows, front->count);
+    dip_html_table_begin(out, "pareto-front", " data-set=\"front\"");
+    fprintf(out,
+            "The Pareto front. The changes are those from the line before, in order of time.%s",
+            knee >= 0 ? " Beyond the knee, more time buys least." : "");
+    dip_html_columns_begin(out);
+    dip_html_text_column(out, "settings");
+    dip_html_column(out, "number", "in the plot");
+    dip_html_column(out, "mean", "ms");
+    dip_html_column(out, "FLIP", NULL);
+    dip_html_column(out, "95 % interval", "of FLIP");
+    dip_html_column(out, "flicker", "linear");
+    dip_html_column(out, "RMSE", "linear");
+    dip_html_column(out, "change of time", "ms");
+    dip_html_column(out, "change of FLIP", NULL);
+    dip_html_column(out, "price of 1 % less FLIP", "ms");
+    dip_html_columns_end(out);
+    for (int i = 0; i < front->count; i++) {
+        write_front_row(report, front, i, i == knee, out);
+    }
+    dip_html_table_end(out);
+}
+
+static void write_combination(const DipCostReport *report, int row, FILE *out) {
+    char all[256];
+    const DipPathEstimate *time = &report->rows[row].time;
+    const DipMetrics f = dip_cost_row_metrics(report, row, 0);
+    dip_quality_format(&report->rows[row].quality, all, sizeof all);
+    fprintf(out, "<tr data-row=\"%d\" data-settings=\"%s\"><th scope=\"row\">", row, all);
+    dip_html_settings(report, row, out);
+    fprintf(out,
+            "</th><td>%.2f</td><td>%.2f to %.2f</td><td>%.2f</td><td>%.3f</td><td>%.3f to "
+            "%.3f</td><td>%.4f</td><td>%.5f</td><td>%.2f</td><td>%.4f</td><td>%.5f</td><td "
+            "class=\"l\">%s</td></tr>\n",
+            time->mean_ms.value, time->mean_ms.low, time->mean_ms.high, time->p95_ms.value,
+            time->ratio.value, time->ratio.low, time->ratio.high, f.flip, flicker_of(report, row),
+            f.psnr_db, f.ssim, f.rmse_lin, dip_cost_floor_mark(report, row));
+}
+
+static void write_all_table(const DipCostReport *report, FILE *out) {
+    int rows[DIP_COST_MAX_ROWS];
+    const int count = dip_cost_list_plotted(report, rows);
+    fprintf(out, "<details><summary>All %d combinations</summary>\n", count);
+    dip_html_table_begin(out, "combinations", " data-set=\"front\" data-plot=\"front\"");
+    fprintf(out,
+            "All combinations on path %s. A filter also makes the points of all other "
+            "combinations pale in the plot.",
+            report->paths[0]);
+    dip_html_columns_begin(out);
+    dip_html_text_column(out, "settings");
+    dip_html_column(out, "mean", "ms");
+    dip_html_column(out, "95 % interval of the mean", "ms");
+    dip_html_column(out, "p95", "ms");
+    dip_html_column(out, "ratio", NULL);
+    dip_html_column(out, "95 % interval of the ratio", NULL);
+    dip_html_column(out, "FLIP", NULL);
+    dip_html_column(out, "flicker", "linear");
+    dip_html_column(out, "PSNR", "dB");
+    dip_html_column(out, "SSIM", NULL);
+    dip_html_column(out, "RMSE", "linear");
+    dip_html_text_column(out, "noise floor");
+    dip_html_columns_end(out);
+    for (int i = 0; i < count; i++) {
+        write_combination(report, rows[i], out);
+    }
+    dip_html_table_end(out);
+    fprintf(out, "</details>\n");
+}
+
+// Says which combinations are missing because another one draws the same pictures.
+static void write_same(const DipCostReport *report, FILE *out) {
+    if (report->same_count == 0) {
+        return;
+    }
+    fprintf(out,
+            "<details><summary>%d more combinations with the same pictures</summary>\n"
+            "<p>Each of these combinations draws the same pictures as one with fewer settings off "
+            "their defaults, which stands for it.</p>\n",
+            report->same_count);
+    dip_html_table_begin(out, "same-pictures", "");
+    fprintf(out, "Combinations with the same pictures, by hash, at all viewpoints.");
+    dip_html_columns_begin(out);
+    dip_html_text_column(out, "settings");
+    dip_html_text_column(out, "draws the same as");
+    dip_html_columns_end(out);
+    for (int i = 0; i < report->same_count; i++) {
+        dip_html_line_begin(out, report->same[i].row);
+        fprintf(out, "<th scope=\"row\">");
+        dip_html_quality(&report->same[i].quality, out);
+        fprintf(out, "</th><td class=\"l name\">");
+        dip_html_settings(report, report->same[i].row, out);
+        fprintf(out, "</td></tr>\n");
+    }
+    dip_html_table_end(out);
+    fprintf(out, "</details>\n");
+}
+
+bool dip_html_front(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
+    Parts parts = {0};
+    const bool made = split(report, &parts);
+    if (made && parts.front.count + parts.others.count > 1) {
+        fprintf(out,
+                "<h2 id=\"front\">Time against error</h2>\n"
+                "<p>Both axes are logarithmic. The Pareto front consists of the combinations that "
+                "no other combination beats in both time and error. The FLIP of each numbered "
+                "combination is at least 1 %% below that of the combination with the number "
+                "before.</p>\n");
+        write_plot(report, &parts, out);
+        write_front_table(report, &parts.front, out);
+        if (pictures) {
+            dip_html_pictures(report, &pictures->front, "front", NULL, out);
+        }
+        write_all_table(report, out);
+        write_same(report, out);
+    }
+    free_parts(&parts);
+    return made;
+}

@@ -1,0 +1,115 @@
+// The head of the HTML page: what was measured where, and the verdict on the machine.
+#include "app/report/page/html_parts.h"
+
+#include "app/report/page/markup.h"
+
+static void write_fact(FILE *out, const char *title, const char *text) {
+    fprintf(out, "<div><dt>%s</dt><dd>", title);
+    dip_markup_text(out, text);
+    fprintf(out, "</dd></div>\n");
+}
+
+static void write_scene_facts(const DipCostReport *report, FILE *out) {
+    char text[2 * DIP_COST_TEXT];
+    snprintf(text, sizeof text, "%dx%d pixels", report->width, report->height);
+    write_fact(out, "Picture", text);
+    write_fact(out, "Processor", report->processor);
+    snprintf(text, sizeof text, "%d thread%s, %s", report->threads,
+             dip_cost_plural(report->threads), report->isa);
+    write_fact(out, "Renderer", text);
+    if (report->date[0]) {
+        write_fact(out, "Measured", report->date);
+    }
+    snprintf(text, sizeof text, "Diptych %s", report->version);
+    write_fact(out, "Version", text);
+}
+
+static void write_method_facts(const DipCostReport *report, FILE *out) {
+    const DipCostOptions *o = &report->options;
+    char text[2 * DIP_COST_TEXT];
+    char baseline[DIP_COST_TEXT];
+    dip_cost_settings_text(&o->baseline, baseline);
+    write_fact(out, "Settings of the baseline", baseline);
+    if (report->rounds > 0) {
+        snprintf(text, sizeof text,
+                 "%d frames along each path in %d rounds of random order, each beside the baseline",
+                 dip_cost_frame_count(report), report->rounds);
+        write_fact(out, "Times", text);
+    }
+    snprintf(text, sizeof text, "%d viewpoint%s on each path, %d successive frame%s at each",
+             o->places, dip_cost_plural(o->places), o->burst, dip_cost_plural(o->burst));
+    write_fact(out, "Errors", text);
+    snprintf(text, sizeof text, "two pictures of %d samples per pixel each", o->samples);
+    write_fact(out, "Truth (converged picture)", text);
+}
+
+// The verdict on the machine, and the A/A rows of all paths.
+static void write_verdict(const DipCostReport *report, FILE *out) {
+    const char *verdict = dip_cost_verdict_names[report->verdict];
+    char level[DIP_COST_REASON];
+    dip_cost_level_text(report, level);
+    fprintf(out, "<p class=\"verdict %s\"><b>The machine was %s.</b> ", verdict, verdict);
+    dip_markup_text(out, report->verdict_reason);
+    fprintf(out, "%s ",
+            report->verdict == DIP_COST_RED
+                ? " The times below are wrong, and no settings are advised."
+                : "");
+    dip_markup_text(out, level);
+    fprintf(out, "</p>\n");
+    dip_html_table_begin(out, "baseline-twice", "");
+    fprintf(out, "On each path, the baseline was timed a second time as if it were another setting "
+                 "(A/A). Differences between settings that are smaller than these are noise.");
+    dip_html_columns_begin(out);
+    dip_html_text_column(out, "path");
+    dip_html_column(out, "ratio", NULL);
+    dip_html_column(out, "95 % interval", NULL);
+    dip_html_columns_end(out);
+    for (int p = 0; p < report->path_count; p++) {
+        const DipStatsEstimate same = report->rows[report->same_rows[p]].time.ratio;
+        dip_html_line_begin(out, report->same_rows[p]);
+        fprintf(out, "<th scope=\"row\">%s</th><td>%.3f</td><td>%.3f to %.3f</td></tr>\n",
+                report->paths[p], same.value, same.low, same.high);
+    }
+    dip_html_table_end(out);
+}
+
+// The contents. The caller writes the sections that are named here.
+static void write_contents(const DipCostReport *report, FILE *out) {
+    fprintf(out, "<nav aria-label=\"Contents\"><ul>\n");
+    if (report->advice_count) {
+        fprintf(out, "<li><a href=\"#advice\">Best settings for a time budget</a></li>\n");
+    }
+    if (report->combined_first < report->row_count && report->rounds > 0) {
+        fprintf(out, "<li><a href=\"#front\">Time against error</a></li>\n"
+                     "<li><a href=\"#along\">Time and error along the path</a></li>\n");
+    }
+    if (report->predicted.count) {
+        fprintf(out, "<li><a href=\"#predicted\">Predicted combinations</a></li>\n");
+    }
+    if (report->sweep_count) {
+        fprintf(out, "<li><a href=\"#settings\">Each setting</a></li>\n"
+                     "<li><a href=\"#parts\">Where the errors are</a></li>\n");
+    }
+    if (dip_html_has_tails(report)) {
+        fprintf(out, "<li><a href=\"#tails\">Small parts with large errors</a></li>\n");
+    }
+    if (report->rounds > 0) {
+        fprintf(out, "<li><a href=\"#work\">Work</a></li>\n");
+    }
+    fprintf(out, "<li><a href=\"#truth\">The truth</a></li>\n"
+                 "<li><a href=\"#words\">What the words mean</a></li>\n</ul></nav>\n");
+}
+
+void dip_html_head(const DipCostReport *report, FILE *out) {
+    fprintf(out, "<header>\n<h1>What accuracy costs: ");
+    dip_markup_text(out, report->scene);
+    fprintf(out, "</h1>\n<dl class=\"facts\">\n");
+    write_scene_facts(report, out);
+    write_method_facts(report, out);
+    fprintf(out, "</dl>\n");
+    if (report->rounds > 0) {
+        write_verdict(report, out);
+    }
+    write_contents(report, out);
+    fprintf(out, "</header>\n");
+}

@@ -1,0 +1,200 @@
+// Time and error along the default path in the HTML page: those of the baseline and of the advised
+// combinations, frame by frame and viewpoint by viewpoint.
+#include "app/report/page/html_parts.h"
+
+#include "app/report/front.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// As many lines as the plot has colours.
+enum { MOST_LINES = 6, TITLE_ROOM = DIP_COST_TEXT + 64, MOST_FRAMES = 256 };
+
+// The lines of both plots. Arrays are owned.
+typedef struct Lines {
+    const DipCostReport *report;
+    int rows[MOST_LINES];
+    char names[MOST_LINES][DIP_COST_TEXT];
+    int count;
+    int frames; // Number of frames shown: all timed frames, or at most MOST_FRAMES of them.
+    // Positions of the frames, and then of the viewpoints, as shares of the path in percent.
+    double *positions;
+    double *ms;   // [line * frames + frame]
+    double *flip; // [line * viewpoints + viewpoint]
+    // [line * (frames or viewpoints) + point]: texts beside the pointer, and pointers to them.
+    char (*texts)[TITLE_ROOM];
+    const char **titles;
+} Lines;
+
+static void add_line(Lines *lines, int row, const char *prefix) {
+    const DipQuality *quality = &lines->report->rows[row].quality;
+    char settings[DIP_COST_TEXT];
+    for (int i = 0; i < lines->count; i++) {
+        const DipQuality *known = &lines->report->rows[lines->rows[i]].quality;
+        if (memcmp(known, quality, sizeof *quality) == 0) {
+            return;
+        }
+    }
+    if (lines->count < MOST_LINES) {
+        dip_cost_settings_text(quality, settings);
+        snprintf(lines->names[lines->count], DIP_COST_TEXT, "%s%.140s", prefix, settings);
+        lines->rows[lines->count++] = row;
+    }
+}
+
+// Lists the baseline and the advised combinations or, without advice, the knee of the front.
+static void list_lines(Lines *lines) {
+    const DipCostReport *report = lines->report;
+    add_line(lines, report->base_rows[0], "baseline: ");
+    for (int i = 0; i < report->advice_count; i++) {
+        if (report->advice[i].row >= 0 && report->rows[report->advice[i].row].path == 0) {
+            add_line(lines, report->advice[i].row, "");
+        }
+    }
+    int front[DIP_COST_MAX_ROWS];
+    const int count = dip_cost_list_front(report, front);
+    const int knee = dip_cost_knee(report, front, count);
+    if (lines->count == 1 && knee >= 0) {
+        add_line(lines, front[knee], "knee of the front: ");
+    }
+}
+
+static void free_lines(Lines *lines) {
+    free(lines->positions);
+    free(lines->ms);
+    free(lines->flip);
+    free(lines->texts);
+    free(lines->titles);
+}
+
+// Returns false when memory runs out.
+static bool alloc_lines(Lines *lines) {
+    const size_t frames = (size_t)lines->frames;
+    const size_t viewpoints = (size_t)lines->report->options.places;
+    const size_t shown = frames < MOST_FRAMES ? frames : MOST_FRAMES;
+    const size_t most = shown > viewpoints ? shown : viewpoints;
+    lines->positions = calloc(frames + viewpoints, sizeof *lines->positions);
+    lines->ms = calloc(MOST_LINES * frames, sizeof *lines->ms);
+    lines->flip = calloc(MOST_LINES * viewpoints, sizeof *lines->flip);
+    lines->texts = calloc(MOST_LINES * most, sizeof *lines->texts);
+    lines->titles = calloc(MOST_LINES * most, sizeof *lines->titles);
+    return lines->positions && lines->ms && lines->flip && lines->texts && lines->titles;
+}
+
+// Fills in the times and positions of the frames. Returns false when memory runs out.
+static bool fill_times(Lines *lines) {
+    const int frames = lines->frames;
+    const int step = (frames + MOST_FRAMES - 1) / MOST_FRAMES;
+    if (!dip_cost_frame_times(lines->report, lines->rows, lines->count, lines->ms, NULL)) {
+        return false;
+    }
+    lines->frames = (frames + step - 1) / step;
+    for (int i = 0; i < lines->count; i++) {
+        for (int f = 0; f < lines->frames; f++) {
+            lines->ms[i * lines->frames + f] = lines->ms[i * frames + f * step];
+            lines->positions[f] = 100.0 * f * step / frames;
+        }
+    }
+    return true;
+}
+
+// Returns a line of `count` points, and writes their titles.
+static DipPlotSeries series_of(const Lines *lines, int line, const double *x, const double *y,
+                               int count, int digits, const char *unit) {
+    const char **titles = lines->titles + line * count;
+    for (int p = 0; p < count; p++) {
+        char *text = lines->texts[line * count + p];
+        snprintf(text, TITLE_ROOM, "%s, at %.1f %% of the path: %.*f %s", lines->names[line], x[p],
+                 digits, y[p], unit);
+        titles[p] = text;
+    }
+    return (DipPlotSeries){
+        .name = lines->names[line], .x = x, .y = y, .count = count, .titles = titles};
+}
+
+static void write_plot(const Lines *lines, const DipPlotSeries *series, const char *title,
+                       const char *y_title, FILE *out) {
+    char subtitle[DIP_COST_TEXT];
+    snprintf(subtitle, sizeof subtitle, "path %s, %d timed frames, %d viewpoint%s",
+             lines->report->paths[0], dip_cost_frame_count(lines->report),
+             lines->report->options.places, dip_cost_plural(lines->report->options.places));
+    const DipPlot plot = {
+        .title = title,
+        .subtitle = subtitle,
+        .x_title = "share of the path, %",
+        .y_title = y_title,
+        .series = series,
+        .series_count = lines->count,
+    };
+    fprintf(out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Plot: %s\">\n",
+            title);
+    dip_plot_print(out, &plot);
+    fprintf(out, "</div>\n");
+}
+
+static void write_times(const Lines *lines, FILE *out) {
+    DipPlotSeries series[MOST_LINES];
+    for (int i = 0; i < lines->count; i++) {
+        series[i] = series_of(lines, i, lines->positions, lines->ms + i * lines->frames,
+                              lines->frames, 2, "ms");
+    }
+    write_plot(lines, series, "Time along the path", "time of a frame, ms", out);
+}
+
+// The viewpoints that every line has, since the lines share their positions.
+static int list_viewpoints(const Lines *lines, double *positions) {
+    const DipCostReport *report = lines->report;
+    const int viewpoints = report->options.places;
+    int count = 0;
+    for (int p = 0; p < viewpoints; p++) {
+        bool judged = true;
+        for (int i = 0; i < lines->count; i++) {
+            judged = judged && report->rows[lines->rows[i]].judged[p];
+        }
+        if (judged) {
+            positions[count] = 100.0 * (p + 0.5) / viewpoints;
+            for (int i = 0; i < lines->count; i++) {
+                lines->flip[i * viewpoints + count] =
+                    dip_metrics_of(&report->rows[lines->rows[i]].viewpoints[p], 0).flip;
+            }
+            count++;
+        }
+    }
+    return count;
+}
+
+static void write_errors(const Lines *lines, FILE *out) {
+    const int viewpoints = lines->report->options.places;
+    double *positions = lines->positions + lines->frames;
+    DipPlotSeries series[MOST_LINES];
+    const int count = list_viewpoints(lines, positions);
+    if (count < 2) {
+        return;
+    }
+    for (int i = 0; i < lines->count; i++) {
+        series[i] = series_of(lines, i, positions, lines->flip + i * viewpoints, count, 4, "FLIP");
+    }
+    write_plot(lines, series, "Error along the path", "FLIP against the truth, mean of a viewpoint",
+               out);
+}
+
+bool dip_html_path(const DipCostReport *report, FILE *out) {
+    Lines lines = {.report = report, .frames = dip_cost_frame_count(report)};
+    if (report->rounds == 0 || report->combined_first == report->row_count) {
+        return true;
+    }
+    list_lines(&lines);
+    const bool made = alloc_lines(&lines) && fill_times(&lines);
+    if (made) {
+        fprintf(out,
+                "<h2 id=\"along\">Time and error along the path</h2>\n"
+                "<p>The plots show the times of the baseline and of the advised settings at every "
+                "timed frame, and their mean FLIP at every viewpoint. Where the lines of the times "
+                "lie far apart but those of the errors do not, settings of their own for a segment "
+                "of the path save time: <code>diptych cost advise</code> chooses them.</p>\n");
+        write_times(&lines, out);
+        write_errors(&lines, out);
+    }
+    free_lines(&lines);
+    return made;
+}

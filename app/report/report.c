@@ -1,0 +1,365 @@
+// Allocating the memory of a report, and computing values from its measurements.
+#include "app/report/report.h"
+
+#include "app/measure/metrics/truth.h"
+#include "renderer/base/assert.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *const dip_cost_budget_of_names[3] = {
+    [DIP_COST_BUDGET_P95] = "p95",
+    [DIP_COST_BUDGET_MEAN] = "mean",
+    [DIP_COST_BUDGET_WORST] = "worst",
+};
+
+const char *const dip_cost_picture_kind_names[3] = {
+    [DIP_COST_PICTURES_CROPS] = "crops",
+    [DIP_COST_PICTURES_FULL] = "full",
+    [DIP_COST_PICTURES_NONE] = "none",
+};
+
+const char *const dip_cost_counter_names[DIP_COST_COUNTER_COUNT] = {
+#define COUNTER_NAME(name, text) #name,
+    DIP_COUNTER_LIST(COUNTER_NAME)
+#undef COUNTER_NAME
+};
+
+const char *const dip_cost_stage_names[DIP_COST_STAGE_COUNT] = {
+#define STAGE_NAME(name, text) #name,
+    DIP_STAGE_LIST(STAGE_NAME)
+#undef STAGE_NAME
+        "rest",
+};
+
+static bool alloc_row(const DipCostReport *report, DipCostRow *row) {
+    const size_t viewpoints = (size_t)report->options.places;
+    row->viewpoints = calloc(viewpoints, sizeof *row->viewpoints);
+    row->tails = calloc(viewpoints, sizeof *row->tails);
+    row->judged = calloc(viewpoints, sizeof *row->judged);
+    row->pictures = calloc(viewpoints, sizeof *row->pictures);
+    row->pairs = calloc((size_t)dip_cost_frame_count(report), sizeof *row->pairs);
+    return row->viewpoints && row->tails && row->judged && row->pictures && row->pairs;
+}
+
+bool dip_cost_report_alloc(DipCostReport *report, DipError *err) {
+    const size_t viewpoints = (size_t)report->options.places;
+    report->floors = calloc((size_t)report->path_count * viewpoints, sizeof *report->floors);
+    report->has_floor = calloc((size_t)report->path_count * viewpoints, sizeof *report->has_floor);
+    bool made = report->floors && report->has_floor;
+    for (int r = 0; r < report->row_count; r++) {
+        made = alloc_row(report, &report->rows[r]) && made;
+    }
+    return made || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+}
+
+int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, int path,
+                            DipError *err) {
+    if (report->row_count == DIP_COST_MAX_ROWS) {
+        dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "cost", "there are more than %d rows",
+                      DIP_COST_MAX_ROWS);
+        return -1;
+    }
+    DipCostRow *row = &report->rows[report->row_count++]; // Freed with the others if this fails.
+    *row = (DipCostRow){.quality = *quality, .path = path};
+    if (!alloc_row(report, row)) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+        return -1;
+    }
+    return report->row_count - 1;
+}
+
+void dip_cost_row_free(DipCostRow *row) {
+    free(row->viewpoints);
+    free(row->tails);
+    free(row->judged);
+    free(row->pictures);
+    free(row->pairs);
+    *row = (DipCostRow){0};
+}
+
+void dip_cost_report_free(DipCostReport *report) {
+    for (int r = 0; r < report->row_count; r++) {
+        dip_cost_row_free(&report->rows[r]);
+    }
+    free(report->same);
+    free(report->rows);
+    free(report->floors);
+    free(report->has_floor);
+    free(report->predicted.list);
+    dip_cost_kept_frames_free(&report->kept);
+    *report = (DipCostReport){0};
+}
+
+void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]) {
+    size_t length = 0;
+    text[0] = '\0';
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
+        if (quality->step[s] != info->default_step && length < DIP_COST_TEXT) {
+            length += (size_t)snprintf(text + length, DIP_COST_TEXT - length, "%s%s=%s",
+                                       length ? "," : "", info->key, info->steps[quality->step[s]]);
+        }
+    }
+    if (length == 0) {
+        snprintf(text, DIP_COST_TEXT, "defaults");
+    }
+}
+
+void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
+                        char text[DIP_COST_TEXT]) {
+    const DipQuality *q = &report->rows[row].quality;
+    const DipSettingInfo *info = dip_setting_info(sweep->setting);
+    const char *step = info->steps[q->step[sweep->setting]];
+    if (sweep->setting == DIP_SETTING_AAA && q->step[DIP_SETTING_AAA]) {
+        snprintf(text, DIP_COST_TEXT, "on, asd=%s",
+                 dip_setting_info(DIP_SETTING_ASD)->steps[q->step[DIP_SETTING_ASD]]);
+    } else {
+        snprintf(text, DIP_COST_TEXT, "%s", step);
+    }
+}
+
+const char *dip_cost_floor_mark(const DipCostReport *report, int row) {
+    return dip_cost_at_floor(report, row) ? "at floor" : "";
+}
+
+void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]) {
+    const DipCostLevelSpread *spread = &report->level_spread;
+    if (spread->factor > 0.0) {
+        char ratios[96] = "repeat far better";
+        if (spread->ratio_factor > 0.0) {
+            snprintf(ratios, sizeof ratios, "of steps lie within %.1f %% of those of another run",
+                     100.0 * (spread->ratio_factor - 1.0));
+        }
+        snprintf(text, DIP_COST_REASON,
+                 "Milliseconds are those of this run. In %d runs on this machine the baseline took "
+                 "%.2f to %.2f ms, so in another run all times may be %.0f %% longer or %.0f %% "
+                 "shorter; ratios %s.",
+                 spread->runs, spread->least_ms, spread->most_ms, 100.0 * (spread->factor - 1.0),
+                 100.0 * (1.0 - 1.0 / spread->factor), ratios);
+    } else {
+        snprintf(text, DIP_COST_REASON,
+                 "Milliseconds are those of this run. In another run all times may differ by a "
+                 "tenth; ratios repeat far better.");
+    }
+}
+
+bool dip_cost_ratio_over_runs(const DipCostReport *report, const DipStatsEstimate *ratio,
+                              DipStatsEstimate *over_runs) {
+    const DipCostLevelSpread *spread = &report->level_spread;
+    if (!(spread->ratio_factor > 0.0) || !(ratio->low > 0.0)) {
+        return false;
+    }
+    // The factor is for two runs: exp(t sqrt(2) deviation).
+    const double between = log(spread->ratio_factor) / sqrt(2.0);
+    const double half = hypot(log(ratio->high / ratio->low) / 2.0, between);
+    *over_runs = (DipStatsEstimate){
+        .value = ratio->value, .low = ratio->value * exp(-half), .high = ratio->value * exp(half)};
+    return true;
+}
+
+// --- errors ------------------------------------------------------------------------------------
+
+DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints) {
+    DipMetricSums sums = {0};
+    *viewpoints = 0;
+    for (int p = 0; p < report->options.places; p++) {
+        if (report->rows[row].judged[p]) {
+            dip_metric_sums_add(&sums, &report->rows[row].viewpoints[p]);
+            ++*viewpoints;
+        }
+    }
+    return sums;
+}
+
+DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region) {
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    return dip_metrics_of(&sums, region);
+}
+
+DipCostTail dip_cost_row_tail(const DipCostReport *report, int row) {
+    DipCostTail tail = {.viewpoints = 0};
+    DipFlipTail sum = {.p50 = 0.0};
+    for (int p = 0; p < report->options.places; p++) {
+        const DipFlipTail *flip = &report->rows[row].tails[p];
+        if (!report->rows[row].judged[p] || flip->worst_width == 0.0) {
+            continue;
+        }
+        sum.p50 += flip->p50;
+        sum.p95 += flip->p95;
+        sum.p99 += flip->p99;
+        if (tail.viewpoints++ == 0 || flip->worst > tail.flip.worst) {
+            tail.flip = *flip;
+            tail.worst_viewpoint = p;
+        }
+    }
+    if (tail.viewpoints > 0) {
+        tail.flip.p50 = sum.p50 / tail.viewpoints;
+        tail.flip.p95 = sum.p95 / tail.viewpoints;
+        tail.flip.p99 = sum.p99 / tail.viewpoints;
+    }
+    return tail;
+}
+
+DipMetricSums dip_cost_floor(const DipCostReport *report, int path) {
+    DipMetricSums sums = {0};
+    for (int p = 0; p < report->options.places; p++) {
+        if (report->has_floor[path * report->options.places + p]) {
+            dip_metric_sums_add(&sums, &report->floors[path * report->options.places + p]);
+        }
+    }
+    return sums;
+}
+
+double dip_cost_floor_rmse(const DipCostReport *report, int path, int region) {
+    const DipMetricSums sums = dip_cost_floor(report, path);
+    return dip_truth_floor_rmse(&sums, region);
+}
+
+bool dip_cost_at_floor(const DipCostReport *report, int row) {
+    int viewpoints;
+    const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
+    return dip_metrics_of(&sums, 0).rmse_lin <
+           DIP_TRUTH_FLOOR_FACTOR * dip_cost_floor_rmse(report, report->rows[row].path, 0);
+}
+
+double dip_cost_floor_flip(const DipCostReport *report, int path) {
+    const DipMetricSums sums = dip_cost_floor(report, path);
+    return pow(0.5, 0.7) * dip_metrics_of(&sums, 0).flip;
+}
+
+double dip_cost_ranking_flip(const DipCostReport *report, int row) {
+    return fmax(dip_cost_row_metrics(report, row, 0).flip,
+                dip_cost_floor_flip(report, report->rows[row].path));
+}
+
+// --- choosing ----------------------------------------------------------------------------------
+
+typedef struct Candidate {
+    int row;
+    double ms;
+    double error;
+} Candidate;
+
+static int compare_candidates(const void *a, const void *b) {
+    const Candidate *x = a;
+    const Candidate *y = b;
+    const int by_time = (x->ms > y->ms) - (x->ms < y->ms);
+    return by_time ? by_time : (x->error > y->error) - (x->error < y->error);
+}
+
+int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *pareto) {
+    Candidate candidates[DIP_COST_MAX_ROWS];
+    DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
+    int found = 0, kept = 0;
+    for (int i = 0; i < count; i++) {
+        int viewpoints;
+        const DipMetricSums sums = dip_cost_row_sums(report, rows[i], &viewpoints);
+        if (viewpoints > 0 && dip_cost_is_timed(report, rows[i])) {
+            candidates[found++] =
+                (Candidate){rows[i], dip_cost_ms(report, rows[i]), dip_metrics_of(&sums, 0).flip};
+        }
+    }
+    qsort(candidates, (size_t)found, sizeof *candidates, compare_candidates);
+    double least = INFINITY;
+    for (int i = 0; i < found; i++) {
+        if (candidates[i].error < least) {
+            least = candidates[i].error;
+            pareto[kept++] = candidates[i].row;
+        }
+    }
+    return kept;
+}
+
+int dip_cost_pareto_front_thin(const DipCostReport *report, int *pareto, int count) {
+    int kept = 0;
+    for (int i = 0; i < count; i++) {
+        if (i == 0 || dip_cost_row_metrics(report, pareto[i], 0).flip <=
+                          0.99 * dip_cost_row_metrics(report, pareto[kept - 1], 0).flip) {
+            pareto[kept++] = pareto[i];
+        }
+    }
+    return kept;
+}
+
+int dip_cost_knee(const DipCostReport *report, const int *front, int count) {
+    if (count < 3) {
+        return -1;
+    }
+    const int last = front[count - 1];
+    const double x0 = log(dip_cost_ms(report, front[0]));
+    const double y0 = log(dip_cost_row_metrics(report, front[0], 0).flip);
+    const double dx = log(dip_cost_ms(report, last)) - x0;
+    const double dy = log(dip_cost_row_metrics(report, last, 0).flip) - y0;
+    int knee = -1;
+    double farthest = 0.0;
+    for (int i = 1; i < count - 1; i++) {
+        const double x = log(dip_cost_ms(report, front[i])) - x0;
+        const double y = log(dip_cost_row_metrics(report, front[i], 0).flip) - y0;
+        const double below = x / dx * dy - y;
+        if (below > farthest) {
+            farthest = below;
+            knee = i;
+        }
+    }
+    return knee;
+}
+
+int dip_cost_step_up(const DipCostReport *report, int row) {
+    const double enough = 0.99 * dip_cost_row_metrics(report, row, 0).flip;
+    int next = -1;
+    double least_ms = INFINITY;
+    for (int r = report->combined_first; r < report->row_count; r++) {
+        int viewpoints;
+        const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
+        const bool is_known = viewpoints > 0 && dip_cost_is_timed(report, r);
+        const double ms = is_known ? dip_cost_ms(report, r) : INFINITY;
+        if (ms < least_ms && dip_metrics_of(&sums, 0).flip <= enough) {
+            least_ms = ms;
+            next = r;
+        }
+    }
+    return next;
+}
+
+int dip_cost_count_changes(const DipQuality *quality) {
+    int count = 0;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        count += quality->step[s] != dip_setting_info((DipSetting)s)->default_step;
+    }
+    return count;
+}
+
+// True if row a is to be preferred to row b, whose errors are alike.
+static bool is_preferred(const DipCostReport *report, int a, int b) {
+    const DipStatsEstimate x = dip_cost_budget_time(report, a);
+    const DipStatsEstimate y = dip_cost_budget_time(report, b);
+    const bool apart = x.high < y.low || y.high < x.low;
+    const int changes = dip_cost_count_changes(&report->rows[a].quality) -
+                        dip_cost_count_changes(&report->rows[b].quality);
+    return !apart && changes != 0 ? changes < 0 : x.value < y.value;
+}
+
+int dip_cost_choose(const DipCostReport *report, double budget_ms) {
+    int best = -1;
+    double least = INFINITY;
+    for (int pass = 0; pass < 2; pass++) { // First the least FLIP, then the best row of that FLIP.
+        for (int r = report->combined_first; r < report->row_count; r++) {
+            int viewpoints;
+            dip_cost_row_sums(report, r, &viewpoints);
+            const double flip = dip_cost_ranking_flip(report, r);
+            if (viewpoints == 0 || dip_cost_budget_time(report, r).high > budget_ms) {
+                continue;
+            }
+            if (pass == 0) {
+                least = fmin(least, flip);
+            } else if (flip <= 1.01 * least && (best < 0 || is_preferred(report, r, best))) {
+                best = r;
+            }
+        }
+    }
+    return best;
+}

@@ -1,0 +1,362 @@
+// A cost report: its measurements, and the values computed from them. Errors are measured against
+// truths (converged pictures, app/measure/metrics/truth.h), at a few viewpoints of each camera
+// path. Times are measured along each path, each beside a time of the path's baseline
+// (app/measure/timing/paired_timing.h).
+#ifndef DIP_APP_REPORT_REPORT_H
+#define DIP_APP_REPORT_REPORT_H
+
+#include "app/report/kept_frames.h"
+#include "app/report/report_plan.h"
+#include "app/measure/metrics/flip_tail.h"
+#include "app/measure/metrics/metrics.h"
+#include "app/measure/stats/paired.h"
+#include "app/measure/timing/paired_timing.h"
+#include "renderer/scene/frame.h"
+#include "renderer/scene/quality.h"
+
+#include <stdbool.h>
+
+// Work counters, in the order of DIP_COUNTER_LIST.
+enum {
+#define DIP_COST_COUNTER(name, text) DIP_COST_COUNTER_##name,
+    DIP_COUNTER_LIST(DIP_COST_COUNTER)
+#undef DIP_COST_COUNTER
+        DIP_COST_COUNTER_COUNT
+};
+
+extern const char *const dip_cost_counter_names[DIP_COST_COUNTER_COUNT];
+
+// Parts of a frame's time: the stages of the pipeline, in the order of DIP_STAGE_LIST, and the rest
+// (the choice of effects, the start of the passes).
+typedef enum DipCostStage {
+#define DIP_COST_STAGE(name, text) DIP_COST_STAGE_##name,
+    DIP_STAGE_LIST(DIP_COST_STAGE)
+#undef DIP_COST_STAGE
+        DIP_COST_STAGE_rest,
+    DIP_COST_STAGE_COUNT
+} DipCostStage;
+
+extern const char *const dip_cost_stage_names[DIP_COST_STAGE_COUNT];
+
+enum {
+    DIP_COST_MAX_PATHS = 16,
+    DIP_COST_MAX_SWEEPS = 24,
+    DIP_COST_MAX_SWEEP_ROWS = 8,
+    DIP_COST_MAX_REFUSED = 24,
+    DIP_COST_MAX_ROWS = 4096,
+    DIP_COST_MAX_SMALLER = 4,
+    DIP_COST_MOST_COUNTED = 256, // Combinations whose work is counted one by one.
+    DIP_COST_TEXT = 160,
+    DIP_COST_REASON = 512
+};
+
+// One measured combination: quality settings on a camera path.
+typedef struct DipCostRow {
+    DipQuality quality;
+    int path;                  // Index of the camera path in the report.
+    DipMetricSums *viewpoints; // Errors per viewpoint of the path. Owned.
+    DipFlipTail *tails;        // [viewpoint]: distribution of FLIP; all 0 if not known. Owned.
+    bool *judged;              // [viewpoint]: its errors are known. Owned.
+    char (*pictures)[33];      // [viewpoint]: hash of the row's pictures and truths, or "". Owned.
+    DipTimePair *pairs;        // Times of the frames along the path. Owned.
+    double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
+    DipPathEstimate time;                    // Computed from the pairs.
+    double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of time.mean_ms; they add up to it.
+} DipCostRow;
+
+// A combination that draws the same pictures as a row of fewer settings off their defaults.
+typedef struct DipCostSame {
+    DipQuality quality;
+    int row; // The row that stands for it.
+} DipCostSame;
+
+// A sweep: all steps of one setting on one path, with every other setting held constant.
+typedef struct DipCostSweep {
+    char title[DIP_COST_TEXT]; // "Adaptive AA with aa=4"
+    DipSetting setting;
+    int path;
+    int base; // Row of the step that the baseline has, with which the other steps are compared.
+    int rows[DIP_COST_MAX_SWEEP_ROWS];
+    DipStatsEstimate ratios[DIP_COST_MAX_SWEEP_ROWS]; // Times of the rows over that of the base.
+    int row_count;
+} DipCostSweep;
+
+// The row to choose for one time budget.
+typedef struct DipCostAdvice {
+    double budget_ms;
+    int row;       // -1 if no combination is within the budget.
+    double ms;     // The row's time, of the kind that the budget is meant for.
+    double ms_low; // 95 % interval of ms; ms_high is at most the budget.
+    double ms_high;
+    double probability;           // That the row is the best for the budget (choice.h).
+    int runner_up;                // The row that is most likely better, or -1.
+    double runner_up_probability; // That the runner-up is the best instead.
+} DipCostAdvice;
+
+// A combination that was timed elsewhere than the rows: at another size, on another camera path or
+// with another number of threads. Each frame was timed beside a frame of path 0's baseline, so the
+// times are milliseconds of this report.
+typedef struct DipCostElsewhere {
+    DipQuality quality;
+    double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
+    DipStatsEstimate ms;                     // Mean time of a frame.
+    double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of ms.value; they add up to it.
+} DipCostElsewhere;
+
+// How far predictions lie from measurements: |predicted / measured - 1| over some rows.
+typedef struct DipCostMisses {
+    double median;
+    double p90;       // 90th percentile.
+    double within_10; // Share of the rows that are missed by at most 10 %.
+    double within_5;  // Share of the rows that are missed by at most 5 %.
+    int rows;         // Number of rows; 0 if there are none to compare.
+} DipCostMisses;
+
+// A combination on path 0 whose time and error are predicted from measured rows (predict.h).
+typedef struct DipCostPrediction {
+    DipQuality quality;
+    double counters[DIP_COST_COUNTER_COUNT]; // Means per frame.
+    double ms;                               // Mean time of a frame.
+    double p95_ms;                           // 95th percentile of the frames along the path.
+    double flip;                             // Mean FLIP of the viewpoints.
+    // All three keep their predicted values when the combination is measured later.
+    int row; // The row that measured it later, or -1.
+} DipCostPrediction;
+
+// All combinations that --predict ranks, and how well it did.
+typedef struct DipCostPredictions {
+    DipCostPrediction *list; // Owned; NULL if nothing was predicted.
+    int count;
+    int trained;                   // Number of rows that were measured to predict all others.
+    DipCostMisses times_left_out;  // Each of these rows predicted from the others: mean times,
+    DipCostMisses errors_left_out; // and FLIP.
+    DipCostMisses times;  // Rows that were measured after they had been predicted: mean times,
+    DipCostMisses errors; // and FLIP.
+} DipCostPredictions;
+
+// How quiet the machine was while times were taken.
+typedef enum DipCostVerdict {
+    DIP_COST_GREEN, // The intervals hold.
+    DIP_COST_AMBER, // The intervals may be too narrow.
+    DIP_COST_RED    // The times are wrong: no advice is given.
+} DipCostVerdict;
+
+extern const char *const dip_cost_verdict_names[]; // "green", "amber", "red"
+
+// How far the baseline's times, and the ratios of steps, lie apart in several runs on one machine
+// (levels.h).
+typedef struct DipCostLevelSpread {
+    int runs;               // Number of runs, with this one; 0 if they are not known.
+    double least_ms;        // Of the baseline, in the fastest run.
+    double most_ms;         // In the slowest run.
+    double deviation;       // Standard deviation of the logarithm.
+    double factor;          // 95 % of the ratios of two runs are at most this; 0 for too few runs.
+    double ratio_deviation; // The same for the ratio of a step's time to that of its sweep's base,
+    double ratio_factor;    // over all steps; 0 for too few runs.
+} DipCostLevelSpread;
+
+typedef struct DipCostReport {
+    char scene[DIP_COST_TEXT];
+    char scene_hash[33];
+    char processor[DIP_COST_TEXT];
+    char isa[16];
+    char version[32];
+    char build[33]; // Hash of the program's file.
+    char date[24];  // When the measurement ended: ISO 8601, UTC; "" if unknown.
+    int threads;
+    int width;  // Pixels.
+    int height; // Pixels.
+    DipCostOptions options;
+    char paths[DIP_COST_MAX_PATHS][16]; // Names: "DEFAULT", "AA", ...
+    // Hashes of the poses that are drawn on each path, since a path may be edited and keep its
+    // name.
+    char path_hashes[DIP_COST_MAX_PATHS][33];
+    int path_count;
+    DipCostRow *rows; // Owned. Row 0 is the baseline on path 0.
+    int row_count;
+    // Rows with the baseline's settings, per path: the row with which all others of the path are
+    // timed, and the A/A row, which is timed beside it as if it were another setting.
+    int base_rows[DIP_COST_MAX_PATHS];
+    int same_rows[DIP_COST_MAX_PATHS];
+    int combined_first; // Rows from this index on are the combinations, on path 0.
+    DipCostSame *same;  // Combinations that another row stands for (same_pictures.h). Owned.
+    int same_count;
+    DipCostSweep sweeps[DIP_COST_MAX_SWEEPS];
+    int sweep_count;
+    char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // Steps that were left out, with reasons.
+    int refused_count;
+    int rounds;                    // Number of rounds timed; 0 if the report has no times.
+    DipPairedTimingResult machine; // What the timing tells about the machine.
+    DipCostLevelSpread level_spread;
+    DipCostVerdict verdict; // Valid if the report has times.
+    char verdict_reason[DIP_COST_REASON];
+    // Noise floors of the truths, [path * options.places + viewpoint]. Both arrays are owned.
+    DipMetricSums *floors;
+    bool *has_floor; // True if the floor with this index is known.
+    DipCostAdvice advice[DIP_COST_MAX_BUDGETS];
+    int advice_count;
+    DipCostPredictions predicted; // Empty without --predict.
+    // A few combinations on path 0, drawn at about half the width and height. They tell the price
+    // of work that grows with the picture from the price of work that does not, which the model of
+    // times (fit.h) needs to predict other sizes.
+    DipCostElsewhere smaller[DIP_COST_MAX_SMALLER];
+    int smaller_count; // 0 if they were not timed.
+    int smaller_width; // Pixels.
+    int smaller_height;
+    DipCostKeptFrames kept; // Frames that a part keeps for the merged page. Owned.
+} DipCostReport;
+
+// Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in
+// before.
+bool dip_cost_report_alloc(DipCostReport *report, DipError *err);
+
+// Adds a row to a report whose arrays have been allocated. Returns its index, or -1 and fills *err
+// if there is no room or no memory. `rows` must have room for DIP_COST_MAX_ROWS rows.
+int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, int path,
+                            DipError *err);
+void dip_cost_report_free(DipCostReport *report);
+
+// Writes a sentence that says which runs the report's milliseconds hold for.
+void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]);
+
+void dip_cost_row_free(DipCostRow *row);
+
+// Returns the number of settings that differ from their defaults.
+int dip_cost_count_changes(const DipQuality *quality);
+
+// --- texts -------------------------------------------------------------------------------------
+
+// Writes the settings that differ from the defaults, "aa=4,af=16", or "defaults".
+void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]);
+
+// Returns the plural ending of a noun after a number: "" or "s".
+static inline const char *dip_cost_plural(int count) {
+    return count == 1 ? "" : "s";
+}
+
+// Writes the name of a row's step in its sweep: "4", "high-quality"; for adaptive AA "off" or
+// "on, asd=2".
+void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, int row,
+                        char text[DIP_COST_TEXT]);
+
+// Returns "at floor" if dip_cost_at_floor is true for the row, otherwise "".
+const char *dip_cost_floor_mark(const DipCostReport *report, int row);
+
+// --- errors ------------------------------------------------------------------------------------
+
+// Returns the sum of a row's errors over all judged viewpoints (those whose errors are known). Sets
+// *viewpoints to the number of these viewpoints.
+DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewpoints);
+
+// Returns the metrics of a row over all judged viewpoints, in one region (0: the whole picture).
+DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region);
+
+// Returns the mean of a row's FLIP over the judged viewpoints, with the 95 % interval of the mean
+// of all viewpoints that the path could have been cut into: Student's t of the viewpoints' own
+// means. With a single viewpoint there is no interval, and low and high are NAN.
+DipStatsEstimate dip_cost_flip(const DipCostReport *report, int row);
+
+// The same of the difference of two rows of one path, which is far narrower: viewpoints differ more
+// than settings do. Only viewpoints that both rows have count.
+DipStatsEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base);
+
+// The distribution of a row's FLIP over pixels.
+typedef struct DipCostTail {
+    // The percentiles are means over the viewpoints. The worst block is that of the viewpoint with
+    // the worst one.
+    DipFlipTail flip;
+    int worst_viewpoint;
+    int viewpoints; // Number of viewpoints whose distribution is known; 0: the others are not
+                    // valid.
+} DipCostTail;
+
+DipCostTail dip_cost_row_tail(const DipCostReport *report, int row);
+
+// Returns the sum of the noise floors of a path's truths.
+DipMetricSums dip_cost_floor(const DipCostReport *report, int path);
+
+// Returns the RMS error of a path's truths in linear light. See dip_truth_floor_rmse.
+double dip_cost_floor_rmse(const DipCostReport *report, int path, int region);
+
+// Returns an estimate of the FLIP that the noise of a path's truths alone makes: that of the two
+// halves against each other, times 0.5^0.7, since the truth's error is half of their difference and
+// FLIP grows with the 0.7th power of differences. Rows whose FLIP is below it are equally good as
+// far as this truth can tell.
+double dip_cost_floor_flip(const DipCostReport *report, int path);
+
+// Returns a row's FLIP for ranking: at least dip_cost_floor_flip.
+double dip_cost_ranking_flip(const DipCostReport *report, int row);
+
+// True if a row's error is too small to tell from the truth's own noise.
+bool dip_cost_at_floor(const DipCostReport *report, int row);
+
+// --- times -------------------------------------------------------------------------------------
+
+// The interval of a step's ratio that holds its usual value over many runs on this machine: the
+// ratio's own interval, which knows this run alone, and the spread between runs (level_spread), as
+// the root of the sum of squares. Returns false if too few runs are known.
+bool dip_cost_ratio_over_runs(const DipCostReport *report, const DipStatsEstimate *ratio,
+                              DipStatsEstimate *over_runs);
+
+// Number of frames that are timed along a path.
+int dip_cost_frame_count(const DipCostReport *report);
+
+// Computes the time of every row from its pairs, the ratios of all sweeps and the verdict. Call it
+// once all pairs are there. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_estimate_times(DipCostReport *report, DipError *err);
+
+bool dip_cost_is_timed(const DipCostReport *report, int row);
+
+// The mean time of a row over the frames along the path, in milliseconds per frame.
+double dip_cost_ms(const DipCostReport *report, int row);
+
+// Computes the times of some rows of one path at every timed frame, in milliseconds:
+// ms[i * dip_cost_frame_count + frame] for rows[i]. The means over the frames are dip_cost_ms.
+// Fails with DIP_ERROR_MEMORY.
+bool dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms,
+                          DipError *err);
+
+// The time of a row, of the kind that budgets are meant for (--budget-of).
+DipStatsEstimate dip_cost_budget_time(const DipCostReport *report, int row);
+
+// Computes the times of a combination that was timed elsewhere from `pairs`, the times of
+// dip_cost_frame_count frames beside the baseline of path 0. The report's times must be estimated.
+// Fails with DIP_ERROR_MEMORY, or with DIP_ERROR_RUNTIME if too many frames were disturbed.
+bool dip_cost_estimate_elsewhere(const DipCostReport *report, const DipTimePair *pairs,
+                                 DipCostElsewhere *row, DipError *err);
+
+// Computes the ratio of the times of two rows of one path. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEstimate *ratio,
+                    DipError *err);
+
+// --- choosing ----------------------------------------------------------------------------------
+
+// Finds the Pareto front of some rows in time and FLIP. A row is in the front if no other row is at
+// least as good in both. Writes the rows of the front to `front` in order of time and returns their
+// number. Rows without times or errors are left out.
+int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *front);
+
+// Thins a Pareto front: keeps the first row and every row whose FLIP is at least 1 % below the FLIP
+// of the row kept before. Returns the number of rows kept.
+int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int count);
+
+// Returns the index of the knee of a thinned Pareto front (in order of time): the row beyond which
+// more time buys least. In a plot of log time against log FLIP it is the point farthest below the
+// line from the first row to the last (Satopaa et al. 2011). Returns -1 for fewer than three rows.
+int dip_cost_knee(const DipCostReport *report, const int *front, int count);
+
+// Returns the fastest combination whose FLIP is at least 1 % lower than the row's FLIP, or -1 if
+// there is none.
+int dip_cost_step_up(const DipCostReport *report, int row);
+
+// Returns the combination with the least FLIP whose time is surely within the budget: the upper end
+// of its interval is at most the budget. Among combinations whose FLIP is within 1 % of the least,
+// takes the fastest one, and among those whose intervals overlap with it, the one with the fewest
+// settings that differ from their defaults. Returns -1 if no combination is within the budget.
+int dip_cost_choose(const DipCostReport *report, double budget_ms);
+
+// Chooses anew for the budgets of the report's advice (advice.c), after other viewpoints have been
+// joined to it. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_choose_again(DipCostReport *report, DipError *err);
+
+#endif

@@ -1,0 +1,62 @@
+// What a report measures: the settings, viewpoints, frames and budgets that the command line asks
+// for.
+#ifndef DIP_APP_REPORT_REPORT_PLAN_H
+#define DIP_APP_REPORT_REPORT_PLAN_H
+
+#include "renderer/scene/quality.h"
+
+#include <stdbool.h>
+
+enum {
+    DIP_COST_MAX_PARTS = 256, // Files that one merge joins.
+    DIP_COST_MAX_PLACES = 1000,
+    DIP_COST_MAX_BURST = 16,
+    DIP_COST_MAX_BUDGETS = 64
+};
+
+// The time of a path's frames that must be within a budget.
+typedef enum DipCostBudgetOf {
+    DIP_COST_BUDGET_P95,  // The 95th percentile over the frames.
+    DIP_COST_BUDGET_MEAN, // The mean over the frames.
+    DIP_COST_BUDGET_WORST // The slowest frame.
+} DipCostBudgetOf;
+
+extern const char *const dip_cost_budget_of_names[3]; // "p95", "mean", "worst"
+
+// The pictures in the page.
+typedef enum DipCostPictureKind {
+    DIP_COST_PICTURES_CROPS, // The part of each picture in which the rows differ most.
+    DIP_COST_PICTURES_FULL,  // Whole frames, as many as fit, otherwise crops.
+    DIP_COST_PICTURES_NONE
+} DipCostPictureKind;
+
+extern const char *const dip_cost_picture_kind_names[3]; // "crops", "full", "none"
+
+// What to measure. Texts are borrowed from argv.
+typedef struct DipCostOptions {
+    DipQuality baseline;
+    int places;      // Number of viewpoints on each path, where errors are measured.
+    int burst;       // Number of successive frames that are drawn at each viewpoint.
+    int first_place; // Index of the first viewpoint of this run (--part).
+    int end_place;   // Index of the viewpoint after the run's last one; 0: the run has all
+                     // viewpoints.
+    int samples;     // Samples per pixel in each half of the converged picture; a square number.
+    double pixels_per_degree;
+    int rounds;
+    int timed_frames;
+    bool errors_only;
+    bool predict; // Measure a few combinations and predict all others.
+    bool has_seed;
+    int seed;
+    bool has_combined;
+    unsigned combined; // Bit s: setting s takes part in the combinations.
+    double budgets_ms[DIP_COST_MAX_BUDGETS];
+    int budget_count;
+    DipCostBudgetOf budget_of;
+    bool require_quiet;          // Fail if the machine was too busy for the times to be believed.
+    const char *cache;           // Folder of the cached truths; NULL: the user's cache folder.
+    DipCostPictureKind pictures; // The pictures in the page.
+    const char *truths;          // Folder to write the truths to, as PFM; NULL: none are written.
+} DipCostOptions;
+
+#endif

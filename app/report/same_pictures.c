@@ -1,0 +1,70 @@
+// Finding rows with the same pictures, and joining them.
+#include "app/report/same_pictures.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool dip_cost_same_pictures(const DipCostReport *report, int a, int b) {
+    const DipCostRow *x = &report->rows[a];
+    const DipCostRow *y = &report->rows[b];
+    bool same = x->path == y->path;
+    for (int p = 0; same && p < report->options.places; p++) {
+        same = x->judged[p] && y->judged[p] && x->pictures[p][0] &&
+               strcmp(x->pictures[p], y->pictures[p]) == 0;
+    }
+    return same;
+}
+
+// Returns the combination that stands for this one: of all with the same pictures, the one with the
+// fewest settings off their defaults, and of several the first.
+static int representative(const DipCostReport *report, int row) {
+    int best = row;
+    int least = dip_cost_count_changes(&report->rows[row].quality);
+    for (int r = report->combined_first; r < report->row_count; r++) {
+        const int changes = dip_cost_count_changes(&report->rows[r].quality);
+        if ((changes < least || (changes == least && r < best)) &&
+            dip_cost_same_pictures(report, row, r)) {
+            best = r;
+            least = changes;
+        }
+    }
+    return best;
+}
+
+bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {
+    const int first = report->combined_first;
+    const int count = report->row_count - first;
+    int *stands = malloc(((size_t)count + 1) * sizeof *stands); // The row that stands for each.
+    int *now = malloc(((size_t)count + 1) * sizeof *now);       // The row's index afterwards.
+    free(report->same);
+    report->same = calloc((size_t)count + 1, sizeof *report->same);
+    report->same_count = 0;
+    const bool has_room = stands && now && report->same;
+    int kept = first;
+    for (int i = 0; has_room && i < count; i++) {
+        stands[i] = representative(report, first + i);
+    }
+    for (int i = 0; has_room && i < count; i++) {
+        DipCostRow *row = &report->rows[first + i];
+        if (stands[i] == first + i) {
+            now[i] = kept;
+            report->rows[kept++] = *row;
+        } else {
+            report->same[report->same_count++] = (DipCostSame){row->quality, stands[i]};
+            dip_cost_row_free(row);
+        }
+    }
+    for (int i = 0; has_room && i < report->same_count; i++) {
+        report->same[i].row = now[report->same[i].row - first];
+    }
+    for (int i = 0; has_room && i < report->advice_count; i++) {
+        int *const rows[] = {&report->advice[i].row, &report->advice[i].runner_up};
+        for (int k = 0; k < 2; k++) {
+            *rows[k] = *rows[k] >= first ? now[stands[*rows[k] - first] - first] : *rows[k];
+        }
+    }
+    report->row_count = has_room ? kept : report->row_count;
+    free(stands);
+    free(now);
+    return has_room || dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+}

@@ -1,0 +1,112 @@
+// Green, amber or red.
+#include "app/report/verdict.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+const char *const dip_cost_verdict_names[] = {"green", "amber", "red"};
+
+// Measured on 66 half runs of which the truth was known (quiet, beside one or two busy loops,
+// beside bursts): no loaded run is green, and no green run errs by more than 2.5 %.
+const DipCostLimits dip_cost_wait_limits = {0.05, 0.20};
+const DipCostLimits dip_cost_spread_limits = {0.05, 0.10};
+const DipCostLimits dip_cost_offset_limits = {0.02, 0.05};
+static const double most_disturbed = 0.25;
+
+static DipCostVerdict judge(double sign, const DipCostLimits *limits) {
+    return sign > limits->red     ? DIP_COST_RED
+           : sign > limits->green ? DIP_COST_AMBER
+                                  : DIP_COST_GREEN;
+}
+
+DipCostVerdict dip_cost_verdict_of(const DipCostSigns *signs, char reason[DIP_COST_REASON]) {
+    const DipCostVerdict by_wait = judge(signs->wait, &dip_cost_wait_limits);
+    const DipCostVerdict by_spread = judge(signs->spread, &dip_cost_spread_limits);
+    const DipCostVerdict by_offset = judge(signs->offset, &dip_cost_offset_limits);
+    DipCostVerdict verdict = DIP_COST_GREEN;
+    snprintf(reason, DIP_COST_REASON,
+             "The threads waited %.1f %% of their time for a core, and the baseline, timed twice, "
+             "differed by %.1f %%.",
+             100.0 * signs->wait, 100.0 * (exp(signs->offset) - 1.0));
+    if (by_wait > verdict) {
+        verdict = by_wait;
+        snprintf(reason, DIP_COST_REASON,
+                 "The threads waited %.0f %% of their time for a core, which other programs held.",
+                 100.0 * signs->wait);
+    }
+    if (by_spread > verdict) {
+        verdict = by_spread;
+        snprintf(reason, DIP_COST_REASON,
+                 "The baseline was timed twice in every round, and the two times differed by %.0f "
+                 "%% from round to round.",
+                 100.0 * fmin(signs->spread, 10.0));
+    }
+    if (by_offset > verdict) {
+        verdict = by_offset;
+        snprintf(reason, DIP_COST_REASON,
+                 "The baseline was timed twice, as if it were two settings, and the two differ by "
+                 "%.0f %%.",
+                 100.0 * (exp(signs->offset) - 1.0));
+    }
+    if (signs->disturbed > most_disturbed && verdict < DIP_COST_RED) {
+        verdict = DIP_COST_RED;
+        snprintf(reason, DIP_COST_REASON,
+                 "%.0f %% of the times were disturbed by other programs, although they were taken "
+                 "twice.",
+                 100.0 * signs->disturbed);
+    }
+    if (!signs->settled && verdict < DIP_COST_AMBER) {
+        verdict = DIP_COST_AMBER;
+        snprintf(reason, DIP_COST_REASON,
+                 "The time of a frame did not become steady within 100 frames before the "
+                 "measurement.");
+    }
+    return verdict;
+}
+
+// Computes the spread of a path's A/A ratio over the rounds. Returns NAN when memory runs out.
+static double spread_of(const DipCostReport *report, int path) {
+    const int rounds = report->options.rounds;
+    const int frames = report->options.timed_frames;
+    const DipTimePair *pairs = report->rows[report->same_rows[path]].pairs;
+    double *ms = malloc(2 * (size_t)rounds * (size_t)frames * sizeof *ms);
+    if (!ms) {
+        return NAN;
+    }
+    double *base_ms = ms + rounds * frames;
+    for (int r = 0; r < rounds; r++) {
+        for (int f = 0; f < frames; f++) {
+            const DipTimePair *pair = &pairs[r + f * rounds];
+            ms[r * frames + f] = dip_time_pair_is_disturbed(pair) ? NAN : pair->ms;
+            base_ms[r * frames + f] = pair->base_ms;
+        }
+    }
+    const double spread =
+        dip_paired_spread(&(DipPairedTimes){ms, base_ms, .rounds = rounds, .frames = frames});
+    free(ms);
+    return spread < 0.0 ? INFINITY : spread; // Every round was disturbed.
+}
+
+bool dip_cost_judge_machine(DipCostReport *report, DipError *err) {
+    DipCostSigns signs = {.wait = report->machine.wait, .settled = report->machine.settled};
+    for (int p = 0; p < report->path_count; p++) {
+        const double spread = spread_of(report, p);
+        if (isnan(spread)) {
+            return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
+        }
+        signs.spread = fmax(signs.spread, spread);
+        const double ratio = report->rows[report->same_rows[p]].time.ratio.value;
+        signs.offset = fmax(signs.offset, fabs(log(ratio)));
+    }
+    int64_t disturbed = 0;
+    for (int r = 0; r < report->row_count; r++) {
+        for (int f = 0; f < dip_cost_frame_count(report); f++) {
+            disturbed += dip_time_pair_is_disturbed(&report->rows[r].pairs[f]);
+        }
+    }
+    signs.disturbed =
+        (double)disturbed / ((double)report->row_count * (double)dip_cost_frame_count(report));
+    report->verdict = dip_cost_verdict_of(&signs, report->verdict_reason);
+    return true;
+}

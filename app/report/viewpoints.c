@@ -1,0 +1,140 @@
+// Intervals over viewpoints.
+#include "app/report/viewpoints.h"
+
+#include "app/measure/metrics/difference.h"
+
+#include <math.h>
+
+const char *const dip_cost_metric_names[DIP_COST_METRIC_COUNT] = {
+    [DIP_COST_RMSE] = "rmse_lin",
+    [DIP_COST_PSNR] = "psnr_db",
+    [DIP_COST_SSIM] = "ssim",
+    [DIP_COST_FLIP] = "flip",
+    [DIP_COST_FLICKER] = "flicker_rms_lin",
+};
+
+// True if the metric is computed from a mean of squares.
+static bool is_of_squares(DipCostMetric metric) {
+    return metric == DIP_COST_RMSE || metric == DIP_COST_PSNR || metric == DIP_COST_FLICKER;
+}
+
+// Returns the mean that a metric is computed from: a mean of squares, or the metric itself.
+static double mean_of(const DipMetricSums *sums, DipCostMetric metric) {
+    const DipMetricRegionSums *all = &sums->regions[0];
+    switch (metric) {
+    case DIP_COST_RMSE:
+        return all->pixels > 0.0 ? all->squared_lin / all->pixels : 0.0;
+    case DIP_COST_PSNR:
+        return all->pixels > 0.0 ? all->squared_codes / all->pixels : 0.0;
+    case DIP_COST_FLICKER:
+        return sums->bursts > 0.0 ? sums->squared_flicker / sums->bursts : 0.0;
+    case DIP_COST_SSIM:
+        return dip_metrics_of(sums, 0).ssim;
+    default:
+        return dip_metrics_of(sums, 0).flip;
+    }
+}
+
+// Returns the metric for the mean that it is computed from.
+static double metric_of(double mean, DipCostMetric metric) {
+    if (metric == DIP_COST_PSNR) {
+        return dip_psnr_db(mean);
+    }
+    return is_of_squares(metric) ? sqrt(mean) : mean;
+}
+
+// --- spread --------------------------------------------------------------------------------------
+
+// A value of each viewpoint that counts.
+typedef struct Values {
+    const DipCostReport *report;
+    int row;
+    int base; // Row whose metric is subtracted; -1: the values are the means of the metric.
+    DipCostMetric metric;
+} Values;
+
+// Returns false if the viewpoint does not count.
+static bool value_at(const Values *v, int viewpoint, double *value) {
+    const DipCostRow *row = &v->report->rows[v->row];
+    const DipCostRow *base = v->base >= 0 ? &v->report->rows[v->base] : row;
+    if (!row->judged[viewpoint] || !base->judged[viewpoint]) {
+        return false;
+    }
+    *value = mean_of(&row->viewpoints[viewpoint], v->metric);
+    if (v->base >= 0) {
+        *value = metric_of(*value, v->metric) -
+                 metric_of(mean_of(&base->viewpoints[viewpoint], v->metric), v->metric);
+    }
+    return true;
+}
+
+// The mean of the values, and half of the width of its 95 % interval: NAN for fewer than two.
+typedef struct Spread {
+    double mean; // NAN without values.
+    double half;
+} Spread;
+
+static Spread spread_of(const Values *v) {
+    double sum = 0.0, squares = 0.0, value;
+    int count = 0;
+    for (int p = 0; p < v->report->options.places; p++) {
+        if (value_at(v, p, &value)) {
+            sum += value;
+            count++;
+        }
+    }
+    const double mean = count > 0 ? sum / count : NAN;
+    if (count < 2) {
+        return (Spread){mean, NAN};
+    }
+    for (int p = 0; p < v->report->options.places; p++) {
+        if (value_at(v, p, &value)) {
+            squares += (value - mean) * (value - mean);
+        }
+    }
+    const double variance = squares / (count - 1);
+    return (Spread){mean, dip_student_quantile(0.975, count - 1) * sqrt(variance / count)};
+}
+
+// --- estimates -----------------------------------------------------------------------------------
+
+DipStatsEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric metric) {
+    const Spread s = spread_of(&(Values){report, row, -1, metric});
+    const double value = metric_of(s.mean, metric);
+    if (isnan(s.half)) {
+        return (DipStatsEstimate){value, NAN, NAN};
+    }
+    if (is_of_squares(metric)) {
+        const double factor = s.mean > 0.0 ? exp(s.half / s.mean) : 1.0;
+        const double less = metric_of(s.mean / factor, metric);
+        const double more = metric_of(s.mean * factor, metric);
+        return (DipStatsEstimate){value, fmin(less, more), fmax(less, more)};
+    }
+    const double most = metric == DIP_COST_SSIM ? 1.0 : INFINITY;
+    return (DipStatsEstimate){value, s.mean - s.half, fmin(s.mean + s.half, most)};
+}
+
+DipStatsEstimate dip_cost_metric_change(const DipCostReport *report, int row, int base,
+                                        DipCostMetric metric) {
+    const Spread s = spread_of(&(Values){report, row, base, metric});
+    return (DipStatsEstimate){s.mean, s.mean - s.half, s.mean + s.half};
+}
+
+DipStatsEstimate dip_cost_flip(const DipCostReport *report, int row) {
+    return dip_cost_metric(report, row, DIP_COST_FLIP);
+}
+
+DipStatsEstimate dip_cost_flip_change(const DipCostReport *report, int row, int base) {
+    return dip_cost_metric_change(report, row, base, DIP_COST_FLIP);
+}
+
+DipMetrics dip_cost_floor_metrics(const DipCostReport *report, int path) {
+    const DipMetricSums sums = dip_cost_floor(report, path);
+    const DipMetrics halves = dip_metrics_of(&sums, 0);
+    return (DipMetrics){
+        .rmse_lin = dip_cost_floor_rmse(report, path, 0),
+        .psnr_db = halves.psnr_db + 20.0 * log10(2.0),
+        .ssim = 1.0 - (1.0 - halves.ssim) / 4.0,
+        .flip = dip_cost_floor_flip(report, path),
+    };
+}

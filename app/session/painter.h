@@ -1,0 +1,46 @@
+// A painter draws one pane of a session: with a scene renderer if the session shows models, or with
+// a pane of the gallery (app/gallery) if it shows a gallery scene. Both take the same settings and
+// give the same kind of frame.
+#ifndef DIP_APP_SESSION_PAINTER_H
+#define DIP_APP_SESSION_PAINTER_H
+
+#include "app/gallery/gallery.h"
+#include "renderer/scene/renderer.h"
+
+typedef struct DipPainter DipPainter;
+
+// gallery: the gallery to draw (borrowed; it must outlive the painter), or NULL to draw models with
+// a scene renderer. Fails as dip_renderer_create or dip_gallery_pane_create does.
+DipPainter *dip_painter_create(const DipRendererDef *def, DipGallery *gallery, DipError *err);
+// *painter may be NULL and becomes NULL.
+void dip_painter_destroy(DipPainter **painter);
+
+// The functions below do what the renderer's functions of the same name do (renderer.h).
+bool dip_painter_set_quality(DipPainter *painter, const DipQuality *quality, DipError *err);
+bool dip_painter_resize(DipPainter *painter, int width, int height, DipError *err);
+DipQuality dip_painter_quality(const DipPainter *painter);
+void dip_painter_set_frame_index(DipPainter *painter, uint64_t frame_index);
+
+// Fails with UNSUPPORTED if the painter draws a scene of the gallery.
+bool dip_painter_record_tiles(DipPainter *painter, bool on, DipError *err);
+
+// A pane of the gallery has flat mip colours only and ignores the pictures.
+bool dip_painter_set_mip_pictures(DipPainter *painter,
+                                  const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
+                                  DipError *err);
+
+// scene: the models' scene; a painter of the gallery ignores it.
+bool dip_painter_draw(DipPainter *painter, const DipScene *scene, const DipPose *pose,
+                      int64_t time_ns, DipFrame *frame, DipError *err);
+
+// Reads samples of the frame that was drawn last (renderer.h). Fails with UNSUPPORTED if the
+// painter draws a scene of the gallery.
+bool dip_painter_read_samples(DipPainter *painter, const DipScene *scene, const DipPose *pose,
+                              int64_t time_ns, const DipSampleReadback *readback, DipError *err);
+
+// Draws one frame with each of several painters of one kind. count: 1..DIP_MAX_FRAMES_AT_ONCE.
+bool dip_painter_draw_frames(DipPainter *const *painters, int count, const DipScene *scene,
+                             const DipPose *pose, int64_t time_ns, DipFrame *const *frames,
+                             DipError *err);
+
+#endif

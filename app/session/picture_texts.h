@@ -1,0 +1,41 @@
+// The texts that Diptych writes into its PNG files, so that a picture tells how it was made.
+//
+//     Software             Diptych 1.0.0
+//     Scene                file of the first model, or name of the gallery's scene
+//     Path                 "AA", a file, "orbit", "pose" or "free camera"
+//     Time                 "3.25 s", the time that the picture shows
+//     Pose                 "x y z qx qy qz qw", as --pose takes it
+//     Field of view        "55", vertical, in degrees, as --fov takes it
+//     Current settings     "aa=4,...", for each pane in the picture
+//     Current size         "640x480", of the drawn frame
+//     Current hash         hash of the drawn frame, as `dump --hash` prints it
+#ifndef DIP_APP_SESSION_PICTURE_TEXTS_H
+#define DIP_APP_SESSION_PICTURE_TEXTS_H
+
+#include "app/files/png.h"
+#include "app/session/session.h"
+
+enum { DIP_PICTURE_MAX_TEXTS = 16, DIP_PICTURE_TEXT_BYTES = 8192 };
+
+// The texts point into the struct, so a copy of the struct is of no use.
+typedef struct DipPictureTexts {
+    DipPngText items[DIP_PICTURE_MAX_TEXTS];
+    int count;
+    size_t used_bytes;
+    char bytes[DIP_PICTURE_TEXT_BYTES]; // A text that does not fit is cut.
+} DipPictureTexts;
+
+// Sets the texts that both panes share. free_camera: the user flies the camera, so the pose is not
+// that of the path.
+void dip_picture_texts_make(DipPictureTexts *texts, const DipSession *session, const DipPose *pose,
+                            int64_t time_ns, bool free_camera);
+
+// Adds the texts of a pane that the picture shows.
+void dip_picture_texts_add_pane(DipPictureTexts *texts, int pane, const DipQuality *quality,
+                                const DipFrame *frame);
+
+// Writes a pose as "x y z qx qy qz qw", the order of camera path files. Each number is read back as
+// the same double. Returns the length of the text.
+size_t dip_pose_format(const DipPose *pose, char *text, size_t size_bytes);
+
+#endif

@@ -1,0 +1,301 @@
+// Opening a session: reading the ini, starting the threads, making the renderers; and drawing.
+#include "app/session/session_private.h"
+
+#include "app/cli/log.h"
+#include "app/session/mip_pictures.h"
+#include "renderer/base/clock.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+const char *const dip_pane_names[DIP_PANE_COUNT] = {"current", "requested"};
+
+bool dip_session_add_fault(DipErrorList *faults, const DipError *err) {
+    dip_error_list_add(faults, err);
+    return false;
+}
+
+bool dip_session_place_fault(const DipSession *session, const DipConfigFile *file,
+                             DipErrorList *faults, const DipError *err) {
+    DipError placed;
+    dip_config_file_fault(&session->config, file, err->code, &placed, "%s: %s", err->file,
+                          err->message);
+    placed.severity = err->severity;
+    placed.origin = err->origin;
+    return dip_session_add_fault(faults, &placed);
+}
+
+// --- the ini -----------------------------------------------------------------------------------
+
+// Finds the ini that comes with Diptych. For a program in a build folder, the ini is in the source
+// tree. For an installed program, the ini is in the installation's share folder.
+static bool find_shipped_config(char *file, size_t size_bytes) {
+    static const char *const places[] = {"../../config/courtyard.ini",
+                                         "../share/diptych/config/courtyard.ini"};
+    char program[PATH_MAX];
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length < 0) {
+        return false;
+    }
+    program[length] = '\0';
+    *strrchr(program, '/') = '\0';
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const int needed = snprintf(file, size_bytes, "%s/%s", program, places[i]);
+        if (needed > 0 && (size_t)needed < size_bytes && access(file, R_OK) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Opens the ini's log file, unless the command line has named one.
+static bool use_log(const DipSession *session, const char *given, DipErrorList *faults) {
+    const DipConfigFile *log = &session->config.log;
+    DipError err;
+    if (given || !log->path || dip_log_open(log->path, &err)) {
+        return true;
+    }
+    return dip_session_place_fault(session, log, faults, &err);
+}
+
+static bool check_isa(const DipSession *session, DipErrorList *faults) {
+    const DipConfig *config = &session->config;
+    if (config->isa == DIP_CONFIG_ISA_AUTO || dip_isa_available((DipIsa)config->isa)) {
+        return true;
+    }
+    DipError err;
+    dip_error_set(&err, DIP_ERROR_UNSUPPORTED, config->file, config->line[DIP_KEY_ISA], "ISA",
+                  "this machine cannot run '%s'; give auto, or at most %s",
+                  dip_isa_name((DipIsa)config->isa), dip_isa_name(dip_isa_best()));
+    return dip_session_add_fault(faults, &err);
+}
+
+static bool load_config(DipSession *session, const char *log, DipErrorList *faults) {
+    char shipped[PATH_MAX];
+    const char *file = session->options->config;
+    if (!file) {
+        if (!find_shipped_config(shipped, sizeof shipped)) {
+            DipError err;
+            dip_error_set(&err, DIP_ERROR_MISSING, NULL, 0, "--config",
+                          "config/courtyard.ini is not where Diptych was installed; give an "
+                          "ini with --config FILE");
+            return dip_session_add_fault(faults, &err);
+        }
+        file = shipped;
+    }
+    if (!dip_config_load(file, &session->config, faults)) {
+        return false;
+    }
+    return use_log(session, log, faults) && check_isa(session, faults);
+}
+
+// --- panes --------------------------------------------------------------------------------------
+
+static DipConfigSize pane_size_of(const DipSession *session) {
+    return session->options->has_size
+               ? (DipConfigSize){session->options->size.width, session->options->size.height}
+               : session->config.res;
+}
+
+static DipQuality pane_quality(const DipSession *session, int pane) {
+    const DipSessionOptions *options = session->options;
+    const bool is_current = pane == DIP_PANE_CURRENT;
+    const bool given = is_current ? options->has_current : options->has_requested;
+    if (given) {
+        return is_current ? options->current : options->requested;
+    }
+    DipQuality quality = is_current ? session->config.current : session->config.requested;
+    if (session->config.mipdebug) {
+        quality.step[DIP_SETTING_MIPDEBUG] = 1;
+    }
+    return quality;
+}
+
+// Compresses the textures if a pane's settings need it. This is done before the first frame, so
+// that the first frame takes no longer than the later ones.
+static bool prepare_scene(DipSession *session, DipErrorList *faults) {
+    bool compresses = false;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const DipQuality quality = pane_quality(session, p);
+        compresses |= dip_quality_compresses(&quality);
+    }
+    DipError err;
+    return !compresses || !session->scene ||
+           dip_scene_compress_textures(session->scene, session->pool, &err) ||
+           dip_session_add_fault(faults, &err);
+}
+
+static void set_reflection(DipSession *session) {
+    const DipConfig *config = &session->config;
+    session->force_all_effects = session->options->force_all_effects;
+    session->reflection = (DipReflectionDef){
+        .width = config->reflection_res.width,
+        .height = config->reflection_res.height,
+        .level_m = config->fountain_water_level,
+        .schlick = config->water_schlick,
+        .show = config->debug_show_reflection,
+    };
+    const bool has_level = config->line[DIP_KEY_FOUNTAIN_WATER_LEVEL] > 0;
+    if ((session->options->model_count || !has_level) && session->scene) {
+        dip_scene_water_level(session->scene, &session->reflection.level_m);
+    }
+}
+
+static bool make_renderers(DipSession *session, DipErrorList *faults) {
+    DipError err;
+    if (session->shows_gallery) {
+        session->gallery = dip_session_open_gallery(session, session->pool, session->isa, &err);
+        if (!session->gallery) {
+            return dip_session_add_fault(faults, &err);
+        }
+    }
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const DipRendererDef def = {
+            .pool = session->pool,
+            .isa = session->isa,
+            .width = session->pane_size.width,
+            .height = session->pane_size.height,
+            .quality = pane_quality(session, p),
+            .reflection = session->reflection,
+            .force_all_effects = session->force_all_effects,
+        };
+        session->renderers[p] = dip_painter_create(&def, session->gallery, &err);
+        if (!session->renderers[p]) {
+            return dip_session_add_fault(faults, &err);
+        }
+    }
+    return dip_mip_pictures_load(session, faults);
+}
+
+static bool make_pool(DipSession *session, DipErrorList *faults) {
+    const DipSessionOptions *options = session->options;
+    const DipConfig *config = &session->config;
+    DipError err;
+    session->isa = config->isa == DIP_CONFIG_ISA_AUTO ? dip_isa_best() : (DipIsa)config->isa;
+    if (options->has_isa) {
+        session->isa = options->isa;
+    }
+    session->pool =
+        dip_pool_create(options->has_threads ? options->threads : config->threads, &err);
+    return session->pool || dip_session_add_fault(faults, &err);
+}
+
+// --- opening and closing -------------------------------------------------------------------------
+
+// Loads the scene and the camera paths. Loads the paths even if the scene fails, so that one run
+// shows the faults of both.
+static bool load_what_is_drawn(DipSession *session, bool keep_model, DipErrorList *faults) {
+    const bool scene =
+        session->shows_gallery || dip_session_load_scene(session, keep_model, faults);
+    const int64_t begin_ns = dip_clock_ns();
+    const bool paths = session->shows_gallery ? dip_session_load_gallery_path(session, faults)
+                                              : dip_session_load_paths(session, faults);
+    session->times.paths_ms = dip_start_times_since_ms(begin_ns);
+    return scene && paths;
+}
+
+static bool prepare_panes(DipSession *session, DipErrorList *faults) {
+    const int64_t begin_ns = dip_clock_ns();
+    bool prepared = prepare_scene(session, faults);
+    const int64_t prepared_ns = dip_clock_ns();
+    prepared = prepared && make_renderers(session, faults);
+    session->times.textures_ms += 1e-6 * (double)(prepared_ns - begin_ns);
+    session->times.renderers_ms = dip_start_times_since_ms(prepared_ns);
+    return prepared;
+}
+
+bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorList *faults) {
+    *session =
+        (DipSession){.options = def->options, .importer = def->importer, .isa = DIP_ISA_SCALAR};
+    session->times.begin_ns = def->begin_ns;
+    bool opened = load_config(session, def->log, faults) &&
+                  dip_session_choose_gallery(session, faults) && make_pool(session, faults);
+    session->times.ini_ms = dip_start_times_since_ms(def->begin_ns);
+    session->pane_size = pane_size_of(session);
+    opened = opened && (!def->scene || load_what_is_drawn(session, def->keep_model, faults));
+    if (opened) {
+        set_reflection(session);
+    }
+    opened = opened && (!def->renderers || prepare_panes(session, faults));
+    session->times.opened_ns = dip_clock_ns();
+    if (!opened) {
+        dip_session_close(session);
+    }
+    return opened;
+}
+
+void dip_session_close(DipSession *session) {
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        dip_painter_destroy(&session->renderers[p]);
+    }
+    dip_gallery_destroy(&session->gallery);
+    dip_campath_destroy(&session->gallery_path);
+    free(session->assets);
+    for (int i = 0; i < session->path_count; i++) {
+        dip_campath_destroy(&session->paths[i]);
+    }
+    free(session->paths);
+    dip_session_free_cameras(session);
+    dip_scene_destroy(&session->scene);
+    dip_model_destroy(&session->model);
+    dip_pool_destroy(&session->pool);
+    dip_config_free(&session->config);
+    *session = (DipSession){.isa = DIP_ISA_SCALAR};
+}
+
+// --- drawing -------------------------------------------------------------------------------------
+
+// Returns a frame that shares the pixels of *frame. Its counters and times are 0.
+static DipFrame copy_of(const DipFrame *frame) {
+    DipFrame copy = *frame;
+    copy.counters = (DipCounters){0};
+    copy.stages = (DipStageTimes){0};
+    return copy;
+}
+
+// Draws the current pane. The requested pane becomes a copy of the current pane.
+static bool draw_copied(DipSession *session, const DipPose *pose, int64_t play_ns,
+                        DipSessionFrame *frame, DipError *err) {
+    DipFrame *pane = &frame->panes[DIP_PANE_CURRENT];
+    if (!dip_painter_draw(session->renderers[DIP_PANE_CURRENT], session->scene, pose, play_ns, pane,
+                          err)) {
+        return false;
+    }
+    frame->panes[DIP_PANE_REQUESTED] = copy_of(pane);
+    return true;
+}
+
+bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t play_ns,
+                           uint64_t frame_index, DipSessionFrame *frame, DipError *err) {
+    const DipQuality current = dip_painter_quality(session->renderers[DIP_PANE_CURRENT]);
+    const DipQuality requested = dip_painter_quality(session->renderers[DIP_PANE_REQUESTED]);
+    frame->copied =
+        !session->force_all_effects && memcmp(&current, &requested, sizeof current) == 0;
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        dip_painter_set_frame_index(session->renderers[p], frame_index);
+    }
+    DipFrame *const panes[DIP_PANE_COUNT] = {&frame->panes[0], &frame->panes[1]};
+    const int64_t begin_ns = dip_clock_ns();
+    const bool drawn = frame->copied
+                           ? draw_copied(session, pose, play_ns, frame, err)
+                           : dip_painter_draw_frames(session->renderers, DIP_PANE_COUNT,
+                                                     session->scene, pose, play_ns, panes, err);
+    frame->ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
+    return drawn;
+}
+
+bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index, DipPose *pose,
+                      DipSessionFrame *frame, DipError *err) {
+    if (!dip_camtrack_pose(&session->track, play_ns, pose)) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "path",
+                             "the ini names no camera path; give one with --path FILE");
+    }
+    if (!dip_session_draw_pose(session, pose, play_ns, frame_index, frame, err)) {
+        return false;
+    }
+    dip_start_times_frame(&session->times);
+    return true;
+}

@@ -1,0 +1,205 @@
+// Scenes of the gallery in a session: which one shows, its camera path, and going to the next one.
+#include "app/session/session_private.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+// Sets the folder of the shipped assets. A program in a build folder finds them in the source tree,
+// an installed one in the installation's share folder; another program finds them beside the folder
+// of the ini.
+static bool find_assets(DipSession *session, DipErrorList *faults) {
+    char program[PATH_MAX];
+    char ini[PATH_MAX];
+    char folder[PATH_MAX + 32];
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = '\0';
+    snprintf(ini, sizeof ini, "%s", session->config.file);
+    char *const slash = strrchr(program, '/');
+    char *const ini_slash = strrchr(ini, '/');
+    *(slash ? slash : program) = '\0';
+    strcpy(ini_slash ? ini_slash : ini, ini_slash ? "" : ".");
+    const char *const places[][2] = {
+        {program, "../../assets"}, {program, "../share/diptych/assets"}, {ini, "../assets"}};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        char known[PATH_MAX + 64];
+        snprintf(folder, sizeof folder, "%s/%s", places[i][0], places[i][1]);
+        snprintf(known, sizeof known, "%s/gallery", folder);
+        if (access(known, R_OK) == 0) {
+            break;
+        }
+    }
+    DipError err;
+    session->assets = strdup(folder);
+    if (!session->assets) {
+        dip_error_set(&err, DIP_ERROR_MEMORY, NULL, 0, "assets", "out of memory");
+        return dip_session_add_fault(faults, &err);
+    }
+    return true;
+}
+
+// Places an error of the key SCENE, or leaves an error of the option --scene as it is.
+static bool refuse(const DipSession *session, DipError *err, DipErrorList *faults) {
+    DipError placed = *err;
+    if (!session->options->scene) {
+        dip_error_set(&placed, err->code, session->config.file, session->config.line[DIP_KEY_SCENE],
+                      "SCENE", "%s", err->message);
+    }
+    return dip_session_add_fault(faults, &placed);
+}
+
+bool dip_session_choose_gallery(DipSession *session, DipErrorList *faults) {
+    const DipSessionOptions *options = session->options;
+    const char *name = options->scene ? options->scene : session->config.scene.text;
+    DipError err;
+    const bool models = options->model_count || !name[0] || strcmp(name, "models") == 0;
+    session->shows_gallery = !models;
+    if (!models && !dip_gallery_find(name, &session->gallery_scene, &err)) {
+        return refuse(session, &err, faults);
+    }
+    return find_assets(session, faults);
+}
+
+DipGallery *dip_session_open_gallery(const DipSession *session, DipPool *pool, DipIsa isa,
+                                     DipError *err) {
+    const DipGalleryDef def = {session->gallery_scene, pool, isa, session->assets};
+    DipGallery *gallery = dip_gallery_create(&def, err);
+    if (gallery) {
+        dip_gallery_set_look(gallery, session->options->look);
+    }
+    return gallery;
+}
+
+// --- camera paths --------------------------------------------------------------------------------
+
+// Makes a path with 64 keys per second. The tour's path flies from one scene to the next between
+// two keys, within 1/64 s, so that no frame at 30 or 60 frames per second falls between the scenes.
+static DipCamPath *make_path(int scene, DipError *err) {
+    static const int64_t period_ns = 15625000;
+    const size_t count = (size_t)(dip_gallery_duration_ns(scene) / period_ns);
+    DipCamKey *keys = malloc(count * sizeof *keys);
+    DipCamPath *path = NULL;
+    if (!keys) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "paths", "out of memory");
+        return NULL;
+    }
+    for (size_t i = 0; i < count; i++) {
+        DipPose pose;
+        dip_gallery_pose(scene, (int64_t)i * period_ns, &pose);
+        memcpy(keys[i].position_world, pose.position_world, sizeof keys[i].position_world);
+        memcpy(keys[i].orientation, pose.orientation, sizeof keys[i].orientation);
+    }
+    if (!dip_campath_create(keys, count, period_ns, &path, err)) {
+        path = NULL;
+    }
+    free(keys);
+    return path;
+}
+
+static void play_path(DipSession *session, DipCamPath *path) {
+    dip_campath_destroy(&session->gallery_path);
+    session->gallery_path = path;
+    session->track = dip_camtrack_make(session->config.campath_reset_on_switch);
+    dip_camtrack_set(&session->track, 0, path, dip_session_fov(session, DIP_GALLERY_FOV_Y_DEG));
+}
+
+bool dip_session_load_gallery_path(DipSession *session, DipErrorList *faults) {
+    DipError err;
+    if (session->options->path || session->options->has_pose) {
+        return dip_session_load_paths(session, faults);
+    }
+    DipCamPath *path = make_path(session->gallery_scene, &err);
+    if (!path) {
+        return dip_session_add_fault(faults, &err);
+    }
+    play_path(session, path);
+    return true;
+}
+
+// --- going to another scene ----------------------------------------------------------------------
+
+// Creates painters like those of the session for another gallery, or for models if it is NULL.
+static bool make_painters(const DipSession *session, DipGallery *gallery,
+                          DipPainter *painters[DIP_PANE_COUNT], DipError *err) {
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const DipRendererDef def = {
+            .pool = session->pool,
+            .isa = session->isa,
+            .width = session->pane_size.width,
+            .height = session->pane_size.height,
+            .quality = dip_painter_quality(session->renderers[p]),
+            .reflection = session->reflection,
+            .force_all_effects = session->force_all_effects,
+        };
+        DipPainter *painter = dip_painter_create(&def, gallery, err);
+        if (!painter) {
+            dip_painter_destroy(&painters[0]);
+            return false;
+        }
+        painters[p] = painter;
+    }
+    return true;
+}
+
+// Shows a scene of the gallery, or the models if scene is the number of scenes.
+static bool show_scene(DipSession *session, int scene, DipError *err) {
+    const bool models = scene == dip_gallery_scene_count();
+    DipSession next = *session;
+    DipPainter *painters[DIP_PANE_COUNT] = {NULL, NULL};
+    DipGallery *gallery = NULL;
+    DipCamPath *path = NULL;
+    next.gallery_scene = scene;
+    if (!models) {
+        gallery = dip_session_open_gallery(&next, session->pool, session->isa, err);
+        path = gallery ? make_path(scene, err) : NULL;
+    }
+    if (gallery) {
+        dip_gallery_set_look(gallery, 0); // --look is for the first scene only
+    }
+    if ((!models && !path) || !make_painters(session, gallery, painters, err)) {
+        dip_campath_destroy(&path);
+        dip_gallery_destroy(&gallery);
+        return false;
+    }
+    for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        dip_painter_destroy(&session->renderers[p]);
+        session->renderers[p] = painters[p];
+    }
+    dip_gallery_destroy(&session->gallery);
+    session->gallery = gallery;
+    if (!session->shows_gallery) {
+        session->models_track = session->track;
+    }
+    session->shows_gallery = !models;
+    session->gallery_scene = scene;
+    if (models) {
+        dip_campath_destroy(&session->gallery_path);
+        session->track = session->models_track;
+    } else {
+        play_path(session, path);
+    }
+    return true;
+}
+
+bool dip_session_step_scene(DipSession *session, int step, DipError *err) {
+    const int ring = dip_gallery_scene_count() + (session->scene ? 1 : 0);
+    const int now = session->shows_gallery ? session->gallery_scene : dip_gallery_scene_count();
+    // From the tour, the first scene comes next, and the last one comes before.
+    const int from = now == DIP_GALLERY_TOUR ? (step > 0 ? -1 : 0) : now;
+    return show_scene(session, (from + step + ring) % ring, err);
+}
+
+const char *dip_session_scene_title(const DipSession *session, int64_t play_ns) {
+    if (!session->shows_gallery) {
+        return "Models";
+    }
+    return dip_gallery_info(dip_gallery_scene_at(session->gallery_scene, play_ns))->title;
+}
+
+const char *dip_session_scene_look(const DipSession *session, int look, int64_t play_ns) {
+    const DipGalleryInfo *info =
+        dip_gallery_info(dip_gallery_scene_at(session->gallery_scene, play_ns));
+    return info->looks[(look % info->look_count + info->look_count) % info->look_count];
+}

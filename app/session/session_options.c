@@ -1,0 +1,347 @@
+// The tables of the options that a session reads.
+#include "app/session/session_options.h"
+
+#include "assets/importer.h"
+#include "renderer/base/assert.h"
+#include "renderer/base/number.h"
+#include "renderer/base/pool.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define FIELD(name) offsetof(DipSessionOptions, name)
+
+static const char scene_title[] = "Scene and camera";
+static const char drawing_title[] = "Drawing";
+
+bool dip_option_isa(const DipOptionRow *row, const char *value, DipIsa *isa, DipError *err) {
+    char available[96] = "auto";
+    for (int i = 0; i < DIP_ISA_COUNT; i++) {
+        if (dip_isa_available((DipIsa)i)) {
+            strcat(strcat(available, "|"), dip_isa_name((DipIsa)i));
+        }
+    }
+    if (strcmp(value, "auto") == 0) {
+        *isa = dip_isa_best();
+        return true;
+    }
+    if (!dip_isa_parse(value, isa)) {
+        return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
+                             "'%.40s' is not an instruction set; give one of %s", value, available);
+    }
+    return dip_isa_available(*isa) ||
+           dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, row->name,
+                         "this machine cannot run '%s'; give one of %s", value, available);
+}
+
+// "auto" leaves the choice to the ini, as if the option were not given.
+static bool read_isa(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    options->has_isa = strcmp(value, "auto") != 0;
+    return dip_option_isa(row, value, &options->isa, err);
+}
+
+static bool read_look(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    int number;
+    if (dip_option_integers(value, ':', 1, &number) != 1 || number < 1 || number > 99) {
+        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
+                                 "a number of a variant from 1 to 99");
+    }
+    options->look = number - 1;
+    return true;
+}
+
+#define UP_AXIS(name, text) " `" #name "` " text "."
+#define UP_AXES             DIP_UP_AXIS_LIST(UP_AXIS)
+
+static bool read_up(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    char names[64] = "";
+    for (int i = 0; i < DIP_UP_COUNT; i++) {
+        if (strcmp(value, dip_up_axis_names[i]) == 0) {
+            options->up = (DipUpAxis)i;
+            return true;
+        }
+        strcat(strcat(names, i ? "|" : ""), dip_up_axis_names[i]);
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
+                         "'%.40s' is not an axis; give one of %s", value, names);
+}
+
+#define SHADING(name, text) " `" #name "` " text "."
+#define SHADINGS            DIP_MODEL_SHADING_LIST(SHADING)
+
+static bool read_shading(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    char names[64] = "";
+    for (int i = 0; i < DIP_MODEL_SHADING_COUNT; i++) {
+        if (strcmp(value, dip_model_shading_names[i]) == 0) {
+            options->shading = (DipModelShading)i;
+            return true;
+        }
+        strcat(strcat(names, i ? "|" : ""), dip_model_shading_names[i]);
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
+                         "'%.40s' is not a shading; give one of %s", value, names);
+}
+
+// Reads numbers that are separated by spaces, tabs or commas. Returns how many there are; a number
+// beyond `most` counts, but is not stored. Returns 0 if a part is not a number.
+static int read_numbers(const char *text, int most, double *numbers) {
+    static const char separators[] = " \t,";
+    int count = 0;
+    for (text += strspn(text, separators); *text; text += strspn(text, separators)) {
+        const size_t length = strcspn(text, separators);
+        double number;
+        if (!dip_number_parse(text, length, &number)) {
+            return 0;
+        }
+        if (count < most) {
+            numbers[count] = number;
+        }
+        count++;
+        text += length;
+    }
+    return count;
+}
+
+static bool read_pose(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    double numbers[7];
+    DipCamPath *path;
+    DipError failure;
+    if (read_numbers(value, 7, numbers) != 7) {
+        return dip_option_refuse(err, DIP_ERROR_TYPE, row->name, value,
+                                 "a pose: seven numbers x y z qx qy qz qw in quotes, in the order "
+                                 "of a line of a .pth file");
+    }
+    memcpy(options->pose.position_world, numbers, sizeof options->pose.position_world);
+    memcpy(options->pose.orientation, numbers + 3, sizeof options->pose.orientation);
+    // The rules for a pose are those for the key of a path.
+    if (!dip_campath_create(&options->pose, 1, DIP_CAMPATH_MIN_PERIOD_NS, &path, &failure)) {
+        return dip_error_set(err, failure.code, NULL, 0, row->name, "%s: %s", failure.key,
+                             failure.message);
+    }
+    options->pose = dip_campath_key(path, 0);
+    dip_campath_destroy(&path);
+    options->has_pose = true;
+    return true;
+}
+
+#define PATH_END(name, text) " `" #name "` " text "."
+#define PATH_ENDS            DIP_CAMPATH_END_LIST(PATH_END)
+
+static bool read_path_end(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    DipSessionOptions *options = fields;
+    for (int i = 0; i < DIP_CAMPATH_END_COUNT; i++) {
+        if (strcmp(value, dip_campath_end_names[i]) == 0) {
+            options->path_end = (DipCamPathEnd)i;
+            return true;
+        }
+    }
+    return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, row->name,
+                         "'%.40s' is not the end of a path; give one of loop|once|back", value);
+}
+
+static const DipOptionRow scene_rows[] = {
+    {.name = "--config",
+     .argument = "FILE",
+     .text = "Read this ini file. Without the option, Diptych reads the ini of the courtyard, the "
+             "scene that comes with Diptych.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(config)},
+    {.name = "--model",
+     .argument = "FILE",
+     .text = "Draw this model instead of the ini's. Diptych reads every format that assimp reads. "
+             "Repeat the option to draw several files in one scene. The camera orbits the model "
+             "unless --path is given.",
+     .kind = DIP_OPTION_TEXTS,
+     .field = FIELD(models),
+     .count = FIELD(model_count),
+     .most = DIP_MAX_MODELS},
+    {.name = "--scene",
+     .argument = "NAME",
+     .text = "Show this scene of the gallery instead of models: model, shadow, prism, blend, "
+             "stencil, toon, dice, phone, quads, cubes, tunnel or water. `tour` shows all of them, "
+             "15 seconds each. `models` shows the ini's models even if the ini names a scene.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(scene)},
+    {.name = "--look",
+     .argument = "N",
+     .text = "Show the N-th variant of the gallery's scene, such as another resolution of the "
+             "shadow map. The first one is 1, which is also the default; docs/gallery.md lists "
+             "them.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_look},
+    {.name = "--up",
+     .argument = "AXIS",
+     .text = "The axis of the model files that points up:" UP_AXES " The default is auto.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_up},
+    {.name = "--shading",
+     .argument = "NAME",
+     .text = "Where the light of surfaces without a light map is computed." SHADINGS
+             " Without lights, flat, gouraud and phong shade the fixed light of sky and sun. "
+             "Without the option, the ini's SHADING decides; with --model, it is auto "
+             "(docs/models.md).",
+     .kind = DIP_OPTION_CUSTOM,
+     .given = FIELD(has_shading),
+     .read = read_shading},
+    {.name = "--import-seconds",
+     .argument = "N",
+     .text = "Refuse the models if reading them takes more than N seconds. The default is 120.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(import_seconds),
+     .least = 1,
+     .most = DIP_IMPORT_MAX_WALL_S},
+    {.name = "--force-all-effects",
+     .text = "Run every effect even where it cannot be seen. The picture stays the same and takes "
+             "longer to draw.",
+     .kind = DIP_OPTION_FLAG,
+     .field = FIELD(force_all_effects)},
+};
+
+static const DipOptionRow path_rows[] = {
+    {.name = "--path",
+     .argument = "FILE",
+     .text = "Fly this camera path (.pth or .bth) instead of the ini's. The field of view is the "
+             "ini's CAMPATH_DEFAULT_FOV. Instead of a file, FILE can be the name of a camera in a "
+             "glTF model (docs/models.md), which has its own field of view.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(path)},
+};
+
+static const DipOptionRow category_rows[] = {
+    {.name = "--category",
+     .argument = "NAME",
+     .text = "Fly this camera path of the ini: DEFAULT, AA, AF, AAA, MIPLOD, WATER, ... The ini "
+             "gives the file of the path NAME in its key CAMPATH_NAME.",
+     .kind = DIP_OPTION_TEXT,
+     .field = FIELD(category)},
+};
+
+static const DipOptionRow camera_rows[] = {
+    {.name = "--pose",
+     .argument = "POSE",
+     .text =
+         "Let the camera stand still at this pose: the seven numbers x y z qx qy qz qw, in quotes, "
+         "in the order of a line of a .pth file (docs/campaths.md). The position is in metres; the "
+         "quaternion rotates camera space to world space, so \"0 1.7 6 0 0 0 1\" looks along -Z.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_pose},
+    {.name = "--fov",
+     .argument = "DEGREES",
+     .text = "Vertical field of view of the camera, from 1 to 170 degrees, on every path. Without "
+             "the option, the ini decides.",
+     .kind = DIP_OPTION_NUMBER,
+     .field = FIELD(fov_y_deg),
+     .least = 1.0,
+     .most = 170.0,
+     .accepted = "an angle from 1 to 170 degrees"},
+    {.name = "--path-end",
+     .argument = "HOW",
+     .text = "What the camera does at the end of a path." PATH_ENDS
+             " The default is loop. Scenes of the gallery have loops of their own.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_path_end},
+};
+
+static const DipOptionRow pane_rows[] = {
+    {.name = "--current",
+     .argument = "SET",
+     .text = "Settings of the left pane, such as aa=none. Without the option, the ini decides.",
+     .kind = DIP_OPTION_SETTINGS,
+     .field = FIELD(current),
+     .given = FIELD(has_current)},
+    {.name = "--requested",
+     .argument = "SET",
+     .text = "Settings of the right pane, such as aa=4,af=16. Without the option, the ini decides.",
+     .kind = DIP_OPTION_SETTINGS,
+     .field = FIELD(requested),
+     .given = FIELD(has_requested)},
+    {.name = "--timing",
+     .text = "At the end, print how long starting and ending took, and the greatest amount of "
+             "memory that was in use.",
+     .kind = DIP_OPTION_FLAG,
+     .field = FIELD(timing)},
+};
+
+static const DipOptionRow size_rows[] = {
+    {.name = "--size",
+     .argument = "WxH",
+     .text =
+         "Size of one pane in pixels, such as 640x480. Without the option, the ini's RES decides.",
+     .kind = DIP_OPTION_SIZE,
+     .field = FIELD(size),
+     .given = FIELD(has_size)},
+    {.name = "--isa",
+     .argument = "NAME",
+     .text = "Draw with this instruction set: auto, scalar, sse2, avx2 or avx512. All of them draw "
+             "the same picture.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_isa},
+};
+
+static const DipOptionRow threads_rows[] = {
+    {.name = "--threads",
+     .argument = "N",
+     .text = "Draw with this many threads. 0, which is also the ini's default, stands for all "
+             "processors. The picture is the same with any number.",
+     .kind = DIP_OPTION_INTEGER,
+     .field = FIELD(threads),
+     .given = FIELD(has_threads),
+     .most = DIP_MAX_THREADS,
+     .accepted = "a number of threads from 1 to 256, or 0 for all processors"},
+};
+
+const DipOptionTable dip_scene_option_table = {scene_title, scene_rows,
+                                               DIP_ARRAY_COUNT(scene_rows)};
+const DipOptionTable dip_path_option_table = {scene_title, path_rows, DIP_ARRAY_COUNT(path_rows)};
+const DipOptionTable dip_category_option_table = {scene_title, category_rows,
+                                                  DIP_ARRAY_COUNT(category_rows)};
+const DipOptionTable dip_camera_option_table = {scene_title, camera_rows,
+                                                DIP_ARRAY_COUNT(camera_rows)};
+const DipOptionTable dip_pane_option_table = {drawing_title, pane_rows, DIP_ARRAY_COUNT(pane_rows)};
+const DipOptionTable dip_size_option_table = {drawing_title, size_rows, DIP_ARRAY_COUNT(size_rows)};
+const DipOptionTable dip_threads_option_table = {drawing_title, threads_rows,
+                                                 DIP_ARRAY_COUNT(threads_rows)};
+
+// Returns the option that also says where the camera is, or NULL.
+static const char *other_camera(const DipSessionOptions *options) {
+    return options->path ? "--path" : options->category ? "--category" : NULL;
+}
+
+bool dip_session_options_check(const DipSessionOptions *options, DipError *err) {
+    if (options->has_pose && other_camera(options)) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--pose",
+                             "says where the camera stands, but %s lets it fly; leave out one of "
+                             "the two options",
+                             other_camera(options));
+    }
+    if (options->scene && options->model_count) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--scene",
+                             "'%.40s' replaces the models, and so does --model; leave out one of "
+                             "the two options",
+                             options->scene);
+    }
+    if (options->look && options->model_count) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--look",
+                             "chooses a variant of a scene of the gallery, but --model replaces "
+                             "the scene; leave out one of the two options");
+    }
+    if (options->scene && options->category && strcmp(options->scene, "models") != 0) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--category",
+                             "'%.40s' names one of the ini's paths, but the scene '%.40s' has a "
+                             "path of its own; leave out one of the two options",
+                             options->category, options->scene);
+    }
+    if (options->category && (options->path || options->model_count)) {
+        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--category",
+                             "'%.40s' names one of the ini's paths, but the camera follows %s; "
+                             "leave out one of the two options",
+                             options->category,
+                             options->path ? "--path" : "an orbit around --model");
+    }
+    return true;
+}

@@ -1,0 +1,62 @@
+// The options that commands share because a session reads them: the scene, the camera, the panes.
+#ifndef DIP_APP_SESSION_SESSION_OPTIONS_H
+#define DIP_APP_SESSION_SESSION_OPTIONS_H
+
+#include "app/cli/options.h"
+#include "assets/model.h"
+#include "campaths/campath.h"
+#include "renderer/base/isa.h"
+#include "renderer/scene/quality.h"
+
+#include <stdbool.h>
+
+enum { DIP_MAX_MODELS = 64 };
+
+// Texts are borrowed from argv. A NULL text or a false has_... means that the option is not given.
+// In that case, the ini decides.
+typedef struct DipSessionOptions {
+    const char *config;
+    const char *models[DIP_MAX_MODELS];
+    int model_count;
+    DipUpAxis up; // Axis of the model files that points up.
+    bool has_shading;
+    DipModelShading shading; // Where the light of lit surfaces is computed.
+    int look;                // Variant of the gallery's scene, counted from 0.
+    const char *scene;  // Scene of the gallery to show, "tour", or "models" for the ini's models.
+    int import_seconds; // Longest time that importing the models may take, in seconds; 0: default.
+    bool force_all_effects;
+    const char *path;     // File of a camera path that replaces the ini's.
+    const char *category; // Which of the ini's paths to fly: "AA", ...
+    bool has_pose;
+    DipCamKey pose;   // Where the camera stands, instead of on a path.
+    double fov_y_deg; // Vertical field of view that replaces the others, in degrees; 0: not given.
+    DipCamPathEnd path_end; // What paths do at their end.
+    bool has_current;
+    DipQuality current;
+    bool has_requested;
+    DipQuality requested;
+    bool has_size;
+    DipOptionSize size; // Size of one pane.
+    bool has_threads;
+    int threads; // 0: all processors.
+    bool has_isa;
+    DipIsa isa;
+    bool timing; // At the end, print how long starting and ending took.
+} DipSessionOptions;
+
+// Tables of the options in this struct. Each command takes the tables that make sense for it.
+extern const DipOptionTable dip_scene_option_table;    // --config --model --up ...
+extern const DipOptionTable dip_path_option_table;     // --path
+extern const DipOptionTable dip_category_option_table; // --category
+extern const DipOptionTable dip_camera_option_table;   // --pose --fov --path-end
+extern const DipOptionTable dip_pane_option_table;     // --current --requested --timing
+extern const DipOptionTable dip_size_option_table;     // --size --isa
+extern const DipOptionTable dip_threads_option_table;  // --threads
+
+// Refuses options that exclude each other.
+bool dip_session_options_check(const DipSessionOptions *options, DipError *err);
+
+// Reads the name of an instruction set that this machine has, or "auto" for the best one.
+bool dip_option_isa(const DipOptionRow *row, const char *value, DipIsa *isa, DipError *err);
+
+#endif

@@ -1,0 +1,216 @@
+// Loading the models of a session and making its scene.
+#include "app/session/session_private.h"
+
+#include "assets/model.h"
+#include "renderer/base/srgb.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void set_colour(const DipConfigColor *colour, double scale, float lin[3]) {
+    for (int c = 0; c < 3; c++) {
+        lin[c] = (float)(scale * dip_srgb_decode(colour->rgb[c] / 255.0));
+    }
+}
+
+static DipSkyDef sky_of(const DipConfig *config) {
+    DipSkyDef sky = {
+        .layers = {{(float)config->sky_layer1_scale, config->sky_layer1_speed,
+                    (float)config->sky_layer1_perturbation},
+                   {(float)config->sky_layer2_scale, config->sky_layer2_speed,
+                    (float)config->sky_layer2_perturbation}},
+        .perturbation_scale = (float)config->sky_perturbation_scale,
+        .blend = (float)config->sky_blend,
+        .clear = (float)config->sky_clear,
+        .dense = (float)config->sky_dense,
+        .overcast = (float)config->sky_overcast,
+    };
+    set_colour(&config->sky_color, 1.0, sky.zenith_lin);
+    set_colour(&config->sky_horizon_color, 1.0, sky.horizon_lin);
+    set_colour(&config->sky_cloud_color, 1.0, sky.cloud_lin);
+    set_colour(&config->sky_glare_color, config->sky_glare, sky.glare_lin);
+    set_colour(&config->sky_tint, config->sky_brightness, sky.tint_lin);
+    return sky;
+}
+
+// True if some object has the material of a sky.
+static bool has_sky(const DipSceneDef *def) {
+    bool found = false;
+    for (int i = 0; i < def->object_count; i++) {
+        const int material = def->meshes[def->objects[i].mesh].material;
+        found |= def->materials[material].surface == DIP_SURFACE_SKY;
+    }
+    return found;
+}
+
+// Sets the background, the sky and the near plane. For the ini's models, all three come from the
+// ini. A model given with --model keeps its own. If this model has a sky, the colour of the sky's
+// horizon becomes the background and fills the gaps beside the sky.
+static void set_surroundings(const DipSession *session, DipSceneDef *def) {
+    if (session->options->model_count) {
+        if (has_sky(def)) {
+            memcpy(def->background_lin, def->sky.horizon_lin, sizeof def->background_lin);
+        }
+        return;
+    }
+    set_colour(&session->config.background, 1.0, def->background_lin);
+    def->near_m = (float)session->config.near_m;
+    def->sky = sky_of(&session->config);
+}
+
+// Returns the session's importer with the time limit of the command line.
+static DipImporter importer_of(const DipSession *session) {
+    DipImporter importer = session->importer ? *session->importer : (DipImporter){.wall_s = 0};
+    if (session->options->import_seconds > 0) {
+        importer.wall_s = session->options->import_seconds;
+    }
+    return importer;
+}
+
+// Adds the materials of a key of the ini to the rules.
+static int add_rules(const DipConfig *config, const DipConfigMaterials *materials,
+                     DipMaterialMark mark, DipMaterialRule *rules, int count) {
+    for (size_t i = 0; i < materials->count; i++) {
+        const DipConfigMaterial *material = &materials->items[i];
+        rules[count++] = (DipMaterialRule){.mark = mark,
+                                           .pattern = material->pattern,
+                                           .light_map = material->light_map.path,
+                                           .file = config->file,
+                                           .line = material->line,
+                                           .key = dip_config_key_name(material->key)};
+    }
+    return count;
+}
+
+static int compare_lines(const void *a, const void *b) {
+    return ((const DipMaterialRule *)a)->line - ((const DipMaterialRule *)b)->line;
+}
+
+// Collects the MATERIAL_ keys of the ini in the order of their lines, because a later rule outranks
+// an earlier one. Returns the number of rules.
+static int rules_of(const DipConfig *config, DipMaterialRule rules[DIP_MAX_MATERIAL_RULES]) {
+    const struct {
+        const DipConfigMaterials *materials;
+        DipMaterialMark mark;
+    } keys[] = {{&config->material_solid, DIP_MARK_SOLID},
+                {&config->material_clip, DIP_MARK_CLIP},
+                {&config->material_glass, DIP_MARK_GLASS},
+                {&config->material_water, DIP_MARK_WATER},
+                {&config->material_sky, DIP_MARK_SKY},
+                {&config->material_lightmap, DIP_MARK_LIGHT_MAP}};
+    _Static_assert(sizeof keys / sizeof *keys * DIP_CONFIG_MAX_MATERIALS <= DIP_MAX_MATERIAL_RULES,
+                   "every key fits");
+    int count = 0;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        count = add_rules(config, keys[i].materials, keys[i].mark, rules, count);
+    }
+    qsort(rules, (size_t)count, sizeof *rules, compare_lines);
+    return count;
+}
+
+_Static_assert((int)DIP_CONFIG_SHADING_COUNT == (int)DIP_MODEL_SHADING_COUNT &&
+                   (int)DIP_CONFIG_SHADING_flat == (int)DIP_MODEL_SHADING_flat &&
+                   (int)DIP_CONFIG_SHADING_gouraud == (int)DIP_MODEL_SHADING_gouraud &&
+                   (int)DIP_CONFIG_SHADING_phong == (int)DIP_MODEL_SHADING_phong,
+               "the ini and the loader have the same shadings");
+
+// Sets how the models are lit. A model given with --model has no lights but its own.
+static void set_light(const DipSession *session, float ambient_lin[3], DipModelOptions *options) {
+    const DipConfig *config = &session->config;
+    if (!session->options->model_count) {
+        set_colour(&config->ambient, 1.0, ambient_lin);
+        options->ambient_lin = ambient_lin;
+        options->lights = config->light.items;
+        options->light_count = (int)config->light.count;
+        options->has_light_scale = !config->light_scale.automatic;
+        options->light_scale = config->light_scale.factor;
+        options->shading = (DipModelShading)config->shading;
+    }
+    if (session->options->has_shading) {
+        options->shading = session->options->shading;
+    }
+}
+
+static DipModel *load_model(const DipSession *session, DipErrorList *faults, DipSceneDef *def,
+                            DipError *err) {
+    const char *files[DIP_MAX_MODELS];
+    int count = session->options->model_count;
+    for (int i = 0; i < count; i++) {
+        files[i] = session->options->models[i];
+    }
+    const DipConfigFiles *named = &session->config.xfile;
+    for (size_t i = 0; !session->options->model_count && i < named->count; i++) {
+        files[count++] = named->items[i].path;
+    }
+    const DipImporter importer = importer_of(session);
+    DipMaterialRule rules[DIP_MAX_MATERIAL_RULES];
+    const int rule_count =
+        count > session->options->model_count ? rules_of(&session->config, rules) : 0;
+    DipModelOptions options = {.normal_maps = true,
+                               .up = session->options->up,
+                               .rules = rules,
+                               .rule_count = rule_count,
+                               .importer = session->importer ? &importer : NULL};
+    float ambient_lin[3];
+    set_light(session, ambient_lin, &options);
+    DipModel *model = dip_model_load_with(files, count, &options, session->pool, faults, err);
+    if (model) {
+        *def = *dip_model_scene_def(model);
+        set_surroundings(session, def);
+    }
+    return model;
+}
+
+const char *dip_session_scene_file(const DipSession *session) {
+    if (session->shows_gallery) {
+        return session->gallery_scene == DIP_GALLERY_TOUR
+                   ? "tour"
+                   : dip_gallery_info(session->gallery_scene)->name;
+    }
+    return session->options->model_count ? session->options->models[0]
+           : session->config.xfile.count ? session->config.xfile.items[0].path
+                                         : "";
+}
+
+bool dip_session_keep_model(DipSession *session, DipError *err) {
+    if (session->shows_gallery) {
+        return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--scene",
+                             "a scene of the gallery has no models that the reference renderer "
+                             "could draw");
+    }
+    if (!session->model) {
+        DipErrorList warnings = {0}; // The first load has already reported these warnings.
+        session->model = load_model(session, &warnings, &session->scene_def, err);
+        dip_error_list_free(&warnings);
+    }
+    return session->model != NULL;
+}
+
+bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *faults) {
+    DipError err = {0};
+    DipSceneDef def;
+    DipModel *model = load_model(session, faults, &def, &err);
+    if (model) {
+        session->scene = dip_scene_create(&def, session->pool, &err);
+        session->times.import_ms = dip_model_times(model).import_ms;
+        session->times.pictures_ms = dip_model_times(model).pictures_ms;
+        if (session->scene && keep_model) {
+            session->model = model;
+            session->scene_def = def;
+        } else {
+            dip_model_destroy(&model);
+        }
+    }
+    if (session->scene) {
+        session->times.textures_ms = dip_scene_times(session->scene).textures_ms;
+        session->times.meshes_ms = dip_scene_times(session->scene).meshes_ms;
+        return true;
+    }
+    const DipConfigFiles *named = &session->config.xfile;
+    for (size_t i = 0; !session->options->model_count && i < named->count; i++) {
+        if (strcmp(err.file, named->items[i].path) == 0) {
+            return dip_session_place_fault(session, &named->items[i], faults, &err);
+        }
+    }
+    return dip_session_add_fault(faults, &err);
+}

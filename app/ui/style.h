@@ -1,0 +1,46 @@
+// Colours of the overlay, and the arithmetic of laying it out.
+#ifndef DIP_APP_UI_STYLE_H
+#define DIP_APP_UI_STYLE_H
+
+#include "app/canvas/pixels.h"
+
+static const DipColour dip_style_background = {10, 11, 14, 255};
+static const DipColour dip_style_white = {255, 255, 255, 255}; // Text: titles and values.
+static const DipColour dip_style_soft = {196, 202, 210, 255};  // Text: names and notes.
+static const DipColour dip_style_accent = {255, 190, 92, 255}; // Highlights and the edited pane.
+static const DipColour dip_style_strip = {12, 14, 18, 168};    // Background of labels.
+static const DipColour dip_style_status = {12, 14, 18, 150};   // Background of the status line.
+static const DipColour dip_style_panel = {12, 14, 18, 190};    // Background of the panel.
+static const DipColour dip_style_sheet = {14, 16, 21, 252};    // Background of the sheets.
+static const DipColour dip_style_shade = {0, 0, 0, 90};        // Darkens the window around a sheet.
+
+static const DipColour dip_style_dock = {20, 22, 26, 255};
+static const DipColour dip_style_bar = {27, 30, 36, 255};      // Background of the dock's bar.
+static const DipColour dip_style_raised = {32, 36, 43, 255};   // Buttons and steps.
+static const DipColour dip_style_line = {51, 58, 68, 255};     // Lines and outlines.
+static const DipColour dip_style_well = {12, 14, 17, 255};     // Background of plots.
+static const DipColour dip_style_glass = {10, 12, 15, 199};    // Background of labels on pictures.
+static const DipColour dip_style_dim = {152, 162, 174, 255};   // Notes on the dock.
+static const DipColour dip_style_off = {139, 149, 162, 255};   // Disabled words.
+static const DipColour dip_style_switch = {64, 72, 84, 255};   // A switch that is off.
+static const DipColour dip_style_over = {74, 42, 42, 255};     // What is over a budget, in plots.
+static const DipColour dip_style_gain = {95, 214, 189, 255};   // Less error.
+static const DipColour dip_style_worse = {255, 154, 139, 255}; // More error.
+static const DipColour dip_style_focus = {109, 184, 255, 255}; // Ring of the control with focus.
+static const DipColour dip_style_on_accent = {26, 18, 6, 255}; // Text on the accent.
+
+static inline int dip_style_min(int a, int b) {
+    return a < b ? a : b;
+}
+
+static inline int dip_style_max(int a, int b) {
+    return a > b ? a : b;
+}
+
+// Converts a length in pixels of a display with scale 1 to whole pixels of a display with the given
+// scale.
+static inline int dip_style_scaled(int length, double scale) {
+    return (int)(scale * length + 0.5);
+}
+
+#endif

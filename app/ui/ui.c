@@ -1,0 +1,200 @@
+// Hit testing, focus, tips, and drawing of controls.
+#include "app/ui/style.h"
+#include "app/ui/ui_private.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+DipUi *dip_ui_create(DipError *err) {
+    DipUi *ui = calloc(1, sizeof *ui);
+    if (!ui) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
+    }
+    return ui;
+}
+
+void dip_ui_destroy(DipUi **ui) {
+    free(*ui);
+    *ui = NULL;
+}
+
+static bool is_mouse(const DipEvent *event) {
+    return event->kind == DIP_EVENT_MOUSE_MOVE || event->kind == DIP_EVENT_MOUSE_DOWN ||
+           event->kind == DIP_EVENT_MOUSE_UP || event->kind == DIP_EVENT_MOUSE_WHEEL;
+}
+
+// Returns the topmost control of the last pass under the pointer. Later controls lie above earlier
+// ones.
+static DipUiId find_under(const DipUi *ui) {
+    for (int i = ui->before_count - 1; ui->pointer_inside && i >= 0; --i) {
+        if (dip_rect_holds(ui->before[i].rect, ui->pointer_x, ui->pointer_y)) {
+            return ui->before[i].id;
+        }
+    }
+    return 0;
+}
+
+void dip_ui_begin(DipUi *ui, const DipUiPass *pass) {
+    ui->pass = *pass;
+    ui->taken = false;
+    memcpy(ui->before, ui->placed, (size_t)ui->placed_count * sizeof ui->placed[0]);
+    ui->before_count = ui->placed_count;
+    ui->placed_count = 0;
+    ui->tip[0] = '\0';
+    if (pass->event && is_mouse(pass->event)) {
+        ui->pointer_x = pass->event->x;
+        ui->pointer_y = pass->event->y;
+        ui->pointer_inside = true;
+    }
+    ui->under = find_under(ui);
+}
+
+// --- controls ----------------------------------------------------------------------------------
+
+static void press_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *input) {
+    const DipEvent *event = ui->pass.event;
+    ui->held = control->id;
+    ui->held_button = event->button;
+    ui->focus = control->skips_focus ? ui->focus : control->id;
+    ui->focus_shows = false;
+    input->held = true;
+    input->button = event->button;
+    input->began = event->button == DIP_MOUSE_LEFT;
+    input->right = event->button == DIP_MOUSE_RIGHT;
+    input->clicks = event->clicks;
+    ui->taken = true;
+}
+
+// Returns the whole steps of a wheel that have come together. Touch pads send parts of steps.
+static int wheel_steps(DipUi *ui, double turned) {
+    if (turned * ui->wheel_rest < 0.0) {
+        ui->wheel_rest = 0.0;
+    }
+    ui->wheel_rest += turned;
+    const double limited = ui->wheel_rest > 16.0    ? 16.0
+                           : ui->wheel_rest < -16.0 ? -16.0
+                                                    : ui->wheel_rest;
+    const int steps = (int)limited;
+    ui->wheel_rest = limited - steps;
+    return steps;
+}
+
+static void take_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *input) {
+    const DipEvent *event = ui->pass.event;
+    const bool held = ui->held == control->id;
+    switch (event->kind) {
+    case DIP_EVENT_MOUSE_DOWN:
+        if (input->hovered && !ui->held) {
+            press_mouse(ui, control, input);
+        }
+        break;
+    case DIP_EVENT_MOUSE_UP:
+        if (held && event->button == ui->held_button) {
+            input->released = true;
+            input->pressed = input->hovered && event->button == DIP_MOUSE_LEFT;
+            ui->taken = true;
+        }
+        break;
+    case DIP_EVENT_MOUSE_MOVE:
+        input->moved = held || input->hovered;
+        ui->taken = ui->taken || held;
+        break;
+    case DIP_EVENT_MOUSE_WHEEL:
+        if (input->hovered && control->takes_wheel) {
+            input->steps = wheel_steps(ui, event->wheel_y);
+            ui->taken = true;
+        }
+        break;
+    default:
+        break;
+    }
+}
+
+static bool is_plain_key(const DipEvent *event) {
+    return event->kind == DIP_EVENT_KEY_DOWN && !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT);
+}
+
+static void take_key(DipUi *ui, const DipUiControl *control, DipUiInput *input) {
+    const DipEvent *event = ui->pass.event;
+    if (!is_plain_key(event) || ui->focus != control->id || !ui->focus_shows) {
+        return;
+    }
+    bool taken = true;
+    if (event->key == DIP_KEYCODE_ENTER || event->key == DIP_KEYCODE_SPACE) {
+        input->pressed = !event->repeat;
+    } else if (control->takes_arrows && event->key == DIP_KEYCODE_LEFT) {
+        input->steps = -1;
+    } else if (control->takes_arrows && event->key == DIP_KEYCODE_RIGHT) {
+        input->steps = 1;
+    } else if (control->takes_arrows && event->key == DIP_KEYCODE_HOME) {
+        input->to_first = true;
+    } else if (control->takes_arrows && event->key == DIP_KEYCODE_END) {
+        input->to_last = true;
+    } else {
+        taken = false;
+    }
+    ui->taken = ui->taken || taken;
+}
+
+static void place(DipUi *ui, const DipUiControl *control) {
+    if (ui->placed_count < DIP_UI_MAX_CONTROLS) {
+        ui->placed[ui->placed_count++] =
+            (DipUiPlaced){control->id, control->rect, !control->skips_focus && !control->disabled};
+    }
+}
+
+DipUiInput dip_ui_control(DipUi *ui, const DipUiControl *control) {
+    DipUiInput input = {.x = ui->pointer_x, .y = ui->pointer_y};
+    const bool over = ui->under == control->id;
+    if (over) {
+        ui->tip_rect = control->rect;
+        snprintf(ui->tip, sizeof ui->tip, "%s", control->tip ? control->tip : "");
+    }
+    place(ui, control);
+    input.hovered = over && (ui->held == 0 || ui->held == control->id);
+    input.held = ui->held == control->id;
+    input.button = ui->held_button;
+    input.focused = ui->focus == control->id && ui->focus_shows;
+    if (!ui->pass.event) {
+        return input;
+    }
+    input.modifiers = ui->pass.event->modifiers;
+    if (control->disabled) {
+        ui->taken = ui->taken || (over && ui->pass.event->kind == DIP_EVENT_MOUSE_DOWN);
+    } else if (is_mouse(ui->pass.event) && !ui->taken) {
+        take_mouse(ui, control, &input);
+    } else {
+        take_key(ui, control, &input);
+    }
+    return input;
+}
+
+bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiLook look,
+                   const char *tip) {
+    const DipUiControl control = {
+        .id = id, .rect = rect, .tip = tip, .disabled = look == DIP_UI_OFF};
+    const DipUiInput input = dip_ui_control(ui, &control);
+    const int radius = dip_ui_px(ui, 4);
+    int size = 13;
+    while (size > 9 && dip_ui_text_width(ui, size, text) > rect.width - dip_ui_px(ui, 6)) {
+        --size;
+    }
+    if (look == DIP_UI_PRIMARY) {
+        dip_ui_fill_round(ui, rect, radius, dip_style_accent);
+    } else {
+        dip_ui_fill_round(ui, rect, radius, dip_style_raised);
+        dip_ui_outline(ui, rect, radius, dip_ui_px(ui, 1),
+                       look == DIP_UI_CHOSEN || (input.hovered && look != DIP_UI_OFF)
+                           ? dip_style_white
+                           : dip_style_line);
+    }
+    dip_ui_text(ui, size,
+                look == DIP_UI_PRIMARY ? dip_style_on_accent
+                : look == DIP_UI_OFF   ? dip_style_dim
+                                       : dip_style_white,
+                DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
+                rect.y + (rect.height - dip_ui_line_height(ui, size)) / 2, rect.width, text);
+    dip_ui_focus_ring(ui, rect, radius, &input);
+    return input.pressed;
+}

@@ -1,0 +1,165 @@
+// Controls for mouse and keyboard, in immediate mode.
+//
+// The caller declares every control anew in each pass, in the order in which the Tab key visits
+// them. There are two kinds of passes over the same code:
+//
+// - An event pass hands one event to the controls. Nothing is drawn. The function of the control
+//   that the event concerns returns what the user did, and the caller changes its state at once.
+// - A drawing pass records the controls into a draw list. No control reports any input.
+//
+// A pass finds the topmost control under the pointer by the rectangles of the pass before it. The
+// caller therefore runs a pass without event and draw list first if the controls may have moved.
+//
+// Therefore no control keeps a copy of the value that it shows, and code that declares a control
+// decides in one place how it looks and what it does:
+//
+//     if (dip_ui_button(ui, ID_APPLY, rect, "Apply", DIP_UI_PRIMARY)) { ... }
+//
+// All coordinates are pixels of the window's picture. Lengths that are given for scale 1 become
+// pixels by dip_ui_px. One DipUi must not be used by two threads at the same time.
+#ifndef DIP_APP_UI_UI_H
+#define DIP_APP_UI_UI_H
+
+#include "app/canvas/draw_list.h"
+#include "app/display/display.h"
+
+// Names a control from one pass to the next. Ids are unique within a pass and are not 0. Code that
+// declares controls takes them from its own range, which DIP_UI_ID makes from the enumerator of a
+// DipUiGroup and an index below 65536.
+typedef unsigned DipUiId;
+#define DIP_UI_ID(group, index) (((unsigned)(group) + 1) << 16 | (unsigned)(index))
+typedef enum DipUiGroup {
+    DIP_UI_PANES,    // The two pictures.
+    DIP_UI_BAR,      // The dock's tabs and its time line.
+    DIP_UI_SETTINGS, // Settings, presets, Apply.
+    DIP_UI_LOUPE,
+    DIP_UI_COMPARE,
+    DIP_UI_MAPS,
+    DIP_UI_ADVICE,
+    DIP_UI_TIMES,
+    DIP_UI_HELP,
+    DIP_UI_PATH
+} DipUiGroup;
+
+typedef struct DipUi DipUi;
+
+// What the preview's font and clock say in this pass.
+typedef struct DipUiPass {
+    DipFont *font;         // Borrowed for the pass.
+    double scale;          // The display's scale times that of --ui-scale.
+    int64_t now_ns;        // Time on the display's clock.
+    DipDrawList *list;     // Where controls are recorded; NULL in an event pass. Borrowed.
+    const DipEvent *event; // The event of an event pass; NULL in a drawing pass. Borrowed.
+} DipUiPass;
+
+DipUi *dip_ui_create(DipError *err);
+void dip_ui_destroy(DipUi **ui);
+
+void dip_ui_begin(DipUi *ui, const DipUiPass *pass);
+
+// Ends the pass. After an event pass, returns whether a control took the event; then the event must
+// not do anything else. Tab and Shift+Tab move the focus, and so do arrow keys that the control
+// with the focus does not take. In a drawing pass, draws the tip of the control under the pointer
+// above everything else, and returns false.
+bool dip_ui_end(DipUi *ui);
+
+// Returns the time at which the window must be drawn again although nothing happens, because a tip
+// appears, or INT64_MAX.
+int64_t dip_ui_wakes_ns(const DipUi *ui);
+
+// Takes the focus from all controls, so that keys act on the preview again.
+void dip_ui_blur(DipUi *ui);
+
+// The id of the control with the focus, or 0. The focus is visible only after Tab or arrow keys.
+DipUiId dip_ui_focus(const DipUi *ui);
+
+// --- controls ----------------------------------------------------------------------------------
+
+typedef struct DipUiControl {
+    DipUiId id;
+    DipRect rect;      // Where the control takes the mouse.
+    const char *tip;   // Text that explains the control while the pointer rests on it; may be NULL.
+                       // Copied. Several lines are separated by '\n'.
+    bool disabled;     // The control takes no input. It still shows its tip, which says why.
+    bool skips_focus;  // Tab passes the control over.
+    bool takes_arrows; // Left and Right change the control while it has the focus.
+    bool takes_wheel;
+} DipUiControl;
+
+// What the user did with a control in this event pass, and how to draw it in a drawing pass.
+typedef struct DipUiInput {
+    bool hovered;  // The pointer is over the control.
+    bool focused;  // The control has the focus and shows it: draw a ring.
+    bool held;     // A mouse button that was pressed over the control is still down.
+    bool pressed;  // The left button was released over the control, or Enter or Space was pressed.
+    bool began;    // A mouse button was pressed over the control.
+    bool moved;    // The pointer moved over the control, or is dragged from it.
+    bool right;    // The right button was pressed over the control.
+    bool released; // The mouse button that was held is up again, wherever the pointer is.
+    DipMouseButton button; // With `held` and `released`: the button.
+    int clicks;            // With `began`: 2 for the second press of a double click.
+    int steps;     // Steps by wheel (away from the user is +1) or by arrow keys (right is +1).
+    bool to_first; // Home was pressed.
+    bool to_last;  // End was pressed.
+    int x;         // Where the pointer is.
+    int y;
+    unsigned modifiers; // DIP_MODIFIER_... bits of the event.
+} DipUiInput;
+
+// Declares a control that the caller draws by itself.
+DipUiInput dip_ui_control(DipUi *ui, const DipUiControl *control);
+
+typedef enum DipUiLook {
+    DIP_UI_PLAIN,
+    DIP_UI_PRIMARY, // The one button that carries a change out: filled with the accent.
+    DIP_UI_CHOSEN,  // One of several alternatives, and the one that holds.
+    DIP_UI_OFF      // Disabled. The tip says why.
+} DipUiLook;
+
+// A button with a text in its middle. Returns true when it is pressed.
+bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiLook look,
+                   const char *tip);
+
+// --- drawing -----------------------------------------------------------------------------------
+// In an event pass, these functions do nothing.
+
+bool dip_ui_is_drawing(const DipUi *ui);
+DipDrawList *dip_ui_list(const DipUi *ui); // NULL in an event pass.
+DipFont *dip_ui_font(const DipUi *ui);
+double dip_ui_scale(const DipUi *ui);
+int64_t dip_ui_now_ns(const DipUi *ui);
+
+// Where the pointer was last seen, in pixels of the window.
+int dip_ui_pointer_x(const DipUi *ui);
+int dip_ui_pointer_y(const DipUi *ui);
+
+// Converts a length at scale 1 to pixels.
+int dip_ui_px(const DipUi *ui, int length);
+
+void dip_ui_fill(DipUi *ui, DipRect rect, DipColour colour);
+
+// Fills a rectangle with rounded corners. radius: in pixels; at most half of the shorter side
+// counts.
+void dip_ui_fill_round(DipUi *ui, DipRect rect, int radius, DipColour colour);
+
+// Draws the outline of a rectangle with rounded corners, `width` pixels wide, inside the rectangle.
+void dip_ui_outline(DipUi *ui, DipRect rect, int radius, int width, DipColour colour);
+
+// Draws the ring that shows the keyboard's focus around a rectangle, if the control has the focus.
+void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *input);
+
+// Shows a line of text, `size` at scale 1. See dip_draw_list_text.
+void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, int y, int max_width,
+                 const char *line);
+
+// Shows a text in lines that are as wide as `room`; '\n' breaks a line, too. Lines that do not fit
+// are left out. Returns the height of the lines in pixels.
+int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text);
+
+// Returns the width and height of a line of text in pixels; both passes give the same.
+int dip_ui_text_width(const DipUi *ui, int size, const char *line);
+int dip_ui_line_height(const DipUi *ui, int size);
+
+void dip_ui_picture(DipUi *ui, DipRect rect, const DipPixels *picture, uint64_t version);
+
+#endif

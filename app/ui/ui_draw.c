@@ -1,0 +1,297 @@
+// Drawing of the user interface: what a drawing pass records, and the tip.
+#include "app/ui/style.h"
+#include "app/ui/ui_private.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TIP_SIZE = 12, TIP_PAD = 8, TIP_WIDTH = 340, TIP_MAX_LINES = 10 };
+static const int64_t tip_delay_ns = 400000000;
+static const DipColour tip_ground = {32, 36, 43, 255};
+static const DipColour tip_line = {98, 108, 122, 255};
+
+bool dip_ui_is_drawing(const DipUi *ui) {
+    return ui->pass.list != NULL;
+}
+
+DipDrawList *dip_ui_list(const DipUi *ui) {
+    return ui->pass.list;
+}
+
+DipFont *dip_ui_font(const DipUi *ui) {
+    return ui->pass.font;
+}
+
+double dip_ui_scale(const DipUi *ui) {
+    return ui->pass.scale;
+}
+
+int64_t dip_ui_now_ns(const DipUi *ui) {
+    return ui->pass.now_ns;
+}
+
+int dip_ui_pointer_x(const DipUi *ui) {
+    return ui->pointer_x;
+}
+
+int dip_ui_pointer_y(const DipUi *ui) {
+    return ui->pointer_y;
+}
+
+int dip_ui_px(const DipUi *ui, int length) {
+    const int pixels = dip_style_scaled(length, ui->pass.scale);
+    return pixels > 0 || length <= 0 ? pixels : 1;
+}
+
+void dip_ui_fill(DipUi *ui, DipRect rect, DipColour colour) {
+    if (ui->pass.list) {
+        dip_draw_list_fill(ui->pass.list, rect, colour);
+    }
+}
+
+void dip_ui_fill_round(DipUi *ui, DipRect rect, int radius, DipColour colour) {
+    if (ui->pass.list) {
+        dip_draw_list_round(ui->pass.list, rect, radius, 0, colour);
+    }
+}
+
+void dip_ui_outline(DipUi *ui, DipRect rect, int radius, int width, DipColour colour) {
+    if (ui->pass.list) {
+        dip_draw_list_round(ui->pass.list, rect, radius, dip_style_max(1, width), colour);
+    }
+}
+
+void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *input) {
+    const int width = dip_ui_px(ui, 2);
+    const int away = 2 * width;
+    if (input->focused) {
+        dip_ui_outline(
+            ui,
+            (DipRect){rect.x - away, rect.y - away, rect.width + 2 * away, rect.height + 2 * away},
+            radius + away, width, dip_style_focus);
+    }
+}
+
+void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, int y, int max_width,
+                 const char *line) {
+    if (ui->pass.list) {
+        dip_draw_list_text(ui->pass.list, dip_ui_px(ui, size), colour, align, x, y, max_width,
+                           line);
+    }
+}
+
+int dip_ui_text_width(const DipUi *ui, int size, const char *line) {
+    return dip_font_width(ui->pass.font, dip_ui_px(ui, size), line);
+}
+
+int dip_ui_line_height(const DipUi *ui, int size) {
+    return dip_font_line_height(ui->pass.font, dip_ui_px(ui, size));
+}
+
+void dip_ui_picture(DipUi *ui, DipRect rect, const DipPixels *picture, uint64_t version) {
+    if (ui->pass.list) {
+        dip_draw_list_picture(ui->pass.list, rect, picture, version);
+    }
+}
+
+// --- the tip -------------------------------------------------------------------------------------
+
+// Breaks a text into lines that are at most `width` pixels wide. '\n' breaks a line, too. Returns
+// the number of lines; what does not fit in TIP_MAX_LINES lines is left out.
+static int break_lines(const DipUi *ui, int size, const char *text, int width,
+                       char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES]) {
+    int count = 0;
+    while (*text && count < TIP_MAX_LINES) {
+        char *line = lines[count];
+        size_t length = 0;
+        size_t fitting = 0; // Length up to the last blank at which the line still fits.
+        while (text[length] && text[length] != '\n') {
+            length++;
+            if (text[length] == ' ' || text[length] == '\0' || text[length] == '\n') {
+                snprintf(line, DIP_UI_TIP_BYTES, "%.*s", (int)length, text);
+                if (fitting && dip_ui_text_width(ui, size, line) > width) {
+                    break;
+                }
+                fitting = length;
+            }
+        }
+        snprintf(line, DIP_UI_TIP_BYTES, "%.*s", (int)fitting, text);
+        text += fitting;
+        text += *text == ' ' || *text == '\n';
+        count++;
+    }
+    return count;
+}
+
+int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text) {
+    char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
+    const int line_height = dip_ui_line_height(ui, size);
+    const int fitting = dip_style_min(TIP_MAX_LINES, room.height / line_height);
+    int count = break_lines(ui, size, text, room.width, lines);
+    count = dip_style_min(count, fitting);
+    for (int i = 0; i < count; ++i) {
+        dip_ui_text(ui, size, colour, DIP_ALIGN_LEFT, room.x, room.y + i * line_height, room.width,
+                    lines[i]);
+    }
+    return count * line_height;
+}
+
+static bool shows_tip(const DipUi *ui) {
+    return ui->tip[0] && !ui->held && !ui->tip_hidden &&
+           ui->pass.now_ns >= ui->hovered_ns + tip_delay_ns;
+}
+
+// Draws the tip beneath its control, or above it where the window ends.
+static void draw_tip(DipUi *ui) {
+    char lines[TIP_MAX_LINES][DIP_UI_TIP_BYTES];
+    const int count = break_lines(
+        ui, TIP_SIZE, ui->tip,
+        dip_style_min(dip_ui_px(ui, TIP_WIDTH), dip_draw_list_width(ui->pass.list) - 2 * TIP_PAD),
+        lines);
+    const int pad = dip_ui_px(ui, TIP_PAD);
+    const int line_height = dip_ui_line_height(ui, TIP_SIZE);
+    const int window_width = dip_draw_list_width(ui->pass.list);
+    const int window_height = dip_draw_list_height(ui->pass.list);
+    int width = 0;
+    for (int i = 0; i < count; i++) {
+        width = dip_style_max(width, dip_ui_text_width(ui, TIP_SIZE, lines[i]));
+    }
+    DipRect box = {ui->tip_rect.x, ui->tip_rect.y + ui->tip_rect.height + pad / 2, width + 2 * pad,
+                   count * line_height + 2 * pad};
+    if (box.y + box.height > window_height) {
+        box.y = ui->tip_rect.y - pad / 2 - box.height;
+    }
+    box.x = dip_style_max(0, dip_style_min(box.x, window_width - box.width));
+    box.y = dip_style_max(0, box.y);
+    dip_ui_fill_round(ui, box, dip_ui_px(ui, 4), tip_ground);
+    dip_ui_outline(ui, box, dip_ui_px(ui, 4), 1, tip_line);
+    for (int i = 0; i < count; i++) {
+        dip_ui_text(ui, TIP_SIZE, dip_style_white, DIP_ALIGN_LEFT, box.x + pad,
+                    box.y + pad + i * line_height, width + pad, lines[i]);
+    }
+}
+
+// --- the end of a pass -------------------------------------------------------------------------
+
+// Moves the focus to the next control in the order of their declaration, in a ring.
+static void move_focus(DipUi *ui, bool backwards) {
+    int at = -1;
+    for (int i = 0; i < ui->placed_count; ++i) {
+        at = ui->placed[i].id == ui->focus ? i : at;
+    }
+    const int count = ui->placed_count;
+    for (int i = 1; i <= count; ++i) {
+        const int first = at < 0 && backwards ? 0 : at;
+        const int next = (first + (backwards ? -i : i) + 2 * count) % count;
+        if (ui->placed[next].focusable) {
+            ui->focus = ui->placed[next].id;
+            ui->focus_shows = true;
+            return;
+        }
+    }
+}
+
+// Returns how far `to` lies from `from` in a direction (one of dx, dy is 1 or -1, the other 0), or
+// -1 if it does not lie there. Controls that lie straight ahead are nearer than others.
+static int64_t distance_towards(DipRect from, DipRect to, int dx, int dy) {
+    const int64_t x = 2 * (int64_t)(to.x - from.x) + to.width - from.width;
+    const int64_t y = 2 * (int64_t)(to.y - from.y) + to.height - from.height;
+    const int64_t ahead = x * dx + y * dy;
+    const int64_t aside = llabs(x * dy + y * dx);
+    const int reach = dx ? from.width : from.height;
+    return ahead >= reach ? ahead + 2 * aside : -1;
+}
+
+static void move_focus_towards(DipUi *ui, int dx, int dy) {
+    const DipUiPlaced *from = NULL;
+    const DipUiPlaced *best = NULL;
+    int64_t least = INT64_MAX;
+    for (int i = 0; i < ui->placed_count; ++i) {
+        from = ui->placed[i].id == ui->focus ? &ui->placed[i] : from;
+    }
+    for (int i = 0; from && i < ui->placed_count; ++i) {
+        const int64_t distance = distance_towards(from->rect, ui->placed[i].rect, dx, dy);
+        if (ui->placed[i].focusable && distance >= 0 && distance < least) {
+            least = distance;
+            best = &ui->placed[i];
+        }
+    }
+    ui->focus = best ? best->id : ui->focus;
+}
+
+// Moves the focus by a key that no control took. Returns whether the key is one of those.
+static bool move_focus_by_key(DipUi *ui, const DipEvent *event) {
+    const bool plain = !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT);
+    if (event->kind != DIP_EVENT_KEY_DOWN || !plain) {
+        return false;
+    }
+    if (event->key == DIP_KEYCODE_TAB) {
+        move_focus(ui, event->modifiers & DIP_MODIFIER_SHIFT);
+        return true;
+    }
+    static const struct {
+        DipKeycode key;
+        int dx, dy;
+    } arrows[] = {{DIP_KEYCODE_LEFT, -1, 0},
+                  {DIP_KEYCODE_RIGHT, 1, 0},
+                  {DIP_KEYCODE_UP, 0, -1},
+                  {DIP_KEYCODE_DOWN, 0, 1}};
+    for (int i = 0; ui->focus_shows && i < 4; ++i) {
+        if (event->key == arrows[i].key) {
+            move_focus_towards(ui, arrows[i].dx, arrows[i].dy);
+            return true;
+        }
+    }
+    return false;
+}
+
+// Forgets a focus whose control is gone, so that keys do not go to a control that nobody sees.
+static void drop_lost_focus(DipUi *ui) {
+    bool found = false;
+    for (int i = 0; i < ui->placed_count; ++i) {
+        found |= ui->placed[i].id == ui->focus && ui->placed[i].focusable;
+    }
+    ui->focus_shows = ui->focus_shows && found;
+}
+
+bool dip_ui_end(DipUi *ui) {
+    const DipEvent *event = ui->pass.event;
+    if (ui->under != ui->hovered) {
+        ui->hovered = ui->under;
+        ui->hovered_ns = ui->pass.now_ns;
+        ui->tip_seen = ui->tip_hidden = false;
+    }
+    drop_lost_focus(ui);
+    if (event && event->kind == DIP_EVENT_MOUSE_UP && event->button == ui->held_button) {
+        ui->held = 0;
+    }
+    if (event && !ui->taken && move_focus_by_key(ui, event)) {
+        ui->taken = true;
+    }
+    if (event && event->kind == DIP_EVENT_KEY_DOWN && event->key == DIP_KEYCODE_ESCAPE &&
+        shows_tip(ui)) {
+        ui->tip_hidden = ui->taken = true;
+    }
+    ui->tip_hidden |= event && event->kind == DIP_EVENT_MOUSE_DOWN;
+    if (ui->pass.list && shows_tip(ui)) {
+        draw_tip(ui);
+        ui->tip_seen = true;
+    }
+    return event && ui->taken;
+}
+
+int64_t dip_ui_wakes_ns(const DipUi *ui) {
+    return ui->tip[0] && !ui->tip_seen && !ui->tip_hidden && !ui->held
+               ? ui->hovered_ns + tip_delay_ns
+               : INT64_MAX;
+}
+
+void dip_ui_blur(DipUi *ui) {
+    ui->focus = 0;
+    ui->focus_shows = false;
+}
+
+DipUiId dip_ui_focus(const DipUi *ui) {
+    return ui->focus_shows ? ui->focus : 0;
+}

@@ -1,0 +1,42 @@
+// What ui.c and ui_draw.c share.
+#ifndef DIP_APP_UI_UI_PRIVATE_H
+#define DIP_APP_UI_UI_PRIVATE_H
+
+#include "app/ui/ui.h"
+
+enum { DIP_UI_TIP_BYTES = 900, DIP_UI_MAX_CONTROLS = 192 };
+
+// Where a control lay in a pass.
+typedef struct DipUiPlaced {
+    DipUiId id;
+    DipRect rect;
+    bool focusable;
+} DipUiPlaced;
+
+struct DipUi {
+    DipUiPass pass;
+    int pointer_x;
+    int pointer_y;
+    bool pointer_inside; // The pointer has been seen.
+    // The controls of this pass, and those of the pass before it, by which this pass finds the
+    // topmost control under the pointer. Controls beyond the limit take neither mouse nor focus.
+    DipUiPlaced placed[DIP_UI_MAX_CONTROLS];
+    int placed_count;
+    DipUiPlaced before[DIP_UI_MAX_CONTROLS];
+    int before_count;
+    DipUiId under;      // The topmost control under the pointer, or 0.
+    DipUiId hovered;    // The control under the pointer at the end of the last pass.
+    int64_t hovered_ns; // When the pointer came to rest over it.
+    DipUiId held;       // The control that a button was pressed over, while the button is down.
+    DipMouseButton held_button;
+    double wheel_rest; // Part of a wheel's step that has not counted yet.
+    DipUiId focus;
+    bool focus_shows; // The focus came by keyboard.
+    bool taken;       // A control took the event of this pass.
+    bool tip_hidden;  // A click or Escape hid the tip until the pointer leaves the control.
+    bool tip_seen;    // The tip has been drawn.
+    DipRect tip_rect; // The control whose tip may show.
+    char tip[DIP_UI_TIP_BYTES];
+};
+
+#endif

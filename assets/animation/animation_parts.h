@@ -1,0 +1,135 @@
+// The animated model while it is loaded and posed. Private to assets/.
+//
+// animation_md2.c and animation_gltf.c fill the model, animation_pose.c evaluates it.
+#ifndef DIP_ASSETS_ANIMATION_ANIMATION_PARTS_H
+#define DIP_ASSETS_ANIMATION_ANIMATION_PARTS_H
+
+#include "assets/animation.h"
+#include "assets/model_parts.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { DIP_NO_NODE = -1, DIP_NO_SKIN = -1 };
+
+// Which property of a node a track moves.
+typedef enum DipTrackTarget {
+    DIP_TRACK_TRANSLATION,
+    DIP_TRACK_ROTATION,
+    DIP_TRACK_SCALE,
+    DIP_TRACK_WEIGHTS
+} DipTrackTarget;
+
+typedef enum DipInterpolation {
+    DIP_INTERPOLATION_STEP,
+    DIP_INTERPOLATION_LINEAR,
+    DIP_INTERPOLATION_CUBICSPLINE
+} DipInterpolation;
+
+// The values of one property over time: a channel of a glTF animation with its sampler.
+typedef struct DipTrack {
+    DipTrackTarget target;
+    DipInterpolation interpolation;
+    int node;
+    int width;           // Numbers of a value: 3, 4 (rotation) or the number of morph targets.
+    uint32_t key_count;  // At least 1.
+    const float *times;  // In seconds, ascending.
+    const float *values; // One per key; CUBICSPLINE: in-tangent, value and out-tangent per key.
+} DipTrack;
+
+// A node at rest. A node with a matrix has no tracks except for weights.
+typedef struct DipAnimatedNode {
+    int parent; // Index of a node, or DIP_NO_NODE.
+    bool has_matrix;
+    double matrix[12]; // rows of a 3x4 matrix
+    double translation[3];
+    double rotation[4]; // unit quaternion x, y, z, w
+    double scale[3];
+    int first_weight; // Index of the node's first morph weight among those of all nodes.
+    int weight_count;
+} DipAnimatedNode;
+
+typedef struct DipAnimatedSkin {
+    int joint_count;
+    const int *nodes;            // The node of each joint.
+    const double *inverse_binds; // A 3x4 matrix for each joint.
+} DipAnimatedSkin;
+
+// What an object needs for its pose.
+typedef struct DipObjectPlan {
+    int node;
+    int skin; // Index of a skin, or DIP_NO_SKIN.
+} DipObjectPlan;
+
+// What an animation needs for its evaluation: frames (MD2) or tracks (glTF).
+typedef struct DipAnimationPlan {
+    int first_frame;
+    int frame_count;
+    const DipTrack *tracks;
+    int track_count;
+} DipAnimationPlan;
+
+struct DipAnimatedModel {
+    DipModel *store; // Owns all memory and collects the warnings.
+    const char *path;
+    const struct DipImporter *importer; // Used only during the load.
+    size_t allocated_bytes;
+    bool too_large; // An allocation would have exceeded the limit.
+    DipAnimatedDef def;
+    DipPicture *pictures; // One for each texture.
+    DipTextureDef *textures;
+    DipMaterialDef *materials;
+    DipAnimatedMesh *meshes;
+    DipAnimatedObject *objects;
+    DipObjectPlan *plans; // One for each object.
+    DipAnimation *animations;
+    DipAnimationPlan *animation_plans;
+    DipKeyFrame *key_frames;
+    DipAnimatedNode *nodes; // A node comes after its parent.
+    int node_count;
+    float *rest_weights; // The morph weights of all nodes at rest.
+    int weight_count;
+    DipAnimatedSkin *skins;
+    int skin_count;
+};
+
+// animation.c: makes an empty model, which dip_animated_model_destroy destroys. Returns NULL if
+// memory runs out.
+DipAnimatedModel *dip_animated_model_make(const char *path);
+
+// animation_pose.c: computes the world transform (rows of a 3x4 matrix) of a node at a time of an
+// animation, of which `plan` may hold only the tracks that move the node or the nodes above it.
+// Before the first key of a track and after the last one, the value of this key holds.
+void dip_animated_place_node(const DipAnimatedModel *model, const DipAnimationPlan *plan, int node,
+                             double time_s, double world[12]);
+
+// animation.c: allocates zeroed memory that lives as long as the model. Returns NULL if memory runs
+// out or the model becomes too large; dip_animated_no_room then fills *err and returns false.
+void *dip_animated_alloc(DipAnimatedModel *model, size_t count, size_t item_bytes);
+bool dip_animated_no_room(const DipAnimatedModel *model, DipError *err);
+
+// animation.c: copies a text of at most `length` bytes and replaces control characters.
+const char *dip_animated_text(DipAnimatedModel *model, const char *text, size_t length);
+
+// animation.c: reads a picture file that the model names, or decodes the bytes of a picture inside
+// the model, and adds it as a texture. *texture becomes its index, or DIP_NO_TEXTURE after a
+// warning. model->textures and model->pictures have room. Returns false if memory runs out.
+bool dip_animated_add_picture_file(DipAnimatedModel *model, const char *picture_path, int *texture,
+                                   DipError *err);
+bool dip_animated_add_picture(DipAnimatedModel *model, const uint8_t *bytes, size_t size_bytes,
+                              const char *name, int *texture, DipError *err);
+
+// animation.c: a white, opaque, double-sided material without textures.
+DipMaterialDef dip_animated_material(const char *name);
+
+// The readers. They fill the model's arrays and counts, and leave a part of them if they fail.
+bool dip_animated_read_md2(DipAnimatedModel *model, DipError *err);
+bool dip_animated_read_gltf(DipAnimatedModel *model, DipError *err);
+
+// md2_normals.c: writes the unit vector that an MD2 file calls by this number, with z up. index:
+// 0..DIP_MD2_NORMAL_COUNT - 1.
+enum { DIP_MD2_NORMAL_COUNT = 162 };
+void dip_md2_normal(int index, double normal[3]);
+
+#endif

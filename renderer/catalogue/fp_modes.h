@@ -1,0 +1,28 @@
+// Sets floating-point modes that a host program may have chosen.
+#ifndef DIP_RENDERER_CATALOGUE_FP_MODES_H
+#define DIP_RENDERER_CATALOGUE_FP_MODES_H
+
+#include <fenv.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef enum FpMode {
+    FP_MODE_UPWARD,
+    FP_MODE_DOWNWARD,
+    FP_MODE_TOWARD_ZERO,
+    FP_MODE_FLUSH_TO_ZERO, // subnormal results and operands become zero
+} FpMode;
+
+// The mode before fp_mode_enter.
+typedef struct FpModeState {
+    int rounding;
+    uint64_t flushing; // the register that holds the bits for flushing
+} FpModeState;
+
+const char *fp_mode_name(FpMode mode);
+FpModeState fp_mode_enter(FpMode mode);
+// Returns whether the thread still computes in this mode.
+bool fp_mode_is(FpMode mode);
+void fp_mode_return(FpModeState before);
+
+#endif

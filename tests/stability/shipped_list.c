@@ -1,9 +1,0 @@
-// The shipped hashes. `stability --print-hashes` prints this table. A hash may change only together
-// with a change that must change pictures.
-#include "tests/stability/shipped_hashes.h"
-
-const StabilityHash stability_hashes[] = {
-#include "tests/stability/shipped_list.inc"
-};
-
-const size_t stability_hash_count = sizeof stability_hashes / sizeof *stability_hashes;
