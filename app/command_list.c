@@ -11,11 +11,10 @@
 #include "renderer/base/assert.h"
 
 static const DipCommand *const commands[] = {
-    &dip_preview_command,      &dip_dump_command,        &dip_bench_command,
-    &dip_cost_command,         &dip_cost_merge_command,  &dip_cost_diff_command,
-    &dip_cost_advise_command,  &dip_cost_assets_command, &dip_cost_axes_command,
-    &dip_cost_predict_command, &dip_path_info_command,   &dip_path_convert_command,
-    &dip_verify_command,
+    &dip_preview_command,     &dip_dump_command,         &dip_bench_command,
+    &dip_cost_command,        &dip_cost_merge_command,   &dip_cost_diff_command,
+    &dip_cost_advise_command, &dip_cost_axes_command,    &dip_cost_predict_command,
+    &dip_path_info_command,   &dip_path_convert_command, &dip_verify_command,
 };
 
 static const DipCommand *const hidden[] = {&dip_import_command};

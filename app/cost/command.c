@@ -9,26 +9,10 @@ static bool run_cost(DipSession *session, const void *arguments, DipError *err) 
     return dip_cost_run(session, arguments, err);
 }
 
-static bool run_assets(DipSession *session, const void *arguments, DipError *err) {
-    (void)arguments;
-    if (session->shows_gallery) {
-        return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "--scene",
-                             "cost assets measures the files of models, and a scene of the gallery "
-                             "has none");
-    }
-    return dip_cost_assets_run(session, err);
-}
-
 static void describe_cost(const void *arguments, DipSessionDef *def) {
     def->options = &((const DipCostArguments *)arguments)->session;
     def->scene = true;
     def->keep_model = true; // The reference renderer draws the converged pictures from the model.
-}
-
-static void describe_assets(const void *arguments, DipSessionDef *def) {
-    def->options = &((const DipCostAssetsArguments *)arguments)->session;
-    def->scene = true;
-    def->keep_model = true; // The model's pictures are written in other formats.
 }
 
 static const DipExample cost_examples[] = {
@@ -43,12 +27,6 @@ static const DipExample cost_examples[] = {
     {"diptych cost --out part1 --places 8 --part 4:8 --errors-only",
      "measures the errors at the other half, on another machine"},
     {"diptych cost merge --out report part0/cost.json part1/cost.json", "joins the two parts"},
-};
-
-static const DipExample assets_examples[] = {
-    {"diptych cost assets", "prints the sizes and load times of the courtyard's files"},
-    {"diptych cost assets --model scene.glb",
-     "prints the sizes and load times of your own model's files"},
 };
 
 const DipCommand dip_cost_command = {
@@ -69,20 +47,4 @@ const DipCommand dip_cost_command = {
     .check = dip_cost_options_check,
     .describe_session = describe_cost,
     .run = run_cost,
-};
-
-const DipCommand dip_cost_assets_command = {
-    .name = "cost assets",
-    .summary = "print the size and load time of the assets in several formats",
-    .usage = "[OPTION]...",
-    .text =
-        "Cost assets writes the scene's meshes, pictures and camera paths in several formats to a "
-        "temporary folder and prints for each format its size, its zipped size and its load time.",
-    .examples = assets_examples,
-    .example_count = DIP_ARRAY_COUNT(assets_examples),
-    .parts = &dip_cost_assets_option_parts,
-    .options_size = sizeof(DipCostAssetsArguments),
-    .check = dip_cost_assets_options_check,
-    .describe_session = describe_assets,
-    .run = run_assets,
 };

@@ -1,4 +1,4 @@
-// The work of `diptych cost`, `diptych cost merge` and `diptych cost assets`.
+// The work of `diptych cost` and `diptych cost merge`.
 #ifndef DIP_APP_COST_COST_H
 #define DIP_APP_COST_COST_H
 
@@ -16,9 +16,5 @@ bool dip_cost_run(DipSession *session, const DipCostArguments *arguments, DipErr
 
 // Joins the parts of a report that several machines measured.
 bool dip_cost_merge_run(const DipCostMergeArguments *arguments, DipError *err);
-
-// Prints the sizes and load times of the assets in several formats. Closes the session, in order to
-// measure how long closing takes.
-bool dip_cost_assets_run(DipSession *session, DipError *err);
 
 #endif

@@ -1,4 +1,4 @@
-// The options of `diptych cost`, `cost merge` and `cost assets`.
+// The options of `diptych cost` and `cost merge`.
 #include "app/cost/options.h"
 
 #include "app/measure/metrics/flip.h"
@@ -316,14 +316,8 @@ static const DipOptionPart merge_parts[] = {
     {&merge_table, 0},
     {&dip_program_option_table, offsetof(DipCostMergeArguments, program)},
 };
-static const DipOptionPart assets_parts[] = {
-    {&dip_scene_option_table, offsetof(DipCostAssetsArguments, session)},
-    {&dip_threads_option_table, offsetof(DipCostAssetsArguments, session)},
-    {&dip_program_option_table, offsetof(DipCostAssetsArguments, program)},
-};
 const DipOptionParts dip_cost_option_parts = {cost_parts, DIP_ARRAY_COUNT(cost_parts)};
 const DipOptionParts dip_cost_merge_option_parts = {merge_parts, DIP_ARRAY_COUNT(merge_parts)};
-const DipOptionParts dip_cost_assets_option_parts = {assets_parts, DIP_ARRAY_COUNT(assets_parts)};
 
 // --- defaults and checks -------------------------------------------------------------------------
 
@@ -377,8 +371,4 @@ bool dip_cost_merge_options_check(const void *arguments, DipError *err) {
             dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "cost merge",
                           "there are no parts to join; give the cost.json of each: cost merge "
                           "--out DIR PART/cost.json..."));
-}
-
-bool dip_cost_assets_options_check(const void *arguments, DipError *err) {
-    return dip_session_options_check(&((const DipCostAssetsArguments *)arguments)->session, err);
 }

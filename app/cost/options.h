@@ -1,4 +1,4 @@
-// Options of `diptych cost`, `diptych cost merge` and `diptych cost assets`.
+// Options of `diptych cost` and `diptych cost merge`.
 #ifndef DIP_APP_COST_OPTIONS_H
 #define DIP_APP_COST_OPTIONS_H
 
@@ -25,15 +25,8 @@ typedef struct DipCostMergeArguments {
     int part_count;
 } DipCostMergeArguments;
 
-// The whole command line of `diptych cost assets`.
-typedef struct DipCostAssetsArguments {
-    DipProgramOptions program;
-    DipSessionOptions session;
-} DipCostAssetsArguments;
-
 extern const DipOptionParts dip_cost_option_parts;
 extern const DipOptionParts dip_cost_merge_option_parts;
-extern const DipOptionParts dip_cost_assets_option_parts;
 
 // Read the value of --samples, a value of --budget-ms, and the value of --budget-of, into
 // DipCostOptions.
@@ -45,6 +38,5 @@ bool dip_cost_read_budget_of(void *fields, const DipOptionRow *row, const char *
 void dip_cost_options_default(void *arguments, int argc, char *const *argv);
 bool dip_cost_options_check(const void *arguments, DipError *err);
 bool dip_cost_merge_options_check(const void *arguments, DipError *err);
-bool dip_cost_assets_options_check(const void *arguments, DipError *err);
 
 #endif

@@ -2,7 +2,6 @@
 #include "app/files/png.h"
 
 #include "app/files/whole_file.h"
-#include "app/files/zip.h"
 
 #include <limits.h>
 #include <setjmp.h>
@@ -283,31 +282,4 @@ bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const Dip
 
 bool dip_png_write(const char *file, const DipFrame *frame, DipError *err) {
     return dip_png_write_with_texts(file, frame, NULL, 0, err);
-}
-
-// --- deflate -------------------------------------------------------------------------------------
-
-// Returns the size of the compressed bytes, or 0 when memory runs out. stb_image_write only reads
-// the bytes, although its parameter is not const.
-static size_t zip(unsigned char *bytes, int size_bytes) {
-    Memory own = {.first = {.next = NULL}};
-    memory = &own;
-    if (setjmp(own.ran_out) != 0) {
-        free_blocks();
-        return 0;
-    }
-    int size = 0;
-    stb_free(stbi_zlib_compress(bytes, size_bytes, &size, 8));
-    return (size_t)size;
-}
-
-size_t dip_zip_size(const unsigned char *bytes, size_t size_bytes) {
-    unsigned char *copy = size_bytes > 0 && size_bytes < INT_MAX ? malloc(size_bytes) : NULL;
-    size_t zipped_size = 0;
-    if (copy) {
-        memcpy(copy, bytes, size_bytes);
-        zipped_size = zip(copy, (int)size_bytes);
-    }
-    free(copy);
-    return zipped_size;
 }

@@ -49,7 +49,7 @@ check "help lists every command" grep -q 'path convert' out.txt
 check "help lists settings" grep -q 'miplod' out.txt
 expect 0 '' "$diptych" dump --help
 check "help on dump gives an example" grep -q 'dump --out out --frames 0:8' out.txt
-for word in preview dump bench cost "cost merge" "cost diff" "cost advise" "cost assets" "cost axes" "cost predict" "path info" "path convert" verify; do
+for word in preview dump bench cost "cost merge" "cost diff" "cost advise" "cost axes" "cost predict" "path info" "path convert" verify; do
     expect 0 '' "$diptych" $word --help
     check "help on $word gives its usage and an example" sh -c \
         "grep -q '^Usage: diptych $word' out.txt && grep -q '^  diptych' out.txt"
@@ -210,8 +210,7 @@ check "no file is called -" test ! -e ./-
 full() { "$@" >/dev/full; }
 if [ -c /dev/full ]; then
     for arguments in --help --version "dump --help" "dump $small --hash" "dump $small --json -" \
-        "path info $source/campaths/aa.pth" "bench --frames 1 --rounds 1 --size 8x8 --sets aa=none" \
-        "cost assets --model $source/tests/assets/data/square.gltf"; do
+        "path info $source/campaths/aa.pth" "bench --frames 1 --rounds 1 --size 8x8 --sets aa=none"; do
         expect 1 'standard output cannot be written' full "$diptych" $arguments
     done
 fi
@@ -435,10 +434,6 @@ case $? in
 3) check "a report of a busy machine is named" grep -q 'has wrong times: the machine was too busy' err.txt ;;
 *) check "cost advise ends with code 0, or with 3 after a busy machine" false ;;
 esac
-
-expect 0 '' "$diptych" cost assets --model "$source/tests/assets/data/square.gltf"
-check "cost assets prints the forms of a mesh" grep -qE 'glTF, one binary file +[0-9.]+ +[0-9.]+ +[0-9.]+$' out.txt
-check "cost assets prints the time of the shutdown" grep -qE 'shutdown [0-9.]+$' out.txt
 
 # --- cost, interrupted while it runs
 for wait in 0.4 0.8 1.2; do

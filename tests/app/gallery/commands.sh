@@ -64,5 +64,4 @@ refuses "leave out one of the two options" dump --hash --scene blend --model x.g
 refuses "leave out one of the two options" dump --hash --scene blend --category AA
 sed -i 's/^SCENE:.*/SCENE: watter/' "$folder/scene.ini"
 refuses "scene.ini:$(wc -l <"$folder/scene.ini"): [SCENE]" dump --hash --config "$folder/scene.ini"
-refuses "has none" cost assets --scene blend
 echo "all passed"

@@ -28,7 +28,6 @@ static const char *const complete[] = {
     "cost merge --out x y",
     "cost diff x y",
     "cost advise x --budget-ms 8",
-    "cost assets",
     "cost axes",
     "cost predict x",
     "path info x",
