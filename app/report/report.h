@@ -221,13 +221,12 @@ void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]
 
 void dip_cost_row_free(DipCostRow *row);
 
-// Returns the number of settings that differ from their defaults.
-int dip_cost_count_changes(const DipQuality *quality);
-
 // --- texts -------------------------------------------------------------------------------------
 
 // Writes the settings that differ from the defaults, "aa=4,af=16", or "defaults".
-void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]);
+static inline void dip_cost_settings_text(const DipQuality *quality, char text[DIP_COST_TEXT]) {
+    dip_quality_format_changes(quality, text, DIP_COST_TEXT);
+}
 
 // Returns the plural ending of a noun after a number: "" or "s".
 static inline const char *dip_cost_plural(int count) {

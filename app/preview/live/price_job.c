@@ -89,7 +89,7 @@ void dip_price_job_forget(DipPriceJob *job) {
 
 static bool is_timed(const DipPriceJob *job, const DipQuality *quality) {
     for (int i = 0; i < job->timed_count; i++) {
-        if (dip_price_is_same(&job->timed[i].quality, quality)) {
+        if (dip_quality_equal(&job->timed[i].quality, quality)) {
             return true;
         }
     }
@@ -105,7 +105,7 @@ static void list_wanted(DipPriceJob *job) {
         dip_price_list_wanted(&base, &job->current, &job->requested, all, DIP_PRICE_MAX_WANTED);
     job->wanted_count = 0;
     for (int i = 0; i < count; i++) {
-        if (!dip_price_is_same(&all[i], &base) && !is_timed(job, &all[i])) {
+        if (!dip_quality_equal(&all[i], &base) && !is_timed(job, &all[i])) {
             job->wanted[job->wanted_count++] = all[i];
         }
     }
@@ -114,8 +114,8 @@ static void list_wanted(DipPriceJob *job) {
 
 void dip_price_job_follow(DipPriceJob *job, const DipQuality *current,
                           const DipQuality *requested) {
-    if (job->follows && dip_price_is_same(&job->current, current) &&
-        dip_price_is_same(&job->requested, requested)) {
+    if (job->follows && dip_quality_equal(&job->current, current) &&
+        dip_quality_equal(&job->requested, requested)) {
         return;
     }
     job->current = *current;

@@ -46,15 +46,15 @@ static int count_groups(const DipQuality *base, const DipQuality *quality) {
     int count = 0;
     for (int g = 0; g < GROUPS; g++) {
         const DipQuality without = dip_cost_take_settings(&rest, base, group_mask(g));
-        count += !dip_price_is_same(&without, &rest);
+        count += !dip_quality_equal(&without, &rest);
         rest = without;
     }
-    return dip_price_is_same(&rest, base) ? count : GROUPS + 1;
+    return dip_quality_equal(&rest, base) ? count : GROUPS + 1;
 }
 
 static const PlainRow *find_plain(const DipPriceModel *model, const DipQuality *quality) {
     for (int i = 0; i < model->plain_count; i++) {
-        if (dip_price_is_same(&model->plain[i].quality, quality)) {
+        if (dip_quality_equal(&model->plain[i].quality, quality)) {
             return &model->plain[i];
         }
     }

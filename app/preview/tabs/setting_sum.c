@@ -32,7 +32,7 @@ int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns)
         const DipQuality quality = dip_preview_preset(window->state, (DipPreset)p);
         const DipPriceSum sum = dip_prices_sum(window->prices, &quality);
         char settings[200], tip[320];
-        dip_settings_text(&quality, settings, sizeof settings);
+        dip_quality_format_changes(&quality, settings, sizeof settings);
         snprintf(tip, sizeof tip, "%s: %s", dip_preview_preset_name((DipPreset)p), settings);
         if (sum.state != DIP_PRICE_UNKNOWN) {
             snprintf(tip + strlen(tip), sizeof tip - strlen(tip), "\n%s%.1f ms",
@@ -340,7 +340,7 @@ static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
     if (room.height < line) {
         return;
     }
-    dip_settings_text(&window->state->quality[DIP_PANE_REQUESTED], text, sizeof text);
+    dip_quality_format_changes(&window->state->quality[DIP_PANE_REQUESTED], text, sizeof text);
     dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, room.x, room.y, room.width, text);
     const bool stale = dip_prices_source(window->prices, window->frames[0].width,
                                          window->frames[0].height, text, sizeof text);
