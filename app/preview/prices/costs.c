@@ -69,7 +69,8 @@ static DipCostsAdvice advice_of(const DipCostReport *report, double budget_ms, i
 }
 
 static int choose(const DipCostReport *report, double budget_ms) {
-    return report->rounds > 0 ? dip_cost_choose(report, budget_ms) : -1;
+    const bool believed = report->rounds > 0 && report->verdict != DIP_COST_RED;
+    return believed ? dip_cost_choose(report, budget_ms) : -1;
 }
 
 static void make_advice(DipCosts *costs, const DipCostReport *report) {
