@@ -72,7 +72,6 @@ typedef struct DipCostSame {
 
 // A sweep: all steps of one setting on one path, with every other setting held constant.
 typedef struct DipCostSweep {
-    char title[DIP_COST_TEXT]; // "Adaptive AA with aa=4"
     DipSetting setting;
     int path;
     int base; // Row of the step that the baseline has, with which the other steps are compared.
@@ -232,6 +231,11 @@ static inline void dip_cost_settings_text(const DipQuality *quality, char text[D
 static inline const char *dip_cost_plural(int count) {
     return count == 1 ? "" : "s";
 }
+
+// Writes the sweep's setting, and the others that differ from their defaults in its base: "Adaptive
+// AA with aa=4". Reports that were read have their titles from here, too.
+void dip_cost_sweep_title(const DipCostReport *report, const DipCostSweep *sweep,
+                          char text[DIP_COST_TEXT]);
 
 // Writes the name of a row's step in its sweep: "4", "high-quality"; for adaptive AA "off" or
 // "on, asd=2".

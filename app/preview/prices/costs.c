@@ -49,7 +49,9 @@ static void make_step(DipCostsStep *step, const DipCostReport *report, const Dip
 }
 
 static void make_row(DipCostsRow *row, const DipCostReport *report, const DipCostSweep *sweep) {
-    snprintf(row->title, sizeof row->title, "%.47s", sweep->title);
+    char title[DIP_COST_TEXT];
+    dip_cost_sweep_title(report, sweep, title);
+    snprintf(row->title, sizeof row->title, "%.47s", title);
     row->setting = sweep->setting;
     row->step_count = sweep->row_count;
     for (int i = 0; i < sweep->row_count; i++) {

@@ -18,6 +18,12 @@
 
 enum { MAX_FILE_BYTES = 1 << 29 };
 
+// Names of paths are those of categories, or of an option's value.
+static bool is_name(const char *text) {
+    return *text && strspn(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                 "0123456789_-") == strlen(text);
+}
+
 static bool read_paths(const cJSON *root, DipCostReport *report) {
     bool ok = true;
     const cJSON *item;
@@ -30,6 +36,7 @@ static bool read_paths(const cJSON *root, DipCostReport *report) {
                            sizeof report->paths[p], &ok);
         dip_json_copy_text(cJSON_GetObjectItemCaseSensitive(item, "poses"), report->path_hashes[p],
                            sizeof report->path_hashes[p], &ok);
+        ok = ok && is_name(report->paths[p]);
         report->base_rows[p] = dip_json_integer(item, "base_row", 0, DIP_COST_MAX_ROWS - 1, &ok);
         report->same_rows[p] = dip_json_integer(item, "same_row", 0, DIP_COST_MAX_ROWS - 1, &ok);
         report->path_count++;
@@ -129,8 +136,6 @@ static bool read_same(const cJSON *root, DipCostReport *report, const char *file
 static bool read_sweep(const cJSON *object, DipCostReport *report, DipCostSweep *sweep) {
     bool ok = true;
     const cJSON *setting = cJSON_GetObjectItemCaseSensitive(object, "setting");
-    dip_json_copy_text(cJSON_GetObjectItemCaseSensitive(object, "title"), sweep->title,
-                       sizeof sweep->title, &ok);
     sweep->path = dip_json_integer(object, "path", 0, report->path_count - 1, &ok);
     sweep->base = dip_json_integer(object, "base", 0, report->row_count - 1, &ok);
     int found = -1;

@@ -192,7 +192,9 @@ static void add_sweeps(cJSON *root, const DipCostReport *report) {
     for (int s = 0; s < report->sweep_count; s++) {
         const DipCostSweep *sweep = &report->sweeps[s];
         cJSON *object = cJSON_CreateObject();
-        cJSON_AddStringToObject(object, "title", sweep->title);
+        char title[DIP_COST_TEXT];
+        dip_cost_sweep_title(report, sweep, title);
+        cJSON_AddStringToObject(object, "title", title);
         cJSON_AddStringToObject(object, "setting", dip_setting_info(sweep->setting)->key);
         cJSON_AddNumberToObject(object, "path", sweep->path);
         cJSON_AddNumberToObject(object, "base", sweep->base);

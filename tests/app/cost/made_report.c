@@ -87,8 +87,8 @@ void dip_made_report(DipCostReport *report, int rounds) {
                                        .rounds = rounds,
                                        .timed_frames = 4,
                                        .seed = 5};
-    report->sweeps[0] = (DipCostSweep){
-        .title = "Antialiasing", .setting = DIP_SETTING_AA, .rows = {0, 2, 3}, .row_count = 3};
+    report->sweeps[0] =
+        (DipCostSweep){.setting = DIP_SETTING_AA, .rows = {0, 2, 3}, .row_count = 3};
     report->rows = calloc(ROWS, sizeof *report->rows);
     if (!report->rows || !dip_cost_report_alloc(report, NULL)) {
         abort();
