@@ -101,11 +101,10 @@ static bool print_exact(const DipCostDiff *diff, FILE *out, DipError *err) {
             "PSNR is that of\nits root mean square difference, the change of SSIM that of 1 - "
             "SSIM.\n");
     } else if (diff->row_count > 0) {
-        dip_put_text(out, "%s",
+        dip_put_text(out, "\nAll %s are the same.\n",
                      diff->kind == DIP_COST_DIFF_PROGRAMS
-                         ? "\nAll pictures and counters are the same.\n"
-                         : "\nAll errors and counters that both sides "
-                           "have are the same.\n");
+                         ? "pictures and counters"
+                         : "errors and counters that both sides have");
     }
     for (int g = 0; g < count; g++) {
         dip_put_text(out, "%s:\n", groups[g].which);
