@@ -1,4 +1,4 @@
-// Drawing frames for the pictures of the page, and keeping those of a part.
+// Draws frames for the pictures of the page, and keeps those of a part.
 #include "app/cost/drawn_frames.h"
 
 #include "app/files/folder.h"

@@ -1,4 +1,4 @@
-// Drawing a few frames of many combinations, for their counters.
+// Draws a few frames of many combinations, for their counters.
 #include "app/cost/prediction_counts.h"
 
 #include "app/report/combinations.h"

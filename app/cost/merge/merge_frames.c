@@ -1,4 +1,4 @@
-// Collecting the frames of parts, and choosing and reading those of a set of pictures.
+// Collects the frames of parts, and chooses and reads those of a set of pictures.
 #include "app/cost/merge/merge_frames.h"
 
 #include "app/cli/log.h"

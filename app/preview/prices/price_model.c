@@ -1,4 +1,4 @@
-// Composing the work of a combination, and predicting its time and its error.
+// Composes the work of a combination, and predicts its time and its error.
 #include "app/preview/prices/price_model.h"
 
 #include "app/report/combinations.h"
@@ -11,8 +11,8 @@
 
 enum {
     GROUPS = 5,
-    MOST_MISSES = 32, // Number of rows that are predicted to see how far predictions miss.
-    LEAST_JUDGED = 16 // Number of rows with errors that a model of errors needs.
+    MOST_MISSES = 32, // Greatest number of rows that tell how far predictions miss.
+    LEAST_JUDGED = 16 // Least number of rows with errors for a model of errors.
 };
 
 // A row of path 0 that differs from the base in one group of settings at most.
@@ -124,8 +124,8 @@ static double miss_of(const DipPriceModel *model, const DipCostReport *report, c
     return fabs(dip_cost_model_ms(&times, counters, &normal) / left_out->time.mean_ms.value - 1.0);
 }
 
-// Predicts some of the rows that differ from the base in two groups or more. If there are none,
-// takes the misses of rows whose work is known.
+// Returns the share by which 90 % of predictions miss. Predicts up to MOST_MISSES rows that differ
+// from the base in two groups or more. Without such rows, predicts each row from its own counters.
 static double usual_miss(const DipPriceModel *model, const DipCostReport *report, const int *rows,
                          int count) {
     double misses[MOST_MISSES];

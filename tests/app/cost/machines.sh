@@ -1,7 +1,7 @@
 #!/bin/sh
-# Runs the commands of docs/cost.md, section "On several machines", as they stand there: those for
-# GNU parallel on this machine instead of four others, and the Slurm script on a Slurm of one node
-# that this test starts. One Slurm job is killed and queued again. The merged reports must equal an
+# Runs the commands of docs/cost-machines.md, section "On several machines", as they stand there:
+# those for GNU parallel on this machine instead of four others, and the Slurm script on a Slurm of
+# one node that this test starts. One Slurm job is killed and queued again. The merged reports must equal an
 # undivided one in everything but the times, and their pages must show the same pictures.
 # Usage: machines.sh DIPTYCH COMPARE_REPORTS SOURCE_FOLDER
 # Exit code 77: skipped, since a package is missing or the test does not run as root.
@@ -64,7 +64,7 @@ documented() {
     awk -v wanted="$1" '
         /^## / { inside = $0 == "## On several machines"; next }
         inside && /^```/ { block += !open; open = !open; next }
-        inside && open && block == wanted' "$source/docs/cost.md"
+        inside && open && block == wanted' "$source/docs/cost-machines.md"
 }
 
 # The commands call a `diptych` that draws small pictures.
@@ -132,7 +132,7 @@ test_parallel() {
     mkdir "$work/parallel"
     cd "$work/parallel" || exit 1
     documented 1 >commands
-    grep -q 'sshlogin a,b,c,d' commands || fail "docs/cost.md has no commands for GNU parallel"
+    grep -q 'sshlogin a,b,c,d' commands || fail "docs/cost-machines.md has no commands for GNU parallel"
     # ":" is this machine, without ssh; two jobs at a time.
     sed 's|--sshlogin a,b,c,d|--sshlogin 2/:|' commands >script
     sh -eu script >script.out 2>&1 || fail "the commands for GNU parallel: $(tail -5 script.out)"
@@ -261,10 +261,10 @@ test_slurm() {
         return
     fi
     documented 2 >cost.sh
-    grep -q '^#SBATCH' cost.sh || fail "docs/cost.md has no script for Slurm"
+    grep -q '^#SBATCH' cost.sh || fail "docs/cost-machines.md has no script for Slurm"
     documented 3 >commands
     job=$(sed -n 's/^sbatch/sbatch --parsable/p' commands | sh)
-    [ -n "$job" ] || fail "docs/cost.md has no sbatch command, or it failed"
+    [ -n "$job" ] || fail "docs/cost-machines.md has no sbatch command, or it failed"
     kill_and_requeue "$job" 3
     wait_for 1200 "all jobs end" no_jobs
     [ ! -e part3/cost.state ] || fail "the killed job did not finish"
