@@ -89,7 +89,6 @@ void dip_cost_report_free(DipCostReport *report) {
     free(report->floors);
     free(report->has_floor);
     free(report->predicted.list);
-    dip_cost_kept_frames_free(&report->kept);
     *report = (DipCostReport){0};
 }
 

@@ -5,7 +5,6 @@
 #ifndef DIP_APP_REPORT_REPORT_H
 #define DIP_APP_REPORT_REPORT_H
 
-#include "app/report/kept_frames.h"
 #include "app/report/report_plan.h"
 #include "app/measure/metrics/flip_tail.h"
 #include "app/measure/metrics/metrics.h"
@@ -202,7 +201,6 @@ typedef struct DipCostReport {
     int smaller_count; // 0 if they were not timed.
     int smaller_width; // Pixels.
     int smaller_height;
-    DipCostKeptFrames kept; // Frames that a part keeps for the merged page. Owned.
 } DipCostReport;
 
 // Allocates the arrays of the report and of its rows. The rows, paths and options must be filled in

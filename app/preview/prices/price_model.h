@@ -1,9 +1,7 @@
 // Predicts the time and the error of combinations that a report did not measure.
 //
-// The time comes from the report's model of work (app/report/fit.h). The model needs the work of
-// the combination: the counters are those of the base, times the factor by which each group of
-// settings alone changes each counter. The groups are antialiasing, anisotropic filtering, texture
-// optimisation, mip detail and instancing. FLIP comes from the report's model of errors.
+// The time comes from the report's model of work (app/report/fit.h) and the combination's composed
+// work (app/report/work.h). FLIP comes from the report's model of errors.
 #ifndef DIP_APP_PREVIEW_PRICES_PRICE_MODEL_H
 #define DIP_APP_PREVIEW_PRICES_PRICE_MODEL_H
 

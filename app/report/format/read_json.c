@@ -2,7 +2,6 @@
 #include "app/report/format/formats.h"
 
 #include "app/report/format/json_fields.h"
-#include "app/report/format/json_frames.h"
 #include "app/report/format/json_memory.h"
 #include "app/report/format/json_read.h"
 #include "app/report/format/json_smaller.h"
@@ -235,8 +234,7 @@ static bool read_report(const cJSON *root, size_t size_bytes, DipCostReport *rep
     if (!read_floors(root, report)) {
         return dip_json_missing(file, "floors", err);
     }
-    if (!dip_cost_read_predictions(root, report, file, err) ||
-        !dip_cost_frames_read(root, report, file, err)) {
+    if (!dip_cost_read_predictions(root, report, file, err)) {
         return false;
     }
     if (!dip_cost_smaller_read(root, report)) {

@@ -4,7 +4,6 @@
 #include "app/report/fit.h"
 #include "app/report/interaction.h"
 #include "app/report/format/json_fields.h"
-#include "app/report/format/json_frames.h"
 #include "app/report/format/json_memory.h"
 #include "app/report/format/json_smaller.h"
 #include "app/report/format/json_tail.h"
@@ -386,7 +385,6 @@ bool dip_cost_write_json(const DipCostReport *report, const char *file, DipError
     add_predictions(root, report);
     dip_cost_smaller_add(root, report);
     add_advice(root, report);
-    dip_cost_frames_add(root, report);
     char *text = cJSON_PrintUnformatted(root);
     cJSON_Delete(root);
     const bool complete = !dip_json_memory_ran_out();

@@ -55,50 +55,6 @@ static int name_without_frame(const DipCostReport *report, const DipCostPictureS
     return named;
 }
 
-// Names the rows of a set whose pictures no part has. Returns the number of rows named so far.
-static int name_missing(const DipCostReport *report, const DipCostPictureSet *set, int named,
-                        FILE *out) {
-    for (int i = 0; i < set->missing_count; i++) {
-        dip_put_markup(out, named++ ? "; "
-                                    : "<p class=\"note\">No part has the pictures of these rows: ");
-        dip_html_settings(report, set->missing[i], out);
-        dip_put_html(out, " on %s", report->paths[set->path]);
-    }
-    return named;
-}
-
-// Names a set that does not show the middle viewpoint. Returns the number of sets named so far.
-static int name_elsewhere(const DipCostReport *report, const DipCostPictureSet *set,
-                          const char *title, int named, FILE *out) {
-    const int places = report->options.places;
-    if (set->count == 0 || set->viewpoint == (places - 1) / 2) {
-        return named;
-    }
-    dip_put_markup(
-        out, named ? "; "
-                   : "<p class=\"note\">No part has as many pictures of the middle of the path, so "
-                     "other viewpoints are shown: ");
-    dip_put_html(out, "%s", title);
-    dip_put_html(out, ", viewpoint %d of %d", set->viewpoint + 1, places);
-    return named + 1;
-}
-
-// Says what the pictures of a merged report lack.
-static void write_missing(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
-    int named = name_missing(report, &pictures->front, 0, out);
-    for (int s = 0; s < report->sweep_count; s++) {
-        named = name_missing(report, &pictures->sweeps[s], named, out);
-    }
-    dip_put_markup(out, named ? ".</p>\n" : "");
-    named = name_elsewhere(report, &pictures->front, "Pareto front", 0, out);
-    for (int s = 0; s < report->sweep_count; s++) {
-        char title[DIP_COST_TEXT];
-        dip_cost_sweep_title(report, &report->sweeps[s], title);
-        named = name_elsewhere(report, &pictures->sweeps[s], title, named, out);
-    }
-    dip_put_markup(out, named ? ".</p>\n" : "");
-}
-
 // Says which pictures did not fit in the page.
 static void write_left_out(const DipCostReport *report, const DipCostPictures *pictures,
                            FILE *out) {
@@ -138,9 +94,6 @@ static bool write_page(const DipCostReport *report, const DipCostPictures *pictu
     }
     if (pictures) {
         write_left_out(report, pictures, out);
-        if (pictures->from_parts) {
-            write_missing(report, pictures, out);
-        }
     }
     if (report->sweep_count) {
         dip_html_regions(report, out);

@@ -114,8 +114,7 @@ expect_undivided() {
     expect_pictures "$1"
 }
 
-# With the times of the undivided report, the Pareto front is the same, too. The undivided report
-# keeps no frames, so all pictures come from the parts of this folder.
+# With the times of the undivided report, the Pareto front is the same, too.
 expect_same_front() {
     grep -q '"same_pictures":\[\]' "$work/undivided/cost.json" ||
         fail "the undivided report joins rows, so it cannot be merged with parts"
@@ -138,30 +137,6 @@ test_parallel() {
     sh -eu script >script.out 2>&1 || fail "the commands for GNU parallel: $(tail -5 script.out)"
     expect_undivided report
     expect_same_front
-}
-
-# The part with the middle viewpoint, 3 of 0 to 7, loses a picture, and all others are damaged. The
-# parts must merge all the same, with one line that says so, and the page must show others.
-test_damaged_pictures() {
-    cd "$work/parallel" || exit 1
-    set -- part2/frames/*.png
-    rm "$1"
-    shift
-    for frame; do
-        printf x >>"$frame"
-    done
-    diptych cost merge --out damaged times/cost.json part*/cost.json >damaged.out 2>damaged.err ||
-        fail "parts with damaged pictures do not merge: $(tail -5 damaged.err)"
-    [ "$(grep -c '' damaged.err)" = 1 ] &&
-        grep -Eq 'part2/cost.json: \[frames\] .* [12] (is|are) missing and [1-9][0-9]+ are damaged' damaged.err ||
-        fail "damaged pictures are not named on one line: $(cat damaged.err)"
-    "$compare" same "$work/undivided/cost.json" damaged/cost.json 1e-12 ||
-        fail "damaged pictures change the report"
-    grep -q 'other viewpoints are shown: ' damaged/cost.html ||
-        fail "the page does not say that it shows other viewpoints"
-    figures "$work/undivided" >"$work/expected"
-    figures damaged >"$work/found"
-    cmp -s "$work/expected" "$work/found" && fail "other pictures are not seen as others"
 }
 
 # --- Slurm -------------------------------------------------------------------------------------
@@ -278,7 +253,6 @@ test_slurm() {
 diptych cost --out "$work/undivided" --places 8 >"$work/undivided.out" 2>&1 ||
     fail "the undivided report: $(tail -5 "$work/undivided.out")"
 test_parallel
-test_damaged_pictures
 test_slurm
 [ $failures = 0 ] && echo "the merged reports of GNU parallel and of Slurm equal the undivided one, with its pictures"
 [ $failures = 0 ]
