@@ -133,7 +133,6 @@ def main():
     subprocess.run([make_page, "page.html", "good.json"], check=True)
     with open("good.json", encoding="utf-8") as file:
         good = json.load(file)
-    del good["frames"]  # Their files are not there.
     good["rows"] = good["rows"][:12]
     good["sweeps"] = good["sweeps"][:1]
     good["predicted"]["combinations"] = good["predicted"]["combinations"][:2]
