@@ -17,8 +17,8 @@ static void describe_cost(const void *arguments, DipSessionDef *def) {
 
 static const DipExample cost_examples[] = {
     {"diptych cost --out report", "measures the courtyard in about eight minutes"},
-    {"diptych cost --out report --budget-ms 8,16.6",
-     "also finds the best settings within 8 ms and within 16.6 ms per frame"},
+    {"diptych cost --out report --fps 60,120",
+     "finds the best settings for 60 and for 120 frames a second"},
     {"diptych cost --out report --predict --budget-ms 4,8,16,33",
      "ranks 1512 combinations of settings and measures only the best of them"},
     {"diptych cost --out report --model scene.glb --size 1280x720", "measures your own model"},

@@ -60,15 +60,46 @@ static bool read_combined(void *fields, const DipOptionRow *row, const char *val
            dip_option_each(fields, row, value, ',', add_combined, err);
 }
 
-bool dip_cost_read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    DipCostOptions *cost = fields;
+static bool add_budget(DipCostOptions *cost, const DipOptionRow *row, double ms, DipError *err) {
+    if (cost->budget_count == DIP_COST_MAX_BUDGETS) {
+        return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, row->name,
+                             "lists more than %d values", DIP_COST_MAX_BUDGETS);
+    }
+    cost->budgets_ms[cost->budget_count++] = ms;
+    return true;
+}
+
+static bool read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     double ms;
     if (!dip_number_parse(value, strlen(value), &ms) || ms < 0.01 || ms > 100000.0) {
         return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
                                  "a number of milliseconds from 0.01 to 100000");
     }
-    cost->budgets_ms[cost->budget_count] = ms;
-    return true;
+    return add_budget(fields, row, ms, err);
+}
+
+static bool read_rate(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    double fps;
+    if (!dip_number_parse(value, strlen(value), &fps) || fps < 0.01 || fps > 100000.0) {
+        return dip_option_refuse(err, DIP_ERROR_RANGE, row->name, value,
+                                 "a number of frames a second from 0.01 to 100000");
+    }
+    return add_budget(fields, row, 1000.0 / fps, err);
+}
+
+static bool read_budgets(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    return dip_option_each(fields, row, value, ',', read_budget, err);
+}
+
+static bool read_rates(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
+    return dip_option_each(fields, row, value, ',', read_rate, err);
+}
+
+void dip_cost_default_budgets(DipCostOptions *options) {
+    if (options->budget_count == 0) {
+        options->budgets_ms[options->budget_count++] = 1000.0 / 60.0;
+        options->budgets_ms[options->budget_count++] = 1000.0 / 30.0;
+    }
 }
 
 typedef struct Viewing {
@@ -93,11 +124,11 @@ static bool read_viewing(void *fields, const DipOptionRow *row, const char *valu
                              "phone, monitor, uhd or headset");
 }
 
-bool dip_cost_read_budget_of(void *fields, const DipOptionRow *row, const char *value,
-                             DipError *err) {
-    for (int i = 0; i < (int)DIP_ARRAY_COUNT(dip_cost_budget_of_names); i++) {
-        if (strcmp(value, dip_cost_budget_of_names[i]) == 0) {
-            ((DipCostOptions *)fields)->budget_of = (DipCostBudgetOf)i;
+static bool read_budget_of(void *fields, const DipOptionRow *row, const char *value,
+                           DipError *err) {
+    for (int i = 0; i < DIP_TIME_KIND_COUNT; i++) {
+        if (strcmp(value, dip_time_kind_names[i]) == 0) {
+            ((DipCostOptions *)fields)->budget_of = (DipTimeKind)i;
             return true;
         }
     }
@@ -142,8 +173,10 @@ static const DipOptionRow choice_rows[] = {
      .field = FIELD(baseline)},
     {.name = "--combine",
      .argument = "LIST",
-     .text = "Also measure every combination of the steps of these settings. The default is aa,af. "
-             "With the word none, no combinations are measured.",
+     .text =
+         "Also measure every combination of the steps of these settings. The default is aa,af, and "
+         "aa,aaa,asd,af,aaf with --fps or --budget-ms. With the word none, no combinations are "
+         "measured.",
      .kind = DIP_OPTION_CUSTOM,
      .given = FIELD(has_combined),
      .read = read_combined},
@@ -153,24 +186,31 @@ static const DipOptionRow choice_rows[] = {
              "prediction finds best. By default it combines aa, aaa, asd, af, aaf, opt and miplod.",
      .kind = DIP_OPTION_FLAG,
      .field = FIELD(predict)},
+};
+
+static const DipOptionRow budget_rows[] = {
+    {.name = "--fps",
+     .argument = "LIST",
+     .text = "Advise settings that keep each of these numbers of frames a second, such as 60,120. "
+             "The default is 60,30.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_rates},
     {.name = "--budget-ms",
      .argument = "LIST",
-     .text =
-         "For each of these time budgets, find the settings with the least error. A budget is in "
-         "milliseconds per frame, such as 8,16.6. With this option, the default of --combine is "
-         "aa,aaa,asd,af,aaf.",
-     .kind = DIP_OPTION_LIST,
-     .count = FIELD(budget_count),
-     .most = DIP_COST_MAX_BUDGETS,
-     .separator = ',',
-     .read = dip_cost_read_budget},
+     .text = "Advise settings for each of these times of a frame in milliseconds, such as 8,12. "
+             "They may be given beside --fps. Four budgets are also printed as the tiers low, "
+             "medium, high and ultra.",
+     .kind = DIP_OPTION_CUSTOM,
+     .read = read_budgets},
     {.name = "--budget-of",
      .argument = "TIME",
      .text = "The time that must be within the budget: p95 (the 95th percentile of the frames "
              "along the path), mean or worst. The default is p95.",
      .kind = DIP_OPTION_CUSTOM,
-     .read = dip_cost_read_budget_of},
+     .read = read_budget_of},
 };
+const DipOptionTable dip_cost_budget_option_table = {"Budgets", budget_rows,
+                                                     DIP_ARRAY_COUNT(budget_rows)};
 
 static const DipOptionRow picture_rows[] = {
     {.name = "--pictures",
@@ -294,6 +334,7 @@ static const DipOptionTable time_table = {"Times", time_rows, DIP_ARRAY_COUNT(ti
 static const DipOptionPart cost_parts[] = {
     {&out_table, 0},
     {&choice_table, offsetof(DipCostArguments, cost)},
+    {&dip_cost_budget_option_table, offsetof(DipCostArguments, cost)},
     {&error_table, offsetof(DipCostArguments, cost)},
     {&time_table, offsetof(DipCostArguments, cost)},
     {&picture_table, offsetof(DipCostArguments, cost)},
@@ -350,8 +391,9 @@ bool dip_cost_options_check(const void *arguments, DipError *err) {
             cost->end_place, cost->places, cost->places);
     }
     if (cost->errors_only && cost->budget_count) {
-        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--budget-ms",
-                             "advice needs times; leave out --budget-ms or --errors-only");
+        return dip_error_set(
+            err, DIP_ERROR_CONFLICT, NULL, 0, "--budget-ms",
+            "advice needs times; leave out --fps and --budget-ms, or --errors-only");
     }
     if (cost->predict && (cost->errors_only || cost->first_place > 0 || cost->end_place > 0)) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--predict",

@@ -29,12 +29,14 @@ typedef struct DipCostMergeArguments {
 extern const DipOptionParts dip_cost_option_parts;
 extern const DipOptionParts dip_cost_merge_option_parts;
 
-// Read the value of --samples, a value of --budget-ms, and the value of --budget-of, into
-// DipCostOptions.
+// Options of budgets. The fields are those of DipCostOptions.
+extern const DipOptionTable dip_cost_budget_option_table;
+
+// Gives options without budgets those of 60 and 30 frames a second.
+void dip_cost_default_budgets(DipCostOptions *options);
+
+// Reads the value of --samples into DipCostOptions.
 bool dip_cost_read_samples(void *fields, const DipOptionRow *row, const char *value, DipError *err);
-bool dip_cost_read_budget(void *fields, const DipOptionRow *row, const char *value, DipError *err);
-bool dip_cost_read_budget_of(void *fields, const DipOptionRow *row, const char *value,
-                             DipError *err);
 
 void dip_cost_options_default(void *arguments, int argc, char *const *argv);
 bool dip_cost_options_check(const void *arguments, DipError *err);

@@ -284,7 +284,8 @@ void dip_cost_describe(DipCostReport *report, const DipSession *session) {
 }
 
 // Returns the settings that are combined by default. A plot of the Pareto front needs two settings.
-// Advice (--budget-ms) needs three more, which are worth choosing in any scene. A prediction
+// Advice for budgets of the user's own needs three more, which are worth choosing in any scene. A
+// prediction
 // (--predict) has all settings that change the error of a single picture.
 static unsigned default_combined(const DipCostOptions *options) {
     const unsigned two = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_AF;
@@ -328,6 +329,9 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     }
     if (!report->options.has_combined) {
         report->options.combined = default_combined(&report->options);
+    }
+    if (!options->errors_only) {
+        dip_cost_default_budgets(&report->options);
     }
     if (!report->options.end_place) {
         report->options.end_place = report->options.places;

@@ -1,6 +1,7 @@
 // Predicting combinations from a few of them.
 #include "app/cost/predict.h"
 
+#include "app/report/candidates.h"
 #include "app/report/fit.h"
 #include "app/cost/prediction_counts.h"
 #include "app/cost/steps.h"
@@ -122,95 +123,59 @@ void dip_cost_predict_others(DipCostReport *report) {
 
 // --- what is worth measuring -------------------------------------------------------------------
 
-typedef struct Candidate {
-    int index; // In report->predicted.
-    bool measured;
-    double ms, p95_ms, flip;
-} Candidate;
-
-static Candidate candidate(const DipCostReport *report, int index) {
-    const DipCostPrediction *p = &report->predicted.list[index];
-    if (p->row < 0) {
-        return (Candidate){index, false, p->ms, p->p95_ms, p->flip};
-    }
-    const DipPathEstimate *time = &report->rows[p->row].time;
-    return (Candidate){index, true, time->mean_ms.value, time->p95_ms.value,
-                       dip_cost_row_metrics(report, p->row, 0).flip};
-}
-
-static int compare_ms(const void *a, const void *b) {
-    const Candidate *x = a;
-    const Candidate *y = b;
-    const int by_time = (x->ms > y->ms) - (x->ms < y->ms);
-    return by_time ? by_time : (x->flip > y->flip) - (x->flip < y->flip);
-}
-
-static int compare_flip(const void *a, const void *b) {
-    const Candidate *x = a;
-    const Candidate *y = b;
-    return (x->flip > y->flip) - (x->flip < y->flip);
-}
-
 typedef struct Promising {
+    const DipCostPrediction *predictions;
     int *list;
     int count;
     int most;
 } Promising;
 
-static void add_promising(Promising *promising, const Candidate *candidate) {
+static void add_promising(Promising *promising, int index) {
     for (int i = 0; i < promising->count; i++) {
-        if (promising->list[i] == candidate->index) {
+        if (promising->list[i] == index) {
             return;
         }
     }
-    if (!candidate->measured && promising->count < promising->most) {
-        promising->list[promising->count++] = candidate->index;
+    if (promising->predictions[index].row < 0 && promising->count < promising->most) {
+        promising->list[promising->count++] = index;
     }
 }
 
-static void add_front(Promising *promising, Candidate *all, int count) {
-    double least = INFINITY;
-    qsort(all, (size_t)count, sizeof *all, compare_ms);
-    for (int i = 0; i < count; i++) {
-        if (all[i].flip <= 0.99 * least) {
-            least = all[i].flip;
-            add_promising(promising, &all[i]);
-        }
-    }
+static int compare_losses(const void *a, const void *b) {
+    const DipCandidate *x = a;
+    const DipCandidate *y = b;
+    return (x->loss > y->loss) - (x->loss < y->loss);
 }
 
 // Adds the candidates of least FLIP that may be within a budget, until PER_BUDGET of them are
-// listed or measured.
-static void add_near_budget(Promising *promising, const DipCostReport *report, double budget_ms,
-                            Candidate *all, int count) {
+// listed or measured. The candidates are in order of their loss.
+static void add_near_budget(Promising *promising, const DipCandidates *all, double budget_ms) {
     int seen = 0;
-    qsort(all, (size_t)count, sizeof *all, compare_flip);
-    for (int i = 0; i < count && seen < PER_BUDGET; i++) {
-        const double ms =
-            report->options.budget_of == DIP_COST_BUDGET_MEAN ? all[i].ms : all[i].p95_ms;
-        if (ms <= 1.08 * budget_ms) {
-            add_promising(promising, &all[i]);
+    for (int i = 0; i < all->count && seen < PER_BUDGET; i++) {
+        if (all->list[i].time.value <= 1.08 * budget_ms) {
+            add_promising(promising, all->list[i].row);
             seen++;
         }
     }
 }
 
 int dip_cost_list_promising(const DipCostReport *report, int most, int *list, DipError *err) {
-    const int count = report->predicted.count;
-    Candidate *all = malloc(((size_t)count + 1) * sizeof *all);
-    Promising promising = {.list = list, .most = most};
-    if (!all) {
-        out_of_memory(err);
+    const DipCostOptions *options = &report->options;
+    Promising promising = {.predictions = report->predicted.list, .list = list, .most = most};
+    DipCandidates all;
+    int front[DIP_COST_MAX_ROWS];
+    if (!dip_candidates_of_predictions(report, options->budget_of, true, &all, err)) {
         return -1;
     }
+    qsort(all.list, (size_t)all.count, sizeof *all.list, compare_losses);
+    for (int b = 0; b < options->budget_count; b++) {
+        add_near_budget(&promising, &all, options->budgets_ms[b]);
+    }
+    const int count = dip_front(&all, DIP_CLEARLY_BETTER, front);
     for (int i = 0; i < count; i++) {
-        all[i] = candidate(report, i);
+        add_promising(&promising, all.list[front[i]].row);
     }
-    for (int b = 0; b < report->options.budget_count; b++) {
-        add_near_budget(&promising, report, report->options.budgets_ms[b], all, count);
-    }
-    add_front(&promising, all, count);
-    free(all);
+    dip_candidates_free(&all);
     return promising.count;
 }
 
@@ -244,11 +209,10 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
     predicted->times_left_out = dip_cost_model_leave_one_out(report, rows, count);
     predicted->errors_left_out = dip_cost_error_model_leave_one_out(report, rows, count);
     for (int i = 0; i < count; i++) {
-        const Candidate measured = candidate(report, chosen[i]);
         DipCostPrediction *p = &predicted->list[chosen[i]];
-        p->ms = measured.ms;
-        p->p95_ms = measured.p95_ms;
-        p->flip = measured.flip;
+        p->ms = dip_cost_ms(report, p->row);
+        p->p95_ms = report->rows[p->row].time.p95_ms.value;
+        p->flip = dip_cost_row_metrics(report, p->row, 0).flip;
     }
     dip_cost_predict_others(report);
     return true;
@@ -262,9 +226,8 @@ static void judge_predictions(DipCostReport *report, int first_row) {
     for (int i = 0; i < predicted->count; i++) {
         const DipCostPrediction *p = &predicted->list[i];
         if (p->row >= first_row) {
-            const Candidate measured = candidate(report, i);
-            times[count] = fabs(p->ms / measured.ms - 1.0);
-            errors[count++] = fabs(p->flip / measured.flip - 1.0);
+            times[count] = fabs(p->ms / dip_cost_ms(report, p->row) - 1.0);
+            errors[count++] = fabs(p->flip / dip_cost_row_metrics(report, p->row, 0).flip - 1.0);
         }
     }
     predicted->times = dip_cost_misses_of(times, count);

@@ -19,7 +19,7 @@ bool dip_cost_choose_training(const DipCostReport *report, int count, int *chose
 void dip_cost_predict_others(DipCostReport *report);
 
 // Lists the combinations without a row that should be measured: those on the thinned Pareto front
-// of predicted (or measured) mean time and FLIP, and for each budget of the options the few with
+// of predicted (or measured) time and FLIP, and for each budget of the options the few with
 // the least FLIP among those that are predicted to be at most 8 % above it. Returns their number,
 // at most `most`.
 int dip_cost_list_promising(const DipCostReport *report, int most, int *list, DipError *err);

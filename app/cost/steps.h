@@ -39,8 +39,8 @@ bool dip_cost_time_added(DipCostContext *cost, const int *rows, int count, DipEr
 // dip_cost_judge and dip_cost_time_rows.
 bool dip_cost_predict(DipCostContext *cost, DipError *err);
 
-// Times again the rows that may or may not be within a budget, and chooses a row for each budget.
-// If the verdict on the machine is red, no row is chosen.
+// Times again the rows that may or may not be within a budget, unless the verdict on the machine is
+// red.
 bool dip_cost_advise(DipCostContext *cost, DipError *err);
 
 #endif

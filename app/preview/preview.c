@@ -88,6 +88,9 @@ static bool open_parts(Parts *parts, DipSession *session, const DipPreviewOption
 static void close_parts(Parts *parts) {
     dip_remote_close(&parts->remote);
     dip_reload_destroy(&parts->reload);
+    if (parts->costs) {
+        dip_costs_free(parts->costs);
+    }
     free(parts->costs);
     dip_prices_destroy(&parts->prices);
 }

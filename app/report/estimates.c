@@ -147,16 +147,6 @@ double dip_cost_ms(const DipCostReport *report, int row) {
     return report->rows[row].time.mean_ms.value;
 }
 
-DipStatsEstimate dip_cost_budget_time(const DipCostReport *report, int row) {
-    const DipPathEstimate *time = &report->rows[row].time;
-    const DipStatsEstimate kinds[] = {
-        [DIP_COST_BUDGET_P95] = time->p95_ms,
-        [DIP_COST_BUDGET_MEAN] = time->mean_ms,
-        [DIP_COST_BUDGET_WORST] = time->worst_ms,
-    };
-    return kinds[report->options.budget_of];
-}
-
 bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEstimate *ratio,
                     DipError *err) {
     const DipCostRow *a = &report->rows[row];
@@ -273,5 +263,6 @@ bool dip_cost_estimate_times(DipCostReport *report, DipError *err) {
         }
         close_level(&level);
     }
-    return done && estimate_sweeps(report, err) && dip_cost_judge_machine(report, err);
+    return done && estimate_sweeps(report, err) && dip_cost_judge_machine(report, err) &&
+           dip_cost_choose(report, err);
 }

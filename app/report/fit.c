@@ -150,25 +150,18 @@ static double miss_of(const DipCostModel *model, const DipCostRow *row) {
     return fabs(dip_cost_model_ms(model, row->counters, &row->quality) / whole_ms(row) - 1.0);
 }
 
-static int compare_values(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 DipCostMisses dip_cost_misses_of(double *misses, int count) {
     if (count == 0) {
         return (DipCostMisses){0};
     }
-    qsort(misses, (size_t)count, sizeof *misses, compare_values);
     int within_10 = 0, within_5 = 0;
     for (int i = 0; i < count; i++) {
         within_10 += misses[i] <= 0.10;
         within_5 += misses[i] <= 0.05;
     }
     return (DipCostMisses){
-        .median = dip_stats_median(misses, count),
-        .p90 = misses[(9 * count + 9) / 10 - 1], // The least value that 90 % do not exceed.
+        .median = dip_percentile(misses, count, 0.5),
+        .p90 = dip_percentile(misses, count, 0.9),
         .within_10 = (double)within_10 / count,
         .within_5 = (double)within_5 / count,
         .rows = count,

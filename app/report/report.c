@@ -2,18 +2,11 @@
 #include "app/report/report.h"
 
 #include "app/measure/metrics/truth.h"
-#include "renderer/base/assert.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-const char *const dip_cost_budget_of_names[3] = {
-    [DIP_COST_BUDGET_P95] = "p95",
-    [DIP_COST_BUDGET_MEAN] = "mean",
-    [DIP_COST_BUDGET_WORST] = "worst",
-};
 
 const char *const dip_cost_picture_kind_names[3] = {
     [DIP_COST_PICTURES_CROPS] = "crops",
@@ -89,6 +82,7 @@ void dip_cost_report_free(DipCostReport *report) {
     free(report->floors);
     free(report->has_floor);
     free(report->predicted.list);
+    dip_cost_choice_free(&report->choice);
     *report = (DipCostReport){0};
 }
 
@@ -230,124 +224,4 @@ double dip_cost_floor_flip(const DipCostReport *report, int path) {
 double dip_cost_ranking_flip(const DipCostReport *report, int row) {
     return fmax(dip_cost_row_metrics(report, row, 0).flip,
                 dip_cost_floor_flip(report, report->rows[row].path));
-}
-
-// --- choosing ----------------------------------------------------------------------------------
-
-typedef struct Candidate {
-    int row;
-    double ms;
-    double error;
-} Candidate;
-
-static int compare_candidates(const void *a, const void *b) {
-    const Candidate *x = a;
-    const Candidate *y = b;
-    const int by_time = (x->ms > y->ms) - (x->ms < y->ms);
-    return by_time ? by_time : (x->error > y->error) - (x->error < y->error);
-}
-
-int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *pareto) {
-    Candidate candidates[DIP_COST_MAX_ROWS];
-    DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
-    int found = 0, kept = 0;
-    for (int i = 0; i < count; i++) {
-        int viewpoints;
-        const DipMetricSums sums = dip_cost_row_sums(report, rows[i], &viewpoints);
-        if (viewpoints > 0 && dip_cost_is_timed(report, rows[i])) {
-            candidates[found++] =
-                (Candidate){rows[i], dip_cost_ms(report, rows[i]), dip_metrics_of(&sums, 0).flip};
-        }
-    }
-    qsort(candidates, (size_t)found, sizeof *candidates, compare_candidates);
-    double least = INFINITY;
-    for (int i = 0; i < found; i++) {
-        if (candidates[i].error < least) {
-            least = candidates[i].error;
-            pareto[kept++] = candidates[i].row;
-        }
-    }
-    return kept;
-}
-
-int dip_cost_pareto_front_thin(const DipCostReport *report, int *pareto, int count) {
-    int kept = 0;
-    for (int i = 0; i < count; i++) {
-        if (i == 0 || dip_cost_row_metrics(report, pareto[i], 0).flip <=
-                          0.99 * dip_cost_row_metrics(report, pareto[kept - 1], 0).flip) {
-            pareto[kept++] = pareto[i];
-        }
-    }
-    return kept;
-}
-
-int dip_cost_knee(const DipCostReport *report, const int *front, int count) {
-    if (count < 3) {
-        return -1;
-    }
-    const int last = front[count - 1];
-    const double x0 = log(dip_cost_ms(report, front[0]));
-    const double y0 = log(dip_cost_row_metrics(report, front[0], 0).flip);
-    const double dx = log(dip_cost_ms(report, last)) - x0;
-    const double dy = log(dip_cost_row_metrics(report, last, 0).flip) - y0;
-    int knee = -1;
-    double farthest = 0.0;
-    for (int i = 1; i < count - 1; i++) {
-        const double x = log(dip_cost_ms(report, front[i])) - x0;
-        const double y = log(dip_cost_row_metrics(report, front[i], 0).flip) - y0;
-        const double below = x / dx * dy - y;
-        if (below > farthest) {
-            farthest = below;
-            knee = i;
-        }
-    }
-    return knee;
-}
-
-int dip_cost_step_up(const DipCostReport *report, int row) {
-    const double enough = 0.99 * dip_cost_row_metrics(report, row, 0).flip;
-    int next = -1;
-    double least_ms = INFINITY;
-    for (int r = report->combined_first; r < report->row_count; r++) {
-        int viewpoints;
-        const DipMetricSums sums = dip_cost_row_sums(report, r, &viewpoints);
-        const bool is_known = viewpoints > 0 && dip_cost_is_timed(report, r);
-        const double ms = is_known ? dip_cost_ms(report, r) : INFINITY;
-        if (ms < least_ms && dip_metrics_of(&sums, 0).flip <= enough) {
-            least_ms = ms;
-            next = r;
-        }
-    }
-    return next;
-}
-
-// True if row a is to be preferred to row b, whose errors are alike.
-static bool is_preferred(const DipCostReport *report, int a, int b) {
-    const DipStatsEstimate x = dip_cost_budget_time(report, a);
-    const DipStatsEstimate y = dip_cost_budget_time(report, b);
-    const bool apart = x.high < y.low || y.high < x.low;
-    const int changes = dip_quality_count_changes(&report->rows[a].quality) -
-                        dip_quality_count_changes(&report->rows[b].quality);
-    return !apart && changes != 0 ? changes < 0 : x.value < y.value;
-}
-
-int dip_cost_choose(const DipCostReport *report, double budget_ms) {
-    int best = -1;
-    double least = INFINITY;
-    for (int pass = 0; pass < 2; pass++) { // First the least FLIP, then the best row of that FLIP.
-        for (int r = report->combined_first; r < report->row_count; r++) {
-            int viewpoints;
-            dip_cost_row_sums(report, r, &viewpoints);
-            const double flip = dip_cost_ranking_flip(report, r);
-            if (viewpoints == 0 || dip_cost_budget_time(report, r).high > budget_ms) {
-                continue;
-            }
-            if (pass == 0) {
-                least = fmin(least, flip);
-            } else if (flip <= 1.01 * least && (best < 0 || is_preferred(report, r, best))) {
-                best = r;
-            }
-        }
-    }
-    return best;
 }

@@ -10,6 +10,7 @@
 #include "app/measure/metrics/metrics.h"
 #include "app/measure/stats/paired.h"
 #include "app/measure/timing/paired_timing.h"
+#include "app/report/choice.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/quality.h"
 
@@ -79,17 +80,16 @@ typedef struct DipCostSweep {
     int row_count;
 } DipCostSweep;
 
-// The row to choose for one time budget.
-typedef struct DipCostAdvice {
-    double budget_ms;
-    int row;       // -1 if no combination is within the budget.
-    double ms;     // The row's time, of the kind that the budget is meant for.
-    double ms_low; // 95 % interval of ms; ms_high is at most the budget.
-    double ms_high;
-    double probability;           // That the row is the best for the budget (choice.h).
-    int runner_up;                // The row that is most likely better, or -1.
-    double runner_up_probability; // That the runner-up is the best instead.
-} DipCostAdvice;
+// What the measurements choose (app/report/choice.h), for the time that budgets are meant for.
+typedef struct DipCostChoice {
+    DipCandidates candidates; // Combinations with a time and an error, by rows. The list is owned.
+    // The thinned front (DIP_CLEARLY_BETTER) in order of time: indices of candidates. Owned.
+    int *front;
+    int front_count;
+    int knee;                               // Index in the front, or -1.
+    DipAdvice advice[DIP_COST_MAX_BUDGETS]; // For the first of options.budgets_ms.
+    int advice_count;                       // All budgets, or 0 without candidates.
+} DipCostChoice;
 
 // A combination that was timed elsewhere than the rows: at another size, on another camera path or
 // with another number of threads. Each frame was timed beside a frame of path 0's baseline, so the
@@ -190,9 +190,8 @@ typedef struct DipCostReport {
     char verdict_reason[DIP_COST_REASON];
     // Noise floors of the truths, [path * options.places + viewpoint]. Both arrays are owned.
     DipMetricSums *floors;
-    bool *has_floor; // True if the floor with this index is known.
-    DipCostAdvice advice[DIP_COST_MAX_BUDGETS];
-    int advice_count;
+    bool *has_floor;              // True if the floor with this index is known.
+    DipCostChoice choice;         // Empty without times.
     DipCostPredictions predicted; // Empty without --predict.
     // A few combinations on path 0, drawn at about half the width and height. They tell the price
     // of work that grows with the picture from the price of work that does not, which the model of
@@ -302,8 +301,8 @@ bool dip_cost_ratio_over_runs(const DipCostReport *report, const DipStatsEstimat
 // Number of frames that are timed along a path.
 int dip_cost_frame_count(const DipCostReport *report);
 
-// Computes the time of every row from its pairs, the ratios of all sweeps and the verdict. Call it
-// once all pairs are there. Fails with DIP_ERROR_MEMORY.
+// Computes the time of every row from its pairs, the ratios of all sweeps, the verdict and the
+// choice. Call it once all pairs are there. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_estimate_times(DipCostReport *report, DipError *err);
 
 bool dip_cost_is_timed(const DipCostReport *report, int row);
@@ -317,9 +316,6 @@ double dip_cost_ms(const DipCostReport *report, int row);
 bool dip_cost_frame_times(const DipCostReport *report, const int *rows, int count, double *ms,
                           DipError *err);
 
-// The time of a row, of the kind that budgets are meant for (--budget-of).
-DipStatsEstimate dip_cost_budget_time(const DipCostReport *report, int row);
-
 // Computes the times of a combination that was timed elsewhere from `pairs`, the times of
 // dip_cost_frame_count frames beside the baseline of path 0. The report's times must be estimated.
 // Fails with DIP_ERROR_MEMORY, or with DIP_ERROR_RUNTIME if too many frames were disturbed.
@@ -332,32 +328,12 @@ bool dip_cost_ratio(const DipCostReport *report, int row, int base, DipStatsEsti
 
 // --- choosing ----------------------------------------------------------------------------------
 
-// Finds the Pareto front of some rows in time and FLIP. A row is in the front if no other row is at
-// least as good in both. Writes the rows of the front to `front` in order of time and returns their
-// number. Rows without times or errors are left out.
-int dip_cost_pareto_front(const DipCostReport *report, const int *rows, int count, int *front);
+// Computes report->choice from the times and errors. dip_cost_estimate_times calls it; call it
+// again after errors, budgets or rows have changed. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_choose(DipCostReport *report, DipError *err);
+void dip_cost_choice_free(DipCostChoice *choice);
 
-// Thins a Pareto front: keeps the first row and every row whose FLIP is at least 1 % below the FLIP
-// of the row kept before. Returns the number of rows kept.
-int dip_cost_pareto_front_thin(const DipCostReport *report, int *front, int count);
-
-// Returns the index of the knee of a thinned Pareto front (in order of time): the row beyond which
-// more time buys least. In a plot of log time against log FLIP it is the point farthest below the
-// line from the first row to the last (Satopaa et al. 2011). Returns -1 for fewer than three rows.
-int dip_cost_knee(const DipCostReport *report, const int *front, int count);
-
-// Returns the fastest combination whose FLIP is at least 1 % lower than the row's FLIP, or -1 if
-// there is none.
-int dip_cost_step_up(const DipCostReport *report, int row);
-
-// Returns the combination with the least FLIP whose time is surely within the budget: the upper end
-// of its interval is at most the budget. Among combinations whose FLIP is within 1 % of the least,
-// takes the fastest one, and among those whose intervals overlap with it, the one with the fewest
-// settings that differ from their defaults. Returns -1 if no combination is within the budget.
-int dip_cost_choose(const DipCostReport *report, double budget_ms);
-
-// Chooses anew for the budgets of the report's advice (advice.c), after other viewpoints have been
-// joined to it. Fails with DIP_ERROR_MEMORY.
-bool dip_cost_choose_again(DipCostReport *report, DipError *err);
+// Returns the candidate that is advised for the budget with this index, or NULL.
+const DipCandidate *dip_cost_chosen(const DipCostReport *report, int budget);
 
 #endif

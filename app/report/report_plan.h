@@ -3,6 +3,7 @@
 #ifndef DIP_APP_REPORT_REPORT_PLAN_H
 #define DIP_APP_REPORT_REPORT_PLAN_H
 
+#include "app/report/choice.h"
 #include "renderer/scene/quality.h"
 
 #include <stdbool.h>
@@ -13,15 +14,6 @@ enum {
     DIP_COST_MAX_BURST = 16,
     DIP_COST_MAX_BUDGETS = 64
 };
-
-// The time of a path's frames that must be within a budget.
-typedef enum DipCostBudgetOf {
-    DIP_COST_BUDGET_P95,  // The 95th percentile over the frames.
-    DIP_COST_BUDGET_MEAN, // The mean over the frames.
-    DIP_COST_BUDGET_WORST // The slowest frame.
-} DipCostBudgetOf;
-
-extern const char *const dip_cost_budget_of_names[3]; // "p95", "mean", "worst"
 
 // The pictures in the page.
 typedef enum DipCostPictureKind {
@@ -52,7 +44,7 @@ typedef struct DipCostOptions {
     unsigned combined; // Bit s: setting s takes part in the combinations.
     double budgets_ms[DIP_COST_MAX_BUDGETS];
     int budget_count;
-    DipCostBudgetOf budget_of;
+    DipTimeKind budget_of;
     bool require_quiet;          // Fail if the machine was too busy for the times to be believed.
     const char *cache;           // Folder of the cached truths; NULL: the user's cache folder.
     DipCostPictureKind pictures; // The pictures in the page.

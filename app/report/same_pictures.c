@@ -57,12 +57,6 @@ bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {
     for (int i = 0; has_room && i < report->same_count; i++) {
         report->same[i].row = now[report->same[i].row - first];
     }
-    for (int i = 0; has_room && i < report->advice_count; i++) {
-        int *const rows[] = {&report->advice[i].row, &report->advice[i].runner_up};
-        for (int k = 0; k < 2; k++) {
-            *rows[k] = *rows[k] >= first ? now[stands[*rows[k] - first] - first] : *rows[k];
-        }
-    }
     report->row_count = has_room ? kept : report->row_count;
     free(stands);
     free(now);

@@ -2,7 +2,7 @@
 #ifndef DIP_APP_REPORT_TIERS_H
 #define DIP_APP_REPORT_TIERS_H
 
-#include "renderer/scene/quality.h"
+#include "app/report/report.h"
 
 #include <stdio.h>
 
@@ -17,8 +17,9 @@ typedef struct DipCostTier {
     int row;                   // The row of the report, or -1.
 } DipCostTier;
 
-// Sorts the tiers by their budgets.
-void dip_cost_tiers_sort(DipCostTier tiers[DIP_COST_TIER_COUNT]);
+// Makes the tiers of a report from its advice, in the order of their budgets. Returns false if
+// there are not four budgets.
+bool dip_cost_tiers_of(const DipCostReport *report, DipCostTier tiers[DIP_COST_TIER_COUNT]);
 
 // Sorts the tiers and prints them as lines for the ini.
 void dip_cost_tiers_print(DipCostTier tiers[DIP_COST_TIER_COUNT], FILE *out);

@@ -69,11 +69,11 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
     const size_t floors = (size_t)a->path_count * (size_t)a->options.places;
     FUZZ_CHECK(memcmp(a->has_floor, b->has_floor, floors * sizeof *a->has_floor) == 0);
     check_numbers(a->floors, b->floors, floors * sizeof *a->floors);
-    FUZZ_CHECK(a->advice_count == b->advice_count);
-    for (int i = 0; i < a->advice_count; i++) {
-        FUZZ_CHECK(a->advice[i].row == b->advice[i].row);
-        check_numbers(&a->advice[i].budget_ms, &b->advice[i].budget_ms, sizeof(double));
-        check_numbers(&a->advice[i].ms, &b->advice[i].ms, 3 * sizeof(double));
+    FUZZ_CHECK(a->choice.advice_count == b->choice.advice_count);
+    for (int i = 0; i < a->choice.advice_count; i++) {
+        FUZZ_CHECK(a->choice.advice[i].chosen == b->choice.advice[i].chosen);
+        check_numbers(&a->choice.advice[i].budget_ms, &b->choice.advice[i].budget_ms,
+                      sizeof(double));
     }
 }
 

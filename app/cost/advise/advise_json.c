@@ -1,7 +1,7 @@
 // Writing common advice as JSON.
 #include "app/cost/advise/advise_output.h"
 
-#include "app/report/front.h"
+#include "app/report/candidates.h"
 #include "app/report/format/json_memory.h"
 #include "app/files/whole_file.h"
 
@@ -22,17 +22,19 @@ static void add_settings(cJSON *to, const char *name, const DipQuality *quality)
     cJSON_AddStringToObject(to, name, text);
 }
 
-static void add_time(cJSON *to, const DipStatsEstimate *time) {
-    cJSON_AddNumberToObject(to, "ms", time->value);
-    cJSON_AddNumberToObject(to, "ms_low", time->low);
-    cJSON_AddNumberToObject(to, "ms_high", time->high);
+// Adds what one report says about some settings.
+static void add_candidate(cJSON *to, const DipCandidate *candidate) {
+    const DipEstimate ms = dip_estimate_widen(&candidate->time, candidate->common_error);
+    cJSON_AddNumberToObject(to, "ms", ms.value);
+    cJSON_AddNumberToObject(to, "ms_low", ms.low);
+    cJSON_AddNumberToObject(to, "ms_high", ms.high);
+    cJSON_AddNumberToObject(to, "flip", candidate->flip);
 }
 
 static void add_reports(cJSON *root, const DipCostCommon *common) {
     cJSON *reports = cJSON_AddArrayToObject(root, "reports");
     for (int i = 0; i < common->report_count; i++) {
         const DipCostReport *report = &common->reports[i];
-        int rows[DIP_COST_MAX_ROWS];
         cJSON *object = cJSON_CreateObject();
         cJSON_AddStringToObject(object, "name", common->names[i]);
         cJSON_AddStringToObject(object, "scene", report->scene);
@@ -42,7 +44,7 @@ static void add_reports(cJSON *root, const DipCostCommon *common) {
         cJSON_AddStringToObject(object, "processor", report->processor);
         cJSON_AddNumberToObject(object, "threads", report->threads);
         cJSON_AddStringToObject(object, "verdict", dip_cost_verdict_names[report->verdict]);
-        cJSON_AddNumberToObject(object, "combinations", dip_cost_list_plotted(report, rows));
+        cJSON_AddNumberToObject(object, "combinations", report->choice.candidates.count);
         add_to_array(reports, object);
     }
 }
@@ -52,18 +54,16 @@ static void add_line(cJSON *list, const DipCostCommon *common, const DipCostComm
                      int index) {
     const DipCostReport *report = &common->reports[index];
     cJSON *line = cJSON_CreateObject();
-    if (advice->chosen >= 0) {
-        const DipStatsEstimate time = dip_cost_common_time(common, advice->chosen, index);
-        add_time(line, &time);
-        cJSON_AddNumberToObject(line, "flip", dip_cost_common_flip(common, advice->chosen, index));
+    if (advice->all.chosen >= 0) {
+        const DipCandidate c = dip_cost_common_candidate(common, advice->all.chosen, index);
+        add_candidate(line, &c);
     }
     if (advice->alone[index] >= 0) {
-        const DipStatsEstimate time = dip_cost_budget_time(report, advice->alone[index]);
+        const DipCandidate c =
+            dip_candidate_of_row(report, advice->alone[index], common->candidates.kind);
         cJSON *alone = cJSON_AddObjectToObject(line, "alone");
-        add_settings(alone, "settings", &report->rows[advice->alone[index]].quality);
-        add_time(alone, &time);
-        cJSON_AddNumberToObject(alone, "flip",
-                                dip_cost_row_metrics(report, advice->alone[index], 0).flip);
+        add_settings(alone, "settings", &c.quality);
+        add_candidate(alone, &c);
     }
     const double lost = dip_cost_common_share_lost(common, advice, index);
     if (isfinite(lost)) {
@@ -72,13 +72,16 @@ static void add_line(cJSON *list, const DipCostCommon *common, const DipCostComm
     add_to_array(list, line);
 }
 
+// Adds a combination, and with which probability it fits the budget in every report.
 static void add_combination(cJSON *to, const char *name, const DipCostCommon *common,
-                            int combination) {
+                            int combination, double fits) {
     if (combination >= 0) {
+        const DipCandidate *c = &common->candidates.list[combination];
         cJSON *object = cJSON_AddObjectToObject(to, name);
-        add_settings(object, "settings", &common->qualities[combination]);
-        cJSON_AddNumberToObject(object, "mean_flip",
-                                dip_cost_common_mean_flip(common, combination));
+        add_settings(object, "settings", &c->quality);
+        cJSON_AddNumberToObject(object, "mean_flip", c->flip);
+        cJSON_AddNumberToObject(object, "fits", fits);
+        cJSON_AddNumberToObject(object, "limited_by_report", c->report);
     }
 }
 
@@ -86,35 +89,37 @@ static void add_advice(cJSON *root, const DipCostCommon *common, const DipCostCo
                        int count) {
     cJSON *array = cJSON_AddArrayToObject(root, "advice");
     for (int i = 0; i < count; i++) {
+        const DipAdvice *all = &advice[i].all;
         cJSON *object = cJSON_CreateObject();
-        cJSON_AddNumberToObject(object, "budget_ms", advice[i].budget_ms);
-        add_combination(object, "chosen", common, advice[i].chosen);
+        cJSON_AddNumberToObject(object, "budget_ms", all->budget_ms);
+        add_combination(object, "chosen", common, all->chosen, all->fits);
+        cJSON *ties = cJSON_AddArrayToObject(object, "ties");
+        for (int t = 0; t < all->tie_count && t < DIP_ADVICE_TIES; t++) {
+            char text[256];
+            dip_quality_format(&common->qualities[all->ties[t]], text, sizeof text);
+            add_to_array(ties, cJSON_CreateString(text));
+        }
+        cJSON_AddNumberToObject(object, "tie_count", all->tie_count);
+        add_combination(object, "next_better", common, all->next, all->next_fits);
+        if (all->next >= 0) {
+            cJSON_AddNumberToObject(object, "next_ms", all->next_ms);
+        }
         cJSON *lines = cJSON_AddArrayToObject(object, "reports");
         for (int r = 0; r < common->report_count; r++) {
             add_line(lines, common, &advice[i], r);
         }
-        add_combination(object, "next_better", common, advice[i].next);
-        if (advice[i].limit >= 0) {
-            cJSON_AddNumberToObject(object, "limited_by_report", advice[i].limit);
-        }
-        add_combination(object, "undecided", common, advice[i].undecided);
         add_to_array(array, object);
     }
 }
 
 bool dip_cost_common_write_json(const DipCostCommon *common, const DipCostCommonAdvice *advice,
-                                int count, const DipCostSegmentList *by_segment, const char *file,
-                                DipError *err) {
+                                int count, const char *file, DipError *err) {
     dip_json_memory_begin();
     cJSON *root = cJSON_CreateObject();
-    const DipCostBudgetOf of = common->reports[0].options.budget_of;
-    cJSON_AddStringToObject(root, "budget_of", dip_cost_budget_of_names[of]);
+    cJSON_AddStringToObject(root, "budget_of", dip_time_kind_names[common->candidates.kind]);
     cJSON_AddNumberToObject(root, "combinations", common->count);
     add_reports(root, common);
     add_advice(root, common, advice, count);
-    if (by_segment) {
-        dip_cost_segments_add_json(by_segment, root);
-    }
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
     const bool complete = text && !dip_json_memory_ran_out();

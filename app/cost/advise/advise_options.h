@@ -11,8 +11,6 @@ typedef struct DipCostAdviseArguments {
     DipCostOptions cost; // Only the budgets and budget_of are used.
     const char *reports[DIP_COST_MAX_COMMON_REPORTS];
     int report_count;
-    bool has_segments;
-    int segments;     // Number of segments of the path; 1: no advice per segment.
     const char *json; // File for the advice, or NULL.
 } DipCostAdviseArguments;
 

@@ -3,7 +3,6 @@
 #define DIP_APP_COST_ADVISE_ADVISE_OUTPUT_H
 
 #include "app/cost/advise/common_advice.h"
-#include "app/report/segments_output.h"
 
 #include <stdio.h>
 
@@ -22,11 +21,10 @@ double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostComm
 void dip_cost_common_print(const DipCostCommon *common, const DipCostCommonAdvice *advice,
                            int count, FILE *out);
 
-// Writes the same to a file, and advice per segment if it is not NULL. Fails with DIP_ERROR_MEMORY,
-// or DIP_ERROR_IO if the file cannot be written.
+// Writes the same to a file. Fails with DIP_ERROR_MEMORY, or DIP_ERROR_IO if the file cannot be
+// written.
 bool dip_cost_common_write_json(const DipCostCommon *common, const DipCostCommonAdvice *advice,
-                                int count, const DipCostSegmentList *by_segment, const char *file,
-                                DipError *err);
+                                int count, const char *file, DipError *err);
 
 #ifdef __cplusplus
 }

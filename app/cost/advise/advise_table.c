@@ -1,9 +1,9 @@
 // Printing common advice for a terminal.
 #include "app/cost/advise/advise_output.h"
 
-#include "app/report/front.h"
 #include "app/report/tiers.h"
 #include "app/files/put.h"
+#include "app/report/words.h"
 
 #include <math.h>
 
@@ -11,10 +11,10 @@ double dip_cost_common_share_lost(const DipCostCommon *common, const DipCostComm
                                   int report) {
     const DipCostReport *r = &common->reports[report];
     const int alone = advice->alone[report];
-    if (advice->chosen < 0 || alone < 0) {
+    if (advice->all.chosen < 0 || alone < 0) {
         return NAN;
     }
-    const int row = common->rows[advice->chosen * common->report_count + report];
+    const int row = common->rows[advice->all.chosen * common->report_count + report];
     return dip_cost_ranking_flip(r, row) / dip_cost_ranking_flip(r, alone) - 1.0;
 }
 
@@ -23,30 +23,29 @@ static void print_reports(const DipCostCommon *common, FILE *out) {
                  dip_cost_plural(common->report_count));
     for (int i = 0; i < common->report_count; i++) {
         const DipCostReport *r = &common->reports[i];
-        int rows[DIP_COST_MAX_ROWS];
         dip_put_text(out,
                      "  %2d  %s: %s, path %s, %dx%d pixels, %d thread%s; %s; %d combinations\n",
                      i + 1, common->names[i], r->scene, r->paths[0], r->width, r->height,
                      r->threads, dip_cost_plural(r->threads), dip_cost_verdict_names[r->verdict],
-                     dip_cost_list_plotted(r, rows));
+                     r->choice.candidates.count);
     }
-    const DipCostReport *first = &common->reports[0];
     dip_put_text(
         out,
-        "%d combination%s of settings %s in every report. Times are %s times, with a bound "
-        "that they surely keep.\n"
+        "%d combination%s of settings %s in every report. Times are %s times with their "
+        "intervals of 95 %%.\n"
         "Mean FLIP is the mean over the reports. Loss is how much more FLIP the common choice "
         "has than the settings that the report alone would choose.\n",
         common->count, dip_cost_plural(common->count), common->count == 1 ? "is" : "are",
-        dip_cost_budget_of_names[first->options.budget_of]);
+        dip_time_kind_names[common->candidates.kind]);
 }
 
 static void print_line(const DipCostCommon *common, const DipCostCommonAdvice *advice, int report,
                        FILE *out) {
-    const DipStatsEstimate time = dip_cost_common_time(common, advice->chosen, report);
+    const DipCandidate c = dip_cost_common_candidate(common, advice->all.chosen, report);
+    const DipEstimate time = dip_estimate_widen(&c.time, c.common_error);
     const double loss = dip_cost_common_share_lost(common, advice, report);
     const int alone = advice->alone[report];
-    const int row = common->rows[advice->chosen * common->report_count + report];
+    const int row = common->rows[advice->all.chosen * common->report_count + report];
     char settings[DIP_COST_TEXT] = "the same";
     char lost[24] = "";
     if (alone >= 0 && alone != row) {
@@ -54,80 +53,82 @@ static void print_line(const DipCostCommon *common, const DipCostCommonAdvice *a
         // Adding 0 turns -0 into 0.
         snprintf(lost, sizeof lost, "%.1f %%", round(1000.0 * loss) / 10.0 + 0.0);
     }
-    dip_put_text(out, "    %6d %8.2f %8.2f %8.5f %8s  %s\n", report + 1, time.value, time.high,
-                 dip_cost_common_flip(common, advice->chosen, report), lost, settings);
+    dip_put_text(out, "    %6d %8.2f %8.2f %8.2f %8.5f %8s  %s\n", report + 1, time.value, time.low,
+                 time.high, c.flip, lost, settings);
 }
 
 // Says what stands in the way of better settings.
-static void print_limit(const DipCostCommon *common, const DipCostCommonAdvice *advice, FILE *out) {
-    char settings[DIP_COST_TEXT];
+static void print_next(const DipCostCommon *common, const DipAdvice *advice, FILE *out) {
+    char settings[DIP_COST_TEXT], ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES];
+    char fits[DIP_NUMBER_BYTES];
     if (advice->next < 0) {
         dip_put_text(out, "    no combination is better, whatever its time\n");
         return;
     }
-    dip_cost_settings_text(&common->qualities[advice->next], settings);
-    dip_put_text(
-        out,
-        "    next better: %s (mean FLIP %.1f %%), but it may take up to %.2f ms in report %d\n",
-        settings,
-        100.0 * (dip_cost_common_mean_flip(common, advice->next) /
-                     dip_cost_common_mean_flip(common, advice->chosen) -
-                 1.0),
-        dip_cost_common_time(common, advice->next, advice->limit).high, advice->limit + 1);
+    const DipCandidate *next = &common->candidates.list[advice->next];
+    dip_cost_settings_text(&next->quality, settings);
+    dip_number_text(advice->next_ms, 2, true, "-", ms);
+    dip_number_text(100.0 * (next->flip / common->candidates.list[advice->chosen].flip - 1.0), 1,
+                    true, "-", flip);
+    dip_fits_text(advice->next_fits, fits);
+    dip_put_text(out,
+                 "    next better: %s (mean FLIP %s %%), for %s ms in report %d, where it takes "
+                 "longest; fits with %s\n",
+                 settings, flip, ms, next->report + 1, fits);
 }
 
-static void print_undecided(const DipCostCommon *common, const DipCostCommonAdvice *advice,
-                            FILE *out) {
+static void print_nothing(const DipCostCommon *common, const DipAdvice *advice, FILE *out) {
+    char settings[DIP_COST_TEXT], budget[DIP_BUDGET_BYTES], fits[DIP_NUMBER_BYTES];
+    const DipCandidate *fastest = &common->candidates.list[advice->next];
+    dip_cost_settings_text(&fastest->quality, settings);
+    dip_budget_text(advice->budget_ms, budget);
+    dip_fits_text(advice->next_fits, fits);
+    dip_put_text(
+        out,
+        "\n%s: no common combination surely fits; the fastest, %s, takes %.2f ms in report %d "
+        "and fits with %s\n",
+        budget, settings, fastest->time.value, fastest->report + 1, fits);
+}
+
+static void print_ties(const DipCostCommon *common, const DipAdvice *advice, FILE *out) {
     char settings[DIP_COST_TEXT];
-    if (advice->undecided < 0) {
-        return;
+    for (int i = 0; i < advice->tie_count && i < DIP_ADVICE_TIES; i++) {
+        dip_cost_settings_text(&common->qualities[advice->ties[i]], settings);
+        dip_put_text(out, "%s%s", i > 0 ? "; " : "    as good within 1 %: ", settings);
     }
-    dip_cost_settings_text(&common->qualities[advice->undecided], settings);
-    dip_put_text(
-        out,
-        "    not surely within the budget, but perhaps: %s (mean FLIP %.5f); times with less "
-        "noise would tell\n",
-        settings, dip_cost_common_mean_flip(common, advice->undecided));
-}
-
-static void print_nothing(const DipCostCommon *common, const DipCostCommonAdvice *advice,
-                          FILE *out) {
-    char settings[DIP_COST_TEXT];
-    dip_cost_settings_text(&common->qualities[advice->next], settings);
-    dip_put_text(
-        out,
-        "\n%g ms: no common combination is surely that fast; the fastest, %s, may take up to "
-        "%.2f ms in report %d\n",
-        advice->budget_ms, settings, dip_cost_common_time(common, advice->next, advice->limit).high,
-        advice->limit + 1);
+    dip_put_text(out, "%s%s", advice->tie_count > DIP_ADVICE_TIES ? "; ..." : "",
+                 advice->tie_count > 0 ? "\n" : "");
 }
 
 static void print_budget(const DipCostCommon *common, const DipCostCommonAdvice *advice,
                          FILE *out) {
-    if (advice->chosen < 0) {
-        print_nothing(common, advice, out);
-        print_undecided(common, advice, out);
+    const DipAdvice *all = &advice->all;
+    if (all->chosen < 0) {
+        print_nothing(common, all, out);
         return;
     }
-    char settings[DIP_COST_TEXT];
-    dip_cost_settings_text(&common->qualities[advice->chosen], settings);
-    dip_put_text(out, "\n%g ms: %s  (mean FLIP %.5f)\n", advice->budget_ms, settings,
-                 dip_cost_common_mean_flip(common, advice->chosen));
-    dip_put_text(out, "    %6s %8s %8s %8s %8s  %s\n", "report", "ms", "bound", "FLIP", "loss",
-                 "this report alone would choose");
+    const DipCandidate *chosen = &common->candidates.list[all->chosen];
+    char settings[DIP_COST_TEXT], budget[DIP_BUDGET_BYTES], fits[DIP_NUMBER_BYTES];
+    dip_cost_settings_text(&chosen->quality, settings);
+    dip_budget_text(all->budget_ms, budget);
+    dip_fits_text(all->fits, fits);
+    dip_put_text(out, "\n%s: %s  (mean FLIP %.5f; fits with %s)\n", budget, settings, chosen->flip,
+                 fits);
+    dip_put_text(out, "    %6s %8s %8s %8s %8s %8s  %s\n", "report", "ms", "from", "to", "FLIP",
+                 "loss", "this report alone would choose");
     for (int i = 0; i < common->report_count; i++) {
         print_line(common, advice, i, out);
     }
-    print_limit(common, advice, out);
-    print_undecided(common, advice, out);
+    print_ties(common, all, out);
+    print_next(common, all, out);
 }
 
 static void print_tiers(const DipCostCommon *common, const DipCostCommonAdvice *advice, FILE *out) {
     DipCostTier tiers[DIP_COST_TIER_COUNT];
     for (int i = 0; i < DIP_COST_TIER_COUNT; i++) {
-        const int chosen = advice[i].chosen;
-        tiers[i] =
-            (DipCostTier){advice[i].budget_ms, chosen >= 0 ? &common->qualities[chosen] : NULL, -1};
+        const int chosen = advice[i].all.chosen;
+        tiers[i] = (DipCostTier){advice[i].all.budget_ms,
+                                 chosen >= 0 ? &common->qualities[chosen] : NULL, -1};
     }
     dip_cost_tiers_print(tiers, out);
 }

@@ -1,10 +1,9 @@
 // Matching the combinations of several reports, and choosing among them.
 #include "app/cost/advise/common_advice.h"
 
+#include "app/report/candidates.h"
 #include "app/report/format/formats.h"
-#include "app/report/front.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,12 +26,12 @@ static int compare_entries(const void *a, const void *b) {
 // Lists the combinations of a report that have times and errors, and those that another row stands
 // for. Returns NULL and fills *err when memory runs out. The caller frees the list.
 static Entry *list_entries(const DipCostReport *report, int *count, DipError *err) {
-    int rows[DIP_COST_MAX_ROWS];
-    const int plotted = dip_cost_list_plotted(report, rows);
-    Entry *entries = malloc(((size_t)plotted + (size_t)report->same_count + 1) * sizeof *entries);
+    const DipCandidates *all = &report->choice.candidates;
+    Entry *entries =
+        malloc(((size_t)all->count + (size_t)report->same_count + 1) * sizeof *entries);
     *count = 0;
-    for (int i = 0; entries && i < plotted; i++) {
-        entries[(*count)++] = (Entry){report->rows[rows[i]].quality, rows[i]};
+    for (int i = 0; entries && i < all->count; i++) {
+        entries[(*count)++] = (Entry){all->list[i].quality, all->list[i].row};
     }
     for (int i = 0; entries && i < report->same_count; i++) {
         int viewpoints;
@@ -51,8 +50,8 @@ static bool begin_match(DipCostCommon *common, const Entry *entries, int count, 
     const size_t room = (size_t)count + 1;
     common->qualities = malloc(room * sizeof *common->qualities);
     common->rows = malloc(room * (size_t)common->report_count * sizeof *common->rows);
-    common->losses = malloc(room * sizeof *common->losses);
-    if (!common->qualities || !common->rows || !common->losses) {
+    common->candidates.list = malloc(room * sizeof *common->candidates.list);
+    if (!common->qualities || !common->rows || !common->candidates.list) {
         return out_of_memory(err);
     }
     for (int i = 0; i < count; i++) {
@@ -86,7 +85,6 @@ static void keep_matches(DipCostCommon *common, int report, Entry *entries, int 
 static bool check_report(const DipCostCommon *common, int index, DipError *err) {
     const DipCostReport *report = &common->reports[index];
     const char *const name = common->names[index];
-    int rows[DIP_COST_MAX_ROWS];
     if (report->rounds == 0) {
         return dip_error_set(err, DIP_ERROR_MISSING, name, 0, NULL,
                              "has no times; measure the report without --errors-only");
@@ -96,7 +94,7 @@ static bool check_report(const DipCostCommon *common, int index, DipError *err) 
                                      "has wrong times: the machine was too busy. %.200s",
                                      report->verdict_reason);
     }
-    if (dip_cost_list_plotted(report, rows) == 0) {
+    if (report->choice.candidates.count == 0) {
         return dip_error_set(err, DIP_ERROR_MISSING, name, 0, NULL,
                              "has no combinations of settings with times and errors; measure the "
                              "report with --combine or --predict");
@@ -127,19 +125,44 @@ static bool match_report(DipCostCommon *common, int index, DipError *err) {
     return done;
 }
 
+// The time that a combination surely keeps within in one report.
+static double bound_of(const DipCandidate *candidate) {
+    const DipEstimate time = dip_estimate_widen(&candidate->time, candidate->common_error);
+    return time.high;
+}
+
+// Returns the candidate that stands for a combination: its means of FLIP, and its time in the
+// report in which it may take longest.
+static DipCandidate join(const DipCostCommon *common, int combination) {
+    DipCandidate joined = {.time = dip_estimate_unknown(0.0)};
+    double loss = 0.0, flip = 0.0;
+    for (int i = 0; i < common->report_count; i++) {
+        const DipCandidate one = dip_cost_common_candidate(common, combination, i);
+        loss += one.loss / common->report_count;
+        flip += one.flip / common->report_count;
+        if (i == 0 || bound_of(&one) > bound_of(&joined)) {
+            joined = one;
+            joined.report = i;
+        }
+    }
+    joined.quality = common->qualities[combination];
+    joined.loss = loss;
+    joined.flip = flip;
+    joined.row = combination;
+    return joined;
+}
+
 bool dip_cost_common_match(DipCostCommon *common, DipError *err) {
     for (int i = 0; i < common->report_count; i++) {
-        if (!check_report(common, i, err) || !match_report(common, i, err)) {
+        if (!dip_cost_choose(&common->reports[i], err) || !check_report(common, i, err) ||
+            !match_report(common, i, err)) {
             return false;
         }
     }
+    common->candidates.count = common->count;
+    common->candidates.kind = common->reports[0].options.budget_of;
     for (int c = 0; c < common->count; c++) {
-        double sum = 0.0;
-        for (int i = 0; i < common->report_count; i++) {
-            sum += dip_cost_ranking_flip(&common->reports[i],
-                                         common->rows[c * common->report_count + i]);
-        }
-        common->losses[c] = sum / common->report_count;
+        common->candidates.list[c] = join(common, c);
     }
     return true;
 }
@@ -147,7 +170,7 @@ bool dip_cost_common_match(DipCostCommon *common, DipError *err) {
 // --- reading -------------------------------------------------------------------------------------
 
 bool dip_cost_common_read(DipCostCommon *common, const char *const *files, int count,
-                          DipCostBudgetOf budget_of, DipError *err) {
+                          DipTimeKind budget_of, DipError *err) {
     *common = (DipCostCommon){.reports = calloc((size_t)count, sizeof *common->reports)};
     if (!common->reports) {
         return out_of_memory(err);
@@ -157,8 +180,8 @@ bool dip_cost_common_read(DipCostCommon *common, const char *const *files, int c
         if (!dip_cost_read_report(files[i], report, err)) {
             return false;
         }
-        report->options.budget_of = budget_of;
         common->names[common->report_count++] = files[i];
+        report->options.budget_of = budget_of;
     }
     return dip_cost_common_match(common, err);
 }
@@ -170,123 +193,24 @@ void dip_cost_common_free(DipCostCommon *common) {
     free(common->reports);
     free(common->qualities);
     free(common->rows);
-    free(common->losses);
+    free(common->candidates.list);
     *common = (DipCostCommon){0};
 }
 
-// --- times and errors ----------------------------------------------------------------------------
+// --- advice --------------------------------------------------------------------------------------
 
-static int row_of(const DipCostCommon *common, int combination, int report) {
-    return common->rows[combination * common->report_count + report];
-}
-
-DipStatsEstimate dip_cost_common_time(const DipCostCommon *common, int combination, int report) {
-    return dip_cost_budget_time(&common->reports[report], row_of(common, combination, report));
-}
-
-double dip_cost_common_flip(const DipCostCommon *common, int combination, int report) {
-    return dip_cost_row_metrics(&common->reports[report], row_of(common, combination, report), 0)
-        .flip;
-}
-
-double dip_cost_common_mean_flip(const DipCostCommon *common, int combination) {
-    double sum = 0.0;
-    for (int i = 0; i < common->report_count; i++) {
-        sum += dip_cost_common_flip(common, combination, i);
-    }
-    return sum / common->report_count;
-}
-
-// The greatest upper bound over all reports. *report is the report that has it.
-static double greatest_bound(const DipCostCommon *common, int combination, int *report) {
-    double greatest = 0.0;
-    *report = 0;
-    for (int i = 0; i < common->report_count; i++) {
-        const double high = dip_cost_common_time(common, combination, i).high;
-        *report = high > greatest ? i : *report;
-        greatest = fmax(greatest, high);
-    }
-    return greatest;
-}
-
-static double greatest_low(const DipCostCommon *common, int combination) {
-    double greatest = 0.0;
-    for (int i = 0; i < common->report_count; i++) {
-        greatest = fmax(greatest, dip_cost_common_time(common, combination, i).low);
-    }
-    return greatest;
-}
-
-// The geometric means of the value and of both bounds over the reports.
-static DipStatsEstimate mean_time(const DipCostCommon *common, int combination) {
-    DipStatsEstimate logs = {0};
-    for (int i = 0; i < common->report_count; i++) {
-        const DipStatsEstimate time = dip_cost_common_time(common, combination, i);
-        logs.value += log(time.value) / common->report_count;
-        logs.low += log(time.low) / common->report_count;
-        logs.high += log(time.high) / common->report_count;
-    }
-    return (DipStatsEstimate){exp(logs.value), exp(logs.low), exp(logs.high)};
-}
-
-// --- choosing ------------------------------------------------------------------------------------
-
-// True if combination a is to be preferred to combination b, whose errors are alike.
-static bool is_preferred(const DipCostCommon *common, int a, int b) {
-    const DipStatsEstimate x = mean_time(common, a);
-    const DipStatsEstimate y = mean_time(common, b);
-    const bool apart = x.high < y.low || y.high < x.low;
-    const int changes = dip_quality_count_changes(&common->qualities[a]) -
-                        dip_quality_count_changes(&common->qualities[b]);
-    return !apart && changes != 0 ? changes < 0 : x.value < y.value;
-}
-
-static int choose(const DipCostCommon *common, double budget_ms) {
-    double least = INFINITY;
-    int report;
-    for (int c = 0; c < common->count; c++) {
-        if (greatest_bound(common, c, &report) <= budget_ms) {
-            least = fmin(least, common->losses[c]);
-        }
-    }
-    int best = -1;
-    for (int c = 0; c < common->count; c++) {
-        if (greatest_bound(common, c, &report) <= budget_ms && common->losses[c] <= 1.01 * least &&
-            (best < 0 || is_preferred(common, c, best))) {
-            best = c;
-        }
-    }
-    return best;
-}
-
-// Finds the fastest combination whose mean FLIP is at most `enough`.
-static void find_next(const DipCostCommon *common, double enough, DipCostCommonAdvice *advice) {
-    double least = INFINITY;
-    for (int c = 0; c < common->count; c++) {
-        int report;
-        const double bound = greatest_bound(common, c, &report);
-        if (common->losses[c] <= enough && bound < least) {
-            least = bound;
-            advice->next = c;
-            advice->limit = report;
-        }
-    }
+DipCandidate dip_cost_common_candidate(const DipCostCommon *common, int combination, int report) {
+    return dip_candidate_of_row(&common->reports[report],
+                                common->rows[combination * common->report_count + report],
+                                common->reports[report].options.budget_of);
 }
 
 void dip_cost_common_advise(const DipCostCommon *common, double budget_ms,
                             DipCostCommonAdvice *advice) {
-    *advice = (DipCostCommonAdvice){.budget_ms = budget_ms, .next = -1, .limit = -1};
-    advice->chosen = choose(common, budget_ms);
-    const double enough = advice->chosen >= 0 ? 0.99 * common->losses[advice->chosen] : INFINITY;
-    find_next(common, enough, advice);
-    advice->undecided = -1;
-    for (int c = 0; c < common->count; c++) {
-        if (common->losses[c] <= enough && greatest_low(common, c) <= budget_ms &&
-            (advice->undecided < 0 || common->losses[c] < common->losses[advice->undecided])) {
-            advice->undecided = c;
-        }
-    }
+    advice->all = dip_advise(&common->candidates, budget_ms);
     for (int i = 0; i < common->report_count; i++) {
-        advice->alone[i] = dip_cost_choose(&common->reports[i], budget_ms);
+        const DipCandidates *candidates = &common->reports[i].choice.candidates;
+        const int chosen = dip_advise(candidates, budget_ms).chosen;
+        advice->alone[i] = chosen >= 0 ? candidates->list[chosen].row : -1;
     }
 }

@@ -33,7 +33,6 @@ void dip_figures_count_presented(DipFigures *figures, bool moving, int64_t refre
                                  int64_t now_ns) {
     dip_timing_add(&figures->presented, now_ns, 0.0);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        figures->shown[p].budget_ms = 1e-6 * (double)refresh_ns;
     }
     if (moving && figures->presented_ns && refresh_ns > 0) {
         const int64_t refreshes =

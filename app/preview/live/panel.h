@@ -27,10 +27,10 @@ typedef struct DipPaneFigures {
     DipErrorReading errors;
     const DipTiming *times; // The newest frames' times; NULL if there are none. Borrowed.
     int dropped;            // Refreshes of the last 5 seconds of movement without a new picture.
-    double budget_ms;       // Time between two refreshes of the display; 0 if it is not known.
-    DipTaaSpeed taa_speed;  // Too slow only if the pane uses temporal antialiasing.
-    bool mip_colours;       // The pane shows mip colours, which have no error.
-    bool no_errors;         // The scene has no reference pictures, so the panel leaves errors out.
+
+    DipTaaSpeed taa_speed; // Too slow only if the pane uses temporal antialiasing.
+    bool mip_colours;      // The pane shows mip colours, which have no error.
+    bool no_errors;        // The scene has no reference pictures, so the panel leaves errors out.
 } DipPaneFigures;
 
 typedef struct DipPanelLine {

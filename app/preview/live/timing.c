@@ -1,8 +1,7 @@
 // A ring buffer of frame times.
 #include "app/preview/live/timing.h"
 
-#include <math.h>
-#include <stdlib.h>
+#include "app/measure/stats/estimate.h"
 
 static const int64_t window_ns = 1000000000;
 
@@ -14,12 +13,6 @@ void dip_timing_add(DipTiming *timing, int64_t now_ns, double ms) {
 
 void dip_timing_clear(DipTiming *timing) {
     timing->count = 0;
-}
-
-static int compare(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 // Collects the times of the last second, newest first. Returns their number.
@@ -42,8 +35,7 @@ double dip_timing_median_ms(const DipTiming *timing, int64_t now_ns) {
     if (found == 0) {
         return timing->count ? timing->ms[(timing->count - 1) % DIP_TIMING_SAMPLES] : 0.0;
     }
-    qsort(ms, (size_t)found, sizeof *ms, compare);
-    return found % 2 ? ms[found / 2] : 0.5 * (ms[found / 2 - 1] + ms[found / 2]);
+    return dip_percentile(ms, found, 0.5);
 }
 
 int dip_timing_per_second(const DipTiming *timing, int64_t now_ns) {
@@ -64,14 +56,4 @@ int dip_timing_recent(const DipTiming *timing, int64_t now_ns, int64_t span_ns,
         age_ns[found++] = now_ns - timing->at_ns[slot];
     }
     return found;
-}
-
-double dip_timing_percentile(double *ms, int count, double share) {
-    if (count < 1) {
-        return 0.0;
-    }
-    qsort(ms, (size_t)count, sizeof *ms, compare);
-    int index = (int)ceil(share * count) - 1;
-    index = index < 0 ? 0 : index > count - 1 ? count - 1 : index;
-    return ms[index];
 }

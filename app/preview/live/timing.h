@@ -28,9 +28,4 @@ int dip_timing_per_second(const DipTiming *timing, int64_t now_ns);
 int dip_timing_recent(const DipTiming *timing, int64_t now_ns, int64_t span_ns,
                       double ms[DIP_TIMING_SAMPLES], int64_t age_ns[DIP_TIMING_SAMPLES]);
 
-// Sorts `count` times and returns their percentile by the nearest-rank rule: the time at rank
-// ceil(share * count), where the shortest time has rank 1. This is the least time that at least
-// `share` of all times do not exceed. Returns 0 if there are no times.
-double dip_timing_percentile(double *ms, int count, double share);
-
 #endif

@@ -18,6 +18,7 @@ int64_t dip_loop_clock_ns(const DipPreview *preview) {
 static void follow_refresh(DipPreview *preview) {
     const double hz = preview->def.display.refresh_hz(preview->def.display.context);
     preview->refresh_ns = (int64_t)(1e9 / hz);
+    dip_preview_follow_refresh(&preview->state, 1000.0 / hz);
 }
 
 static bool create_live_prices(DipPreview *preview, DipError *err) {
@@ -44,6 +45,7 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     memcpy(preview->first_quality, preview->drawn_quality, sizeof preview->first_quality);
     preview->state = dip_preview_state_make(preview->drawn_quality, &def->session->track);
     preview->state.costs = def->costs;
+    preview->state.choice = &preview->choice;
     preview->state.in_terminal = def->display.set_text != NULL;
     dip_scene_words(def->session->options, preview->state.scene_words);
     preview->state.shows_gallery = def->session->shows_gallery;
@@ -89,6 +91,7 @@ void dip_preview_destroy(DipPreview **preview_pointer) {
     if (!preview->def.prices) {
         dip_prices_destroy(&preview->prices);
     }
+    dip_preview_choice_free(&preview->choice);
     dip_view_destroy(&preview->view);
     dip_text_view_free(&preview->text);
     free(preview);
@@ -148,6 +151,13 @@ static void follow_layout(DipPreview *preview) {
     preview->pane_height = height;
 }
 
+// Follows the prices and the budget in what can be chosen. Returns whether that is new.
+static bool choose(DipPreview *preview) {
+    const DipPreviewState *state = &preview->state;
+    return dip_preview_choose(&preview->choice, state->costs, preview->prices,
+                              &state->quality[DIP_PANE_REQUESTED], state->budget_ms);
+}
+
 // Draws and presents the picture if something has changed. Sets *shown to whether something has
 // changed.
 static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
@@ -163,6 +173,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     dip_loop_paste_settings(preview, now_ns);
     dip_loop_follow_scene(preview, now_ns);
     dip_loop_follow_reload(preview, now_ns);
+    preview->redraw |= choose(preview);
     follow_layout(preview);
     follow_text(preview);
     if (preview->resized) {
@@ -177,7 +188,8 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
         dip_loop_save_pose(preview, now_ns);
     }
     const bool new_errors = dip_loop_measure_errors(preview, now_ns);
-    const bool new_prices = dip_loop_measure_prices(preview);
+    bool new_prices = dip_loop_measure_prices(preview);
+    new_prices = choose(preview) || new_prices;
     *shown = new_frame || new_errors || new_prices || preview->redraw || preview->exposed ||
              state->screenshot || (had_notice && !state->notice[0]) ||
              now_ns >= dip_ui_wakes_ns(dip_view_ui(preview->view)) || now_ns >= preview->blinks_ns;

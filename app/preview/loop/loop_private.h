@@ -34,6 +34,7 @@ struct DipPreview {
     DipPreviewState state;
     DipView *view;
     DipPrices *prices;          // Owned unless it is that of the def.
+    DipPreviewChoice choice;    // Made anew in each turn in which prices have changed.
     DipLivePrices *live_prices; // NULL if no prices are measured.
     DipTools *tools;
     DipPathEditor *editor;

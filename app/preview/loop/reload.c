@@ -48,6 +48,13 @@ struct DipReload {
 
 // --- the files of a session ----------------------------------------------------------------------
 
+static void free_costs(DipCosts *costs) {
+    if (costs) {
+        dip_costs_free(costs);
+    }
+    free(costs);
+}
+
 static void watch_model(DipWatch *watch, const char *file) {
     dip_watch_file(watch, file);
     dip_watch_folder(watch, file);
@@ -140,7 +147,7 @@ void dip_reload_destroy(DipReload **reload_pointer) {
         free(reload->names[i]);
     }
     free(reload->names);
-    free(reload->costs);
+    free_costs(reload->costs);
     free(reload);
 }
 
@@ -334,14 +341,14 @@ static bool open_costs(DipReload *reload, const char *file, DipReloadNews *news)
     dip_cost_scene_name(reload->session, scene);
     news->dropped = true;
     if (costs && dip_costs_load(costs, reload->prices, file, scene, &err)) {
-        free(reload->costs);
+        free_costs(reload->costs);
         reload->costs = costs;
         return tell(news, DIP_RELOAD_COSTS, "Opened ", base_name(file));
     }
     if (!costs) {
         dip_error_set(&err, DIP_ERROR_MEMORY, file, 0, NULL, "out of memory");
     }
-    free(costs);
+    free_costs(costs);
     return tell_error(news, &err);
 }
 

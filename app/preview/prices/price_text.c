@@ -1,6 +1,8 @@
 // Formats settings, steps and prices.
 #include "app/preview/prices/price_text.h"
 
+#include "app/report/words.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -66,10 +68,7 @@ void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
 }
 
 void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]) {
-    char digits[16];
-    snprintf(digits, sizeof digits, "%.4f", fabs(flip) < 99.0 ? fabs(flip) : 99.0);
-    const char *sign = !change ? "" : flip > 0.0 ? "+" : "\u2212";
-    snprintf(text, DIP_STEP_NAME_BYTES, "%s%s", sign, digits[0] == '0' ? digits + 1 : digits);
+    dip_flip_number(flip, change, "\u2212", text);
 }
 
 void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {

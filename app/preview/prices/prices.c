@@ -35,6 +35,7 @@ void dip_prices_set_conditions(DipPrices *prices, const DipPriceConditions *cond
 }
 
 bool dip_prices_set_report(DipPrices *prices, const DipCostReport *report, DipError *err) {
+    ++prices->changes;
     dip_price_report_free(&prices->report);
     prices->has_report = dip_price_report_make(&prices->report, report, err);
     return prices->has_report;
@@ -55,7 +56,12 @@ bool dip_prices_has_report(const DipPrices *prices) {
 }
 
 void dip_prices_prefer_rough(DipPrices *prices, bool prefer) {
+    prices->changes += prices->prefers_rough != prefer;
     prices->prefers_rough = prefer;
+}
+
+unsigned dip_prices_changes(const DipPrices *prices) {
+    return prices->changes;
 }
 
 bool dip_prices_are_rough(const DipPrices *prices) {

@@ -133,6 +133,9 @@ bool dip_prices_has_rough(const DipPrices *prices, const DipQuality *quality);
 // Forgets rough prices, because the picture, its size or its scene has changed.
 void dip_prices_forget_rough(DipPrices *prices);
 
+// Grows whenever a price may have changed.
+unsigned dip_prices_changes(const DipPrices *prices);
+
 // What is being measured, for the panel: "3 of 8 frames, 4 s left", or "" if nothing is. The text
 // is copied and cut to DIP_PRICE_PROGRESS bytes. Returns whether the text is new.
 enum { DIP_PRICE_PROGRESS = 96 };

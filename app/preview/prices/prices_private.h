@@ -60,6 +60,7 @@ struct DipPrices {
     bool prefers_rough;
     DipPriceList rough;
     DipPriceConditions conditions;
+    unsigned changes; // See dip_prices_changes.
     char progress[DIP_PRICE_PROGRESS];
 };
 

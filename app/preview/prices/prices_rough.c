@@ -19,6 +19,7 @@ bool dip_prices_add_rough(DipPrices *prices, const DipQuality *quality, double m
         .next_samples = flip >= 0.0 ? INT_MAX : 0,
         .next_flip = flip,
     };
+    ++prices->changes;
     const DipPriceKnown *before = dip_price_list_find(&prices->rough, &known.quality);
     if (!before) {
         return dip_price_list_add(&prices->rough, &known);
@@ -53,6 +54,7 @@ void dip_prices_add_rough_flip(DipPrices *prices, const DipQuality *quality, dou
         return;
     }
     DipPriceKnown *added = &prices->rough.items[known - prices->rough.items];
+    ++prices->changes;
     added->next_flip = flip;
     added->next_samples = samples;
     for (int i = 0; !shows_coarser(prices, samples) && i < prices->rough.count; i++) {
@@ -86,6 +88,7 @@ bool dip_prices_has_rough(const DipPrices *prices, const DipQuality *quality) {
 
 void dip_prices_forget_rough(DipPrices *prices) {
     prices->rough.count = 0;
+    ++prices->changes;
 }
 
 bool dip_prices_set_progress(DipPrices *prices, const char *text) {

@@ -3,6 +3,7 @@
 #ifndef DIP_APP_PREVIEW_STATE_STATE_H
 #define DIP_APP_PREVIEW_STATE_STATE_H
 
+#include "app/preview/prices/choice.h"
 #include "app/preview/prices/costs.h"
 #include "app/preview/state/flight.h"
 #include "app/preview/state/path_editor.h"
@@ -81,21 +82,26 @@ typedef struct DipPreviewState {
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
-    bool manual;             // The user flies the camera; time stands still.
-    bool shows_gallery;      // The panes show a scene of the gallery.
-    int scene_step;          // The scene that the user asked for: 1 the next, -1 the one before.
-    int look;                // The scene's variant; the scene wraps it around.
-    const char *scene_title; // Of the gallery's scene; NULL if the panes show models.
-    const char *scene_look;  // Name of its variant.
-    bool help;               // The help shows.
-    bool panel;              // Each pane shows its times, errors and work.
-    const DipCosts *costs;   // Borrowed; NULL if there is no cost report.
-    bool show_costs;         // The table of costs shows.
-    int next_advice;         // Index in costs->advice of the next advice to give.
-    bool wants_errors;       // Another program has asked for the errors, shown or not.
-    bool wants_prices;       // Another program has asked for the prices, shown or not.
-    bool wants_picture;      // Another program waits for a picture, even of a hidden window.
-    bool measures_here;      // Prices are measured in this view although there is a report.
+    bool manual;              // The user flies the camera; time stands still.
+    bool shows_gallery;       // The panes show a scene of the gallery.
+    int scene_step;           // The scene that the user asked for: 1 the next, -1 the one before.
+    int look;                 // The scene's variant; the scene wraps it around.
+    const char *scene_title;  // Of the gallery's scene; NULL if the panes show models.
+    const char *scene_look;   // Name of its variant.
+    bool help;                // The help shows.
+    bool panel;               // Each pane shows its times, errors and work.
+    const DipCosts *costs;    // Borrowed; NULL if there is no cost report.
+    bool show_costs;          // The table of costs shows.
+    DipPreviewChoice *choice; // Borrowed; what can be chosen now, or NULL.
+    // Time within which a frame has to be drawn: one refresh of the display, unless the user has
+    // chosen another time.
+    double budget_ms;
+    bool has_budget;    // The user has chosen it.
+    double advised_ms;  // The budget for which the user took advice last, or 0.
+    bool wants_errors;  // Another program has asked for the errors, shown or not.
+    bool wants_prices;  // Another program has asked for the prices, shown or not.
+    bool wants_picture; // Another program waits for a picture, even of a hidden window.
+    bool measures_here; // Prices are measured in this view although there is a report.
     char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
     int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.
     int pane_height;
@@ -142,9 +148,24 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
 // Enlarges controls by a difference of the factor, which stays within 0.75 and 4.
 void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns);
 
-// Returns a preset's settings, and its name for a button ("Balanced").
-DipQuality dip_preview_preset(const DipPreviewState *state, DipPreset preset);
+// Finds a preset's settings. Those that are measured (up to BEST) are places on the front of what
+// can be chosen within the budget. Returns false, and leaves *quality as it is, while nothing was
+// measured or nothing fits.
+bool dip_preview_preset(const DipPreviewState *state, DipPreset preset, DipQuality *quality);
+
+// Returns a preset's name for a button ("Balanced").
 const char *dip_preview_preset_name(DipPreset preset);
+
+// Lists the budgets to choose from in milliseconds: those of the report, or those of 240, 120, 60
+// and 30 frames a second. Returns their number.
+int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_BUDGETS]);
+
+// Chooses another budget.
+void dip_preview_set_budget(DipPreviewState *state, double budget_ms);
+
+// Takes the time between two refreshes of the display as the budget, unless the user has chosen
+// one.
+void dip_preview_follow_refresh(DipPreviewState *state, double refresh_ms);
 
 // Sets state->panel by what the dock shows. Call it after a change of state->tools.
 void dip_preview_follow_dock(DipPreviewState *state);

@@ -1,7 +1,10 @@
 // Changes settings: by steps, presets, advice and undo; and describes them.
 #include "app/preview/state/state_private.h"
 
+#include "renderer/base/assert.h"
+
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -123,22 +126,21 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
     }
 }
 
-DipQuality dip_preview_preset(const DipPreviewState *state, DipPreset preset) {
-    static const char *const texts[] = {
-        [DIP_PRESET_PERFORMANCE] = "opt=advanced,miplod=performance",
-        [DIP_PRESET_BALANCED] = "aa=2,af=4",
-        [DIP_PRESET_QUALITY] = "aa=4,aaa=on,asd=2,af=16",
-        [DIP_PRESET_BEST] = "aa=8,aaa=on,af=16,aaf=on",
-    };
-    DipQuality quality = dip_quality_default();
+bool dip_preview_preset(const DipPreviewState *state, DipPreset preset, DipQuality *quality) {
+    const DipPreviewChoice *choice = state->choice;
     switch (preset) {
     case DIP_PRESET_INI:
-        return state->ini_quality;
+        *quality = state->ini_quality;
+        return true;
     case DIP_PRESET_CURRENT:
-        return state->quality[DIP_PANE_CURRENT];
+        *quality = state->quality[DIP_PANE_CURRENT];
+        return true;
     default:
-        dip_quality_parse(texts[preset], &quality, NULL); // A test names what each preset is.
-        return quality;
+        if (!dip_preview_advised(choice)) {
+            return false;
+        }
+        *quality = choice->candidates.list[choice->presets[preset]].quality;
+        return true;
     }
 }
 
@@ -149,7 +151,13 @@ const char *dip_preview_preset_name(DipPreset preset) {
 }
 
 void dip_state_choose_preset(DipPreviewState *state, DipPreset preset, int64_t now_ns) {
-    const DipQuality quality = dip_preview_preset(state, preset);
+    DipQuality quality;
+    char why[DIP_NOTICE_SIZE];
+    if (!dip_preview_preset(state, preset, &quality)) {
+        dip_preview_choice_why(state->choice, "", why, sizeof why);
+        dip_preview_notice(state, now_ns, "%s: %.120s", dip_preview_preset_name(preset), why);
+        return;
+    }
     dip_preview_set_quality(state, DIP_PANE_REQUESTED, &quality, now_ns);
     dip_preview_notice(state, now_ns, "Requested: %s", dip_preview_preset_name(preset));
 }
@@ -218,23 +226,60 @@ void dip_state_apply(DipPreviewState *state, int64_t now_ns) {
     dip_preview_notice(state, now_ns, "Copied requested to current");
 }
 
-void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
-    const DipCosts *costs = state->costs;
-    if (!costs) {
-        dip_preview_notice(state, now_ns, "No cost report is loaded; U says how to make one");
-        return;
+// --- budgets and advice --------------------------------------------------------------------------
+
+int dip_preview_budgets(const DipPreviewState *state, double list[DIP_COST_MAX_BUDGETS]) {
+    static const double usual_ms[] = {1000.0 / 240.0, 1000.0 / 120.0, 1000.0 / 60.0, 1000.0 / 30.0};
+    const bool has_report = state->costs && state->costs->budget_count > 0;
+    const int count = has_report ? state->costs->budget_count : (int)DIP_ARRAY_COUNT(usual_ms);
+    memcpy(list, has_report ? state->costs->budgets_ms : usual_ms, (size_t)count * sizeof *list);
+    return count;
+}
+
+void dip_preview_set_budget(DipPreviewState *state, double budget_ms) {
+    state->has_budget = true;
+    state->budget_ms = budget_ms;
+    if (state->choice) {
+        dip_preview_choice_set_budget(state->choice, budget_ms);
     }
-    const int count = costs->advice_count;
-    const int index = (state->next_advice + (reverse ? count - 2 : 0) + count) % count;
-    const DipCostsAdvice *advice = &costs->advice[index];
+}
+
+void dip_preview_follow_refresh(DipPreviewState *state, double refresh_ms) {
+    if (!state->has_budget) {
+        state->budget_ms = refresh_ms;
+    }
+}
+
+// Goes on to the next budget of the list: the first one, if the budget is not in the list.
+static void next_budget(DipPreviewState *state, bool reverse) {
+    double list[DIP_COST_MAX_BUDGETS];
+    const int count = dip_preview_budgets(state, list);
+    int at = reverse ? 0 : count - 1;
+    for (int i = 0; i < count; ++i) {
+        at = fabs(list[i] - state->budget_ms) < 1e-9 ? i : at;
+    }
+    dip_preview_set_budget(state, list[(at + (reverse ? count - 1 : 1)) % count]);
+}
+
+void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns) {
     char text[DIP_NOTICE_SIZE];
-    if (advice->found) {
+    if (state->choice && fabs(state->advised_ms - state->budget_ms) < 1e-9) {
+        next_budget(state, reverse);
+    }
+    state->advised_ms = state->budget_ms;
+    const DipCandidate *advised = dip_preview_advised(state->choice);
+    if (advised) {
         const unsigned changes = state->scene_changes;
-        dip_preview_set_quality(state, DIP_PANE_REQUESTED, &advice->quality, now_ns);
+        dip_preview_set_quality(state, DIP_PANE_REQUESTED, &advised->quality, now_ns);
         state->scene_changes = changes + 1;
     }
-    dip_costs_describe(costs, index, text, sizeof text);
-    if (state->pane_width > 0 &&
+    const DipCosts *costs = state->choice && !state->choice->live ? state->costs : NULL;
+    if (!state->choice) {
+        snprintf(text, sizeof text, "Nothing is measured yet; U says how to make a cost report");
+    } else {
+        dip_preview_choice_describe(state->choice, text, sizeof text);
+    }
+    if (costs && state->pane_width > 0 &&
         (state->pane_width != costs->width || state->pane_height != costs->height)) {
         dip_preview_notice(state, now_ns, "%s (measured at %dx%d)", text, costs->width,
                            costs->height);
@@ -243,8 +288,9 @@ void dip_state_take_advice(DipPreviewState *state, bool reverse, int64_t now_ns)
     }
     state->notice_end_ns =
         now_ns + 2 * dip_state_notice_ns; // This text is longer than other notices.
-    state->next_advice = (index + 1) % count;
 }
+
+// --- texts ---------------------------------------------------------------------------------------
 
 // Returns the short form of a setting, in which %s stands for the step. A setting that is either on
 // or off has a short form without a step; if the setting is off, "no" precedes the short form.

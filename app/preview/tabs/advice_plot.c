@@ -3,6 +3,7 @@
 
 #include "app/preview/prices/price_text.h"
 #include "app/ui/style.h"
+#include "app/report/words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -28,12 +29,12 @@ static int plot_y(const Plot *plot, double flip) {
     return plot->rect.y + (int)((1.0 - fmin(fmax(share, 0.0), 1.0)) * (plot->rect.height - 1));
 }
 
-static Plot plot_of(const DipCosts *costs, double budget_ms, DipRect rect) {
+static Plot plot_of(const DipCandidates *candidates, double budget_ms, DipRect rect) {
     Plot plot = {rect, INFINITY, budget_ms * 1.1, INFINITY, 0.0};
-    for (int i = 0; i < costs->point_count; ++i) {
-        const DipCostsPoint *point = &costs->points[i];
-        plot.from_ms = fmin(plot.from_ms, point->ms);
-        plot.to_ms = fmax(plot.to_ms, point->ms);
+    for (int i = 0; i < candidates->count; ++i) {
+        const DipCandidate *point = &candidates->list[i];
+        plot.from_ms = fmin(plot.from_ms, point->time.value);
+        plot.to_ms = fmax(plot.to_ms, point->time.value);
         plot.from_flip = fmin(plot.from_flip, point->flip);
         plot.to_flip = fmax(plot.to_flip, point->flip);
     }
@@ -46,36 +47,29 @@ static Plot plot_of(const DipCosts *costs, double budget_ms, DipRect rect) {
     return plot;
 }
 
-static void draw_dot(DipUi *ui, const Plot *plot, const DipCostsPoint *point, int side,
+static void draw_dot(DipUi *ui, const Plot *plot, const DipCandidate *point, int side,
                      DipColour colour) {
     const int size = dip_ui_px(ui, side);
     dip_ui_fill_round(ui,
-                      (DipRect){plot_x(plot, point->ms) - size / 2,
+                      (DipRect){plot_x(plot, point->time.value) - size / 2,
                                 plot_y(plot, point->flip) - size / 2, size, size},
                       size / 2, colour);
 }
 
 // Draws the front as stairs: at each time, the least error that was measured within it.
-static void draw_front(DipUi *ui, const Plot *plot, const DipCosts *costs) {
+static void draw_front(DipUi *ui, const Plot *plot, const DipPreviewChoice *choice) {
     const int thick = dip_ui_px(ui, 1);
-    const DipCostsPoint *last = NULL;
-    for (int i = 0; i < costs->point_count; ++i) {
-        const DipCostsPoint *point = &costs->points[i];
-        if (!point->on_front) {
-            continue;
-        }
+    const DipCandidate *last = NULL;
+    for (int i = 0; i < choice->front_count; ++i) {
+        const DipCandidate *point = &choice->candidates.list[choice->front[i]];
         if (last) {
-            const int x0 = plot_x(plot, last->ms), x1 = plot_x(plot, point->ms);
+            const int x0 = plot_x(plot, last->time.value), x1 = plot_x(plot, point->time.value);
             const int y0 = plot_y(plot, last->flip), y1 = plot_y(plot, point->flip);
             dip_ui_fill(ui, (DipRect){x0, y0, x1 - x0 + thick, thick}, dip_style_gain);
             dip_ui_fill(ui, (DipRect){x1, y0, thick, y1 - y0 + thick}, dip_style_gain);
         }
+        draw_dot(ui, plot, point, 7, dip_style_gain);
         last = point;
-    }
-    for (int i = 0; i < costs->point_count; ++i) {
-        if (costs->points[i].on_front) {
-            draw_dot(ui, plot, &costs->points[i], 7, dip_style_gain);
-        }
     }
 }
 
@@ -106,62 +100,55 @@ static void draw_axes(DipUi *ui, const Plot *plot) {
 
 static void draw_budget(DipUi *ui, const Plot *plot, double budget_ms) {
     const int x = plot_x(plot, budget_ms), gap = dip_ui_px(ui, 4);
-    char text[32];
+    char text[DIP_NUMBER_BYTES + 4];
     dip_ui_fill(ui,
                 (DipRect){x, plot->rect.y, plot->rect.x + plot->rect.width - x, plot->rect.height},
                 dip_style_over);
     dip_ui_fill(ui, (DipRect){x, plot->rect.y, dip_ui_px(ui, 2), plot->rect.height},
                 dip_style_white);
-    snprintf(text, sizeof text, "%.4g ms", budget_ms);
+    dip_budget_ms_text(budget_ms, text);
+    strcat(text, " ms");
     dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_RIGHT, x - gap, plot->rect.y + gap,
                 x - plot->rect.x, text);
 }
 
 // Marks the points of both panes' settings and of the advice.
-static void draw_marks(DipUi *ui, const DipWindow *window, const Plot *plot,
-                       const DipCostsAdvice *advice) {
-    const DipCosts *costs = window->state->costs;
+static void draw_marks(DipUi *ui, const DipWindow *window, const Plot *plot) {
+    const DipPreviewChoice *choice = window->state->choice;
     const int line = dip_ui_line_height(ui, NOTE_SIZE);
-    for (int i = 0; i < costs->point_count; ++i) {
-        const DipCostsPoint *point = &costs->points[i];
-        const size_t size = sizeof point->quality;
-        const bool picked = advice->found && memcmp(&point->quality, &advice->quality, size) == 0;
-        const bool current =
-            memcmp(&point->quality, &window->state->quality[DIP_PANE_CURRENT], size) == 0;
+    for (int i = 0; i < choice->candidates.count; ++i) {
+        const DipCandidate *point = &choice->candidates.list[i];
+        const bool current = memcmp(&point->quality, &window->state->quality[DIP_PANE_CURRENT],
+                                    sizeof point->quality) == 0;
         if (current) {
             draw_dot(ui, plot, point, 13, dip_style_white);
             draw_dot(ui, plot, point, 9, dip_style_well);
             draw_dot(ui, plot, point, 7, dip_style_gain);
             dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT,
-                        plot_x(plot, point->ms) + line / 2, plot_y(plot, point->flip) + line / 3,
-                        plot->rect.width, "current");
+                        plot_x(plot, point->time.value) + line / 2,
+                        plot_y(plot, point->flip) + line / 3, plot->rect.width, "current");
         }
-        if (picked) {
+        if (i == choice->advice.chosen) {
             draw_dot(ui, plot, point, 11, dip_style_accent);
-            dip_ui_text(ui, NOTE_SIZE, dip_style_accent, DIP_ALIGN_CENTRE, plot_x(plot, point->ms),
-                        plot_y(plot, point->flip) - line - dip_ui_px(ui, 6), plot->rect.width,
-                        "picked");
+            dip_ui_text(
+                ui, NOTE_SIZE, dip_style_accent, DIP_ALIGN_CENTRE, plot_x(plot, point->time.value),
+                plot_y(plot, point->flip) - line - dip_ui_px(ui, 6), plot->rect.width, "advised");
         }
     }
 }
 
-void dip_advice_plot(DipUi *ui, const DipWindow *window, const DipCostsAdvice *advice,
-                     DipRect room) {
-    const DipCosts *costs = window->state->costs;
+void dip_advice_plot(DipUi *ui, const DipWindow *window, DipRect room) {
+    const DipPreviewChoice *choice = window->state->choice;
+    const DipCandidates *candidates = &choice->candidates;
+    const DipCosts *costs = choice->live ? NULL : window->state->costs;
     const int line = dip_ui_line_height(ui, NOTE_SIZE), axis = dip_ui_px(ui, AXIS_WIDTH);
     char text[160];
     int y = room.y;
-    if (costs->point_count < costs->combination_count) {
-        snprintf(text, sizeof text, "The first %d of %d combinations   path %s, %dx%d",
-                 costs->point_count, costs->combination_count, costs->path, costs->width,
-                 costs->height);
-    } else {
-        snprintf(text, sizeof text, "%d combinations   path %s, %dx%d", costs->point_count,
-                 costs->path, costs->width, costs->height);
-    }
+    snprintf(text, sizeof text, "%d combinations   %s%s", candidates->count,
+             costs ? "path " : "this view", costs ? costs->path : "");
     dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, room.x, y, room.width, text);
     y += line + dip_ui_px(ui, 3);
-    if (costs->point_count < 2) {
+    if (candidates->count < 2) {
         return;
     }
     const DipRect rect = {room.x + axis, y, room.width - axis,
@@ -169,18 +156,18 @@ void dip_advice_plot(DipUi *ui, const DipWindow *window, const DipCostsAdvice *a
     if (rect.height < 3 * line || rect.width < 6 * line) {
         return;
     }
-    const Plot plot = plot_of(costs, advice->budget_ms, rect);
+    const double budget_ms = window->state->budget_ms;
+    const Plot plot = plot_of(candidates, budget_ms, rect);
     dip_ui_fill(ui, rect, dip_style_well);
     draw_axes(ui, &plot);
-    draw_budget(ui, &plot, advice->budget_ms);
-    for (int i = 0; i < costs->point_count; ++i) {
-        if (!costs->points[i].on_front) {
-            draw_dot(ui, &plot, &costs->points[i], 3, dip_style_off);
-        }
+    draw_budget(ui, &plot, budget_ms);
+    for (int i = 0; i < candidates->count; ++i) {
+        draw_dot(ui, &plot, &candidates->list[i], 3, dip_style_off);
     }
-    draw_front(ui, &plot, costs);
-    draw_marks(ui, window, &plot, advice);
+    draw_front(ui, &plot, choice);
+    draw_marks(ui, window, &plot);
+    snprintf(text, sizeof text, "FLIP over ms %s; lower left is better",
+             dip_time_kind_names[candidates->kind]);
     dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, rect.x + dip_ui_px(ui, 5),
-                rect.y + rect.height - line - dip_ui_px(ui, 2), rect.width,
-                "FLIP over ms; lower left is better");
+                rect.y + rect.height - line - dip_ui_px(ui, 2), rect.width, text);
 }

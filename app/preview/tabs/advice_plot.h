@@ -2,14 +2,11 @@
 #ifndef DIP_APP_PREVIEW_TABS_ADVICE_PLOT_H
 #define DIP_APP_PREVIEW_TABS_ADVICE_PLOT_H
 
-#include "app/preview/prices/costs.h"
-#include "app/preview/tabs/tabs.h"
+#include "app/preview/tools/window.h"
 
-// Draws the combinations of window->state->costs by time and error into `room`: the front as
-// stairs, the times beyond the budget of `advice` shaded, its settings and those of the current
-// pane marked. If the report has more combinations than DIP_COSTS_MAX_POINTS, the heading says so.
-// Draws no plot in a room that is too small for one, or with fewer than two combinations.
-void dip_advice_plot(DipUi *ui, const DipWindow *window, const DipCostsAdvice *advice,
-                     DipRect room);
+// Draws what can be chosen (window->state->choice) by time and error into `room`: the front as
+// stairs, the times beyond the budget shaded, the advised settings and those of the current pane
+// marked. Draws no plot in a room that is too small for one, or of fewer than two candidates.
+void dip_advice_plot(DipUi *ui, const DipWindow *window, DipRect room);
 
 #endif

@@ -1,24 +1,38 @@
-// The tab of advice: the best settings for a time budget, and all measured combinations in a plot
-// of time and error.
+// The tab of advice: the best settings for a time budget, what the next better ones cost, and a
+// plot of all that can be chosen. It reads one choice (choice.h), whether a report or live prices
+// made it.
 #include "app/preview/tabs/advice_plot.h"
-#include "app/preview/tabs/advice_tab_private.h"
 #include "app/preview/prices/price_text.h"
 #include "app/ui/style.h"
 #include "app/preview/tabs/tabs.h"
+#include "app/report/words.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { MARGIN = 10, GAP = 20, RIGHT_WIDTH = 300 };
-enum { ID_UP = DIP_ADVICE_ID_FIRST_FREE, ID_DOWN, ID_TABLE };
+// Sizes at scale 1.
+enum {
+    SIZE = 13,
+    NOTE_SIZE = 11,
+    SUM_SIZE = 22,
+    MARGIN = 10,
+    GAP = 20,
+    LEFT_WIDTH = 272,
+    RIGHT_WIDTH = 300,
+    NOTE_WIDTH = 220,
+    BUDGET_COLUMNS = 4,
+    BUTTON_HEIGHT = 28
+};
+enum { ID_BUDGETS = 1, ID_TRY = 100, ID_UP, ID_DOWN, ID_TABLE };
 
 static DipUiId id_of(int index) {
     return DIP_UI_ID(DIP_UI_ADVICE, index);
 }
 
-void dip_advice_line(DipUi *ui, int size, DipColour colour, DipRect room, int *y,
-                     const char *text) {
+// Draws a line of text at *y and moves *y behind it.
+static void write_line(DipUi *ui, int size, DipColour colour, DipRect room, int *y,
+                       const char *text) {
     const int height = dip_ui_line_height(ui, size);
     if (*y + height <= room.y + room.height) {
         dip_ui_text(ui, size, colour, DIP_ALIGN_LEFT, room.x, *y, room.width, text);
@@ -28,94 +42,122 @@ void dip_advice_line(DipUi *ui, int size, DipColour colour, DipRect room, int *y
 
 // --- budgets -------------------------------------------------------------------------------------
 
-// The piece of advice that shows: the one that the user took last, or the first one.
-static int chosen_advice(const DipPreviewState *state) {
-    const int count = state->costs->advice_count;
-    return (state->next_advice + count - 1) % count;
-}
-
 // Declares a button for each budget. Returns the height of the buttons.
 static int declare_budgets(DipUi *ui, DipWindow *window, DipRect room) {
     DipPreviewState *state = window->state;
-    const DipCosts *costs = state->costs;
-    const int gap = dip_ui_px(ui, 6), height = dip_ui_px(ui, DIP_ADVICE_BUTTON_HEIGHT);
-    const int width =
-        (room.width - (DIP_ADVICE_BUDGET_COLUMNS - 1) * gap) / DIP_ADVICE_BUDGET_COLUMNS;
-    const int rows =
-        (costs->advice_count + DIP_ADVICE_BUDGET_COLUMNS - 1) / DIP_ADVICE_BUDGET_COLUMNS;
-    for (int i = 0; i < costs->advice_count; ++i) {
-        const DipRect button = {room.x + i % DIP_ADVICE_BUDGET_COLUMNS * (width + gap),
-                                room.y + i / DIP_ADVICE_BUDGET_COLUMNS * (height + gap), width,
-                                height};
-        char name[32];
-        snprintf(name, sizeof name, "%.4g ms", costs->advice[i].budget_ms);
-        if (dip_ui_button(ui, id_of(DIP_ADVICE_ID_BUDGETS + i), button, name,
-                          i == chosen_advice(state) ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+    double list[DIP_COST_MAX_BUDGETS];
+    const int count = dip_preview_budgets(state, list);
+    const int gap = dip_ui_px(ui, 6), height = dip_ui_px(ui, BUTTON_HEIGHT);
+    const int width = (room.width - (BUDGET_COLUMNS - 1) * gap) / BUDGET_COLUMNS;
+    for (int i = 0; i < count; ++i) {
+        const DipRect button = {room.x + i % BUDGET_COLUMNS * (width + gap),
+                                room.y + i / BUDGET_COLUMNS * (height + gap), width, height};
+        char name[DIP_NUMBER_BYTES + 4];
+        dip_budget_ms_text(list[i], name);
+        strcat(name, " ms");
+        if (dip_ui_button(ui, id_of(ID_BUDGETS + i), button, name,
+                          fabs(list[i] - state->budget_ms) < 0.05 ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
                           "Shows the settings with the least error within this time per frame. "
                           "They change nothing until you try them.")) {
-            state->next_advice = (i + 1) % costs->advice_count;
+            dip_preview_set_budget(state, list[i]);
         }
     }
-    return rows * (height + gap);
+    return (count + BUDGET_COLUMNS - 1) / BUDGET_COLUMNS * (height + gap);
 }
 
-void dip_advice_try(DipUi *ui, DipWindow *window, const DipQuality *quality) {
+static void try_settings(DipUi *ui, DipWindow *window, const DipQuality *quality) {
     char text[160];
     dip_quality_format_changes(quality, text, sizeof text);
     dip_preview_set_quality(window->state, DIP_PANE_REQUESTED, quality, dip_ui_now_ns(ui));
     dip_preview_notice(window->state, dip_ui_now_ns(ui), "Requested: %.120s", text);
 }
 
-static void write_picked(DipUi *ui, const DipWindow *window, const DipCostsAdvice *advice,
-                         DipRect room, int *y) {
-    const DipCosts *costs = window->state->costs;
-    char text[200], flip[DIP_STEP_NAME_BYTES];
-    snprintf(text, sizeof text, "%.1f ms", advice->ms);
-    dip_advice_line(ui, DIP_ADVICE_SUM_SIZE, dip_style_accent, room, y, text);
-    dip_flip_text(advice->flip, false, flip);
-    if (costs->baseline.found && costs->baseline.flip > 0.0) {
-        const double change = 100.0 * (advice->flip / costs->baseline.flip - 1.0);
-        snprintf(text, sizeof text, "FLIP %s, %s%.0f %% of the baseline's", flip,
-                 change < 0.0 ? "\u2212" : "+", fabs(change));
-    } else {
-        snprintf(text, sizeof text, "FLIP %s", flip);
+// --- the advice ----------------------------------------------------------------------------------
+
+static void write_advised(DipUi *ui, const DipWindow *window, const DipCandidate *advised,
+                          DipRect room, int *y) {
+    const DipPreviewChoice *choice = window->state->choice;
+    const DipCosts *costs = choice->live ? NULL : window->state->costs;
+    char text[200], number[DIP_NUMBER_BYTES], flip[DIP_STEP_NAME_BYTES];
+    snprintf(text, sizeof text, "%s%.1f ms", choice->live ? DIP_ROUGH_MARK : "",
+             advised->time.value);
+    write_line(ui, SUM_SIZE, dip_style_accent, room, y, text);
+    dip_fits_text(choice->advice.fits, number);
+    snprintf(text, sizeof text, "%s; fits with %s", dip_time_kind_names[choice->candidates.kind],
+             number);
+    write_line(ui, NOTE_SIZE, dip_style_soft, room, y, text);
+    dip_flip_text(advised->flip, false, flip);
+    snprintf(text, sizeof text, "FLIP %s", flip);
+    if (choice->base >= 0 && choice->candidates.list[choice->base].flip > 0.0) {
+        const double base = choice->candidates.list[choice->base].flip;
+        dip_number_text(100.0 * (advised->flip / base - 1.0), 0, true, "\u2212", number);
+        snprintf(text, sizeof text, "FLIP %s, %s %% of the baseline's", flip, number);
     }
-    dip_advice_line(ui, DIP_ADVICE_NOTE_SIZE, dip_style_soft, room, y, text);
-    dip_quality_format_changes(&advice->quality, text, sizeof text);
-    dip_advice_line(ui, DIP_ADVICE_NOTE_SIZE, dip_style_white, room, y, text);
-    if (costs->width != window->frames[0].width || costs->height != window->frames[0].height) {
+    write_line(ui, NOTE_SIZE, dip_style_soft, room, y, text);
+    dip_quality_format_changes(&advised->quality, text, sizeof text);
+    write_line(ui, NOTE_SIZE, dip_style_white, room, y, text);
+    if (choice->advice.tie_count > 0) {
+        snprintf(text, sizeof text, "%d more within 1 %% of its FLIP", choice->advice.tie_count);
+        write_line(ui, NOTE_SIZE, dip_style_soft, room, y, text);
+    }
+    if (costs &&
+        (costs->width != window->frames[0].width || costs->height != window->frames[0].height)) {
         snprintf(text, sizeof text, "The report is of %dx%d, the panes are %dx%d.", costs->width,
                  costs->height, window->frames[0].width, window->frames[0].height);
-        dip_advice_line(ui, DIP_ADVICE_NOTE_SIZE, dip_style_worse, room, y, text);
+        write_line(ui, NOTE_SIZE, dip_style_worse, room, y, text);
     }
 }
 
-static void declare_picked(DipUi *ui, DipWindow *window, DipRect room) {
-    const DipCostsAdvice *advice = &window->state->costs->advice[chosen_advice(window->state)];
-    const int height = dip_ui_px(ui, DIP_ADVICE_BUTTON_HEIGHT), gap = dip_ui_px(ui, 8);
-    int y = room.y;
-    dip_advice_line(ui, DIP_ADVICE_SIZE, dip_style_white, room, &y, "Best picture within");
-    y += declare_budgets(ui, window, (DipRect){room.x, y, room.width, 0});
-    if (advice->found) {
-        write_picked(ui, window, advice, room, &y);
+static void write_why_not(DipUi *ui, const DipWindow *window, DipRect room, int *y) {
+    char text[200];
+    if (window->figures[DIP_PANE_REQUESTED].no_errors) {
+        snprintf(text, sizeof text, "A scene of the gallery has no errors to choose by.");
     } else {
-        const bool nothing_fits = window->state->costs->point_count == 0 ||
-                                  window->state->costs->points[0].ms > advice->budget_ms;
-        dip_advice_line(ui, DIP_ADVICE_SIZE, dip_style_worse, room, &y,
-                        nothing_fits ? "Nothing measured is as fast."
-                                     : "The report gives no advice for this time.");
+        dip_preview_choice_why(window->state->choice, dip_prices_progress(window->prices), text,
+                               sizeof text);
+    }
+    dip_ui_text_block(ui, SIZE, dip_style_soft,
+                      (DipRect){room.x, *y, room.width, room.y + room.height - *y}, text);
+    *y += 3 * dip_ui_line_height(ui, SIZE);
+}
+
+static void declare_try(DipUi *ui, DipWindow *window, const DipCandidate *advised, DipRect rect) {
+    DipPreviewState *state = window->state;
+    const bool waits = state->choice->live && state->choice->state != DIP_CHOICE_KNOWN;
+    if (waits && !state->paused && !state->manual) {
+        if (dip_ui_button(ui, id_of(ID_TRY), rect, "Pause to measure", DIP_UI_PRIMARY,
+                          "Pauses, so that the prices can be measured (Space).")) {
+            dip_preview_act(state, DIP_ACTION_PAUSE, 0, false, dip_ui_now_ns(ui));
+        }
+        return;
+    }
+    const bool same = advised && memcmp(&advised->quality, &state->quality[DIP_PANE_REQUESTED],
+                                        sizeof advised->quality) == 0;
+    if (dip_ui_button(ui, id_of(ID_TRY), rect, "Try it right",
+                      advised && !same ? DIP_UI_PRIMARY : DIP_UI_OFF,
+                      same      ? "The right pane has these settings."
+                      : advised ? "Gives the requested pane these settings. Apply is separate (K)."
+                                : "There is no advice.")) {
+        try_settings(ui, window, &advised->quality);
+    }
+}
+
+static void declare_advised(DipUi *ui, DipWindow *window, DipRect room) {
+    const DipCandidate *advised = dip_preview_advised(window->state->choice);
+    const int height = dip_ui_px(ui, BUTTON_HEIGHT), gap = dip_ui_px(ui, 8);
+    int y = room.y;
+    write_line(ui, SIZE, dip_style_white, room, &y,
+               window->state->choice->live ? "Best picture within, roughly"
+                                           : "Best picture within");
+    y += declare_budgets(ui, window, (DipRect){room.x, y, room.width, 0});
+    if (advised) {
+        write_advised(ui, window, advised, room, &y);
+    } else {
+        write_why_not(ui, window, room, &y);
     }
     const int width = (room.width - gap) / 2;
     y = dip_style_min(y + gap / 2, room.y + room.height - height);
-    const bool same =
-        advice->found && memcmp(&advice->quality, &window->state->quality[DIP_PANE_REQUESTED],
-                                sizeof advice->quality) == 0;
-    if (dip_ui_button(ui, id_of(DIP_ADVICE_ID_TRY), (DipRect){room.x, y, width, height},
-                      "Try it right", advice->found && !same ? DIP_UI_PRIMARY : DIP_UI_OFF,
-                      same ? "The right pane has these settings."
-                           : "Gives the requested pane these settings. Apply is separate (K).")) {
-        dip_advice_try(ui, window, &advice->quality);
-    }
+    declare_try(ui, window, advised, (DipRect){room.x, y, width, height});
     if (dip_ui_button(ui, id_of(ID_TABLE), (DipRect){room.x + width + gap, y, width, height},
                       "All steps", DIP_UI_PLAIN,
                       "Shows the time and error of every step of every setting (U).")) {
@@ -139,72 +181,99 @@ static void format_change(const DipQuality *from, const DipQuality *to, char tex
     }
 }
 
-// Declares one step along the front as a button. Returns its height.
-static int declare_step(DipUi *ui, DipWindow *window, const DipCostsAdvice *advice, int direction,
-                        DipRect room) {
-    const DipCosts *costs = window->state->costs;
-    const int step = dip_costs_front_step(costs, advice->ms, direction);
-    const int pad = dip_ui_px(ui, 8), line = dip_ui_line_height(ui, DIP_ADVICE_SIZE);
-    const int note = dip_ui_line_height(ui, DIP_ADVICE_NOTE_SIZE);
+// Returns the slowest candidate of the front that is faster than the advised one, or NULL.
+static const DipCandidate *next_faster(const DipPreviewChoice *choice,
+                                       const DipCandidate *advised) {
+    const DipCandidate *found = NULL;
+    for (int i = 0; i < choice->front_count; ++i) {
+        const DipCandidate *c = &choice->candidates.list[choice->front[i]];
+        found = c->time.value < advised->time.value ? c : found;
+    }
+    return found;
+}
+
+// Declares a step to other settings as a button; `to` may be NULL. Returns its height.
+static int declare_step(DipUi *ui, DipWindow *window, const DipCandidate *advised,
+                        const DipCandidate *to, bool up, DipRect room) {
+    const int pad = dip_ui_px(ui, 8), line = dip_ui_line_height(ui, SIZE);
+    const int note = dip_ui_line_height(ui, NOTE_SIZE);
     const DipRect box = {room.x, room.y, room.width, line + note + pad};
-    const char *name = direction > 0 ? "up" : "down";
-    char text[160], flip[DIP_STEP_NAME_BYTES];
+    char text[160], number[DIP_NUMBER_BYTES], flip[DIP_STEP_NAME_BYTES];
     const DipUiInput input = dip_ui_control(
-        ui, &(DipUiControl){.id = id_of(direction > 0 ? ID_UP : ID_DOWN),
+        ui, &(DipUiControl){.id = id_of(up ? ID_UP : ID_DOWN),
                             .rect = box,
-                            .tip = direction > 0
-                                       ? "The next better combination of the front: what it costs "
-                                         "and gains. A click tries it in the right pane."
-                                       : "The next faster combination of the front: what it saves "
-                                         "and loses. A click tries it in the right pane.",
-                            .disabled = step < 0});
+                            .tip = up ? "The fastest settings with at least 1 % less FLIP: what "
+                                        "they cost and gain. A click tries them in the right pane."
+                                      : "The next faster combination of the front: what it saves "
+                                        "and loses. A click tries it in the right pane.",
+                            .disabled = !to});
     dip_ui_fill_round(ui, box, dip_ui_px(ui, 4), dip_style_raised);
-    dip_ui_text(ui, DIP_ADVICE_SIZE, dip_style_white, DIP_ALIGN_LEFT, box.x + pad, box.y + pad / 2,
-                box.width, name);
-    if (input.hovered && step >= 0) {
+    dip_ui_text(ui, SIZE, dip_style_white, DIP_ALIGN_LEFT, box.x + pad, box.y + pad / 2, box.width,
+                up ? "next better" : "faster");
+    if (input.hovered && to) {
         dip_ui_outline(ui, box, dip_ui_px(ui, 4), dip_ui_px(ui, 1), dip_style_soft);
     }
     dip_ui_focus_ring(ui, box, dip_ui_px(ui, 4), &input);
     const int right = box.x + box.width - pad;
-    if (step < 0) {
-        dip_ui_text(ui, DIP_ADVICE_NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, right,
-                    box.y + pad / 2, box.width - 6 * pad,
-                    direction > 0 ? "nothing measured is better" : "nothing measured is faster");
+    if (!to) {
+        dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, right, box.y + pad / 2,
+                    box.width - 12 * pad, up ? "nothing measured" : "nothing measured is faster");
         return box.height;
     }
-    const DipCostsPoint *point = &costs->points[step];
-    dip_flip_text(point->flip - advice->flip, true, flip);
-    snprintf(text, sizeof text, "%s%.1f ms", point->ms < advice->ms ? "\u2212" : "+",
-             fabs(point->ms - advice->ms));
-    const int flip_width = dip_ui_text_width(ui, DIP_ADVICE_SIZE, flip) + pad;
-    dip_ui_text(ui, DIP_ADVICE_SIZE, direction > 0 ? dip_style_gain : dip_style_worse,
-                DIP_ALIGN_RIGHT, right, box.y + pad / 2, flip_width, flip);
-    dip_ui_text(ui, DIP_ADVICE_SIZE, dip_style_soft, DIP_ALIGN_RIGHT, right - flip_width,
-                box.y + pad / 2, box.width / 2, text);
-    format_change(&advice->quality, &point->quality, text);
-    dip_ui_text(ui, DIP_ADVICE_NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, box.x + pad,
-                box.y + pad / 2 + line, box.width - 2 * pad, text);
+    dip_flip_text(to->flip - advised->flip, true, flip);
+    dip_number_text(to->time.value - advised->time.value, 1, true, "\u2212", number);
+    snprintf(text, sizeof text, "%s ms", number);
+    const int flip_width = dip_ui_text_width(ui, SIZE, flip) + pad;
+    dip_ui_text(ui, SIZE, up ? dip_style_gain : dip_style_worse, DIP_ALIGN_RIGHT, right,
+                box.y + pad / 2, flip_width, flip);
+    dip_ui_text(ui, SIZE, dip_style_soft, DIP_ALIGN_RIGHT, right - flip_width, box.y + pad / 2,
+                box.width / 2, text);
+    format_change(&advised->quality, &to->quality, text);
+    dip_ui_text(ui, NOTE_SIZE, dip_style_soft, DIP_ALIGN_LEFT, box.x + pad, box.y + pad / 2 + line,
+                box.width - 2 * pad, text);
     if (input.pressed) {
-        dip_advice_try(ui, window, &point->quality);
+        try_settings(ui, window, &to->quality);
     }
     return box.height;
 }
 
 static void declare_steps(DipUi *ui, DipWindow *window, DipRect room) {
-    const DipCostsAdvice *advice = &window->state->costs->advice[chosen_advice(window->state)];
+    const DipPreviewChoice *choice = window->state->choice;
+    const DipCandidate *advised = dip_preview_advised(choice);
+    const int gap = dip_ui_px(ui, 6);
+    char text[80], fits[DIP_NUMBER_BYTES];
     int y = room.y;
-    dip_advice_line(ui, DIP_ADVICE_SIZE, dip_style_white, room, &y, "One step");
-    if (!advice->found) {
+    write_line(ui, SIZE, dip_style_white, room, &y, "One step");
+    if (!advised) {
         return;
     }
-    for (int direction = 1; direction >= -1; direction -= 2) {
-        y += declare_step(ui, window, advice, direction,
-                          (DipRect){room.x, y, room.width, room.height}) +
-             dip_ui_px(ui, 6);
+    const int next = choice->advice.next;
+    y += gap + declare_step(ui, window, advised, next >= 0 ? &choice->candidates.list[next] : NULL,
+                            true, (DipRect){room.x, y, room.width, room.height});
+    if (next >= 0) {
+        dip_fits_text(choice->advice.next_fits, fits);
+        snprintf(text, sizeof text, "The next better fits with %s.", fits);
+        write_line(ui, NOTE_SIZE, dip_style_soft, room, &y, text);
     }
-    dip_ui_text_block(ui, DIP_ADVICE_NOTE_SIZE, dip_style_dim,
+    y += gap + declare_step(ui, window, advised, next_faster(choice, advised), false,
+                            (DipRect){room.x, y, room.width, room.height});
+    dip_ui_text_block(ui, NOTE_SIZE, dip_style_dim,
                       (DipRect){room.x, y, room.width, room.y + room.height - y},
-                      window->state->costs->heading);
+                      choice->live ? "" : window->state->costs->heading);
+}
+
+// Says how to get a report, which measures combinations along whole paths.
+static void write_how_to(DipUi *ui, const DipWindow *window, DipRect room) {
+    char text[2 * DIP_SCENE_WORDS_BYTES + 512];
+    snprintf(text, sizeof text,
+             "This advice adds up the prices of single steps in this view. Settings that work on "
+             "the same pixels, such as antialiasing and adaptive AA, gain less together.\n"
+             "Advice for whole paths comes from a cost report, which measures combinations. "
+             "This makes one in some minutes, and then starts the preview with it:\n"
+             "diptych cost%s --out report\n"
+             "diptych%s --cost report/cost.json",
+             window->state->scene_words, window->state->scene_words);
+    dip_ui_text_block(ui, NOTE_SIZE, dip_style_soft, room, text);
 }
 
 // --- the tab -------------------------------------------------------------------------------------
@@ -213,26 +282,28 @@ void dip_tab_advice(DipUi *ui, DipWindow *window, DipRect body) {
     const int margin = dip_ui_px(ui, MARGIN), gap = dip_ui_px(ui, GAP);
     const DipRect room = {body.x + margin, body.y + margin / 2, body.width - 2 * margin,
                           body.height - margin};
-    if (!window->state->costs) {
-        dip_advice_declare_rough(ui, window, room);
+    const int left = dip_style_min(dip_ui_px(ui, LEFT_WIDTH), room.width);
+    const int right = dip_ui_px(ui, RIGHT_WIDTH);
+    const DipPreviewChoice *choice = window->state->choice;
+    if (!choice) {
         return;
     }
-    const int left = dip_style_min(dip_ui_px(ui, DIP_ADVICE_LEFT_WIDTH), room.width);
-    const int right = dip_ui_px(ui, RIGHT_WIDTH);
-    declare_picked(ui, window, (DipRect){room.x, room.y, left, room.height});
-    int middle = room.width - left - gap;
-    const bool has_steps = middle >= right + gap + dip_ui_px(ui, 200);
-    if (has_steps) {
-        middle -= right + gap;
+    declare_advised(ui, window, (DipRect){room.x, room.y, left, room.height});
+    DipRect rest = {room.x + left + gap, room.y, room.width - left - gap, room.height};
+    if (choice->live) {
+        if (rest.width >= dip_ui_px(ui, NOTE_WIDTH)) {
+            write_how_to(ui, window, rest);
+        }
+        return;
+    }
+    if (rest.width >= right + gap + dip_ui_px(ui, 200)) {
+        rest.width -= right + gap;
         declare_steps(ui, window,
                       (DipRect){room.x + room.width - right, room.y, right, room.height});
-    }
-    const DipRect rest = {room.x + left + gap, room.y, middle, room.height};
-    if (!has_steps && middle < dip_ui_px(ui, 180)) {
+    } else if (rest.width < dip_ui_px(ui, 180)) {
         return;
     }
     if (dip_ui_is_drawing(ui)) {
-        dip_advice_plot(ui, window, &window->state->costs->advice[chosen_advice(window->state)],
-                        rest);
+        dip_advice_plot(ui, window, rest);
     }
 }

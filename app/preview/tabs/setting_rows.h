@@ -35,7 +35,4 @@ void dip_apply_declare(DipUi *ui, DipWindow *window, DipRect rect);
 // prices come from. The buttons stand between. Leaves out what does not fit.
 void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
-// Time within which a frame has to be drawn for 60 pictures per second.
-static const double dip_budget_ms = 16.6;
-
 #endif

@@ -2,6 +2,7 @@
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/setting_rows.h"
 #include "app/ui/style.h"
+#include "app/report/words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -29,9 +30,18 @@ int dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns)
     for (int p = 0; p < DIP_PRESET_COUNT; ++p) {
         const DipRect button = {rect.x + p % columns * (width + gap),
                                 rect.y + p / columns * (height + row_gap), width, height};
-        const DipQuality quality = dip_preview_preset(window->state, (DipPreset)p);
-        const DipPriceSum sum = dip_prices_sum(window->prices, &quality);
+        DipQuality quality;
         char settings[200], tip[320];
+        if (!dip_preview_preset(window->state, (DipPreset)p, &quality)) {
+            dip_preview_choice_why(window->state->choice, dip_prices_progress(window->prices),
+                                   settings, sizeof settings);
+            snprintf(tip, sizeof tip, "%s waits. %s", dip_preview_preset_name((DipPreset)p),
+                     settings);
+            dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_PRESETS + p), button,
+                          dip_preview_preset_name((DipPreset)p), DIP_UI_OFF, tip);
+            continue;
+        }
+        const DipPriceSum sum = dip_prices_sum(window->prices, &quality);
         dip_quality_format_changes(&quality, settings, sizeof settings);
         snprintf(tip, sizeof tip, "%s: %s", dip_preview_preset_name((DipPreset)p), settings);
         if (sum.state != DIP_PRICE_UNKNOWN) {
@@ -136,8 +146,8 @@ static void fill_hatched(DipUi *ui, DipRect rect, DipColour colour) {
 
 // Returns the end of the scale of times: 1.2 budgets or, for longer frames, as often twice that. So
 // the scale stands still while the time of the frames varies.
-static double end_of_scale(double ms) {
-    double end_ms = dip_budget_ms * 1.2;
+static double end_of_scale(double ms, double budget_ms) {
+    double end_ms = budget_ms * 1.2;
     while (end_ms < ms * 1.02 && end_ms < 1e6) {
         end_ms *= 2.0;
     }
@@ -146,10 +156,10 @@ static double end_of_scale(double ms) {
 
 // Draws the parts of the sum on one scale with the budget.
 static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART_COUNT],
-                        DipRect rect) {
-    const double end_ms = end_of_scale(sum->ms - fmin(sum->together_ms, 0.0));
+                        double budget_ms, DipRect rect) {
+    const double end_ms = end_of_scale(sum->ms - fmin(sum->together_ms, 0.0), budget_ms);
     const double per_ms = rect.width / end_ms;
-    const int budget_x = rect.x + (int)(dip_budget_ms * per_ms);
+    const int budget_x = rect.x + (int)(budget_ms * per_ms);
     double at_ms = 0.0;
     dip_ui_fill(ui, rect, dip_style_well);
     dip_ui_fill(ui, (DipRect){budget_x, rect.y, rect.x + rect.width - budget_x, rect.height},
@@ -173,7 +183,7 @@ static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART
         const int width = rect.x + (int)(at_ms * per_ms) - from - 1;
         fill_hatched(ui, (DipRect){from, rect.y, width, rect.height}, dip_style_well);
     }
-    if (sum->ms > dip_budget_ms) {
+    if (sum->ms > budget_ms) {
         fill_hatched(
             ui,
             (DipRect){budget_x, rect.y, rect.x + (int)(sum->ms * per_ms) - budget_x, rect.height},
@@ -183,11 +193,13 @@ static void draw_budget(DipUi *ui, const DipPriceSum *sum, const Part parts[PART
                 (DipRect){budget_x, rect.y - dip_ui_px(ui, 4), dip_ui_px(ui, 2),
                           rect.height + 2 * dip_ui_px(ui, 4)},
                 dip_style_white);
-    const bool left = budget_x - rect.x < dip_ui_text_width(ui, NOTE_SIZE, "16.6 ms");
+    char text[DIP_NUMBER_BYTES + 4];
+    dip_budget_ms_text(budget_ms, text);
+    strcat(text, " ms");
+    const bool left = budget_x - rect.x < dip_ui_text_width(ui, NOTE_SIZE, text);
     dip_ui_text(ui, NOTE_SIZE, dip_style_white, left ? DIP_ALIGN_LEFT : DIP_ALIGN_RIGHT,
                 left ? rect.x : budget_x - dip_ui_px(ui, 2),
-                rect.y - dip_ui_line_height(ui, NOTE_SIZE) - dip_ui_px(ui, 3), rect.width,
-                "16.6 ms");
+                rect.y - dip_ui_line_height(ui, NOTE_SIZE) - dip_ui_px(ui, 3), rect.width, text);
 }
 
 // Draws an entry of the legend at *x, *y, or at the start of the next line if it does not fit.
@@ -241,13 +253,13 @@ static DipPriceSum sum_of(const DipWindow *window, int pane) {
 }
 
 // Draws the sum and, beside it, its interval or how far it is over the budget.
-static void draw_sum(DipUi *ui, const DipPriceSum *sum, DipRect rect) {
-    const bool over = sum->ms > dip_budget_ms;
+static void draw_sum(DipUi *ui, const DipPriceSum *sum, double budget_ms, DipRect rect) {
+    const bool over = sum->ms > budget_ms;
     char text[64], note[64] = "";
     snprintf(text, sizeof text, "%s%.1f ms", sum->state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "",
              sum->ms);
     if (over) {
-        snprintf(note, sizeof note, "%.1f over %.1f", sum->ms - dip_budget_ms, dip_budget_ms);
+        snprintf(note, sizeof note, "%.1f over %.1f", sum->ms - budget_ms, budget_ms);
     } else if (sum->ms_high > sum->ms_low) {
         snprintf(note, sizeof note, "%.1f to %.1f", sum->ms_low, sum->ms_high);
     }
@@ -351,6 +363,7 @@ static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
 void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipPriceSum sum = sum_of(window, DIP_PANE_REQUESTED);
     const DipPriceSum now = sum_of(window, DIP_PANE_CURRENT);
+    const double budget_ms = window->state->budget_ms;
     Part parts[PART_COUNT];
     find_parts(&sum, parts);
     const int bottom = rect.y + rect.height;
@@ -361,7 +374,7 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
         room = declare_measure_here(ui, window, line);
     }
     if (dip_ui_is_drawing(ui)) {
-        draw_sum(ui, &sum, (DipRect){rect.x, y, room, 0});
+        draw_sum(ui, &sum, budget_ms, (DipRect){rect.x, y, room, 0});
     }
     y += dip_ui_px(ui, SUM_HEIGHT);
     if (dip_ui_is_drawing(ui)) {
@@ -370,7 +383,7 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     y += 2 * dip_ui_line_height(ui, NOTE_SIZE) + dip_ui_px(ui, 5);
     const int legend_y = y + dip_ui_px(ui, BUDGET_HEIGHT + 6);
     if (dip_ui_is_drawing(ui)) {
-        draw_budget(ui, &sum, parts,
+        draw_budget(ui, &sum, parts, budget_ms,
                     (DipRect){rect.x, y, rect.width, dip_ui_px(ui, BUDGET_HEIGHT)});
         draw_legend(ui, &sum, parts, (DipRect){rect.x, legend_y, rect.width, 0});
     }

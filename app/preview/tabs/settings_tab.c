@@ -3,6 +3,7 @@
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/setting_rows.h"
 #include "app/ui/style.h"
+#include "app/report/words.h"
 
 #include <stdio.h>
 
@@ -118,14 +119,16 @@ static void declare_foot(DipUi *ui, DipWindow *window, DipRect foot, bool more) 
     const double ms = sum.state == DIP_PRICE_UNKNOWN ? window->figures[pane].ms : sum.ms;
     char text[40];
     snprintf(text, sizeof text, "%.1f", ms);
-    dip_ui_text(ui, 13, ms > dip_budget_ms ? dip_style_worse : dip_style_accent, DIP_ALIGN_LEFT,
-                foot.x + pad, foot.y + (foot.height - dip_ui_line_height(ui, 13)) / 2,
-                more_x - foot.x, text);
+    dip_ui_text(ui, 13, ms > window->state->budget_ms ? dip_style_worse : dip_style_accent,
+                DIP_ALIGN_LEFT, foot.x + pad,
+                foot.y + (foot.height - dip_ui_line_height(ui, 13)) / 2, more_x - foot.x, text);
     const int x = foot.x + 2 * pad + dip_ui_text_width(ui, 13, text);
-    if (dip_ui_text_width(ui, 11, "of 16.6 ms") <= more_x - pad - x) {
+    char of[DIP_NUMBER_BYTES + 8], budget[DIP_NUMBER_BYTES];
+    dip_budget_ms_text(window->state->budget_ms, budget);
+    snprintf(of, sizeof of, "of %s ms", budget);
+    if (dip_ui_text_width(ui, 11, of) <= more_x - pad - x) {
         dip_ui_text(ui, 11, dip_style_soft, DIP_ALIGN_LEFT, x,
-                    foot.y + (foot.height - dip_ui_line_height(ui, 11)) / 2, more_x - x,
-                    "of 16.6 ms");
+                    foot.y + (foot.height - dip_ui_line_height(ui, 11)) / 2, more_x - x, of);
     }
     if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_MORE),
                       (DipRect){more_x, foot.y + pad, more_width, height}, "\u2026",

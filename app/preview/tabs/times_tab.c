@@ -73,10 +73,9 @@ static void draw_legend(DipUi *ui, const DipWindow *window, History *history, in
     } else if (history->count == 0) {
         snprintf(text, sizeof text, "%s: no frame, since time stands still", names[pane]);
     } else {
-        const double median = dip_timing_percentile(history->ms, history->count, 0.5);
-        const double p95 = dip_timing_percentile(history->ms, history->count, 0.95);
-        snprintf(text, sizeof text, "%s: median %.1f, 95 %% within %.1f ms", names[pane], median,
-                 p95);
+        const double median = dip_percentile(history->ms, history->count, 0.5);
+        const double p95 = dip_percentile(history->ms, history->count, 0.95);
+        snprintf(text, sizeof text, "%s: median %.1f, p95 %.1f ms", names[pane], median, p95);
     }
     dip_ui_fill(ui,
                 (DipRect){line.x, line.y + (dip_ui_line_height(ui, NOTE_SIZE) - swatch) / 2, swatch,
@@ -86,17 +85,12 @@ static void draw_legend(DipUi *ui, const DipWindow *window, History *history, in
                 line.width - 2 * swatch, text);
 }
 
-// The budget of a frame is the time between two refreshes of the display. Before the first picture
-// is presented, it is that of the settings tab.
-static double budget_of(const DipWindow *window) {
-    const double budget_ms = window->figures[0].budget_ms;
-    return budget_ms > 0.0 ? budget_ms : dip_budget_ms;
-}
-
-static void draw_budget_line(DipUi *ui, DipRect plot, double budget_ms, double top_ms) {
+static void draw_budget_line(DipUi *ui, DipRect plot, const DipPreviewState *state, double top_ms) {
+    const double budget_ms = state->budget_ms;
     const int y = plot.y + plot.height - (int)(budget_ms / top_ms * plot.height);
     char text[80];
-    snprintf(text, sizeof text, "%.1f ms: one refresh of the display", budget_ms);
+    snprintf(text, sizeof text, "%.1f ms: %s", budget_ms,
+             state->has_budget ? "the budget" : "one refresh of the display");
     dip_ui_fill(ui, (DipRect){plot.x, y, plot.width, dip_ui_px(ui, 1)}, dip_style_white);
     dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_LEFT, plot.x + dip_ui_px(ui, 4),
                 y - dip_ui_line_height(ui, NOTE_SIZE), plot.width, text);
@@ -109,7 +103,7 @@ void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect) {
     const int line = dip_ui_line_height(ui, NOTE_SIZE);
     const DipRect plot = {rect.x, rect.y + line, rect.width, rect.height - 4 * line};
     History histories[DIP_PANE_COUNT];
-    const double budget_ms = budget_of(window);
+    const double budget_ms = window->state->budget_ms;
     double top_ms = budget_ms * 1.25;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         histories[p] = history_of(&window->figures[p], graph_now_ns(ui));
@@ -123,7 +117,7 @@ void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect) {
         return;
     }
     dip_ui_fill(ui, plot, dip_style_well);
-    draw_budget_line(ui, plot, budget_ms, top_ms);
+    draw_budget_line(ui, plot, window->state, top_ms);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         if (!window->figures[p].copied) {
             draw_history(ui, &histories[p], plot, top_ms, pane_colours[p]);

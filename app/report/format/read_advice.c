@@ -1,4 +1,4 @@
-// Reading the predictions and the advice of a report from JSON.
+// Reading the predictions and the budgets of a report from JSON. Advice is computed again.
 #include "app/report/format/read_parts.h"
 
 #include "app/report/format/json_read.h"
@@ -61,31 +61,14 @@ bool dip_cost_read_predictions(const cJSON *root, DipCostReport *report, const c
     return ok || dip_json_missing(file, "predicted", err);
 }
 
-static bool read_one_advice(const cJSON *object, const DipCostReport *report,
-                            DipCostAdvice *advice) {
-    bool ok = true;
-    *advice = (DipCostAdvice){
-        .budget_ms = dip_json_number(object, "budget_ms", DIP_JSON_MAX_MS, &ok),
-        .row = dip_json_integer(object, "row", -1, report->row_count - 1, &ok),
-        .ms = dip_json_number(object, "ms", DIP_JSON_MAX_MS, &ok),
-        .ms_low = dip_json_number(object, "ms_low", DIP_JSON_MAX_MS, &ok),
-        .ms_high = dip_json_number(object, "ms_high", DIP_JSON_MAX_MS, &ok),
-        .runner_up = -1,
-    };
-    if (cJSON_GetObjectItemCaseSensitive(object, "probability")) {
-        advice->probability = dip_json_number(object, "probability", 1.0, &ok);
-        advice->runner_up = dip_json_integer(object, "runner_up", -1, report->row_count - 1, &ok);
-        advice->runner_up_probability = dip_json_number(object, "runner_up_probability", 1.0, &ok);
-    }
-    return ok;
-}
-
 void dip_cost_read_advice(const cJSON *root, DipCostReport *report) {
+    DipCostOptions *options = &report->options;
     const cJSON *object;
     cJSON_ArrayForEach(object, cJSON_GetObjectItemCaseSensitive(root, "advice")) {
-        if (report->advice_count < DIP_COST_MAX_BUDGETS &&
-            read_one_advice(object, report, &report->advice[report->advice_count])) {
-            report->advice_count++;
+        bool ok = true;
+        const double ms = dip_json_number(object, "budget_ms", DIP_JSON_MAX_MS, &ok);
+        if (ok && ms > 0.0 && options->budget_count < DIP_COST_MAX_BUDGETS) {
+            options->budgets_ms[options->budget_count++] = ms;
         }
     }
 }

@@ -2,11 +2,11 @@
 #include "app/report/format/formats.h"
 
 #include "app/report/fit.h"
-#include "app/report/front.h"
 #include "app/report/interaction.h"
 #include "app/report/order.h"
 #include "app/report/tiers.h"
 #include "app/files/put.h"
+#include "app/report/words.h"
 
 #include <math.h>
 
@@ -87,18 +87,17 @@ static void print_floors(const DipCostReport *report, FILE *out) {
 }
 
 // The price is the time of each 1 % by which FLIP falls from the row before.
-static void print_front_row(const DipCostReport *report, int row, int before, bool is_knee,
+static void print_front_row(const DipCandidate *row, const DipCandidate *before, bool is_knee,
                             FILE *out) {
     char text[DIP_COST_TEXT];
-    char price[32] = "";
-    const double flip = dip_cost_row_metrics(report, row, 0).flip;
-    if (before >= 0) {
-        const double steps = 100.0 * log(dip_cost_row_metrics(report, before, 0).flip / flip);
-        snprintf(price, sizeof price, "%+.3f ms per 1 %%",
-                 (dip_cost_ms(report, row) - dip_cost_ms(report, before)) / steps);
+    char price[32] = "", ms[DIP_NUMBER_BYTES];
+    if (before) {
+        const double steps = 100.0 * log(before->loss / row->loss);
+        dip_number_text((row->time.value - before->time.value) / steps, 3, true, "-", ms);
+        snprintf(price, sizeof price, "%.12s ms per 1 %%", ms);
     }
-    dip_cost_settings_text(&report->rows[row].quality, text);
-    dip_put_text(out, "  %8.2f ms  FLIP %.5f  %-18s %s%s\n", dip_cost_ms(report, row), flip, price,
+    dip_cost_settings_text(&row->quality, text);
+    dip_put_text(out, "  %8.2f ms  FLIP %.5f  %-18s %s%s\n", row->time.value, row->flip, price,
                  text, is_knee ? "  <- knee" : "");
 }
 
@@ -112,28 +111,27 @@ static void print_same(const DipCostReport *report, FILE *out) {
 }
 
 static void print_front(const DipCostReport *report, FILE *out) {
-    int front[DIP_COST_MAX_ROWS];
-    const int count = dip_cost_list_plotted(report, front);
-    const int kept = dip_cost_list_front(report, front);
-    if (count == 0) {
+    const DipCostChoice *choice = &report->choice;
+    const DipCandidate *list = choice->candidates.list;
+    if (choice->front_count == 0) {
         return;
     }
     dip_put_text(
         out,
         "\n"
         "Pareto front of %d measured combinations on path %s: no other combination has less "
-        "time and less FLIP.\n"
+        "%s time and less FLIP.\n"
         "A combination is listed only if its FLIP is at least 1 %% below the FLIP of the line "
         "above.\n",
-        count, report->paths[0]);
-    const int knee = dip_cost_knee(report, front, kept);
-    for (int i = 0; i < kept; i++) {
-        print_front_row(report, front[i], i > 0 ? front[i - 1] : -1, i == knee, out);
+        choice->candidates.count, report->paths[0], dip_time_kind_names[choice->candidates.kind]);
+    for (int i = 0; i < choice->front_count; i++) {
+        print_front_row(&list[choice->front[i]], i > 0 ? &list[choice->front[i - 1]] : NULL,
+                        i == choice->knee, out);
     }
-    if (kept > 1) {
+    if (choice->front_count > 1) {
         dip_put_text(out,
                      "  (after FLIP: what 1 %% less FLIP cost on the way from the line above%s)\n",
-                     knee >= 0 ? "; knee: beyond it, more time buys least" : "");
+                     choice->knee >= 0 ? "; knee: beyond it, more time buys least" : "");
     }
 }
 
@@ -195,47 +193,96 @@ static void print_prediction(const DipCostReport *report, FILE *out) {
     }
 }
 
-static void print_advice(const DipCostReport *report, FILE *out) {
-    if (report->verdict == DIP_COST_RED && report->rounds > 0) {
-        dip_put_text(
-            out, "\nThe machine was too busy: the times are wrong, so no settings are advised.\n");
+// --- the answer ----------------------------------------------------------------------------------
+
+static void print_ties(const DipCandidates *candidates, const DipAdvice *advice, FILE *out) {
+    char text[DIP_COST_TEXT];
+    if (advice->tie_count == 0) {
+        return;
     }
-    for (int i = 0; i < report->advice_count; i++) {
-        const DipCostAdvice *advice = &report->advice[i];
-        if (i == 0) {
-            dip_put_text(
-                out,
-                "\nBest settings for a time budget on path %s: the least FLIP whose %s time is "
-                "within the budget:\n",
-                report->paths[0], dip_cost_budget_of_names[report->options.budget_of]);
-        }
-        if (advice->row < 0) {
-            dip_put_text(out, "  %6g ms: no measured combination is surely that fast\n",
-                         advice->budget_ms);
-            continue;
-        }
-        int viewpoints;
-        char text[DIP_COST_TEXT];
-        const DipMetricSums sums = dip_cost_row_sums(report, advice->row, &viewpoints);
-        dip_cost_settings_text(&report->rows[advice->row].quality, text);
-        dip_put_text(out, "  %6g ms: %s  (%.2f ms, 95 %% interval %.2f to %.2f; FLIP %.5f)\n",
-                     advice->budget_ms, text, advice->ms, advice->ms_low, advice->ms_high,
-                     dip_metrics_of(&sums, 0).flip);
-        if (advice->probability > 0.0 && advice->probability < 0.95 && advice->runner_up >= 0) {
-            dip_cost_settings_text(&report->rows[advice->runner_up].quality, text);
-            dip_put_text(out, "  %9s  %.0f %% sure; with %.0f %% it is %s instead\n", "",
-                         100.0 * advice->probability, 100.0 * advice->runner_up_probability, text);
-        }
-        const int next = dip_cost_step_up(report, advice->row);
-        if (next >= 0) {
-            const DipMetricSums better = dip_cost_row_sums(report, next, &viewpoints);
-            dip_cost_settings_text(&report->rows[next].quality, text);
-            dip_put_text(out, "  %9s  next better: %s (%+.2f ms, FLIP %+.5f)\n", "", text,
-                         dip_cost_ms(report, next) - dip_cost_ms(report, advice->row),
-                         dip_metrics_of(&better, 0).flip - dip_metrics_of(&sums, 0).flip);
+    dip_put_text(out, "  as good  %d more within 1 %% of FLIP:", advice->tie_count);
+    for (int i = 0; i < advice->tie_count && i < DIP_ADVICE_TIES; i++) {
+        dip_cost_settings_text(&candidates->list[advice->ties[i]].quality, text);
+        dip_put_text(out, "%s %s", i > 0 ? ";" : "", text);
+    }
+    dip_put_text(out, "%s\n", advice->tie_count > DIP_ADVICE_TIES ? "; ..." : "");
+}
+
+// Says what the next better settings cost, in the kind of time of the budget.
+static void print_next(const DipCandidates *candidates, const DipAdvice *advice, FILE *out) {
+    char text[DIP_COST_TEXT], ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES], fits[DIP_NUMBER_BYTES];
+    if (advice->next < 0) {
+        dip_put_text(out, "  better   nothing that was measured\n");
+        return;
+    }
+    const DipCandidate *chosen = &candidates->list[advice->chosen];
+    const DipCandidate *next = &candidates->list[advice->next];
+    dip_cost_settings_text(&next->quality, text);
+    dip_number_text(advice->next_ms, 2, true, "-", ms);
+    dip_number_text(next->flip - chosen->flip, 5, true, "-", flip);
+    dip_fits_text(advice->next_fits, fits);
+    dip_put_text(out, "  better   %s: %s ms %s, FLIP %s; fits with %s\n", text, ms,
+                 dip_time_kind_names[candidates->kind], flip, fits);
+}
+
+static void print_chosen(const DipCostReport *report, const DipAdvice *advice, FILE *out) {
+    const DipCandidates *candidates = &report->choice.candidates;
+    const DipCandidate *chosen = &candidates->list[advice->chosen];
+    const DipEstimate time = dip_estimate_widen(&chosen->time, chosen->common_error);
+    char text[256], fits[DIP_NUMBER_BYTES];
+    dip_cost_settings_text(&chosen->quality, text);
+    dip_fits_text(advice->fits, fits);
+    dip_put_text(out, "  %s\n", text);
+    dip_put_text(out, "  time     %.2f ms %s along the path (%.2f to %.2f), mean %.2f ms\n",
+                 time.value, dip_time_kind_names[candidates->kind], time.low, time.high,
+                 dip_cost_ms(report, chosen->row));
+    const double base = dip_cost_row_metrics(report, report->base_rows[0], 0).flip;
+    dip_put_text(out, "  fits     with %s\n  error    FLIP %.5f", fits, chosen->flip);
+    if (base > 0.0) {
+        dip_number_text(100.0 * (chosen->flip / base - 1.0), 0, true, "-", fits);
+        dip_put_text(out, ", %s %% against the baseline's %.5f", fits, base);
+    }
+    dip_put_text(out, "\n");
+    print_ties(candidates, advice, out);
+    print_next(candidates, advice, out);
+    dip_quality_format(&chosen->quality, text, sizeof text);
+    dip_put_text(out, "  ini      REQUESTED: %s\n", text);
+}
+
+static void print_nothing(const DipCandidates *candidates, const DipAdvice *advice, FILE *out) {
+    char text[DIP_COST_TEXT], fits[DIP_NUMBER_BYTES];
+    const DipCandidate *fastest = &candidates->list[advice->next];
+    dip_cost_settings_text(&fastest->quality, text);
+    dip_fits_text(advice->next_fits, fits);
+    dip_put_text(out,
+                 "  nothing that was measured surely fits; the fastest, %s, takes %.2f ms %s and "
+                 "fits with %s\n",
+                 text, fastest->time.value, dip_time_kind_names[candidates->kind], fits);
+}
+
+// What most readers came for: the best settings for their budgets.
+static void print_answer(const DipCostReport *report, FILE *out) {
+    const DipCostChoice *choice = &report->choice;
+    if (choice->candidates.disturbed && choice->candidates.count > 0) {
+        dip_put_text(
+            out, "The machine was too busy: the times are wrong, so no settings are advised. %s\n",
+            report->verdict_reason);
+        return;
+    }
+    for (int i = 0; i < choice->advice_count; i++) {
+        const DipAdvice *advice = &choice->advice[i];
+        char budget[DIP_BUDGET_BYTES];
+        dip_budget_text(advice->budget_ms, budget);
+        dip_put_text(out, "%s%s on this machine:\n", i > 0 ? "\n" : "", budget);
+        if (advice->chosen >= 0) {
+            print_chosen(report, advice, out);
+        } else {
+            print_nothing(&choice->candidates, advice, out);
         }
     }
 }
+
+// --- the rest ------------------------------------------------------------------------------------
 
 static void print_interactions(const DipCostReport *report, FILE *out) {
     DipCostInteraction list[DIP_COST_MAX_INTERACTIONS];
@@ -259,18 +306,16 @@ static void print_interactions(const DipCostReport *report, FILE *out) {
 // Four budgets make the four tiers of a settings menu.
 static void print_tiers(const DipCostReport *report, FILE *out) {
     DipCostTier tiers[DIP_COST_TIER_COUNT];
-    if (report->advice_count != DIP_COST_TIER_COUNT) {
-        return;
+    if (!report->choice.candidates.disturbed && dip_cost_tiers_of(report, tiers)) {
+        dip_cost_tiers_print(tiers, out);
     }
-    for (int i = 0; i < DIP_COST_TIER_COUNT; i++) {
-        const int row = report->advice[i].row;
-        tiers[i] = (DipCostTier){report->advice[i].budget_ms,
-                                 row >= 0 ? &report->rows[row].quality : NULL, row};
-    }
-    dip_cost_tiers_print(tiers, out);
 }
 
 void dip_cost_print(const DipCostReport *report, FILE *out) {
+    print_answer(report, out);
+    print_tiers(report, out);
+    print_front(report, out);
+    dip_put_text(out, "%s", report->choice.candidates.count > 0 ? "\n" : "");
     print_heading(report, out);
     dip_put_text(out, "\n");
     print_columns(out);
@@ -303,8 +348,5 @@ void dip_cost_print(const DipCostReport *report, FILE *out) {
     print_interactions(report, out);
     print_prediction(report, out);
     print_same(report, out);
-    print_front(report, out);
-    print_advice(report, out);
-    print_tiers(report, out);
     print_fit(report, out);
 }

@@ -288,19 +288,37 @@ static void add_predictions(cJSON *root, const DipCostReport *report) {
     }
 }
 
+// Adds a candidate's time, with the error that all candidates share.
+static void add_ms(cJSON *to, const DipCandidate *candidate) {
+    const DipEstimate ms = dip_estimate_widen(&candidate->time, candidate->common_error);
+    cJSON_AddNumberToObject(to, "ms", ms.value);
+    cJSON_AddNumberToObject(to, "ms_low", ms.low);
+    cJSON_AddNumberToObject(to, "ms_high", ms.high);
+}
+
 static void add_advice(cJSON *root, const DipCostReport *report) {
     cJSON *advice = cJSON_AddArrayToObject(root, "advice");
-    for (int i = 0; i < report->advice_count; i++) {
-        const DipCostAdvice *a = &report->advice[i];
+    const DipCandidates *candidates = &report->choice.candidates;
+    for (int i = 0; i < report->choice.advice_count; i++) {
+        const DipAdvice *a = &report->choice.advice[i];
+        const DipCandidate *chosen = dip_cost_chosen(report, i);
         cJSON *object = cJSON_CreateObject();
         cJSON_AddNumberToObject(object, "budget_ms", a->budget_ms);
-        cJSON_AddNumberToObject(object, "row", a->row);
-        cJSON_AddNumberToObject(object, "ms", a->ms);
-        cJSON_AddNumberToObject(object, "ms_low", a->ms_low);
-        cJSON_AddNumberToObject(object, "ms_high", a->ms_high);
-        cJSON_AddNumberToObject(object, "probability", a->probability);
-        cJSON_AddNumberToObject(object, "runner_up", a->runner_up);
-        cJSON_AddNumberToObject(object, "runner_up_probability", a->runner_up_probability);
+        cJSON_AddNumberToObject(object, "row", chosen ? chosen->row : -1);
+        if (chosen) {
+            add_ms(object, chosen);
+            cJSON_AddNumberToObject(object, "fits", a->fits);
+        }
+        cJSON *ties = cJSON_AddArrayToObject(object, "ties");
+        for (int t = 0; t < a->tie_count && t < DIP_ADVICE_TIES; t++) {
+            add_to_array(ties, cJSON_CreateNumber(candidates->list[a->ties[t]].row));
+        }
+        cJSON_AddNumberToObject(object, "tie_count", a->tie_count);
+        cJSON_AddNumberToObject(object, "next", a->next >= 0 ? candidates->list[a->next].row : -1);
+        if (a->next >= 0) {
+            cJSON_AddNumberToObject(object, "next_ms", a->next_ms);
+            cJSON_AddNumberToObject(object, "next_fits", a->next_fits);
+        }
         add_to_array(advice, object);
     }
 }

@@ -83,11 +83,12 @@ static void write_left_out(const DipCostReport *report, const DipCostPictures *p
 // Returns false when memory runs out.
 static bool write_page(const DipCostReport *report, const DipCostPictures *pictures, FILE *out) {
     write_begin(report, out);
-    dip_html_head(report, out);
+    dip_html_title(report, out);
     dip_put_html(out, "<main>\n");
     dip_html_advice(report, out);
-    const bool has_front = dip_html_front(report, pictures, out) && dip_html_path(report, out) &&
-                           dip_html_predictions(report, out);
+    const bool has_front = dip_html_front(report, pictures, out);
+    dip_html_measured(report, out);
+    const bool has_paths = dip_html_path(report, out) && dip_html_predictions(report, out);
     dip_html_interactions(report, out);
     if (report->sweep_count) {
         dip_html_sweeps(report, pictures, out);
@@ -107,7 +108,7 @@ static bool write_page(const DipCostReport *report, const DipCostPictures *pictu
     dip_put_html(out, "</main>\n");
     write_scripts(report, out);
     dip_put_html(out, "</body>\n</html>\n");
-    return has_front;
+    return has_front && has_paths;
 }
 
 bool dip_cost_write_html(const DipCostReport *report, const DipCostPictures *pictures,

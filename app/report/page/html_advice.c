@@ -1,70 +1,96 @@
-// The best settings for time budgets in the HTML page.
+// The answer at the top of the HTML page: the best settings for each time budget.
 #include "app/report/page/html_parts.h"
 #include "app/report/tiers.h"
 #include "app/files/put.h"
+#include "app/report/words.h"
 
-static void write_next_better(const DipCostReport *report, int row, double flip, FILE *out) {
-    const int next = dip_cost_step_up(report, row);
-    if (next < 0) {
-        dip_put_html(out, "<td class=\"l\">none</td><td></td><td></td></tr>\n");
+// --- the answer ----------------------------------------------------------------------------------
+
+static void write_ties(const DipCandidates *candidates, const DipAdvice *advice, FILE *out) {
+    if (advice->tie_count == 0) {
         return;
     }
-    dip_put_html(out, "<td class=\"l\">");
-    dip_html_settings(report, next, out);
-    dip_put_html(out, "</td><td>%+.2f</td><td>%+.4f</td></tr>\n",
-                 dip_cost_ms(report, next) - dip_cost_ms(report, row),
-                 dip_cost_row_metrics(report, next, 0).flip - flip);
+    dip_put_html(out, "<div><dt>As good within 1 %% of FLIP</dt><dd>%d more: ", advice->tie_count);
+    for (int i = 0; i < advice->tie_count && i < DIP_ADVICE_TIES; i++) {
+        dip_put_html(out, "%s", i > 0 ? "; " : "");
+        dip_html_quality(&candidates->list[advice->ties[i]].quality, out);
+    }
+    dip_put_html(out, "%s</dd></div>\n", advice->tie_count > DIP_ADVICE_TIES ? "; &hellip;" : "");
 }
 
-// How likely the chosen settings are the best, and which are otherwise.
-static void write_certainty(const DipCostReport *report, const DipCostAdvice *advice, FILE *out) {
-    if (!(advice->probability > 0.0)) {
-        dip_put_html(out, "<td></td><td class=\"l\"></td>");
+// What the next better settings cost, in the kind of time of the budget.
+static void write_next(const DipCandidates *candidates, const DipAdvice *advice, FILE *out) {
+    char ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES], fits[DIP_NUMBER_BYTES];
+    dip_put_html(out, "<div><dt>Next better</dt><dd>");
+    if (advice->next < 0) {
+        dip_put_html(out, "nothing that was measured</dd></div>\n");
         return;
     }
-    dip_put_html(out, "<td>%.0f</td><td class=\"l\">", 100.0 * advice->probability);
-    if (advice->probability < 0.95 && advice->runner_up >= 0) {
-        dip_html_settings(report, advice->runner_up, out);
-        dip_put_html(out, " <span class=\"unbroken\">(%.0f %%)</span>",
-                     100.0 * advice->runner_up_probability);
-    }
-    dip_put_html(out, "</td>");
+    const DipCandidate *next = &candidates->list[advice->next];
+    dip_number_text(advice->next_ms, 2, true, "-", ms);
+    dip_number_text(next->flip - candidates->list[advice->chosen].flip, 4, true, "-", flip);
+    dip_fits_text(advice->next_fits, fits);
+    dip_html_quality(&next->quality, out);
+    dip_put_html(out, ": %s ms %s, FLIP %s; fits with %s</dd></div>\n", ms,
+                 dip_time_kind_names[candidates->kind], flip, fits);
 }
 
-static void write_advice_line(const DipCostReport *report, const DipCostAdvice *advice, FILE *out) {
-    dip_html_line_begin(out, advice->row);
-    dip_put_html(out, "<th scope=\"row\">%g</th>", advice->budget_ms);
-    if (advice->row < 0) {
-        dip_put_html(out,
-                     "<td class=\"l\">no measured combination is surely that fast</td><td></td>"
-                     "<td></td><td></td><td></td><td></td><td class=\"l\"></td>"
-                     "<td class=\"l\"></td><td></td><td></td></tr>\n");
-        return;
+static void write_chosen(const DipCostReport *report, const DipAdvice *advice, FILE *out) {
+    const DipCandidates *candidates = &report->choice.candidates;
+    const DipCandidate *chosen = &candidates->list[advice->chosen];
+    const DipEstimate time = dip_estimate_widen(&chosen->time, chosen->common_error);
+    char text[256], fits[DIP_NUMBER_BYTES];
+    dip_fits_text(advice->fits, fits);
+    dip_put_html(out, "<p class=\"chosen\">");
+    dip_html_quality(&chosen->quality, out);
+    dip_put_html(
+        out,
+        "</p>\n<dl class=\"facts\">\n<div><dt>Time</dt><dd>%.2f ms %s along the path, %.2f to "
+        "%.2f; mean %.2f ms</dd></div>\n<div><dt>Fits</dt><dd>with %s</dd></div>\n"
+        "<div><dt>Error</dt><dd>FLIP %.4f",
+        time.value, dip_time_kind_names[candidates->kind], time.low, time.high,
+        dip_cost_ms(report, chosen->row), fits, chosen->flip);
+    const double base = dip_cost_row_metrics(report, report->base_rows[0], 0).flip;
+    if (base > 0.0) {
+        dip_number_text(100.0 * (chosen->flip / base - 1.0), 0, true, "-", fits);
+        dip_put_html(out, ", %s %% against the baseline's %.4f", fits, base);
     }
-    const DipMetrics f = dip_cost_row_metrics(report, advice->row, 0);
-    dip_put_html(out, "<td class=\"l name\">");
-    dip_html_settings(report, advice->row, out);
-    dip_put_html(out, "</td><td>%.2f</td><td>%.2f to %.2f</td><td>%.4f</td><td>%.5f</td>",
-                 advice->ms, advice->ms_low, advice->ms_high, f.flip, f.rmse_lin);
-    write_certainty(report, advice, out);
-    write_next_better(report, advice->row, f.flip, out);
+    dip_put_html(out, "</dd></div>\n");
+    write_ties(candidates, advice, out);
+    write_next(candidates, advice, out);
+    dip_quality_format(&chosen->quality, text, sizeof text);
+    dip_put_html(
+        out, "<div><dt>Line for the ini</dt><dd class=\"code\">REQUESTED: %s</dd></div>\n</dl>\n",
+        text);
 }
+
+static void write_nothing(const DipCandidates *candidates, const DipAdvice *advice, FILE *out) {
+    char fits[DIP_NUMBER_BYTES];
+    const DipCandidate *fastest = &candidates->list[advice->next];
+    dip_fits_text(advice->next_fits, fits);
+    dip_put_html(out, "<p>Nothing that was measured surely fits. The fastest settings, ");
+    dip_html_quality(&fastest->quality, out);
+    dip_put_html(out, ", take %.2f ms %s and fit with %s.</p>\n", fastest->time.value,
+                 dip_time_kind_names[candidates->kind], fits);
+}
+
+// --- tiers ---------------------------------------------------------------------------------------
 
 static void write_tier(const char *name, const DipCostTier *tier, FILE *out) {
-    char text[256] = "";
+    char text[256] = "", ms[DIP_NUMBER_BYTES];
     if (tier->quality) {
         dip_quality_format(tier->quality, text, sizeof text);
     }
+    dip_budget_ms_text(tier->budget_ms, ms);
     dip_html_line_begin(out, tier->row);
-    dip_put_html(out, "<th scope=\"row\">%s</th><td>%g</td><td class=\"l code\">%s%s</td></tr>\n",
-                 name, tier->budget_ms,
-                 tier->quality ? "REQUESTED: " : "nothing is surely that fast", text);
+    dip_put_html(out, "<th scope=\"row\">%s</th><td>%s</td><td class=\"l code\">%s%s</td></tr>\n",
+                 name, ms, tier->quality ? "REQUESTED: " : "nothing is surely that fast", text);
 }
 
 // Four budgets make the four tiers of a settings menu.
 static void write_tiers(const DipCostReport *report, FILE *out) {
     DipCostTier tiers[DIP_COST_TIER_COUNT];
-    if (report->advice_count != DIP_COST_TIER_COUNT) {
+    if (!dip_cost_tiers_of(report, tiers)) {
         return;
     }
     dip_html_table_begin(out, "tiers", NULL);
@@ -75,50 +101,41 @@ static void write_tiers(const DipCostReport *report, FILE *out) {
     dip_html_text_column(out, "line of the ini");
     dip_html_columns_end(out);
     for (int i = 0; i < DIP_COST_TIER_COUNT; i++) {
-        const int row = report->advice[i].row;
-        tiers[i] = (DipCostTier){report->advice[i].budget_ms,
-                                 row >= 0 ? &report->rows[row].quality : NULL, row};
-    }
-    dip_cost_tiers_sort(tiers);
-    for (int i = 0; i < DIP_COST_TIER_COUNT; i++) {
         write_tier(dip_cost_tier_names[i], &tiers[i], out);
     }
     dip_html_table_end(out);
 }
 
 void dip_html_advice(const DipCostReport *report, FILE *out) {
-    if (report->advice_count == 0) {
+    const DipCostChoice *choice = &report->choice;
+    if (choice->candidates.disturbed && choice->candidates.count > 0) {
+        dip_put_html(out,
+                     "<h2 id=\"advice\">No advice</h2>\n<p>The machine was too busy: the times are "
+                     "wrong, so no settings are advised. ");
+        dip_put_html(out, "%s", report->verdict_reason);
+        dip_put_html(out, "</p>\n");
         return;
     }
-    const char *of = dip_cost_budget_of_names[report->options.budget_of];
-    dip_put_html(
-        out,
-        "<h2 id=\"advice\">Best settings for a time budget</h2>\n"
-        "<p>For each time budget, the table shows the settings with the least FLIP that are within "
-        "the budget: the upper end of the interval of their %s time along the path is at most the "
-        "budget. The probability is that of these settings being the best, given the noise of the "
-        "times. &ldquo;Next better&rdquo; is the fastest combination whose FLIP is at least 1 %% "
-        "below that of the chosen settings.</p>\n",
-        of);
-    dip_html_table_begin(out, "advice-table", "front");
-    dip_put_html(out, "The best of %d combinations on path %s for each budget.",
-                 report->row_count - report->combined_first, report->paths[0]);
-    dip_html_columns_begin(out);
-    dip_html_column(out, "budget", "ms");
-    dip_html_text_column(out, "settings");
-    dip_html_column(out, of, "ms");
-    dip_html_column(out, "95 % interval", "ms");
-    dip_html_column(out, "FLIP", NULL);
-    dip_html_column(out, "RMSE", "linear");
-    dip_html_column(out, "probability", "%");
-    dip_html_text_column(out, "otherwise the best");
-    dip_html_text_column(out, "next better");
-    dip_html_column(out, "change of time", "ms");
-    dip_html_column(out, "change of FLIP", NULL);
-    dip_html_columns_end(out);
-    for (int i = 0; i < report->advice_count; i++) {
-        write_advice_line(report, &report->advice[i], out);
+    for (int i = 0; i < choice->advice_count; i++) {
+        char budget[DIP_BUDGET_BYTES];
+        dip_budget_text(choice->advice[i].budget_ms, budget);
+        dip_put_html(out, "<section class=\"answer\">\n<h2%s>%s on this machine</h2>\n",
+                     i == 0 ? " id=\"advice\"" : "", budget);
+        if (choice->advice[i].chosen >= 0) {
+            write_chosen(report, &choice->advice[i], out);
+        } else {
+            write_nothing(&choice->candidates, &choice->advice[i], out);
+        }
+        dip_put_html(out, "</section>\n");
     }
-    dip_html_table_end(out);
-    write_tiers(report, out);
+    if (choice->advice_count > 0) {
+        dip_put_html(
+            out,
+            "<p class=\"note\">Advised is the least FLIP whose %s time along path %s is within "
+            "the budget with at least 95 %%; of settings within 1 %% of it, the fastest. "
+            "&ldquo;Next better&rdquo; is the fastest combination whose FLIP is at least 1 %% "
+            "below that of the advised one.</p>\n",
+            dip_time_kind_names[choice->candidates.kind], report->paths[0]);
+        write_tiers(report, out);
+    }
 }

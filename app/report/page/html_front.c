@@ -1,17 +1,18 @@
 // Time against error in the HTML page: the plot of all combinations, and their tables.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/front.h"
 #include "app/report/page/html_points.h"
 #include "app/files/put.h"
+#include "app/report/words.h"
 
 #include <math.h>
 
-static bool add_row(const DipCostReport *report, DipHtmlPoints *points, int row) {
+static bool add_candidate(const DipCostReport *report, DipHtmlPoints *points,
+                          const DipCandidate *candidate) {
     char title[DIP_HTML_TITLE_ROOM];
-    dip_html_row_title(report, row, title);
-    return dip_html_points_add(points, row, dip_cost_ms(report, row),
-                               dip_cost_row_metrics(report, row, 0).flip, title);
+    dip_html_row_title(report, candidate->row, title);
+    return dip_html_points_add(points, candidate->row, candidate->time.value, candidate->flip,
+                               title);
 }
 
 static bool contains(const DipHtmlPoints *points, int row) {
@@ -38,28 +39,27 @@ static void free_parts(Parts *parts) {
 
 // Returns false when memory runs out.
 static bool split(const DipCostReport *report, Parts *parts) {
-    int all[DIP_COST_MAX_ROWS];
-    int front[DIP_COST_MAX_ROWS];
-    const int count = dip_cost_list_plotted(report, all);
-    const int front_count = dip_cost_list_front(report, front);
-    bool made = dip_html_points_alloc(&parts->front, front_count) &&
-                dip_html_points_alloc(&parts->others, count) &&
+    const DipCostChoice *choice = &report->choice;
+    const DipCandidates *all = &choice->candidates;
+    bool made = dip_html_points_alloc(&parts->front, choice->front_count) &&
+                dip_html_points_alloc(&parts->others, all->count) &&
                 dip_html_predicted_points(report, &parts->predicted);
-    for (int i = 0; made && i < front_count; i++) {
-        made = add_row(report, &parts->front, front[i]);
+    for (int i = 0; made && i < choice->front_count; i++) {
+        made = add_candidate(report, &parts->front, &all->list[choice->front[i]]);
     }
-    for (int i = 0; made && i < count; i++) {
-        made = contains(&parts->front, all[i]) || add_row(report, &parts->others, all[i]);
+    for (int i = 0; made && i < all->count; i++) {
+        made = contains(&parts->front, all->list[i].row) ||
+               add_candidate(report, &parts->others, &all->list[i]);
     }
     return made;
 }
 
 static void write_plot(const DipCostReport *report, const Parts *parts, FILE *out) {
     char subtitle[DIP_COST_TEXT];
-    snprintf(subtitle, sizeof subtitle,
-             "%d combinations on path %s, %dx%d pixels; mean of %d frames",
+    snprintf(subtitle, sizeof subtitle, "%d combinations on path %s, %dx%d pixels; %s of %d frames",
              parts->front.count + parts->others.count, report->paths[0], report->width,
-             report->height, dip_cost_frame_count(report));
+             report->height, dip_time_kind_names[report->choice.candidates.kind],
+             dip_cost_frame_count(report));
     DipPlotSeries series[] = {
         dip_html_points_series(&parts->predicted, "predicted only", "series-predicted"),
         dip_html_points_series(&parts->others, "other combinations", "series-others"),
@@ -105,48 +105,51 @@ static double flicker_of(const DipCostReport *report, int row) {
     return dip_flicker_metrics_of(&sums).flicker;
 }
 
-// Writes the changes from the row before, and what each 1 % of FLIP cost.
-static void write_changes(const DipCostReport *report, int row, int before, FILE *out) {
-    const double ms = dip_cost_ms(report, row) - dip_cost_ms(report, before);
-    const double flip = dip_cost_row_metrics(report, row, 0).flip;
-    const double flip_before = dip_cost_row_metrics(report, before, 0).flip;
-    dip_put_html(out, "<td>%+.2f</td><td>%+.4f</td>", ms, flip - flip_before);
-    if (flip > 0.0) {
-        dip_put_html(out, "<td>%.3f</td>", ms / (100.0 * log(flip_before / flip)));
+// Writes the changes from the candidate before, and what each 1 % of FLIP cost.
+static void write_changes(const DipCandidate *candidate, const DipCandidate *before, FILE *out) {
+    char ms[DIP_NUMBER_BYTES], flip[DIP_NUMBER_BYTES];
+    const double more_ms = candidate->time.value - before->time.value;
+    dip_number_text(more_ms, 2, true, "-", ms);
+    dip_number_text(candidate->flip - before->flip, 4, true, "-", flip);
+    dip_put_html(out, "<td>%s</td><td>%s</td>", ms, flip);
+    if (candidate->loss > 0.0) {
+        dip_put_html(out, "<td>%.3f</td>", more_ms / (100.0 * log(before->loss / candidate->loss)));
     } else {
         dip_put_html(out, "<td></td>");
     }
 }
 
-static void write_front_row(const DipCostReport *report, const DipHtmlPoints *front, int index,
-                            bool is_knee, FILE *out) {
-    const int row = front->rows[index];
+static void write_front_row(const DipCostReport *report, int index, FILE *out) {
+    const DipCostChoice *choice = &report->choice;
+    const DipCandidate *list = choice->candidates.list;
+    const DipCandidate *candidate = &list[choice->front[index]];
+    const int row = candidate->row;
     dip_html_line_begin(out, row);
     dip_put_html(out, "<th scope=\"row\">");
     dip_html_settings(report, row, out);
-    dip_put_html(out, "</th><td>%d%s</td><td>%.2f</td>", index + 1, is_knee ? ", knee" : "",
-                 front->x[index]);
+    dip_put_html(out, "</th><td>%d%s</td><td>%.2f</td>", index + 1,
+                 index == choice->knee ? ", knee" : "", candidate->time.value);
     write_flip(report, row, out);
     dip_put_html(out, "<td>%.5f</td><td>%.5f</td>", flicker_of(report, row),
                  dip_cost_row_metrics(report, row, 0).rmse_lin);
     if (index > 0) {
-        write_changes(report, row, front->rows[index - 1], out);
+        write_changes(candidate, &list[choice->front[index - 1]], out);
     } else {
         dip_put_html(out, "<td></td><td></td><td></td>");
     }
     dip_put_html(out, "</tr>\n");
 }
 
-static void write_front_table(const DipCostReport *report, const DipHtmlPoints *front, FILE *out) {
-    const int knee = dip_cost_knee(report, front->rows, front->count);
+static void write_front_table(const DipCostReport *report, FILE *out) {
+    const DipCostChoice *choice = &report->choice;
     dip_html_table_begin(out, "pareto-front", "front");
     dip_put_html(
         out, "The Pareto front. The changes are those from the line before, in order of time.%s",
-        knee >= 0 ? " Beyond the knee, more time buys least." : "");
+        choice->knee >= 0 ? " Beyond the knee, more time buys least." : "");
     dip_html_columns_begin(out);
     dip_html_text_column(out, "settings");
     dip_html_column(out, "number", "in the plot");
-    dip_html_column(out, "mean", "ms");
+    dip_html_column(out, dip_time_kind_names[choice->candidates.kind], "ms");
     dip_html_column(out, "FLIP", NULL);
     dip_html_column(out, "95 % interval", "of FLIP");
     dip_html_column(out, "flicker", "linear");
@@ -155,8 +158,8 @@ static void write_front_table(const DipCostReport *report, const DipHtmlPoints *
     dip_html_column(out, "change of FLIP", NULL);
     dip_html_column(out, "price of 1 % less FLIP", "ms");
     dip_html_columns_end(out);
-    for (int i = 0; i < front->count; i++) {
-        write_front_row(report, front, i, i == knee, out);
+    for (int i = 0; i < choice->front_count; i++) {
+        write_front_row(report, i, out);
     }
     dip_html_table_end(out);
 }
@@ -179,8 +182,8 @@ static void write_combination(const DipCostReport *report, int row, FILE *out) {
 }
 
 static void write_all_table(const DipCostReport *report, FILE *out) {
-    int rows[DIP_COST_MAX_ROWS];
-    const int count = dip_cost_list_plotted(report, rows);
+    const DipCandidates *all = &report->choice.candidates;
+    const int count = all->count;
     dip_put_html(out, "<details><summary>All %d combinations</summary>\n", count);
     dip_html_table_begin(out, "combinations", "front");
     dip_put_html(out,
@@ -202,7 +205,7 @@ static void write_all_table(const DipCostReport *report, FILE *out) {
     dip_html_text_column(out, "noise floor");
     dip_html_columns_end(out);
     for (int i = 0; i < count; i++) {
-        write_combination(report, rows[i], out);
+        write_combination(report, all->list[i].row, out);
     }
     dip_html_table_end(out);
     dip_put_html(out, "</details>\n");
@@ -248,7 +251,7 @@ bool dip_html_front(const DipCostReport *report, const DipCostPictures *pictures
                  "combination is at least 1 %% below that of the combination with the number "
                  "before.</p>\n");
         write_plot(report, &parts, out);
-        write_front_table(report, &parts.front, out);
+        write_front_table(report, out);
         if (pictures) {
             dip_html_pictures(report, &pictures->front, "front", NULL, out);
         }

@@ -1,4 +1,5 @@
-// The head of the HTML page: what was measured where, and the verdict on the machine.
+// The title of the HTML page with its contents; what was measured where, and the verdict on the
+// machine.
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
@@ -52,7 +53,7 @@ static void write_verdict(const DipCostReport *report, FILE *out) {
     dip_put_html(out, "%s", report->verdict_reason);
     dip_put_html(out, "%s ",
                  report->verdict == DIP_COST_RED
-                     ? " The times below are wrong, and no settings are advised."
+                     ? " The times are wrong, and no settings are advised."
                      : "");
     dip_put_html(out, "%s", level);
     dip_put_html(out, "</p>\n");
@@ -77,12 +78,15 @@ static void write_verdict(const DipCostReport *report, FILE *out) {
 // The contents. The caller writes the sections that are named here.
 static void write_contents(const DipCostReport *report, FILE *out) {
     dip_put_html(out, "<nav aria-label=\"Contents\"><ul>\n");
-    if (report->advice_count) {
+    if (report->choice.advice_count > 0) {
         dip_put_html(out, "<li><a href=\"#advice\">Best settings for a time budget</a></li>\n");
     }
-    if (report->combined_first < report->row_count && report->rounds > 0) {
-        dip_put_html(out, "<li><a href=\"#front\">Time against error</a></li>\n"
-                          "<li><a href=\"#along\">Time and error along the path</a></li>\n");
+    if (report->choice.candidates.count > 0) {
+        dip_put_html(out, "<li><a href=\"#front\">Time against error</a></li>\n");
+    }
+    dip_put_html(out, "<li><a href=\"#measured\">What was measured</a></li>\n");
+    if (report->choice.candidates.count > 0) {
+        dip_put_html(out, "<li><a href=\"#along\">Time and error along the path</a></li>\n");
     }
     if (report->predicted.count) {
         dip_put_html(out, "<li><a href=\"#predicted\">Predicted combinations</a></li>\n");
@@ -101,16 +105,20 @@ static void write_contents(const DipCostReport *report, FILE *out) {
                       "<li><a href=\"#words\">What the words mean</a></li>\n</ul></nav>\n");
 }
 
-void dip_html_head(const DipCostReport *report, FILE *out) {
+void dip_html_title(const DipCostReport *report, FILE *out) {
     dip_put_html(out, "<header>\n<h1>What accuracy costs: ");
     dip_put_html(out, "%s", report->scene);
-    dip_put_html(out, "</h1>\n<dl class=\"facts\">\n");
+    dip_put_html(out, "</h1>\n");
+    write_contents(report, out);
+    dip_put_html(out, "</header>\n");
+}
+
+void dip_html_measured(const DipCostReport *report, FILE *out) {
+    dip_put_html(out, "<h2 id=\"measured\">What was measured</h2>\n<dl class=\"facts\">\n");
     write_scene_facts(report, out);
     write_method_facts(report, out);
     dip_put_html(out, "</dl>\n");
     if (report->rounds > 0) {
         write_verdict(report, out);
     }
-    write_contents(report, out);
-    dip_put_html(out, "</header>\n");
 }

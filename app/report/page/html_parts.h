@@ -51,8 +51,10 @@ void dip_html_pictures(const DipCostReport *report, const DipCostPictureSet *set
 
 // --- sections ----------------------------------------------------------------------------------
 
-void dip_html_head(const DipCostReport *report, FILE *out);
+// The page's title and contents; its answer; and what was measured where.
+void dip_html_title(const DipCostReport *report, FILE *out);
 void dip_html_advice(const DipCostReport *report, FILE *out);
+void dip_html_measured(const DipCostReport *report, FILE *out);
 
 // Time against error: the plot, the Pareto front, all combinations and the pictures of the front,
 // if `pictures` is not NULL. Returns false when memory runs out.

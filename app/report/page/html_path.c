@@ -2,9 +2,7 @@
 // combinations, frame by frame and viewpoint by viewpoint.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/front.h"
 #include "app/files/put.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,16 +45,16 @@ static void add_line(Lines *lines, int row, const char *prefix) {
 static void list_lines(Lines *lines) {
     const DipCostReport *report = lines->report;
     add_line(lines, report->base_rows[0], "baseline: ");
-    for (int i = 0; i < report->advice_count; i++) {
-        if (report->advice[i].row >= 0 && report->rows[report->advice[i].row].path == 0) {
-            add_line(lines, report->advice[i].row, "");
+    const DipCostChoice *choice = &report->choice;
+    for (int i = 0; i < choice->advice_count; i++) {
+        const DipCandidate *chosen = dip_cost_chosen(report, i);
+        if (chosen) {
+            add_line(lines, chosen->row, "");
         }
     }
-    int front[DIP_COST_MAX_ROWS];
-    const int count = dip_cost_list_front(report, front);
-    const int knee = dip_cost_knee(report, front, count);
-    if (lines->count == 1 && knee >= 0) {
-        add_line(lines, front[knee], "knee of the front: ");
+    if (lines->count == 1 && choice->knee >= 0) {
+        add_line(lines, choice->candidates.list[choice->front[choice->knee]].row,
+                 "knee of the front: ");
     }
 }
 

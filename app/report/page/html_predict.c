@@ -1,65 +1,65 @@
 // Predicted combinations in the HTML page (--predict): their points in the plot, and a table that
 // compares predictions with measurements.
+#include "app/report/candidates.h"
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"
-
-#include <math.h>
 #include <stdlib.h>
 
 enum { MOST_LISTED = 500 }; // A page lists at most this many combinations.
 
 static int compare_times(const void *a, const void *b) {
-    const DipCostPrediction *const *x = a;
-    const DipCostPrediction *const *y = b;
-    return ((*x)->ms > (*y)->ms) - ((*x)->ms < (*y)->ms);
+    const DipCandidate *x = a;
+    const DipCandidate *y = b;
+    return (x->time.value > y->time.value) - (x->time.value < y->time.value);
 }
 
 // Lists predictions in order of time: all, or if there are too many those that were measured later
-// and those that no other prediction beats in both time and FLIP. Returns their number. The caller
-// frees *list, which is NULL when memory runs out.
-static int list_predictions(const DipCostReport *report, const DipCostPrediction ***list) {
-    const DipCostPredictions *p = &report->predicted;
-    const DipCostPrediction **all = malloc(((size_t)p->count + 1) * sizeof *all);
-    int kept = 0;
-    double least = INFINITY;
-    *list = all;
-    for (int i = 0; all && i < p->count; i++) {
-        all[i] = &p->list[i];
+// and the front of what was predicted. The caller frees the list even after a failure. Returns
+// false when memory runs out.
+static bool list_predictions(const DipCostReport *report, DipCandidates *all) {
+    const DipCostPrediction *list = report->predicted.list;
+    int front[DIP_COST_MAX_ROWS];
+    bool is_best[DIP_COST_MAX_ROWS] = {false};
+    if (!dip_candidates_of_predictions(report, report->options.budget_of, false, all, NULL)) {
+        return false;
     }
-    if (all) {
-        qsort(all, (size_t)p->count, sizeof *all, compare_times);
+    const int best = dip_front(all, DIP_CLEARLY_BETTER, front);
+    for (int i = 0; i < best; i++) {
+        is_best[front[i]] = true;
     }
-    for (int i = 0; all && i < p->count; i++) {
-        const bool is_best = all[i]->flip < 0.99 * least;
-        least = is_best ? all[i]->flip : least;
-        if ((p->count <= MOST_LISTED || is_best || all[i]->row >= 0) && kept < MOST_LISTED) {
-            all[kept++] = all[i];
+    const int count = all->count;
+    all->count = 0;
+    for (int i = 0; i < count; i++) {
+        if ((count <= MOST_LISTED || is_best[i] || list[i].row >= 0) && all->count < MOST_LISTED) {
+            all->list[all->count++] = all->list[i];
         }
     }
-    return kept;
+    qsort(all->list, (size_t)all->count, sizeof *all->list, compare_times);
+    return true;
 }
 
-static bool add_point(DipHtmlPoints *points, const DipCostPrediction *p) {
+static bool add_point(DipHtmlPoints *points, const DipCandidate *c, const DipCostPrediction *p) {
     char settings[DIP_HTML_TITLE_ROOM];
     char title[DIP_HTML_TITLE_ROOM];
     dip_html_quality_text(&p->quality, settings);
     snprintf(title, sizeof title,
              "%.300s: predicted %.2f ms, 95th percentile %.2f ms; predicted FLIP %.4f", settings,
              p->ms, p->p95_ms, p->flip);
-    return dip_html_points_add(points, -1, p->ms, p->flip, title);
+    return dip_html_points_add(points, -1, c->time.value, c->flip, title);
 }
 
 bool dip_html_predicted_points(const DipCostReport *report, DipHtmlPoints *points) {
-    const DipCostPrediction **list;
-    const int count = list_predictions(report, &list);
-    bool made = list && dip_html_points_alloc(points, count);
-    for (int i = 0; made && i < count; i++) {
-        if (list[i]->row < 0) {
-            made = add_point(points, list[i]);
+    DipCandidates all;
+    bool made = list_predictions(report, &all) && dip_html_points_alloc(points, all.count);
+    for (int i = 0; made && i < all.count; i++) {
+        const DipCandidate *c = &all.list[i];
+        const DipCostPrediction *prediction = &report->predicted.list[c->row];
+        if (prediction->row < 0) {
+            made = add_point(points, c, prediction);
         }
     }
-    free(list);
+    dip_candidates_free(&all);
     return made;
 }
 
@@ -95,8 +95,8 @@ static void write_prediction(const DipCostReport *report, const DipCostPredictio
     }
 }
 
-static void write_table(const DipCostReport *report, const DipCostPrediction *const *list,
-                        int count, FILE *out) {
+static void write_table(const DipCostReport *report, const DipCandidates *all, FILE *out) {
+    const int count = all->count;
     dip_put_html(out, "<details><summary>%d predicted combinations</summary>\n", count);
     dip_html_table_begin(out, "predictions", NULL);
     dip_put_html(
@@ -117,7 +117,7 @@ static void write_table(const DipCostReport *report, const DipCostPrediction *co
     dip_html_column(out, "miss of FLIP", "%");
     dip_html_columns_end(out);
     for (int i = 0; i < count; i++) {
-        write_prediction(report, list[i], out);
+        write_prediction(report, &report->predicted.list[all->list[i].row], out);
     }
     dip_html_table_end(out);
     dip_put_html(out, "</details>\n");
@@ -125,12 +125,12 @@ static void write_table(const DipCostReport *report, const DipCostPrediction *co
 
 bool dip_html_predictions(const DipCostReport *report, FILE *out) {
     const DipCostPredictions *p = &report->predicted;
-    const DipCostPrediction **list;
+    DipCandidates all;
     if (p->count == 0) {
         return true;
     }
-    const int count = list_predictions(report, &list);
-    if (list) {
+    const bool listed = list_predictions(report, &all);
+    if (listed) {
         dip_put_html(
             out,
             "<h2 id=\"predicted\">Predicted combinations</h2>\n"
@@ -142,8 +142,8 @@ bool dip_html_predictions(const DipCostReport *report, FILE *out) {
         write_misses(
             "Of the combinations that were measured first, each predicted from the others,",
             &p->times_left_out, &p->errors_left_out, out);
-        write_table(report, list, count, out);
+        write_table(report, &all, out);
     }
-    free(list);
-    return list != NULL;
+    dip_candidates_free(&all);
+    return listed;
 }

@@ -1,9 +1,7 @@
 // The distribution of FLIP over pixels in the HTML page.
 #include "app/report/page/html_parts.h"
 
-#include "app/report/front.h"
 #include "app/files/put.h"
-
 // Writes a row of the report, if its distribution is known. `what` is where the row comes from.
 static void write_line(const DipCostReport *report, int row, const char *what, FILE *out) {
     const DipCostTail tail = dip_cost_row_tail(report, row);
@@ -38,8 +36,7 @@ void dip_html_tails(const DipCostReport *report, FILE *out) {
     if (!dip_html_has_tails(report)) {
         return;
     }
-    int front[DIP_COST_MAX_ROWS];
-    const int count = report->rounds > 0 ? dip_cost_list_front(report, front) : 0;
+    const DipCostChoice *choice = &report->choice;
     dip_put_html(
         out,
         "<h2 id=\"tails\">Small parts with large errors</h2>\n"
@@ -71,8 +68,8 @@ void dip_html_tails(const DipCostReport *report, FILE *out) {
             write_line(report, report->sweeps[s].rows[i], title, out);
         }
     }
-    for (int i = 0; i < count; i++) {
-        write_line(report, front[i], "Pareto front", out);
+    for (int i = 0; i < choice->front_count; i++) {
+        write_line(report, choice->candidates.list[choice->front[i]].row, "Pareto front", out);
     }
     dip_html_table_end(out);
 }

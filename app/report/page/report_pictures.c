@@ -1,7 +1,6 @@
 // Choosing what the page shows, and fitting it into the page.
 #include "app/report/page/report_pictures.h"
 
-#include "app/report/front.h"
 #include "app/cli/progress.h"
 
 #include <stdlib.h>
@@ -126,15 +125,15 @@ static void sort_by_time(const DipCostReport *report, DipCostPictureSet *set) {
 
 // The set of combinations gets the advised rows first, since a set has a limited number of rows.
 static void plan_front(const DipCostReport *report, DipCostPictureSet *set) {
-    int rows[DIP_COST_MAX_ROWS];
-    const int count = dip_cost_list_front(report, rows);
-    for (int i = 0; i < report->advice_count; i++) {
-        if (report->advice[i].row >= 0) {
-            add_row(set, report->advice[i].row);
+    const DipCostChoice *choice = &report->choice;
+    for (int i = 0; i < choice->advice_count; i++) {
+        const DipCandidate *chosen = dip_cost_chosen(report, i);
+        if (chosen) {
+            add_row(set, chosen->row);
         }
     }
-    for (int i = 0; i < count; i++) {
-        add_row(set, rows[i]);
+    for (int i = 0; i < choice->front_count; i++) {
+        add_row(set, choice->candidates.list[choice->front[i]].row);
     }
     sort_by_time(report, set);
 }

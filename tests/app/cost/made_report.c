@@ -75,8 +75,6 @@ void dip_made_report(DipCostReport *report, int rounds) {
         .refused_count = 1,
         .rounds = rounds,
         .machine = {.settled = true, .has_wait = true, .wait = 0.01},
-        .advice = {{16.6, 2, 3.0, 2.9, 3.1, 0.9, 3, 0.1}},
-        .advice_count = 1,
     };
     report->options = (DipCostOptions){.baseline = dip_quality_default(),
                                        .places = 3,
@@ -86,6 +84,8 @@ void dip_made_report(DipCostReport *report, int rounds) {
                                        .pixels_per_degree = 67.0206451,
                                        .rounds = rounds,
                                        .timed_frames = 4,
+                                       .budgets_ms = {16.6},
+                                       .budget_count = 1,
                                        .seed = 5};
     report->sweeps[0] =
         (DipCostSweep){.setting = DIP_SETTING_AA, .rows = {0, 2, 3}, .row_count = 3};

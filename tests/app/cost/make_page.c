@@ -183,16 +183,12 @@ int main(int argc, char **argv) {
     add_predictions(&report);
     const int first = report.combined_first;
     report.options.pictures = DIP_COST_PICTURES_FULL;
-    report.advice_count = 4;
+    report.options.budget_count = 4;
     for (int i = 0; i < 4; i++) {
-        report.advice[i] = (DipCostAdvice){.budget_ms = 0.5 + 3.7 * i,
-                                           .row = i ? first + i : -1,
-                                           .ms = 3.14 * i,
-                                           .ms_low = 3.07 * i,
-                                           .ms_high = 3.21 * i,
-                                           .probability = 0.53 + 0.13 * i,
-                                           .runner_up = first + 9,
-                                           .runner_up_probability = 0.17};
+        report.options.budgets_ms[i] = 0.5 + 3.7 * i;
+    }
+    if (!dip_cost_choose(&report, &err)) {
+        return 1;
     }
     for (int s = 0; s < report.sweep_count; s++) {
         fill_set(&pictures.sweeps[s], report.sweeps[s].rows, report.sweeps[s].row_count, false);

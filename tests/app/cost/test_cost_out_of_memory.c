@@ -286,7 +286,7 @@ static DipCostCommon common;
 static bool read_common(void *context, DipError *err) {
     static const char *const files[2] = {"cost.json", "cost.json"};
     (void)context;
-    return dip_cost_common_read(&common, files, 2, DIP_COST_BUDGET_P95, err);
+    return dip_cost_common_read(&common, files, 2, DIP_TIME_P95, err);
 }
 
 static void free_common(void *context) {
@@ -298,21 +298,7 @@ static bool write_common(void *context, DipError *err) {
     (void)context;
     DipCostCommonAdvice advice;
     dip_cost_common_advise(&common, 5.0, &advice);
-    return dip_cost_common_write_json(&common, &advice, 1, NULL, w.file, err);
-}
-
-static DipCostSegments segments;
-
-static bool advise_segments(void *context, DipError *err) {
-    DipCostSegmentAdvice advice;
-    (void)context;
-    return dip_cost_segments_make(&common.reports[0], 3, &segments, err) &&
-           dip_cost_segments_advise(&common.reports[0], &segments, 5.0, &advice, err);
-}
-
-static void free_segments(void *context) {
-    (void)context;
-    dip_cost_segments_free(&segments);
+    return dip_cost_common_write_json(&common, &advice, 1, w.file, err);
 }
 
 static void common_advice_is_whole_or_fails(void **state) {
@@ -330,10 +316,6 @@ static void common_advice_is_whole_or_fails(void **state) {
     hook_cjson();
     assert_true(read_common(NULL, NULL));
     check_writer("common advice", "advice.json", write_common, 100);
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "advice per segment",
-                                              .run = advise_segments,
-                                              .finish = free_segments,
-                                              .needs_every_allocation = true});
     free_common(NULL);
     dip_cost_report_free(&w.report);
     assert_int_equal(remove("cost.json"), 0);

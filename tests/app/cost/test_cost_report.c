@@ -1,5 +1,6 @@
 // Tests of the cost report: metrics and times, the Pareto front, the fit of prices, and a report
 // written to JSON and read back.
+#include "app/report/candidates.h"
 #include "app/report/fit.h"
 #include "app/report/levels.h"
 #include "app/report/page/html.h"
@@ -167,8 +168,8 @@ static void milliseconds_are_those_of_the_level(void **state) {
     expect_near(dip_cost_ms(&report, 2), 2.0 * mean, 1e-9);
     expect_near(ratio_of(&report, 2, 3).value, 1.0, 1e-9); // timed at different speeds
     expect_near(report.rows[2].time.worst_ms.value, 2.0 * frames, 1e-9);
-    report.options.budget_of = DIP_COST_BUDGET_WORST;
-    expect_near(dip_cost_budget_time(&report, 2).value, 2.0 * frames, 1e-9);
+    const DipCandidate worst = dip_candidate_of_row(&report, 2, DIP_TIME_WORST);
+    expect_near(worst.time.value, 2.0 * frames, 1e-9);
     dip_cost_report_free(&report);
 }
 
@@ -219,65 +220,6 @@ static void a_few_frames_that_waited_are_left_out(void **state) {
     assert_true(dip_cost_estimate_times(&report, NULL));
     expect_near(ratio_of(&report, 2, 0).value, 3.0, 1e-9);
     assert_int_equal(report.verdict, DIP_COST_GREEN);
-    dip_cost_report_free(&report);
-}
-
-static void set_viewpoint(DipCostReport *report, int row, double ms, double flip) {
-    dip_made_times(report, row, ms);
-    assert_true(dip_cost_estimate_times(report, NULL));
-    for (int p = 0; p < report->options.places; p++) {
-        report->rows[row].viewpoints[p].regions[0].flip =
-            flip * report->rows[row].viewpoints[p].regions[0].pixels;
-    }
-}
-
-static void no_row_is_better_than_the_pareto_front(void **state) {
-    (void)state;
-    DipCostReport report;
-    const int rows[4] = {0, 1, 2, 3};
-    int front[4];
-    dip_made_report(&report, 3);
-    set_viewpoint(&report, 0, 4.0, 0.1);
-    set_viewpoint(&report, 1, 2.0, 0.3);
-    set_viewpoint(&report, 2, 3.0, 0.3); // slower and no better than row 1
-    set_viewpoint(&report, 3, 1.0, 0.5);
-    assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 3);
-    assert_int_equal(front[0], 3);
-    assert_int_equal(front[1], 1);
-    assert_int_equal(front[2], 0);
-    set_viewpoint(&report, 1, 2.0, 0.101); // row 0 is then less than 1 % better
-    assert_int_equal(dip_cost_pareto_front_thin(&report, front, 3), 2);
-    assert_int_equal(front[1], 1);
-    report.combined_first = 0;
-    set_viewpoint(&report, 4, 9.0, 0.9);
-    assert_int_equal(dip_cost_step_up(&report, 3), 1); // rows 1 and 0 are better, row 1 is faster
-    assert_int_equal(dip_cost_step_up(&report, 1), -1);
-    report.rounds = 0; // without times there is no Pareto front, and no row is faster
-    assert_int_equal(dip_cost_step_up(&report, 3), -1);
-    assert_int_equal(dip_cost_pareto_front(&report, rows, 4, front), 0);
-    dip_cost_report_free(&report);
-}
-
-static void advice_is_surely_within_the_budget(void **state) {
-    (void)state;
-    DipCostReport report;
-    dip_made_report(&report, 4);
-    report.combined_first = 0;
-    set_viewpoint(&report, 4, 9.0, 0.9);
-    set_viewpoint(&report, 0, 4.0, 0.100);
-    set_viewpoint(&report, 1, 3.0, 0.1005); // hardly worse than row 0, but faster
-    set_viewpoint(&report, 2, 2.0, 0.3);
-    set_viewpoint(&report, 3, 1.0, 0.5);
-    assert_int_equal(dip_cost_choose(&report, 5.0), 1);
-    assert_int_equal(dip_cost_choose(&report, 2.5), 2);
-    assert_int_equal(dip_cost_choose(&report, 0.5), -1);
-    // The interval of row 2 reaches over the budget.
-    report.rows[2].time.p95_ms.high = 2.6;
-    assert_int_equal(dip_cost_choose(&report, 2.5), 3);
-    // Rows 0 and 1 differ neither in time nor in error: the one with fewer settings is taken.
-    set_viewpoint(&report, 0, 3.0, 0.100);
-    report.rows[1].quality.step[DIP_SETTING_AF] = 2;
-    assert_int_equal(dip_cost_choose(&report, 5.0), 0);
     dip_cost_report_free(&report);
 }
 
@@ -356,34 +298,17 @@ static void rows_below_the_floor_rank_alike(void **state) {
         report.has_floor[p] = false;
     }
     report.rows[4].judged[0] = report.rows[4].judged[2] = false;
-    assert_int_equal(dip_cost_choose(&report, 100.0), 3);
+    report.options.budgets_ms[0] = 100.0;
+    assert_true(dip_cost_choose(&report, NULL));
+    assert_int_equal(dip_cost_chosen(&report, 0)->row, 3);
     report.has_floor[0] = true;
     report.floors[0] = (DipMetricSums){0};
     report.floors[0].regions[0].pixels = 1.0;
     report.floors[0].regions[0].flip = 0.05;
     expect_near(dip_cost_floor_flip(&report, 0), 0.05 * pow(0.5, 0.7), 1e-12);
     expect_near(dip_cost_ranking_flip(&report, 3), 0.05 * pow(0.5, 0.7), 1e-12);
-    assert_int_equal(dip_cost_choose(&report, 100.0), 2);
-    dip_cost_report_free(&report);
-}
-
-static void the_knee_is_farthest_below_the_line(void **state) {
-    (void)state;
-    const double ms[4] = {1.0, 2.0, 4.0, 16.0};
-    const double flip[4] = {0.16, 0.03, 0.02, 0.01};
-    const int front[4] = {0, 1, 2, 3};
-    DipCostReport report;
-    dip_made_report(&report, 2);
-    for (int r = 0; r < 4; r++) {
-        report.rows[r].time.mean_ms.value = ms[r];
-        for (int p = 0; p < 3; p++) {
-            set_flip(&report, r, p, flip[r]);
-        }
-    }
-    // Below the line from (log 1, log .16) to (log 16, log .01), whose slope is -1: at 2 ms the
-    // line is at .08, at 4 ms at .04.
-    assert_int_equal(dip_cost_knee(&report, front, 4), 1);
-    assert_int_equal(dip_cost_knee(&report, front, 2), -1);
+    assert_true(dip_cost_choose(&report, NULL));
+    assert_int_equal(dip_cost_chosen(&report, 0)->row, 2);
     dip_cost_report_free(&report);
 }
 
@@ -506,7 +431,7 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
     }
     check_values(a->floors, b->floors, 6 * sizeof *a->floors);
     assert_memory_equal(a->sweeps[0].rows, b->sweeps[0].rows, sizeof a->sweeps[0].rows);
-    assert_int_equal(a->advice[0].row, b->advice[0].row);
+    assert_int_equal(a->choice.candidates.count, b->choice.candidates.count);
     assert_int_equal(a->predicted.count, b->predicted.count);
     for (int i = 0; i < a->predicted.count; i++) {
         const DipCostPrediction *x = &a->predicted.list[i];
@@ -529,10 +454,11 @@ static void check_same(const DipCostReport *a, const DipCostReport *b) {
         check_values(x->counters, y->counters, sizeof x->counters);
         check_values(x->stage_ms, y->stage_ms, sizeof x->stage_ms);
     }
-    assert_true(a->advice[0].probability == b->advice[0].probability);
-    assert_int_equal(a->advice[0].runner_up, b->advice[0].runner_up);
-    assert_true(a->advice[0].budget_ms == b->advice[0].budget_ms);
-    assert_true(a->advice[0].ms_high == b->advice[0].ms_high);
+    assert_int_equal(a->choice.advice_count, b->choice.advice_count);
+    for (int i = 0; i < a->choice.advice_count; i++) {
+        assert_true(a->choice.advice[i].budget_ms == b->choice.advice[i].budget_ms);
+        assert_int_equal(a->choice.advice[i].chosen, b->choice.advice[i].chosen);
+    }
     assert_int_equal(a->verdict, b->verdict);
     assert_true(a->rounds == 0 || a->machine.wait == b->machine.wait);
 }
@@ -691,12 +617,9 @@ int main(void) {
         cmocka_unit_test(milliseconds_are_those_of_the_level),
         cmocka_unit_test(the_verdict_has_both_sides_of_each_limit),
         cmocka_unit_test(a_few_frames_that_waited_are_left_out),
-        cmocka_unit_test(advice_is_surely_within_the_budget),
-        cmocka_unit_test(no_row_is_better_than_the_pareto_front),
         cmocka_unit_test(the_fit_finds_the_prices),
         cmocka_unit_test(flip_has_an_interval_over_viewpoints),
         cmocka_unit_test(rows_below_the_floor_rank_alike),
-        cmocka_unit_test(the_knee_is_farthest_below_the_line),
         cmocka_unit_test(the_spread_of_runs_has_its_closed_form),
         cmocka_unit_test(the_spread_of_ratios_has_its_closed_form),
         cmocka_unit_test(intervals_over_runs_add_the_spread),

@@ -87,8 +87,8 @@ static void change_figures(int i) {
     const int64_t now_ns = INT64_C(16666667) * i;
     dip_timing_add(&bench.timing, now_ns, 8.0 + i % 17 * 0.3);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        bench.figures[p] = (DipPaneFigures){
-            .ms = 4.0 + p + i % 31 * 0.1, .fps = 60, .times = &bench.timing, .budget_ms = 16.6};
+        bench.figures[p] =
+            (DipPaneFigures){.ms = 4.0 + p + i % 31 * 0.1, .fps = 60, .times = &bench.timing};
     }
     bench.input.now_ns = bench.state.play_ns = now_ns;
 }
@@ -114,8 +114,8 @@ static bool time_tab(int tab, const char *name, int width, int height) {
         }
         dip_view_take_damage(bench.view);
     }
-    const double p95 = dip_timing_percentile(ms, FRAMES, 0.95);
-    const double p50 = dip_timing_percentile(ms, FRAMES, 0.50);
+    const double p95 = dip_percentile(ms, FRAMES, 0.95);
+    const double p50 = dip_percentile(ms, FRAMES, 0.50);
     printf("%5d x %-5d %-10s %6.3f ms  %6.3f ms\n", width, height, name, p50, p95);
     return true;
 }

@@ -1,5 +1,5 @@
-// Tests advice from rough prices against a search over nested loops of known sums.
-#include "app/preview/prices/rough_advice.h"
+// Tests advice from live prices against a search over nested loops of known sums.
+#include "app/preview/prices/live_candidates.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -38,8 +39,10 @@ static void add_steps(DipSetting setting, const double *ms, const double *flip, 
         DipQuality quality = quality_of("aa=none");
         quality.step[setting] = (uint8_t)i;
         if (i != base) {
-            assert_true(dip_prices_add_rough(prices, &quality, BASE_MS + ms[i], BASE_MS + ms[i],
-                                             BASE_MS + ms[i], errors ? BASE_FLIP + flip[i] : -1.0));
+            const double whole_ms = BASE_MS + ms[i];
+            assert_true(dip_prices_add_rough(prices, &quality, whole_ms, 0.999 * whole_ms,
+                                             1.001 * whole_ms,
+                                             errors ? BASE_FLIP + flip[i] : -1.0));
         }
     }
 }
@@ -72,6 +75,12 @@ static double least_flip(double budget_ms) {
     return least;
 }
 
+static DipAdvice advise(const DipQuality *like, double budget_ms, DipCandidates *candidates) {
+    assert_int_equal(dip_live_candidates(prices, like, candidates), DIP_LIVE_KNOWN);
+    return dip_advise(candidates, budget_ms);
+}
+
+// Intervals of 0.1 % move the budget by less than 0.5 %.
 static void the_advice_is_within_one_percent_of_the_best(void **state) {
     (void)state;
     const DipQuality like = quality_of("aa=none");
@@ -79,21 +88,25 @@ static void the_advice_is_within_one_percent_of_the_best(void **state) {
     add_all(true);
     int found = 0;
     for (double budget_ms = 2.5; budget_ms < 13.0; budget_ms += 0.05) {
-        const DipRoughAdvice advice = dip_rough_advice(prices, &like, budget_ms);
-        const double least = least_flip(budget_ms);
-        if (isinf(least)) {
-            assert_int_equal(advice.state, DIP_ROUGH_ADVICE_TOO_SLOW);
-            assert_true(fabs(advice.ms - (BASE_MS - 0.9 - 0.8)) < 1e-9);
+        DipCandidates candidates;
+        const DipAdvice advice = advise(&like, budget_ms, &candidates);
+        if (advice.chosen < 0) {
+            assert_true(isinf(least_flip(0.995 * budget_ms)));
+            const DipCandidate *fastest = &candidates.list[advice.next];
+            assert_true(fabs(fastest->time.value - (BASE_MS - 0.9 - 0.8)) < 1e-9);
+            free(candidates.list);
             continue;
         }
-        assert_int_equal(advice.state, DIP_ROUGH_ADVICE_FOUND);
-        assert_true(advice.ms <= budget_ms);
-        assert_true(advice.flip >= least - 1e-9 && advice.flip <= 1.03 * least);
-        assert_int_equal(advice.quality.step[DIP_SETTING_AAA], 0); // It has no price here.
-        const uint8_t *step = advice.quality.step;
+        const DipCandidate *advised = &candidates.list[advice.chosen];
+        assert_true(advised->time.value <= budget_ms && advice.fits >= DIP_SURELY_FITS);
+        assert_true(advised->flip >= least_flip(budget_ms) - 1e-9);
+        assert_true(advised->flip <= 1.01 * least_flip(0.995 * budget_ms) + 1e-9);
+        assert_int_equal(advised->quality.step[DIP_SETTING_AAA], 0); // It has no price here.
+        const uint8_t *step = advised->quality.step;
         const double ms = BASE_MS + aa_ms[step[DIP_SETTING_AA]] + af_ms[step[DIP_SETTING_AF]] +
                           opt_ms[step[DIP_SETTING_OPT]] + mip_ms[step[DIP_SETTING_MIPLOD]];
-        assert_true(fabs(ms - advice.ms) < 1e-9);
+        assert_true(fabs(ms - advised->time.value) < 1e-9);
+        free(candidates.list);
         found++;
     }
     assert_true(found > 100);
@@ -105,25 +118,31 @@ static void steps_that_need_company_are_considered_beside_it(void **state) {
     const DipQuality like = quality_of("aa=4,af=8");
     prices = dip_prices_create(NULL);
     add_all(true);
-    assert_int_equal(dip_rough_advice(prices, &like, 33.0).state, DIP_ROUGH_ADVICE_NO_TIMES);
+    DipCandidates candidates;
+    assert_int_equal(dip_live_candidates(prices, &like, &candidates), DIP_LIVE_NO_TIMES);
     const DipQuality adaptive = quality_of("aa=4,aaa=on");
     const DipQuality exact = quality_of("af=8,aaf=on");
-    assert_true(dip_prices_add_rough(prices, &adaptive, 8.0, 8.0, 8.0, 0.04));
-    assert_true(dip_prices_add_rough(prices, &exact, 7.0, 7.0, 7.0, 0.06));
-    const DipRoughAdvice advice = dip_rough_advice(prices, &like, 33.0);
-    assert_int_equal(advice.state, DIP_ROUGH_ADVICE_FOUND);
-    assert_int_equal(advice.quality.step[DIP_SETTING_AAA], 1);
-    assert_int_equal(advice.quality.step[DIP_SETTING_AAF], 1);
+    assert_true(dip_prices_add_rough(prices, &adaptive, 8.0, 7.99, 8.01, 0.04));
+    assert_true(dip_prices_add_rough(prices, &exact, 7.0, 6.99, 7.01, 0.06));
+    const DipAdvice advice = advise(&like, 33.0, &candidates);
+    assert_true(advice.chosen >= 0);
+    const DipQuality *quality = &candidates.list[advice.chosen].quality;
+    assert_int_equal(quality->step[DIP_SETTING_AAA], 1);
+    assert_int_equal(quality->step[DIP_SETTING_AAF], 1);
+    free(candidates.list);
     dip_prices_destroy(&prices);
 }
 
 static void without_errors_there_is_no_advice(void **state) {
     (void)state;
     const DipQuality like = quality_of("aa=none");
+    DipCandidates candidates;
     prices = dip_prices_create(NULL);
-    assert_int_equal(dip_rough_advice(prices, &like, 16.0).state, DIP_ROUGH_ADVICE_NO_TIMES);
+    assert_int_equal(dip_live_candidates(prices, &like, &candidates), DIP_LIVE_NO_TIMES);
+    assert_null(candidates.list);
     add_all(false);
-    assert_int_equal(dip_rough_advice(prices, &like, 16.0).state, DIP_ROUGH_ADVICE_NO_ERRORS);
+    assert_int_equal(dip_live_candidates(prices, &like, &candidates), DIP_LIVE_NO_ERRORS);
+    assert_null(candidates.list);
     dip_prices_destroy(&prices);
 }
 

@@ -1,0 +1,146 @@
+// Makes the preview's choice from a report or from live prices, and puts it into words.
+#include "app/preview/prices/choice.h"
+
+#include "app/preview/prices/live_candidates.h"
+#include "app/preview/prices/price_text.h"
+#include "app/report/words.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Shares of the gain, in the order of DipPreset.
+static const double shares[DIP_MEASURED_PRESETS - 1] = {0.5, 0.8, 0.95};
+
+static void take_candidates(DipPreviewChoice *choice, const DipPrices *prices) {
+    static const DipChoiceState states[] = {
+        [DIP_LIVE_NO_TIMES] = DIP_CHOICE_NO_TIMES,
+        [DIP_LIVE_NO_ERRORS] = DIP_CHOICE_NO_ERRORS,
+        [DIP_LIVE_KNOWN] = DIP_CHOICE_KNOWN,
+    };
+    free(choice->live_list);
+    choice->live_list = NULL;
+    choice->live = !choice->costs || (prices && dip_prices_are_rough(prices));
+    choice->candidates = (DipCandidates){0};
+    choice->state = DIP_CHOICE_NO_TIMES;
+    if (choice->live && prices) {
+        choice->state = states[dip_live_candidates(prices, &choice->like, &choice->candidates)];
+        choice->live_list = choice->candidates.list;
+    } else if (!choice->live && choice->costs->candidates.count > 0) {
+        choice->candidates = choice->costs->candidates;
+        choice->state = choice->candidates.disturbed ? DIP_CHOICE_DISTURBED : DIP_CHOICE_KNOWN;
+    }
+}
+
+// Without memory there is no front: what is advised stays, and the presets are the advice.
+static void list_front(DipPreviewChoice *choice) {
+    const int count = choice->candidates.count;
+    free(choice->front);
+    choice->front = count > 0 ? calloc((size_t)count, sizeof *choice->front) : NULL;
+    choice->front_count =
+        choice->front ? dip_front(&choice->candidates, DIP_CLEARLY_BETTER, choice->front) : 0;
+}
+
+static void find_base(DipPreviewChoice *choice, const DipQuality *base) {
+    choice->base = -1;
+    for (int i = 0; i < choice->candidates.count; ++i) {
+        if (memcmp(&choice->candidates.list[i].quality, base, sizeof *base) == 0) {
+            choice->base = i;
+        }
+    }
+}
+
+// Nothing that is faster than what is advised can fit worse by its time, so presets fit, too.
+static void make_presets(DipPreviewChoice *choice) {
+    const DipCandidate *advised = dip_preview_advised(choice);
+    const DipCandidate *fastest =
+        choice->front_count > 0 ? &choice->candidates.list[choice->front[0]] : NULL;
+    for (int p = 0; p < DIP_MEASURED_PRESETS; ++p) {
+        choice->presets[p] = choice->advice.chosen;
+        if (advised && fastest && p < DIP_MEASURED_PRESETS - 1) {
+            const double loss = fastest->loss - shares[p] * (fastest->loss - advised->loss);
+            const int found = dip_next_better(&choice->candidates, nextafter(loss, INFINITY), 0.0);
+            choice->presets[p] = found >= 0 ? found : choice->advice.chosen;
+        }
+    }
+}
+
+void dip_preview_choice_set_budget(DipPreviewChoice *choice, double budget_ms) {
+    choice->advice = dip_advise(&choice->candidates, budget_ms);
+    make_presets(choice);
+}
+
+bool dip_preview_choose(DipPreviewChoice *choice, const DipCosts *costs, const DipPrices *prices,
+                        const DipQuality *like, double budget_ms) {
+    const unsigned changes = prices ? dip_prices_changes(prices) : 0;
+    const bool same_list = choice->is_made && choice->costs == costs &&
+                           choice->price_changes == changes &&
+                           (!choice->live || memcmp(&choice->like, like, sizeof *like) == 0);
+    if (same_list && fabs(choice->advice.budget_ms - budget_ms) < 1e-9) {
+        return false;
+    }
+    if (!same_list) {
+        choice->costs = costs;
+        choice->price_changes = changes;
+        choice->like = *like;
+        take_candidates(choice, prices);
+        list_front(choice);
+        const DipQuality base = costs    ? costs->base
+                                : prices ? dip_prices_base(prices)
+                                         : dip_quality_default();
+        find_base(choice, &base);
+    }
+    choice->is_made = true;
+    dip_preview_choice_set_budget(choice, budget_ms);
+    return true;
+}
+
+void dip_preview_choice_free(DipPreviewChoice *choice) {
+    free(choice->front);
+    free(choice->live_list);
+    *choice = (DipPreviewChoice){0};
+}
+
+const DipCandidate *dip_preview_advised(const DipPreviewChoice *choice) {
+    const bool advises = choice && choice->is_made && choice->advice.chosen >= 0;
+    return advises ? &choice->candidates.list[choice->advice.chosen] : NULL;
+}
+
+void dip_preview_choice_why(const DipPreviewChoice *choice, const char *progress, char *text,
+                            size_t size_bytes) {
+    char ms[DIP_NUMBER_BYTES];
+    if (!choice || !choice->is_made || (choice->live && choice->state == DIP_CHOICE_NO_TIMES)) {
+        snprintf(text, size_bytes, "Times are measured while the view rests. %s", progress);
+    } else if (choice->state == DIP_CHOICE_NO_TIMES) {
+        snprintf(text, size_bytes, "The report has no combinations with times and errors.");
+    } else if (choice->state == DIP_CHOICE_NO_ERRORS) {
+        snprintf(text, size_bytes, "Errors are measured while the view rests. %s", progress);
+    } else if (choice->state == DIP_CHOICE_DISTURBED) {
+        snprintf(text, size_bytes,
+                 "The machine was too busy while the report was measured, so nothing is advised.");
+    } else {
+        dip_budget_ms_text(choice->advice.budget_ms, ms);
+        snprintf(text, size_bytes, "Nothing measured surely fits %s ms.", ms);
+    }
+}
+
+void dip_preview_choice_describe(const DipPreviewChoice *choice, char *text, size_t size_bytes) {
+    const DipCandidate *advised = dip_preview_advised(choice);
+    char ms[DIP_NUMBER_BYTES], fits[DIP_NUMBER_BYTES], flip[DIP_STEP_NAME_BYTES], base[96] = "";
+    if (!advised) {
+        dip_preview_choice_why(choice, "", text, size_bytes);
+        return;
+    }
+    dip_budget_ms_text(choice->advice.budget_ms, ms);
+    dip_fits_text(choice->advice.fits, fits);
+    if (choice->base >= 0) {
+        const DipCandidate *from = &choice->candidates.list[choice->base];
+        dip_flip_text(from->flip, false, flip);
+        snprintf(base, sizeof base, "; baseline %.1f ms, %s", from->time.value, flip);
+    }
+    dip_flip_text(advised->flip, false, flip);
+    snprintf(text, size_bytes, "Within %s ms: %s%.1f ms %s, FLIP %s, fits with %s%s", ms,
+             choice->live ? DIP_ROUGH_MARK : "", advised->time.value,
+             dip_time_kind_names[choice->candidates.kind], flip, fits, base);
+}

@@ -1,0 +1,39 @@
+// How numbers of a choice are written, wherever they show: in a terminal, a page or the panel.
+#ifndef DIP_APP_REPORT_WORDS_H
+#define DIP_APP_REPORT_WORDS_H
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { DIP_NUMBER_BYTES = 24, DIP_BUDGET_BYTES = 64 };
+
+// Writes a value with this number of decimals. A change has its sign. What rounds to no change has
+// none, so "-0" never shows. `minus` is the sign of what is less: "-", or U+2212 for the panel.
+// Values beyond 9,999,999 are cut to it.
+void dip_number_text(double value, int decimals, bool change, const char *minus,
+                     char text[DIP_NUMBER_BYTES]);
+
+// Writes a FLIP error, or a change of one, with four decimals and without the zero before the
+// point:
+// ".0354", "+.0010".
+void dip_flip_number(double flip, bool change, const char *minus, char text[DIP_NUMBER_BYTES]);
+
+// Writes a time budget in three digits: "16.7", "8", "33.3".
+void dip_budget_ms_text(double budget_ms, char text[DIP_NUMBER_BYTES]);
+
+// Writes a time budget as the start of a sentence: "At 60 frames a second (16.7 ms)" for the usual
+// rates of displays, otherwise "Within 8 ms a frame".
+void dip_budget_text(double budget_ms, char text[DIP_BUDGET_BYTES]);
+
+// Writes the probability that something fits a budget: "99 %", "unknown". Only what is certain in
+// three digits is 100 % or 0 %.
+void dip_fits_text(double fits, char text[DIP_NUMBER_BYTES]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

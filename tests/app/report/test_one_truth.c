@@ -1,0 +1,381 @@
+// One report, asked by every part of the program that answers: the text of `diptych cost`, its
+// page, `cost advise`, the preview with the report, and the preview with the same figures as live
+// prices. They contradict each other nowhere. The reports in data/ were measured by diptych on a
+// busy machine and made smaller: one of combinations, and one of predicted ones. So that they are
+// not red, their threads' waits are 0 and the two times of the baseline lie within 1 %.
+#include "app/cost/advise/common_advice.h"
+#include "app/preview/prices/choice.h"
+#include "app/preview/prices/price_text.h"
+#include "app/preview/state/state.h"
+#include "app/preview/live/timing.h"
+#include "app/report/candidates.h"
+#include "app/report/format/formats.h"
+#include "app/report/page/html.h"
+#include "app/report/words.h"
+#include "tests/app/cost/made_report.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const char *folder;
+static const char *const files[] = {"combined.json", "predicted.json"};
+enum { REPORTS = 2 };
+
+static void read(int index, DipCostReport *report, char file[512]) {
+    DipError err = {0};
+    snprintf(file, 512, "%s/%s", folder, files[index]);
+    if (!dip_cost_read_report(file, report, &err)) {
+        fail_msg("%s: %s", file, err.message);
+    }
+}
+
+// Returns what a writer prints. The caller frees it.
+static char *print(const DipCostReport *report) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    dip_cost_print(report, out);
+    fclose(out);
+    return text;
+}
+
+static char *page_of(const DipCostReport *report) {
+    char *text = calloc(1, 8 << 20);
+    assert_non_null(text);
+    assert_true(dip_cost_write_html(report, NULL, "one_truth.html", NULL));
+    FILE *in = fopen("one_truth.html", "rb");
+    assert_non_null(in);
+    assert_true(fread(text, 1, (8 << 20) - 1, in) > 0);
+    fclose(in);
+    remove("one_truth.html");
+    return text;
+}
+
+static int count_of(const char *text, const char *part) {
+    const size_t length = strlen(part);
+    int count = 0;
+    for (size_t i = 0; text[i]; i++) {
+        count += strncmp(text + i, part, length) == 0;
+    }
+    return count;
+}
+
+static void expect_text(const char *text, const char *part) {
+    if (!strstr(text, part)) {
+        fail_msg("\"%s\" is not in the text", part);
+    }
+}
+
+// The preview with a report, asked for one budget.
+typedef struct Window {
+    DipCosts costs;
+    DipPrices *prices;
+    DipPreviewChoice choice;
+} Window;
+
+static void open_window(Window *window, const DipCostReport *report) {
+    *window = (Window){.prices = dip_prices_create(NULL)};
+    assert_true(dip_costs_make(&window->costs, report, NULL));
+    assert_true(dip_prices_set_report(window->prices, report, NULL));
+}
+
+static const DipPreviewChoice *ask(Window *window, double budget_ms) {
+    const DipQuality like = dip_quality_default();
+    dip_preview_choose(&window->choice, &window->costs, window->prices, &like, budget_ms);
+    return &window->choice;
+}
+
+static void close_window(Window *window) {
+    dip_preview_choice_free(&window->choice);
+    dip_costs_free(&window->costs);
+    dip_prices_destroy(&window->prices);
+}
+
+// --- fronts and advice ---------------------------------------------------------------------------
+
+static void fronts_agree(void **state) {
+    (void)state;
+    for (int i = 0; i < REPORTS; i++) {
+        DipCostReport report;
+        Window window;
+        char file[512];
+        read(i, &report, file);
+        open_window(&window, &report);
+        const DipPreviewChoice *choice = ask(&window, 10.0);
+        const DipCandidates *all = &report.choice.candidates;
+        assert_int_equal(choice->front_count, report.choice.front_count);
+        assert_true(choice->front_count > 2);
+        for (int k = 0; k < choice->front_count; k++) {
+            assert_int_equal(choice->candidates.list[choice->front[k]].row,
+                             all->list[report.choice.front[k]].row);
+        }
+        char *text = print(&report), *page = page_of(&report);
+        assert_int_equal(count_of(text, " ms  FLIP "), choice->front_count);
+        char *table = strstr(page, "id=\"pareto-front\"");
+        assert_non_null(table);
+        *strstr(table, "</table>") = '\0';
+        assert_int_equal(count_of(table, "<tr data-row="), choice->front_count);
+        free(text);
+        free(page);
+        close_window(&window);
+        dip_cost_report_free(&report);
+    }
+}
+
+// Each part names the same settings for a budget and the same next better ones, at the same price.
+static void next_better_is_one(void **state) {
+    (void)state;
+    int advised = 0, better = 0;
+    for (int i = 0; i < REPORTS; i++) {
+        DipCostReport report;
+        DipCostCommon common;
+        Window window;
+        char file[512];
+        read(i, &report, file);
+        const char *const names[] = {file};
+        open_window(&window, &report);
+        assert_true(dip_cost_common_read(&common, names, 1, report.options.budget_of, NULL));
+        char *text = print(&report), *page = page_of(&report);
+        for (int b = 0; b < report.choice.advice_count; b++) {
+            const DipAdvice *a = &report.choice.advice[b];
+            const DipCandidate *list = report.choice.candidates.list;
+            const DipPreviewChoice *choice = ask(&window, a->budget_ms);
+            DipCostCommonAdvice by_command;
+            dip_cost_common_advise(&common, a->budget_ms, &by_command);
+            assert_int_equal(choice->advice.chosen >= 0, a->chosen >= 0);
+            assert_int_equal(by_command.all.chosen >= 0, a->chosen >= 0);
+            if (a->chosen < 0) {
+                continue;
+            }
+            char settings[DIP_COST_TEXT], part[300], ms[DIP_NUMBER_BYTES], fits[DIP_NUMBER_BYTES];
+            const DipCandidate *shown = &choice->candidates.list[choice->advice.chosen];
+            const DipCandidate *printed = &common.candidates.list[by_command.all.chosen];
+            assert_memory_equal(&shown->quality, &list[a->chosen].quality, sizeof(DipQuality));
+            assert_memory_equal(&printed->quality, &list[a->chosen].quality, sizeof(DipQuality));
+            assert_true(choice->advice.fits == a->fits && by_command.all.fits == a->fits);
+            advised++;
+            assert_int_equal(choice->advice.next >= 0, a->next >= 0);
+            assert_int_equal(by_command.all.next >= 0, a->next >= 0);
+            if (a->next < 0) {
+                continue;
+            }
+            const DipCandidate *up = &choice->candidates.list[choice->advice.next];
+            const DipCandidate *other = &common.candidates.list[by_command.all.next];
+            assert_memory_equal(&up->quality, &list[a->next].quality, sizeof(DipQuality));
+            assert_memory_equal(&other->quality, &list[a->next].quality, sizeof(DipQuality));
+            assert_true(choice->advice.next_ms == a->next_ms);
+            assert_true(by_command.all.next_ms == a->next_ms);
+            assert_true(a->next_ms == list[a->next].time.value - list[a->chosen].time.value);
+            dip_cost_settings_text(&list[a->next].quality, settings);
+            dip_number_text(a->next_ms, 2, true, "-", ms);
+            dip_fits_text(a->next_fits, fits);
+            snprintf(part, sizeof part, "  better   %s: %s ms %s, FLIP ", settings, ms,
+                     dip_time_kind_names[report.options.budget_of]);
+            expect_text(text, part);
+            snprintf(part, sizeof part, ": %s ms %s, FLIP ", ms,
+                     dip_time_kind_names[report.options.budget_of]);
+            expect_text(page, part);
+            better++;
+        }
+        free(text);
+        free(page);
+        dip_cost_common_free(&common);
+        close_window(&window);
+        dip_cost_report_free(&report);
+    }
+    assert_true(advised >= 6 && better >= 3);
+}
+
+// A report whose times come from a busy machine advises nothing, and everyone says so.
+static void red_report_advises_nothing_anywhere(void **state) {
+    (void)state;
+    DipCostReport report;
+    Window window;
+    char file[512], why[200];
+    read(0, &report, file);
+    report.verdict = DIP_COST_RED;
+    assert_true(dip_cost_choose(&report, NULL));
+    open_window(&window, &report);
+    for (int b = 0; b < report.choice.advice_count; b++) {
+        assert_null(dip_cost_chosen(&report, b));
+    }
+    const DipPreviewChoice *choice = ask(&window, 1000.0);
+    assert_null(dip_preview_advised(choice));
+    dip_preview_choice_why(choice, "", why, sizeof why);
+    expect_text(why, "too busy");
+    DipPreviewState preview = {.choice = &window.choice};
+    for (int p = 0; p <= DIP_PRESET_BEST; p++) {
+        DipQuality quality;
+        assert_false(dip_preview_preset(&preview, (DipPreset)p, &quality));
+    }
+    char *text = print(&report), *page = page_of(&report);
+    expect_text(text, "too busy");
+    assert_null(strstr(text, "REQUESTED: "));
+    assert_null(strstr(page, "REQUESTED: "));
+    free(text);
+    free(page);
+    close_window(&window);
+    DipCostCommon common = {.reports = calloc(1, sizeof(DipCostReport)), .report_count = 1};
+    common.names[0] = "red";
+    common.reports[0] = report;
+    assert_false(dip_cost_common_match(&common, NULL));
+    dip_cost_common_free(&common);
+}
+
+// The preview chooses from live prices what it chooses from a report with the same figures, at
+// every budget.
+static void advice_of_a_live_report_is_dip_advise(void **state) {
+    (void)state;
+    static const char *const steps[] = {"aa=none",
+                                        "aa=2",
+                                        "aa=4",
+                                        "aa=6",
+                                        "aa=8",
+                                        "af=2",
+                                        "af=4",
+                                        "af=8",
+                                        "af=16",
+                                        "opt=standard",
+                                        "opt=advanced",
+                                        "miplod=high-performance",
+                                        "miplod=performance",
+                                        "miplod=quality"};
+    static const double ms[] = {5.0, 6.0, 6.9, 7.7, 8.4, 5.4, 5.9,
+                                6.6, 7.6, 4.7, 4.1, 4.2, 4.5, 4.8};
+    static const double flip[] = {.08,  .06,  .05,  .046, .044, .072, .068,
+                                  .065, .064, .084, .1,   .13,  .11,  .09};
+    DipPrices *prices = dip_prices_create(NULL);
+    DipPreviewChoice live = {0}, read_choice = {0};
+    DipCostReport report;
+    DipCosts costs;
+    const DipQuality like = dip_quality_default();
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        DipQuality quality;
+        assert_true(dip_quality_parse(steps[i], &quality, NULL));
+        assert_true(
+            dip_prices_add_rough(prices, &quality, ms[i], 0.99 * ms[i], 1.01 * ms[i], flip[i]));
+    }
+    dip_preview_choose(&live, NULL, prices, &like, 10.0);
+    assert_int_equal(live.state, DIP_CHOICE_KNOWN);
+    dip_made_report(&report, 16);
+    memset(report.has_floor, 0, (size_t)report.options.places * sizeof *report.has_floor);
+    for (int i = 0; i < live.candidates.count; i++) {
+        const DipCandidate *c = &live.candidates.list[i];
+        const int row = dip_made_combination(&report, &c->quality, c->time.value, c->flip);
+        report.rows[row].time.mean_ms.value = c->time.value;
+        report.rows[row].time.ratio_error = c->time.log_error;
+    }
+    report.options.budget_of = DIP_TIME_MEAN;
+    assert_true(dip_costs_make(&costs, &report, NULL));
+    int chosen = 0;
+    for (double budget_ms = 3.0; budget_ms < 14.0; budget_ms += 0.25) {
+        dip_preview_choose(&live, NULL, prices, &like, budget_ms);
+        dip_preview_choose(&read_choice, &costs, NULL, &like, budget_ms);
+        const DipCandidate *a = dip_preview_advised(&live);
+        const DipCandidate *b = dip_preview_advised(&read_choice);
+        assert_int_equal(a != NULL, b != NULL);
+        if (a) {
+            assert_memory_equal(&a->quality, &b->quality, sizeof a->quality);
+            chosen++;
+        }
+    }
+    assert_true(chosen > 20);
+    dip_preview_choice_free(&live);
+    dip_preview_choice_free(&read_choice);
+    dip_costs_free(&costs);
+    dip_cost_report_free(&report);
+    dip_prices_destroy(&prices);
+}
+
+// --- presets -------------------------------------------------------------------------------------
+
+// The measured presets are places on the front within the budget, each at least as good as the one
+// before; Best is the advice.
+static void presets_are_points_of_the_front_within_the_budget(void **state) {
+    (void)state;
+    DipCostReport report;
+    Window window;
+    char file[512];
+    read(1, &report, file);
+    open_window(&window, &report);
+    DipPreviewState preview = {.choice = &window.choice};
+    ask(&window, 8.0);
+    const DipCandidate *list = window.choice.candidates.list;
+    const DipCandidate *before = NULL;
+    for (int p = 0; p <= DIP_PRESET_BEST; p++) {
+        DipQuality quality;
+        assert_true(dip_preview_preset(&preview, (DipPreset)p, &quality));
+        const DipCandidate *c = &list[window.choice.presets[p]];
+        assert_memory_equal(&c->quality, &quality, sizeof quality);
+        assert_true(dip_candidate_fits(c, 8.0) >= DIP_SURELY_FITS);
+        assert_true(!before || (c->loss <= before->loss && c->time.value >= before->time.value));
+        before = c;
+    }
+    assert_int_equal(window.choice.presets[DIP_PRESET_BEST], window.choice.advice.chosen);
+    assert_true(window.choice.presets[DIP_PRESET_PERFORMANCE] !=
+                window.choice.presets[DIP_PRESET_BEST]);
+    ask(&window, 0.1); // Nothing fits: the presets wait.
+    DipQuality quality;
+    assert_false(dip_preview_preset(&preview, DIP_PRESET_BALANCED, &quality));
+    dip_preview_act(&preview, DIP_ACTION_PRESET, DIP_PRESET_BALANCED, false, 0);
+    assert_string_equal(preview.notice, "Balanced: Nothing measured surely fits 0.1 ms.");
+    close_window(&window);
+    dip_cost_report_free(&report);
+}
+
+// --- numbers -------------------------------------------------------------------------------------
+
+static void percentile_is_one(void **state) {
+    (void)state;
+    double values[20], scratch[20];
+    DipTiming timing = {0};
+    for (int i = 0; i < 20; i++) {
+        values[i] = 1.0 + (7 * i) % 20;
+        dip_timing_add(&timing, 1000, values[i]);
+    }
+    assert_true(fabs(dip_stats_quantile(values, 20, 0.95, scratch) - 19.05) < 1e-9);
+    assert_true(fabs(dip_timing_median_ms(&timing, 1000) - 10.5) < 1e-9);
+    assert_true(fabs(dip_percentile(values, 20, 0.95) - 19.05) < 1e-9);
+}
+
+static void no_change_has_no_sign_in_the_panel(void **state) {
+    (void)state;
+    char text[DIP_STEP_NAME_BYTES];
+    dip_flip_text(0.0, true, text);
+    assert_string_equal(text, ".0000");
+    dip_flip_text(-0.00001, true, text);
+    assert_string_equal(text, ".0000");
+    dip_flip_text(-0.0123, true, text);
+    assert_string_equal(text, "\u2212.0123");
+    dip_flip_text(0.0123, true, text);
+    assert_string_equal(text, "+.0123");
+    dip_flip_text(0.0123, false, text);
+    assert_string_equal(text, ".0123");
+}
+
+int main(int argc, char **argv) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fronts_agree),
+        cmocka_unit_test(next_better_is_one),
+        cmocka_unit_test(red_report_advises_nothing_anywhere),
+        cmocka_unit_test(advice_of_a_live_report_is_dip_advise),
+        cmocka_unit_test(presets_are_points_of_the_front_within_the_budget),
+        cmocka_unit_test(percentile_is_one),
+        cmocka_unit_test(no_change_has_no_sign_in_the_panel),
+    };
+    if (argc != 2) {
+        fprintf(stderr, "usage: test_one_truth DATA\n");
+        return 2;
+    }
+    folder = argv[1];
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
