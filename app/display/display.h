@@ -188,6 +188,9 @@ typedef struct DipDisplay {
     // Turns full-screen mode on or off. NULL if the display has no such mode.
     void (*set_full_screen)(void *context, bool on);
 
+    // Gives the window a title. NULL if it has none.
+    void (*set_title)(void *context, const char *title);
+
     // Gives the clipboard a text. Returns false if that failed. NULL if the display has no
     // clipboard.
     bool (*set_clipboard)(void *context, const char *text);

@@ -1,8 +1,10 @@
 // Runs the turns of the preview.
 #include "app/preview/loop/loop_private.h"
 
+#include "app/cost/plan.h"
 #include "app/preview/tools/compare.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,7 +71,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     }
     if (def->ui_scale > 0.0) {
         preview->state.tools.ui_scale = def->ui_scale;
+        preview->state.tools.fixed_scale = true;
     }
+    preview->state.tools.bare = def->hides_panel;
     // An open drawer would cover the current pane.
     preview->state.tools.open = dip_preview_layout(preview).side == DIP_DOCK_BELOW;
     return preview;
@@ -148,6 +152,27 @@ static void follow_layout(DipPreview *preview) {
     preview->pane_height = height;
 }
 
+// Names the scene in the window's title.
+static void follow_title(DipPreview *preview) {
+    const DipSession *session = preview->def.session;
+    const DipDisplay *display = &preview->def.display;
+    char scene[DIP_COST_TEXT], title[sizeof preview->title];
+    if (!display->set_title) {
+        return;
+    }
+    if (session->shows_gallery) {
+        snprintf(scene, sizeof scene, "%s",
+                 dip_session_scene_title(session, preview->state.play_ns));
+    } else {
+        dip_cost_scene_name(session, scene);
+    }
+    snprintf(title, sizeof title, "Diptych: %.*s", (int)sizeof title - 16, scene);
+    if (strcmp(title, preview->title) != 0) {
+        memcpy(preview->title, title, sizeof title);
+        display->set_title(display->context, title);
+    }
+}
+
 // Finds out whether anything moves, when another path or scene plays.
 static void follow_motion(DipPreview *preview) {
     const DipSession *session = preview->def.session;
@@ -173,6 +198,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     const int64_t elapsed_ns = since_ns < longest_step_ns ? since_ns : longest_step_ns;
     preview->turn_ns = now_ns;
     follow_motion(preview);
+    follow_title(preview);
     dip_loop_fly(preview, elapsed_ns);
     dip_preview_advance(state, elapsed_ns, now_ns);
     follow_full_screen(preview);

@@ -57,6 +57,7 @@ struct DipPreview {
     int64_t blinks_ns;       // When the comparison shows another picture, or INT64_MAX.
     bool redraw;             // The overlay may have changed.
     bool exposed;            // The display lost its picture, so all of it must be presented.
+    char title[128];         // The window's title.
     const void *judged_path; // The path and the scene for which state.stands was found out.
     const void *judged_scene;
     bool flying;           // The user moved the camera in this turn.

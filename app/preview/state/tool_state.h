@@ -45,11 +45,12 @@ enum { DIP_LOUPE_MIN_ZOOM = 2, DIP_LOUPE_MAX_ZOOM = 32 };
 // What the user has chosen. Plain data; part of the preview's state.
 typedef struct DipToolState {
     DipTab tab;
-    bool open;       // The dock shows its tab.
-    bool bare;       // The window shows nothing but the panes.
-    double ui_scale; // 0.5..4; multiplies the display's scale.
-    bool loupe;      // The loupe follows the pointer or shows the pinned pixel.
-    int zoom;        // 2, 4, 8, 16 or 32.
+    bool open;        // The dock shows its tab.
+    bool bare;        // The window shows nothing but the panes.
+    double ui_scale;  // 0.5..4; multiplies the display's scale.
+    bool fixed_scale; // The user gave a scale, so that the window's size does not change it.
+    bool loupe;       // The loupe follows the pointer or shows the pinned pixel.
+    int zoom;         // 2, 4, 8, 16 or 32.
     bool pinned;
     int x; // The loupe's pixel, in pixels of a pane's picture. Below 0: the picture's middle.
     int y;

@@ -1,6 +1,7 @@
 // The labels over the panes, and notices.
 #include "app/preview/tabs/labels.h"
 
+#include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/pane_time.h"
 #include "app/preview/tools/compare.h"
 #include "app/ui/style.h"
@@ -66,7 +67,9 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     Label label = label_of(ui, window, pane, room);
     const int line = dip_ui_line_height(ui, LABEL_SIZE);
     const int title_width = dip_ui_text_width(ui, LABEL_SIZE, label.title) + pad;
-    const int usual = dip_ui_text_width(ui, LABEL_SIZE, "\u2248 88.8 ms  60 fps");
+    const int usual = dip_ui_text_width(ui, LABEL_SIZE,
+                                        window->figures[pane].fps > 0 ? "88.8 ms  60 fps"
+                                                                      : DIP_ROUGH_MARK "88.8 ms");
     const bool time_fits = title_width + dip_ui_text_width(ui, LABEL_SIZE, label.time) <= room;
     // The settings stay where they are while the time has a digit more or less.
     const int time_width =
@@ -78,12 +81,14 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
         width = title_width + time_width + dip_ui_text_width(ui, LABEL_SIZE, label.settings);
     }
     const bool settings_fit = time_fits && width <= room;
-    const int time_height =
-        time_fits ? 0 : dip_ui_text_block_height(ui, LABEL_SIZE, room, label.time);
+    int time_height = time_fits ? 0 : dip_ui_text_block_height(ui, LABEL_SIZE, room, label.time);
+    if (3 * (line + time_height) > rect.height) {
+        time_height = 0; // The picture matters more.
+    }
     int settings_height =
         settings_fit ? 0 : dip_ui_text_block_height(ui, LABEL_SIZE, room, label.settings);
     if (3 * (line + time_height + settings_height) > rect.height) {
-        settings_height = 0; // The picture matters more.
+        settings_height = 0;
     }
     if (!settings_fit) {
         width = time_height + settings_height > 0 ? room : title_width + time_width - pad;

@@ -231,6 +231,20 @@ static void the_drawer_takes_clicks_over_the_pane(void **unused) {
 }
 
 // A click on a sheet closes it and does nothing to what lies beneath.
+// A display of 4K that does not tell its scale has text twice as large, unless the user gave a
+// scale.
+static void text_grows_with_the_window(void **unused) {
+    (void)unused;
+    DipToolState set = {.ui_scale = 1.0};
+    assert_true(dip_layout_scale(1.0, &set, 720) == 1.0);
+    assert_true(dip_layout_scale(1.0, &set, 1080) == 1.0);
+    assert_true(dip_layout_scale(1.0, &set, 1440) == 1.25);
+    assert_true(dip_layout_scale(1.0, &set, 2160) == 2.0);
+    assert_true(dip_layout_scale(3.0, &set, 2160) == 3.0); // The display knows better.
+    set.fixed_scale = true;
+    assert_true(dip_layout_scale(1.0, &set, 2160) == 1.0);
+}
+
 // One figure stands for a pane's time in its label and in the panel. A single frame is called that.
 static void a_pane_has_one_time(void **unused) {
     (void)unused;
@@ -327,6 +341,7 @@ int main(void) {
         WINDOW_TEST(clicks_and_drags_choose_a_step),
         WINDOW_TEST(keys_change_the_focused_setting),
         WINDOW_TEST(the_drawer_takes_clicks_over_the_pane),
+        WINDOW_TEST(text_grows_with_the_window),
         WINDOW_TEST(a_pane_has_one_time),
         WINDOW_TEST(a_time_stays_while_nothing_is_drawn),
         WINDOW_TEST(presets_wait_for_prices),
