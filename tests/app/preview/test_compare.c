@@ -347,7 +347,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_picture_fits_by_whole_factors),
         IN_WINDOW(test_frame_size_is_the_room_of_the_picture),
-        cmocka_unit_test(test_truth_is_compared_with_the_requested_pane),
+        IN_WINDOW(test_truth_is_compared_with_the_requested_pane),
         cmocka_unit_test(test_difference_equals_a_plain_loop),
         IN_WINDOW(test_difference_is_computed_only_when_pictures_change),
         IN_WINDOW(test_wipe_shows_each_pane_on_its_side),
