@@ -104,6 +104,7 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         break;
     case DIP_ACTION_HELP:
         state->help = !state->help;
+        state->help_words[0] = '\0';
         break;
     case DIP_ACTION_PANEL:
         dip_state_open_tab(state, DIP_TAB_TIMES);

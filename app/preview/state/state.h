@@ -57,7 +57,7 @@ typedef enum DipAction {
     DIP_ACTION_QUIT
 } DipAction;
 
-enum { DIP_NOTICE_SIZE = 160, DIP_UNDO_DEPTH = 32 };
+enum { DIP_NOTICE_SIZE = 160, DIP_UNDO_DEPTH = 32, DIP_HELP_WORDS = 32 };
 
 // Settings that a user can ask for by name.
 typedef enum DipPreset {
@@ -89,14 +89,15 @@ typedef struct DipPreviewState {
     const char *scene_title; // Of the gallery's scene; NULL if the panes show models.
     const char *scene_look;  // Name of its variant.
     bool help;               // The help shows.
-    bool panel;              // Each pane shows its times, errors and work.
-    const DipCosts *costs;   // Borrowed; NULL if there is no cost report.
-    bool show_costs;         // The table of costs shows.
-    int next_advice;         // Index in costs->advice of the next advice to give.
-    bool wants_errors;       // Another program has asked for the errors, shown or not.
-    bool wants_prices;       // Another program has asked for the prices, shown or not.
-    bool wants_picture;      // Another program waits for a picture, even of a hidden window.
-    bool measures_here;      // Prices are measured in this view although there is a report.
+    char help_words[DIP_HELP_WORDS]; // The help shows only keys with this text.
+    bool panel;                      // Each pane shows its times, errors and work.
+    const DipCosts *costs;           // Borrowed; NULL if there is no cost report.
+    bool show_costs;                 // The table of costs shows.
+    int next_advice;                 // Index in costs->advice of the next advice to give.
+    bool wants_errors;               // Another program has asked for the errors, shown or not.
+    bool wants_prices;               // Another program has asked for the prices, shown or not.
+    bool wants_picture; // Another program waits for a picture, even of a hidden window.
+    bool measures_here; // Prices are measured in this view although there is a report.
     char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
     int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.
     int pane_height;

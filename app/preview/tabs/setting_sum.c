@@ -438,6 +438,15 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
         draw_sum(ui, window, &sum, (DipRect){rect.x, y, room, 0});
     }
     y += dip_ui_px(ui, SUM_HEIGHT);
+    dip_ui_control(
+        ui,
+        &(DipUiControl){.id = DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_FLIP),
+                        .rect = {rect.x, y, rect.width, dip_ui_line_height(ui, NOTE_SIZE)},
+                        .tip = "Times of the current and errors of both panes. FLIP is the error "
+                               "that people see when they change between a picture and the "
+                               "converged one: 0 is no difference, 1 the greatest. Less is "
+                               "better.",
+                        .skips_focus = true});
     if (dip_ui_is_drawing(ui)) {
         draw_comparison(ui, window, &now, &sum, (DipRect){rect.x, y, rect.width, 0});
     }

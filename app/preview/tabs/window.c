@@ -52,7 +52,7 @@ static void declare_sheet(DipUi *ui, DipWindow *window) {
                             .skips_focus = true,
                             .takes_wheel = true});
     if (dip_ui_is_drawing(ui) && state->help) {
-        dip_sheet_draw_help(dip_ui_list(ui), dip_ui_scale(ui));
+        dip_sheet_draw_help(dip_ui_list(ui), dip_ui_scale(ui), state->help_words);
     } else if (dip_ui_is_drawing(ui)) {
         dip_sheet_draw_costs(dip_ui_list(ui), state, dip_ui_scale(ui));
     }
