@@ -51,6 +51,10 @@ void dip_ms_text(double ms, DipPriceTrust trust, char text[DIP_STEP_NAME_BYTES])
         return;
     }
     const double size = fmin(fabs(ms), 1e9);
+    if (size < 0.05) {
+        snprintf(text, DIP_STEP_NAME_BYTES, "0?");
+        return;
+    }
     const double unit = size >= 0.1 ? pow(10.0, floor(log10(size))) : 0.1;
     snprintf(text, DIP_STEP_NAME_BYTES, "%s%.*f?", ms < 0.0 ? "\u2212" : "", unit < 1.0,
              unit * round(size / unit));
@@ -71,9 +75,9 @@ void dip_price_ms_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
                            : price->state == DIP_PRICE_ROUGH     ? DIP_ROUGH_MARK
                            : price->state == DIP_PRICE_PREDICTED ? "~"
                                                                  : "";
+        const char *sign = fabs(price->ms) < 0.05 ? "" : price->ms < 0.0 ? "\u2212" : "+";
         dip_ms_text(fabs(price->ms), trust, digits);
-        snprintf(text, DIP_STEP_NAME_BYTES, "%s%s%.16s", mark, price->ms < 0.0 ? "\u2212" : "+",
-                 digits);
+        snprintf(text, DIP_STEP_NAME_BYTES, "%s%s%.16s", mark, sign, digits);
     }
 }
 

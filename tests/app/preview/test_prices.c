@@ -457,6 +457,7 @@ static void doubtful_times_are_written_with_one_digit(void **state) {
         {7.5, -2.0, 17.0, 5.0, DIP_PRICE_MEASURED, "+8?", false},
         {0.34, 0.1, 0.6, 5.0, DIP_PRICE_ROUGH, "+0.3?", false},
         {0.2, -0.3, 0.7, 5.0, DIP_PRICE_ROUGH, "\u2248 0", false},
+        {-0.02, -3.0, 3.0, 5.0, DIP_PRICE_ROUGH, "0?", false},
         {-0.01, -0.02, -0.005, 5.0, DIP_PRICE_MEASURED, "\u2248 0", false},
         {0.0, 0.0, 0.0, 5.0, DIP_PRICE_MEASURED, "\u2248 0", false},
         {8.0, 8.0, 8.0, 0.0, DIP_PRICE_BASE, "base", true},
