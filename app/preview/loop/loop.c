@@ -157,7 +157,7 @@ static void follow_title(DipPreview *preview) {
     const DipSession *session = preview->def.session;
     const DipDisplay *display = &preview->def.display;
     char scene[DIP_COST_TEXT], title[sizeof preview->title];
-    if (!display->set_title) {
+    if (!display->set_title || !session->options) {
         return;
     }
     if (session->shows_gallery) {
