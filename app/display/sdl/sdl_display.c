@@ -231,7 +231,7 @@ static bool next_event(void *context, int timeout_ms, DipEvent *event) {
         *event = dip_sdl_controller_translate(&sdl_event);
     }
     if (sdl->host && event->kind == DIP_EVENT_MOUSE_DOWN) {
-        dip_sdl_host_take_focus(sdl->host);
+        event->focuses = dip_sdl_host_take_focus(sdl->host);
     }
     if (event->kind == DIP_EVENT_DROP) {
         sdl->dropped_file = sdl_event.drop.file;
@@ -290,6 +290,11 @@ static bool get_clipboard(void *context, char *text, size_t size_bytes) {
     return found;
 }
 
+static void set_title(void *context, const char *title) {
+    const SdlDisplay *sdl = context;
+    SDL_SetWindowTitle(sdl->window, title);
+}
+
 static void set_full_screen(void *context, bool on) {
     const SdlDisplay *sdl = context;
     SDL_SetWindowFullscreen(sdl->window, on ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
@@ -321,6 +326,7 @@ static DipDisplay display_of(SdlDisplay *sdl) {
         // The host decides about the size of its windows.
         .set_full_screen = sdl->host ? NULL : set_full_screen,
         .set_size = sdl->host ? NULL : set_size,
+        .set_title = sdl->host ? NULL : set_title,
         .set_clipboard = set_clipboard,
         .get_clipboard = get_clipboard,
         .close = close_display,

@@ -48,6 +48,7 @@ typedef struct DipPreviewDef {
     double flying_speed_m_per_s; // Speed of the free camera.
     DipPreviewControl control;   // Its context is borrowed.
     double ui_scale;             // Factor by which controls are enlarged; 0 stands for 1.
+    bool hides_panel;            // The window shows nothing but the panes at first.
     const char *notice;          // Shown at first for a few seconds; may be NULL. Copied.
 
     // Loads session->scene_def, which is needed to measure errors. Called when the user first asks

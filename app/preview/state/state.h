@@ -58,7 +58,7 @@ typedef enum DipAction {
     DIP_ACTION_QUIT
 } DipAction;
 
-enum { DIP_NOTICE_SIZE = 160, DIP_UNDO_DEPTH = 32 };
+enum { DIP_NOTICE_SIZE = 160, DIP_UNDO_DEPTH = 32, DIP_HELP_WORDS = 32 };
 
 // Settings that a user can ask for by name.
 typedef enum DipPreset {
@@ -79,20 +79,22 @@ typedef struct DipPreviewState {
     int64_t play_ns;             // Time on the path, never below 0.
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
+    bool stands;           // Neither the camera nor the scene moves although time may run.
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
-    bool manual;              // The user flies the camera; time stands still.
-    bool shows_gallery;       // The panes show a scene of the gallery.
-    int scene_step;           // The scene that the user asked for: 1 the next, -1 the one before.
-    int look;                 // The scene's variant; the scene wraps it around.
-    const char *scene_title;  // Of the gallery's scene; NULL if the panes show models.
-    const char *scene_look;   // Name of its variant.
-    bool help;                // The help shows.
-    bool panel;               // Each pane shows its times, errors and work.
-    const DipCosts *costs;    // Borrowed; NULL if there is no cost report.
-    bool show_costs;          // The table of costs shows.
-    DipPreviewChoice *choice; // Borrowed; what can be chosen now, or NULL.
+    bool manual;             // The user flies the camera; time stands still.
+    bool shows_gallery;      // The panes show a scene of the gallery.
+    int scene_step;          // The scene that the user asked for: 1 the next, -1 the one before.
+    int look;                // The scene's variant; the scene wraps it around.
+    const char *scene_title; // Of the gallery's scene; NULL if the panes show models.
+    const char *scene_look;  // Name of its variant.
+    bool help;               // The help shows.
+    char help_words[DIP_HELP_WORDS]; // The help shows only keys with this text.
+    bool panel;                      // Each pane shows its times, errors and work.
+    const DipCosts *costs;           // Borrowed; NULL if there is no cost report.
+    bool show_costs;                 // The table of costs shows.
+    DipPreviewChoice *choice;        // Borrowed; what can be chosen now, or NULL.
     // Time within which a frame has to be drawn: one refresh of the display, unless the user has
     // chosen another time.
     double budget_ms;
@@ -172,6 +174,9 @@ void dip_preview_follow_dock(DipPreviewState *state);
 
 // Goes to a play time.
 void dip_preview_seek(DipPreviewState *state, int64_t play_ns);
+
+// Returns whether all poses of the playing path are the same.
+bool dip_preview_path_stands(const DipPreviewState *state);
 
 // Returns whether camera and scene stand still. flying: the user is moving the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);

@@ -2,6 +2,7 @@
 // frame times.
 #include "app/preview/state/camera.h"
 #include "app/preview/live/figures.h"
+#include "app/preview/state/keys.h"
 #include "app/preview/state/state.h"
 #include "app/preview/live/taa_pace.h"
 #include "app/preview/live/timing.h"
@@ -363,8 +364,30 @@ static void each_preset_has_its_own_settings(void **state) {
                         sizeof other);
 }
 
+// What is typed while the help shows is searched there and changes nothing else.
+static void words_are_searched_in_the_help(void **unused) {
+    (void)unused;
+    DipCamTrack track = dip_camtrack_make(false);
+    const DipQuality quality[DIP_PANE_COUNT] = {dip_quality_default(), dip_quality_default()};
+    DipPreviewState state = dip_preview_state_make(quality, &track);
+    static const int keys[] = {'h', 'a', 'n', 'x', DIP_KEYCODE_BACKSPACE};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) {
+        dip_keys_press(&state, &(DipEvent){.kind = DIP_EVENT_KEY_DOWN, .key = (DipKeycode)keys[i]},
+                       0);
+    }
+    assert_true(state.help);
+    assert_string_equal(state.help_words, "an");
+    assert_memory_equal(state.quality, quality, sizeof quality);
+    const DipEvent escape = {.kind = DIP_EVENT_KEY_DOWN, .key = DIP_KEYCODE_ESCAPE};
+    dip_keys_press(&state, &escape, 0);
+    assert_true(state.help && !state.help_words[0]);
+    dip_keys_press(&state, &escape, 0);
+    assert_true(!state.help && !state.quit);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words_are_searched_in_the_help),
         cmocka_unit_test(slow_temporal_antialiasing_is_named),
         cmocka_unit_test(frames_are_due_in_steps_of_the_refresh),
         cmocka_unit_test(refreshes_without_a_picture_count_for_five_seconds),
