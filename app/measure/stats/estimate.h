@@ -1,0 +1,49 @@
+// A value and how well it is known.
+#ifndef DIP_APP_MEASURE_STATS_ESTIMATE_H
+#define DIP_APP_MEASURE_STATS_ESTIMATE_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Ends that are not known are NAN. No function returns low == value == high: what nothing was
+// learned about has no interval.
+typedef struct DipEstimate {
+    double value;
+    double low;       // The interval from low to high holds the true value with 95 %, both sides
+    double high;      // together.
+    double log_error; // Standard error of the value's logarithm, more than 0; NAN: not known.
+    double degrees;   // Degrees of freedom of log_error; INFINITY for a normal distribution.
+} DipEstimate;
+
+// Returns a value of which nothing else is known.
+DipEstimate dip_estimate_unknown(double value);
+
+// Returns the value with the interval value exp(+-t log_error), where t is the 97.5 % quantile of
+// Student's t for the degrees of freedom (1 or more; INFINITY for a normal distribution). An error
+// that is NAN, infinite or 0 gives dip_estimate_unknown.
+DipEstimate dip_estimate_make(double value, double log_error, double degrees);
+
+// Returns the estimate with another error of its logarithm added in quadrature, for example one that
+// several estimates share. The added error's degrees of freedom count as many.
+DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_error);
+
+// Returns the probability that the true value is at most `limit`: Student's t of the logarithm.
+// `common_error` is added to the estimate's own in quadrature. Returns NAN if the estimate's error
+// is not known.
+double dip_estimate_chance_below(const DipEstimate *estimate, double limit, double common_error);
+
+// Returns the value that a variable with Student's t distribution and this number of degrees of
+// freedom (1 or more; INFINITY for a normal distribution) does not exceed with the given
+// probability (.5 to .9999).
+double dip_student_quantile_of(double probability, double degrees);
+
+// Returns the value below which the given share (0 to 1) of count >= 1 values lies, linear between
+// order statistics. Sorts the values.
+double dip_percentile(double *values, int count, double share);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
