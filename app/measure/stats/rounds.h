@@ -1,9 +1,9 @@
 // Ratios and times along a path, from a log of visits; and which frames a round draws.
 //
-// A visit draws a few frames of one subject, one after another, beside a visit of the subject's base
-// that draws the same frames (a block). Frames of a visit share their luck, and so do the rounds of
-// one start of the program. Intervals are therefore made from whole starts, or from whole rounds if
-// there is only one start, never from single frames.
+// A visit draws a few frames of one subject, one after another, beside a visit of the subject's
+// base that draws the same frames (a block). Frames of a visit share their luck, and so do the
+// rounds of one start of the program. Intervals are therefore made from whole starts, or from whole
+// rounds if there is only one start, never from single frames.
 //
 // All functions are thread-safe.
 #ifndef DIP_APP_MEASURE_STATS_ROUNDS_H
@@ -29,12 +29,13 @@ enum { DIP_TIMED_PARTS = 4 };
 
 // Deals `frames` frames of a path to `rounds` rounds (all starts' rounds together: the index is
 // start * rounds of a start + round) at random from the seed, so that no part of the path belongs
-// to one moment. Writes round_of[copy * frames + frame] for copy 0 to copies - 1 (at most `rounds`):
-// copy 0 is the round in which every subject and its base draw the frame, and the other copies are
-// rounds in which the base alone draws it once more. The rounds of one frame's copies are distinct.
-// In each copy, a round has frames / rounds frames or one more, one in each stretch of `rounds`
-// successive frames. dip_times_fit wants 3 copies.
-void dip_rounds_deal(int frames, int rounds, int copies, uint64_t seed, int *round_of);
+// to one moment. Writes round_of[copy * frames + frame] for copy 0 to copies - 1 (at most
+// `rounds`): copy 0 is the round in which every subject and its base draw the frame, and the other
+// copies are rounds in which the base alone draws it once more. The rounds of one frame's copies
+// are distinct. In each copy, a round has frames / rounds frames or one more, one in each stretch
+// of `rounds` successive frames. dip_times_fit wants 3 copies. Fails with DIP_ERROR_MEMORY.
+bool dip_rounds_deal(int frames, int rounds, int copies, uint64_t seed, int *round_of,
+                     DipError *err);
 
 // --- the log -------------------------------------------------------------------------------------
 

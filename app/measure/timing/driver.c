@@ -1,8 +1,8 @@
 // Plans starts and rounds as lists of frames, and draws the next frame of a list in each step.
 #include "app/measure/timing/driver.h"
 
-#include "app/measure/internal/random.h"
-#include "app/measure/statistics.h"
+#include "app/measure/stats/random.h"
+#include "app/measure/stats/statistics.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
 

@@ -25,7 +25,7 @@
 #define DIP_APP_MEASURE_TIMING_DRIVER_H
 
 #include "app/measure/stats/rounds.h"
-#include "app/measure/thread_use.h"
+#include "app/measure/timing/thread_use.h"
 #include "renderer/base/error.h"
 
 #include <stdbool.h>
@@ -122,10 +122,11 @@ void dip_driver_drop_round(DipDriver *driver);
 DipTimes dip_driver_times(const DipDriver *driver);
 
 typedef struct DipDriverProgress {
-    int64_t drawn;       // Frames of starts and rounds so far, without those that were resumed.
-    int64_t total;       // With those to come, but without settling and repetitions.
-    int rounds;          // Complete rounds of all starts, without repetitions.
-    bool repeats;        // Disturbed rounds are being drawn again.
+    int64_t drawn; // Frames of starts and rounds so far, without those that were resumed.
+    int64_t total; // With those to come, but without settling and repetitions.
+    int rounds;    // Complete rounds of all starts, without repetitions.
+    int searched;  // Rounds that were searched for disturbed frames to draw again.
+    int all_rounds;
     double seconds_left; // For the same frames, at the pace so far; 0 before the first frame.
 } DipDriverProgress;
 

@@ -1,7 +1,7 @@
 // Finding the base's frame beside each frame of a log.
 #include "app/measure/timing/pairs.h"
 
-#include "app/measure/statistics.h"
+#include "app/measure/stats/statistics.h"
 
 #include <stdlib.h>
 #include <string.h>

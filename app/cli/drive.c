@@ -1,8 +1,8 @@
 // Stepping, showing progress, looking for Ctrl-C.
-#include "app/drive.h"
+#include "app/cli/drive.h"
 
-#include "app/interrupt.h"
-#include "app/progress.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/progress.h"
 
 bool dip_drive(DipDriver *driver, const char *things, const char *command, const char *interrupted,
                DipError *err) {

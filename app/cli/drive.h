@@ -1,6 +1,6 @@
 // Timing frames in a command: a timing driver steps until it is done, with progress and Ctrl-C.
-#ifndef DIP_APP_DRIVE_H
-#define DIP_APP_DRIVE_H
+#ifndef DIP_APP_CLI_DRIVE_H
+#define DIP_APP_CLI_DRIVE_H
 
 #include "app/measure/timing/driver.h"
 
