@@ -7,6 +7,7 @@
 
 #include "app/cost/journal.h"
 #include "app/cost/plan.h"
+#include "app/measure/timing/driver.h"
 #include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
 
@@ -46,6 +47,16 @@ bool dip_cost_draw_timed(DipCostContext *cost, int row, int index, DipFrame *fra
 bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int frame,
                             DipTruthProgress *progress, void *context, DipTruth *truth,
                             DipError *err);
+
+// Returns how the report's frames are timed, for the given number of subjects; the caller adds the
+// bases. The seed is that of the report.
+DipDriverDef dip_cost_driver_def(const DipCostReport *report, int subjects, int block_subjects);
+
+// Writes the times of a frame's stages.
+void dip_cost_stage_parts(const DipFrame *frame, double parts_ms[DIP_TIMED_PARTS]);
+
+// What an interrupted command says.
+#define DIP_COST_INTERRUPTED "interrupted; run the same command again to continue"
 
 // Returns true and fills *err if the user has pressed Ctrl-C. All measurements made before remain
 // in the journal (journal.h).

@@ -152,7 +152,7 @@ static bool choose_timed(DipCostElsewherePrediction *p, int timed, int checked, 
 
 static bool time_there(DipCostElsewherePrediction *p, DipCostContext *here, DipCostContext *there,
                        const DipCostPredictArguments *arguments, DipError *err) {
-    DipPairedTimingResult machine = {.wait = 0.0};
+    DipDriverMachine machine = {.wait = 0.0};
     if (!choose_timed(p, arguments->timed, arguments->checked, err)) {
         return false;
     }
