@@ -24,8 +24,8 @@ DipEstimate dip_estimate_unknown(double value);
 // that is NAN, infinite or 0 gives dip_estimate_unknown.
 DipEstimate dip_estimate_make(double value, double log_error, double degrees);
 
-// Returns the estimate with another error of its logarithm added in quadrature, for example one that
-// several estimates share. The added error's degrees of freedom count as many.
+// Returns the estimate with another error of its logarithm added in quadrature, for example one
+// that several estimates share. The added error's degrees of freedom count as many.
 DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_error);
 
 // Returns the probability that the true value is at most `limit`: Student's t of the logarithm.
@@ -36,7 +36,7 @@ double dip_estimate_chance_below(const DipEstimate *estimate, double limit, doub
 // Returns the value that a variable with Student's t distribution and this number of degrees of
 // freedom (1 or more; INFINITY for a normal distribution) does not exceed with the given
 // probability (.5 to .9999).
-double dip_student_quantile_of(double probability, double degrees);
+double dip_student_quantile(double probability, double degrees);
 
 // Returns the value below which the given share (0 to 1) of count >= 1 values lies, linear between
 // order statistics. Sorts the values.

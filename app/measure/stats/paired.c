@@ -3,7 +3,6 @@
 
 #include "app/measure/stats/random.h"
 #include "renderer/base/assert.h"
-#include "renderer/base/trig.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,33 +15,6 @@ static const double mad_to_sd = 1.4826;
 
 static bool out_of_memory(DipError *err) {
     return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "timing", "out of memory");
-}
-
-// --- Student's t -------------------------------------------------------------------------------
-
-// Probability that |t| is at most `t`, for a whole number of degrees of freedom.
-static double student_within(double t, int degrees) {
-    const double angle = atan(t / sqrt(degrees));
-    const double cosine = cos(angle);
-    const bool odd = degrees % 2 == 1;
-    double term = odd ? cosine : 1.0;
-    double sum = 0.0;
-    for (int k = odd ? 3 : 2; k <= degrees; k += 2) {
-        sum += term;
-        term *= cosine * cosine * (k - 1) / k;
-    }
-    return odd ? 2.0 / DIP_PI * (angle + sin(angle) * sum) : sin(angle) * sum;
-}
-
-double dip_student_quantile(double probability, int degrees) {
-    DIP_ASSERT(probability >= 0.5 && probability <= 0.9999 && degrees >= 1);
-    double low = 0.0, high = 1e5;
-    for (int i = 0; i < 100; i++) {
-        const double middle = 0.5 * (low + high);
-        const bool below = 0.5 + 0.5 * student_within(middle, degrees) < probability;
-        *(below ? &low : &high) = middle;
-    }
-    return 0.5 * (low + high);
 }
 
 // --- spread ------------------------------------------------------------------------------------

@@ -19,6 +19,7 @@
 #ifndef DIP_APP_MEASURE_STATS_PAIRED_H
 #define DIP_APP_MEASURE_STATS_PAIRED_H
 
+#include "app/measure/stats/estimate.h"
 #include "app/measure/stats/statistics.h"
 #include "renderer/base/error.h"
 
@@ -103,13 +104,6 @@ bool dip_path_frame_times(const DipPathTimes *times, double *frame_ms, DipError 
 // s / sqrt(7) sqrt((1 + r) / (1 - r)). Each timing is the log of a time over the median time of the
 // same frame. Returns 0 for fewer than 14 timings, and a negative value if memory runs out.
 double dip_level_error(const double *log_times, int count);
-
-// --- Student's t -------------------------------------------------------------------------------
-
-// Returns the value that a variable with Student's t distribution and this number of degrees of
-// freedom (at least 1) does not exceed with the given probability (0.5 to 0.9999). Source:
-// Abramowitz and Stegun 26.7.3 and 26.7.4, inverted by bisection.
-double dip_student_quantile(double probability, int degrees);
 
 #ifdef __cplusplus
 }

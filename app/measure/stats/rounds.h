@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-enum { DIP_TIMED_PARTS = 4 };
+enum { DIP_TIMED_PARTS = 4, DIP_TIMED_MOST_STARTS = 64 };
 
 // A frame whose threads waited for a core for more than this share of its time, summed over the
 // threads, is disturbed.
@@ -64,6 +64,42 @@ typedef struct DipTimes { // Borrowed.
     int frames;
     const int *base_of; // [subject]; a base is its own base.
 } DipTimes;
+
+// --- ratios and times ----------------------------------------------------------------------------
+
+// What is computed once from all times: the base's level of every frame, the speed of every round,
+// the ratios of all subjects, and how far these move when a start, or a round if there is only one
+// start, is left out. Holds no reference to the times.
+typedef struct DipTimesFit DipTimesFit;
+
+// Fails with DIP_ERROR_MEMORY.
+DipTimesFit *dip_times_fit(const DipTimes *times, DipError *err);
+void dip_times_fit_free(DipTimesFit **fit);
+
+// Returns the ratio of the mean time of a subject's frames to that of its base. Unknown (NAN) if
+// the subject has no time beside its base. Without a second start or round it has no interval.
+DipEstimate dip_times_ratio(const DipTimesFit *fit, int subject);
+
+// The same of two subjects that share a base; `other` may be the base.
+DipEstimate dip_times_ratio_of(const DipTimesFit *fit, int subject, int other);
+
+// A subject's times along the path, in milliseconds at the machine's usual speed in this log.
+typedef struct DipAlong {
+    DipEstimate mean_ms;
+    DipEstimate p95_ms; // 95th percentile over the frames.
+    DipEstimate worst_ms;
+    // Standard error of the logarithm of the base's level, which all subjects of one base share. It
+    // is part of the errors above; NAN if it is not known.
+    double level_error;
+    double moment; // Standard deviation of the rounds' speed, as a logarithm; NAN for one round.
+    int kept;      // Number of frame times that were not disturbed, and
+    int timed;     // number of all.
+} DipAlong;
+
+DipAlong dip_times_along(const DipTimesFit *fit, int subject);
+
+// Returns the times from which dip_times_along makes its values: [frame], borrowed.
+const double *dip_times_frames(const DipTimesFit *fit, int subject);
 
 #ifdef __cplusplus
 }
