@@ -48,12 +48,17 @@ static size_t first_index(const DipBenchResult *result, int combination, DipBenc
     return ((size_t)combination * DIP_BENCH_STAGE_COUNT + stage) * values_per_stage(result->plan);
 }
 
-void dip_bench_result_add(DipBenchResult *result, int combination, int round, int frame,
-                          const DipBenchSample *sample) {
-    const int value = round * result->plan->options.frames + frame;
+void dip_bench_sample_time(const DipBenchSample *sample, DipTimed *timed) {
+    _Static_assert((int)DIP_BENCH_STAGE_total == (int)DIP_TIMED_PARTS, "each stage is a part");
+    timed->ms = sample->ms[DIP_BENCH_STAGE_total];
+    memcpy(timed->parts_ms, sample->ms, sizeof timed->parts_ms);
+}
+
+void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed) {
+    const int value = timed->round * result->plan->options.frames + timed->frame;
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         result->ms[first_index(result, combination, (DipBenchStage)stage) + (size_t)value] =
-            sample->ms[stage];
+            stage == DIP_BENCH_STAGE_total ? timed->ms : timed->parts_ms[stage];
     }
 }
 

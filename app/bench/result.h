@@ -4,6 +4,7 @@
 #define DIP_APP_BENCH_RESULT_H
 
 #include "app/bench/plan.h"
+#include "app/measure/stats/rounds.h"
 
 // Indices of a frame's times: the renderer's stages, then the total.
 typedef enum DipBenchStage {
@@ -25,6 +26,9 @@ typedef struct DipBenchSample {
 
 void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash);
 
+// Writes the sample's time, and those of its stages as the parts of the time.
+void dip_bench_sample_time(const DipBenchSample *sample, DipTimed *timed);
+
 // The results of one program. The bench measures one program, or two with --vs. Owns its arrays,
 // borrows the plan.
 typedef struct DipBenchResult {
@@ -40,8 +44,8 @@ void dip_bench_result_free(DipBenchResult *result);
 void dip_bench_result_set_first(DipBenchResult *result, int combination, int frame,
                                 const DipBenchSample *sample);
 
-void dip_bench_result_add(DipBenchResult *result, int combination, int round, int frame,
-                          const DipBenchSample *sample);
+// Stores the times of a frame of a round.
+void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed);
 
 // Returns the times of a stage: rounds * frames values, [round * frames + frame].
 const double *dip_bench_result_ms(const DipBenchResult *result, int combination,

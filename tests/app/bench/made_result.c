@@ -51,7 +51,9 @@ void dip_made_result(DipBenchResult *result, const DipBenchPlan *plan, const dou
             sample.ms[stage] = 0.25 * total_ms[i];
         }
         sample.ms[DIP_BENCH_STAGE_total] = total_ms[i];
-        dip_bench_result_add(result, 0, i / frames, i % frames, &sample);
+        DipTimed timed = {.round = i / frames, .frame = i % frames};
+        dip_bench_sample_time(&sample, &timed);
+        dip_bench_result_add(result, 0, &timed);
     }
     for (int f = 0; f < frames; f++) {
         DipBenchSample sample = {.counters = {.texels_fetched = 10 * (uint64_t)(f + 1)}};
