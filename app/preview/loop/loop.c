@@ -194,7 +194,7 @@ static void wait_for_turn(DipPreview *preview, bool shown) {
     if (!shown) {
         const bool busy = preview->live_prices &&
                           dip_live_prices_are_working(preview->live_prices) &&
-                          dip_prices_progress(preview->prices)[0] != '\0';
+                          dip_prices_progress(preview->prices)[0] != '\0'; // Not paused.
         dip_loop_take_event(preview, busy ? 0 : IDLE_WAIT_MS);
         return;
     }

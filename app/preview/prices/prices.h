@@ -114,15 +114,18 @@ DipQuality dip_prices_base(const DipPrices *prices);
 bool dip_prices_add_rough(DipPrices *prices, const DipQuality *quality, double ms, double ms_low,
                           double ms_high, double flip);
 
-// Adds the FLIP of a combination whose rough time is known.
-void dip_prices_add_rough_flip(DipPrices *prices, const DipQuality *quality, double flip);
+// Adds the FLIP of a combination whose rough time is known, against a truth of `samples` samples
+// per pixel. If errors against a coarser truth are known, they hold until all are known against the
+// finer one, since errors against two truths must not be compared.
+void dip_prices_add_rough_flip(DipPrices *prices, const DipQuality *quality, double flip,
+                               int samples);
 
-// Forgets the errors of all combinations that were measured live, because the truth has changed.
-void dip_prices_forget_rough_flip(DipPrices *prices);
+// Writes the combinations whose rough times are known but whose errors against a truth of `samples`
+// samples or more are not, at most `room`. Returns their number.
+int dip_prices_list_without_flip(const DipPrices *prices, int samples, DipQuality *list, int room);
 
-// Writes the combinations whose rough times are known but whose errors are not, at most `room`.
-// Returns their number.
-int dip_prices_list_without_flip(const DipPrices *prices, DipQuality *list, int room);
+// Returns the number of combinations whose rough times are known.
+int dip_prices_rough_count(const DipPrices *prices);
 
 // Returns whether a rough time of this combination is known, or of one with the same picture.
 bool dip_prices_has_rough(const DipPrices *prices, const DipQuality *quality);
