@@ -3,7 +3,7 @@
 
 #include "app/preview/live/error_thread.h"
 
-#include "app/preview/processor_share.h"
+#include "app/preview/live/processor_share.h"
 
 #include <limits.h>
 #include <pthread.h>

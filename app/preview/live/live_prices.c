@@ -4,7 +4,7 @@
 #include "app/cost/plan.h"
 #include "app/cli/machine.h"
 #include "app/preview/live/price_errors.h"
-#include "app/preview/processor_share.h"
+#include "app/preview/live/processor_share.h"
 #include "renderer/base/clock.h"
 
 #include <stdio.h>
@@ -225,12 +225,12 @@ static void count_errors_left(DipLivePrices *live) {
 
 // --- progress ------------------------------------------------------------------------------------
 
-// Returns whether another thread draws the next truth now.
+// Returns whether another thread draws the next truth now, or is about to.
 static bool truth_draws(const DipLivePrices *live) {
-    return live->truth.next_samples > 0;
+    return live->truth.next_samples > 0 || live->truth.comes_first;
 }
 
-// Writes "3 of 8 frames, 4 s left", "errors: the converged picture is 40 % drawn", "errors: 3 of
+// Writes "times: 12 steps left, 4 s", "errors: the converged picture is 40 % drawn", "errors: 3 of
 // 24", or "" if nothing is left.
 static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
     const int count = dip_prices_rough_count(live->prices);
@@ -241,7 +241,7 @@ static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
         snprintf(text, size_bytes, "errors: the %s picture is %.0f %% drawn",
                  has_truth(live) ? "next, finer converged" : "converged",
                  100.0 * live->truth.drawn);
-    } else if (text[0] == '\0' && live->errors_left > 0) {
+    } else if (live->errors_left > 0 && !dip_price_job_progress(live->job).first) {
         waits = live->share.low;
         snprintf(text, size_bytes, "errors: %d of %d", count - live->errors_left, count);
     }
@@ -268,14 +268,12 @@ static bool show_progress(DipLivePrices *live) {
 
 static bool measure(DipLivePrices *live, double budget_ms) {
     const int64_t end_ns = dip_clock_ns() + (int64_t)(1e6 * budget_ms);
-    bool news = false;
-    if (dip_price_job_progress(live->job).working) {
-        news = !truth_draws(live) && dip_price_job_step(live->job, budget_ms);
-        count_errors_left(live);
-        return news;
-    }
+    const DipPriceProgress times = dip_price_job_progress(live->job);
     count_errors_left(live);
-    return live->errors_left > 0 && measure_errors(live, end_ns);
+    if (live->errors_left > 0 && !times.first) {
+        return measure_errors(live, end_ns);
+    }
+    return times.working && !truth_draws(live) && dip_price_job_step(live->job, budget_ms);
 }
 
 bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
@@ -295,6 +293,10 @@ void dip_live_prices_pause(DipLivePrices *live) {
 }
 
 bool dip_live_prices_have_times(const DipLivePrices *live) {
+    return live->has_picture && !dip_price_job_progress(live->job).first;
+}
+
+bool dip_live_prices_have_final_times(const DipLivePrices *live) {
     return live->has_picture && !dip_price_job_progress(live->job).working;
 }
 
@@ -303,6 +305,7 @@ bool dip_live_prices_lack_errors(const DipLivePrices *live) {
 }
 
 bool dip_live_prices_are_working(const DipLivePrices *live) {
+    const DipPriceProgress times = dip_price_job_progress(live->job);
     return live->has_picture &&
-           (dip_price_job_progress(live->job).working ? !truth_draws(live) : live->errors_left > 0);
+           ((live->errors_left > 0 && !times.first) || (times.working && !truth_draws(live)));
 }

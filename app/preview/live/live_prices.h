@@ -40,6 +40,7 @@ typedef struct DipLiveTruth {
     // Of the size and pose of the live picture. No pixels while there is none.
     DipSrgbPicture picture;
     int samples;      // Per pixel. Errors against a truth of more samples replace those before.
+    bool comes_first; // No time is taken until there is this truth, or a better one.
     int next_samples; // Samples of the truth that is being drawn; 0: none is.
     double drawn;     // How much of that truth is drawn, from 0 to 1.
     bool waits;       // The thread that draws it waits for a free processor.
@@ -58,9 +59,10 @@ bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
 // another picture.
 void dip_live_prices_pause(DipLivePrices *live);
 
-// Returns whether all times of the last picture are known, so that its truth may be drawn beside
-// without disturbing them.
+// Return whether all times of the last picture are known at least roughly, so that its truth may be
+// drawn beside without disturbing them; and whether no better times will come.
 bool dip_live_prices_have_times(const DipLivePrices *live);
+bool dip_live_prices_have_final_times(const DipLivePrices *live);
 
 // Returns whether errors are left that can be measured against the truth of the last step.
 bool dip_live_prices_lack_errors(const DipLivePrices *live);

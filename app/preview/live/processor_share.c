@@ -1,5 +1,5 @@
 // Compares the processor time of a thread with the time that has passed.
-#include "app/preview/processor_share.h"
+#include "app/preview/live/processor_share.h"
 
 #include "renderer/base/clock.h"
 

@@ -44,9 +44,9 @@ static bool shows_errors(const DipPreview *preview) {
 }
 
 // Returns the samples of the finest truth that may be drawn now. Times and truths take turns, the
-// cheapest useful one first: the times, then the first truth that prices can be compared with and
-// the errors against it, then finer truths. Where the user looks at errors, that truth comes before
-// the times.
+// cheapest useful one first: rough times, then the first truth that prices can be compared with and
+// the errors against it, then better times, then finer truths. Where the user looks at errors, that
+// first truth comes before the times.
 static int truth_limit(const DipPreview *preview) {
     if (!wants_prices(preview)) {
         return INT_MAX;
@@ -54,7 +54,9 @@ static int truth_limit(const DipPreview *preview) {
     if (!dip_live_prices_have_times(preview->live_prices)) {
         return looks_at_errors(preview) ? least_truth_samples : 0;
     }
-    return dip_live_prices_lack_errors(preview->live_prices) ? least_truth_samples : INT_MAX;
+    const bool settled = !dip_live_prices_lack_errors(preview->live_prices) &&
+                         dip_live_prices_have_final_times(preview->live_prices);
+    return settled ? INT_MAX : least_truth_samples;
 }
 
 static bool wants_errors(const DipPreview *preview) {
@@ -146,6 +148,8 @@ static DipLiveTruth truth_for_prices(const DipPreview *preview) {
                                          pictures->width, pictures->height};
         truth.samples = pictures->result.samples;
     }
+    truth.comes_first = truth.samples == 0 && reading->status == DIP_ERROR_STATUS_WORKING &&
+                        truth_limit(preview) >= least_truth_samples;
     return truth;
 }
 
