@@ -180,6 +180,10 @@ typedef struct DipDisplay {
     // next_event waits.
     int64_t (*now_ns)(void *context);
 
+    // Returns whether nobody can see the picture, because the display is minimised or hidden. An
+    // EXPOSE event comes when it shows again. NULL if the display cannot tell.
+    bool (*is_hidden)(void *context);
+
     // Turns full-screen mode on or off. NULL if the display has no such mode.
     void (*set_full_screen)(void *context, bool on);
 

@@ -6,6 +6,8 @@
 
 #include <stdlib.h>
 
+static const int64_t ask_period_ns = 250000000;
+
 struct DipSdlHost {
     Display *display; // A connection for the host's window; SDL has another.
     Window window;    // The host's window.
@@ -13,6 +15,8 @@ struct DipSdlHost {
     int width; // Size of the child.
     int height;
     bool gone;
+    bool hidden;
+    int64_t asked_ns; // When the X server last said whether the child is hidden.
 };
 
 static int ignore_error(Display *display, XErrorEvent *event) {
@@ -132,6 +136,17 @@ void dip_sdl_host_hide_child(const DipSdlHost *host) {
     XSetErrorHandler(ignore_error);
     XUnmapWindow(host->display, host->child);
     XSync(host->display, False); // SDL's connection has now been told, too.
+}
+
+// No event tells that a window around the host's window was unmapped, so the X server is asked.
+bool dip_sdl_host_is_hidden(DipSdlHost *host, int64_t now_ns) {
+    XWindowAttributes attributes;
+    if (now_ns - host->asked_ns >= ask_period_ns) {
+        host->asked_ns = now_ns;
+        host->hidden = XGetWindowAttributes(host->display, host->child, &attributes) &&
+                       attributes.map_state != IsViewable;
+    }
+    return host->hidden;
 }
 
 void dip_sdl_host_take_focus(const DipSdlHost *host) {

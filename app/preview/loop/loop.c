@@ -207,6 +207,27 @@ static void wait_for_turn(DipPreview *preview, bool shown) {
     }
 }
 
+// Returns whether nobody sees the window and nobody waits for its picture.
+static bool is_hidden(const DipPreview *preview) {
+    const DipDisplay *display = &preview->def.display;
+    return display->is_hidden && display->is_hidden(display->context) &&
+           !preview->state.wants_picture;
+}
+
+// A turn in which nothing is drawn or measured. Time stands still.
+static void rest_hidden(DipPreview *preview) {
+    if (preview->errors) {
+        dip_error_thread_pause(preview->errors);
+    }
+    if (preview->live_prices) {
+        dip_live_prices_pause(preview->live_prices);
+    }
+    preview->figures.presented_ns = 0; // The time until the next picture says nothing.
+    preview->exposed = true;
+    dip_loop_take_event(preview, IDLE_WAIT_MS);
+    preview->turn_ns = dip_loop_clock_ns(preview);
+}
+
 bool dip_preview_turn(DipPreview *preview, DipError *err) {
     bool shown = false;
     while (!preview->state.quit && dip_loop_take_event(preview, 0)) {
@@ -214,6 +235,10 @@ bool dip_preview_turn(DipPreview *preview, DipError *err) {
     dip_loop_take_control(preview);
     if (preview->state.quit) {
         return true; // The user has quit, so no further frame is drawn.
+    }
+    if (is_hidden(preview)) {
+        rest_hidden(preview);
+        return true;
     }
     if (!draw_turn(preview, dip_loop_clock_ns(preview), &shown, err)) {
         return false;

@@ -94,6 +94,7 @@ typedef struct DipPreviewState {
     int next_advice;         // Index in costs->advice of the next advice to give.
     bool wants_errors;       // Another program has asked for the errors, shown or not.
     bool wants_prices;       // Another program has asked for the prices, shown or not.
+    bool wants_picture;      // Another program waits for a picture, even of a hidden window.
     bool measures_here;      // Prices are measured in this view although there is a report.
     char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
     int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.

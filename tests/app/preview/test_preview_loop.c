@@ -378,6 +378,28 @@ static void a_broken_scene_file_leaves_the_running_scene(void **state) {
     assert_true(dip_preview_state(preview)->panel);
 }
 
+// A window that nobody sees draws nothing, and its time stands still. It goes on where it was.
+static void a_hidden_window_draws_nothing(void **state) {
+    (void)state;
+    turn();
+    turn();
+    dip_fake_display_hide(fake, true);
+    const int presented = dip_fake_display_present_count(fake);
+    const int64_t play_ns = dip_preview_state(preview)->play_ns;
+    for (int i = 0; i < 20; ++i) {
+        turn();
+    }
+    dip_fake_display_advance(fake, INT64_C(5000000000));
+    turn();
+    assert_int_equal(dip_fake_display_present_count(fake), presented);
+    assert_true(dip_preview_state(preview)->play_ns == play_ns);
+    dip_fake_display_hide(fake, false);
+    turn();
+    turn();
+    assert_true(dip_fake_display_present_count(fake) > presented);
+    assert_in_range(dip_preview_state(preview)->play_ns - play_ns, 1, 100000000);
+}
+
 static void quitting_ends_without_another_frame(void **state) {
     (void)state;
     static const DipEvent ways[] = {
@@ -468,6 +490,7 @@ int main(void) {
         PREVIEW_TEST(only_changes_are_presented),
         PREVIEW_TEST(errors_appear_while_the_camera_rests),
         PREVIEW_TEST(a_broken_scene_file_leaves_the_running_scene),
+        PREVIEW_TEST(a_hidden_window_draws_nothing),
         PREVIEW_TEST(quitting_ends_without_another_frame),
         PREVIEW_TEST(a_screenshot_equals_the_shown_picture),
         PREVIEW_TEST(random_events_do_no_harm),
