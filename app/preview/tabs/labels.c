@@ -1,6 +1,7 @@
 // The labels over the panes, and notices.
 #include "app/preview/tabs/labels.h"
 
+#include "app/preview/tabs/pane_time.h"
 #include "app/preview/tools/compare.h"
 #include "app/ui/style.h"
 
@@ -9,19 +10,22 @@
 
 enum { LABEL_SIZE = 13, LABEL_HEIGHT = 24, LABEL_MARGIN = 8, LABEL_PAD = 8 };
 
-// Writes the time of a pane's frames: "4.6 ms  60 fps", or that of the frame that shows while time
-// stands still, or that the pane is a copy. If frames come
-// too slowly for temporal antialiasing, says so instead.
-static void format_time(const DipPaneFigures *figures, bool brief, char *text, size_t size_bytes) {
+// Writes the time of a pane: "4.6 ms  60 fps", or "one frame: 44.0 ms", or that the pane is a copy.
+// If frames come too slowly for temporal antialiasing, says so instead.
+static void format_time(const DipWindow *window, int pane, char *text, size_t size_bytes) {
+    const DipPaneFigures *figures = &window->figures[pane];
+    const DipPaneTime time = dip_pane_time(window, pane);
+    char ms[DIP_PANE_TIME_BYTES];
+    dip_pane_time_text(&time, ms);
     if (figures->taa_speed.too_slow) {
         snprintf(text, size_bytes, "too slow for temporal AA: %d of %d frames a second",
                  figures->taa_speed.shown, figures->taa_speed.wanted);
     } else if (figures->copied) {
         snprintf(text, size_bytes, "same as current");
     } else if (figures->fps > 0) {
-        snprintf(text, size_bytes, "%.1f ms  %d fps", figures->ms, figures->fps);
+        snprintf(text, size_bytes, "%s  %d fps", ms, figures->fps);
     } else {
-        snprintf(text, size_bytes, "%.1f ms%s", figures->ms, brief ? "" : " this frame");
+        snprintf(text, size_bytes, "%s", ms);
     }
 }
 
@@ -30,7 +34,7 @@ static void format_time(const DipPaneFigures *figures, bool brief, char *text, s
 // for that, returns the width of the text itself.
 static int reserve_time(const DipUi *ui, const char *time, int most) {
     const int width = dip_ui_text_width(ui, LABEL_SIZE, time);
-    const int usual = dip_ui_text_width(ui, LABEL_SIZE, "88.8 ms this frame");
+    const int usual = dip_ui_text_width(ui, LABEL_SIZE, "one frame: 88.8 ms");
     return width < usual && usual <= most ? usual : width;
 }
 
@@ -59,10 +63,7 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     const int title_width = dip_ui_text_width(ui, LABEL_SIZE, title);
     char time[64], settings[400];
     const int most = rect.width - 2 * margin - title_width - 3 * pad;
-    format_time(&window->figures[pane], false, time, sizeof time);
-    if (dip_ui_text_width(ui, LABEL_SIZE, time) > most) {
-        format_time(&window->figures[pane], true, time, sizeof time);
-    }
+    format_time(window, pane, time, sizeof time);
     const int time_width = reserve_time(ui, time, most);
     const int used = title_width + time_width + 3 * pad;
     const int room = rect.width - 2 * margin - used - pad;
