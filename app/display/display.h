@@ -131,6 +131,7 @@ typedef struct DipEvent {
     int y;
     DipMouseButton button; // MOUSE_DOWN and MOUSE_UP.
     int clicks;            // MOUSE_DOWN: 2 for the second press of a double click.
+    bool focuses;          // MOUSE_DOWN: the press also gave the display the keyboard focus.
     double wheel_x;        // MOUSE_WHEEL: steps to the right.
     double wheel_y;        // MOUSE_WHEEL: steps away from the user.
 

@@ -63,6 +63,7 @@ static void press_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *inpu
     input->began = event->button == DIP_MOUSE_LEFT;
     input->right = event->button == DIP_MOUSE_RIGHT;
     input->clicks = event->clicks;
+    input->focuses = event->focuses;
     ui->taken = true;
 }
 

@@ -98,6 +98,7 @@ typedef struct DipUiInput {
     bool released; // The mouse button that was held is up again, wherever the pointer is.
     DipMouseButton button; // With `held` and `released`: the button.
     int clicks;            // With `began`: 2 for the second press of a double click.
+    bool focuses;          // With `began`: the press also brought the window the keyboard focus.
     int steps;     // Steps by wheel (away from the user is +1) or by arrow keys (right is +1).
     bool to_first; // Home was pressed.
     bool to_last;  // End was pressed.

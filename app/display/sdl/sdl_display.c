@@ -231,7 +231,7 @@ static bool next_event(void *context, int timeout_ms, DipEvent *event) {
         *event = dip_sdl_controller_translate(&sdl_event);
     }
     if (sdl->host && event->kind == DIP_EVENT_MOUSE_DOWN) {
-        dip_sdl_host_take_focus(sdl->host);
+        event->focuses = dip_sdl_host_take_focus(sdl->host);
     }
     if (event->kind == DIP_EVENT_DROP) {
         sdl->dropped_file = sdl_event.drop.file;

@@ -149,7 +149,11 @@ bool dip_sdl_host_is_hidden(DipSdlHost *host, int64_t now_ns) {
     return host->hidden;
 }
 
-void dip_sdl_host_take_focus(const DipSdlHost *host) {
+bool dip_sdl_host_take_focus(const DipSdlHost *host) {
+    Window before = None;
+    int revert;
+    XGetInputFocus(host->display, &before, &revert);
     XSetInputFocus(host->display, host->child, RevertToParent, CurrentTime);
     XFlush(host->display);
+    return before != host->child;
 }

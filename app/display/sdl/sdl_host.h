@@ -44,7 +44,7 @@ void dip_sdl_host_hide_child(const DipSdlHost *host);
 // unmapped. Asks the X server four times a second. now_ns: time on any clock.
 bool dip_sdl_host_is_hidden(DipSdlHost *host, int64_t now_ns);
 
-// Gives the child the keyboard focus.
-void dip_sdl_host_take_focus(const DipSdlHost *host);
+// Gives the child the keyboard focus. Returns whether it did not have the focus before.
+bool dip_sdl_host_take_focus(const DipSdlHost *host);
 
 #endif

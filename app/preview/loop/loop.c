@@ -148,6 +148,22 @@ static void follow_layout(DipPreview *preview) {
     preview->pane_height = height;
 }
 
+// Finds out whether anything moves, when another path or scene plays.
+static void follow_motion(DipPreview *preview) {
+    const DipSession *session = preview->def.session;
+    const DipCamTrack *track = &session->track;
+    const DipCamPath *path = track->categories[track->active].path
+                                 ? track->categories[track->active].path
+                                 : track->categories[0].path;
+    if (path != preview->judged_path || session->scene != preview->judged_scene) {
+        preview->judged_path = path;
+        preview->judged_scene = session->scene;
+        preview->state.stands = !session->shows_gallery && session->scene &&
+                                !dip_scene_moves(session->scene) &&
+                                dip_preview_path_stands(&preview->state);
+    }
+}
+
 // Draws and presents the picture if something has changed. Sets *shown to whether something has
 // changed.
 static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
@@ -156,6 +172,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
     const int64_t since_ns = now_ns - preview->turn_ns;
     const int64_t elapsed_ns = since_ns < longest_step_ns ? since_ns : longest_step_ns;
     preview->turn_ns = now_ns;
+    follow_motion(preview);
     dip_loop_fly(preview, elapsed_ns);
     dip_preview_advance(state, elapsed_ns, now_ns);
     follow_full_screen(preview);

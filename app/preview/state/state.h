@@ -78,6 +78,7 @@ typedef struct DipPreviewState {
     int64_t play_ns;             // Time on the path, never below 0.
     int64_t step_ns;             // How far DIP_ACTION_STEP moves the time.
     bool paused;
+    bool stands;           // Neither the camera nor the scene moves although time may run.
     DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the camera.
 
@@ -151,6 +152,9 @@ void dip_preview_follow_dock(DipPreviewState *state);
 
 // Goes to a play time.
 void dip_preview_seek(DipPreviewState *state, int64_t play_ns);
+
+// Returns whether all poses of the playing path are the same.
+bool dip_preview_path_stands(const DipPreviewState *state);
 
 // Returns whether camera and scene stand still. flying: the user is moving the free camera.
 bool dip_preview_rests(const DipPreviewState *state, bool flying);
