@@ -42,6 +42,7 @@ void dip_ui_begin(DipUi *ui, const DipUiPass *pass) {
     ui->before_count = ui->placed_count;
     ui->placed_count = 0;
     ui->tip[0] = '\0';
+    ui->tip_off = (DipRect){0};
     if (pass->event && is_mouse(pass->event)) {
         ui->pointer_x = pass->event->x;
         ui->pointer_y = pass->event->y;

@@ -121,6 +121,10 @@ typedef enum DipUiLook {
 bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiLook look,
                    const char *tip);
 
+// Keeps the tips of all controls in a rectangle out of it, so that they cover none of its rows.
+// Holds until the end of the pass.
+void dip_ui_keep_tips_off(DipUi *ui, DipRect rect);
+
 // --- drawing -----------------------------------------------------------------------------------
 // In an event pass, these functions do nothing.
 
@@ -156,6 +160,10 @@ void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, i
 // Shows a text in lines that are as wide as `room`; '\n' breaks a line, too. Lines that do not fit
 // are left out. Returns the height of the lines in pixels.
 int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const char *text);
+
+// Returns the height that dip_ui_text_block needs for all lines of a text of this width; both
+// passes give the same.
+int dip_ui_text_block_height(const DipUi *ui, int size, int width, const char *text);
 
 // Returns the width and height of a line of text in pixels; both passes give the same.
 int dip_ui_text_width(const DipUi *ui, int size, const char *line);

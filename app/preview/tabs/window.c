@@ -39,6 +39,7 @@ static void declare_tab(DipUi *ui, DipWindow *window, DipRect body) {
         [DIP_TAB_PATH] = dip_tab_path,
     };
     dip_ui_fill(ui, body, dip_style_dock);
+    dip_ui_keep_tips_off(ui, dip_rect_unite(window->layout->bar, body));
     tabs[window->state->tools.tab](ui, window, body);
 }
 
